@@ -1,0 +1,1 @@
+"""Compiled kernels: numba and numpy only, plain arrays in, results written in place."""

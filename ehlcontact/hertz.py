@@ -1,0 +1,97 @@
+"""Dry elliptic contact after Hertz: the frame in which everything else is scaled.
+
+Semi-axes a along rolling (x) and b across (y), ``kappa = a/b``. Complete elliptic integrals K, E of the
+parameter ``m = 1 - kappa**2`` hold for kappa above 1 too, where m is negative.
+Nonato and Cavalca (2010), eqs. 2-4; Johnson, Contact Mechanics (1985), section 4.2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import log, pi
+
+from scipy.optimize import brentq
+from scipy.special import ellipe, ellipk
+
+from ehlcontact.errors import InputError, require_positive
+
+
+def elliptic_integrals(kappa: float) -> tuple[float, float]:
+    """Complete elliptic integrals K and E of the parameter 1 - kappa**2."""
+    m = 1.0 - kappa * kappa
+    return float(ellipk(m)), float(ellipe(m))
+
+
+def shape_factor(kappa: float) -> float:
+    """Share S of the undeformed gap ``S X^2 + (1-S) Y^2``; 1/2 for a circle, S(kappa) + S(1/kappa) = 1."""
+    m = 1.0 - kappa * kappa
+    if abs(m) < 1e-3:
+        # (E - kappa^2 K)/((1 - kappa^2) K) is 0/0 on the circle: series of K and E in m.
+        return 0.5 - m / 16.0 - m * m / 32.0
+    K, E = elliptic_integrals(kappa)
+    return (E - kappa * kappa * K) / (m * K)
+
+
+def radius_ratio(kappa: float) -> float:
+    """Rx/Ry of the undeformed surfaces for ellipse ratio kappa = a/b."""
+    S = shape_factor(kappa)
+    return kappa * kappa * (1.0 - S) / S
+
+
+def ellipse_ratio(radius_x: float, radius_y: float) -> float:
+    """Ellipse ratio kappa = a/b from the radii of relative curvature.
+
+    Raises
+    ------
+    InputError
+        A radius is not a positive number, or the ratio is outside what the Hertz ellipse covers here
+        (kappa between 1e-3 and 1e3).
+    """
+    target = log(require_positive("radius_x", radius_x) / require_positive("radius_y", radius_y))
+
+    def mismatch(log_kappa: float) -> float:
+        return log(radius_ratio(2.0**log_kappa)) - target
+
+    bound = 10.0
+    if mismatch(-bound) * mismatch(bound) > 0.0:
+        raise InputError("radius_x/radius_y", radius_x / radius_y, "such that 1e-3 < kappa < 1e3")
+    return float(2.0 ** brentq(mismatch, -bound, bound, xtol=1e-15, rtol=1e-14))
+
+
+@dataclass(frozen=True, slots=True)
+class HertzContact:
+    """Dry Hertz solution in SI units."""
+
+    a: float  # semi-axis along rolling [m]
+    b: float  # semi-axis across [m]
+    pressure: float  # maximum pressure p_h [Pa]
+    approach: float  # mutual approach delta_H [m]
+    kappa: float  # a/b
+
+
+def hertz_contact(load: float, radius_x: float, radius_y: float, e_reduced: float) -> HertzContact:
+    """Semi-axes, pressure and approach of the dry contact.
+
+    Parameters
+    ----------
+    load : float
+        Normal force [N].
+    radius_x, radius_y : float
+        Radii of relative curvature along rolling and across [m].
+    e_reduced : float
+        E' with 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2 [Pa].
+
+    Raises
+    ------
+    InputError
+        An argument is not a positive number.
+    """
+    load = require_positive("load", load)
+    e_reduced = require_positive("e_reduced", e_reduced)
+    kappa = ellipse_ratio(radius_x, radius_y)
+    K, E = elliptic_integrals(kappa)
+    R = 1.0 / (1.0 / radius_x + 1.0 / radius_y)
+    # E belongs to 1 - kappa^2, so b^3 = 6 E R f/(pi kappa^2 ... ) takes this form for any kappa.
+    a = (6.0 * kappa * E * load * R / (pi * e_reduced)) ** (1.0 / 3.0)
+    b = a / kappa
+    return HertzContact(a, b, 1.5 * load / (pi * a * b), a * a * K / (2.0 * R * E), kappa)

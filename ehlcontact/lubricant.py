@@ -1,0 +1,83 @@
+"""Lubricant inputs and the dimensionless laws built from them.
+
+Roelands (1966) with p0 = 1.96e8 Pa, Barus (1893), and Dowson-Higginson (1966) density, each as written in
+Venner and Lubrecht (2000), ch. 1. The compiled laws live in ``_kernels/laws.py``; here are the inputs.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import log
+from typing import NamedTuple
+
+from ehlcontact.errors import InputError, require_choice, require_nonnegative, require_positive
+
+VISCOSITY_LAWS = ("roelands", "barus")
+DENSITY_LAWS = ("dowson-higginson", "incompressible")
+
+ROELANDS_P0 = 1.96e8  # Pa
+ROELANDS_LOG = 9.67  # ln(1/6.31e-5 Pa s): the viscosity all Roelands curves meet at p = -p0
+DOWSON_HIGGINSON_C1 = 5.9e8  # Pa
+DOWSON_HIGGINSON_C2 = 1.34  # -
+
+
+class FluidLaw(NamedTuple):
+    """Numbers the compiled laws need; a NamedTuple, because numba passes these by value.
+
+    With ``P = p/p_h``: viscosity is ``exp(alpha_bar P)`` (Barus) or
+    ``exp(q ((1 + s P)^z - 1))`` (Roelands); density is ``(d + 1.34 P)/(d + P)`` or 1.
+    """
+
+    roelands: bool
+    alpha_bar: float  # alpha p_h
+    q: float  # ln(eta0) + 9.67
+    s: float  # p_h / p0
+    z: float  # alpha p0 / q
+    compressible: bool
+    d: float  # 5.9e8 Pa / p_h
+
+
+@dataclass(frozen=True, slots=True)
+class Lubricant:
+    """Oil at inlet temperature.
+
+    Parameters
+    ----------
+    eta0 : float
+        Dynamic viscosity at ambient pressure [Pa s].
+    alpha : float
+        Pressure-viscosity coefficient [1/Pa]; 0 is isoviscous.
+    viscosity : {"roelands", "barus"}
+    density : {"dowson-higginson", "incompressible"}
+
+    Raises
+    ------
+    InputError
+        A number outside its range, an unknown law, or an eta0 that Roelands' law cannot take.
+    """
+
+    eta0: float = 0.04
+    alpha: float = 2.2e-8
+    viscosity: str = "roelands"
+    density: str = "dowson-higginson"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "eta0", require_positive("eta0", self.eta0))
+        object.__setattr__(self, "alpha", require_nonnegative("alpha", self.alpha))
+        require_choice("viscosity", self.viscosity, VISCOSITY_LAWS)
+        require_choice("density", self.density, DENSITY_LAWS)
+        if self.viscosity == "roelands" and log(self.eta0) + ROELANDS_LOG <= 0.0:
+            raise InputError("eta0", self.eta0, "> 6.31e-5 Pa s for Roelands' law")
+
+    def law(self, p_hertz: float, alpha_bar: float) -> FluidLaw:
+        """Laws in units of the Hertz pressure; `alpha_bar` = alpha p_h, both given for isoviscous oil."""
+        q = log(self.eta0) + ROELANDS_LOG
+        return FluidLaw(
+            roelands=self.viscosity == "roelands" and alpha_bar > 0.0,
+            alpha_bar=alpha_bar,
+            q=q,
+            s=p_hertz / ROELANDS_P0,
+            z=self.alpha * ROELANDS_P0 / q,
+            compressible=self.density == "dowson-higginson",
+            d=DOWSON_HIGGINSON_C1 / p_hertz,
+        )

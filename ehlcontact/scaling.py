@@ -1,0 +1,273 @@
+"""The conventions of the library, and the only place where SI meets dimensionless.
+
+* x along rolling, y across; Hertz semi-axes a, b; ``kappa = a/b``.
+* ``u_sum = u1 + u2``; 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2.
+* Moes, with Rx and u_sum: ``M = f/(E' Rx^2) (E' Rx/(eta0 u_sum))^(3/4)``,
+  ``L = alpha E' (eta0 u_sum/(E' Rx))^(1/4)``.
+* X = x/a, Y = y/b, P = p/p_h, H = h/delta_H with the dry approach delta_H = a^2 K/(2 R E),
+  T = u_sum t/(2a): surfaces carry the film at dX/dT = 1.
+* The mutual approach u (dry Hertz value 1) is positive when the bodies come closer.
+* Force unit f0 (the static load), so stiffness unit f0/delta_H and damping unit (f0/delta_H)(2a/u_sum).
+
+Nonato and Cavalca (2010), eqs. 1-5; their u_m is u_sum, and their H0 is -u in eq. 3 and u in eqs. 5-8.
+The full table is in docs/notation.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+from math import pi, sqrt
+
+from ehlcontact.errors import InputError, require_nonnegative, require_positive
+from ehlcontact.hertz import HertzContact, ellipse_ratio, elliptic_integrals, hertz_contact, shape_factor
+from ehlcontact.lubricant import FluidLaw, Lubricant
+
+
+@dataclass(frozen=True, slots=True)
+class MoesPoint:
+    """Dimensionless operating point: Moes load M, Moes lubricant L, ellipse ratio kappa = a/b.
+
+    ``alpha`` [1/Pa] and ``eta0`` [Pa s] do not follow from M and L but set the Hertz pressure, hence the
+    compressibility and Roelands' departure from Barus. The defaults are Venner and Lubrecht's.
+
+    Raises
+    ------
+    InputError
+        M, kappa, alpha or eta0 not finite and > 0, L negative, or an unknown law.
+    """
+
+    M: float
+    L: float
+    kappa: float
+    alpha: float = 2.2e-8
+    eta0: float = 0.04
+    viscosity: str = "roelands"
+    density: str = "dowson-higginson"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "M", require_positive("M", self.M))
+        object.__setattr__(self, "L", require_nonnegative("L", self.L))
+        object.__setattr__(self, "kappa", require_positive("kappa", self.kappa))
+        object.__setattr__(self, "alpha", require_positive("alpha", self.alpha))
+        if not 1e-2 <= self.kappa <= 1e2:
+            raise InputError("kappa", self.kappa, "between 0.01 and 100")
+        Lubricant(self.eta0, self.alpha, self.viscosity, self.density)  # raises on what it cannot take
+
+    @property
+    def scaled_axis(self) -> float:
+        """A = a/(Rx U^(1/4)) with U = eta0 u_sum/(E' Rx)."""
+        K, _ = elliptic_integrals(self.kappa)
+        return (6.0 * self.kappa * shape_factor(self.kappa) * K * self.M / pi) ** (1.0 / 3.0)
+
+    @property
+    def lam(self) -> float:
+        """Coefficient lambda of the Reynolds equation (eq. 2)."""
+        return 16.0 * pi * shape_factor(self.kappa) ** 2 / (self.kappa * self.M * self.scaled_axis)
+
+    @property
+    def alpha_bar(self) -> float:
+        """Alpha times the Hertz pressure."""
+        return 3.0 * self.L * self.kappa * self.M / (2.0 * pi * self.scaled_axis**2)
+
+    @property
+    def p_hertz(self) -> float:
+        """Hertz pressure [Pa] that M, L and alpha imply; 1 GPa by convention where L = 0 leaves it open."""
+        return self.alpha_bar / self.alpha if self.L > 0.0 else 1e9
+
+    @property
+    def law(self) -> FluidLaw:
+        """Viscosity and density laws in units of the Hertz pressure."""
+        lubricant = Lubricant(self.eta0, self.alpha, self.viscosity, self.density)
+        return lubricant.law(self.p_hertz, self.alpha_bar)
+
+    @property
+    def film_to_moes(self) -> float:
+        """Factor from H to the Moes film (h/Rx) sqrt(E' Rx/(eta0 u_sum))."""
+        return self.scaled_axis**2 / (2.0 * shape_factor(self.kappa))
+
+    def to_dict(self) -> dict[str, float | str]:
+        """All fields, for storage."""
+        return asdict(self)
+
+
+@dataclass(frozen=True, slots=True)
+class Geometry:
+    """Two bodies in point contact.
+
+    Parameters
+    ----------
+    radius_x, radius_y : float
+        Radii of relative curvature along rolling and across [m]; 1/radius is the sum of both curvatures.
+    e1, nu1, e2, nu2 : float
+        Young's modulus [Pa] and Poisson's ratio of each body; bearing steel by default.
+    """
+
+    radius_x: float
+    radius_y: float
+    e1: float = 2.06e11
+    nu1: float = 0.3
+    e2: float = 2.06e11
+    nu2: float = 0.3
+
+    def __post_init__(self) -> None:
+        for name in ("radius_x", "radius_y", "e1", "e2"):
+            object.__setattr__(self, name, require_positive(name, getattr(self, name)))
+        for name in ("nu1", "nu2"):
+            if not 0.0 <= require_nonnegative(name, getattr(self, name)) <= 0.5:
+                raise InputError(name, getattr(self, name), "between 0 and 0.5")
+        ellipse_ratio(self.radius_x, self.radius_y)
+
+    @classmethod
+    def ball_bearing(
+        cls,
+        ball_diameter: float,
+        pitch_diameter: float,
+        conformity: float,
+        race: str = "inner",
+        **materials: float,
+    ) -> Geometry:
+        """Contact of a ball with a race at zero contact angle; diameters in m, conformity r_groove/D.
+
+        Raises
+        ------
+        InputError
+            A diameter not positive, pitch not above ball diameter, conformity not above 0.5, unknown race.
+        """
+        D = require_positive("ball_diameter", ball_diameter)
+        dm = require_positive("pitch_diameter", pitch_diameter)
+        if dm <= D:
+            raise InputError("pitch_diameter", dm, f"above ball_diameter = {D!r}")
+        if not 0.5 < require_positive("conformity", conformity) <= 10.0:
+            raise InputError("conformity", conformity, "above 0.5 (a tighter groove pinches the ball) and <= 10")
+        if race not in ("inner", "outer"):
+            raise InputError("race", race, "one of inner, outer")
+        along = 2.0 / D + 2.0 / (dm - D) if race == "inner" else 2.0 / D - 2.0 / (dm + D)
+        return cls(1.0 / along, 1.0 / (2.0 / D - 1.0 / (conformity * D)), **materials)
+
+    @property
+    def e_reduced(self) -> float:
+        """E' with 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2 [Pa]."""
+        return 2.0 / ((1.0 - self.nu1**2) / self.e1 + (1.0 - self.nu2**2) / self.e2)
+
+    @property
+    def kappa(self) -> float:
+        """Ellipse ratio a/b."""
+        return ellipse_ratio(self.radius_x, self.radius_y)
+
+
+@dataclass(frozen=True, slots=True)
+class Scales:
+    """SI values of the dimensionless units at an operating point."""
+
+    force: float  # f0 [N]
+    length: float  # dry approach delta_H, unit of u and H [m]
+    time: float  # 2a/u_sum [s]
+    a: float  # semi-axis along rolling [m]
+    b: float  # semi-axis across [m]
+    pressure: float  # Hertz pressure [Pa]
+
+    @property
+    def stiffness(self) -> float:
+        """f0/delta_H [N/m]."""
+        return self.force / self.length
+
+    @property
+    def damping(self) -> float:
+        """(f0/delta_H)(2a/u_sum) [N s/m]."""
+        return self.force / self.length * self.time
+
+    @property
+    def rate(self) -> float:
+        """delta_H u_sum/(2a), unit of du/dT [m/s]."""
+        return self.length / self.time
+
+
+@dataclass(frozen=True, slots=True)
+class OperatingPoint:
+    """A contact in SI units: geometry, oil, load [N] and the sum of the surface speeds u_sum [m/s].
+
+    ``moes`` is the same point without dimensions, ``scales`` the way back. Every solver takes either.
+
+    Raises
+    ------
+    InputError
+        Load or u_sum not finite and > 0, or an isoviscous oil (alpha = 0): give a `MoesPoint` with L = 0.
+    """
+
+    geometry: Geometry
+    lubricant: Lubricant
+    load: float
+    u_sum: float
+    moes: MoesPoint = field(init=False, repr=False)
+    scales: Scales = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "load", require_positive("load", self.load))
+        object.__setattr__(self, "u_sum", require_positive("u_sum", self.u_sum))
+        geometry, oil = self.geometry, self.lubricant
+        require_positive("alpha", oil.alpha)
+        e, rx = geometry.e_reduced, geometry.radius_x
+        U = oil.eta0 * self.u_sum / (e * rx)
+        hertz: HertzContact = hertz_contact(self.load, rx, geometry.radius_y, e)
+        M = self.load / (e * rx * rx) * U**-0.75
+        L = oil.alpha * e * U**0.25
+        moes = MoesPoint(M, L, hertz.kappa, oil.alpha, oil.eta0, oil.viscosity, oil.density)
+        object.__setattr__(self, "moes", moes)
+        time = 2.0 * hertz.a / self.u_sum
+        scales = Scales(self.load, hertz.approach, time, hertz.a, hertz.b, hertz.pressure)
+        object.__setattr__(self, "scales", scales)
+
+    @classmethod
+    def ball_bearing(
+        cls,
+        lubricant: Lubricant,
+        *,
+        ball_diameter: float,
+        pitch_diameter: float,
+        conformity: float,
+        speed_rpm: float,
+        load: float,
+        race: str = "inner",
+        **materials: float,
+    ) -> OperatingPoint:
+        """Operating point of one ball on one race in pure rolling, the other race standing still.
+
+        Parameters
+        ----------
+        ball_diameter, pitch_diameter : float
+            In m.
+        conformity : float
+            Groove radius over ball diameter.
+        speed_rpm : float
+            Speed of one race relative to the other [rev/min].
+        load : float
+            Force on this ball [N]; see `most_loaded_ball` for a bearing under radial load.
+        """
+        geometry = Geometry.ball_bearing(ball_diameter, pitch_diameter, conformity, race, **materials)
+        omega = require_positive("speed_rpm", speed_rpm) * pi / 30.0
+        gamma = ball_diameter / pitch_diameter
+        # Both surfaces roll at omega dm (1 - gamma^2)/4 seen from the contact, on either race.
+        u_sum = omega * pitch_diameter * (1.0 - gamma * gamma) / 2.0
+        return cls(geometry, lubricant, load, u_sum)
+
+    def omega_n(self, mass: float) -> float:
+        """Omega_n of a mass [kg] on the contact: ``sqrt(8 f0 R E/(m u_sum^2 K))``, eq. 5 with u_m squared."""
+        s = self.scales
+        return sqrt(s.force * s.time**2 / (require_positive("mass", mass) * s.length))
+
+
+Point = MoesPoint | OperatingPoint
+
+
+def moes_point(point: Point) -> MoesPoint:
+    """Return the dimensionless point of either kind of operating point."""
+    if isinstance(point, MoesPoint):
+        return point
+    if isinstance(point, OperatingPoint):
+        return point.moes
+    raise InputError("point", type(point).__name__, "a MoesPoint or an OperatingPoint")
+
+
+def scales_of(point: Point) -> Scales | None:
+    """SI scales of the point; None where it has none."""
+    return point.scales if isinstance(point, OperatingPoint) else None
