@@ -1,0 +1,106 @@
+"""Derivatives of the discrete Reynolds operator; `reynolds.operator_at` is the operator itself.
+
+``dN_k = sum_q p_coef[q, k] dP_q + sum_q h_coef[q, k] dH_q`` over the neighbours q of node k, numbered
+C, W, E, S, N, WW. The elastic part ``dH = -du + K dP`` is left to the caller: transforms, dense or truncated.
+"""
+
+from ehlcontact._kernels.jit import jit
+from ehlcontact._kernels.laws import density, density_slope, log_viscosity_slope
+
+NEIGHBOURS = 6
+
+
+@jit
+def neighbour(q, j, i):
+    """Line and column of neighbour q of node (j, i); the line below the symmetry line is its image."""
+    if q == 1:
+        return j, i - 1
+    if q == 2:
+        return j, i + 1
+    if q == 3:
+        return (j - 1 if j > 0 else 1), i
+    if q == 4:
+        return j + 1, i
+    if q == 5:
+        return j, i - 2
+    return j, i
+
+
+@jit
+def linearise(P, H, eps, law, mesh, c_t, frozen_flow, p_coef, h_coef):
+    """Derivatives at all interior nodes; `p_coef` and `h_coef`, both (6, ny+1, nx+1), written.
+
+    With `frozen_flow` the flow factor eps is taken as given (Picard), as relaxation wants it: its truncated
+    elasticity cannot follow the change of H^3.
+    """
+    ny, nx = P.shape[0] - 1, P.shape[1] - 1
+    for j in range(ny):
+        for i in range(1, nx):
+            p = P[j, i]
+            p_centre = 0.0
+            jumps = 0.0
+            for q in range(1, 5):
+                half = 0.5 * (mesh.cx if q < 3 else mesh.cy)
+                jq, iq = neighbour(q, j, i)
+                a = half * (eps[j, i] + eps[jq, iq])
+                p_coef[q, j, i] = a
+                h_coef[q, j, i] = 0.0
+                p_centre -= a
+                if not frozen_flow:
+                    jump = half * (P[jq, iq] - p)  # dN/d eps, of this node and of the neighbour alike
+                    jumps += jump
+                    p_coef[q, j, i] += jump * eps[jq, iq] * log_flow_slope(P[jq, iq], law)
+                    h_coef[q, j, i] = jump * 3.0 * eps[jq, iq] / max(H[jq, iq], 1e-8)
+            h_coef[0, j, i] = 0.0
+            if not frozen_flow:
+                p_centre += jumps * eps[j, i] * log_flow_slope(p, law)
+                h_coef[0, j, i] = jumps * 3.0 * eps[j, i] / max(H[j, i], 1e-8)
+            c0 = mesh.inv_hx * (1.5 if i > 1 else 1.0) + c_t
+            c1 = mesh.inv_hx * (-2.0 if i > 1 else -1.0)
+            c2 = mesh.inv_hx * (0.5 if i > 1 else 0.0)
+            far = i - 2 if i > 1 else 0
+            p_coef[0, j, i] = p_centre - c0 * density_slope(p, law) * H[j, i]
+            h_coef[0, j, i] -= c0 * density(p, law)
+            p_coef[1, j, i] -= c1 * density_slope(P[j, i - 1], law) * H[j, i - 1]
+            h_coef[1, j, i] -= c1 * density(P[j, i - 1], law)
+            p_coef[5, j, i] = -c2 * density_slope(P[j, far], law) * H[j, far]
+            h_coef[5, j, i] = -c2 * density(P[j, far], law)
+
+
+@jit
+def log_flow_slope(P, law):
+    """d ln(eps)/dP at fixed H."""
+    return density_slope(P, law) / density(P, law) - log_viscosity_slope(P, law)
+
+
+@jit
+def dense_jacobian(free, p_coef, h_coef, kernel, number, J):
+    """Jacobian over the free interior nodes with full elasticity; `J` written, its column m is dN/du.
+
+    `free` (m,) lists flat node numbers ``j (nx + 1) + i``; `kernel` holds the influence coefficients by lag;
+    `number` is work space for one integer per node.
+    """
+    width = p_coef.shape[2]
+    m = free.shape[0]
+    number[:] = -1
+    for c in range(m):
+        number[free[c]] = c
+    for r in range(m):
+        j, i = free[r] // width, free[r] % width
+        J[r, : m + 1] = 0.0
+        for q in range(NEIGHBOURS):
+            h = h_coef[q, j, i]
+            p = p_coef[q, j, i]
+            if h == 0.0 and p == 0.0:
+                continue
+            jq, iq = neighbour(q, j, i)
+            J[r, m] -= h
+            for c in range(m):
+                jc, ic = free[c] // width, free[c] % width
+                lag = abs(iq - ic)
+                k = kernel[abs(jq - jc), lag]
+                if jc > 0:  # the image at Y < 0
+                    k += kernel[jq + jc, lag]
+                J[r, c] += h * k
+            if number[jq * width + iq] >= 0:
+                J[r, number[jq * width + iq]] += p

@@ -1,0 +1,131 @@
+"""Grids: one `Level` holds the work arrays of one mesh, a hierarchy is a list of them, coarse to fine."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact._kernels import boundary, relax, reynolds
+from ehlcontact.domain import Domain
+from ehlcontact.elastic import Deflection
+from ehlcontact.hertz import shape_factor
+from ehlcontact.scaling import MoesPoint
+
+Array = NDArray[np.float64]
+
+FORCE_FACTOR = 1.5 / np.pi  # eq. 4: force = 3/(2 pi) iint P
+
+
+class Fields(NamedTuple):
+    """Work arrays of a level, each (ny + 1, nx + 1) unless stated; the kernels write them in place."""
+
+    P: Array
+    H: Array
+    eps: Array  # flow factor
+    mass: Array  # rho H
+    theta: Array  # distribution weight of the relaxation
+    w: Array  # distributed change
+    p_coef: Array  # (6, ny + 1, nx + 1)
+    h_coef: Array  # (6, ny + 1, nx + 1)
+    band: Array  # (nx - 1, bandwidth)
+    b: Array  # (nx - 1,)
+
+
+class Level:
+    """One mesh of nx intervals along X and ny along Y >= 0, with its state P, H and its equations.
+
+    The equations are ``N(P, H) = rhs`` and ``H = film_rhs - u + gap + deflection(P)``; the right-hand sides
+    carry history terms on the finest level and the full-approximation corrections below it.
+    """
+
+    def __init__(self, point: MoesPoint, domain: Domain, nx: int, ny: int) -> None:
+        self.nx, self.ny = nx, ny
+        self.law = point.law
+        self.X = np.linspace(domain.x_in, domain.x_out, nx + 1)
+        self.Y = np.linspace(0.0, domain.y_max, ny + 1)
+        self.hx, self.hy = (domain.x_out - domain.x_in) / nx, domain.y_max / ny
+        self.mesh = reynolds.Mesh(self.hx**-2, point.kappa**2 * self.hy**-2, 1.0 / self.hx, point.lam)
+        S = shape_factor(point.kappa)
+        self.gap = S * self.X**2 + (1.0 - S) * self.Y[:, None] ** 2
+        self.deflection = Deflection(nx, ny, self.hx, self.hy, point.kappa)
+        self.near, self.spread = _near_coefficients(self.deflection.kernel)
+        shape = (ny + 1, nx + 1)
+        self.fields = Fields(
+            *(np.zeros(shape) for _ in range(6)),
+            np.zeros((6, *shape)),
+            np.zeros((6, *shape)),
+            np.zeros((nx - 1, relax.BAND_LOWER + relax.BAND_UPPER + 1)),
+            np.zeros(nx - 1),
+        )
+        self.rhs = np.zeros(shape)
+        self.film_rhs: Array | float = 0.0
+        self.c_t = 0.0
+        self.r = np.zeros(shape)  # residual of the Reynolds equation, zero on the border
+        self.nodes = np.zeros(shape[0] * shape[1], dtype=np.int64)
+        self.force_weights = np.full(shape, 2.0 * FORCE_FACTOR * self.hx * self.hy)
+        self.force_weights[0] *= 0.5
+
+    @property
+    def P(self) -> Array:
+        """Pressure."""
+        return self.fields.P
+
+    @property
+    def H(self) -> Array:
+        """Film thickness."""
+        return self.fields.H
+
+    def force(self) -> float:
+        """Film force ``3/(2 pi) iint P`` (eq. 4)."""
+        return float(np.vdot(self.force_weights, self.fields.P))
+
+    def update_film(self, u: float) -> None:
+        """H from P and the approach u (eq. 3)."""
+        np.add(self.gap, self.film_rhs - u, out=self.fields.H)
+        self.fields.H[...] += self.deflection(self.fields.P)
+
+    def update_residual(self) -> Array:
+        """Residual ``rhs - N(P, H)`` of the present P and H; returns ``self.r``."""
+        f = self.fields
+        reynolds.update_flow(f.P, f.H, self.law, self.mesh, f.eps, f.mass)
+        reynolds.residual(f.P, f.eps, f.mass, self.mesh, self.c_t, self.rhs, self.r)
+        return self.r
+
+    def residual_norm(self) -> float:
+        """Mean of |r| over the nodes of the whole domain with P > 0, from the last `update_residual`."""
+        wet = self.force_weights * (self.fields.P > 0.0)
+        total = float(wet.sum())
+        return float(np.vdot(wet, np.abs(self.r))) / total if total > 0.0 else 0.0
+
+    def relax(self, u: float) -> None:
+        """One relaxation sweep at approach u; P written, H left to the next `update_film`."""
+        self.update_film(u)
+        f, mesh = self.fields, self.mesh
+        relax.relax_lines(f, self.rhs, self.law, mesh, self.c_t, self.near, self.spread)
+        boundary.relax_boundary(f.P, f.eps, f.mass, self.rhs, mesh, self.c_t, self.near[0, 0], self.nodes)
+
+    def set_dry_hertz(self) -> None:
+        """Dry Hertz pressure, the start of every solve."""
+        self.fields.P[...] = np.sqrt(np.maximum(0.0, 1.0 - self.X**2 - self.Y[:, None] ** 2))
+
+
+def build_hierarchy(point: MoesPoint, domain: Domain, n: int, coarsest: int) -> list[Level]:
+    """Levels coarse to fine, halving n while at least `coarsest` intervals are left."""
+    halvings = 0
+    while (n >> halvings) % 2 == 0 and (n >> (halvings + 1)) >= coarsest:
+        halvings += 1
+    hx = (domain.x_out - domain.x_in) / n
+    # hy as near to hx as the halvings allow
+    ny = max(4, round(domain.y_max / hx / 2**halvings)) * 2**halvings
+    return [Level(point, domain, n >> k, ny >> k) for k in range(halvings, -1, -1)]
+
+
+def _near_coefficients(kernel: Array) -> tuple[Array, Array]:
+    """Near influence coefficients by lag, and their means over the four neighbours of the source."""
+    size = relax.NEAR + 1
+    lag = np.abs(np.arange(-1, size + 1))
+    k = kernel[np.ix_(lag, lag)]
+    spread = relax.SHARE * (k[:-2, 1:-1] + k[2:, 1:-1] + k[1:-1, :-2] + k[1:-1, 2:])
+    return np.ascontiguousarray(kernel[:size, :size]), np.ascontiguousarray(spread)

@@ -1,0 +1,98 @@
+"""Semismooth Newton with dense elasticity: the coarse-grid solver of the multigrid cycle.
+
+Unknowns are the pressures of the free nodes and the approach u, closed by the load or motion equation, so
+force balance is exact on the coarsest grid and needs no relaxation factor. Complementarity P >= 0 by the
+primal-dual active set: a node is free if P > 0 or if its residual asks for pressure.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import linalg
+
+from ehlcontact._kernels.linearise import dense_jacobian, linearise
+from ehlcontact.grid import Array, Level
+
+LARGEST_STEP = 0.3  # of any pressure or of u, in one iteration
+SMALLEST_DAMPING = 2.0**-6
+
+
+@dataclass(frozen=True, slots=True)
+class Balance:
+    """The equation that closes a solve: ``stiffness * u + weight * force = rhs``.
+
+    Load balance is (0, 1, load), prescribed approach (1, 0, u), and a step of the equation of motion with
+    Newmark's rule has stiffness 4/(Omega_n dT)^2 and weight 1.
+    """
+
+    stiffness: float
+    weight: float
+    rhs: float
+
+    def residual(self, u: float, force: float) -> float:
+        """``rhs - stiffness u - weight force``."""
+        return self.rhs - self.stiffness * u - self.weight * force
+
+    def shifted(self, change: float) -> Balance:
+        """Return the same equation with `change` added to its right-hand side."""
+        return Balance(self.stiffness, self.weight, self.rhs + change)
+
+
+class CoarseNewton:
+    """Newton iterations on one level; keeps its work arrays."""
+
+    def __init__(self, level: Level) -> None:
+        self.level = level
+        size = level.nx * (level.ny + 1)
+        self._J = np.empty((size + 1, size + 1))
+        self._number = np.empty(level.P.size, dtype=np.int64)
+
+    def solve(self, u: float, balance: Balance, max_steps: int, tol: float) -> float:
+        """Iterate to ``merit <= tol`` or `max_steps`; P and H of the level written, returns u."""
+        level = self.level
+        merit, free = self._evaluate(u, balance)
+        for _ in range(max_steps):
+            if not merit > tol:  # also stops on NaN, for the driver to judge
+                break
+            dP, du = self._direction(free, balance, balance.residual(u, level.force()))
+            largest = max(float(np.abs(dP).max(initial=0.0)), abs(du))
+            if not np.isfinite(largest):
+                break
+            damping = min(1.0, LARGEST_STEP / largest) if largest > 0.0 else 1.0
+            start = level.P.copy()
+            while True:
+                level.P[...] = np.maximum(start + damping * dP, 0.0)
+                trial, free = self._evaluate(u + damping * du, balance)
+                if trial <= merit * (1.0 - 0.1 * damping) or trial <= tol or damping < SMALLEST_DAMPING:
+                    break
+                damping *= 0.5
+            u, merit = u + damping * du, trial
+        return u
+
+    def _evaluate(self, u: float, balance: Balance) -> tuple[float, Array]:
+        """Merit (rms residual over free nodes and balance residual) and the flat numbers of free nodes."""
+        level = self.level
+        level.update_film(u)
+        r = level.update_residual()
+        free = np.flatnonzero((level.P > 0.0) | (r < 0.0))
+        rms = float(np.sqrt(np.mean(r.ravel()[free] ** 2))) if free.size else 0.0
+        return rms + 3.0 * abs(balance.residual(u, level.force())), free
+
+    def _direction(self, free: Array, balance: Balance, off_balance: float) -> tuple[Array, float]:
+        level, f = self.level, self.level.fields
+        m = free.size
+        J = self._J[: m + 1, : m + 1]
+        linearise(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, False, f.p_coef, f.h_coef)
+        dense_jacobian(free, f.p_coef, f.h_coef, level.deflection.kernel, self._number, J)
+        J[m, :m] = balance.weight * level.force_weights.ravel()[free]
+        J[m, m] = balance.stiffness
+        rhs = np.append(level.r.ravel()[free], off_balance)
+        try:
+            solution = linalg.solve(J, rhs, overwrite_a=True, overwrite_b=True, check_finite=False)
+        except linalg.LinAlgError:
+            return np.full_like(f.P, np.nan), np.nan
+        dP = np.zeros_like(f.P)
+        dP.ravel()[free] = solution[:m]
+        return dP, float(solution[m])

@@ -1,0 +1,77 @@
+"""How a solve ended, each way with advice."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import StrEnum
+from math import isfinite
+
+
+class Status(StrEnum):
+    """End of a solve; ``advice`` says what to do about it."""
+
+    CONVERGED = "converged"
+    STAGNATED = "stagnated"
+    DIVERGED = "diverged"
+    NONFINITE = "nonfinite"
+    MAX_CYCLES = "max_cycles"
+    OUT_OF_DOMAIN = "out_of_domain"
+    INTERRUPTED = "interrupted"
+
+    @property
+    def advice(self) -> str:
+        """One sentence."""
+        return _ADVICE[self]
+
+    @property
+    def ok(self) -> bool:
+        """Whether the result can be relied on."""
+        return self is Status.CONVERGED
+
+
+_ADVICE = {
+    Status.CONVERGED: "Both residuals are below tolerance.",
+    Status.STAGNATED: "The residual no longer falls: try another n (a finer grid as a rule), or a wider domain.",
+    Status.DIVERGED: "The residual grows: use a finer grid, or a smaller time step.",
+    Status.NONFINITE: "NaN or infinity appeared: use a finer grid, or check that M, L and kappa are meant.",
+    Status.MAX_CYCLES: "The cycles ran out while still converging: raise max_cycles.",
+    Status.OUT_OF_DOMAIN: "Pressure reaches the outlet or side border: give a wider domain.",
+    Status.INTERRUPTED: "Stopped by the user; what was computed until then is kept.",
+}
+
+STAGNATION_CYCLES = 6
+STAGNATION_FACTOR = 0.7
+DIVERGENCE_FACTOR = 1e3
+
+
+def classify(residuals: Sequence[float], scale: float, tol: float, settled: bool, max_cycles: int) -> Status | None:
+    """Status of an iteration, or None to go on.
+
+    Parameters
+    ----------
+    residuals : sequence of float
+        Residual of the start and of each cycle.
+    scale : float
+        Residual they are measured against; fixed by the problem, not by the start.
+    tol : float
+        Convergence when ``residuals[-1] <= tol * scale`` and `settled`.
+    settled : bool
+        Whether the other criteria (load balance, approach) hold.
+    max_cycles : int
+        Limit.
+    """
+    last = residuals[-1]
+    if not isfinite(last):
+        return Status.NONFINITE
+    if last <= tol * scale and settled:
+        return Status.CONVERGED
+    if last > DIVERGENCE_FACTOR * scale:
+        return Status.DIVERGED
+    cycles = len(residuals) - 1
+    if cycles >= max_cycles:
+        return Status.MAX_CYCLES
+    if cycles > 2 * STAGNATION_CYCLES:
+        recent = min(residuals[-STAGNATION_CYCLES:])
+        if recent > STAGNATION_FACTOR * min(residuals[:-STAGNATION_CYCLES]):
+            return Status.STAGNATED
+    return None

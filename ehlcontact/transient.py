@@ -1,0 +1,155 @@
+"""Transient film: implicit second-order steps of Reynolds, film and motion, each solved by multigrid.
+
+The squeeze term is differenced backwards over two steps (BDF2, variable step); the motion follows Newmark's
+rule with beta = 1/4, gamma = 1/2, evaluated inside the multigrid cycle through its `Balance`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+
+from ehlcontact.domain import Domain
+from ehlcontact.grid import Array, Level
+from ehlcontact.multigrid import Multigrid
+from ehlcontact.newton import Balance
+from ehlcontact.scaling import MoesPoint
+from ehlcontact.status import Status, classify
+from ehlcontact.steady import dry_residual, touches_border
+
+STEP_CYCLES = 25
+LARGEST_EXTRAPOLATION = 2.0  # step ratio up to which the last change of pressure predicts the next
+
+
+@dataclass(frozen=True, slots=True)
+class FilmState:
+    """Everything a film remembers between steps; immutable, so saving it costs one copy of the pressure."""
+
+    P: Array
+    P_before: Array
+    mass: Array  # rho H
+    mass_before: Array
+    u: float
+    dT: float  # the step that led here
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """Outcome of one time step."""
+
+    residual: float  # relative to the dry Hertz start
+    load_residual: float
+    cycles: int
+    status: Status
+
+
+class TransientFilm:
+    """A film that can be advanced in time, starting from a steady state at rest.
+
+    Parameters
+    ----------
+    point : MoesPoint
+    domain : Domain
+    n : int
+        Intervals along X.
+    tol : float
+        Relative residual at which a step counts as solved.
+    """
+
+    def __init__(self, point: MoesPoint, domain: Domain, n: int, tol: float) -> None:
+        self.multigrid = Multigrid(point, domain, n)
+        self.tol = tol
+        self.scale = dry_residual(self.level)
+        self._P_before = self.level.P.copy()
+        self._mass = self.level.P.copy()
+        self._mass_before = self._mass.copy()
+        self._dT = 0.0
+
+    @property
+    def level(self) -> Level:
+        """Finest level, holding P and H."""
+        return self.multigrid.finest
+
+    @property
+    def u(self) -> float:
+        """Mutual approach."""
+        return self.multigrid.u
+
+    def start_steady(self, balance: Balance, u: float | None = None) -> Step:
+        """Solve the steady film and make it the state at rest for all T <= 0."""
+        mg = self.multigrid
+        mg.set_time_coefficient(0.0)
+        if u is not None:
+            mg.u = u
+        mg.full_multigrid(balance)
+        step = self._solve(balance, 2 * STEP_CYCLES)
+        self._remember_rest()
+        return step
+
+    def _remember_rest(self) -> None:
+        self._P_before = self.level.P.copy()
+        self._mass = self.level.fields.mass.copy()
+        self._mass_before = self._mass.copy()
+        self._dT = 0.0
+
+    def advance(self, dT: float, balance: Balance, u_guess: float) -> Step:
+        """One step of length dT, closed by `balance`; the state moves to the end of the step."""
+        level, mg = self.level, self.multigrid
+        ratio = dT / self._dT if self._dT > 0.0 else 1.0
+        mg.set_time_coefficient((1.0 + 2.0 * ratio) / (1.0 + ratio) / dT)
+        np.multiply(self._mass_before, ratio * ratio / (1.0 + ratio) / dT, out=level.rhs)
+        level.rhs -= self._mass * ((1.0 + ratio) / dT)
+        level.film_rhs = 0.0
+        P_now = level.P.copy()
+        if ratio <= LARGEST_EXTRAPOLATION:
+            level.P[...] = np.maximum(P_now + ratio * (P_now - self._P_before), 0.0) * (P_now > 0.0)
+        mg.u = u_guess
+        step = self._solve(balance, STEP_CYCLES)
+        self._P_before = P_now
+        self._mass_before, self._mass = self._mass, level.fields.mass.copy()
+        self._dT = dT
+        return step
+
+    def _solve(self, balance: Balance, max_cycles: int) -> Step:
+        """Cycle until the residual, the balance and the last changes of u and force are below tolerance."""
+        level, mg = self.level, self.multigrid
+        residuals: list[float] = []
+        status, settled, load_residual = None, False, 0.0
+        force = np.inf
+        # tol is relative to a field; u and force are means over it and converge better
+        small = min(self.tol, 1e-5)
+        while status is None:
+            if residuals:
+                previous = mg.u, force
+                mg.cycle(balance)
+                level.update_film(mg.u)
+                force = level.force()
+                settled = abs(mg.u - previous[0]) < small and abs(force - previous[1]) < small
+            else:
+                level.update_film(mg.u)
+                force = level.force()
+            level.update_residual()
+            residuals.append(level.residual_norm())
+            load_residual = balance.residual(mg.u, force)
+            if not isfinite(load_residual):
+                status = Status.NONFINITE
+                break
+            settled = settled and abs(load_residual) < 0.1 * small * max(1.0, balance.stiffness)
+            status = classify(residuals, self.scale, self.tol, settled, max_cycles)
+        if status is Status.CONVERGED and touches_border(level):
+            status = Status.OUT_OF_DOMAIN
+        return Step(residuals[-1] / self.scale, load_residual, len(residuals) - 1, status)
+
+    def save_state(self) -> FilmState:
+        """Everything needed to come back here."""
+        # mass arrays are replaced, never written, by advance: no copy needed
+        return FilmState(self.level.P.copy(), self._P_before, self._mass, self._mass_before, self.u, self._dT)
+
+    def restore_state(self, state: FilmState) -> None:
+        """Return to a saved state."""
+        self.level.P[...] = state.P
+        self._P_before, self._mass, self._mass_before = state.P_before, state.mass, state.mass_before
+        self.multigrid.u, self._dT = state.u, state.dT
+        self.level.update_film(state.u)

@@ -1,0 +1,23 @@
+"""Reduced contact elements as Functional Mock-up Units: FMI 2.0 co-simulation, compiled from C99.
+
+=============  =====================================================================================
+module         responsibility
+=============  =====================================================================================
+``export``     `export_contact`: element in, FMU file out
+``verify``     `verify`: the FMU against fmpy's rules and, state by state, against the Python element
+``spec``       `ModelSpec`, the only place where a variable's name, reference, unit and start are said
+``describe``   `ModelSpec` to ``modelDescription.xml``
+``codegen``    `ModelSpec` to ``config.h``
+``document``   `ModelSpec` to ``documentation/index.html``
+``build``      compiler, compilation, reproducible zip, atomic writing
+``csrc/``      the C sources: FMI glue for any model, and the contact element; equations in its README
+=============  =====================================================================================
+
+The import name ``fmu`` is also that of the geoscience distribution fmu-tools (a namespace package there):
+the two cannot be installed into one environment.
+"""
+
+from fmu.build import BuildError as BuildError
+from fmu.export import export_contact as export_contact
+from fmu.verify import Verification as Verification
+from fmu.verify import verify as verify

@@ -1,0 +1,126 @@
+"""The JSON file of an element: header, checks on reading, atomic writing. Knows no element class."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import tempfile
+from collections.abc import Mapping
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from ehlcontact.errors import InputError
+
+SCHEMA = "ehlcontact-element"
+VERSION = 1
+UNITS = ("dimensionless", "SI")
+
+
+def library_version() -> str:
+    """Version of the installed distribution, or "unknown" in a bare checkout."""
+    try:
+        return version("ehlcontact")
+    except PackageNotFoundError:
+        return "unknown"
+
+
+def write_document(path: str | os.PathLike[str], document: Mapping[str, Any]) -> Path:
+    """Write `document` under the element header; a reader sees the old file or the new one, never half of it.
+
+    Raises
+    ------
+    InputError
+        The folder cannot be written.
+    """
+    target = Path(path)
+    text = json.dumps({"schema": SCHEMA, "version": VERSION, **document}, indent=2, allow_nan=False) + "\n"
+    try:
+        handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".tmp")
+    except OSError as error:
+        raise InputError("path", str(target), f"in a folder that can be written ({error.strerror})") from None
+    temporary = Path(name)
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8") as stream:
+            stream.write(text)
+        # mkstemp makes private files; an element is meant to be shared like any other file.
+        temporary.chmod(0o666 & ~_umask())
+        os.replace(temporary, target)
+    except OSError as error:
+        raise InputError("path", str(target), f"a file that can be written ({error.strerror})") from None
+    finally:
+        temporary.unlink(missing_ok=True)
+    return target
+
+
+def read_document(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """Read an element file and check its header and the form of its entries.
+
+    Raises
+    ------
+    InputError
+        The file is missing, truncated, not an element file, of a newer version, or lacks an entry.
+    """
+    name = str(path)
+    try:
+        document = json.loads(Path(path).read_text(encoding="utf-8"), parse_constant=_refuse_constant)
+    except OSError as error:
+        raise InputError(name, error.strerror, "a readable element file") from None
+    except (UnicodeDecodeError, json.JSONDecodeError, _NotANumberError) as error:
+        raise InputError(name, f"{error}", "complete JSON with finite numbers") from None
+    if not isinstance(document, dict) or document.get("schema") != SCHEMA:
+        found = document.get("schema") if isinstance(document, dict) else type(document).__name__
+        raise InputError(name, found, f"a file with schema {SCHEMA!r}")
+    found = document.get("version")
+    if not isinstance(found, int) or isinstance(found, bool) or not 1 <= found <= VERSION:
+        raise InputError(name, f"version {found}", f"of version 1 to {VERSION} (a newer library wrote it?)")
+    for key in ("kind", "units"):
+        if not isinstance(document.get(key), str):
+            raise InputError(name, f"{key} {document.get(key)!r}", f"a file with a text entry {key!r}")
+    if document["units"] not in UNITS:
+        raise InputError(name, f"units {document['units']!r}", "in units " + " or ".join(UNITS))
+    for key in ("parameters", "valid"):
+        if not isinstance(document.get(key), dict):
+            raise InputError(name, f"{key} {document.get(key)!r}", f"a file with an object {key!r}")
+    for key in ("fit", "source"):
+        if not isinstance(document.get(key, {}), dict | None):
+            raise InputError(
+                name, f"{key} {document.get(key)!r}", f"a file whose {key!r} is an object or null"
+            )
+    return document
+
+
+def numbers(
+    name: str, section: str, entries: Mapping[str, Any], required: tuple[str, ...]
+) -> dict[str, float]:
+    """Return the `required` entries of a section as floats.
+
+    Raises
+    ------
+    InputError
+        One is absent or not a finite number.
+    """
+    found: dict[str, float] = {}
+    for key in required:
+        value = entries.get(key)
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        if not number or not math.isfinite(value):  # type: ignore[arg-type]
+            raise InputError(f"{name}: {section}.{key}", value, "a finite number")
+        found[key] = float(value)  # type: ignore[arg-type]
+    return found
+
+
+class _NotANumberError(ValueError):
+    """JSON text held NaN or Infinity, which Python reads but JSON does not allow."""
+
+
+def _refuse_constant(text: str) -> float:
+    raise _NotANumberError(f"{text} is not JSON")
+
+
+def _umask() -> int:
+    # The only portable way to read the mask is to set it.
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

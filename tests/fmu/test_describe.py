@@ -1,0 +1,121 @@
+import dataclasses
+import re
+
+import fmpy
+import pytest
+from fmpy.validation import validate_fmu
+
+from ehlcontact.errors import InputError
+from fmu.codegen import c_double
+from fmu.document import documentation
+from fmu.spec import ModelSpec, Variable, contact_spec
+
+UNITS_SI = {
+    "approach": ("m", {"m": 1}),
+    "rate": ("m/s", {"m": 1, "s": -1}),
+    "force": ("N", {"kg": 1, "m": 1, "s": -2}),
+    "stiffness": ("N/m", {"kg": 1, "s": -2}),
+    "damping": ("N.s/m", {"kg": 1, "s": -1}),
+    "K1": ("N/m", {"kg": 1, "s": -2}),
+    "K2": ("N.m-2", {"kg": 1, "m": -1, "s": -2}),
+    "K3": ("N.m-3", {"kg": 1, "m": -2, "s": -2}),
+    "C1": ("N.s/m", {"kg": 1, "s": -1}),
+    "low": ("m", {"m": 1}),
+    "high": ("m", {"m": 1}),
+}
+
+
+def test_fmpy_validation_has_no_finding(fmus, kind):
+    assert validate_fmu(str(fmus[kind])) == []
+
+
+def test_units_are_declared_with_si_exponents(fmus):
+    description = fmpy.read_model_description(str(fmus["cubic_si"]))
+    bases = {unit.name: unit.baseUnit for unit in description.unitDefinitions}
+    for variable in description.modelVariables:
+        if variable.name == "outside_validity":
+            assert variable.unit is None
+            continue
+        name, exponents = UNITS_SI[variable.name]
+        assert variable.unit == name
+        base = bases[name]
+        found = {key: int(getattr(base, key)) for key in ("kg", "m", "s", "A", "K", "mol", "cd", "rad")}
+        assert {key: power for key, power in found.items() if power} == exponents
+        assert float(base.factor) == 1.0
+        assert float(base.offset) == 0.0
+
+
+def test_dimensionless_element_has_units_1_throughout(fmus):
+    description = fmpy.read_model_description(str(fmus["cubic"]))
+    assert [unit.name for unit in description.unitDefinitions] == ["1"]
+    assert {v.unit for v in description.modelVariables if v.type == "Real"} == {"1"}
+    assert "dimensionless" in description.description
+
+
+def test_starts_are_exactly_the_elements(fmus, elements, kind, slave):
+    element = elements[kind]
+    expected = {"K2": 0.0, "K3": 0.0} | element.parameters | {"low": element.low, "high": element.high}
+    variables = {v.name: v for v in fmpy.read_model_description(str(fmus[kind])).modelVariables}
+    binary = slave(kind)
+    for name, value in expected.items():
+        assert float(variables[name].start) == value
+        assert binary.get(name) == [value]
+        assert (variables[name].causality, variables[name].variability) == ("parameter", "tunable")
+    for name in ("approach", "rate"):  # XML and binary agree on the inputs too
+        assert binary.get(name) == [float(variables[name].start)]
+    assert element.low < float(variables["approach"].start) < element.high
+
+
+def test_dependencies_are_explicit(fmus):
+    description = fmpy.read_model_description(str(fmus["cubic"]))
+    outputs = {u.variable.name: [v.name for v in u.dependencies] for u in description.outputs}
+    assert outputs == {
+        "force": ["approach", "rate"],
+        "stiffness": ["approach", "rate"],
+        "damping": ["approach", "rate"],
+        "outside_validity": ["approach"],
+    }
+    initial = {u.variable.name: {v.name for v in u.dependencies} for u in description.initialUnknowns}
+    assert initial["force"] == {"approach", "rate", "K1", "K2", "K3", "C1", "low", "high"}
+    assert initial["outside_validity"] == {"approach", "low", "high"}
+
+
+def test_capabilities_and_origin(fmus):
+    description = fmpy.read_model_description(str(fmus["cubic"]))
+    slave = description.coSimulation
+    assert slave.canGetAndSetFMUstate
+    assert slave.canSerializeFMUstate
+    assert slave.providesDirectionalDerivative
+    assert slave.canHandleVariableCommunicationStepSize
+    assert not slave.needsExecutionTool
+    assert description.modelExchange is None
+    assert description.generationTool.startswith("ehlcontact")
+    assert description.defaultExperiment is not None
+
+
+@pytest.mark.parametrize("value", [0.0, 1.0, -1e300, 5e-324, 0.1, 1 / 3, 123456789.0, -0.174])
+def test_c_literal_reads_back_exactly(value):
+    literal = c_double(value)
+    assert float(literal) == value
+    assert re.search(r"[.e]", literal)  # else C would read an integer
+
+
+def test_model_name_becomes_identifier(elements):
+    assert contact_spec(elements["cubic"], "Lager 1, Stoß").identifier == "Lager_1__Sto_"
+    assert contact_spec(elements["cubic"], "1st").identifier == "m1st"
+    assert contact_spec(elements["linear"]).identifier == "LinearContact"
+
+
+def test_two_variables_of_one_reference_are_refused():
+    twins = [Variable(name, 0, "input", "continuous", "", unit="1", start=0.0) for name in "ab"]
+    with pytest.raises(InputError, match="unique"):
+        ModelSpec("m", "", "h", (), (), tuple(twins))
+
+
+def test_page_tells_where_the_element_comes_from(elements):
+    element = dataclasses.replace(
+        elements["cubic"], rate=2.5, fit={"rms": 0.003}, source={"n": 128, "motion": "<free>"}
+    )
+    page = documentation(contact_spec(element), "g(u) < f", "cc")
+    for text in ("rms: 0.003", "n: 128", "motion: &lt;free&gt;", "2.5", "g(u) &lt; f", "<code>cc</code>"):
+        assert text in page

@@ -1,0 +1,115 @@
+import dataclasses
+import json
+import os
+import zipfile
+
+import pytest
+
+from ehlcontact.errors import InputError
+from fmu import verify
+from fmu.verify import state_grid
+
+
+def test_fmu_agrees_with_element(fmus, elements, kind):
+    found = verify(fmus[kind], elements[kind])
+    assert found.passes
+    assert found.findings == ()
+    assert max(found.force, found.tangents, found.derivatives) <= 1e-12
+    # The comparison is worth something: states of every kind were met.
+    assert found.outside > 100
+    assert found.parted > 100
+    assert found.states - found.outside > 100
+    assert json.loads(json.dumps(found.to_dict()))["passes"] is True
+
+
+def test_grid_reaches_every_branch(elements, kind):
+    element = elements[kind]
+    u, v = state_grid(element)
+    spring = element.spring(u)
+    assert (u > element.high).any()
+    assert ((u < element.low) & (spring > 0)).any()
+    assert (spring == 0).any()
+    assert ((spring > 0) & (element.force(u, v) == 0)).any()  # clipped by the damper
+    assert {element.low, element.high} <= set(u.tolist())
+
+
+def test_element_without_damper(elements, tmp_path):
+    from fmu import export_contact
+
+    element = dataclasses.replace(elements["cubic"], C1=0.0)
+    found = verify(export_contact(element, tmp_path / "x.fmu"), element)
+    assert found.passes
+
+
+@pytest.mark.parametrize("change", [{"K1": 0.624 * (1 + 1e-9)}, {"C1": 0.02}, {"high": 1.01}])
+def test_another_element_is_found_out(fmus, elements, change):
+    found = verify(fmus["cubic"], dataclasses.replace(elements["cubic"], **change))
+    assert not found.passes
+    (finding,) = [line for line in found.findings if line.startswith(next(iter(change)))]
+    assert "in the FMU" in finding
+    assert max(found.force, found.tangents) > 1e-12
+
+
+def test_units_are_compared(fmus, elements):
+    same_numbers = dataclasses.replace(elements["cubic"], units="SI")
+    found = verify(fmus["cubic"], same_numbers)
+    assert not found.passes
+    assert found.force <= 1e-12
+    assert any(line.startswith("force:") and "[N]" in line for line in found.findings)
+
+
+def rewritten(source, target, change, suffix=".xml"):
+    """Copy of an FMU with `change` done to the content of the files ending in `suffix`."""
+    with zipfile.ZipFile(source) as old, zipfile.ZipFile(target, "w") as new:
+        for name in old.namelist():
+            content = old.read(name)
+            new.writestr(name, change(content) if name.endswith(suffix) else content)
+    return target
+
+
+def test_findings_of_fmpy_are_reported(fmus, elements, tmp_path):
+    broken = rewritten(
+        fmus["cubic"], tmp_path / "x.fmu", lambda xml: xml.replace(b'<Unit name="1">', b'<Unit name="one">')
+    )
+    found = verify(broken, elements["cubic"])
+    assert not found.passes
+    assert any("unit" in line.lower() for line in found.findings)
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        (".xml", lambda c: c.replace(b'guid="{', b'guid="{0'), "wrong GUID"),
+        (".xml", lambda c: c.replace(b'name="force"', b'name="power"'), "made by export_contact"),
+        (
+            ".xml",
+            lambda c: c.replace(b'valueReference="2"', b'valueReference="22"'),
+            "made by export_contact",
+        ),
+        (".xml", lambda c: c[: len(c) // 2], "readable"),
+        (".so", lambda c: b"no library", "Failed to load shared library"),
+    ],
+)
+def test_foreign_fmu_is_refused(fmus, elements, tmp_path, case, capfd):
+    suffix, change, reason = case
+    broken = rewritten(fmus["cubic"], tmp_path / "x.fmu", change, suffix)
+    folder = os.getcwd()
+    with pytest.raises(InputError, match=reason) as error:
+        verify(broken, elements["cubic"])
+    assert os.getcwd() == folder
+    assert "\n" not in str(error.value)
+    assert capfd.readouterr().out == ""
+
+
+def test_not_an_fmu(elements, tmp_path):
+    text = tmp_path / "x.fmu"
+    for path in (tmp_path / "missing.fmu", text):
+        with pytest.raises(InputError, match="a readable FMU") as error:
+            verify(path, elements["cubic"])
+        assert "\n" not in str(error.value)
+        text.write_text("no zip")
+
+
+def test_bad_element(fmus):
+    with pytest.raises(InputError, match="element"):
+        verify(fmus["cubic"], "cubic")

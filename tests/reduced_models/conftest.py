@@ -1,0 +1,86 @@
+"""Contacts, scales and records that several test files share."""
+
+import numpy as np
+import pytest
+
+from ehlcontact.scaling import Scales
+from reduced_models import ContactRecord, CubicContact, LinearContact
+
+# Nonato and Cavalca (2010), Table 3 case 2 (free vibration, Omega_n = 5.13).
+PAPER = {"K1": 0.806, "K2": 0.346, "K3": 0.054, "C1": 0.013}
+
+
+@pytest.fixture
+def scales():
+    return Scales(force=1000.0, length=4e-6, time=2e-5, a=2e-4, b=1e-3, pressure=1.5e9)
+
+
+@pytest.fixture
+def cubic():
+    return CubicContact(**PAPER, low=0.75, high=1.0)
+
+
+@pytest.fixture
+def linear():
+    return LinearContact(K1=1.15, C1=0.0124, low=0.75, high=1.0)
+
+
+@pytest.fixture
+def record():
+    """A record that obeys PAPER exactly, with inertia."""
+    T = np.linspace(0.0, 3.0, 301)
+    u = 0.87 + 0.1 * np.cos(6.0 * T) * np.exp(-0.2 * T)
+    v = np.gradient(u, T)
+    f = PAPER["K1"] * u + PAPER["K2"] * u**2 + PAPER["K3"] * u**3 + PAPER["C1"] * v
+    return ContactRecord(
+        T=T, approach=u, rate=v, force=f, load=np.ones(T.size), acceleration=5.13**2 * (1.0 - f), omega_n=5.13
+    )
+
+
+class Maxwell:
+    """Spring k beside a spring k2 in series with a damper c2: a contact with memory and no tangents."""
+
+    def __init__(self, k, k2, c2, approach=0.0):
+        self.k, self.k2, self.rate_constant = k, k2, k2 / c2
+        self.u, self.z, self.calls = approach, 0.0, 0  # z: force of the branch
+
+    def advance(self, dt, approach, rate):
+        """Trapezoidal rule for z' = k2 u' - z k2/c2."""
+        self.calls += 1
+        p = 0.5 * dt * self.rate_constant
+        self.z = ((1.0 - p) * self.z + self.k2 * (approach - self.u)) / (1.0 + p)
+        self.u = approach
+        return self.k * approach + self.z
+
+    def save_state(self):
+        return self.u, self.z
+
+    def restore_state(self, state):
+        self.u, self.z = state
+
+
+@pytest.fixture
+def maxwell():
+    return Maxwell
+
+
+class Hidden:
+    """A reduced element without its tangents, counting its calls."""
+
+    def __init__(self, element):
+        self.element, self.calls = element, 0
+
+    def advance(self, dt, approach, rate):
+        self.calls += 1
+        return self.element.advance(dt, approach, rate)
+
+    def save_state(self):
+        return self.element.save_state()
+
+    def restore_state(self, state):
+        self.element.restore_state(state)
+
+
+@pytest.fixture
+def hidden():
+    return Hidden

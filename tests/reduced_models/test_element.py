@@ -1,0 +1,159 @@
+"""The force law against a slow twin, its derivatives, its ends, and its units."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ehlcontact.errors import InputError
+from reduced_models import CubicContact, LinearContact
+
+U = np.concatenate([np.linspace(-2.0, 4.0, 241), [0.75, 1.0]])
+V = np.linspace(-60.0, 60.0, 7)
+
+
+def twin(e, u, v):
+    """The contract in the most obvious words."""
+    K = [e.K1, getattr(e, "K2", 0.0), getattr(e, "K3", 0.0)]
+
+    def g(x):
+        return sum(k * x**i for i, k in enumerate(K, start=1))
+
+    def dg(x):
+        return sum(i * k * x ** (i - 1) for i, k in enumerate(K, start=1))
+
+    o_low, o_high = (end - 1.5 * g(end) / dg(end) for end in (e.low, e.high))
+    if u > e.high:
+        spring = g(e.high) * ((u - o_high) / (e.high - o_high)) ** 1.5
+    elif u < e.low:
+        spring = g(e.low) * (max(u - o_low, 0.0) / (e.low - o_low)) ** 1.5
+    else:
+        spring = g(u)
+    s = min(max((u - o_low) / (e.low - o_low), 0.0), 1.0)
+    return max(0.0, spring + e.C1 * (3 * s**2 - 2 * s**3) * v)
+
+
+@pytest.fixture(params=["cubic", "linear"])
+def element(request):
+    return request.getfixturevalue(request.param)
+
+
+def test_force_is_the_slow_twin_inside_and_outside(element):
+    u, v = np.meshgrid(U, V)
+    expected = np.array(
+        [[twin(element, a, b) for a, b in zip(x, y, strict=True)] for x, y in zip(u, v, strict=True)]
+    )
+    np.testing.assert_allclose(element.force(u, v), expected, rtol=1e-13, atol=1e-14)
+    assert np.any(expected == 0.0) and np.any(u > element.high)
+
+
+def test_scalars_and_arrays_take_the_same_way(element):
+    for name in ("force", "stiffness", "damping"):
+        method = getattr(element, name)
+        array = method(U, 0.5)
+        assert isinstance(method(0.9, 0.5), float) and isinstance(method(1, 0), float)
+        np.testing.assert_array_equal(array, [method(float(u), 0.5) for u in U])
+    assert element.advance(0.01, 0.9, 0.5) == element.force(0.9, 0.5)
+    np.testing.assert_array_equal(element.spring(U), element.force(U, 0.0))
+    assert element.spring(0.9) == element.force(0.9, 0.0)
+    assert element.damper(0.9) == element.C1
+
+
+def test_tangents_are_finite_differences_in_every_branch(element):
+    h = 1e-6
+    u, v = np.meshgrid(np.linspace(-0.49, 2.013, 53), V)
+    # A difference that straddles a kink (clipping) is no derivative.
+    smooth = np.minimum(element.force(u - h, v), element.force(u + h, v)) > 0.0
+    smooth &= element.force(u, v) > 1e-3
+    du = (element.force(u + h, v) - element.force(u - h, v)) / (2 * h)
+    dv = (element.force(u, v + h) - element.force(u, v - h)) / (2 * h)
+    np.testing.assert_allclose(element.stiffness(u, v)[smooth], du[smooth], rtol=2e-6, atol=1e-7)
+    np.testing.assert_allclose(element.damping(u, v)[smooth], dv[smooth], rtol=2e-6, atol=1e-7)
+    clipped = element.force(u, v) == 0.0
+    assert clipped.any()
+    assert not element.stiffness(u, v)[clipped].any() and not element.damping(u, v)[clipped].any()
+
+
+SPRING = st.tuples(st.floats(0.3, 1.2), st.floats(0.0, 1.0), st.floats(-0.05, 0.5))
+
+
+@given(spring=SPRING, C1=st.floats(0.0, 0.2), low=st.floats(0.2, 0.9), width=st.floats(0.05, 0.5))
+def test_law_is_c1_monotone_and_never_pulls(spring, C1, low, width):
+    e = CubicContact(*spring, C1, low, low + width)
+    for end in (e.low, e.high, e.law.o_low):
+        left, right = end - 1e-9, end + 1e-9
+        for v in (0.0, 0.3):
+            assert e.force(left, v) == pytest.approx(e.force(right, v), abs=1e-7)
+            # The tangent of a 3/2 power grows as a square root from its root.
+            assert e.stiffness(left, v) == pytest.approx(e.stiffness(right, v), abs=3e-4)
+    force = e.force(np.linspace(-1.0, 5.0, 200), 0.0)
+    assert np.all(force >= 0.0) and np.all(np.diff(force) >= 0.0)
+
+
+def test_extension_above_grows_like_hertz(cubic):
+    assert cubic.force(4e6, 0.0) / cubic.force(1e6, 0.0) == pytest.approx(8.0, rel=1e-5)
+
+
+@pytest.mark.parametrize("force", [1e-3, 0.4, 1.0, 1.02, 5.0])
+def test_approach_at_inverts_the_spring(cubic, force):
+    assert cubic.force(cubic.approach_at(force), 0.0) == pytest.approx(force, rel=1e-12)
+
+
+def test_si_element_is_the_same_law_in_other_units(element, scales):
+    si = element.to_si(scales)
+    u, v = np.meshgrid(U, V)
+    s = scales
+    np.testing.assert_allclose(si.force(u * s.length, v * s.rate), s.force * element.force(u, v), rtol=1e-12)
+    np.testing.assert_allclose(
+        si.stiffness(u * s.length, v * s.rate), s.stiffness * element.stiffness(u, v), rtol=1e-12, atol=1e-3
+    )
+    np.testing.assert_allclose(
+        si.damping(u * s.length, v * s.rate), s.damping * element.damping(u, v), rtol=1e-12, atol=1e-9
+    )
+    assert type(si) is type(element) and si.units == "SI"
+    with pytest.raises(InputError, match="dimensionless"):
+        si.to_si(scales)
+
+
+def test_si_takes_the_rate_along(scales):
+    assert LinearContact(1.0, 0.0, 0.5, 1.0, rate=2.0).to_si(scales).rate == pytest.approx(2.0 * scales.rate)
+
+
+def test_validity_is_the_closed_interval(cubic):
+    assert cubic.is_valid(0.75) and cubic.is_valid(1.0) and not cubic.is_valid(1.0001)
+    np.testing.assert_array_equal(cubic.is_valid([0.7, 0.8]), [False, True])
+
+
+@pytest.mark.parametrize(
+    ("changes", "field"),
+    [
+        ({"K1": np.nan}, "K1"),
+        ({"K2": np.inf}, "K2"),
+        ({"C1": -0.1}, "C1"),
+        ({"C1": "x"}, "C1"),
+        ({"low": 1.0, "high": 1.0}, "low"),
+        ({"low": -0.1}, "spring force at low"),
+        ({"K1": 3.0, "K2": 0.0, "K3": -1.2}, "spring tangent at high"),
+        ({"units": "mm"}, "units"),
+        ({"rate": -1.0}, "rate"),
+    ],
+)
+def test_bad_parameters_are_named(changes, field):
+    values = {"K1": 0.8, "K2": 0.3, "K3": 0.05, "C1": 0.01, "low": 0.75, "high": 1.0} | changes
+    with pytest.raises(InputError) as caught:
+        CubicContact(**values)
+    assert caught.value.field == field
+
+
+def test_negative_tangent_advises_a_way_out():
+    with pytest.raises(InputError, match="wider range"):
+        CubicContact(3.0, 0.0, -1.2, 0.01, 0.75, 1.0)
+
+
+def test_control_block_linearises_to_the_tangents(cubic):
+    control = pytest.importorskip("control")
+    block = cubic.to_control()
+    assert block.nstates == 0 and block.input_labels == ["u", "v"] and block.output_labels == ["F"]
+    point = [0.9, 0.2]
+    linear = control.linearize(block, [], point, eps=1e-7)
+    np.testing.assert_allclose(linear.D, [[cubic.stiffness(*point), cubic.damping(*point)]], rtol=1e-6)

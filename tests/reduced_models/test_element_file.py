@@ -1,0 +1,109 @@
+"""Element files: exact round trip, and one clear line for whatever else is in the file."""
+
+import json
+import os
+
+import pytest
+
+from ehlcontact.errors import InputError
+from reduced_models import CubicContact, LinearContact, fit, load_element
+
+
+def test_round_trip_is_exact(tmp_path, record):
+    element = fit(record).element
+    path = element.save(tmp_path / "e.json")
+    back = load_element(path)
+    assert back == element and type(back) is CubicContact
+    assert back.fit == element.fit and back.source == element.source
+    assert CubicContact.load(path) == element
+    document = json.loads(path.read_text())
+    assert (document["schema"], document["version"], document["kind"]) == ("ehlcontact-element", 1, "cubic")
+    assert set(document["parameters"]) == {"K1", "K2", "K3", "C1"}
+    assert set(document["valid"]) == {"low", "high", "rate"}
+    assert set(document["source"]) == {"point", "scales", "n", "domain", "motion", "version"}
+
+
+def test_si_and_linear_round_trip(tmp_path, linear, scales):
+    si = linear.to_si(scales)
+    assert load_element(si.save(str(tmp_path / "e.json"))) == si
+    assert LinearContact.load(tmp_path / "e.json").units == "SI"
+
+
+def test_saving_replaces_in_one_move_and_leaves_nothing_behind(tmp_path, linear, cubic, monkeypatch):
+    path = linear.save(tmp_path / "e.json")
+
+    def fail(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", fail)
+    with pytest.raises(InputError, match="No space left"):
+        cubic.save(path)
+    assert load_element(path) == linear
+    assert [p.name for p in tmp_path.iterdir()] == ["e.json"]
+
+
+def test_saving_into_a_missing_folder_is_an_input_error(tmp_path, linear):
+    with pytest.raises(InputError, match="can be written"):
+        linear.save(tmp_path / "none" / "e.json")
+
+
+def _edit(path, **changes):
+    document = json.loads(path.read_text())
+    for key, value in changes.items():
+        if value is ...:
+            del document[key]
+        else:
+            document[key] = value
+    path.write_text(json.dumps(document))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"schema": "other"}, "schema 'ehlcontact-element'"),
+        ({"schema": ...}, "schema 'ehlcontact-element'"),
+        ({"version": 2}, "newer library"),
+        ({"version": "1"}, "version"),
+        ({"version": True}, "version"),
+        ({"kind": "spline"}, "linear or cubic"),
+        ({"kind": ["cubic"]}, "kind"),
+        ({"units": "mm"}, "dimensionless or SI"),
+        ({"parameters": ...}, "parameters"),
+        ({"parameters": {"K1": 1.0}}, "parameters.K2"),
+        ({"parameters": {"K1": True, "K2": 0, "K3": 0, "C1": 0}}, "parameters.K1"),
+        ({"parameters": {"K1": 1.0, "K2": 0.0, "K3": 0.0, "C1": -1.0}}, "C1"),
+        ({"valid": {"low": 0.7}}, "valid.high"),
+        ({"valid": {"low": 0.7, "high": 1.0, "rate": "fast"}}, "valid.rate"),
+        ({"fit": [1]}, "fit"),
+    ],
+)
+def test_wrong_content_is_one_line_that_names_the_file(tmp_path, cubic, changes, message):
+    path = cubic.save(tmp_path / "wrong.json")
+    _edit(path, **changes)
+    with pytest.raises(InputError, match=message) as caught:
+        load_element(path)
+    assert "wrong.json" in str(caught.value) and "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("content", [b"", b"{", b"[1, 2]", b"\xff\xfe\x00", b'{"schema": NaN}', b"null"])
+def test_truncated_and_foreign_files(tmp_path, content):
+    path = tmp_path / "broken.json"
+    path.write_bytes(content)
+    with pytest.raises(InputError, match=r"broken\.json"):
+        load_element(path)
+
+
+def test_truncation_anywhere_is_noticed(tmp_path, cubic):
+    path = cubic.save(tmp_path / "cut.json")
+    text = path.read_text().rstrip()
+    for length in range(0, len(text), 7):
+        path.write_text(text[:length])
+        with pytest.raises(InputError, match=r"cut\.json"):
+            load_element(path)
+
+
+def test_missing_file_and_wrong_class(tmp_path, linear):
+    with pytest.raises(InputError, match=r"gone\.json"):
+        load_element(tmp_path / "gone.json")
+    with pytest.raises(InputError, match="kind 'cubic'"):
+        CubicContact.load(linear.save(tmp_path / "e.json"))

@@ -1,0 +1,184 @@
+"""Least squares against the paper's normal equations, and what it refuses."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ehlcontact.errors import InputError
+from ehlcontact.scaling import MoesPoint
+from reduced_models import ContactRecord, CubicContact, fit
+
+# Nonato and Cavalca (2010): coefficients, and the root and tangent that design.md computes from them.
+TABLES = [
+    ((1.552, -1.414, 1.093, 0.011), 0.8702, 1.574),
+    ((0.806, 0.346, 0.054, 0.013), 0.8709, 1.532),
+    ((0.747, 0.502, -0.046, 0.015), 0.8703, 1.516),
+    ((0.703, 0.596, -0.097, 0.015), 0.8708, 1.520),
+    ((0.603, 0.815, -0.215, 0.013), 0.8701, 1.533),
+    ((0.413, 1.236, -0.444, 0.011), 0.8684, 1.555),
+    ((0.8674, 0.3823, -0.0185, 0.033), 0.8486, 1.476),
+]
+
+
+def with_noise(record, size=1e-3):
+    noise = size * np.random.default_rng(1).standard_normal(len(record))
+    return replace(record, force=record.force + noise)
+
+
+def test_exact_record_gives_its_coefficients_back(record):
+    result = fit(record)
+    paper = {"K1": 0.806, "K2": 0.346, "K3": 0.054, "C1": 0.013}
+    assert result.parameters == pytest.approx(paper, rel=1e-8)
+    assert result.rms < 1e-10 and abs(result.e_f) < 1e-12 and abs(result.e_acc) < 1e-10
+    assert result.root == pytest.approx(0.8709, abs=1e-4) and result.tangent == pytest.approx(1.532, abs=1e-3)
+    assert result.window == ((1.0, 3.0),)
+    assert result.element.low == record.window(1.0, 3.0).approach.min()
+
+
+@pytest.mark.literature
+@pytest.mark.parametrize(("coefficients", "root", "tangent"), TABLES)
+def test_roots_and_tangents_of_the_published_cubics(coefficients, root, tangent):
+    element = CubicContact(*coefficients, low=0.78, high=0.96)
+    u = element.approach_at(1.0)
+    assert u == pytest.approx(root, abs=2e-4)
+    assert element.stiffness(u, 0.0) == pytest.approx(tangent, abs=6e-3)
+
+
+@pytest.mark.parametrize("model", ["linear", "cubic"])
+def test_qr_agrees_with_the_papers_normal_equations(record, model):
+    noisy = with_noise(record).window(1.0, 3.0)
+    u, v, f = noisy.approach, noisy.rate, noisy.force
+    # eq. 10, and eq. 12 without the rows and columns of C2, C3, B4; order as printed.
+    terms = [u, v] if model == "linear" else [u, v, u**2, u**3]
+    matrix = np.array([[np.sum(a * b) for b in terms] for a in terms])
+    right = np.array([np.sum(f * a) for a in terms])
+    solved = np.linalg.solve(matrix, right)
+    names = ["K1", "C1"] if model == "linear" else ["K1", "C1", "K2", "K3"]
+    result = fit(noisy, model, window=(0.0, 9.0))
+    # The normal matrix has the square of the condition number.
+    np.testing.assert_allclose([result.parameters[name] for name in names], solved, rtol=1e-6)
+
+
+def test_figures_are_what_they_say(record):
+    noisy = with_noise(record)
+    result = fit(noisy)
+    cut = noisy.window(*result.window[0])
+    fitted = result.element.force(cut.approach, cut.rate)
+    assert result.rms == pytest.approx(
+        np.sqrt(np.mean((cut.force - fitted) ** 2)) / np.std(cut.force), rel=1e-9
+    )
+    assert result.e_f == pytest.approx(np.sum(cut.force - fitted) / np.sum(cut.force), abs=1e-12)
+    model = 5.13**2 * (cut.load - fitted)
+    assert result.e_acc == pytest.approx(
+        np.sum(cut.acceleration - model) / np.sum(cut.acceleration), rel=1e-6
+    )
+    A = np.column_stack([cut.approach, cut.approach**2, cut.approach**3, cut.rate])
+    assert result.condition == pytest.approx(np.linalg.cond(A / np.linalg.norm(A, axis=0)), rel=1e-6)
+    variance = np.sum((cut.force - fitted) ** 2) / (len(cut) - 4)
+    np.testing.assert_allclose(result.covariance, variance * np.linalg.inv(A.T @ A), rtol=1e-5)
+    assert result.std_errors["C1"] == pytest.approx(np.sqrt(result.covariance[3, 3]))
+
+
+def test_standard_errors_match_the_scatter_over_many_records(record):
+    def c1(seed):
+        noise = 1e-3 * np.random.default_rng(seed).standard_normal(len(record))
+        return fit(replace(record, force=record.force + noise)).parameters["C1"]
+
+    scatter = np.std([c1(seed) for seed in range(200)])
+    assert fit(with_noise(record)).std_errors["C1"] == pytest.approx(scatter, rel=0.2)
+
+
+def test_several_records_are_fitted_sample_by_sample(record):
+    other = replace(with_noise(record), approach=record.approach + 0.02)
+    both = fit([record, other], window=(0.5, 2.5))
+    u, v, f = (
+        np.concatenate([getattr(r.window(0.5, 2.5), name) for r in (record, other)])
+        for name in ("approach", "rate", "force")
+    )
+    expected = np.linalg.lstsq(np.column_stack([u, u**2, u**3, v]), f)[0]
+    np.testing.assert_allclose([both.parameters[k] for k in ("K1", "K2", "K3", "C1")], expected, rtol=1e-7)
+    assert both.samples == f.size and both.window == ((0.5, 2.5), (0.5, 2.5))
+
+
+def test_records_of_different_contacts_are_refused(record):
+    a, b = (replace(record, point=MoesPoint(M, 10.0, 0.5)) for M in (200.0, 300.0))
+    with pytest.raises(InputError, match=r"records\[1\]\.point"):
+        fit([a, b])
+    with pytest.raises(InputError, match=r"records\[1\]"):
+        fit([a, "b"])
+    with pytest.raises(InputError, match="at least one"):
+        fit([])
+
+
+def test_json_keys_of_the_command_line(record):
+    result = fit(record, "linear")
+    document = json.loads(json.dumps(result.to_dict()))
+    assert {"model", "parameters", "rms", "e_f", "root", "tangent", "valid", "condition"} <= set(document)
+    assert set(document["parameters"]) == {"K1", "C1"} and {"low", "high"} <= set(document["valid"])
+    assert document["window"] == [[1.0, 3.0]]
+
+
+def test_source_says_where_the_data_came_from(record):
+    point = MoesPoint(200.0, 10.0, 0.5)
+    described = replace(record, point=point, n=64, domain=(-4.5, 1.5, 3.0), motion={"kind": "free"})
+    source = fit(described).element.source
+    assert source["point"] == point.to_dict() and source["n"] == 64 and source["motion"] == {"kind": "free"}
+    assert fit([described, replace(described, n=128)]).element.source["n"] == [64, 128]
+
+
+def test_measured_record_in_si(record, scales):
+    s = scales
+    measured = ContactRecord(
+        record.T * s.time, record.approach * s.length, record.rate * s.rate, record.force * s.force,
+        units="SI", static_load=s.force,
+    )  # fmt: skip
+    result, twin = fit(measured), fit(record)
+    si = twin.element.to_si(s)
+    assert result.parameters == pytest.approx(si.parameters, rel=1e-6)
+    assert result.root == pytest.approx(twin.root * s.length, rel=1e-9)
+    assert result.tangent == pytest.approx(twin.tangent * s.stiffness, rel=1e-6)
+    assert result.e_acc is None and result.element.units == "SI"
+    assert fit(replace(measured, static_load=None)).root is None
+
+
+def test_without_inertia_there_is_no_acceleration_error(record):
+    assert fit(replace(record, omega_n=None)).e_acc is None
+
+
+def test_constant_record_names_its_columns(record):
+    still = replace(record, approach=np.full(301, 0.87), rate=np.sin(record.T))
+    with pytest.raises(InputError, match=r"columns .*approach.* varies too little"):
+        fit(still)
+
+
+def test_zero_rate_is_named(record):
+    with pytest.raises(InputError, match="columns rate"):
+        fit(replace(record, rate=np.zeros(301)))
+
+
+def test_constant_force_is_refused(record):
+    with pytest.raises(InputError, match="force"):
+        fit(replace(record, force=np.ones(301)))
+
+
+def test_more_parameters_than_samples(record):
+    with pytest.raises(InputError, match="more than the 4 parameters"):
+        fit(record, window=(1.0, 1.031))
+
+
+@pytest.mark.parametrize("window", [3.0, (1.0,), ("a", "b"), (5.0, 9.0)])
+def test_bad_windows(record, window):
+    with pytest.raises(InputError):
+        fit(record, window=window)
+
+
+def test_unknown_model(record):
+    with pytest.raises(InputError, match="linear, cubic"):
+        fit(record, "quartic")
+
+
+def test_negative_damping_is_refused_not_exported(record):
+    with pytest.raises(InputError, match="C1"):
+        fit(replace(record, rate=-record.rate))

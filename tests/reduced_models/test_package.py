@@ -1,0 +1,29 @@
+"""What the package promises as a whole."""
+
+import ast
+from pathlib import Path
+
+import reduced_models
+
+FOLDER = Path(reduced_models.__file__).parent
+
+
+def test_public_names_are_there_and_the_table_lists_every_module():
+    for name in (
+        "ContactRecord", "fit", "LinearContact", "CubicContact", "load_element",
+        "JeffcottRotor", "simulate_rotor", "compare", "ScaledContact",
+    ):  # fmt: skip
+        assert hasattr(reduced_models, name)
+    modules = {path.stem for path in FOLDER.glob("*.py")} - {"__init__"}
+    listed = {
+        line.split("|")[1].strip() for line in reduced_models.__doc__.splitlines() if line.startswith("| ")
+    }
+    assert modules <= listed
+
+
+def test_only_the_shared_parts_of_ehlcontact_are_used():
+    allowed = {"ehlcontact.errors", "ehlcontact.scaling"}
+    for path in FOLDER.glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(("ehlcontact", "fmu")):
+                assert node.module in allowed, path.name

@@ -1,0 +1,91 @@
+"""Records: what they accept, what they refuse by name, and their windows."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from ehlcontact.errors import InputError
+from ehlcontact.scaling import MoesPoint
+from reduced_models import ContactRecord
+
+
+def plain(**changes):
+    T = np.linspace(0.0, 3.0, 31)
+    return {"T": T, "approach": np.sin(T), "rate": np.cos(T), "force": np.sin(T)} | changes
+
+
+def test_plain_lists_become_read_only_copies():
+    T = [0.0, 1.0, 2.0, 3.0]
+    record = ContactRecord(T, T, T, T)
+    assert record.static_load == 1.0 and len(record) == 4
+    with pytest.raises(ValueError, match="read-only"):
+        record.force[0] = 2.0
+
+
+def test_measured_record_in_si_has_no_static_load_unless_given():
+    assert ContactRecord(**plain(), units="SI").static_load is None
+    assert ContactRecord(**plain(), units="SI", static_load=50.0).static_load == 50.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "field"),
+    [
+        ({"force": np.full(31, np.nan)}, "force[0]"),
+        ({"rate": np.r_[np.zeros(30), np.inf]}, "rate[30]"),
+        ({"approach": np.zeros(30)}, "length of approach"),
+        ({"load": np.zeros(32)}, "length of load"),
+        ({"acceleration": np.zeros((31, 1))}, "shape of acceleration"),
+        ({"T": np.r_[np.linspace(0, 1, 30), 1.0]}, "T[30]"),
+        ({"T": np.zeros(3)}, "length of T"),
+        ({"force": ["a"] * 31}, "force"),
+        ({"force": None}, "force"),
+        ({"omega_n": -1.0}, "omega_n"),
+        ({"omega_n": 1.0, "units": "SI"}, "omega_n"),
+        ({"units": "um"}, "units"),
+        ({"static_load": 0.0}, "static_load"),
+    ],
+)
+def test_bad_histories_are_named(changes, field):
+    with pytest.raises(InputError) as caught:
+        ContactRecord(**plain(**changes))
+    assert caught.value.field == field
+
+
+def test_window_is_closed_and_keeps_everything_else(record):
+    cut = record.window(1.0, 2.0)
+    assert cut.T[0] == pytest.approx(1.0) and cut.T[-1] == pytest.approx(2.0) and len(cut) == 101
+    assert cut.load.size == cut.acceleration.size == 101 and cut.omega_n == record.omega_n
+    assert record.default_window == pytest.approx((1.0, 3.0))
+
+
+@pytest.mark.parametrize("span", [(2.0, 1.0), (np.nan, 1.0), (1.0, 1.01), (8.0, 9.0)])
+def test_useless_windows(record, span):
+    with pytest.raises(InputError):
+        record.window(*span)
+
+
+def simulation(status="converged", domain=(-4.5, 1.5, 3.0)):
+    histories = plain(load=np.ones(31), acceleration=np.zeros(31))
+    return SimpleNamespace(
+        **histories,
+        point=MoesPoint(200.0, 10.0, 0.5),
+        scales=None,
+        n=np.int64(64),
+        domain=domain,
+        motion=SimpleNamespace(to_dict=lambda: {"kind": "free", "omega_n": 5.13}),
+        status=status,
+    )
+
+
+@pytest.mark.parametrize("domain", [(-4.5, 1.5, 3.0), SimpleNamespace(x_in=-4.5, x_out=1.5, y_max=3.0)])
+def test_from_result_takes_what_the_fit_will_need(domain):
+    record = ContactRecord.from_result(simulation(domain=domain))
+    assert record.omega_n == 5.13 and record.domain == (-4.5, 1.5, 3.0) and record.n == 64
+    assert record.motion["kind"] == "free" and record.load is not None
+
+
+def test_from_result_refuses_an_unconverged_run_unless_told():
+    with pytest.raises(InputError, match="accept_unconverged"):
+        ContactRecord.from_result(simulation("diverged"))
+    assert len(ContactRecord.from_result(simulation("diverged"), accept_unconverged=True)) == 31
