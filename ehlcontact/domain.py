@@ -36,7 +36,7 @@ class Domain:
     def for_load(cls, largest_load: float = 1.0) -> Domain:
         """Return the default region, widened with the Hertz ellipse of the largest load to come (static 1)."""
         growth = max(largest_load, 1.0) ** (1.0 / 3.0) - 1.0
-        if growth < 0.05:  # 15 % overload: the margins hold it
+        if growth < 0.08:  # a quarter more load: the margins hold it
             return cls()
         return cls(-4.5 - growth, 1.5 + 3.0 * growth, 3.0 + 2.0 * growth)
 

@@ -18,7 +18,8 @@ from ehlcontact.hertz import elliptic_integrals
 
 Array = NDArray[np.float64]
 
-FFT_WORKERS = 2
+THREADED_FROM = 256  # intervals along X; below, starting threads costs more than it saves
+DENSE_UP_TO = 16  # intervals along X; below, a matrix product is faster than any transform
 
 
 def influence_coefficients(nx: int, ny: int, hx: float, hy: float, kappa: float) -> Array:
@@ -45,16 +46,30 @@ class Deflection:
 
     def __init__(self, nx: int, ny: int, hx: float, hy: float, kappa: float) -> None:
         self.nx, self.ny = nx, ny
-        # Even sequences of period 4 ny and 2 nx: both zero paddings that keep images out of the domain,
-        # because pressure vanishes on the boundary nodes.
         self.kernel = influence_coefficients(nx + 1, 2 * ny + 1, hx, hy, kappa)
-        self._spectrum = fft.dctn(self.kernel, type=1) / (4 * ny)
+        self._workers = 2 if nx >= THREADED_FROM else 1
+        if nx <= DENSE_UP_TO:
+            self._matrix = self._dense()
+        else:
+            # Even sequences of period 4 ny and 2 nx: zero padding that keeps images out of the domain,
+            # because pressure vanishes on the border nodes.
+            self._spectrum = fft.dctn(self.kernel, type=1) / (4 * ny)
 
     def __call__(self, P: Array) -> Array:
-        """Deflection of the pressure `P`, shape (ny + 1, nx + 1), zero on the outer boundary nodes."""
+        """Deflection of the pressure `P`, shape (ny + 1, nx + 1), zero on the outer border nodes."""
         nx, ny = self.nx, self.ny
-        spectrum = fft.rfft(fft.dct(P, 1, 2 * ny + 1, axis=0, workers=FFT_WORKERS), 2 * nx, axis=1,
-                            workers=FFT_WORKERS, overwrite_x=True)
+        if nx <= DENSE_UP_TO:
+            return (self._matrix @ P.ravel()).reshape(P.shape)
+        rows = fft.dct(P, 1, 2 * ny + 1, axis=0, workers=self._workers)
+        spectrum = fft.rfft(rows, 2 * nx, axis=1, workers=self._workers)
         spectrum *= self._spectrum
-        rows = fft.irfft(spectrum, 2 * nx, axis=1, workers=FFT_WORKERS, overwrite_x=True)[:, : nx + 1]
-        return np.ascontiguousarray(fft.dct(rows, 1, axis=0, workers=FFT_WORKERS)[: ny + 1])
+        rows = fft.irfft(spectrum, 2 * nx, axis=1, workers=self._workers, overwrite_x=True)[:, : nx + 1]
+        return fft.dct(rows, 1, axis=0, workers=self._workers)[: ny + 1]
+
+    def _dense(self) -> Array:
+        """Influence of every node on every node, images at Y < 0 included."""
+        j, i = (index.ravel() for index in np.indices((self.ny + 1, self.nx + 1)))
+        lag = np.abs(i[:, None] - i[None, :])
+        matrix = self.kernel[np.abs(j[:, None] - j[None, :]), lag]
+        image = self.kernel[np.minimum(j[:, None] + j[None, :], 2 * self.ny), lag]
+        return matrix + np.where(j[None, :] > 0, image, 0.0)

@@ -64,7 +64,7 @@ class Multigrid:
     def _cycle(self, k: int, u: float, balance: Balance) -> float:
         fine = self.levels[k]
         if k == 0:
-            return self._newton.solve(u, balance, max_steps=1, tol=1e-13)
+            return self._newton.correct(u, balance)
         for _ in range(PRE_SWEEPS):
             fine.relax(u)
         coarse = self.levels[k - 1]

@@ -17,6 +17,8 @@ from ehlcontact.grid import Array, Level
 
 LARGEST_STEP = 0.3  # of any pressure or of u, in one iteration
 SMALLEST_DAMPING = 2.0**-6
+CORRECTION_STEPS = 2  # of the coarsest grid in one cycle
+CORRECTION_DROP = 1e-2  # of its residual, enough for one cycle
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,17 +52,13 @@ class CoarseNewton:
         self._number = np.empty(level.P.size, dtype=np.int64)
 
     def solve(self, u: float, balance: Balance, max_steps: int, tol: float) -> float:
-        """Iterate to ``merit <= tol`` or `max_steps`; P and H of the level written, returns u."""
+        """Damped iterations from any start to ``merit <= tol`` or `max_steps`; P, H written, returns u."""
         level = self.level
         merit, free = self._evaluate(u, balance)
         for _ in range(max_steps):
             if not merit > tol:  # also stops on NaN, for the driver to judge
                 break
-            dP, du = self._direction(free, balance, balance.residual(u, level.force()))
-            largest = max(float(np.abs(dP).max(initial=0.0)), abs(du))
-            if not np.isfinite(largest):
-                break
-            damping = min(1.0, LARGEST_STEP / largest) if largest > 0.0 else 1.0
+            dP, du, damping = self._direction(free, balance, u)
             start = level.P.copy()
             while True:
                 level.P[...] = np.maximum(start + damping * dP, 0.0)
@@ -69,6 +67,24 @@ class CoarseNewton:
                     break
                 damping *= 0.5
             u, merit = u + damping * du, trial
+        return u
+
+    def correct(self, u: float, balance: Balance) -> float:
+        """Few undamped steps near a solution; P and H written, returns u.
+
+        No line search here: nodes that come under pressure add their residuals to the merit in the very step
+        that brings the balance about, so it would refuse good steps.
+        """
+        level = self.level
+        merit, free = self._evaluate(u, balance)
+        target = CORRECTION_DROP * merit
+        for _ in range(CORRECTION_STEPS):
+            if not merit > max(target, 1e-14):
+                break
+            dP, du, damping = self._direction(free, balance, u)
+            level.P[...] = np.maximum(level.P + damping * dP, 0.0)
+            u += damping * du
+            merit, free = self._evaluate(u, balance)
         return u
 
     def _evaluate(self, u: float, balance: Balance) -> tuple[float, Array]:
@@ -80,7 +96,8 @@ class CoarseNewton:
         rms = float(np.sqrt(np.mean(r.ravel()[free] ** 2))) if free.size else 0.0
         return rms + 3.0 * abs(balance.residual(u, level.force())), free
 
-    def _direction(self, free: Array, balance: Balance, off_balance: float) -> tuple[Array, float]:
+    def _direction(self, free: Array, balance: Balance, u: float) -> tuple[Array, float, float]:
+        """Newton direction in P and u, and the step length that keeps it within LARGEST_STEP."""
         level, f = self.level, self.level.fields
         m = free.size
         J = self._J[: m + 1, : m + 1]
@@ -88,11 +105,12 @@ class CoarseNewton:
         dense_jacobian(free, f.p_coef, f.h_coef, level.deflection.kernel, self._number, J)
         J[m, :m] = balance.weight * level.force_weights.ravel()[free]
         J[m, m] = balance.stiffness
-        rhs = np.append(level.r.ravel()[free], off_balance)
+        rhs = np.append(level.r.ravel()[free], balance.residual(u, level.force()))
         try:
             solution = linalg.solve(J, rhs, overwrite_a=True, overwrite_b=True, check_finite=False)
         except linalg.LinAlgError:
-            return np.full_like(f.P, np.nan), np.nan
+            return np.full_like(f.P, np.nan), np.nan, 1.0
         dP = np.zeros_like(f.P)
         dP.ravel()[free] = solution[:m]
-        return dP, float(solution[m])
+        largest = float(np.abs(solution).max())
+        return dP, float(solution[m]), LARGEST_STEP / max(largest, LARGEST_STEP)

@@ -53,7 +53,7 @@ def simulate(
     domain: Domain | None = None,
     until: float | None = None,
     dT: float | None = None,
-    tol: float = 2e-5,
+    tol: float = 1e-4,
     snapshots: Sequence[float] = (),
     throw: bool = True,
     callback: Callable[[float, float], None] | None = None,
@@ -72,7 +72,7 @@ def simulate(
         End and (fixed) step of dimensionless time; the motion's own defaults otherwise. The step is shortened
         to divide `until` evenly.
     tol : float
-        Residual at which a step counts as solved, relative to the dry Hertz start.
+        Residual at which a step counts as solved, relative to the central film at rest.
     snapshots : sequence of float
         Times whose whole fields are kept.
     throw : bool
@@ -127,7 +127,7 @@ def _start(film: TransientFilm, motion: Motion, history: _History) -> tuple[floa
         if motion.offset != 0.0:
             u = static + motion.offset
             step = film.start_steady(Balance(1.0, 0.0, u), u)
-        rate = motion.rate
+        rate = motion.initial_rate
     elif step.status.ok and motion.load(0.0) != 1.0:
         step = film.start_steady(Balance(0.0, 1.0, motion.load(0.0)), static)
     force = film.level.force()

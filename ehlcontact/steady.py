@@ -28,7 +28,7 @@ def solve_steady(
     n: int = 128,
     domain: Domain | None = None,
     approach: float | None = None,
-    tol: float = 1e-5,
+    tol: float = 3e-5,
     max_cycles: int = 40,
     throw: bool = True,
     callback: Callable[[int, float], None] | None = None,

@@ -17,7 +17,7 @@ from ehlcontact.multigrid import Multigrid
 from ehlcontact.newton import Balance
 from ehlcontact.scaling import MoesPoint
 from ehlcontact.status import Status, classify
-from ehlcontact.steady import dry_residual, touches_border
+from ehlcontact.steady import central_film, touches_border
 
 STEP_CYCLES = 25
 LARGEST_EXTRAPOLATION = 2.0  # step ratio up to which the last change of pressure predicts the next
@@ -39,7 +39,7 @@ class FilmState:
 class Step:
     """Outcome of one time step."""
 
-    residual: float  # relative to the dry Hertz start
+    residual: float  # mean |residual| over P > 0, relative to the central film at rest
     load_residual: float
     cycles: int
     status: Status
@@ -55,13 +55,14 @@ class TransientFilm:
     n : int
         Intervals along X.
     tol : float
-        Relative residual at which a step counts as solved.
+        Residual at which a step counts as solved, relative to the central film at rest: the size of the
+        transport term d(rho H)/dX.
     """
 
     def __init__(self, point: MoesPoint, domain: Domain, n: int, tol: float) -> None:
         self.multigrid = Multigrid(point, domain, n)
         self.tol = tol
-        self.scale = dry_residual(self.level)
+        self.scale = 1.0
         self._P_before = self.level.P.copy()
         self._mass = self.level.P.copy()
         self._mass_before = self._mass.copy()
@@ -84,6 +85,8 @@ class TransientFilm:
         if u is not None:
             mg.u = u
         mg.full_multigrid(balance)
+        self.level.update_film(mg.u)
+        self.scale = central_film(self.level)
         step = self._solve(balance, 2 * STEP_CYCLES)
         self._remember_rest()
         return step
@@ -97,7 +100,8 @@ class TransientFilm:
     def advance(self, dT: float, balance: Balance, u_guess: float) -> Step:
         """One step of length dT, closed by `balance`; the state moves to the end of the step."""
         level, mg = self.level, self.multigrid
-        ratio = dT / self._dT if self._dT > 0.0 else 1.0
+        # From rest the past is not smooth: the first step is backward Euler, as the limit ratio = 0 makes it.
+        ratio = dT / self._dT if self._dT > 0.0 else 0.0
         mg.set_time_coefficient((1.0 + 2.0 * ratio) / (1.0 + ratio) / dT)
         np.multiply(self._mass_before, ratio * ratio / (1.0 + ratio) / dT, out=level.rhs)
         level.rhs -= self._mass * ((1.0 + ratio) / dT)

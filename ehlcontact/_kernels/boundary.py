@@ -11,7 +11,8 @@ from ehlcontact._kernels.reynolds import operator_at
 
 PASSES = 4
 REACH = 3  # nodes on either side of the boundary
-DOMINANCE = 3.0  # flow term over transport term
+DOMINANCE = 3.0  # flow term over wedge term
+SQUEEZE_DOMINANCE = 10.0  # flow term over squeeze term
 
 
 @jit
@@ -37,8 +38,8 @@ def relax_boundary(P, eps, mass, rhs, mesh, c_t, self_deflection, nodes):
             e = eps[j, i]
             flow = mesh.cx * (2.0 * e + eps[j, i - 1] + eps[j, i + 1])
             flow += mesh.cy * (2.0 * e + eps[js, i] + eps[j + 1, i])
-            transport = (1.5 * mesh.inv_hx + c_t) * self_deflection
-            if 0.5 * flow > DOMINANCE * transport and near_boundary(j, i, P):
+            transport = DOMINANCE * 1.5 * mesh.inv_hx + SQUEEZE_DOMINANCE * c_t
+            if 0.5 * flow > transport * self_deflection and near_boundary(j, i, P):
                 nodes[count] = j * width + i
                 count += 1
     for sweep in range(PASSES):

@@ -15,7 +15,8 @@ from ehlcontact._kernels.reynolds import operator_at, update_flow
 BAND_LOWER, BAND_UPPER = 4, 3  # WW neighbour with two near coefficients upstream; E with two downstream
 NEAR = 2  # near influence coefficients kept on either side
 SHARE = 0.25  # part of a distributed change that each neighbour takes back
-SWITCH = 0.3  # eps/h^2 at which theta = 1/2 (Venner and Lubrecht's switch value)
+SWITCH = 1.0  # eps/h^2 at which theta = 1/2 in steady flow (Venner and Lubrecht's hard switch: 0.3)
+SQUEEZE = 10.0  # how much more the squeeze term raises it than the wedge term
 LARGEST_CHANGE = 0.15  # of P in one sweep; far from the solution the linear model overshoots
 
 
@@ -23,9 +24,10 @@ LARGEST_CHANGE = 0.15  # of P in one sweep; far from the solution the linear mod
 def distribution_weights(P, eps, mesh, c_t, theta):
     """Weight theta of the distributed change at every interior node; 0 where P = 0. `theta` written.
 
-    The squeeze term adds to transport as the wedge term does, so it raises the switch value with it.
+    The squeeze term, unlike the wedge term, does not vanish for smooth changes. Plain changes of P, whose
+    smooth part deflects the film far beyond the near coefficients, are then safe only at larger eps.
     """
-    switch = SWITCH * (1.0 + c_t / (1.5 * mesh.inv_hx))
+    switch = SWITCH * (1.0 + SQUEEZE * c_t / (1.5 * mesh.inv_hx))
     for j in range(P.shape[0] - 1):
         js = j - 1 if j > 0 else 1
         for i in range(1, P.shape[1] - 1):

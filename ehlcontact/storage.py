@@ -1,0 +1,109 @@
+"""Results in HDF5: arrays as datasets, everything else as JSON attributes; written atomically."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from dataclasses import asdict, fields
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from ehlcontact.domain import Domain
+from ehlcontact.errors import InputError
+from ehlcontact.motion import Motion, motion_from_dict
+from ehlcontact.results import SimulationResult, SteadyResult
+from ehlcontact.scaling import MoesPoint, Scales
+from ehlcontact.status import Status
+
+FORMAT = 1
+Result = SteadyResult | SimulationResult
+_CLASSES: dict[str, type[Result]] = {cls.__name__: cls for cls in (SteadyResult, SimulationResult)}
+
+
+def save(result: Result, path: str | os.PathLike[str]) -> Path:
+    """Write a result; an existing file is replaced in one step, or kept if anything fails.
+
+    Raises
+    ------
+    InputError
+        The folder does not exist or cannot be written to.
+    """
+    target = Path(path)
+    try:
+        handle, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+        os.close(handle)
+    except OSError as error:
+        raise InputError("save", str(target), f"in a folder that can be written to ({error.strerror})") from None
+    try:
+        with h5py.File(name, "w") as file:
+            file.attrs["format"] = FORMAT
+            file.attrs["class"] = type(result).__name__
+            for f in fields(result):
+                value = getattr(result, f.name)
+                if isinstance(value, np.ndarray):
+                    file.create_dataset(f.name, data=value, compression="gzip" if value.ndim > 1 and value.size else None)
+                else:
+                    file.attrs[f.name] = json.dumps(_plain(value))
+        os.replace(name, target)
+    except OSError as error:
+        raise InputError("save", str(target), f"a file that can be written ({error.strerror})") from None
+    finally:
+        Path(name).unlink(missing_ok=True)
+    return target
+
+
+def load(path: str | os.PathLike[str]) -> Result:
+    """Read a result written by `save`.
+
+    Raises
+    ------
+    InputError
+        No such file, not HDF5, truncated, not one of ours, or written by a newer version.
+    """
+    source = Path(path)
+    if not source.is_file():
+        raise InputError("file", str(source), "an existing HDF5 result")
+    try:
+        with h5py.File(source, "r") as file:
+            name = file.attrs.get("class")
+            if name not in _CLASSES:
+                raise InputError("file", str(source), "a result of this library (steady or simulation)")
+            if int(file.attrs["format"]) > FORMAT:
+                raise InputError("file", str(source), f"of format {FORMAT} or older; upgrade to read it")
+            cls = _CLASSES[name]
+            values = {
+                f.name: file[f.name][...] if f.name in file else _rebuild(f.name, json.loads(file.attrs[f.name]))
+                for f in fields(cls)
+            }
+    except (OSError, KeyError, ValueError, TypeError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError("file", str(source), "a complete HDF5 result of this library") from None
+    return cls(**values)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, MoesPoint | Scales | Domain):
+        return asdict(value)
+    if isinstance(value, Motion):
+        return value.to_dict()
+    return value
+
+
+def _rebuild(name: str, value: Any) -> Any:
+    match name:
+        case "point":
+            return MoesPoint(**value)
+        case "scales":
+            return None if value is None else Scales(**value)
+        case "domain":
+            return Domain(**value)
+        case "motion":
+            return motion_from_dict(value)
+        case "status":
+            return Status(value)
+    return value
