@@ -38,7 +38,13 @@ class FullContact:
     """
 
     def __init__(
-        self, point: Point, *, n: int = 64, domain: Domain | None = None, largest_load: float = 1.0, tol: float = 1e-4
+        self,
+        point: Point,
+        *,
+        n: int = 64,
+        domain: Domain | None = None,
+        largest_load: float = 1.0,
+        tol: float = 1e-4,
     ) -> None:
         domain = domain or Domain.for_load(require_positive("largest_load", largest_load))
         self.point, self.n, self.domain = moes_point(point), check_intervals(n), domain

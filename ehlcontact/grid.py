@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact._kernels import boundary, relax, reynolds
+from ehlcontact._kernels.linearise import NEIGHBOURS
 from ehlcontact.domain import Domain
 from ehlcontact.elastic import Deflection
 from ehlcontact.hertz import shape_factor
@@ -53,11 +54,16 @@ class Level:
         self.near, self.spread = _near_coefficients(self.deflection.kernel)
         shape = (ny + 1, nx + 1)
         self.fields = Fields(
-            *(np.zeros(shape) for _ in range(6)),
-            np.zeros((6, *shape)),
-            np.zeros((6, *shape)),
-            np.zeros((nx - 1, relax.BAND_LOWER + relax.BAND_UPPER + 1)),
-            np.zeros(nx - 1),
+            P=np.zeros(shape),
+            H=np.zeros(shape),
+            eps=np.zeros(shape),
+            mass=np.zeros(shape),
+            theta=np.zeros(shape),
+            w=np.zeros(shape),
+            p_coef=np.zeros((NEIGHBOURS, *shape)),
+            h_coef=np.zeros((NEIGHBOURS, *shape)),
+            band=np.zeros((nx - 1, relax.BAND_LOWER + relax.BAND_UPPER + 1)),
+            b=np.zeros(nx - 1),
         )
         self.rhs = np.zeros(shape)
         self.film_rhs: Array | float = 0.0

@@ -15,7 +15,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.errors import InputError, require_finite, require_nonnegative, require_positive
+from ehlcontact.errors import InputError, require_finite, require_positive
 
 SMALL_VIBRATION = 1.5**0.5  # dry angular frequency over Omega_n
 STEPS_PER_PERIOD = 80
@@ -103,7 +103,9 @@ class HarmonicLoad:
     def __post_init__(self) -> None:
         require_positive("omega", self.omega)
         if not 0.0 < require_positive("amplitude", self.amplitude) < 1.0:
-            raise InputError("amplitude", self.amplitude, "above 0 and below 1 (the contact must stay loaded)")
+            raise InputError(
+                "amplitude", self.amplitude, "above 0 and below 1 (the contact must stay loaded)"
+            )
         if self.omega_n is not None:
             require_positive("omega_n", self.omega_n)
 
@@ -284,7 +286,9 @@ class PrescribedApproach:
 
 Motion = FreeVibration | HarmonicLoad | RampLoad | PrescribedLoad | PrescribedApproach
 
-_KINDS = {cls.kind: cls for cls in (FreeVibration, HarmonicLoad, RampLoad, PrescribedLoad, PrescribedApproach)}
+_KINDS = {
+    cls.kind: cls for cls in (FreeVibration, HarmonicLoad, RampLoad, PrescribedLoad, PrescribedApproach)
+}
 
 
 def motion_from_dict(data: dict[str, Any]) -> Motion:
@@ -293,4 +297,4 @@ def motion_from_dict(data: dict[str, Any]) -> Motion:
     kind = arguments.pop("kind", None)
     if kind not in _KINDS:
         raise InputError("motion.kind", kind, "one of " + ", ".join(_KINDS))
-    return _KINDS[kind](**arguments)  # type: ignore[return-value]
+    return _KINDS[kind](**arguments)

@@ -10,10 +10,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import linalg
 
 from ehlcontact._kernels.linearise import dense_jacobian, linearise
 from ehlcontact.grid import Array, Level
+
+Nodes = NDArray[np.intp]
 
 LARGEST_STEP = 0.3  # of any pressure or of u, in one iteration
 SMALLEST_DAMPING = 2.0**-6
@@ -87,7 +90,7 @@ class CoarseNewton:
             merit, free = self._evaluate(u, balance)
         return u
 
-    def _evaluate(self, u: float, balance: Balance) -> tuple[float, Array]:
+    def _evaluate(self, u: float, balance: Balance) -> tuple[float, Nodes]:
         """Merit (rms residual over free nodes and balance residual) and the flat numbers of free nodes."""
         level = self.level
         level.update_film(u)
@@ -96,7 +99,7 @@ class CoarseNewton:
         rms = float(np.sqrt(np.mean(r.ravel()[free] ** 2))) if free.size else 0.0
         return rms + 3.0 * abs(balance.residual(u, level.force())), free
 
-    def _direction(self, free: Array, balance: Balance, u: float) -> tuple[Array, float, float]:
+    def _direction(self, free: Nodes, balance: Balance, u: float) -> tuple[Array, float, float]:
         """Newton direction in P and u, and the step length that keeps it within LARGEST_STEP."""
         level, f = self.level, self.level.fields
         m = free.size

@@ -33,7 +33,9 @@ class _History:
         self.wanted = sorted(snapshots)
         self.snapshots: list[tuple[float, Array, Array]] = []
 
-    def record(self, film: TransientFilm, step: Step, T: float, motion: tuple[float, ...], load: float) -> None:
+    def record(
+        self, film: TransientFilm, step: Step, T: float, motion: tuple[float, ...], load: float
+    ) -> None:
         level = film.level
         films = (level.force(), load, central_film(level), float(level.H.min()))
         self.rows.append((T, film.u, *motion, *films))
@@ -119,15 +121,16 @@ def _start(film: TransientFilm, motion: Motion, history: _History) -> tuple[floa
     step = film.start_steady(Balance(0.0, 1.0, 1.0))
     static = film.u
     rate = 0.0
-    if step.status.ok and isinstance(motion, PrescribedApproach):
-        u = motion.approach(0.0)
-        step = film.start_steady(Balance(1.0, 0.0, u), u)
+    if isinstance(motion, PrescribedApproach):
         rate = motion.rate(0.0)
-    elif step.status.ok and isinstance(motion, FreeVibration):
-        if motion.offset != 0.0:
+        if step.status.ok:
+            u = motion.approach(0.0)
+            step = film.start_steady(Balance(1.0, 0.0, u), u)
+    elif isinstance(motion, FreeVibration):
+        rate = motion.initial_rate
+        if step.status.ok and motion.offset != 0.0:
             u = static + motion.offset
             step = film.start_steady(Balance(1.0, 0.0, u), u)
-        rate = motion.initial_rate
     elif step.status.ok and motion.load(0.0) != 1.0:
         step = film.start_steady(Balance(0.0, 1.0, motion.load(0.0)), static)
     force = film.level.force()

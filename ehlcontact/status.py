@@ -44,7 +44,9 @@ STAGNATION_FACTOR = 0.7
 DIVERGENCE_FACTOR = 1e3
 
 
-def classify(residuals: Sequence[float], scale: float, tol: float, settled: bool, max_cycles: int) -> Status | None:
+def classify(
+    residuals: Sequence[float], scale: float, tol: float, settled: bool, max_cycles: int
+) -> Status | None:
     """Status of an iteration, or None to go on.
 
     Parameters

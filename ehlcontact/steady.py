@@ -73,14 +73,18 @@ def solve_steady(
     level = multigrid.finest
     scale = dry_residual(level)
     multigrid.full_multigrid(balance)
-    residuals, load_residuals, changes = [], [], []
+    residuals: list[float] = []
+    load_residuals: list[float] = []
+    changes: list[float] = []
     status = None
     while status is None:
         level.update_film(multigrid.u)
         level.update_residual()
         residuals.append(level.residual_norm())
         load_residuals.append(balance.residual(multigrid.u, level.force()))
-        settled = bool(changes) and changes[-1] < APPROACH_TOLERANCE and abs(load_residuals[-1]) < LOAD_TOLERANCE
+        settled = (
+            bool(changes) and changes[-1] < APPROACH_TOLERANCE and abs(load_residuals[-1]) < LOAD_TOLERANCE
+        )
         status = classify(residuals, scale, tol, settled, max_cycles)
         if status is None:
             previous = multigrid.u

@@ -69,7 +69,7 @@ def linearise(P, H, eps, law, mesh, c_t, frozen_flow, p_coef, h_coef):
 
 @jit
 def log_flow_slope(P, law):
-    """d ln(eps)/dP at fixed H."""
+    """D ln(eps)/dP at fixed H."""
     return density_slope(P, law) / density(P, law) - log_viscosity_slope(P, law)
 
 
