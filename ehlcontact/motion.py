@@ -103,9 +103,7 @@ class HarmonicLoad:
     def __post_init__(self) -> None:
         require_positive("omega", self.omega)
         if not 0.0 < require_positive("amplitude", self.amplitude) < 1.0:
-            raise InputError(
-                "amplitude", self.amplitude, "above 0 and below 1 (the contact must stay loaded)"
-            )
+            raise InputError("amplitude", self.amplitude, "above 0 and below 1 (the contact must stay loaded)")
         if self.omega_n is not None:
             require_positive("omega_n", self.omega_n)
 
@@ -286,9 +284,7 @@ class PrescribedApproach:
 
 Motion = FreeVibration | HarmonicLoad | RampLoad | PrescribedLoad | PrescribedApproach
 
-_KINDS = {
-    cls.kind: cls for cls in (FreeVibration, HarmonicLoad, RampLoad, PrescribedLoad, PrescribedApproach)
-}
+_KINDS = {cls.kind: cls for cls in (FreeVibration, HarmonicLoad, RampLoad, PrescribedLoad, PrescribedApproach)}
 
 
 def motion_from_dict(data: dict[str, Any]) -> Motion:

@@ -138,9 +138,7 @@ class Geometry:
         if dm <= D:
             raise InputError("pitch_diameter", dm, f"above ball_diameter = {D!r}")
         if not 0.5 < require_positive("conformity", conformity) <= 10.0:
-            raise InputError(
-                "conformity", conformity, "above 0.5 (a tighter groove pinches the ball) and <= 10"
-            )
+            raise InputError("conformity", conformity, "above 0.5 (a tighter groove pinches the ball) and <= 10")
         if race not in ("inner", "outer"):
             raise InputError("race", race, "one of inner, outer")
         along = 2.0 / D + 2.0 / (dm - D) if race == "inner" else 2.0 / D - 2.0 / (dm + D)

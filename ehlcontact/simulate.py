@@ -33,9 +33,7 @@ class _History:
         self.wanted = sorted(snapshots)
         self.snapshots: list[tuple[float, Array, Array]] = []
 
-    def record(
-        self, film: TransientFilm, step: Step, T: float, motion: tuple[float, ...], load: float
-    ) -> None:
+    def record(self, film: TransientFilm, step: Step, T: float, motion: tuple[float, ...], load: float) -> None:
         level = film.level
         films = (level.force(), load, central_film(level), float(level.H.min()))
         self.rows.append((T, film.u, *motion, *films))

@@ -82,9 +82,7 @@ def solve_steady(
         level.update_residual()
         residuals.append(level.residual_norm())
         load_residuals.append(balance.residual(multigrid.u, level.force()))
-        settled = (
-            bool(changes) and changes[-1] < APPROACH_TOLERANCE and abs(load_residuals[-1]) < LOAD_TOLERANCE
-        )
+        settled = bool(changes) and changes[-1] < APPROACH_TOLERANCE and abs(load_residuals[-1]) < LOAD_TOLERANCE
         status = classify(residuals, scale, tol, settled, max_cycles)
         if status is None:
             previous = multigrid.u

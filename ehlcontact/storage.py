@@ -37,9 +37,7 @@ def save(result: Result, path: str | os.PathLike[str]) -> Path:
         handle, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
         os.close(handle)
     except OSError as error:
-        raise InputError(
-            "save", str(target), f"in a folder that can be written to ({error.strerror})"
-        ) from None
+        raise InputError("save", str(target), f"in a folder that can be written to ({error.strerror})") from None
     try:
         with h5py.File(name, "w") as file:
             file.attrs["format"] = FORMAT
@@ -80,9 +78,7 @@ def load(path: str | os.PathLike[str]) -> Result:
                 raise InputError("file", str(source), f"of format {FORMAT} or older; upgrade to read it")
             cls = _CLASSES[name]
             values = {
-                f.name: file[f.name][...]
-                if f.name in file
-                else _rebuild(f.name, json.loads(file.attrs[f.name]))
+                f.name: file[f.name][...] if f.name in file else _rebuild(f.name, json.loads(file.attrs[f.name]))
                 for f in fields(cls)
             }
     except (OSError, KeyError, ValueError, TypeError) as error:

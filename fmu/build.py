@@ -72,9 +72,7 @@ def binary_folder() -> str:
         A platform that FMUs are not built for yet.
     """
     if (platform.system(), platform.machine()) != ("Linux", "x86_64"):
-        raise BuildError(
-            f"FMUs are built on Linux x86_64 only, not on {platform.system()} {platform.machine()}"
-        )
+        raise BuildError(f"FMUs are built on Linux x86_64 only, not on {platform.system()} {platform.machine()}")
     return "linux64"
 
 

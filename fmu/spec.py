@@ -134,9 +134,7 @@ def _contact_variables(element: Element) -> tuple[Variable, ...]:
 
     def parameter(reference: int, name: str, si: str, text: str, minimum: float | None = None) -> Variable:
         start = float(values[name])
-        return Variable(
-            name, reference, "parameter", "tunable", text, unit=unit(si), start=start, minimum=minimum
-        )
+        return Variable(name, reference, "parameter", "tunable", text, unit=unit(si), start=start, minimum=minimum)
 
     def entry(reference: int, name: str, si: str, start: float, text: str) -> Variable:
         return Variable(name, reference, "input", "continuous", text, unit=unit(si), start=start)

@@ -85,15 +85,11 @@ def read_document(path: str | os.PathLike[str]) -> dict[str, Any]:
             raise InputError(name, f"{key} {document.get(key)!r}", f"a file with an object {key!r}")
     for key in ("fit", "source"):
         if not isinstance(document.get(key, {}), dict | None):
-            raise InputError(
-                name, f"{key} {document.get(key)!r}", f"a file whose {key!r} is an object or null"
-            )
+            raise InputError(name, f"{key} {document.get(key)!r}", f"a file whose {key!r} is an object or null")
     return document
 
 
-def numbers(
-    name: str, section: str, entries: Mapping[str, Any], required: tuple[str, ...]
-) -> dict[str, float]:
+def numbers(name: str, section: str, entries: Mapping[str, Any], required: tuple[str, ...]) -> dict[str, float]:
     """Return the `required` entries of a section as floats.
 
     Raises

@@ -48,9 +48,7 @@ def static_equilibrium(rotor: JeffcottRotor, contacts: Sequence[Any]) -> RotorSt
     if len(contacts) != len(rotor.mounts):
         raise InputError("contacts", len(contacts), f"one per mount, {len(rotor.mounts)}")
     if not all(has_tangents(contact) for contact in contacts):
-        raise InputError(
-            "contacts", "with memory", "without memory, or start from rotor.state_at(approaches)"
-        )
+        raise InputError("contacts", "with memory", "without memory, or start from rotor.state_at(approaches)")
     load, normals, offsets = rotor.static_load, rotor.normals, rotor.offsets
     size = float(np.linalg.norm(load))
     if size == 0.0:

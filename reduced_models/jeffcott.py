@@ -225,9 +225,7 @@ class JeffcottRotor:
         position: _Floats = lstsq(self.normals, wanted - self.offsets)[0]
         miss = float(np.abs(self.normals @ position + self.offsets - wanted).max())
         if miss > 1e-9 * float(np.abs(wanted).max()):
-            raise InputError(
-                "approaches", approaches, f"reachable by one journal position (off by {miss:.3g} m)"
-            )
+            raise InputError("approaches", approaches, f"reachable by one journal position (off by {miss:.3g} m)")
         return self.rest_state(position)
 
     def rest_state(self, position: _Floats) -> RotorState:
@@ -247,9 +245,7 @@ class JeffcottRotor:
         """
         normals = self.normals
         if np.linalg.matrix_rank(normals) < len(self.mounts):
-            raise InputError(
-                "mounts", len(self.mounts), "no more independent contacts than moving directions"
-            )
+            raise InputError("mounts", len(self.mounts), "no more independent contacts than moving directions")
         forces: _Floats = lstsq(self.bearings * normals.T, self.static_load)[0]
         carried = self.bearings * normals.T @ forces
         if np.any(forces <= 0.0) or not np.allclose(carried, self.static_load, rtol=1e-9, atol=1e-9):

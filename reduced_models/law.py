@@ -67,9 +67,7 @@ class Law(NamedTuple):
             return self.o_low + (force / self.A_low) ** (2.0 / 3.0)
         if force >= spring(self.high, self)[0]:
             return self.o_high + (force / self.A_high) ** (2.0 / 3.0)
-        return float(
-            brentq(lambda u: spring(u, self)[0] - force, self.low, self.high, xtol=1e-300, rtol=1e-14)
-        )
+        return float(brentq(lambda u: spring(u, self)[0] - force, self.low, self.high, xtol=1e-300, rtol=1e-14))
 
 
 @njit(cache=True)

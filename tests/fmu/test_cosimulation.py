@@ -68,9 +68,7 @@ def test_tunable_parameters_between_steps(slave, elements):
         for u in np.linspace(-0.5, 2.0, 41).tolist():
             for v in (-20.0, -1.0, 0.0, 2.0):
                 assert unit.force(u, v) == pytest.approx(element.force(u, v), rel=1e-12, abs=1e-15)
-                assert unit.get("stiffness")[0] == pytest.approx(
-                    element.stiffness(u, v), rel=1e-12, abs=1e-12
-                )
+                assert unit.get("stiffness")[0] == pytest.approx(element.stiffness(u, v), rel=1e-12, abs=1e-12)
                 assert unit.outside() is not element.is_valid(u)
 
 
@@ -116,9 +114,7 @@ def test_directional_derivatives_against_differences(slave, elements, kind):
             for known, h in steps.items():
                 ends = []
                 for sign in (1.0, -1.0):
-                    shifted = {"approach": u, "rate": v} | {
-                        known: (u if known == "approach" else v) + sign * h
-                    }
+                    shifted = {"approach": u, "rate": v} | {known: (u if known == "approach" else v) + sign * h}
                     unit.set(**shifted)
                     unit.step()
                     ends.append(np.array(unit.get("force", "stiffness", "damping")))

@@ -34,9 +34,7 @@ def test_archive_layout(fmus):
     assert names == sorted(names)
     assert "binaries/linux64/CubicContact.so" in names
     assert {"documentation/licenses/license.txt", "documentation/licenses/fmi2-headers.txt"} <= set(names)
-    assert {f"sources/{f}" for f in ("config.h", "fmi2.c", "model_contact.c", "fmi2Functions.h")} <= set(
-        names
-    )
+    assert {f"sources/{f}" for f in ("config.h", "fmi2.c", "model_contact.c", "fmi2Functions.h")} <= set(names)
     assert "outside_validity" in page
     assert "ziglang cc" in page or "cc -std=c99" in page
 

@@ -37,9 +37,7 @@ def sources(extracted, kind) -> tuple[list[str], Path]:
 
 
 def run(line, **options):
-    return subprocess.run(
-        [str(part) for part in line], capture_output=True, text=True, timeout=120, **options
-    )
+    return subprocess.run([str(part) for part in line], capture_output=True, text=True, timeout=120, **options)
 
 
 def test_sources_are_clean_under_strict_warnings(compiler, sources, tmp_path):

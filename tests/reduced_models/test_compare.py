@@ -35,9 +35,7 @@ def test_figures_follow_their_definitions(run):
     assert result.force == pytest.approx(3.0 / signal.amplitude)
     assert signal.rms_over_std == pytest.approx(3.0 / np.std(force))
     journal = run.journal[kept, 1]
-    assert result.displacement == pytest.approx(
-        np.sqrt(np.mean((0.01 * journal) ** 2)) / (np.ptp(journal) / 2)
-    )
+    assert result.displacement == pytest.approx(np.sqrt(np.mean((0.01 * journal) ** 2)) / (np.ptp(journal) / 2))
     assert result.samples == np.count_nonzero(kept) and result.t_start == pytest.approx(0.005)
     document = json.loads(json.dumps(result.to_dict()))
     assert set(document["signals"]) == {

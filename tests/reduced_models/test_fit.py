@@ -66,14 +66,10 @@ def test_figures_are_what_they_say(record):
     result = fit(noisy)
     cut = noisy.window(*result.window[0])
     fitted = result.element.force(cut.approach, cut.rate)
-    assert result.rms == pytest.approx(
-        np.sqrt(np.mean((cut.force - fitted) ** 2)) / np.std(cut.force), rel=1e-9
-    )
+    assert result.rms == pytest.approx(np.sqrt(np.mean((cut.force - fitted) ** 2)) / np.std(cut.force), rel=1e-9)
     assert result.e_f == pytest.approx(np.sum(cut.force - fitted) / np.sum(cut.force), abs=1e-12)
     model = 5.13**2 * (cut.load - fitted)
-    assert result.e_acc == pytest.approx(
-        np.sum(cut.acceleration - model) / np.sum(cut.acceleration), rel=1e-6
-    )
+    assert result.e_acc == pytest.approx(np.sum(cut.acceleration - model) / np.sum(cut.acceleration), rel=1e-6)
     A = np.column_stack([cut.approach, cut.approach**2, cut.approach**3, cut.rate])
     assert result.condition == pytest.approx(np.linalg.cond(A / np.linalg.norm(A, axis=0)), rel=1e-6)
     variance = np.sum((cut.force - fitted) ** 2) / (len(cut) - 4)

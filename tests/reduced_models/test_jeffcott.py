@@ -20,9 +20,7 @@ def test_matrices_are_the_equations_at_the_head_of_the_module():
     np.testing.assert_array_equal(np.diag(M), [20.0, 20.0, 1.0, 1.0])
     q = np.array([1.0, 2.0, -3.0, 5.0])
     np.testing.assert_allclose(K @ q, 2e7 * np.array([4.0, -3.0, -4.0, 3.0]))
-    np.testing.assert_allclose(
-        C @ q, 30.0 * np.array([4.0, -3.0, -4.0, 3.0]) + 4.0 * np.array([1.0, 2.0, 0, 0])
-    )
+    np.testing.assert_allclose(C @ q, 30.0 * np.array([4.0, -3.0, -4.0, 3.0]) + 4.0 * np.array([1.0, 2.0, 0, 0]))
 
 
 def test_unbalance_turns_with_the_speed():

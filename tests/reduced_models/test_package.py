@@ -15,9 +15,7 @@ def test_public_names_are_there_and_the_table_lists_every_module():
     ):  # fmt: skip
         assert hasattr(reduced_models, name)
     modules = {path.stem for path in FOLDER.glob("*.py")} - {"__init__"}
-    listed = {
-        line.split("|")[1].strip() for line in reduced_models.__doc__.splitlines() if line.startswith("| ")
-    }
+    listed = {line.split("|")[1].strip() for line in reduced_models.__doc__.splitlines() if line.startswith("| ")}
     assert modules <= listed
 
 
