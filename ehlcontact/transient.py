@@ -20,6 +20,7 @@ from ehlcontact.status import Status, classify
 from ehlcontact.steady import central_film, touches_border
 
 STEP_CYCLES = 25
+SMALLEST_SCALE = 0.01  # of the residuals, in dry approaches
 LARGEST_EXTRAPOLATION = 2.0  # step ratio up to which the last change of pressure predicts the next
 
 
@@ -86,7 +87,8 @@ class TransientFilm:
             mg.u = u
         mg.full_multigrid(balance)
         self.level.update_film(mg.u)
-        self.scale = central_film(self.level)
+        # full multigrid may still overlap in the centre
+        self.scale = max(central_film(self.level), SMALLEST_SCALE)
         step = self._solve(balance, 2 * STEP_CYCLES)
         self._remember_rest()
         return step

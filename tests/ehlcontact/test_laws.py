@@ -1,0 +1,84 @@
+"""Compiled lubricant laws against the SI formulas, and their slopes against differences."""
+
+import numpy as np
+import oracles
+import pytest
+
+from ehlcontact import InputError, Lubricant, MoesPoint
+from ehlcontact._kernels import laws
+
+PRESSURES = [0.0, 1e-6, 0.01, 0.3, 1.0, 1.7]
+DENSITIES = ["dowson-higginson", "incompressible"]
+
+
+def compiled_and_python(name):
+    kernel = getattr(laws, name)
+    return [kernel, kernel.py_func]
+
+
+@pytest.mark.parametrize("viscosity", ["roelands", "barus"])
+def test_viscosity(viscosity):
+    point = MoesPoint(200, 10, 0.5, viscosity=viscosity, alpha=1.7e-8, eta0=0.11)
+    for kernel in compiled_and_python("log_viscosity"):
+        for P in PRESSURES:
+            expected = oracles.viscosity(P * point.p_hertz, 1.7e-8, 0.11, viscosity) / 0.11
+            assert np.exp(kernel(P, point.law)) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("density", DENSITIES)
+def test_density(density):
+    point = MoesPoint(200, 10, 0.5, density=density)
+    for kernel in compiled_and_python("density"):
+        for P in PRESSURES:
+            expected = oracles.density(P * point.p_hertz, density)
+            assert kernel(P, point.law) == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize("name", ["log_viscosity", "density"])
+@pytest.mark.parametrize(("viscosity", "density"), [("roelands", DENSITIES[0]), ("barus", DENSITIES[1])])
+def test_slopes(name, viscosity, density):
+    law = MoesPoint(200, 10, 0.5, viscosity=viscosity, density=density).law
+    value, h = getattr(laws, name), 1e-5
+    for slope in compiled_and_python(name + "_slope"):
+        for P in PRESSURES[2:]:
+            difference = (value(P + h, law) - value(P - h, law)) / (2.0 * h)
+            assert slope(P, law) == pytest.approx(difference, rel=1e-7, abs=1e-12)
+
+
+def test_roelands_slope_at_ambient_pressure_is_alpha():
+    point = MoesPoint(200, 10, 0.5)
+    assert laws.log_viscosity_slope(0.0, point.law) == pytest.approx(point.alpha_bar, rel=1e-13)
+
+
+def test_isoviscous_oil_has_no_pressure_effect():
+    law = MoesPoint(200, 0, 0.5, density="incompressible").law
+    assert laws.log_viscosity(1.3, law) == 0.0
+    assert laws.density(1.3, law) == 1.0
+
+
+BAD = [
+    ("eta0", dict(eta0=0.0)),
+    ("eta0", dict(eta0=-0.04)),
+    ("eta0", dict(eta0=float("nan"))),
+    ("eta0", dict(eta0=5e-5)),  # below what Roelands' law can take
+    ("eta0", dict(eta0=True)),
+    ("eta0", dict(eta0=None)),
+    ("alpha", dict(alpha=-1e-8)),
+    ("alpha", dict(alpha=float("inf"))),
+    ("alpha", dict(alpha=[1e-8])),
+    ("viscosity", dict(viscosity="Roelands")),
+    ("viscosity", dict(viscosity=1)),
+    ("density", dict(density="constant")),
+    ("density", dict(density=None)),
+]
+
+
+@pytest.mark.parametrize(("field", "arguments"), BAD)
+def test_bad_lubricant_is_named(field, arguments):
+    with pytest.raises(InputError, match=rf"^{field} = .*: must be ") as caught:
+        Lubricant(**arguments)
+    assert caught.value.field == field
+
+
+def test_thin_oil_is_fine_with_barus():
+    assert Lubricant(eta0=5e-5, viscosity="barus").eta0 == 5e-5

@@ -1,0 +1,189 @@
+"""Slow, obvious twins of the compiled kernels, written from the formulas and not from the code.
+
+All of them work on the *whole* domain, both signs of Y, with plain loops; `mirrored` takes a half-domain field
+there, so the symmetry line is checked too.
+"""
+
+from math import exp, inf, log, pi, sqrt
+
+import numpy as np
+from scipy.integrate import dblquad
+
+
+def mirrored(half):
+    """Field on Y = -y_max..y_max from the one on Y = 0..y_max; the symmetry line is row ny."""
+    return np.concatenate([half[:0:-1], half])
+
+
+def agm_integrals(kappa):
+    """K and E of the parameter 1 - kappa^2 by the arithmetic-geometric mean (Gauss), for any kappa > 0."""
+    a, g, c2 = 1.0, kappa, 1.0 - kappa**2
+    total, power = 0.5 * c2, 0.5
+    for _ in range(12):
+        a, g, c = 0.5 * (a + g), sqrt(a * g), 0.5 * (a - g)
+        power *= 2.0
+        total += power * c * c
+    K = pi / (2.0 * a)
+    return K, K * (1.0 - total)
+
+
+def hertz_si(load, radius_x, radius_y, e_reduced):
+    """(a, b, p_h, approach) with kappa by bisection on Johnson's Rx/Ry = (K - E)/(E/kappa^2 - K)."""
+    low, high = 1e-6, 1.0 - 1e-9
+    assert radius_x < radius_y
+    for _ in range(200):
+        kappa = 0.5 * (low + high)
+        K, E = agm_integrals(kappa)
+        if (K - E) / (E / kappa**2 - K) > radius_x / radius_y:
+            high = kappa
+        else:
+            low = kappa
+    R = 1.0 / (1.0 / radius_x + 1.0 / radius_y)
+    b = (6.0 * E * load * R / (pi * kappa**2 * e_reduced)) ** (1.0 / 3.0)
+    a = kappa * b
+    p = 1.5 * load / (pi * a * b)
+    # Point load potential of the Hertz pressure at the centre: 2 p b kappa K/E' (half spaces of E'/2 together).
+    return a, b, p, 2.0 * p * a * K / e_reduced
+
+
+def viscosity(p, alpha, eta0, law):
+    """Viscosity at pressure p [Pa]."""
+    if law == "barus":
+        return eta0 * exp(alpha * p)
+    p0 = 1.96e8
+    z = alpha * p0 / (log(eta0) + 9.67)
+    return eta0 * exp((log(eta0) + 9.67) * ((1.0 + p / p0) ** z - 1.0))
+
+
+def density(p, law):
+    """Density ratio at pressure p [Pa]; Dowson and Higginson's 1 + 0.6e-9 p/(1 + 1.7e-9 p) as V&L round it."""
+    return 1.0 if law == "incompressible" else (5.9e8 + 1.34 * p) / (5.9e8 + p)
+
+
+def flow_and_mass(P, H, point):
+    """eps = rho H^3/(eta lambda) and rho H, node by node, through SI pressures."""
+    eps, mass = np.empty_like(P), np.empty_like(P)
+    for k in np.ndindex(P.shape):
+        p = P[k] * point.p_hertz
+        rho = density(p, point.density)
+        eta = viscosity(p, point.alpha, point.eta0, point.viscosity) / point.eta0
+        eps[k] = rho * max(H[k], 1e-8) ** 3 / (eta * point.lam)
+        mass[k] = rho * H[k]
+    return eps, mass
+
+
+def operator(P, eps, mass, hx, hy, kappa, c_t):
+    """N(P, H) of half-domain fields, at interior nodes; NaN on the border."""
+    ny = P.shape[0] - 1
+    P, eps, mass = mirrored(P), mirrored(eps), mirrored(mass)
+    out = np.full(P.shape, np.nan)
+    for j in range(1, P.shape[0] - 1):
+        for i in range(1, P.shape[1] - 1):
+            east = 0.5 * (eps[j, i] + eps[j, i + 1]) * (P[j, i + 1] - P[j, i]) / hx
+            west = 0.5 * (eps[j, i] + eps[j, i - 1]) * (P[j, i] - P[j, i - 1]) / hx
+            north = 0.5 * (eps[j, i] + eps[j + 1, i]) * (P[j + 1, i] - P[j, i]) / hy
+            south = 0.5 * (eps[j, i] + eps[j - 1, i]) * (P[j, i] - P[j - 1, i]) / hy
+            if i == 1:
+                wedge = (mass[j, 1] - mass[j, 0]) / hx
+            else:
+                wedge = (3.0 * mass[j, i] - 4.0 * mass[j, i - 1] + mass[j, i - 2]) / (2.0 * hx)
+            squeeze = c_t * mass[j, i]
+            out[j, i] = (east - west) / hx + kappa**2 * (north - south) / hy - wedge - squeeze
+    return out[ny:]
+
+
+def influence(x, y, hx, hy, kappa):
+    """Deflection at distance (x, y) from unit pressure on one cell: Love's corner formula with logarithms."""
+
+    def corner(s, t):
+        r = sqrt(s * s + t * t)
+        return s * log(t + r) + t * log(s + r)
+
+    k = kappa * hx
+    s = kappa * abs(x)
+    K, _ = agm_integrals(kappa)
+    total = 0.0
+    for ds, sign_s in ((0.5 * k, 1.0), (-0.5 * k, -1.0)):
+        for dt, sign_t in ((0.5 * hy, 1.0), (-0.5 * hy, -1.0)):
+            total += sign_s * sign_t * corner(s + ds, abs(y) + dt)
+    return total / (pi * K * kappa)
+
+
+def influence_by_quadrature(x, y, hx, hy, kappa):
+    """The same by numerical integration, for cells that do not hold their own singularity."""
+    K, _ = agm_integrals(kappa)
+    value, _ = dblquad(
+        lambda t, s: 1.0 / sqrt(kappa**2 * (x - s) ** 2 + (y - t) ** 2),
+        -0.5 * hx,
+        0.5 * hx,
+        -0.5 * hy,
+        0.5 * hy,
+        epsabs=1e-13,
+    )
+    return value / (pi * K)
+
+
+def deflection(P, hx, hy, kappa):
+    """Direct sum over all cells of both halves, shape of the half domain."""
+    full = mirrored(P)
+    rows, columns = full.shape
+    table = np.array([[influence(i * hx, j * hy, hx, hy, kappa) for i in range(columns)] for j in range(rows)])
+    ny = P.shape[0] - 1
+    out = np.zeros_like(P)
+    lag = np.abs(np.arange(columns)[:, None] - np.arange(columns)[None, :])
+    for j in range(ny + 1):
+        for source in range(rows):
+            out[j] += table[abs(j + ny - source)][lag] @ full[source]
+    return out
+
+
+def full_weighting(fine):
+    """Nine-point full weighting of a half-domain field, interior; NaN on the border."""
+    ny = fine.shape[0] - 1
+    full = mirrored(fine)
+    stencil = np.outer([1.0, 2.0, 1.0], [1.0, 2.0, 1.0]) / 16.0
+    coarse = np.full((ny // 2 + 1, (fine.shape[1] - 1) // 2 + 1), np.nan)
+    for j in range(coarse.shape[0] - 1):
+        for i in range(1, coarse.shape[1] - 1):
+            row, column = ny + 2 * j, 2 * i
+            coarse[j, i] = np.sum(stencil * full[row - 1 : row + 2, column - 1 : column + 2])
+    return coarse
+
+
+def bilinear(coarse, j, i):
+    """Bilinear interpolation of a coarse field to fine node (j, i)."""
+    y, x = 0.5 * j, 0.5 * i
+    j0, i0 = min(int(y), coarse.shape[0] - 2), min(int(x), coarse.shape[1] - 2)
+    t, s = y - j0, x - i0
+    return (1 - t) * ((1 - s) * coarse[j0, i0] + s * coarse[j0, i0 + 1]) + t * (
+        (1 - s) * coarse[j0 + 1, i0] + s * coarse[j0 + 1, i0 + 1]
+    )
+
+
+def distribution_weight(P, eps, j, i, hx, hy, kappa, c_t):
+    """Weight theta of one node: half where the largest eps/h^2 around it equals the switch."""
+    if P[j, i] <= 0.0:
+        return 0.0
+    below = eps[1, i] if j == 0 else eps[j - 1, i]
+    along = [0.5 * (eps[j, i] + e) / hx**2 for e in (eps[j, i - 1], eps[j, i + 1])]
+    across = [0.5 * kappa**2 * (eps[j, i] + e) / hy**2 for e in (below, eps[j + 1, i])]
+    ratio = max(along + across) / (1.0 + 10.0 * c_t * hx / 1.5)
+    return 1.0 / (1.0 + ratio**4)
+
+
+def spring_root_and_tangent(k1, k2, k3):
+    """Approach at which a cubic spring carries 1, nearest to 0.87, and the tangent there."""
+    roots = [z.real for z in np.roots([k3, k2, k1, -1.0]) if abs(z.imag) < 1e-9]
+    u = min(roots, key=lambda z: abs(z - 0.87), default=inf)
+    return u, k1 + 2.0 * k2 * u + 3.0 * k3 * u * u
+
+
+def hertz_gap_share(kappa):
+    """S from the geometry: S = (R/Rx)(E/K) with 1/R = 1/Rx + 1/Ry."""
+    K, E = agm_integrals(kappa)
+    if kappa == 1.0:
+        return 0.5
+    ratio = (K - E) / (E / kappa**2 - K)  # Rx/Ry
+    return E / K / (1.0 + ratio)
+
+
