@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact._kernels import boundary, relax, reynolds
+from ehlcontact._kernels import boundary, columns, relax, reynolds
 from ehlcontact._kernels.linearise import NEIGHBOURS
 from ehlcontact.domain import Domain
 from ehlcontact.elastic import Deflection
@@ -69,6 +69,7 @@ class Level:
         self.film_rhs: Array | float = 0.0
         self.c_t = 0.0
         self.r = np.zeros(shape)  # residual of the Reynolds equation, zero on the border
+        self.column_work = np.zeros((2, ny + 1))
         self.nodes = np.zeros(shape[0] * shape[1], dtype=np.int64)
         self.force_weights = np.full(shape, 2.0 * FORCE_FACTOR * self.hx * self.hy)
         self.force_weights[0] *= 0.5
@@ -110,6 +111,9 @@ class Level:
         self.update_film(u)
         f, mesh = self.fields, self.mesh
         relax.relax_lines(f, self.rhs, self.law, mesh, self.c_t, self.near, self.spread)
+        if mesh.cy > 1.2 * mesh.cx:  # the flow couples most strongly along Y
+            work = self.column_work
+            columns.relax_columns(f.P, f.eps, f.mass, self.rhs, mesh, self.c_t, self.near[0, 0], work)
         boundary.relax_boundary(f.P, f.eps, f.mass, self.rhs, mesh, self.c_t, self.near[0, 0], self.nodes)
 
     def set_dry_hertz(self) -> None:

@@ -26,7 +26,6 @@ from ehlcontact.domain import Domain
 from ehlcontact.errors import InputError
 from ehlcontact.grid import Level
 from ehlcontact.multigrid import Multigrid
-from ehlcontact.newton import Balance
 from ehlcontact.scaling import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.steady import solve_steady
 from ehlcontact.version import __version__

@@ -185,5 +185,3 @@ def hertz_gap_share(kappa):
         return 0.5
     ratio = (K - E) / (E / kappa**2 - K)  # Rx/Ry
     return E / K / (1.0 + ratio)
-
-

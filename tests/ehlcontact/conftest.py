@@ -40,5 +40,3 @@ def level(point):
 def make_level():
     """`rough_level`."""
     return rough_level
-
-
