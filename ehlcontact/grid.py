@@ -70,6 +70,7 @@ class Level:
         self.c_t = 0.0
         self.r = np.zeros(shape)  # residual of the Reynolds equation, zero on the border
         self.column_work = np.zeros((2, ny + 1))
+        self.marks = np.zeros(shape, dtype=np.uint8)
         self.nodes = np.zeros(shape[0] * shape[1], dtype=np.int64)
         self.force_weights = np.full(shape, 2.0 * FORCE_FACTOR * self.hx * self.hy)
         self.force_weights[0] *= 0.5
@@ -114,7 +115,8 @@ class Level:
         if mesh.cy > 1.2 * mesh.cx:  # the flow couples most strongly along Y
             work = self.column_work
             columns.relax_columns(f.P, f.eps, f.mass, self.rhs, mesh, self.c_t, self.near[0, 0], work)
-        boundary.relax_boundary(f.P, f.eps, f.mass, self.rhs, mesh, self.c_t, self.near[0, 0], self.nodes)
+        own = self.near[0, 0]
+        boundary.relax_boundary(f.P, f.eps, f.mass, self.rhs, mesh, self.c_t, own, self.nodes, self.marks)
 
     def set_dry_hertz(self) -> None:
         """Dry Hertz pressure, the start of every solve."""

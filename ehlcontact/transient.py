@@ -124,8 +124,7 @@ class TransientFilm:
         residuals: list[float] = []
         status, settled, load_residual = None, False, 0.0
         force = np.inf
-        # tol is relative to a field; u and force are means over it and converge better
-        small = min(self.tol, 1e-5)
+        small = self.tol
         while status is None:
             if residuals:
                 previous = mg.u, force

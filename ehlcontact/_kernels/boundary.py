@@ -16,30 +16,37 @@ SQUEEZE_DOMINANCE = 10.0  # flow term over squeeze term
 
 
 @jit
-def near_boundary(j, i, P):
-    """Whether the sign of the pressure changes within REACH of node (j, i)."""
+def mark_boundary(P, marks):
+    """Mark the nodes within REACH of a change between P > 0 and P = 0; `marks` (bytes) written."""
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
-    wet = P[j, i] > 0.0
-    for jj in range(j - REACH, min(j + REACH, ny - 1) + 1):
-        for ii in range(max(i - REACH, 1), min(i + REACH, nx - 1) + 1):
-            if (P[abs(jj), ii] > 0.0) != wet:
-                return True
-    return False
+    marks[:] = 0
+    for j in range(ny):
+        for i in range(1, nx):
+            wet = P[j, i] > 0.0
+            east = i + 1 < nx and (P[j, i + 1] > 0.0) != wet
+            north = j + 1 < ny and (P[j + 1, i] > 0.0) != wet
+            if east or north:
+                for jj in range(max(j - REACH, -REACH), min(j + REACH + 1, ny - 1) + 1):
+                    for ii in range(max(i - REACH, 1), min(i + REACH + 1, nx - 1) + 1):
+                        marks[abs(jj), ii] = 1
 
 
 @jit
-def relax_boundary(P, eps, mass, rhs, mesh, c_t, self_deflection, nodes):
-    """Relax P near the cavitation boundary at frozen eps and mass; `P` written, `nodes` is work space."""
+def relax_boundary(P, eps, mass, rhs, mesh, c_t, self_deflection, nodes, marks):
+    """Relax P near the cavitation boundary at frozen eps and mass; `P` written, `nodes`, `marks` work space."""
     width = P.shape[1]
+    mark_boundary(P, marks)
     count = 0
     for j in range(P.shape[0] - 1):
         js = j - 1 if j > 0 else 1
         for i in range(1, width - 1):
+            if not marks[j, i]:
+                continue
             e = eps[j, i]
             flow = mesh.cx * (2.0 * e + eps[j, i - 1] + eps[j, i + 1])
             flow += mesh.cy * (2.0 * e + eps[js, i] + eps[j + 1, i])
             transport = DOMINANCE * 1.5 * mesh.inv_hx + SQUEEZE_DOMINANCE * c_t
-            if 0.5 * flow > transport * self_deflection and near_boundary(j, i, P):
+            if 0.5 * flow > transport * self_deflection:
                 nodes[count] = j * width + i
                 count += 1
     for sweep in range(PASSES):

@@ -1,0 +1,27 @@
+"""The command line `ehlcontact`: one module per subcommand, above all three packages.
+
+=================  ===================================================================================
+module             responsibility
+=================  ===================================================================================
+``app``            the program: subcommands, errors to one line and an exit code
+``options``        operating-point options shared by the subcommands
+``output``         consoles, tables, JSON, progress, checks of where results go
+``steady`` ...     one subcommand each: ``steady``, ``simulate``, ``fit``, ``export``, ``run``
+``unbuilt``        subcommands whose names are fixed but which are not built yet
+``study``          the study behind ``run``: schema, stages, report, figures
+=================  ===================================================================================
+
+Exit codes: 0 success; 1 not converged or interrupted, with what was reached saved; 2 bad input.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NoReturn
+
+
+def main(arguments: Sequence[str] | None = None) -> NoReturn:
+    """Run the program on `arguments` (the process's own if not given) and exit."""
+    from ehlcontact.cli.app import execute
+
+    raise SystemExit(execute(arguments))

@@ -1,0 +1,5 @@
+"""``python -m ehlcontact.cli``."""
+
+from ehlcontact.cli import main
+
+main()

@@ -1,0 +1,74 @@
+"""The program: subcommands, and every way to fail turned into one line and an exit code."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated
+
+import typer
+
+from ehlcontact.cli import export, fit, run, simulate, steady, unbuilt
+from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain, one_line
+from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.version import __version__
+
+# typer brings its own click or uses the installed one, depending on its version: take the class from it.
+ClickError: type[Exception] = next(
+    base for base in typer.BadParameter.__mro__ if base.__name__ == "ClickException"
+)
+
+app = typer.Typer(
+    name="ehlcontact",
+    help="Transient elastohydrodynamic rolling contacts, reduced to elements for rotordynamics.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="rich",
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"ehlcontact {__version__}")
+        raise typer.Exit()
+
+
+@app.callback()
+def _program(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")
+    ] = False,
+) -> None:
+    """Transient elastohydrodynamic rolling contacts, reduced to elements for rotordynamics."""
+
+
+for module in (steady, simulate, fit, export, run):
+    module.register(app)
+unbuilt.register(app)
+
+
+def execute(arguments: Sequence[str] | None = None) -> int:
+    """Run one command line; returns the exit code, and says on stderr in one line what was wrong."""
+    command = typer.main.get_command(app)
+    try:
+        code = command.main(
+            None if arguments is None else list(arguments), prog_name="ehlcontact", standalone_mode=False
+        )
+        return code if isinstance(code, int) else 0
+    except InputError as error:
+        complain(str(error))
+        return USAGE
+    except ConvergenceError as error:
+        complain(str(error))
+        return FAILED
+    except (KeyboardInterrupt, typer.Abort):
+        complain(INTERRUPTED_LINE)
+        return FAILED
+    except ClickError as error:
+        text = error.format_message() if hasattr(error, "format_message") else str(error)
+        if type(error).__name__ == "NoArgsIsHelpError":
+            typer.echo(text)
+        else:
+            complain(one_line(text))
+        return USAGE

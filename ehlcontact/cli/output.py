@@ -1,0 +1,163 @@
+"""Consoles, tables, JSON and progress; and the checks that nothing computed will be lost."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from ehlcontact.errors import InputError
+
+FAILED, USAGE = 1, 2
+INTERRUPTED_LINE = "interrupted: nothing was computed that could be kept"
+STDOUT = "-"
+
+
+def one_line(text: str) -> str:
+    """The text without line breaks and runs of blanks."""
+    return " ".join(text.split())
+
+
+def complain(text: str) -> None:
+    """Say one line on stderr."""
+    typer.echo(f"ehlcontact: {one_line(text)}", err=True)
+
+
+def say(text: str, json_to: str | None = None) -> None:
+    """Say one line on stdout, unless JSON goes there."""
+    if json_to != STDOUT:
+        typer.echo(text)
+
+
+def check_file(field: str, path: Path | None, suffixes: tuple[str, ...] = ()) -> None:
+    """Make sure, before a long solve, that `path` can be written.
+
+    Raises
+    ------
+    InputError
+        Wrong ending, a folder of that name, or a folder that does not exist or cannot be written to.
+    """
+    if path is None:
+        return
+    if suffixes and path.suffix.lower() not in suffixes:
+        raise InputError(field, str(path), "a file name ending in " + " or ".join(suffixes))
+    if path.is_dir():
+        raise InputError(field, str(path), "a file, not a folder")
+    if not path.parent.is_dir():
+        raise InputError(field, str(path), "in a folder that exists")
+    check_folder(field, path.parent, str(path))
+
+
+def check_folder(field: str, folder: Path, named: str | None = None) -> None:
+    """Make sure that files can be made in an existing folder."""
+    try:
+        with tempfile.NamedTemporaryFile(dir=folder):
+            return
+    except OSError as error:
+        allowed = f"in a folder that can be written to ({error.strerror})"
+        raise InputError(field, named or str(folder), allowed) from None
+
+
+def check_json(path: str | None) -> None:
+    """The same for the target of ``--json``."""
+    if path not in (None, STDOUT):
+        check_file("--json", Path(str(path)))
+
+
+def plain(value: Any) -> Any:
+    """`value` with arrays as lists and non-finite numbers as None, for strict JSON."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    if isinstance(value, np.generic):
+        return plain(value.item())
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
+
+
+def write_json(document: Mapping[str, Any], target: str | None) -> None:
+    """Write to a file in one move, or to stdout for ``-``; nothing for None."""
+    if target is None:
+        return
+    text = json.dumps(plain(document), indent=None if target == STDOUT else 1, allow_nan=False)
+    if target == STDOUT:
+        typer.echo(text)
+    else:
+        write_text(Path(target), text + "\n")
+
+
+def write_text(target: Path, text: str) -> None:
+    """Replace a text file in one move.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written.
+    """
+    try:
+        handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".tmp")
+        with os.fdopen(handle, "w", encoding="utf-8") as stream:
+            stream.write(text)
+        Path(name).chmod(0o644)
+        os.replace(name, target)
+    except OSError as error:
+        raise InputError("file", str(target), f"a file that can be written ({error.strerror})") from None
+
+
+def show_table(title: str, rows: Iterable[tuple[str, str, str]], json_to: str | None) -> None:
+    """Compact table of quantity, value and unit on stdout, unless JSON goes there."""
+    if json_to == STDOUT:
+        return
+    table = Table(title=title, title_justify="left", show_header=False, pad_edge=False, box=None)
+    table.add_column(style="bold")
+    table.add_column(justify="right")
+    table.add_column(style="dim", overflow="fold")
+    for row in rows:
+        table.add_row(*row)
+    Console().print(table)
+
+
+def stderr_console() -> Console:
+    """Console for progress."""
+    return Console(stderr=True)
+
+
+def progress_bars(console: Console) -> Progress:
+    """Bars with the time left, silent where stderr is not a terminal."""
+    return Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TaskProgressColumn(),
+        TimeRemainingColumn(),
+        TextColumn("{task.fields[note]}"),
+        console=console,
+        disable=not console.is_terminal,
+        transient=True,
+    )
+
+
+@contextmanager
+def progress(description: str) -> Iterator[Any]:
+    """A bar on stderr; yields ``update(done, total, note="")``."""
+    with progress_bars(stderr_console()) as bars:
+        task = bars.add_task(description, total=None, note="")
+
+        def update(done: float, total: float | None, note: str = "") -> None:
+            bars.update(task, completed=done, total=total, note=note)
+
+        yield update

@@ -1,0 +1,58 @@
+"""Levels and hierarchies."""
+
+import numpy as np
+import oracles
+import pytest
+
+from ehlcontact import Domain, MoesPoint
+from ehlcontact.grid import Level, build_hierarchy
+
+
+def test_film_is_equation_3(level, point):
+    level.film_rhs = 0.25
+    level.update_film(0.7)
+    S = oracles.hertz_gap_share(point.kappa)
+    W = oracles.deflection(level.P, level.hx, level.hy, point.kappa)
+    X, Y = np.meshgrid(level.X, level.Y)
+    expected = 0.25 - 0.7 + S * X**2 + (1.0 - S) * Y**2 + W
+    np.testing.assert_allclose(level.H, expected, rtol=1e-11, atol=1e-12)
+
+
+def test_force_is_equation_4(level):
+    full = oracles.mirrored(level.P)
+    assert level.force() == pytest.approx(1.5 / np.pi * full.sum() * level.hx * level.hy, rel=1e-13)
+
+
+def test_residual_norm_is_a_mean_over_the_whole_wet_domain(level):
+    wet, r = oracles.mirrored(level.P) > 0.0, oracles.mirrored(level.r)
+    assert level.residual_norm() == pytest.approx(np.abs(r[wet]).mean(), rel=1e-12)
+    level.P[...] = 0.0
+    assert level.residual_norm() == 0.0
+
+
+def test_border_of_the_residual_stays_zero(level):
+    assert (level.r[-1] == 0.0).all()
+    assert (level.r[:, [0, -1]] == 0.0).all()
+
+
+@pytest.mark.parametrize("n", [16, 32, 48, 64, 96, 128, 160])
+@pytest.mark.parametrize("coarsest", [16, 32])
+def test_hierarchy(n, coarsest):
+    domain = Domain(-5.0, 3.0, 4.0)
+    levels = build_hierarchy(MoesPoint(20, 5, 0.5), domain, n, coarsest)
+    assert levels[-1].nx == n
+    assert levels[0].nx < 2 * max(coarsest, 16) or levels[0].nx % 2
+    for coarse, fine in zip(levels, levels[1:], strict=False):
+        assert (fine.nx, fine.ny) == (2 * coarse.nx, 2 * coarse.ny)
+        np.testing.assert_allclose(fine.X[::2], coarse.X, atol=1e-14)
+        np.testing.assert_allclose(fine.Y[::2], coarse.Y, atol=1e-14)
+    assert 0.7 < levels[-1].hy / levels[-1].hx < 1.4
+    assert (levels[-1].X[0], levels[-1].X[-1], levels[-1].Y[-1]) == (-5.0, 3.0, 4.0)
+
+
+def test_dry_start():
+    level = Level(MoesPoint(20, 5, 0.5), Domain(-1.5, 1.5, 1.5), 48, 24)
+    level.set_dry_hertz()
+    assert level.P[0, 24] == 1.0
+    assert level.P[0, 0] == 0.0
+    assert level.force() == pytest.approx(1.0, abs=0.01)

@@ -1,0 +1,138 @@
+"""Loads, defaults, bad input and the stored form of every motion."""
+
+from math import pi
+
+import numpy as np
+import pytest
+
+from ehlcontact import FreeVibration, HarmonicLoad, InputError, PrescribedApproach, PrescribedLoad, RampLoad
+from ehlcontact.motion import motion_from_dict
+
+NAN, INF = float("nan"), float("inf")
+T = np.linspace(0.0, 2.0, 9)
+BAD = [0.0, -1.0, NAN, INF, True, None, "fast", [1.0, 2.0]]
+
+
+def test_free_vibration_defaults():
+    motion = FreeVibration(5.13)
+    assert motion.period == pytest.approx(5.13 / 5.13, rel=1e-3)
+    assert motion.initial_rate == pytest.approx(0.1 * 1.5**0.5 * 5.13)
+    assert FreeVibration(5.13, offset=0.1).initial_rate == 0.0
+    assert FreeVibration(5.13, rate=-0.2).initial_rate == -0.2
+    assert motion.load(3.0) == 1.0
+    assert motion.default_end == pytest.approx(2.5 * motion.period)
+    assert motion.default_step <= motion.period / 40
+    assert motion.largest_load >= 1.15 - 1e-12
+
+
+def test_harmonic_load():
+    motion = HarmonicLoad(pi, amplitude=0.2)
+    assert motion.period == pytest.approx(2.0)
+    assert motion.load(0.5) == pytest.approx(1.2)
+    assert motion.load(1.5) == pytest.approx(0.8)
+    assert motion.largest_load == pytest.approx(1.2)
+    assert motion.default_end >= 2.0 + motion.period
+    assert HarmonicLoad(0.01).default_step <= 0.5
+    assert HarmonicLoad(50.0).default_end >= 2.0
+
+
+def test_ramp_load():
+    motion = RampLoad(3.67, 1.69, 2.4)
+    assert motion.load(0.0) == 1.0
+    assert motion.load(0.5 * 1.69) == pytest.approx(0.5 * 4.67)
+    assert motion.load(5.0) == pytest.approx(3.67)
+    assert motion.default_end > motion.duration
+    assert motion.largest_load >= 3.67
+
+
+def test_prescribed_load():
+    motion = PrescribedLoad(T, 1.0 + 0.1 * T)
+    assert motion.load(0.3) == pytest.approx(1.03)
+    assert motion.default_end == 2.0
+    assert motion.default_step == pytest.approx(0.25)
+    assert motion.largest_load == pytest.approx(1.2)
+    assert PrescribedLoad.from_function(lambda t: 1.0 + t, 3.0, steps=30).load(1.5) == pytest.approx(2.5)
+
+
+def test_prescribed_approach():
+    motion = PrescribedApproach(T, 0.9 + 0.1 * T**2)
+    assert motion.approach(0.37) == pytest.approx(0.9 + 0.1 * 0.37**2, rel=1e-12)
+    assert motion.rate(0.37) == pytest.approx(0.074, rel=1e-9)
+    assert motion.largest_load >= 1.3**1.5 - 1e-12
+
+
+@pytest.mark.parametrize("value", BAD)
+@pytest.mark.parametrize(
+    ("make", "field"),
+    [
+        (lambda v: FreeVibration(v), "omega_n"),
+        (lambda v: HarmonicLoad(v), "omega"),
+        (lambda v: HarmonicLoad(1.0, amplitude=v), "amplitude"),
+        (lambda v: RampLoad(v, 1.0, 2.0), "ratio"),
+        (lambda v: RampLoad(2.0, v, 2.0), "duration"),
+        (lambda v: RampLoad(2.0, 1.0, v), "omega_n"),
+        (lambda v: PrescribedLoad.from_function(lambda t: 1.0, v), "until"),
+    ],
+    ids=["free", "harmonic", "amplitude", "ratio", "duration", "ramp omega_n", "until"],
+)
+def test_bad_number_is_named(make, field, value):
+    with pytest.raises(InputError, match=f"^{field} = .*: must be "):
+        make(value)
+
+
+@pytest.mark.parametrize(
+    ("field", "make"),
+    [
+        ("offset", lambda: FreeVibration(5.0, offset=NAN)),
+        ("offset", lambda: FreeVibration(5.0, offset=2.5)),
+        ("offset", lambda: FreeVibration(5.0, offset=0.0, rate=0.0)),
+        ("rate", lambda: FreeVibration(5.0, rate=INF)),
+        ("rate", lambda: FreeVibration(1.0, rate=2.6)),
+        ("amplitude", lambda: HarmonicLoad(1.0, amplitude=1.0)),
+        ("omega_n", lambda: HarmonicLoad(1.0, omega_n=-1.0)),
+        ("omega_n", lambda: PrescribedLoad(T, 1.0 + T, omega_n=0.0)),
+        ("values", lambda: PrescribedLoad(T, 1.0 - T)),
+        ("values", lambda: PrescribedLoad(T, T[:-1])),
+        ("values", lambda: PrescribedLoad(T[:3], T[:3] + 1.0)),
+        ("values", lambda: PrescribedLoad(T, np.where(T > 1.0, NAN, 1.0))),
+        ("values", lambda: PrescribedApproach(T, np.where(T > 1.0, INF, 1.0))),
+        ("values", lambda: PrescribedApproach(T.reshape(3, 3), T.reshape(3, 3))),
+        ("T", lambda: PrescribedApproach(T + 1.0, T)),
+        ("T", lambda: PrescribedApproach(T[::-1] * 0.0, T)),
+        ("T", lambda: PrescribedLoad(np.array([0.0, 0.1, 0.1, 0.3]), np.ones(4))),
+        ("motion.kind", lambda: motion_from_dict({"kind": "waltz"})),
+        ("motion.kind", lambda: motion_from_dict({})),
+    ],
+)
+def test_other_bad_input_is_named(field, make):
+    with pytest.raises(InputError, match=f"^{field} = .*: must be ") as caught:
+        make()
+    assert "\n" not in str(caught.value)
+
+
+MOTIONS = [
+    FreeVibration(5.13, offset=0.05),
+    FreeVibration(5.13),
+    HarmonicLoad(pi, 0.2, omega_n=12.0),
+    RampLoad(3.67, 1.69, 2.4),
+    PrescribedLoad(T, 1.0 + 0.1 * T, omega_n=3.0),
+    PrescribedApproach(T, 0.9 + 0.01 * T),
+]
+
+
+@pytest.mark.parametrize("motion", MOTIONS, ids=lambda m: m.kind)
+def test_stored_form_rebuilds_the_motion(motion):
+    again = motion_from_dict(motion.to_dict())
+    assert type(again) is type(motion)
+    assert again.to_dict() == motion.to_dict()
+    name = "approach" if isinstance(motion, PrescribedApproach) else "load"
+    for t in (0.0, 0.3, 1.9):
+        assert getattr(again, name)(t) == getattr(motion, name)(t)
+
+
+def test_tables_are_copied():
+    values = np.ones(T.size)
+    motion = PrescribedLoad(T, values)
+    values[:] = 5.0
+    assert motion.load(1.0) == 1.0
+    assert motion.largest_load == 1.0

@@ -1,0 +1,89 @@
+"""The cycle: fixed points, agreement with Newton on one grid, and its rate of convergence."""
+
+import numpy as np
+import pytest
+
+from ehlcontact import Domain, MoesPoint, solve_steady
+from ehlcontact.multigrid import Multigrid, coarsest_intervals, initial_approach
+from ehlcontact.newton import Balance
+
+LOAD = Balance(0.0, 1.0, 1.0)
+
+
+def residual_of(mg):
+    mg.finest.update_film(mg.u)
+    mg.finest.update_residual()
+    return mg.finest.residual_norm()
+
+
+@pytest.mark.parametrize("kappa", [0.3, 1.0])
+def test_two_algorithms_one_discretisation(kappa):
+    """Cycles over three grids end where Newton on the finest alone ends."""
+    point = MoesPoint(20, 8, kappa)
+    newton = Multigrid(point, Domain(), 32, coarsest=32)
+    newton.full_multigrid(LOAD)
+    newton.u = newton._newton.solve(newton.u, LOAD, 20, 1e-13)
+    cycles = Multigrid(point, Domain(), 32, coarsest=16)
+    cycles.full_multigrid(LOAD)
+    for _ in range(25):
+        cycles.cycle(LOAD)
+    assert residual_of(cycles) < 1e-10
+    assert cycles.u == pytest.approx(newton.u, abs=1e-10)
+    np.testing.assert_allclose(cycles.finest.P, newton.finest.P, atol=1e-9)
+
+
+def test_solution_is_a_fixed_point_of_the_cycle():
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Domain(), 64)
+    mg.full_multigrid(LOAD)
+    for _ in range(30):
+        mg.cycle(LOAD)
+    P, u = mg.finest.P.copy(), mg.u
+    assert residual_of(mg) < 1e-10
+    mg.cycle(LOAD)
+    assert mg.u == pytest.approx(u, abs=1e-11)
+    np.testing.assert_allclose(mg.finest.P, P, atol=1e-10)
+
+
+@pytest.mark.parametrize("balance", [Balance(1.0, 0.0, 0.7), Balance(3.0, 1.0, 3.2)], ids=["approach", "motion"])
+def test_other_balances_close_the_cycle(balance):
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Domain(), 64)
+    mg.full_multigrid(balance)
+    for _ in range(20):
+        mg.cycle(balance)
+    assert residual_of(mg) < 1e-8
+    assert abs(balance.residual(mg.u, mg.finest.force())) < 1e-9
+
+
+CASES = [(20, 10, 1), (58.07, 4.62, 1), (200, 10, 0.5), (200, 10, 1), (500, 15, 0.12)]
+
+
+@pytest.mark.parametrize(("M", "L", "kappa"), CASES)
+def test_residual_falls_fourfold_per_cycle(M, L, kappa):
+    """Five V(2,1) cycles after full multigrid, n = 128: geometric mean of the factors at least 4."""
+    result = solve_steady(MoesPoint(M, L, kappa), n=128, tol=1e-13, max_cycles=6, throw=False)
+    residuals = result.residuals
+    assert (residuals[0] / residuals[5]) ** 0.2 >= 4.0
+
+
+@pytest.mark.parametrize(("M", "L", "kappa"), CASES)
+def test_no_limit_cycle(M, L, kappa):
+    """The classical hybrid relaxation stalls around 1e-3 to 1e-4; this goes on to rounding."""
+    result = solve_steady(MoesPoint(M, L, kappa), n=64, tol=1e-11, max_cycles=60, throw=False)
+    assert result.residual < 1e-10
+
+
+@pytest.mark.parametrize(("kappa", "L", "M"), [(0.11, 19.0, 2900.0), (0.1, 15.0, 1e4), (2.0, 10.0, 200.0)])
+def test_hard_points_converge(M, L, kappa):
+    """Real bearings live at high M; an ellipse along rolling is the weak direction of X lines."""
+    result = solve_steady(MoesPoint(M, L, kappa), n=128)
+    assert result.residual < 1e-4
+
+
+def test_initial_approach_is_bounded():
+    assert initial_approach(MoesPoint(1e-3, 5, 1.0)) == -1.0
+    assert initial_approach(MoesPoint(1e6, 0, 1.0)) == 0.99
+
+
+def test_coarsest_grid_follows_the_load():
+    assert coarsest_intervals(MoesPoint(200, 10, 1.0)) == 16
+    assert coarsest_intervals(MoesPoint(2900, 19, 0.11)) > 16

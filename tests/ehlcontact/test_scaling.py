@@ -1,0 +1,273 @@
+"""Moes numbers, SI scales and the identities that tie them together."""
+
+from dataclasses import replace
+from math import pi
+
+import oracles
+import pytest
+
+from ehlcontact import Geometry, InputError, Lubricant, MoesPoint, OperatingPoint
+from ehlcontact.hertz import elliptic_integrals, shape_factor
+from ehlcontact.scaling import moes_point, scales_of
+
+NAN, INF = float("nan"), float("inf")
+BAD_POSITIVE = [0.0, -1.0, NAN, INF, True, None, "two", [1.0, 2.0], 1j]
+
+
+@pytest.fixture
+def operating_point():
+    return OperatingPoint(Geometry(0.004, 0.03, 2.1e11, 0.28, 7e10, 0.21), Lubricant(0.08, 1.9e-8), 60.0, 1.3)
+
+
+@pytest.mark.literature
+@pytest.mark.parametrize(
+    ("kappa", "lam", "alpha_bar"), [(1.0, 0.009387, 21.31), (0.5, 0.015627, 15.4917)], ids=["circle", "half"]
+)
+def test_anchored_values(kappa, lam, alpha_bar):
+    """M = 200, L = 10: values re-derived independently (anchors/ehl.md section 1)."""
+    point = MoesPoint(200, 10, kappa)
+    assert point.lam == pytest.approx(lam, rel=2e-4)
+    assert point.alpha_bar == pytest.approx(alpha_bar, rel=2e-4)
+
+
+@pytest.mark.parametrize(("M", "L"), [(5.0, 3.0), (200.0, 10.0), (3000.0, 19.0)])
+def test_circular_formulas(M, L):
+    """Venner and Lubrecht's circular contact."""
+    point = MoesPoint(M, L, 1.0)
+    assert point.lam == pytest.approx((128.0 * pi**3 / (3.0 * M**4)) ** (1.0 / 3.0), rel=1e-12)
+    assert point.alpha_bar == pytest.approx(L / pi * (1.5 * M) ** (1.0 / 3.0), rel=1e-12)
+    assert point.film_to_moes == pytest.approx((6.0 * pi / point.lam) ** 0.5, rel=1e-12)
+
+
+@pytest.mark.parametrize("kappa", [0.1, 0.5, 2.0])
+def test_published_elliptic_formulas(kappa):
+    """The long forms of anchors/ehl.md section 1, with Rx/Ry and elliptic integrals."""
+    M, L = 321.0, 7.0
+    K, E = oracles.agm_integrals(kappa)
+    ratio = (K - E) / (E / kappa**2 - K)
+    point = MoesPoint(M, L, kappa)
+    lam = 16 * pi * M ** (-4 / 3) * (1 + ratio) ** (-5 / 3) * E**2 / (kappa * K**2)
+    assert point.lam == pytest.approx(lam * (pi / (6 * kappa * E)) ** (1 / 3), rel=1e-11)
+    alpha = L * M ** (1 / 3) * 3 * kappa / (2 * pi) * (pi / (6 * kappa * E)) ** (2 / 3) * (1 + ratio) ** (2 / 3)
+    assert point.alpha_bar == pytest.approx(alpha, rel=1e-11)
+    share = 1 / (1 + ratio)  # R/Rx
+    film = (6 * kappa * E / pi) ** (2 / 3) * share ** (2 / 3) * K / (2 * share * E) * M ** (2 / 3)
+    assert point.film_to_moes == pytest.approx(film, rel=1e-11)
+
+
+def test_lambda_is_equation_2(operating_point):
+    """lambda = 6 eta0 u_sum (2R)^2/(a^3 p_h) (E/K)^2, all in SI."""
+    p, s = operating_point, operating_point.scales
+    K, E = elliptic_integrals(p.moes.kappa)
+    R = 1.0 / (1.0 / p.geometry.radius_x + 1.0 / p.geometry.radius_y)
+    lam = 6.0 * p.lubricant.eta0 * p.u_sum * (2.0 * R) ** 2 / (s.a**3 * s.pressure) * (E / K) ** 2
+    assert p.moes.lam == pytest.approx(lam, rel=1e-10)
+
+
+def test_moes_numbers(operating_point):
+    p, g = operating_point, operating_point.geometry
+    e = 2.0 / ((1 - 0.28**2) / 2.1e11 + (1 - 0.21**2) / 7e10)
+    assert g.e_reduced == pytest.approx(e, rel=1e-14)
+    U = 0.08 * 1.3 / (e * 0.004)
+    assert p.moes.M == pytest.approx(60.0 / (e * 0.004**2) / U**0.75, rel=1e-12)
+    assert p.moes.L == pytest.approx(1.9e-8 * e * U**0.25, rel=1e-12)
+    assert p.moes.kappa == pytest.approx(g.kappa, rel=1e-12)
+    assert (p.moes.alpha, p.moes.eta0) == (1.9e-8, 0.08)
+
+
+def test_scales(operating_point):
+    p, s = operating_point, operating_point.scales
+    a, b, pressure, approach = oracles.hertz_si(60.0, 0.004, 0.03, p.geometry.e_reduced)
+    got = (s.a, s.b, s.pressure, s.length, s.force, s.time)
+    assert got == pytest.approx((a, b, pressure, approach, 60.0, 2.0 * a / 1.3), rel=1e-9)
+    assert s.stiffness == pytest.approx(60.0 / approach, rel=1e-9)
+    assert s.damping == pytest.approx(60.0 / approach * 2.0 * a / 1.3, rel=1e-9)
+    assert s.rate == pytest.approx(approach * 1.3 / (2.0 * a), rel=1e-9)
+
+
+def test_scaled_axis_and_pressure_agree_with_si(operating_point):
+    p, s = operating_point, operating_point.scales
+    U = p.lubricant.eta0 * p.u_sum / (p.geometry.e_reduced * p.geometry.radius_x)
+    assert p.moes.scaled_axis == pytest.approx(s.a / (p.geometry.radius_x * U**0.25), rel=1e-10)
+    assert p.moes.p_hertz == pytest.approx(s.pressure, rel=1e-10)
+    assert p.moes.alpha_bar == pytest.approx(p.lubricant.alpha * s.pressure, rel=1e-10)
+    film = s.length / p.geometry.radius_x / U**0.5  # H = 1 in Moes' unit
+    assert p.moes.film_to_moes == pytest.approx(film, rel=1e-10)
+
+
+def test_omega_n_is_equation_5_with_the_speed_squared(operating_point):
+    p = operating_point
+    K, E = elliptic_integrals(p.moes.kappa)
+    R = 1.0 / (1.0 / p.geometry.radius_x + 1.0 / p.geometry.radius_y)
+    omega = (8.0 * p.load * R * E / (0.02 * p.u_sum**2 * K)) ** 0.5
+    assert p.omega_n(0.02) == pytest.approx(omega, rel=1e-10)
+
+
+@pytest.mark.parametrize("mass", BAD_POSITIVE)
+def test_bad_mass_is_named(operating_point, mass):
+    with pytest.raises(InputError, match=r"^mass = "):
+        operating_point.omega_n(mass)
+
+
+def test_swapped_axes_scale_alike():
+    """A contact rolling along its other axis: same ellipse, pressure and approach; M and L with the other Rx."""
+    oil = Lubricant(0.08, 1.9e-8)
+    one = OperatingPoint(Geometry(0.004, 0.03), oil, 60.0, 1.3)
+    other = OperatingPoint(Geometry(0.03, 0.004), oil, 60.0, 1.3)
+    assert one.scales.a == pytest.approx(other.scales.b, rel=1e-9)
+    assert one.scales.pressure == pytest.approx(other.scales.pressure, rel=1e-9)
+    assert one.moes.kappa * other.moes.kappa == pytest.approx(1.0, rel=1e-9)
+    assert shape_factor(one.moes.kappa) == pytest.approx(1.0 - shape_factor(other.moes.kappa), abs=1e-9)
+
+
+# A 6205 deep-groove ball bearing.
+DATA_6205 = dict(ball_diameter=7.94e-3, pitch_diameter=39.04e-3, conformity=0.52)
+
+
+BAD_BEARINGS = [
+    ("ball_diameter", dict(ball_diameter=0.0)),
+    ("ball_diameter", dict(ball_diameter=NAN)),
+    ("ball_diameter", dict(ball_diameter=True)),
+    ("pitch_diameter", dict(pitch_diameter=-0.04)),
+    ("pitch_diameter", dict(pitch_diameter=7.94e-3)),
+    ("pitch_diameter", dict(pitch_diameter=None)),
+    ("conformity", dict(conformity=0.5)),
+    ("conformity", dict(conformity=0.0)),
+    ("conformity", dict(conformity=11.0)),
+    ("conformity", dict(conformity=NAN)),
+    ("race", dict(race="middle")),
+    ("race", dict(race=1)),
+    ("race", dict(race=["inner"])),
+    ("speed_rpm", dict(speed_rpm=0.0)),
+    ("speed_rpm", dict(speed_rpm=-3000.0)),
+    ("speed_rpm", dict(speed_rpm=INF)),
+    ("load", dict(load=0.0)),
+    ("load", dict(load="heavy")),
+    ("e1", dict(e1=0.0)),
+    ("nu2", dict(nu2=0.51)),
+]
+
+
+class TestBallBearing:
+    def test_inner_radii(self):
+        g = Geometry.ball_bearing(**DATA_6205)
+        assert g.radius_x == pytest.approx(1e-3 / (2 / 7.94 + 2 / 31.10), rel=1e-12)
+        assert g.radius_y == pytest.approx(1e-3 / (2 / 7.94 - 1 / (0.52 * 7.94)), rel=1e-12)
+
+    def test_outer_radii(self):
+        g = Geometry.ball_bearing(**DATA_6205, race="outer")
+        assert g.radius_x == pytest.approx(1e-3 / (2 / 7.94 - 2 / 46.98), rel=1e-12)
+        assert g.radius_y == pytest.approx(1e-3 * 0.52 * 7.94 / 0.04, rel=1e-12)
+
+    def test_inner_contact_under_load(self):
+        """1 kN on the ball, 3000 rpm: kappa 0.107 and, by the oracle, pressure and approach."""
+        point = OperatingPoint.ball_bearing(Lubricant(0.037), speed_rpm=3000, load=1000.0, **DATA_6205)
+        g = point.geometry
+        a, b, pressure, approach = oracles.hertz_si(1000.0, g.radius_x, g.radius_y, 2.06e11 / 0.91)
+        assert point.moes.kappa == pytest.approx(a / b, rel=1e-9)
+        assert point.moes.kappa == pytest.approx(0.107, abs=5e-4)
+        assert point.scales.pressure == pytest.approx(pressure, rel=1e-9)
+        assert point.scales.length == pytest.approx(approach, rel=1e-9)
+        assert point.moes.M == pytest.approx(6069, rel=1e-3)
+        assert point.moes.L == pytest.approx(20.79, rel=1e-3)
+
+    @pytest.mark.parametrize("race", ["inner", "outer"])
+    def test_rolling_speed(self, race):
+        """From the kinematics: cage at omega r_i/(r_i + r_o), both surfaces pass the contact alike."""
+        point = OperatingPoint.ball_bearing(Lubricant(), speed_rpm=3000, load=100.0, race=race, **DATA_6205)
+        omega, ri, ro = 3000 * pi / 30, 0.5 * 31.10e-3, 0.5 * 46.98e-3
+        cage = omega * ri / (ri + ro)
+        surface = (omega - cage) * ri if race == "inner" else cage * ro
+        assert point.u_sum == pytest.approx(2.0 * surface, rel=1e-12)
+
+    def test_materials_reach_the_geometry(self):
+        g = Geometry.ball_bearing(**DATA_6205, e1=3.1e11, nu1=0.26)
+        assert (g.e1, g.nu1, g.e2, g.nu2) == (3.1e11, 0.26, 2.06e11, 0.3)
+
+    @pytest.mark.parametrize(("field", "change"), BAD_BEARINGS)
+    def test_bad_input_is_named(self, field, change):
+        arguments = {**DATA_6205, "speed_rpm": 3000.0, "load": 100.0, **change}
+        with pytest.raises(InputError, match=f"^{field} = .*: must be ") as caught:
+            OperatingPoint.ball_bearing(Lubricant(), **arguments)
+        assert caught.value.field == field
+
+
+@pytest.mark.parametrize("value", BAD_POSITIVE)
+@pytest.mark.parametrize("field", ["M", "kappa", "alpha", "eta0"])
+def test_bad_moes_point_is_named(field, value):
+    arguments = dict(M=200.0, L=10.0, kappa=0.5) | {field: value}
+    with pytest.raises(InputError, match=f"^{field} = .*: must be ") as caught:
+        MoesPoint(**arguments)
+    assert caught.value.field == field
+
+
+@pytest.mark.parametrize(
+    ("field", "change"),
+    [
+        ("L", dict(L=-1.0)),
+        ("L", dict(L=NAN)),
+        ("L", dict(L=None)),
+        ("L", dict(L=False)),
+        ("kappa", dict(kappa=0.009)),
+        ("kappa", dict(kappa=101.0)),
+        ("viscosity", dict(viscosity="newton")),
+        ("density", dict(density="")),
+        ("eta0", dict(eta0=6e-5)),
+    ],
+)
+def test_other_bad_moes_points(field, change):
+    with pytest.raises(InputError, match=f"^{field} = .*: must be "):
+        MoesPoint(**(dict(M=200.0, L=10.0, kappa=0.5) | change))
+
+
+@pytest.mark.parametrize("value", BAD_POSITIVE)
+@pytest.mark.parametrize("field", ["radius_x", "radius_y", "e1", "e2"])
+def test_bad_geometry_is_named(field, value):
+    with pytest.raises(InputError, match=f"^{field} = .*: must be "):
+        Geometry(**(dict(radius_x=0.01, radius_y=0.02) | {field: value}))
+
+
+@pytest.mark.parametrize("value", [-0.1, 0.51, NAN, INF, True, None, "steel"])
+@pytest.mark.parametrize("field", ["nu1", "nu2"])
+def test_bad_poisson_ratio_is_named(field, value):
+    with pytest.raises(InputError, match=f"^{field} = .*: must be "):
+        Geometry(0.01, 0.02, **{field: value})
+
+
+@pytest.mark.parametrize("value", BAD_POSITIVE)
+@pytest.mark.parametrize("field", ["load", "u_sum"])
+def test_bad_operating_point_is_named(field, value):
+    arguments = dict(load=10.0, u_sum=1.0) | {field: value}
+    with pytest.raises(InputError, match=f"^{field} = .*: must be "):
+        OperatingPoint(Geometry(0.01, 0.02), Lubricant(), **arguments)
+
+
+def test_isoviscous_operating_point_is_refused():
+    with pytest.raises(InputError, match=r"^alpha = 0.0"):
+        OperatingPoint(Geometry(0.01, 0.02), Lubricant(alpha=0.0), 10.0, 1.0)
+
+
+def test_isoviscous_moes_point_has_a_conventional_pressure():
+    assert MoesPoint(200, 0, 1.0).p_hertz == 1e9
+    assert MoesPoint(200, 0, 1.0).alpha_bar == 0.0
+
+
+def test_either_kind_of_point(operating_point):
+    point = MoesPoint(200, 10, 0.5)
+    assert moes_point(point) is point
+    assert moes_point(operating_point) is operating_point.moes
+    assert scales_of(point) is None
+    assert scales_of(operating_point) is operating_point.scales
+    for wrong in ((200, 10, 0.5), None, "M200"):
+        with pytest.raises(InputError, match=r"^point = "):
+            moes_point(wrong)
+
+
+def test_points_are_values():
+    a, b = MoesPoint(200, 10, 0.5), MoesPoint(200.0, 10.0, 0.5)
+    assert a == b
+    assert hash(a) == hash(b)
+    assert MoesPoint(**a.to_dict()) == a
+    assert replace(a, M=100.0).M == 100.0
+    with pytest.raises(AttributeError):
+        a.M = 3.0

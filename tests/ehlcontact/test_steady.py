@@ -1,0 +1,173 @@
+"""`solve_steady`: what it promises about its result, and how it fails."""
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+from ehlcontact import (
+    ConvergenceError,
+    Domain,
+    Geometry,
+    InputError,
+    Lubricant,
+    MoesPoint,
+    OperatingPoint,
+    Status,
+    solve_steady,
+)
+from ehlcontact.grid import build_hierarchy
+from ehlcontact.multigrid import coarsest_intervals
+
+POINT = MoesPoint(200, 10, 0.5)
+CASES = [(200, 10, 0.5), (20, 10, 1.0), (500, 15, 0.12)]
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_convergence_promises(steady, case):
+    """Design's must-show numbers, at the default tolerance."""
+    result = steady(*case, 128)
+    assert result.status is Status.CONVERGED
+    assert result.approach_changes[-1] < 1e-6
+    assert abs(result.load_residual) < 1e-6
+    assert result.residuals[-1] < 1e-4 * result.dry_residual
+    assert result.force == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_complementarity(steady, case):
+    """P >= 0 everywhere; where P = 0 no residual asks for pressure beyond the tolerance."""
+    result = steady(*case, 128)
+    assert (result.P >= 0.0).all()
+    level = build_hierarchy(result.point, result.domain, 128, coarsest_intervals(result.point))[-1]
+    level.P[...] = result.P.T
+    level.update_film(result.approach)
+    np.testing.assert_allclose(level.H.T, result.H, atol=1e-12)
+    level.update_residual()
+    assert level.residual_norm() == pytest.approx(result.residuals[-1], rel=1e-6)
+    inner = level.r[:-1, 1:-1]
+    dry = level.P[:-1, 1:-1] == 0.0
+    assert dry.any()
+    assert inner[dry].min() > -30.0 * result.residuals[-1]
+    assert (result.H > 0.0).all()
+
+
+def test_shapes_and_symmetry_line(steady):
+    result = steady(200, 10, 0.5, 64)
+    assert result.X.shape == (65,)
+    assert result.Y[0] == 0.0
+    assert result.P.shape == result.H.shape == (65, result.Y.size)
+    assert (result.P[[0, -1]] == 0.0).all()
+    assert (result.P[:, -1] == 0.0).all()
+    assert result.h_min == result.H.min()
+    i = np.argmin(np.abs(result.X))
+    assert result.h_central == pytest.approx(result.H[i, 0], rel=1e-2)
+    assert result.p_max == result.P.max()
+    assert result.cycles == len(result.residuals) - 1 == len(result.approach_changes)
+
+
+def test_result_is_frozen(steady):
+    result = steady(200, 10, 0.5, 64)
+    with pytest.raises(AttributeError):
+        result.approach = 1.0
+    for f in fields(result):
+        value = getattr(result, f.name)
+        if isinstance(value, np.ndarray):
+            with pytest.raises(ValueError, match="read-only"):
+                value[...] = 0.0
+
+
+def test_summary_is_plain(steady):
+    import json
+
+    summary = steady(200, 10, 0.5, 64).summary()
+    assert json.loads(json.dumps(summary)) == summary
+    wanted = "approach force h_central h_min p_max residual load_residual cycles seconds status n domain"
+    assert set(wanted.split()) <= set(summary)
+
+
+def test_prescribed_approach_is_the_inverse(steady):
+    """The approach found under load 1 gives back load 1."""
+    free = steady(200, 10, 0.5, 64)
+    held = solve_steady(POINT, n=64, approach=free.approach)
+    assert held.approach == pytest.approx(free.approach, abs=1e-7)
+    assert held.force == pytest.approx(1.0, abs=3e-5)
+    np.testing.assert_allclose(held.P, free.P, atol=1e-3)
+    more = solve_steady(POINT, n=64, approach=free.approach + 0.05)
+    assert more.force > 1.05
+
+
+def test_operating_point_is_its_moes_point():
+    op = OperatingPoint(Geometry(0.004, 0.01), Lubricant(0.08, 1.9e-8), 30.0, 1.3)
+    si, plain = solve_steady(op, n=32), solve_steady(op.moes, n=32)
+    assert si.approach == plain.approach
+    assert si.scales is op.scales
+    assert plain.scales is None
+    assert si.point == op.moes
+
+
+def test_domain_is_reported_and_used(steady):
+    wide = solve_steady(POINT, n=96, domain=Domain(-6.0, 1.5, 4.5))
+    assert wide.domain.as_tuple() == (-6.0, 1.5, 4.5)
+    assert (wide.X[0], wide.X[-1], wide.Y[-1]) == (-6.0, 1.5, 4.5)
+    assert wide.approach == pytest.approx(steady(200, 10, 0.5, 64).approach, abs=0.01)
+
+
+def test_too_few_cycles_raise_with_the_result():
+    with pytest.raises(ConvergenceError, match="max_cycles: The cycles ran out") as caught:
+        solve_steady(POINT, n=64, max_cycles=1)
+    result = caught.value.result
+    assert result.status is Status.MAX_CYCLES
+    assert result.cycles == 1
+    assert result.approach == pytest.approx(0.883, abs=0.02)
+
+
+def test_throw_false_returns_the_same_kind():
+    result = solve_steady(POINT, n=64, max_cycles=1, throw=False)
+    assert result.status is Status.MAX_CYCLES
+    assert not result.status.ok
+
+
+def test_pressure_at_the_outlet_is_not_called_converged():
+    """A film still under pressure where the grid ends was not computed."""
+    result = solve_steady(MoesPoint(3, 2, 0.3), n=64, domain=Domain(-4.5, 1.2, 3.0), throw=False)
+    assert result.status is Status.OUT_OF_DOMAIN
+
+
+def test_callback_sees_every_cycle():
+    seen = []
+    result = solve_steady(POINT, n=32, callback=lambda cycle, residual: seen.append((cycle, residual)))
+    assert [cycle for cycle, _ in seen] == list(range(1, result.cycles + 1))
+    assert all(residual > 0.0 for _, residual in seen)
+
+
+def test_repeats_bit_for_bit():
+    one, other = solve_steady(POINT, n=48), solve_steady(POINT, n=48)
+    assert (one.P == other.P).all()
+    assert one.approach == other.approach
+
+
+NAN, INF = float("nan"), float("inf")
+
+
+@pytest.mark.parametrize(
+    ("field", "arguments"),
+    [
+        ("n", dict(n=100)),
+        ("n", dict(n=0)),
+        ("n", dict(n=True)),
+        ("n", dict(n=64.5)),
+        ("tol", dict(tol=0.0)),
+        ("tol", dict(tol=-1e-5)),
+        ("tol", dict(tol=NAN)),
+        ("tol", dict(tol=None)),
+        ("approach", dict(approach=NAN)),
+        ("approach", dict(approach=INF)),
+        ("approach", dict(approach=True)),
+        ("point", dict(point=(200, 10, 0.5))),
+    ],
+)
+def test_bad_input_is_named(field, arguments):
+    arguments = {"point": POINT, **arguments}
+    with pytest.raises(InputError, match=rf"^{field} = .*: must be "):
+        solve_steady(arguments.pop("point"), **arguments)
