@@ -44,7 +44,7 @@ class FullContact:
         n: int = 64,
         domain: Domain | None = None,
         largest_load: float = 1.0,
-        tol: float = 1e-4,
+        tol: float = 3e-3,
     ) -> None:
         domain = domain or Domain.for_load(require_positive("largest_load", largest_load))
         self.point, self.n, self.domain = moes_point(point), check_intervals(n), domain

@@ -21,7 +21,8 @@ from ehlcontact.steady import central_film, touches_border
 
 STEP_CYCLES = 25
 SMALLEST_SCALE = 0.01  # of the residuals, in dry approaches
-LARGEST_EXTRAPOLATION = 2.0  # step ratio up to which the last change of pressure predicts the next
+LARGEST_EXTRAPOLATION = 2.0  # step ratio up to which past pressures predict the next
+CHANGE_SHARE = 1.0 / 30.0  # of the tolerance, for changes of u and force: they are means over the field
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +30,7 @@ class FilmState:
     """Everything a film remembers between steps; immutable, so saving it costs one copy of the pressure."""
 
     P: Array
-    P_before: Array
+    past: tuple[tuple[float, Array], ...]  # step that followed, and pressure, latest first
     mass: Array  # rho H
     mass_before: Array
     u: float
@@ -64,7 +65,7 @@ class TransientFilm:
         self.multigrid = Multigrid(point, domain, n)
         self.tol = tol
         self.scale = 1.0
-        self._P_before = self.level.P.copy()
+        self._past: tuple[tuple[float, Array], ...] = ()
         self._mass = self.level.P.copy()
         self._mass_before = self._mass.copy()
         self._dT = 0.0
@@ -94,7 +95,7 @@ class TransientFilm:
         return step
 
     def _remember_rest(self) -> None:
-        self._P_before = self.level.P.copy()
+        self._past = ()
         self._mass = self.level.fields.mass.copy()
         self._mass_before = self._mass.copy()
         self._dT = 0.0
@@ -108,12 +109,13 @@ class TransientFilm:
         np.multiply(self._mass_before, ratio * ratio / (1.0 + ratio) / dT, out=level.rhs)
         level.rhs -= self._mass * ((1.0 + ratio) / dT)
         level.film_rhs = 0.0
+        past = self._past
         P_now = level.P.copy()
-        if ratio <= LARGEST_EXTRAPOLATION:
-            level.P[...] = np.maximum(P_now + ratio * (P_now - self._P_before), 0.0) * (P_now > 0.0)
+        if past and ratio <= LARGEST_EXTRAPOLATION:
+            level.P[...] = np.maximum(extrapolate(dT, P_now, past), 0.0) * (P_now > 0.0)
         mg.u = u_guess
         step = self._solve(balance, STEP_CYCLES)
-        self._P_before = P_now
+        self._past = ((dT, P_now), *past[:1])
         self._mass_before, self._mass = self._mass, level.fields.mass.copy()
         self._dT = dT
         return step
@@ -124,7 +126,7 @@ class TransientFilm:
         residuals: list[float] = []
         status, settled, load_residual = None, False, 0.0
         force = np.inf
-        small = self.tol
+        small = CHANGE_SHARE * self.tol
         while status is None:
             if residuals:
                 previous = mg.u, force
@@ -150,11 +152,22 @@ class TransientFilm:
     def save_state(self) -> FilmState:
         """Everything needed to come back here."""
         # mass arrays are replaced, never written, by advance: no copy needed
-        return FilmState(self.level.P.copy(), self._P_before, self._mass, self._mass_before, self.u, self._dT)
+        return FilmState(self.level.P.copy(), self._past, self._mass, self._mass_before, self.u, self._dT)
 
     def restore_state(self, state: FilmState) -> None:
         """Return to a saved state."""
         self.level.P[...] = state.P
-        self._P_before, self._mass, self._mass_before = state.P_before, state.mass, state.mass_before
+        self._past, self._mass, self._mass_before = state.past, state.mass, state.mass_before
         self.multigrid.u, self._dT = state.u, state.dT
         self.level.update_film(state.u)
+
+
+def extrapolate(dT: float, now: Array, past: tuple[tuple[float, Array], ...]) -> Array:
+    """Pressure `dT` ahead: polynomial through `now` and one or two past pressures with the steps from them."""
+    first, before = past[0]
+    slope = (now - before) / first
+    if len(past) == 1:
+        return now + dT * slope
+    second, earlier = past[1]
+    curvature = (slope - (before - earlier) / second) / (first + second)
+    return now + dT * slope + dT * (dT + first) * curvature

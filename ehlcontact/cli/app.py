@@ -12,10 +12,8 @@ from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain, one
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.version import __version__
 
-# typer brings its own click or uses the installed one, depending on its version: take the class from it.
-ClickError: type[Exception] = next(
-    base for base in typer.BadParameter.__mro__ if base.__name__ == "ClickException"
-)
+# Root of the usage errors; typer's own or click's, depending on the version of typer.
+UsageFailure: type[Exception] = [base for base in typer.BadParameter.__mro__ if hasattr(base, "format_message")][-1]
 
 app = typer.Typer(
     name="ehlcontact",
@@ -65,7 +63,7 @@ def execute(arguments: Sequence[str] | None = None) -> int:
     except (KeyboardInterrupt, typer.Abort):
         complain(INTERRUPTED_LINE)
         return FAILED
-    except ClickError as error:
+    except UsageFailure as error:
         text = error.format_message() if hasattr(error, "format_message") else str(error)
         if type(error).__name__ == "NoArgsIsHelpError":
             typer.echo(text)

@@ -1,0 +1,85 @@
+"""``ehlcontact run``: a study file to elements, FMU, rotor comparison and report."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ehlcontact.cli import options as o
+from ehlcontact.cli.output import FAILED, check_folder, check_json, complain, say, write_json, write_text
+from ehlcontact.errors import InputError
+
+STUDY_COPY = "study.toml"
+
+
+def register(app: typer.Typer) -> None:
+    """Add the subcommand."""
+    app.command("run")(run)
+
+
+def run(
+    study_file: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="What to compute; see examples/.")],
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", metavar="DIR", help="Folder of the results; results/STUDY by default."),
+    ] = None,
+    jobs: Annotated[int, typer.Option("--jobs", min=1, max=16, help="Computations side by side.")] = 2,
+    json_to: o.JsonTo = None,
+) -> None:
+    """Do a whole study: steady film, transients, elements, FMU, rotor, report.
+
+    Run it again to resume: what is finished in the folder and belongs to the same study is kept.
+    """
+    from ehlcontact.cli.study.schema import load_study
+
+    study = load_study(study_file)
+    folder = output if output is not None else Path("results") / study_file.stem
+    check_json(json_to)
+    prepare(folder)
+    copy = folder / STUDY_COPY
+    if not copy.exists() or not copy.samefile(study_file):
+        write_text(copy, study_file.read_text(encoding="utf-8"))
+
+    from ehlcontact.cli.study.runner import run_stages
+
+    try:
+        ledger = run_stages(study, copy, folder, min(jobs, os.cpu_count() or 1))
+    except KeyboardInterrupt:
+        complain(f"interrupted; what was computed is in {folder}, the same command resumes")
+        raise typer.Exit(FAILED) from None
+    failed = {name: note for name, note in ledger.items() if note["status"] != "converged"}
+    if failed:
+        for name, note in failed.items():
+            complain(f"{name}: {note['status']}: {note['message']}; what was reached is in {folder}")
+        write_json({"status": "not converged", "stages": ledger}, json_to)
+        raise typer.Exit(FAILED)
+
+    from ehlcontact.cli.study.report import write_report
+    from ehlcontact.cli.study.results import evaluate
+
+    found = evaluate(study, folder, ledger)
+    write_json(found.to_dict(), str(folder / "results.json"))
+    write_json(found.to_dict(), json_to)
+    report = write_report(found, folder / "report.html")
+    say(f"{found.answer}\nreport: {report}", json_to)
+    if not found.fmu["passes"]:
+        complain(f"contact.fmu: {found.fmu.get('error') or 'differs from the element'}; the rest is in {folder}")
+        raise typer.Exit(FAILED)
+
+
+def prepare(folder: Path) -> None:
+    """Make the folder and be sure that it can be written to.
+
+    Raises
+    ------
+    InputError
+        It cannot.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError("--output", str(folder), f"a folder that can be written to ({error.strerror})") from None
+    check_folder("--output", folder)

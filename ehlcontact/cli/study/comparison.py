@@ -1,0 +1,81 @@
+"""The rotor on full contacts against the rotor on elements, and how much of it is the time step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ehlcontact.cli.study.reduction import Reduction
+from ehlcontact.cli.study.rotor import build_rotor, load_rotor, run_reduced
+from ehlcontact.cli.study.schema import Study
+from reduced_models import Comparison, RotorResult, compare
+
+WRONG = ("harmonic", "cubic")  # fitted in the contact's own band, hundreds of times above the rotor's
+
+
+@dataclass(frozen=True)
+class RotorComparison:
+    """Runs and what their differences are."""
+
+    full: RotorResult
+    full_half: RotorResult  # half the step, shorter
+    reduced: Mapping[str, RotorResult]  # "rotor_band" and, where it could be fitted, "harmonic"
+    whole: Mapping[str, Comparison]  # full against each reduced run, from the start
+    last: Mapping[str, Comparison]  # likewise, the last revolution
+    half: Comparison  # full against reduced, both with half the step
+    step_full: Comparison  # full with the step against full with half of it
+    step_reduced: Comparison  # the same for the reduced rotor: what the rotor's integrator contributes
+    work: Mapping[str, float]  # damping of the film: work of contact 1 in the last revolution [J], full and reduced
+
+    def to_dict(self) -> dict[str, Any]:
+        """All numbers."""
+        pairs = {"whole": self.whole, "last_revolution": self.last}
+        return {
+            **{name: {key: c.to_dict() for key, c in group.items()} for name, group in pairs.items()},
+            "half_step": self.half.to_dict(),
+            "step_full": self.step_full.to_dict(),
+            "step_reduced": self.step_reduced.to_dict(),
+            "work_last_revolution": dict(self.work),
+            "evaluations_per_step": {
+                "full": float(self.full.iterations[1:].mean()),
+                "full_half_step": float(self.full_half.iterations[1:].mean()),
+            },
+        }
+
+
+def compare_rotors(study: Study, reduction: Reduction, folder: Path) -> RotorComparison:
+    """Run the reduced rotors and compare them with the stored full ones."""
+    rotor = build_rotor(study)
+    full = load_rotor(folder / "rotor_full.h5", rotor)
+    full_half = load_rotor(folder / "rotor_half_step.h5", rotor)
+    elements = {"rotor_band": reduction.chosen}
+    wrong = reduction.element_si(*WRONG)
+    if wrong is not None:
+        elements["harmonic"] = wrong
+    r = study.rotor
+    reduced = {name: run_reduced(study, element, 0, r.revolutions) for name, element in elements.items()}
+    reduced_half = run_reduced(study, reduction.chosen, 1, r.check_revolutions)
+    revolution = 60.0 / study.bearing.speed_rpm
+    discard = float(full.t[-1]) - revolution
+    steps = r.steps_per_revolution
+    work = {name: _work(run, steps) for name, run in ({"full": full} | reduced).items()}
+    return RotorComparison(
+        full=full,
+        full_half=full_half,
+        reduced=reduced,
+        whole={name: compare(full, run) for name, run in reduced.items()},
+        last={name: compare(full, run, discard=discard) for name, run in reduced.items()},
+        half=compare(full_half, reduced_half),
+        step_full=compare(full, full_half),
+        step_reduced=compare(reduced["rotor_band"], reduced_half),
+        work=work,
+    )
+
+
+def _work(run: RotorResult, steps: int) -> float:
+    """Work that contact 1 took up in the last revolution."""
+    return float(np.trapezoid(run.force[-steps - 1 :, 0], run.approach[-steps - 1 :, 0]))

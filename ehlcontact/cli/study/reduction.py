@@ -1,0 +1,84 @@
+"""From the records of a study to elements: fits, element files, and the FMU."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ehlcontact.errors import InputError
+from ehlcontact.results import SimulationResult
+from ehlcontact.scaling import Scales
+from reduced_models import ContactRecord, CubicContact, FitResult, fit
+
+RECORDS = {
+    "free": "free vibration",
+    "harmonic": "harmonic, contact band",
+    "rotor_band": "harmonic, rotor band",
+}
+MODELS = ("linear", "cubic")
+CHOSEN = ("rotor_band", "cubic")  # the element of the FMU and of the rotor: fitted at its load and frequency
+
+
+@dataclass(frozen=True)
+class Reduction:
+    """Fits by (record, model), and why some pairs have none."""
+
+    fits: Mapping[tuple[str, str], FitResult]
+    refused: Mapping[tuple[str, str], str]
+    scales: Scales
+
+    def element_si(self, record: str, model: str) -> Any:
+        """The element in SI units, None where the fit was refused."""
+        found = self.fits.get((record, model))
+        return None if found is None else found.element.to_si(self.scales)
+
+    @property
+    def chosen(self) -> CubicContact:
+        """SI element of the FMU and the rotor.
+
+        Raises
+        ------
+        InputError
+            It could not be fitted.
+        """
+        element = self.element_si(*CHOSEN)
+        if element is None:
+            raise InputError("rotor_band fit", self.refused[CHOSEN], "a cubic element; raise rotor.fit_amplitude")
+        return element
+
+
+def reduce_records(simulations: Mapping[str, SimulationResult], scales: Scales) -> Reduction:
+    """Fit every model to every record; a fit that makes no contact is kept as the reason why."""
+    fits, refused = {}, {}
+    for record, simulation in simulations.items():
+        data = ContactRecord.from_result(simulation)
+        for model in MODELS:
+            try:
+                fits[record, model] = fit(data, model)
+            except InputError as error:
+                refused[record, model] = str(error)
+    return Reduction(fits, refused, scales)
+
+
+def save_elements(reduction: Reduction, folder: Path) -> list[Path]:
+    """Write every element as JSON, dimensionless and SI."""
+    target = folder / "elements"
+    target.mkdir(exist_ok=True)
+    files = []
+    for (record, model), found in reduction.fits.items():
+        files.append(found.element.save(target / f"{record}_{model}.json"))
+        files.append(reduction.element_si(record, model).save(target / f"{record}_{model}_si.json"))
+    return files
+
+
+def export_fmu(element: CubicContact, path: Path) -> dict[str, Any]:
+    """Export the SI element and verify the FMU; what went wrong stands under ``error``."""
+    from fmu import BuildError, export_contact, verify
+
+    try:
+        export_contact(element, path, model_name="contact")
+    except BuildError as error:
+        return {"file": path.name, "passes": False, "error": " ".join(str(error).split())}
+    return {"file": path.name, **verify(path, element).to_dict()}

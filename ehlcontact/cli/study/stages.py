@@ -1,0 +1,160 @@
+"""The long computations of a study, each a function of the study alone that leaves one HDF5 file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import ceil
+from pathlib import Path
+from typing import Any
+
+from ehlcontact.cli.study.schema import Study
+from ehlcontact.errors import ConvergenceError
+from ehlcontact.motion import FreeVibration, HarmonicLoad
+
+Update = Callable[[float, float], None]  # done, total
+STEADY_CYCLES = 40
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """How a stage ended: ``converged``, ``interrupted`` or a failure, with what to say about it."""
+
+    status: str
+    message: str = ""
+
+    @property
+    def ok(self) -> bool:
+        """Whether the stage's file can be relied on."""
+        return self.status == "converged"
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """One computation; `sections` of the study decide whether an earlier file still holds."""
+
+    name: str
+    title: str
+    sections: tuple[str, ...]
+    compute: Callable[[Study, Update], Any]
+    store: Callable[[Any, Path], object]
+
+    def file(self, folder: Path) -> Path:
+        """Where the converged result stands."""
+        return folder / f"{self.name}.h5"
+
+    def partial(self, folder: Path) -> Path:
+        """Where a result stands that did not get to its end."""
+        return folder / f"{self.name}.partial.h5"
+
+    def run(self, study: Study, folder: Path, update: Update) -> Outcome:
+        """Compute and save; a result that is not converged goes to the partial file."""
+        message = ""
+        try:
+            result = self.compute(study, update)
+            status = str(result.status)
+            message = getattr(result.status, "advice", "")
+        except ConvergenceError as error:
+            result, status, message = error.result, "not converged", str(error)
+        except KeyboardInterrupt:
+            return Outcome("interrupted", "stopped before anything could be kept")
+        if status == "converged":
+            self.store(result, self.file(folder))
+            self.partial(folder).unlink(missing_ok=True)
+        elif hasattr(result, "force"):  # not a single failed step, but a result
+            self.store(result, self.partial(folder))
+        return Outcome(status, message)
+
+
+def _store(result: Any, path: Path) -> object:
+    from ehlcontact.storage import save
+
+    return save(result, path)
+
+
+def _store_rotor(result: Any, path: Path) -> object:
+    from ehlcontact.cli.study.rotor import save_rotor
+
+    return save_rotor(result, path)
+
+
+def _steady(study: Study, update: Update) -> Any:
+    from ehlcontact.steady import solve_steady
+
+    return solve_steady(
+        study.point,
+        n=study.solver.n,
+        domain=study.domain,
+        max_cycles=STEADY_CYCLES,
+        throw=False,
+        callback=lambda cycle, residual: update(cycle, STEADY_CYCLES),
+    )
+
+
+def _simulate(study: Study, motion: FreeVibration | HarmonicLoad, periods: float, steps: int, update: Update) -> Any:
+    from ehlcontact.simulate import simulate
+
+    return simulate(
+        study.point,
+        motion,
+        n=study.solver.n_transient,
+        domain=study.domain,
+        until=periods * motion.period,
+        dT=motion.period / steps,
+        throw=False,
+        callback=update,
+    )
+
+
+def _free(study: Study, update: Update) -> Any:
+    return _simulate(study, study.free_motion, study.free.periods, study.free.steps_per_period, update)
+
+
+def _harmonic(study: Study, update: Update) -> Any:
+    settings = study.harmonic
+    return _simulate(study, study.harmonic_motion, settings.periods, settings.steps_per_period, update)
+
+
+def _rotor_band(study: Study, update: Update) -> Any:
+    settings = study.rotor
+    return _simulate(study, study.rotor_motion, settings.fit_periods, settings.fit_steps_per_period, update)
+
+
+def _rotor_full(study: Study, update: Update) -> Any:
+    from ehlcontact.cli.study.rotor import run_full
+
+    return run_full(study, 0, study.rotor.revolutions, update)
+
+
+def _rotor_half_step(study: Study, update: Update) -> Any:
+    from ehlcontact.cli.study.rotor import run_full
+
+    return run_full(study, 1, study.rotor.check_revolutions, update)
+
+
+STAGES = (
+    Stage("steady", "steady film", ("solver",), _steady, _store),
+    Stage("rotor_full", "rotor on full contacts", ("solver", "rotor"), _rotor_full, _store_rotor),
+    Stage("free", "free vibration", ("solver", "free"), _free, _store),
+    Stage("harmonic", "harmonic load, contact band", ("solver", "harmonic"), _harmonic, _store),
+    Stage("rotor_band", "harmonic load, rotor band", ("solver", "rotor"), _rotor_band, _store),
+    Stage("rotor_half_step", "rotor again, half the step", ("solver", "rotor"), _rotor_half_step, _store_rotor),
+)
+
+
+def stage_named(name: str) -> Stage:
+    """Look a stage up."""
+    return next(stage for stage in STAGES if stage.name == name)
+
+
+def expected_steps(study: Study) -> dict[str, int]:
+    """Number of steps of each stage, to say beforehand how much there is to do."""
+    r = study.rotor
+    return {
+        "steady": STEADY_CYCLES,
+        "rotor_full": ceil(r.revolutions * r.steps_per_revolution),
+        "free": ceil(study.free.periods * study.free.steps_per_period),
+        "harmonic": ceil(study.harmonic.periods * study.harmonic.steps_per_period),
+        "rotor_band": ceil(r.fit_periods * r.fit_steps_per_period),
+        "rotor_half_step": ceil(2 * r.check_revolutions * r.steps_per_revolution),
+    }

@@ -1,0 +1,48 @@
+"""One stage in a process of its own: ``python -m ehlcontact.cli.study.worker STUDY.toml FOLDER STAGE``.
+
+Events go to stdout as lines of JSON: ``{"done": k, "total": n}`` and, last, ``{"status": ..., "message": ...,
+"seconds": ...}``. Interrupt it with SIGINT; it saves what it has.
+"""
+
+from __future__ import annotations
+
+import json
+import signal
+import sys
+import time
+from pathlib import Path
+
+from ehlcontact.cli.study.schema import load_study
+from ehlcontact.cli.study.stages import stage_named
+from ehlcontact.errors import InputError
+
+SPACING = 0.1  # seconds between progress lines
+
+
+def work(study_file: Path, folder: Path, name: str) -> None:
+    """Run the stage and report on stdout."""
+    # A parent in the background may have left the signal ignored.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    started, last = time.perf_counter(), 0.0
+
+    def emit(**event: object) -> None:
+        sys.stdout.write(json.dumps(event) + "\n")
+        sys.stdout.flush()
+
+    def update(done: float, total: float) -> None:
+        nonlocal last
+        now = time.perf_counter()
+        if now - last > SPACING:
+            last = now
+            emit(done=done, total=total)
+
+    try:
+        outcome = stage_named(name).run(load_study(study_file), folder, update)
+        status, message = outcome.status, outcome.message
+    except InputError as error:
+        status, message = "bad input", str(error)
+    emit(status=status, message=message, seconds=time.perf_counter() - started)
+
+
+if __name__ == "__main__":
+    work(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3])
