@@ -1,38 +1,48 @@
 """Elastic deflection of the two half spaces: a discrete convolution of the pressure (eq. 3, last term).
 
 Pressure is piecewise constant on the cells around the nodes, and the kernel is integrated over a cell exactly
-(Love 1929), as in Venner and Lubrecht (2000), app. A. The sum is evaluated by zero-padded fast transforms,
-exact to rounding. Fields are even in Y and hold Y >= 0 only, so a cosine transform serves that direction and
-half the work is saved.
+(Love 1929), as in Venner and Lubrecht (2000), app. A. Fields are even in Y and hold Y >= 0 only. Three engines
+evaluate the same sum; each is called as ``engine(P)`` and has ``nx``, ``ny`` and ``kernel``:
+
+- `DirectSum`, term by term, O(N^2): the oracle of the tests;
+- `FastFourier`, by zero-padded fast transforms, O(N log N) and exact to rounding: the default, being the fastest;
+- `ehlcontact.mlmi.Mlmi`, multilevel multi-integration, O(N log N) to below the discretisation error.
 """
 
 from __future__ import annotations
 
 from math import pi
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
+from ehlcontact._kernels import mlmi as kernels
+from ehlcontact.errors import require_choice
 from ehlcontact.hertz import elliptic_integrals
 
 Array = NDArray[np.float64]
 
+ENGINES = ("direct", "fft", "mlmi")
 THREADED_FROM = 256  # intervals along X; below, starting threads costs more than it saves
 DENSE_UP_TO = 16  # intervals along X; below, a matrix product is faster than any transform
 
 
-def influence_coefficients(nx: int, ny: int, hx: float, hy: float, kappa: float) -> Array:
-    """Deflection at lag (l, k) from unit pressure on one cell, shape (ny, nx) for lags 0..ny-1, 0..nx-1."""
-    K, _ = elliptic_integrals(kappa)
-    x = kappa * hx * (np.arange(nx + 1) - 0.5)[None, :]
-    y = hy * (np.arange(ny + 1) - 0.5)[:, None]
-    primitive = x * np.arcsinh(y / abs(x)) + y * np.arcsinh(x / abs(y))
-    return np.diff(np.diff(primitive, axis=0), axis=1) / (pi * K * kappa)
+class Engine(Protocol):
+    """What the engines have in common."""
+
+    nx: int
+    ny: int
+    kernel: Array  # influence coefficients, lags 0..2 ny along Y and 0..nx along X
+
+    def __call__(self, P: Array) -> Array:
+        """Deflection of the pressure `P`, shape (ny + 1, nx + 1), zero on the outer border nodes."""
+        ...
 
 
-class Deflection:
-    """Convolution with the influence coefficients on a half domain of (ny + 1) x (nx + 1) nodes.
+def deflection(nx: int, ny: int, hx: float, hy: float, kappa: float, engine: str = "fft") -> Engine:
+    """Make an engine for a half domain of (ny + 1) x (nx + 1) nodes.
 
     Parameters
     ----------
@@ -42,6 +52,71 @@ class Deflection:
         Mesh sizes.
     kappa : float
         Ellipse ratio a/b.
+    engine : {"fft", "direct", "mlmi"}
+        Way of summing.
+
+    Raises
+    ------
+    InputError
+        No such engine.
+    """
+    if require_choice("engine", engine, ENGINES) == "mlmi":
+        from ehlcontact.mlmi import Mlmi
+
+        return Mlmi(nx, ny, hx, hy, kappa)
+    return (DirectSum if engine == "direct" else FastFourier)(nx, ny, hx, hy, kappa)
+
+
+def influence_coefficients(nx: int, ny: int, hx: float, hy: float, kappa: float) -> Array:
+    """Deflection at lag (l, k) from unit pressure on one cell, shape (ny, nx) for lags 0..ny-1, 0..nx-1."""
+    x = kappa * hx * (np.arange(nx + 1) - 0.5)[None, :]
+    y = hy * (np.arange(ny + 1) - 0.5)[:, None]
+    return np.diff(np.diff(_primitive(x, y), axis=0), axis=1) / _scale(kappa)
+
+
+def injected_coefficients(k: Array, i: Array, hx: float, hy: float, kappa: float) -> Array:
+    """Influence coefficients at the lags `k` along Y and `i` along X only, shape (k.size, i.size)."""
+    x = [kappa * hx * (i + side)[None, :] for side in (-0.5, 0.5)]
+    y = [hy * (k + side)[:, None] for side in (-0.5, 0.5)]
+    corners = _primitive(x[1], y[1]) - _primitive(x[0], y[1]) - _primitive(x[1], y[0]) + _primitive(x[0], y[0])
+    return corners / _scale(kappa)
+
+
+def _primitive(x: Array, y: Array) -> Array:
+    """Integral of 1/sqrt(x^2 + y^2) over [0, x] x [0, y]."""
+    return x * np.arcsinh(y / abs(x)) + y * np.arcsinh(x / abs(y))
+
+
+def _scale(kappa: float) -> float:
+    """Factor of the integral in eq. 3, and of x = kappa X in its primitive."""
+    K, _ = elliptic_integrals(kappa)
+    return pi * K * kappa
+
+
+class DirectSum:
+    """The convolution term by term, images at Y < 0 included. Parameters as in `deflection`.
+
+    One scratch row is kept: an instance serves one thread at a time.
+    """
+
+    def __init__(self, nx: int, ny: int, hx: float, hy: float, kappa: float) -> None:
+        self.nx, self.ny = nx, ny
+        self.kernel = influence_coefficients(nx + 1, 2 * ny + 1, hx, hy, kappa)
+        self._row = np.zeros(2 * nx + 1)
+
+    def __call__(self, P: Array) -> Array:
+        """Deflection of the pressure `P`, shape (ny + 1, nx + 1)."""
+        W = np.empty((self.ny + 1, self.nx + 1))
+        kernels.direct_sum(P, self.kernel, self._row, W)
+        return W
+
+
+class FastFourier:
+    """The convolution by fast transforms, a matrix product on small grids. Parameters as in `deflection`.
+
+    Along Y the even, zero-padded sequence of period 4 ny needs a cosine transform of 2 ny + 1 numbers. As
+    pressure fills only the first ny of them and deflection is wanted there only, its even frequencies are a
+    cosine transform of ny + 1 numbers and its odd ones a shifted one of ny: fewer than half the operations.
     """
 
     def __init__(self, nx: int, ny: int, hx: float, hy: float, kappa: float) -> None:
@@ -51,20 +126,25 @@ class Deflection:
         if nx <= DENSE_UP_TO:
             self._matrix = self._dense()
         else:
-            # Even sequences of period 4 ny and 2 nx: zero padding that keeps images out of the domain,
-            # because pressure vanishes on the border nodes.
-            self._spectrum = fft.dctn(self.kernel, type=1) / (4 * ny)
+            # Periods 4 ny and 2 nx: zero padding that keeps images out of the domain, because pressure
+            # vanishes on the border nodes.
+            spectrum = fft.dctn(self.kernel, type=1) / (4 * ny)
+            self._spectrum = np.concatenate([spectrum[::2], spectrum[1::2]])  # even frequencies first
 
     def __call__(self, P: Array) -> Array:
         """Deflection of the pressure `P`, shape (ny + 1, nx + 1), zero on the outer border nodes."""
-        nx, ny = self.nx, self.ny
+        nx, ny, workers = self.nx, self.ny, self._workers
         if nx <= DENSE_UP_TO:
             return (self._matrix @ P.ravel()).reshape(P.shape)
-        rows = fft.dct(P, 1, 2 * ny + 1, axis=0, workers=self._workers)
-        spectrum = fft.rfft(rows, 2 * nx, axis=1, workers=self._workers)
+        rows = np.empty((2 * ny + 1, nx + 1))
+        rows[: ny + 1] = fft.dct(P, 1, axis=0, workers=workers)
+        rows[ny + 1 :] = fft.dct(P[:ny], 3, axis=0, workers=workers)
+        spectrum = fft.rfft(rows, 2 * nx, axis=1, workers=workers)
         spectrum *= self._spectrum
-        rows = fft.irfft(spectrum, 2 * nx, axis=1, workers=self._workers, overwrite_x=True)[:, : nx + 1]
-        return fft.dct(rows, 1, axis=0, workers=self._workers)[: ny + 1]
+        rows = fft.irfft(spectrum, 2 * nx, axis=1, workers=workers, overwrite_x=True)[:, : nx + 1]
+        W = fft.dct(rows[: ny + 1], 1, axis=0, workers=workers)
+        W[:ny] += fft.dct(rows[ny + 1 :], 2, axis=0, workers=workers)  # zero at j = ny
+        return W
 
     def _dense(self) -> Array:
         """Influence of every node on every node, images at Y < 0 included."""
@@ -73,3 +153,6 @@ class Deflection:
         matrix = self.kernel[np.abs(j[:, None] - j[None, :]), lag]
         image = self.kernel[np.minimum(j[:, None] + j[None, :], 2 * self.ny), lag]
         return matrix + np.where(j[None, :] > 0, image, 0.0)
+
+
+Deflection = FastFourier  # what the solver uses

@@ -16,6 +16,7 @@ from ehlcontact.results import SimulationResult
 from ehlcontact.scaling import Point, moes_point, scales_of
 from ehlcontact.status import Status
 from ehlcontact.steady import central_film
+from ehlcontact.surface import Surface, surface_height
 from ehlcontact.transient import Step, TransientFilm
 from ehlcontact.version import __version__
 
@@ -55,6 +56,7 @@ def simulate(
     dT: float | None = None,
     tol: float = 3e-3,
     snapshots: Sequence[float] = (),
+    surface: Surface | None = None,
     throw: bool = True,
     callback: Callable[[float, float], None] | None = None,
 ) -> SimulationResult:
@@ -76,6 +78,8 @@ def simulate(
         change by less than tol/30 in the last cycle.
     snapshots : sequence of float
         Times whose whole fields are kept.
+    surface : callable, optional
+        Feature G(X, Y, T) added to the gap, even in Y; see `surface`. At rest for T <= 0.
     throw : bool
         Raise on failure; otherwise look at ``result.status``.
     callback : callable, optional
@@ -104,10 +108,10 @@ def simulate(
         require_nonnegative("snapshots", T)
     film = TransientFilm(moes, domain, check_intervals(n), require_positive("tol", tol))
     history = _History(snapshots)
-    static, status = _start(film, motion, history)
+    static, status = _start(film, motion, history, surface)
     steps = ceil(until / dT - 1e-9)
     if status.ok:
-        status = _march(film, motion, history, steps, until / steps, callback)
+        status = _march(film, motion, history, steps, until / steps, surface, callback)
     result = _collect(film, motion, history, status, static, time.perf_counter() - started, point, domain, n)
     if throw and not status.ok and status is not Status.INTERRUPTED:
         T = result.T[-1]
@@ -115,23 +119,26 @@ def simulate(
     return result
 
 
-def _start(film: TransientFilm, motion: Motion, history: _History) -> tuple[float, Status]:
+def _start(
+    film: TransientFilm, motion: Motion, history: _History, surface: Surface | None
+) -> tuple[float, Status]:
     """Static state, then the state the motion starts from; returns the static approach."""
-    step = film.start_steady(Balance(0.0, 1.0, 1.0))
+    G = surface_height(surface, film.level.X, film.level.Y, 0.0)
+    step = film.start_steady(Balance(0.0, 1.0, 1.0), surface=G)
     static = film.u
     rate = 0.0
     if isinstance(motion, PrescribedApproach):
         rate = motion.rate(0.0)
         if step.status.ok:
             u = motion.approach(0.0)
-            step = film.start_steady(Balance(1.0, 0.0, u), u)
+            step = film.start_steady(Balance(1.0, 0.0, u), u, G)
     elif isinstance(motion, FreeVibration):
         rate = motion.initial_rate
         if step.status.ok and motion.offset != 0.0:
             u = static + motion.offset
-            step = film.start_steady(Balance(1.0, 0.0, u), u)
+            step = film.start_steady(Balance(1.0, 0.0, u), u, G)
     elif step.status.ok and motion.load(0.0) != 1.0:
-        step = film.start_steady(Balance(0.0, 1.0, motion.load(0.0)), static)
+        step = film.start_steady(Balance(0.0, 1.0, motion.load(0.0)), static, G)
     force = film.level.force()
     load = force if isinstance(motion, PrescribedApproach) else motion.load(0.0)
     acceleration = motion.omega_n**2 * (load - force) if motion.omega_n else 0.0
@@ -145,6 +152,7 @@ def _march(
     history: _History,
     steps: int,
     dT: float,
+    surface: Surface | None,
     callback: Callable[[float, float], None] | None,
 ) -> Status:
     """Advance `steps` steps of length `dT`; every step is recorded, also one that fails."""
@@ -165,7 +173,8 @@ def _march(
                 guess = predictor + 0.25 * dT * dT * acceleration
             else:
                 balance = Balance(0.0, 1.0, motion.load(T))
-            step = film.advance(dT, balance, guess)
+            G = surface_height(surface, film.level.X, film.level.Y, T)
+            step = film.advance(dT, balance, guess, G)
             u_before, u_old, u = u, u, film.u
             if motion.omega_n:
                 old = acceleration

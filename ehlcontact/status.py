@@ -16,6 +16,7 @@ class Status(StrEnum):
     NONFINITE = "nonfinite"
     MAX_CYCLES = "max_cycles"
     OUT_OF_DOMAIN = "out_of_domain"
+    CLOSED_GAP = "closed_gap"
     INTERRUPTED = "interrupted"
 
     @property
@@ -36,6 +37,7 @@ _ADVICE = {
     Status.NONFINITE: "NaN or infinity appeared: use a finer grid, or check that M, L and kappa are meant.",
     Status.MAX_CYCLES: "The cycles ran out while still converging: raise max_cycles.",
     Status.OUT_OF_DOMAIN: "Pressure reaches the outlet or side border: give a wider domain.",
+    Status.CLOSED_GAP: "The surfaces touch: the feature is too high for this film, or the grid too coarse for it.",
     Status.INTERRUPTED: "Stopped by the user; what was computed until then is kept.",
 }
 

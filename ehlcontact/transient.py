@@ -35,6 +35,7 @@ class FilmState:
     mass_before: Array
     u: float
     dT: float  # the step that led here
+    surface: Array | float
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,13 +81,14 @@ class TransientFilm:
         """Mutual approach."""
         return self.multigrid.u
 
-    def start_steady(self, balance: Balance, u: float | None = None) -> Step:
-        """Solve the steady film and make it the state at rest for all T <= 0."""
+    def start_steady(self, balance: Balance, u: float | None = None, surface: Array | float = 0.0) -> Step:
+        """Solve the steady film over a resting `surface` and make it the state for all T <= 0."""
         mg = self.multigrid
         mg.set_time_coefficient(0.0)
         if u is not None:
             mg.u = u
         mg.full_multigrid(balance)
+        self.level.film_rhs = surface
         self.level.update_film(mg.u)
         # full multigrid may still overlap in the centre
         self.scale = max(central_film(self.level), SMALLEST_SCALE)
@@ -100,15 +102,18 @@ class TransientFilm:
         self._mass_before = self._mass.copy()
         self._dT = 0.0
 
-    def advance(self, dT: float, balance: Balance, u_guess: float) -> Step:
-        """One step of length dT, closed by `balance`; the state moves to the end of the step."""
+    def advance(self, dT: float, balance: Balance, u_guess: float, surface: Array | float = 0.0) -> Step:
+        """One step of length dT, closed by `balance`; the state moves to the end of the step.
+
+        `surface` is the height of the features at the end of the step, shape (ny + 1, nx + 1).
+        """
         level, mg = self.level, self.multigrid
         # From rest the past is not smooth: the first step is backward Euler, as the limit ratio = 0 makes it.
         ratio = dT / self._dT if self._dT > 0.0 else 0.0
         mg.set_time_coefficient((1.0 + 2.0 * ratio) / (1.0 + ratio) / dT)
         np.multiply(self._mass_before, ratio * ratio / (1.0 + ratio) / dT, out=level.rhs)
         level.rhs -= self._mass * ((1.0 + ratio) / dT)
-        level.film_rhs = 0.0
+        level.film_rhs = surface
         past = self._past
         P_now = level.P.copy()
         if past and ratio <= LARGEST_EXTRAPOLATION:
@@ -147,18 +152,23 @@ class TransientFilm:
             status = classify(residuals, self.scale, self.tol, settled, max_cycles)
         if status is Status.CONVERGED and touches_border(level):
             status = Status.OUT_OF_DOMAIN
+        if status is Status.CONVERGED and not level.H.min() > 0.0:
+            status = Status.CLOSED_GAP
         return Step(residuals[-1] / self.scale, load_residual, len(residuals) - 1, status)
 
     def save_state(self) -> FilmState:
         """Everything needed to come back here."""
         # mass arrays are replaced, never written, by advance: no copy needed
-        return FilmState(self.level.P.copy(), self._past, self._mass, self._mass_before, self.u, self._dT)
+        return FilmState(
+            self.level.P.copy(), self._past, self._mass, self._mass_before, self.u, self._dT, self.level.film_rhs
+        )
 
     def restore_state(self, state: FilmState) -> None:
         """Return to a saved state."""
         self.level.P[...] = state.P
         self._past, self._mass, self._mass_before = state.past, state.mass, state.mass_before
         self.multigrid.u, self._dT = state.u, state.dT
+        self.level.film_rhs = state.surface
         self.level.update_film(state.u)
 
 

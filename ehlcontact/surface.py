@@ -1,0 +1,112 @@
+"""Surface features that travel through the contact: what excites bearings.
+
+A feature is a height G(X, Y, T) *added to the gap* (eq. 3), in dry approaches, even in Y: a dent is positive, a
+ridge negative. It moves with one surface at ``dX/dT = speed``: 1 in pure rolling, ``2 u_i/u_sum`` in general.
+Shapes after Venner and Lubrecht, ASME J. Tribology 116 (1994) 751 (ridge) and 118 (1996) 153 (waviness).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.errors import InputError, require_finite, require_nonnegative, require_positive
+
+Array = NDArray[np.float64]
+Surface = Callable[[Array, Array, float], Array]
+
+
+def surface_height(surface: Surface | None, X: Array, Y: Array, T: float) -> Array | float:
+    """Height of `surface` on the grid, shape (Y.size, X.size); 0 without one.
+
+    Raises
+    ------
+    InputError
+        The surface returns another shape, NaN or infinity.
+    """
+    if surface is None:
+        return 0.0
+    G = np.asarray(surface(X[None, :], Y[:, None], T), dtype=float)
+    if np.broadcast_shapes(G.shape, (Y.size, X.size)) != (Y.size, X.size):
+        raise InputError("surface", G.shape, f"a function returning shape {(Y.size, X.size)}")
+    if not np.isfinite(G).all():
+        raise InputError("surface", "NaN or infinity", f"finite everywhere (T = {T:g})")
+    return np.broadcast_to(G, (Y.size, X.size)).copy()
+
+
+@dataclass(frozen=True, slots=True)
+class Dent:
+    """Round dent (depth > 0) or bump (depth < 0) centred on Y = 0.
+
+    ``depth cos(pi r/(2 radius)) exp(-2 (r/radius)^2)`` within a half wave, r in the *physical* metric:
+    ``r^2 = (X - X0 - speed T)^2 + (Y/kappa)^2`` with lengths in semi-axes a. The shape of Mourier, Mazuyer,
+    Lubrecht and Donnet, Tribology Int. 39 (2006) 1745, with their ``1.2 r0`` as `radius`.
+    """
+
+    depth: float
+    radius: float
+    start: float = -2.5
+    kappa: float = 1.0
+    speed: float = 1.0
+
+    def __post_init__(self) -> None:
+        require_finite("depth", self.depth)
+        require_positive("radius", self.radius)
+        require_finite("start", self.start)
+        require_positive("kappa", self.kappa)
+        require_nonnegative("speed", self.speed)
+
+    def __call__(self, X: Array, Y: Array, T: float) -> Array:
+        """Height at time T."""
+        r = np.hypot(X - self.start - self.speed * T, Y / self.kappa) / self.radius
+        return self.depth * np.cos(0.5 * pi * r) * np.exp(-2.0 * r * r)
+
+
+@dataclass(frozen=True, slots=True)
+class TransverseRidge:
+    """Ridge across the rolling direction: ``-height cos(2 pi s) 10^(-10 s^2)``, s = (X - X0 - speed T)/width."""
+
+    height: float
+    width: float
+    start: float = -2.5
+    speed: float = 1.0
+
+    def __post_init__(self) -> None:
+        require_finite("height", self.height)
+        require_positive("width", self.width)
+        require_finite("start", self.start)
+        require_nonnegative("speed", self.speed)
+
+    def __call__(self, X: Array, Y: Array, T: float) -> Array:
+        """Height at time T, the same for all Y."""
+        s = (X - self.start - self.speed * T) / self.width
+        return -self.height * np.cos(2.0 * pi * s) * 10.0 ** (-10.0 * s * s) + 0.0 * Y
+
+
+@dataclass(frozen=True, slots=True)
+class Waviness:
+    """Transverse waviness that enters the contact from ``X0 + speed T`` on, with a smooth front.
+
+    Upstream of the front ``amplitude sin(2 pi s)``, s = (X - X0 - speed T)/wavelength, downstream zero.
+    """
+
+    amplitude: float
+    wavelength: float
+    start: float = -2.5
+    speed: float = 1.0
+
+    def __post_init__(self) -> None:
+        require_finite("amplitude", self.amplitude)
+        require_positive("wavelength", self.wavelength)
+        require_finite("start", self.start)
+        require_nonnegative("speed", self.speed)
+
+    def __call__(self, X: Array, Y: Array, T: float) -> Array:
+        """Height at time T, the same for all Y."""
+        s = (X - self.start - self.speed * T) / self.wavelength
+        front = np.where(s < 0.0, 1.0 - np.exp(-10.0 * np.minimum(s, 0.0) ** 2), 0.0)
+        return self.amplitude * front * np.sin(2.0 * pi * s) + 0.0 * Y
