@@ -5,14 +5,14 @@ Pressure is piecewise constant on the cells around the nodes, and the kernel is 
 evaluate the same sum; each is called as ``engine(P)`` and has ``nx``, ``ny`` and ``kernel``:
 
 - `DirectSum`, term by term, O(N^2): the oracle of the tests;
-- `FastFourier`, by zero-padded fast transforms, O(N log N) and exact to rounding: the default, being the fastest;
+- `FastFourier`, by zero-padded fast transforms, O(N log N) and exact to rounding: the default;
 - `ehlcontact.mlmi.Mlmi`, multilevel multi-integration, O(N log N) to below the discretisation error.
 """
 
 from __future__ import annotations
 
 from math import pi
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,9 +23,10 @@ from ehlcontact.errors import require_choice
 from ehlcontact.hertz import elliptic_integrals
 
 Array = NDArray[np.float64]
+Lags = NDArray[np.integer[Any]]
 
 ENGINES = ("direct", "fft", "mlmi")
-THREADED_FROM = 256  # intervals along X; below, starting threads costs more than it saves
+BLOCK = 2**15  # numbers transformed along X at a time
 DENSE_UP_TO = 16  # intervals along X; below, a matrix product is faster than any transform
 
 
@@ -74,7 +75,7 @@ def influence_coefficients(nx: int, ny: int, hx: float, hy: float, kappa: float)
     return np.diff(np.diff(_primitive(x, y), axis=0), axis=1) / _scale(kappa)
 
 
-def injected_coefficients(k: Array, i: Array, hx: float, hy: float, kappa: float) -> Array:
+def injected_coefficients(k: Lags, i: Lags, hx: float, hy: float, kappa: float) -> Array:
     """Influence coefficients at the lags `k` along Y and `i` along X only, shape (k.size, i.size)."""
     x = [kappa * hx * (i + side)[None, :] for side in (-0.5, 0.5)]
     y = [hy * (k + side)[:, None] for side in (-0.5, 0.5)]
@@ -82,7 +83,7 @@ def injected_coefficients(k: Array, i: Array, hx: float, hy: float, kappa: float
     return corners / _scale(kappa)
 
 
-def _primitive(x: Array, y: Array) -> Array:
+def _primitive(x: NDArray[np.floating[Any]], y: NDArray[np.floating[Any]]) -> Array:
     """Integral of 1/sqrt(x^2 + y^2) over [0, x] x [0, y]."""
     return x * np.arcsinh(y / abs(x)) + y * np.arcsinh(x / abs(y))
 
@@ -116,13 +117,13 @@ class FastFourier:
 
     Along Y the even, zero-padded sequence of period 4 ny needs a cosine transform of 2 ny + 1 numbers. As
     pressure fills only the first ny of them and deflection is wanted there only, its even frequencies are a
-    cosine transform of ny + 1 numbers and its odd ones a shifted one of ny: fewer than half the operations.
+    cosine transform of ny + 1 numbers and its odd ones a shifted one of ny. Along X a block of rows at a time
+    goes to frequencies and back, so that it stays in cache; that gains more than threads do.
     """
 
     def __init__(self, nx: int, ny: int, hx: float, hy: float, kappa: float) -> None:
         self.nx, self.ny = nx, ny
         self.kernel = influence_coefficients(nx + 1, 2 * ny + 1, hx, hy, kappa)
-        self._workers = 2 if nx >= THREADED_FROM else 1
         if nx <= DENSE_UP_TO:
             self._matrix = self._dense()
         else:
@@ -133,17 +134,20 @@ class FastFourier:
 
     def __call__(self, P: Array) -> Array:
         """Deflection of the pressure `P`, shape (ny + 1, nx + 1), zero on the outer border nodes."""
-        nx, ny, workers = self.nx, self.ny, self._workers
+        nx, ny = self.nx, self.ny
         if nx <= DENSE_UP_TO:
             return (self._matrix @ P.ravel()).reshape(P.shape)
         rows = np.empty((2 * ny + 1, nx + 1))
-        rows[: ny + 1] = fft.dct(P, 1, axis=0, workers=workers)
-        rows[ny + 1 :] = fft.dct(P[:ny], 3, axis=0, workers=workers)
-        spectrum = fft.rfft(rows, 2 * nx, axis=1, workers=workers)
-        spectrum *= self._spectrum
-        rows = fft.irfft(spectrum, 2 * nx, axis=1, workers=workers, overwrite_x=True)[:, : nx + 1]
-        W = fft.dct(rows[: ny + 1], 1, axis=0, workers=workers)
-        W[:ny] += fft.dct(rows[ny + 1 :], 2, axis=0, workers=workers)  # zero at j = ny
+        rows[: ny + 1] = fft.dct(P, 1, axis=0)
+        rows[ny + 1 :] = fft.dct(P[:ny], 3, axis=0)
+        height = max(1, BLOCK // nx)
+        for first in range(0, 2 * ny + 1, height):
+            block = slice(first, first + height)
+            spectrum = fft.rfft(rows[block], 2 * nx, axis=1)
+            spectrum *= self._spectrum[block]
+            rows[block] = fft.irfft(spectrum, 2 * nx, axis=1, overwrite_x=True)[:, : nx + 1]
+        W = fft.dct(rows[: ny + 1], 1, axis=0)
+        W[:ny] += fft.dct(rows[ny + 1 :], 2, axis=0)  # zero at j = ny
         return W
 
     def _dense(self) -> Array:

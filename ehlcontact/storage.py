@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
@@ -33,9 +32,10 @@ def save(result: Result, path: str | os.PathLike[str]) -> Path:
         The folder does not exist or cannot be written to.
     """
     target = Path(path)
+    # not tempfile: it makes files that only their owner may read
+    name = target.with_name(f".{target.name}.{os.getpid()}.tmp")
     try:
-        handle, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-        os.close(handle)
+        name.touch()
     except OSError as error:
         raise InputError("save", str(target), f"in a folder that can be written to ({error.strerror})") from None
     try:
@@ -54,7 +54,7 @@ def save(result: Result, path: str | os.PathLike[str]) -> Path:
     except OSError as error:
         raise InputError("save", str(target), f"a file that can be written ({error.strerror})") from None
     finally:
-        Path(name).unlink(missing_ok=True)
+        name.unlink(missing_ok=True)
     return target
 
 

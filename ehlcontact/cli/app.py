@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from typing import Annotated
 
@@ -13,7 +14,9 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.version import __version__
 
 # Root of the usage errors; typer's own or click's, depending on the version of typer.
-UsageFailure: type[Exception] = [base for base in typer.BadParameter.__mro__ if hasattr(base, "format_message")][-1]
+UsageFailure: type[Exception] = [base for base in typer.BadParameter.__mro__ if hasattr(base, "format_message")][
+    -1
+]
 
 app = typer.Typer(
     name="ehlcontact",
@@ -64,9 +67,22 @@ def execute(arguments: Sequence[str] | None = None) -> int:
         complain(INTERRUPTED_LINE)
         return FAILED
     except UsageFailure as error:
-        text = error.format_message() if hasattr(error, "format_message") else str(error)
         if type(error).__name__ == "NoArgsIsHelpError":
-            typer.echo(text)
+            typer.echo(str(error))
         else:
-            complain(one_line(text))
+            complain(_usage_line(error, sys.argv[1:] if arguments is None else arguments))
         return USAGE
+
+
+def _usage_line(error: Exception, arguments: Sequence[str]) -> str:
+    """What was wrong with the command line; for a value, the option, the value and what it must be."""
+    message = str(getattr(error, "format_message", error.__str__)())
+    parameter = getattr(error, "param", None)
+    given = list(arguments)
+    for option in getattr(parameter, "opts", ()):
+        if isinstance(error, typer.BadParameter) and option in given:
+            start = given.index(option) + 1
+            value = " ".join(given[start : start + parameter.nargs])  # type: ignore[union-attr]
+            allowed = str(getattr(error, "message", message)).removeprefix("Input should be ")
+            return str(InputError(option, value, allowed))
+    return one_line(message)

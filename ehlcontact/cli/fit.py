@@ -27,9 +27,7 @@ def fit(
         tuple[float, float] | None,
         typer.Option("--window", metavar="START END", help="Part of T to fit; the last two thirds by default."),
     ] = None,
-    save: Annotated[
-        Path | None, typer.Option("--save", metavar="FILE", help="Save the element as JSON.")
-    ] = None,
+    save: Annotated[Path | None, typer.Option("--save", metavar="FILE", help="Save the element as JSON.")] = None,
     json_to: o.JsonTo = None,
 ) -> None:
     """Fit a contact element to one or several simulations of the same contact."""
@@ -57,7 +55,9 @@ def fit(
         fitted.element.save(save)
     write_json(fitted.to_dict(), json_to)
     valid = fitted.valid
-    rows = [(name, f"{value:.5g}", f"+- {fitted.std_errors[name]:.1g}") for name, value in fitted.parameters.items()]
+    rows = [
+        (name, f"{value:.5g}", f"+- {fitted.std_errors[name]:.1g}") for name, value in fitted.parameters.items()
+    ]
     rows += [
         ("rms error", f"{100 * fitted.rms:.2f} %", "of the standard deviation of the force"),
         ("e_f (eq. 13)", f"{fitted.e_f:.1e}", ""),

@@ -14,9 +14,7 @@ _POINT, _GRID, _FILES = "Operating point", "Discretisation", "Results"
 
 LoadM = Annotated[float, typer.Option("--M", help="Moes load parameter, > 0.", rich_help_panel=_POINT)]
 OilL = Annotated[float, typer.Option("--L", help="Moes lubricant parameter, >= 0.", rich_help_panel=_POINT)]
-Kappa = Annotated[
-    float, typer.Option("--kappa", help="Ellipse ratio a/b, 0.01 to 100.", rich_help_panel=_POINT)
-]
+Kappa = Annotated[float, typer.Option("--kappa", help="Ellipse ratio a/b, 0.01 to 100.", rich_help_panel=_POINT)]
 Alpha = Annotated[
     float, typer.Option("--alpha", help="Pressure-viscosity coefficient, 1/Pa.", rich_help_panel=_POINT)
 ]
@@ -26,13 +24,9 @@ Viscosity = Annotated[
 ]
 Density = Annotated[
     str,
-    typer.Option(
-        "--density", help="dowson-higginson or incompressible.", rich_help_panel=_POINT, metavar="LAW"
-    ),
+    typer.Option("--density", help="dowson-higginson or incompressible.", rich_help_panel=_POINT, metavar="LAW"),
 ]
-Intervals = Annotated[
-    int, typer.Option("--n", help="Intervals along X, a multiple of 16.", rich_help_panel=_GRID)
-]
+Intervals = Annotated[int, typer.Option("--n", help="Intervals along X, a multiple of 16.", rich_help_panel=_GRID)]
 Region = Annotated[
     tuple[float, float, float] | None,
     typer.Option(

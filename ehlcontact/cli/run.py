@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import FAILED, check_folder, check_json, complain, say, write_json, write_text
 from ehlcontact.errors import InputError
+
+if TYPE_CHECKING:
+    from ehlcontact.cli.study.schema import Study
 
 STUDY_COPY = "study.toml"
 
@@ -43,13 +46,18 @@ def run(
     if not copy.exists() or not copy.samefile(study_file):
         write_text(copy, study_file.read_text(encoding="utf-8"))
 
-    from ehlcontact.cli.study.runner import run_stages
-
     try:
-        ledger = run_stages(study, copy, folder, min(jobs, os.cpu_count() or 1))
+        _compute(study, copy, folder, min(jobs, os.cpu_count() or 1), json_to)
     except KeyboardInterrupt:
         complain(f"interrupted; what was computed is in {folder}, the same command resumes")
         raise typer.Exit(FAILED) from None
+
+
+def _compute(study: Study, copy: Path, folder: Path, jobs: int, json_to: str | None) -> None:
+    """Stages, then elements, FMU, reduced rotors and report."""
+    from ehlcontact.cli.study.runner import run_stages
+
+    ledger = run_stages(study, copy, folder, jobs)
     failed = {name: note for name, note in ledger.items() if note["status"] != "converged"}
     if failed:
         for name, note in failed.items():

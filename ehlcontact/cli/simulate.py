@@ -88,9 +88,7 @@ def simulate(
     check_file("--save", save, o.HDF5)
     check_json(json_to)
     with progress("transient film") as update:
-        result = integrate(
-            point, motion, n=n, domain=region, until=until, dT=dt, throw=False, callback=update
-        )
+        result = integrate(point, motion, n=n, domain=region, until=until, dT=dt, throw=False, callback=update)
     if save is not None:
         store(result, save)
     write_json(result.summary(), json_to)
@@ -138,7 +136,11 @@ def choose_motion(
     chosen = [name for name, value in motions.items() if value is not None]
     if len(chosen) != 1:
         raise InputError("motion", " ".join(chosen) or None, "exactly one of --free, --harmonic, --ramp")
-    allowed = {"--free": ("--offset", "--rate"), "--harmonic": ("--amplitude", "--omega-n"), "--ramp": ("--omega-n",)}
+    allowed = {
+        "--free": ("--offset", "--rate"),
+        "--harmonic": ("--amplitude", "--omega-n"),
+        "--ramp": ("--omega-n",),
+    }
     given = {"--offset": offset, "--rate": rate, "--amplitude": amplitude, "--omega-n": omega_n}
     for name, value in given.items():
         if value is not None and name not in allowed[chosen[0]]:

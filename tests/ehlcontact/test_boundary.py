@@ -1,6 +1,7 @@
 """The cavitation-boundary passes."""
 
 import numpy as np
+import oracles
 import pytest
 
 from ehlcontact import Domain, MoesPoint
@@ -10,20 +11,31 @@ from ehlcontact.multigrid import Multigrid
 from ehlcontact.newton import Balance
 
 
-@pytest.mark.parametrize("kernel", [boundary.near_boundary, boundary.near_boundary.py_func], ids=["jit", "python"])
-def test_near_boundary(kernel):
-    """Against the same question asked on the whole domain."""
-    P = np.zeros((13, 25))
+@pytest.mark.parametrize("kernel", [boundary.mark_boundary, boundary.mark_boundary.py_func], ids=["jit", "python"])
+def test_marks(kernel):
+    """Against distances on the whole domain: all nodes within REACH of a change, none beyond REACH + 1."""
+    P = np.zeros((13, 31))
     P[:5, 8:18] = 0.5
     P[:1, 14] = 0.0  # a hole on the symmetry line
-    reach, ny, nx = boundary.REACH, 12, 24
-    wet = np.concatenate([P[:0:-1], P]) > 0.0
-    for j in range(ny):
-        for i in range(1, nx):
-            rows = slice(max(ny + j - reach, 1), min(ny + j + reach, 2 * ny - 1) + 1)
-            columns = slice(max(i - reach, 1), min(i + reach, nx - 1) + 1)
-            window = wet[rows, columns]
-            assert kernel(j, i, P) == bool((window != wet[ny + j, i]).any()), (j, i)
+    marks = np.full(P.shape, 7, dtype=np.uint8)
+    kernel(P, marks)
+    wet = oracles.mirrored(P) > 0.0
+    changes = [
+        node
+        for r in range(1, wet.shape[0] - 1)
+        for c in range(1, wet.shape[1] - 1)
+        for node, other in (((r, c), (r, c + 1)), ((r, c), (r + 1, c)))
+        if wet[node] != wet[other]
+        for node in (node, other)
+    ]
+    for j in range(12):
+        for i in range(1, 30):
+            distance = min(max(abs(r - 12 - j), abs(c - i)) for r, c in changes)
+            if distance <= boundary.REACH:
+                assert marks[j, i] == 1, (j, i)
+            elif distance > boundary.REACH + 1:
+                assert marks[j, i] == 0, (j, i)
+    assert (marks[:, [0, -1]] == 0).all()
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +49,7 @@ def solved():
 
 def passes(level, kernel):
     f = level.fields
-    kernel(f.P, f.eps, f.mass, level.rhs, level.mesh, level.c_t, level.near[0, 0], level.nodes)
+    kernel(f.P, f.eps, f.mass, level.rhs, level.mesh, level.c_t, level.near[0, 0], level.nodes, level.marks)
 
 
 KERNELS = [boundary.relax_boundary, boundary.relax_boundary.py_func]
@@ -53,11 +65,9 @@ def test_solution_stays(solved, kernel):
 
 def test_disturbed_boundary_is_restored(solved):
     P, f = solved.P.copy(), solved.fields
-    near = np.zeros_like(P, dtype=bool)
-    for j in range(solved.ny):
-        for i in range(1, solved.nx):
-            near[j, i] = boundary.near_boundary(j, i, P)
-    tiny = near & (P > 0.0) & (P < 1e-3)
+    marks = np.zeros(P.shape, dtype=np.uint8)
+    boundary.mark_boundary(P, marks)
+    tiny = (marks == 1) & (P > 0.0) & (P < 1e-3)
     assert tiny.sum() > 3
 
     def left():  # at frozen film, which is all these passes see

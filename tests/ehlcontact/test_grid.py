@@ -1,5 +1,7 @@
 """Levels and hierarchies."""
 
+import itertools
+
 import numpy as np
 import oracles
 import pytest
@@ -42,7 +44,7 @@ def test_hierarchy(n, coarsest):
     levels = build_hierarchy(MoesPoint(20, 5, 0.5), domain, n, coarsest)
     assert levels[-1].nx == n
     assert levels[0].nx < 2 * max(coarsest, 16) or levels[0].nx % 2
-    for coarse, fine in zip(levels, levels[1:], strict=False):
+    for coarse, fine in itertools.pairwise(levels):
         assert (fine.nx, fine.ny) == (2 * coarse.nx, 2 * coarse.ny)
         np.testing.assert_allclose(fine.X[::2], coarse.X, atol=1e-14)
         np.testing.assert_allclose(fine.Y[::2], coarse.Y, atol=1e-14)

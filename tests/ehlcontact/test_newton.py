@@ -60,7 +60,7 @@ def test_quadratic_convergence():
 def test_correct_reduces_the_residual_a_hundredfold():
     point, balance = MoesPoint(50, 6, 0.5), Balance(0.0, 1.0, 1.0)
     level, u = solve(point, balance)
-    level.P *= 1.0 + 1e-3 * np.random.default_rng(1).normal(size=level.P.shape)
+    level.P[...] *= 1.0 + 1e-3 * np.random.default_rng(1).normal(size=level.P.shape)
     newton = CoarseNewton(level)
     before = newton._evaluate(u, balance)[0]
     u = newton.correct(u, balance)

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ehlcontact.cli.study.reduction import Reduction
 from ehlcontact.cli.study.rotor import build_rotor, load_rotor, run_reduced
 from ehlcontact.cli.study.schema import Study
@@ -29,7 +27,6 @@ class RotorComparison:
     half: Comparison  # full against reduced, both with half the step
     step_full: Comparison  # full with the step against full with half of it
     step_reduced: Comparison  # the same for the reduced rotor: what the rotor's integrator contributes
-    work: Mapping[str, float]  # damping of the film: work of contact 1 in the last revolution [J], full and reduced
 
     def to_dict(self) -> dict[str, Any]:
         """All numbers."""
@@ -39,7 +36,6 @@ class RotorComparison:
             "half_step": self.half.to_dict(),
             "step_full": self.step_full.to_dict(),
             "step_reduced": self.step_reduced.to_dict(),
-            "work_last_revolution": dict(self.work),
             "evaluations_per_step": {
                 "full": float(self.full.iterations[1:].mean()),
                 "full_half_step": float(self.full_half.iterations[1:].mean()),
@@ -61,8 +57,6 @@ def compare_rotors(study: Study, reduction: Reduction, folder: Path) -> RotorCom
     reduced_half = run_reduced(study, reduction.chosen, 1, r.check_revolutions)
     revolution = 60.0 / study.bearing.speed_rpm
     discard = float(full.t[-1]) - revolution
-    steps = r.steps_per_revolution
-    work = {name: _work(run, steps) for name, run in ({"full": full} | reduced).items()}
     return RotorComparison(
         full=full,
         full_half=full_half,
@@ -72,10 +66,4 @@ def compare_rotors(study: Study, reduction: Reduction, folder: Path) -> RotorCom
         half=compare(full_half, reduced_half),
         step_full=compare(full, full_half),
         step_reduced=compare(reduced["rotor_band"], reduced_half),
-        work=work,
     )
-
-
-def _work(run: RotorResult, steps: int) -> float:
-    """Work that contact 1 took up in the last revolution."""
-    return float(np.trapezoid(run.force[-steps - 1 :, 0], run.approach[-steps - 1 :, 0]))

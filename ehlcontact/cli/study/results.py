@@ -62,6 +62,19 @@ class Findings:
         }
 
     @property
+    def cycle_work(self) -> dict[str, float]:
+        """Work taken up in the last cycle of the rotor-band record [J]: by the film, and by the cubic elements."""
+        run, scales = self.simulations["rotor_band"], self.study.point.scales
+        last = run.T >= run.T[-1] - self.study.rotor_motion.period * (1.0 + 1e-9)
+        u, rate = run.approach[last], run.rate[last]
+        forces = {"full": run.force[last]}
+        for (record, model), found in self.reduction.fits.items():
+            if model == "cubic" and record != "free":
+                forces[record] = np.asarray(found.element.force(u, rate))
+        unit = scales.force * scales.length
+        return {name: float(np.trapezoid(force, u)) * unit for name, force in forces.items()}
+
+    @property
     def versions(self) -> dict[str, str]:
         """Software the numbers come from."""
         found = {name: distribution_version(name) for name in LIBRARIES}
@@ -99,10 +112,10 @@ class Findings:
             f"The most loaded ball of this {s.bearing.name} presses {point['load']:.0f} N on the {s.bearing.race} "
             f"race (M = {point['M']:.0f}, L = {point['L']:.1f}, kappa = {point['kappa']:.3f}, "
             f"{point['p_hertz'] * 1e-9:.2f} GPa) and rolls on an oil film of {point['h_central_um']:.3f} um, "
-            f"{point['h_min_um']:.3f} um at its thinnest. For the rotor at {s.bearing.speed_rpm:.0f} rpm the contact "
-            f"is a spring of {k * 1e-6:.1f} N/um with a damper of {chosen.C1:.0f} N s/m: with this cubic element "
-            f"in place of the film, displacements differ by {displacement:.2f} % and contact forces by "
-            f"{force:.2f} % of their dynamic amplitude (rms).{lesson}"
+            f"{point['h_min_um']:.3f} um at its thinnest. For the rotor at {s.bearing.speed_rpm:.0f} rpm "
+            f"the contact is a spring of {k * 1e-6:.1f} N/um with a damper of {chosen.C1:.0f} N s/m: with this "
+            f"cubic element in place of the film, displacements differ by {displacement:.2f} % and contact "
+            f"forces by {force:.2f} % of their dynamic amplitude (rms).{lesson}"
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -127,6 +140,7 @@ class Findings:
             },
             "fits": self.fits,
             "fmu": self.fmu,
+            "cycle_work": self.cycle_work,
             "rotor": self.rotors.to_dict(),
             "seconds": self.seconds,
             "versions": self.versions,

@@ -18,7 +18,17 @@ from ehlcontact.errors import InputError
 from ehlcontact.full_contact import FullContact
 from reduced_models import JeffcottRotor, RotorResult, RotorStatus, ScaledContact, simulate_rotor
 
-HISTORIES = ("t", "disc", "disc_velocity", "journal", "journal_velocity", "approach", "rate", "force", "iterations")
+HISTORIES = (
+    "t",
+    "disc",
+    "disc_velocity",
+    "journal",
+    "journal_velocity",
+    "approach",
+    "rate",
+    "force",
+    "iterations",
+)
 TOLERANCE = 1e-5  # of the force balance: not below the noise of the full film
 
 
@@ -51,9 +61,7 @@ def time_step(study: Study, halvings: int = 0) -> float:
     return 60.0 / study.bearing.speed_rpm / (study.rotor.steps_per_revolution * 2**halvings)
 
 
-def run_full(
-    study: Study, halvings: int, revolutions: float, callback: Callable[[int, int], None]
-) -> RotorResult:
+def run_full(study: Study, halvings: int, revolutions: float, callback: Callable[[int, int], None]) -> RotorResult:
     """Rotor with the whole film in every contact, from rest when the unbalance sets in."""
     point, rotor = study.point, build_rotor(study)
     contacts = [

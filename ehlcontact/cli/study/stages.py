@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import ceil
 from pathlib import Path
 from typing import Any
 
@@ -37,7 +36,7 @@ class Stage:
     title: str
     sections: tuple[str, ...]
     compute: Callable[[Study, Update], Any]
-    store: Callable[[Any, Path], object]
+    store: Callable[[Any, Path], None]
 
     def file(self, folder: Path) -> Path:
         """Where the converged result stands."""
@@ -66,16 +65,16 @@ class Stage:
         return Outcome(status, message)
 
 
-def _store(result: Any, path: Path) -> object:
+def _store(result: Any, path: Path) -> None:
     from ehlcontact.storage import save
 
-    return save(result, path)
+    save(result, path)
 
 
-def _store_rotor(result: Any, path: Path) -> object:
+def _store_rotor(result: Any, path: Path) -> None:
     from ehlcontact.cli.study.rotor import save_rotor
 
-    return save_rotor(result, path)
+    save_rotor(result, path)
 
 
 def _steady(study: Study, update: Update) -> Any:
@@ -91,7 +90,9 @@ def _steady(study: Study, update: Update) -> Any:
     )
 
 
-def _simulate(study: Study, motion: FreeVibration | HarmonicLoad, periods: float, steps: int, update: Update) -> Any:
+def _simulate(
+    study: Study, motion: FreeVibration | HarmonicLoad, periods: float, steps: int, update: Update
+) -> Any:
     from ehlcontact.simulate import simulate
 
     return simulate(
@@ -132,9 +133,9 @@ def _rotor_half_step(study: Study, update: Update) -> Any:
     return run_full(study, 1, study.rotor.check_revolutions, update)
 
 
-STAGES = (
-    Stage("steady", "steady film", ("solver",), _steady, _store),
+STAGES = (  # the longest first
     Stage("rotor_full", "rotor on full contacts", ("solver", "rotor"), _rotor_full, _store_rotor),
+    Stage("steady", "steady film", ("solver",), _steady, _store),
     Stage("free", "free vibration", ("solver", "free"), _free, _store),
     Stage("harmonic", "harmonic load, contact band", ("solver", "harmonic"), _harmonic, _store),
     Stage("rotor_band", "harmonic load, rotor band", ("solver", "rotor"), _rotor_band, _store),
@@ -145,16 +146,3 @@ STAGES = (
 def stage_named(name: str) -> Stage:
     """Look a stage up."""
     return next(stage for stage in STAGES if stage.name == name)
-
-
-def expected_steps(study: Study) -> dict[str, int]:
-    """Number of steps of each stage, to say beforehand how much there is to do."""
-    r = study.rotor
-    return {
-        "steady": STEADY_CYCLES,
-        "rotor_full": ceil(r.revolutions * r.steps_per_revolution),
-        "free": ceil(study.free.periods * study.free.steps_per_period),
-        "harmonic": ceil(study.harmonic.periods * study.harmonic.steps_per_period),
-        "rotor_band": ceil(r.fit_periods * r.fit_steps_per_period),
-        "rotor_half_step": ceil(2 * r.check_revolutions * r.steps_per_revolution),
-    }

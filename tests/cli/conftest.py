@@ -1,0 +1,43 @@
+"""The command line called in this process, as the console script calls it."""
+
+from collections import namedtuple
+
+import pytest
+
+Outcome = namedtuple("Outcome", "code out err")
+POINT = ["--M", "20", "--L", "5", "--kappa", "0.5"]
+
+
+@pytest.fixture(scope="session")
+def point():
+    return list(POINT)
+
+
+@pytest.fixture
+def call(capsys):
+    """``call(*arguments)`` returns the exit code, stdout and stderr."""
+    from ehlcontact.cli import main
+
+    def run(*arguments):
+        with pytest.raises(SystemExit) as stop:
+            main([str(argument) for argument in arguments])
+        captured = capsys.readouterr()
+        return Outcome(stop.value.code or 0, captured.out, captured.err)
+
+    return run
+
+
+@pytest.fixture
+def refused(call):
+    """``refused(words, *arguments)``: exit 2, nothing on stdout, one line on stderr that holds all words."""
+
+    def run(words, *arguments):
+        result = call(*arguments)
+        assert result.code == 2, result
+        assert result.out == "" and "Traceback" not in result.err
+        lines = result.err.splitlines()
+        assert len(lines) == 1, lines
+        for word in words:
+            assert word in lines[0], (word, lines[0])
+
+    return run

@@ -1,0 +1,141 @@
+"""``ehlcontact run`` from study to report on the coarsest settings, resume, Ctrl-C and failure."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from ehlcontact import load
+from reduced_models import load_element
+
+STUDY = """
+[bearing]
+balls = 9
+ball_diameter_mm = 7.94
+pitch_diameter_mm = 39.04
+conformity = 0.52
+radial_load = 20.0
+speed_rpm = 3000.0
+[oil]
+eta0 = 0.02
+alpha = 1e-8
+[solver]
+n = 32
+n_transient = 32
+[free]
+steps_per_period = 20
+[harmonic]
+steps_per_period = 20
+[rotor]
+arrangement = "vertical"
+disc_mass = 1.0
+journal_mass = 0.1
+shaft_stiffness = 5e5
+unbalance = 8e-6
+revolutions = 1
+steps_per_revolution = 20
+fit_steps_per_period = 20
+fit_amplitude = 0.1
+"""
+PACKAGE_ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A study file and the folder of its finished run."""
+    from ehlcontact.cli import main
+
+    root = tmp_path_factory.mktemp("run")
+    study = root / "tiny.toml"
+    study.write_text(STUDY)
+    with pytest.raises(SystemExit) as stop:
+        main(["run", str(study), "-o", str(root / "out")])
+    assert not stop.value.code
+    return study, root / "out"
+
+
+def test_everything_is_there(finished):
+    _, folder = finished
+    results = json.loads((folder / "results.json").read_text())
+    assert results["fmu"]["passes"] and results["fmu"]["findings"] == []
+    assert results["rotor"]["whole"]["rotor_band"]["force"] < 0.03
+    assert results["rotor"]["whole"]["rotor_band"]["displacement"] < 0.03
+    assert results["steady"]["status"] == "converged" and results["versions"]["ehlcontact"]
+    for name in ("steady", "free", "harmonic", "rotor_band"):
+        assert load(folder / f"{name}.h5").status.ok
+    dimensionless = load_element(folder / "elements" / "rotor_band_cubic.json")
+    si = load_element(folder / "elements" / "rotor_band_cubic_si.json")
+    assert si.units == "SI" and dimensionless.to_si(load(folder / "rotor_band.h5").scales) == si
+
+
+def test_report_is_self_contained(finished):
+    _, folder = finished
+    page = (folder / "report.html").read_text()
+    assert page.count("data:image/png;base64,") == 10
+    assert not re.search(r'(src|href)="(?!data:)', page) and "http" not in re.sub(r'base64,[^"]*', "", page)
+    assert "Traceback" not in page and "nan" not in re.sub(r'base64,[^"]*', "", page).lower().split()
+
+
+def test_second_run_keeps_what_is_finished(finished, call):
+    study, folder = finished
+    before = {file: file.stat().st_mtime_ns for file in folder.glob("*.h5")}
+    report = (folder / "report.html").stat().st_mtime_ns
+    result = call("run", study, "-o", folder, "--json", "-")
+    assert result.code == 0 and result.err == ""
+    assert json.loads(result.out)["status"] == "converged"
+    assert {file: file.stat().st_mtime_ns for file in folder.glob("*.h5")} == before
+    assert (folder / "report.html").stat().st_mtime_ns > report
+
+
+def test_only_what_changed_is_computed_again(finished, tmp_path):
+    from ehlcontact.cli.study.runner import is_done, read_ledger
+    from ehlcontact.cli.study.schema import load_study
+    from ehlcontact.cli.study.stages import STAGES
+
+    _, folder = finished
+    changed = tmp_path / "changed.toml"
+    changed.write_text(STUDY.replace("unbalance = 8e-6", "unbalance = 9e-6"))
+    study, ledger = load_study(changed), read_ledger(folder)
+    kept = [stage.name for stage in STAGES if is_done(stage, study, folder, ledger)]
+    assert kept == ["steady", "free", "harmonic"]
+
+
+def test_ctrl_c_and_resume(tmp_path):
+    study = tmp_path / "long.toml"
+    study.write_text(
+        STUDY.replace("[free]\nsteps_per_period = 20", "[free]\nsteps_per_period = 200\nperiods = 100")
+    )
+    command = [sys.executable, "-m", "ehlcontact.cli", "run", str(study), "-o", str(tmp_path / "out")]
+    environment = os.environ | {"PYTHONPATH": str(PACKAGE_ROOT)}
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment)
+    ledger = tmp_path / "out" / "stages.json"
+    deadline = time.monotonic() + 50.0
+    while time.monotonic() < deadline and not (ledger.exists() and "rotor_half_step" in ledger.read_text()):
+        assert process.poll() is None, process.stderr.read()
+        time.sleep(0.2)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=30)
+    assert process.returncode == 1 and out == "" and "Traceback" not in err
+    assert "resumes" in err.splitlines()[-1]
+    notes = json.loads(ledger.read_text())
+    assert notes["free"]["status"] == "interrupted" and notes["steady"]["status"] == "converged"
+    assert load(tmp_path / "out" / "free.partial.h5").steps > 10
+
+
+def test_a_stage_that_fails(call, tmp_path):
+    """A region that the pressure outgrows: the others are kept, exit 1, the reason on one line per stage."""
+    study = tmp_path / "narrow.toml"
+    study.write_text(STUDY.replace("n = 32\n", "n = 32\ndomain = [-4.5, 1.2, 1.2]\n").replace("20.0", "2000.0", 1))
+    result = call("run", study, "-o", tmp_path / "out")
+    assert result.code == 1 and "Traceback" not in result.err
+    notes = json.loads((tmp_path / "out" / "stages.json").read_text())
+    failed = [name for name, note in notes.items() if note["status"] != "converged"]
+    assert failed and all(
+        any(f"ehlcontact: {name}: " in line for line in result.err.splitlines()) for name in failed
+    )

@@ -1,0 +1,108 @@
+"""Solves from the command line: JSON keys, files, failures, and from a simulation to an FMU."""
+
+import json
+import zipfile
+
+import numpy as np
+import pytest
+
+from ehlcontact import SimulationResult, Status, SteadyResult, load
+from reduced_models import load_element
+
+STEADY_KEYS = (
+    "approach, force, h_central, h_min, p_max, residual, load_residual, cycles, seconds, status, n, domain".split(
+        ", "
+    )
+)
+SIMULATE_KEYS = "status, steps, seconds, T, approach, rate, force, h_central, h_min".split(", ")
+FIT_KEYS = "model, parameters, rms, e_f, root, tangent, valid, condition".split(", ")
+
+
+def test_steady_json_on_stdout_is_alone_there(call, point, tmp_path):
+    result = call("steady", *point, "--n", "32", "--json", "-", "--save", tmp_path / "r.h5")
+    assert result.code == 0 and result.err == ""
+    document = json.loads(result.out)
+    assert set(STEADY_KEYS) <= set(document)
+    assert document["status"] == "converged" and document["n"] == 32 and document["domain"] == [-4.5, 1.5, 3.0]
+    stored = load(tmp_path / "r.h5")
+    assert isinstance(stored, SteadyResult) and stored.approach == document["approach"]
+
+
+def test_steady_table_and_json_file(call, point, tmp_path):
+    result = call("steady", *point, "--n", "32", "--domain", "-4", "1.5", "2.5", "--json", tmp_path / "r.json")
+    assert result.code == 0 and "approach" in result.out and "converged" in result.out
+    assert json.loads((tmp_path / "r.json").read_text())["domain"] == [-4.0, 1.5, 2.5]
+
+
+def test_from_simulation_to_fmu(call, point, tmp_path):
+    record, element, target = tmp_path / "r.h5", tmp_path / "element.json", tmp_path / "x.fmu"
+    result = call(
+        "simulate",
+        *point,
+        "--n",
+        "32",
+        "--harmonic",
+        "3",
+        "--amplitude",
+        "0.2",
+        "--dt",
+        "0.1",
+        "--save",
+        record,
+        "--json",
+        "-",
+    )
+    assert result.code == 0, result.err
+    document = json.loads(result.out)
+    assert set(SIMULATE_KEYS) <= set(document) and len(document["T"]) == document["steps"] + 1
+    assert np.ptp(document["force"]) == pytest.approx(0.4, rel=0.02)
+
+    result = call("fit", record, "--model", "cubic", "--save", element, "--json", "-")
+    assert result.code == 0, result.err
+    document = json.loads(result.out)
+    assert set(FIT_KEYS) <= set(document) and set(document["parameters"]) == {"K1", "K2", "K3", "C1"}
+    assert load_element(element).parameters == document["parameters"]
+
+    result = call("fit", record, record, "--window", "2", "4")
+    assert result.code == 0 and "tangent" in result.out
+
+    result = call("export", element, "-o", target, "--json", "-")
+    assert result.code == 0, result.err
+    document = json.loads(result.out)
+    assert document["passes"] and document["findings"] == [] and document["force"] < 1e-12
+    assert "modelDescription.xml" in zipfile.ZipFile(target).namelist()
+
+
+def test_a_steady_file_cannot_be_fitted(call, refused, point, tmp_path):
+    assert call("steady", *point, "--n", "16", "--save", tmp_path / "s.h5").code == 0
+    refused(("s.h5", "simulation"), "fit", tmp_path / "s.h5")
+
+
+@pytest.mark.parametrize("command", ["steady", "simulate"])
+def test_not_converged_is_saved_and_said(call, point, tmp_path, monkeypatch, command):
+    monkeypatch.setattr("ehlcontact.steady.touches_border", lambda level: True)
+    monkeypatch.setattr("ehlcontact.transient.touches_border", lambda level: True)
+    motion = ["--free", "5"] if command == "simulate" else []
+    result = call(command, *point, "--n", "16", *motion, "--save", tmp_path / "p.h5", "--json", "-")
+    assert result.code == 1
+    assert len(result.err.splitlines()) == 1 and "out_of_domain" in result.err and "wider domain" in result.err
+    assert json.loads(result.out)["status"] == "out_of_domain"
+    assert load(tmp_path / "p.h5").status is Status.OUT_OF_DOMAIN
+
+
+def test_interrupted_simulation_is_saved(call, point, tmp_path, monkeypatch):
+    from ehlcontact.transient import TransientFilm
+
+    advance, calls = TransientFilm.advance, []
+
+    def stopped(self, *arguments):
+        calls.append(1)
+        if len(calls) > 5:
+            raise KeyboardInterrupt
+        return advance(self, *arguments)
+
+    monkeypatch.setattr(TransientFilm, "advance", stopped)
+    result = call("simulate", *point, "--n", "16", "--free", "5", "--save", tmp_path / "p.h5")
+    assert result.code == 1 and "interrupted" in result.err and len(result.err.splitlines()) == 1
+    stored = load(tmp_path / "p.h5")
+    assert isinstance(stored, SimulationResult) and stored.steps == 5 and stored.status is Status.INTERRUPTED

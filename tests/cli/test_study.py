@@ -1,0 +1,88 @@
+"""The study file: the examples, errors in one line, and the numbers that follow from a bearing."""
+
+from math import log10
+from pathlib import Path
+
+import pytest
+
+from ehlcontact import InputError
+from ehlcontact.cli.study.loads import STRIBECK, most_loaded_ball
+from ehlcontact.cli.study.rotor import build_rotor
+from ehlcontact.cli.study.schema import load_study
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SMALL = (EXAMPLES / "small_study.toml").read_text()
+
+
+@pytest.fixture
+def study():
+    return load_study(EXAMPLES / "deep_groove_6205.toml")
+
+
+def test_most_loaded_ball():
+    assert most_loaded_ball(1000.0, 9) == pytest.approx(487.2, abs=0.1)
+    assert most_loaded_ball(1000.0, 100) == pytest.approx(1000.0 * STRIBECK / 100, rel=2e-3)
+    for load, balls in ((0.0, 9), (float("nan"), 9), (100.0, 2)):
+        with pytest.raises(InputError):
+            most_loaded_ball(load, balls)
+
+
+def test_viscosity_of_the_oil(study):
+    """Walther's equation through 68 mm2/s at 40 C and 8.7 at 100 C, and the density of the comment."""
+    w = [log10(log10(nu + 0.7)) for nu in (68.0, 8.7)]
+    slope = (w[0] - w[1]) / log10(373.15 / 313.15)
+    nu = 10**10 ** (w[0] - slope * log10(323.15 / 313.15)) - 0.7
+    assert nu == pytest.approx(42.9, abs=0.05)
+    assert study.oil.eta0 == pytest.approx(nu * 1e-6 * 875.0 * (1.0 - 0.00065 * 35.0), rel=2e-3)
+
+
+def test_operating_point_of_the_6205(study):
+    moes = study.point.moes
+    assert moes.M == pytest.approx(2900.0, rel=0.05)
+    assert moes.L == pytest.approx(19.0, rel=0.02)
+    assert moes.kappa == pytest.approx(0.11, rel=0.05)
+
+
+@pytest.mark.parametrize("arrangement", ["vee", "vertical"])
+def test_every_contact_carries_the_load_of_the_operating_point(study, arrangement):
+    changed = study.model_copy(update={"rotor": study.rotor.model_copy(update={"arrangement": arrangement})})
+    assert build_rotor(changed).static_forces() == pytest.approx(study.ball_load)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("balls = 9", "balls = 2", ("bearing.balls", "2", "3")),
+        ("balls = 9", "balls = 9.5", ("bearing.balls", "9.5", "integer")),
+        ("ball_diameter_mm = 7.94", "ball_diameter_mm = -7.94", ("bearing.ball_diameter_mm", "-7.94", "0")),
+        ("pitch_diameter_mm = 39.04", "pitch_diameter_mm = 5", ("pitch_diameter", "0.005", "ball_diameter")),
+        ("conformity = 0.52", "conformity = 0.5", ("bearing.conformity", "0.5", "greater than 0.5")),
+        ("conformity = 0.52", "", ("bearing.conformity", "given")),
+        ('race = "inner"', 'race = "both"', ("bearing.race", "both", "inner")),
+        ("radial_load = 70.0", "radial_load = nan", ("bearing.radial_load", "nan", "finite")),
+        ("speed_rpm = 3000.0", "speed_rpm = 0", ("bearing.speed_rpm", "0", "greater than 0")),
+        ("eta0 = 0.0367", "eta0 = 0", ("oil.eta0", "0", "greater than 0")),
+        ("eta0 = 0.0367", "eta0 = 1e-6", ("eta0", "1e-06", "6.31e-5")),
+        ("n = 64", "n = 60", ("solver.n", "60", "multiple of 16")),
+        ("n = 64", "n = 64\ngrid = 3", ("solver.grid", "3", "n_transient")),
+        ("n = 64", "n = 64\ndomain = [-1, 2, 3]", ("x_in", "-1", "-1.2")),
+        ("[solver]", "[solvers]", ("solvers", "bearing")),
+        ('arrangement = "vertical"', 'arrangement = "ring"', ("rotor.arrangement", "ring", "vee")),
+        ("[bearing]", "[bearing", ("complete TOML",)),
+    ],
+)
+def test_bad_studies(refused, tmp_path, old, new, words):
+    assert old in SMALL
+    file = tmp_path / "bad.toml"
+    file.write_text(SMALL.replace(old, new, 1))
+    refused(("bad.toml", *words), "run", file, "-o", tmp_path / "results")
+    assert not (tmp_path / "results").exists()
+
+
+def test_study_file_and_output_folder(refused, tmp_path):
+    refused(("study", "none.toml"), "run", tmp_path / "none.toml")
+    (tmp_path / "binary.toml").write_bytes(b"\xff\xfe\x00")
+    refused(("study", "binary.toml"), "run", tmp_path / "binary.toml")
+    (tmp_path / "file").write_text("")
+    for folder in (tmp_path / "file" / "out", Path("/proc/out")):
+        refused(("--output", str(folder)), "run", EXAMPLES / "small_study.toml", "-o", folder)

@@ -1,0 +1,40 @@
+"""The library's own numbers must not move unnoticed.
+
+Tighter than any discretisation error, looser than rounding across machines. If a change is meant:
+``python tests/ehlcontact/golden/regenerate.py``, and a line under "Numerics" in CHANGELOG.md.
+"""
+
+import importlib.util
+import json
+from pathlib import Path
+
+import pytest
+
+_spec = importlib.util.spec_from_file_location(
+    "golden_regenerate", Path(__file__).parent / "golden" / "regenerate.py"
+)
+golden = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(golden)
+EXPECTED = json.loads(golden.FILE.read_text())
+
+
+def test_every_case_is_recorded():
+    assert set(EXPECTED["steady"]) == set(golden.STEADY)
+    assert set(EXPECTED["transient"]) == set(golden.TRANSIENT)
+
+
+@pytest.mark.parametrize("name", golden.STEADY)
+def test_steady(name):
+    assert golden.steady(name) == pytest.approx(EXPECTED["steady"][name], rel=1e-6)
+
+
+@pytest.mark.parametrize("name", golden.TRANSIENT)
+def test_transient(name):
+    got, expected = golden.transient(name), EXPECTED["transient"][name]
+    assert got == pytest.approx(expected, rel=2e-5, abs=1e-5)
+
+
+def test_impedance():
+    got = golden.response()
+    assert got["stiffness"] == pytest.approx(EXPECTED["impedance"]["stiffness"], rel=1e-4)
+    assert got["damping"] == pytest.approx(EXPECTED["impedance"]["damping"], rel=1e-3)

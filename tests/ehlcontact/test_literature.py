@@ -1,0 +1,141 @@
+"""Published numbers. Sources are given at each table; nothing here was computed by this library."""
+
+from math import pi
+
+import oracles
+import pytest
+
+from ehlcontact import (
+    Domain,
+    FreeVibration,
+    Geometry,
+    HarmonicLoad,
+    Lubricant,
+    MoesPoint,
+    OperatingPoint,
+    RampLoad,
+    simulate,
+    solve_steady,
+)
+from ehlcontact.formulas import nvm_central_film, wijnant_approach
+from reduced_models import ContactRecord, fit
+
+pytestmark = pytest.mark.literature
+
+POINT = MoesPoint(200, 10, 0.5)
+
+
+@pytest.mark.parametrize(("n", "approach"), [(64, 0.8829), (128, 0.8734), (256, 0.8709)])
+def test_approach_of_the_paper_point(steady, n, approach):
+    """M = 200, L = 10, kappa = 0.5: an independent solver; the paper gives 0.868 to 0.871."""
+    assert steady(200, 10, 0.5, n).approach == pytest.approx(approach, abs=0.002)
+
+
+def test_film_ratio_of_the_validation_case(steady):
+    """Nonato and Cavalca (2010), section 3: h_c/h_m = 0.329/0.187; an independent solver gives 1.757."""
+    film = steady(58.07, 4.62, 1.0, 256)
+    assert film.h_central / film.h_min == pytest.approx(1.757, rel=0.015)
+    assert film.h_central / film.h_min == pytest.approx(0.329 / 0.187, rel=0.015)
+
+
+# PINN-EHL-Reproducibility (github.com/vachekivan495-design), converged 769^2 solutions of a steel ball, 12.68 mm,
+# on glass: alpha [1/Pa], mean speed [m/s], eta0 [Pa s], load [N], then M, L (sum speed) and approach.
+PUBLIC = {
+    "te_001": (2.0000e-8, 1.500000, 0.067800, 20.00000, 26.159, 8.358, 0.65761),
+    "te_003": (2.0000e-8, 0.800000, 0.067800, 37.50000, 78.591, 7.142, 0.85870),
+    "te_007": (1.2000e-8, 1.500000, 0.067800, 37.50000, 49.048, 5.015, 0.82774),
+    "tr_010": (2.0818e-8, 1.713668, 0.072054, 31.39561, 35.503, 9.132, 0.71615),
+    "tr_021": (1.8928e-8, 1.379157, 0.063746, 47.73831, 69.646, 7.627, 0.84172),
+}
+
+
+@pytest.mark.parametrize("row", PUBLIC.values(), ids=PUBLIC)
+def test_public_solutions(row):
+    """On their domain, n = 256: approach within 0.5 %."""
+    alpha, u_mean, eta0, load, M, L, approach = row
+    geometry = Geometry(12.68e-3, 12.68e-3, 210e9, 0.3, 81e9, 0.208)
+    assert geometry.e_reduced == pytest.approx(1.238782e11, rel=1e-6)
+    point = OperatingPoint(geometry, Lubricant(eta0, alpha), load, 2.0 * u_mean)
+    assert (point.moes.M, point.moes.L) == pytest.approx((M, L), rel=1e-4)
+    film = solve_steady(point, n=256, domain=Domain(-4.0, 2.0, 3.0))
+    assert film.approach == pytest.approx(approach, rel=0.005)
+
+
+@pytest.mark.parametrize(("M", "L"), [(20, 10), (58.07, 4.62), (200, 10)])
+def test_central_film_of_nijenbanning_venner_moes(steady, M, L):
+    """The formula is for incompressible oil; within 4 % on a circle, n = 256."""
+    film = steady(M, L, 1.0, 256, density="incompressible")
+    assert film.h_central * film.point.film_to_moes == pytest.approx(nvm_central_film(M, L, 1.0), rel=0.04)
+
+
+@pytest.mark.parametrize(("M", "L", "kappa"), [(58.07, 4.62, 1.0), (200, 10, 1.0), (200, 10, 0.5)])
+def test_approach_of_wijnant(steady, M, L, kappa):
+    """His fit to his own solutions (thesis, Twente 1998): within 2 %."""
+    assert steady(M, L, kappa, 128).approach == pytest.approx(wijnant_approach(M, L, kappa), rel=0.02)
+
+
+# Venner and Lubrecht's published FMG C program on [-4.5, 1.5] x [-3, 3]: Barus, incompressible, circle, L = 10.
+# Central and minimum film in Moes units on (n + 1)^2 nodes, and the Richardson limits.
+VLC = {(20, 64): (4.652, 2.885), (20, 128): (4.765, 2.946), (200, 64): (3.254, 1.320), (200, 128): (4.173, 1.715)}
+VLC_LIMIT = {20: (4.804, 2.961), 200: (4.506, 1.886)}
+BARUS = dict(viscosity="barus", density="incompressible")
+
+
+@pytest.mark.parametrize(("M", "n"), VLC)
+def test_published_program_on_the_same_grid(steady, M, n):
+    """Same discretisation, so the same numbers: to 0.3 %, their convergence included."""
+    film = steady(M, 10, 1.0, n, **BARUS)
+    unit = film.point.film_to_moes
+    assert (film.h_central * unit, film.h_min * unit) == pytest.approx(VLC[M, n], rel=3e-3)
+
+
+@pytest.mark.parametrize(("M", "n"), [(20, 64), (200, 128)])
+def test_limit_of_the_published_program(steady, M, n):
+    """Richardson extrapolation from n and 2n intervals: within 0.5 % of the limit from 257^2 and 513^2."""
+    coarse, fine = (steady(M, 10, 1.0, k * n, **BARUS) for k in (1, 2))
+    unit = fine.point.film_to_moes
+    limit = [unit * (4.0 * getattr(fine, k) - getattr(coarse, k)) / 3.0 for k in ("h_central", "h_min")]
+    assert limit == pytest.approx(VLC_LIMIT[M], rel=0.005)
+
+
+# Nonato and Cavalca (2010), Tables 3 and 5: K1, K2, K3, C1 at M = 200, L = 10, kappa = 0.5. Of a cubic only the
+# root of f(u) = 1 and the tangent there can be identified from +-10 % of motion.
+CUBICS = {
+    "3.1": (FreeVibration(10.26), (1.552, -1.414, 1.093, 0.011)),
+    "3.2": (FreeVibration(5.13), (0.806, 0.346, 0.054, 0.013)),
+    "3.3": (FreeVibration(2.56), (0.747, 0.502, -0.046, 0.015)),
+    "5.4": (HarmonicLoad(pi), (0.703, 0.596, -0.097, 0.015)),
+    "5.5": (HarmonicLoad(2.0 * pi), (0.603, 0.815, -0.215, 0.013)),
+    "5.6": (HarmonicLoad(4.0 * pi), (0.413, 1.236, -0.444, 0.011)),
+}
+
+
+@pytest.mark.parametrize(
+    "case", [pytest.param(name, marks=[] if name == "3.2" else pytest.mark.slow) for name in CUBICS]
+)
+def test_tables_3_and_5(case):
+    """n = 128, the record and window a user gets by default (the last two thirds of the record)."""
+    motion, (k1, k2, k3, c1) = CUBICS[case]
+    result = fit(ContactRecord.from_result(simulate(POINT, motion, n=128)), model="cubic")
+    root, tangent = oracles.spring_root_and_tangent(k1, k2, k3)
+    assert result.root == pytest.approx(root, rel=0.005)
+    assert result.tangent == pytest.approx(tangent, rel=0.015)
+    assert result.parameters["C1"] == pytest.approx(c1, rel=0.08)
+    assert result.rms < 0.01
+
+
+@pytest.mark.slow
+def test_table_6():
+    """Ramp from 1 to 3.67 in T = 1.69, n = 128, T <= 5.6 on [-5, 3] x [-4, 4].
+
+    The whole record is fitted: only its beginning visits load 1, where root and tangent are asked for.
+    """
+    record = simulate(
+        MoesPoint(58.07, 4.62, 1.0), RampLoad(3.67, 1.69, 2.4), n=128, domain=Domain(-5.0, 3.0, 4.0), until=5.6
+    )
+    result = fit(ContactRecord.from_result(record), model="cubic", window=(0.0, 5.6))
+    root, tangent = oracles.spring_root_and_tangent(0.8674, 0.3823, -0.0185)
+    assert (root, tangent) == pytest.approx((0.8486, 1.476), abs=6e-4)
+    assert result.root == pytest.approx(root, rel=0.005)
+    assert result.tangent == pytest.approx(tangent, rel=0.03)
+    assert result.parameters["C1"] == pytest.approx(0.033, rel=0.15)

@@ -1,0 +1,99 @@
+"""Order of accuracy: observed orders of every approximation, none of them a value."""
+
+from math import log2
+
+import numpy as np
+import pytest
+
+from ehlcontact import Domain, FreeVibration, MoesPoint, PrescribedApproach, simulate, solve_steady
+from ehlcontact._kernels import reynolds
+from ehlcontact.grid import Level
+
+POINT = MoesPoint(200, 10, 0.5)
+
+
+def orders(errors):
+    return np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+
+
+def test_reynolds_operator_is_second_order():
+    """Against the differential operator on smooth fields (Barus, incompressible), differentiated by hand."""
+    point = MoesPoint(20, 5, 0.6, viscosity="barus", density="incompressible")
+    errors = []
+    for n in (32, 64, 128):
+        level = Level(point, Domain(-2.0, 2.0, 2.0), n, n // 2)
+        X, Y = np.meshgrid(level.X, level.Y)
+        P, H = 0.3 + 0.2 * np.cos(X) * np.cos(Y), 0.5 + 0.1 * np.sin(X) * np.cos(Y)
+        P_x, P_y = -0.2 * np.sin(X) * np.cos(Y), -0.2 * np.cos(X) * np.sin(Y)
+        P_xx = P_yy = -0.2 * np.cos(X) * np.cos(Y)
+        H_x, H_y = 0.1 * np.cos(X) * np.cos(Y), -0.1 * np.sin(X) * np.sin(Y)
+        eps = H**3 * np.exp(-point.alpha_bar * P) / point.lam
+        eps_x = eps * (3.0 * H_x / H - point.alpha_bar * P_x)
+        eps_y = eps * (3.0 * H_y / H - point.alpha_bar * P_y)
+        exact = eps_x * P_x + eps * P_xx + point.kappa**2 * (eps_y * P_y + eps * P_yy) - H_x - 0.8 * H
+        f = level.fields
+        f.P[...], f.H[...] = P, H
+        level.c_t = 0.8
+        reynolds.update_flow(f.P, f.H, level.law, level.mesh, f.eps, f.mass)
+        reynolds.residual(f.P, f.eps, f.mass, level.mesh, level.c_t, level.rhs, level.r)
+        inner = (slice(0, -1), slice(n // 4, -1))  # the wedge is first order on the first line only
+        errors.append(np.abs(-level.r - exact)[inner].max())
+    assert (orders(errors) > 1.9).all()
+
+
+@pytest.mark.parametrize("kappa", [0.2, 1.0])
+def test_deflection_of_hertz_pressure(kappa):
+    """Second order inside, away from the edge; the singular edge lowers it a little as grids align with it."""
+    errors = []
+    for n in (32, 64, 128):
+        level = Level(MoesPoint(20, 5, kappa), Domain(-1.6, 1.6, 1.6), n, n // 2)
+        level.set_dry_hertz()
+        level.update_film(1.0)
+        r = np.hypot(*np.meshgrid(level.X, level.Y))
+        errors.append(np.abs(level.H[r < 0.8]).max())
+    assert (orders(errors) > 1.8).all()
+
+
+@pytest.mark.parametrize(("M", "L", "kappa"), [(200, 10, 0.5), (20, 10, 1.0), (58.07, 4.62, 1.0), (200, 10, 1.0)])
+def test_steady_film_is_second_order(steady, M, L, kappa):
+    """Approach and central film on three grids: 1.8 to 2.2."""
+    films = [steady(M, L, kappa, n) for n in (64, 128, 256)]
+    for name in ("approach", "h_central"):
+        coarse, middle, fine = (getattr(film, name) for film in films)
+        assert 1.8 <= log2(abs((coarse - middle) / (middle - fine))) <= 2.2, name
+
+
+def test_time_steps_are_second_order():
+    """u and force at fixed T of a free vibration, Delta T halved three times."""
+    motion = FreeVibration(5.13)
+    ends = []
+    for steps in (20, 40, 80, 160):
+        until = motion.period
+        record = simulate(POINT, motion, n=32, until=until, dT=until / steps, tol=1e-7)
+        assert record.steps == steps
+        ends.append((record.approach[-1], record.force[-1]))
+    differences = np.abs(np.diff(ends, axis=0))
+    assert (np.log2(differences[:-1] / differences[1:]) >= 1.8).all()
+
+
+def wave_speed(n):
+    """Speed of a film bump made by a short approach, by the lag of best correlation between two times."""
+    u = solve_steady(POINT, n=n).approach
+    T = np.linspace(0.0, 2.0, 81)
+    bump = 0.03 * np.where(T < 0.8, np.sin(np.pi * T / 0.8) ** 2, 0.0)
+    record = simulate(POINT, PrescribedApproach(T, u + bump), n=n)
+    change = record.h_midplane - record.h_midplane[0]
+    before, after = (change[int(np.argmin(np.abs(record.T - t)))] for t in (0.95, 1.35))
+    X = np.linspace(-0.6, 0.35, 200)
+    lags = np.linspace(0.2, 0.6, 401)
+    seen = np.interp(X, record.X, before)
+    match = [np.corrcoef(seen, np.interp(X + lag, record.X, after))[0, 1] for lag in lags]
+    assert max(match) > 0.99
+    return lags[int(np.argmax(match))] / 0.4
+
+
+def test_film_travels_at_the_speed_of_the_surfaces():
+    """dX/dT = 1 in the limit, whatever the pressure: second-order dispersion of the upstream wedge."""
+    errors = [wave_speed(n) - 1.0 for n in (64, 128)]
+    assert abs(errors[1]) < 0.04
+    assert errors[0] / errors[1] > 3.0

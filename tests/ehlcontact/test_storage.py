@@ -1,0 +1,235 @@
+"""HDF5 round trip, and every file that is not one of ours."""
+
+import os
+from dataclasses import fields
+from math import pi
+
+import h5py
+import numpy as np
+import pytest
+
+from ehlcontact import (
+    FreeVibration,
+    Geometry,
+    HarmonicLoad,
+    InputError,
+    Lubricant,
+    MoesPoint,
+    OperatingPoint,
+    PrescribedApproach,
+    PrescribedLoad,
+    RampLoad,
+    SimulationResult,
+    SteadyResult,
+    load,
+    save,
+    simulate,
+    solve_steady,
+)
+
+POINT = MoesPoint(20, 5, 0.5)
+T = np.linspace(0.0, 0.2, 5)
+
+
+@pytest.fixture(scope="module")
+def steady_si():
+    return solve_steady(OperatingPoint(Geometry(0.004, 0.01), Lubricant(0.08, 1.9e-8), 30.0, 1.3), n=32)
+
+
+@pytest.fixture(scope="module")
+def record():
+    return simulate(POINT, HarmonicLoad(pi), n=32, until=0.3, dT=0.1, snapshots=(0.1,))
+
+
+def assert_same(one, other):
+    assert type(one) is type(other)
+    for f in fields(one):
+        a, b = getattr(one, f.name), getattr(other, f.name)
+        if isinstance(a, np.ndarray):
+            np.testing.assert_array_equal(a, b)
+            assert a.dtype == b.dtype
+            assert not b.flags.writeable
+        elif f.name == "motion":
+            assert type(a) is type(b)
+            assert a.to_dict() == b.to_dict()
+        else:
+            assert a == b
+            assert type(a) is type(b)
+
+
+def test_steady_round_trip(steady_si, tmp_path):
+    path = save(steady_si, tmp_path / "steady.h5")
+    assert path == tmp_path / "steady.h5"
+    again = load(path)
+    assert isinstance(again, SteadyResult)
+    assert_same(steady_si, again)
+    assert again.summary() == steady_si.summary()
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [
+        FreeVibration(5.0),
+        RampLoad(1.3, 0.1, 5.0),
+        PrescribedLoad(T, 1.0 + T),
+        PrescribedApproach(T, 0.6 + 0.1 * T),
+    ],
+    ids=lambda m: m.kind,
+)
+def test_simulation_round_trip(motion, tmp_path):
+    result = simulate(POINT, motion, n=16, until=0.2, dT=0.05)
+    again = load(save(result, tmp_path / "record.h5"))
+    assert isinstance(again, SimulationResult)
+    assert_same(result, again)
+
+
+def test_snapshots_survive(record, tmp_path):
+    again = load(save(record, str(tmp_path / "record.h5")))
+    assert again.snapshot_H.shape[0] == 1
+    assert_same(record, again)
+
+
+def test_unconverged_result_is_stored_with_its_status(tmp_path):
+    result = solve_steady(POINT, n=32, max_cycles=1, throw=False)
+    assert_same(result, load(save(result, tmp_path / "partial.h5")))
+
+
+@pytest.mark.parametrize("part", [0.0, 0.02, 0.5, 0.9, 0.999])
+def test_truncated_file(record, tmp_path, part):
+    path = save(record, tmp_path / "record.h5")
+    data = path.read_bytes()
+    path.write_bytes(data[: int(part * len(data))])
+    with pytest.raises(InputError, match=r"^file = .*record\.h5'") as caught:
+        load(path)
+    assert "\n" not in str(caught.value)
+
+
+def foreign(path):
+    with h5py.File(path, "w") as file:
+        file["P"] = np.zeros(3)
+
+
+def unknown_class(path):
+    with h5py.File(path, "w") as file:
+        file.attrs["class"] = "Sofa"
+        file.attrs["format"] = 1
+
+
+def array_class(path):
+    with h5py.File(path, "w") as file:
+        file.attrs["class"] = np.zeros(3)
+
+
+def no_fields(path):
+    with h5py.File(path, "w") as file:
+        file.attrs["class"] = "SteadyResult"
+        file.attrs["format"] = 1
+
+
+def text(path):
+    path.write_text("T,u\n0,1\n")
+
+
+def empty(path):
+    path.write_bytes(b"")
+
+
+def missing(path):
+    pass
+
+
+def folder(path):
+    path.mkdir()
+
+
+FOREIGN = [foreign, unknown_class, array_class, no_fields, text, empty, missing, folder]
+
+
+@pytest.mark.parametrize("make", FOREIGN, ids=lambda make: make.__name__)
+def test_foreign_file(make, tmp_path):
+    path = tmp_path / "thing.h5"
+    make(path)
+    with pytest.raises(InputError, match=r"^file = .*thing\.h5'.*: must be "):
+        load(path)
+
+
+def test_newer_format(steady_si, tmp_path):
+    path = save(steady_si, tmp_path / "steady.h5")
+    with h5py.File(path, "a") as file:
+        file.attrs["format"] = 99
+    with pytest.raises(InputError, match="upgrade to read it"):
+        load(path)
+
+
+SPOILT = [(name, value) for name in ("point", "domain", "status") for value in ("{", '{"M": -1}', '"soup"')]
+
+
+@pytest.mark.parametrize(("attribute", "value"), [*SPOILT, ("approach", "{"), ("scales", '{"force": 1}')])
+def test_spoilt_attribute(steady_si, tmp_path, attribute, value):
+    path = save(steady_si, tmp_path / "steady.h5")
+    with h5py.File(path, "a") as file:
+        file.attrs[attribute] = value
+    with pytest.raises(InputError):
+        load(path)
+
+
+def test_missing_folder(steady_si, tmp_path):
+    with pytest.raises(InputError, match=r"^save = .*: must be in a folder that can be written to"):
+        save(steady_si, tmp_path / "nowhere" / "steady.h5")
+
+
+def test_file_in_place_of_a_folder(steady_si, tmp_path):
+    (tmp_path / "file").write_text("x")
+    with pytest.raises(InputError, match=r"^save = "):
+        save(steady_si, tmp_path / "file" / "steady.h5")
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere")
+def test_unwritable_folder(steady_si, tmp_path):
+    tmp_path.chmod(0o500)
+    try:
+        with pytest.raises(InputError, match=r"^save = .*Permission denied"):
+            save(steady_si, tmp_path / "steady.h5")
+    finally:
+        tmp_path.chmod(0o700)
+
+
+def test_failed_write_keeps_the_old_file_and_leaves_no_rest(steady_si, tmp_path, monkeypatch):
+    path = save(steady_si, tmp_path / "steady.h5")
+    before = path.read_bytes()
+
+    def full_disk(*args, **kwargs):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(h5py.Group, "create_dataset", full_disk)
+    with pytest.raises(InputError, match="No space left"):
+        save(steady_si, path)
+    assert path.read_bytes() == before
+    assert [p.name for p in tmp_path.iterdir()] == ["steady.h5"]
+
+
+def test_interrupted_write_keeps_the_old_file(steady_si, tmp_path, monkeypatch):
+    path = save(steady_si, tmp_path / "steady.h5")
+    before = path.read_bytes()
+
+    def interrupt(*args, **kwargs):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "replace", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        save(steady_si, path)
+    assert path.read_bytes() == before
+    assert [p.name for p in tmp_path.iterdir()] == ["steady.h5"]
+
+
+def test_existing_file_is_replaced(steady_si, record, tmp_path):
+    path = save(steady_si, tmp_path / "result.h5")
+    save(record, path)
+    assert isinstance(load(path), SimulationResult)
+
+
+def test_target_that_is_a_folder(steady_si, tmp_path):
+    (tmp_path / "taken.h5").mkdir()
+    with pytest.raises(InputError, match=r"^save = "):
+        save(steady_si, tmp_path / "taken.h5")
+    assert [p.name for p in tmp_path.iterdir()] == ["taken.h5"]

@@ -1,0 +1,100 @@
+"""Rules of the house that no linter knows: size of files, docstrings, silence, the wheel, light imports."""
+
+import ast
+import subprocess
+import sys
+import tomllib
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PACKAGES = ("ehlcontact", "reduced_models", "fmu")
+SOURCES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
+NAMES = [str(path.relative_to(ROOT)) for path in SOURCES]
+LONGEST = 400
+
+
+def test_all_packages_were_found():
+    assert {name.split("/")[0] for name in NAMES} == set(PACKAGES)
+    assert len(NAMES) > 40
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_file_is_short(name):
+    assert len((ROOT / name).read_text(encoding="utf-8").splitlines()) <= LONGEST
+
+
+def public(tree, prefix=""):
+    """Public functions, classes and methods of a module, with dotted names."""
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef) and node.name[0] != "_":
+            if any(ast.unparse(decorator) == "overload" for decorator in node.decorator_list):
+                continue  # a signature; the function itself is described
+            yield prefix + node.name, node
+            if isinstance(node, ast.ClassDef):
+                yield from public(node, f"{prefix}{node.name}.")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_everything_public_is_described(name):
+    tree = ast.parse((ROOT / name).read_text(encoding="utf-8"))
+    assert ast.get_docstring(tree), "module"
+    missing = [what for what, node in public(tree) if not ast.get_docstring(node)]
+    assert missing == []
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if not name.startswith("ehlcontact/cli/")])
+def test_library_is_silent(name):
+    tree = ast.parse((ROOT / name).read_text(encoding="utf-8"))
+    calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call) and isinstance(n.func, ast.Name)]
+    assert [call.lineno for call in calls if call.func.id in ("print", "breakpoint")] == []
+
+
+def test_kernels_have_one_decorator():
+    """Numba's options are set in one place; see `_kernels/jit.py` for why not fastmath."""
+    stray = [
+        name
+        for name in NAMES
+        if name != "ehlcontact/_kernels/jit.py" and "njit" in (ROOT / name).read_text(encoding="utf-8")
+    ]
+    assert [name for name in stray if not name.startswith("reduced_models/")] == []
+
+
+def relative(folder, pattern):
+    return {str(path.relative_to(folder)) for path in Path(str(folder)).rglob(pattern)}
+
+
+@pytest.mark.parametrize(
+    ("package", "pattern"), [("fmu", "*.c"), ("fmu", "*.h"), ("fmu", "*.txt"), ("ehlcontact", "*.j2")]
+)
+def test_data_files_are_installed(package, pattern):
+    """What the checkout has, the imported package has too: in CI that is the one from the wheel."""
+    wanted = relative(ROOT / package, pattern)
+    assert wanted
+    assert wanted <= relative(files(package), pattern)
+
+
+def test_wheel_takes_whole_packages():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    wheel = project["tool"]["hatch"]["build"]["targets"]["wheel"]
+    assert wheel == {"packages": list(PACKAGES)}
+    ignored = (ROOT / ".gitignore").read_text(encoding="utf-8").split()
+    assert not {"*.c", "*.h", "csrc/", "fmu/", "*.j2"} & set(ignored)  # hatchling leaves out what git ignores
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_import_is_light(package):
+    """Heavy or optional libraries are imported where they are used."""
+    heavy = ("matplotlib", "fmpy", "control", "typer", "rich", "pydantic", "jinja2", "ross", "plotly")
+    code = f"import sys, {package}; print(*[m for m in {heavy!r} if m in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == []
+
+
+def test_version_is_stated_once_and_alike():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    from ehlcontact import __version__
+
+    assert project["project"]["version"] == __version__
