@@ -21,8 +21,8 @@ CYCLES_PER_LEVEL = 1  # of full multigrid, before the finest level
 
 
 def coarsest_intervals(point: MoesPoint) -> int:
-    """Intervals of the coarsest grid: 16, or 32 at high load, where 16 no longer see the inlet."""
-    return 16 if point.M < 1000.0 else 32
+    """Intervals of the coarsest grid: 16, or 24 at high load, where 16 no longer see the inlet."""
+    return 16 if point.M < 1000.0 else 24
 
 
 class Multigrid:
@@ -30,7 +30,7 @@ class Multigrid:
 
     def __init__(self, point: MoesPoint, domain: Domain, n: int, coarsest: int | None = None) -> None:
         self.levels = build_hierarchy(point, domain, n, coarsest or coarsest_intervals(point))
-        self._newton = CoarseNewton(self.levels[0])
+        self.newton = CoarseNewton(self.levels[0])
         self.u = initial_approach(point)
 
     @property
@@ -47,7 +47,7 @@ class Multigrid:
         """Solve from level `start` upwards, with one cycle on each level below the finest."""
         if start == 0:
             self.levels[0].set_dry_hertz()
-            self.u = self._newton.solve(self.u, balance, max_steps=60, tol=1e-9)
+            self.u = self.newton.solve(self.u, balance, max_steps=60, tol=1e-9)
         for k in range(start + 1, len(self.levels)):
             coarse, fine = self.levels[k - 1], self.levels[k]
             fine.rhs[...] = 0.0
@@ -64,7 +64,7 @@ class Multigrid:
     def _cycle(self, k: int, u: float, balance: Balance) -> float:
         fine = self.levels[k]
         if k == 0:
-            return self._newton.correct(u, balance)
+            return self.newton.correct(u, balance)
         for _ in range(PRE_SWEEPS):
             fine.relax(u)
         coarse = self.levels[k - 1]

@@ -7,7 +7,9 @@ primal-dual active set: a node is free if P > 0 or if its residual asks for pres
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +22,9 @@ Nodes = NDArray[np.intp]
 
 LARGEST_STEP = 0.3  # of any pressure or of u, in one iteration
 SMALLEST_DAMPING = 2.0**-6
-CORRECTION_STEPS = 2  # of the coarsest grid in one cycle
+CORRECTION_STEPS = 4  # of the coarsest grid in one cycle
+LARGEST_RENEWALS = 2  # of the factors in one cycle
+WORN_OUT = 0.3  # drop of the merit in one step above which factors are renewed
 CORRECTION_DROP = 1e-2  # of its residual, enough for one cycle
 
 
@@ -45,13 +49,21 @@ class Balance:
         return Balance(self.stiffness, self.weight, self.rhs + change)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Factors:
+    """LU factors of a bordered Jacobian, and what it was made for."""
+
+    lu: Any
+    free: Nodes
+    equation: tuple[float, float, float]  # time coefficient, balance stiffness and weight
+
+
 class CoarseNewton:
-    """Newton iterations on one level; keeps its work arrays."""
+    """Newton iterations on one level; keeps its work arrays and, between corrections, its last factors."""
 
     def __init__(self, level: Level) -> None:
         self.level = level
-        size = level.nx * (level.ny + 1)
-        self._J = np.empty((size + 1, size + 1))
+        self.factors: Factors | None = None
         self._number = np.empty(level.P.size, dtype=np.int64)
 
     def solve(self, u: float, balance: Balance, max_steps: int, tol: float) -> float:
@@ -61,7 +73,8 @@ class CoarseNewton:
         for _ in range(max_steps):
             if not merit > tol:  # also stops on NaN, for the driver to judge
                 break
-            dP, du, damping = self._direction(free, balance, u)
+            self.factors = self._factorise(free, balance)
+            dP, du, damping = self._direction(self.factors, free, balance, u)
             start = level.P.copy()
             while True:
                 level.P[...] = np.maximum(start + damping * dP, 0.0)
@@ -75,19 +88,30 @@ class CoarseNewton:
     def correct(self, u: float, balance: Balance) -> float:
         """Few undamped steps near a solution; P and H written, returns u.
 
-        No line search here: nodes that come under pressure add their residuals to the merit in the very step
-        that brings the balance about, so it would refuse good steps.
+        Old factors serve as long as they reduce the merit well. No line search here: nodes that come under
+        pressure add their residuals to the merit in the very step that brings the balance about, so it would
+        refuse good steps.
         """
         level = self.level
         merit, free = self._evaluate(u, balance)
-        target = CORRECTION_DROP * merit
+        target = max(CORRECTION_DROP * merit, 1e-14)
+        equation = (level.c_t, balance.stiffness, balance.weight)
+        renewals = 0
         for _ in range(CORRECTION_STEPS):
-            if not merit > max(target, 1e-14):
+            if not merit > target:
                 break
-            dP, du, damping = self._direction(free, balance, u)
+            if self.factors is None or self.factors.equation != equation:
+                if renewals == LARGEST_RENEWALS:
+                    break
+                self.factors = self._factorise(free, balance)
+                renewals += 1
+            dP, du, damping = self._direction(self.factors, free, balance, u)
             level.P[...] = np.maximum(level.P + damping * dP, 0.0)
             u += damping * du
+            before = merit
             merit, free = self._evaluate(u, balance)
+            if not merit < WORN_OUT * before:
+                self.factors = None
         return u
 
     def _evaluate(self, u: float, balance: Balance) -> tuple[float, Nodes]:
@@ -99,21 +123,33 @@ class CoarseNewton:
         rms = float(np.sqrt(np.mean(r.ravel()[free] ** 2))) if free.size else 0.0
         return rms + 3.0 * abs(balance.residual(u, level.force())), free
 
-    def _direction(self, free: Nodes, balance: Balance, u: float) -> tuple[Array, float, float]:
-        """Newton direction in P and u, and the step length that keeps it within LARGEST_STEP."""
+    def _factorise(self, free: Nodes, balance: Balance) -> Factors:
+        """LU factors of the Jacobian over the free nodes, bordered by u and its balance."""
         level, f = self.level, self.level.fields
         m = free.size
-        J = self._J[: m + 1, : m + 1]
+        J = np.empty((m + 1, m + 1))
         linearise(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, False, f.p_coef, f.h_coef)
         dense_jacobian(free, f.p_coef, f.h_coef, level.deflection.kernel, self._number, J)
         J[m, :m] = balance.weight * level.force_weights.ravel()[free]
         J[m, m] = balance.stiffness
-        rhs = np.append(level.r.ravel()[free], balance.residual(u, level.force()))
-        try:
-            solution = linalg.solve(J, rhs, overwrite_a=True, overwrite_b=True, check_finite=False)
-        except linalg.LinAlgError:
-            return np.full_like(f.P, np.nan), np.nan, 1.0
-        dP = np.zeros_like(f.P)
-        dP.ravel()[free] = solution[:m]
+        with warnings.catch_warnings():  # a singular matrix gives infinities, which the driver reports
+            warnings.simplefilter("ignore", linalg.LinAlgWarning)
+            lu = linalg.lu_factor(J, overwrite_a=True, check_finite=False)
+        return Factors(lu, free, (level.c_t, balance.stiffness, balance.weight))
+
+    def _direction(self, factors: Factors, free: Nodes, balance: Balance, u: float) -> tuple[Array, float, float]:
+        """Newton direction in P and u, and the step length that keeps it within LARGEST_STEP.
+
+        Nodes that came under pressure after the factors were made are left to relaxation.
+        """
+        level = self.level
+        wanted = np.zeros(level.P.size, dtype=bool)
+        wanted[free] = True
+        rhs = np.append(
+            np.where(wanted[factors.free], level.r.ravel()[factors.free], 0.0), balance.residual(u, level.force())
+        )
+        solution = linalg.lu_solve(factors.lu, rhs, overwrite_b=True, check_finite=False)
+        dP = np.zeros_like(level.P)
+        dP.ravel()[factors.free] = solution[:-1]
         largest = float(np.abs(solution).max())
-        return dP, float(solution[m]), LARGEST_STEP / max(largest, LARGEST_STEP)
+        return dP, float(solution[-1]), LARGEST_STEP / max(largest, LARGEST_STEP)

@@ -14,7 +14,7 @@ import numpy as np
 from ehlcontact.domain import Domain
 from ehlcontact.grid import Array, Level
 from ehlcontact.multigrid import Multigrid
-from ehlcontact.newton import Balance
+from ehlcontact.newton import Balance, Factors
 from ehlcontact.scaling import MoesPoint
 from ehlcontact.status import Status, classify
 from ehlcontact.steady import central_film, touches_border
@@ -36,6 +36,7 @@ class FilmState:
     u: float
     dT: float  # the step that led here
     surface: Array | float
+    factors: Factors | None  # of the coarsest grid; immutable, so the reference is enough
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,7 +161,14 @@ class TransientFilm:
         """Everything needed to come back here."""
         # mass arrays are replaced, never written, by advance: no copy needed
         return FilmState(
-            self.level.P.copy(), self._past, self._mass, self._mass_before, self.u, self._dT, self.level.film_rhs
+            P=self.level.P.copy(),
+            past=self._past,
+            mass=self._mass,
+            mass_before=self._mass_before,
+            u=self.u,
+            dT=self._dT,
+            surface=self.level.film_rhs,
+            factors=self.multigrid.newton.factors,
         )
 
     def restore_state(self, state: FilmState) -> None:
@@ -169,6 +177,7 @@ class TransientFilm:
         self._past, self._mass, self._mass_before = state.past, state.mass, state.mass_before
         self.multigrid.u, self._dT = state.u, state.dT
         self.level.film_rhs = state.surface
+        self.multigrid.newton.factors = state.factors
         self.level.update_film(state.u)
 
 

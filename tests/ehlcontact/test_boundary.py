@@ -42,7 +42,7 @@ def test_marks(kernel):
 def solved():
     mg = Multigrid(MoesPoint(20, 5, 0.5), Domain(), 32, coarsest=32)
     mg.full_multigrid(Balance(0.0, 1.0, 1.0))
-    mg.u = mg._newton.solve(mg.u, Balance(0.0, 1.0, 1.0), 20, 1e-13)
+    mg.u = mg.newton.solve(mg.u, Balance(0.0, 1.0, 1.0), 20, 1e-13)
     mg.finest.update_residual()
     return mg.finest
 

@@ -1,6 +1,6 @@
 """Order of accuracy: observed orders of every approximation, none of them a value."""
 
-from math import log2
+from math import log2, pi
 
 import numpy as np
 import pytest
@@ -74,6 +74,20 @@ def test_time_steps_are_second_order():
         ends.append((record.approach[-1], record.force[-1]))
     differences = np.abs(np.diff(ends, axis=0))
     assert (np.log2(differences[:-1] / differences[1:]) >= 1.8).all()
+
+
+def test_squeeze_term_is_second_order():
+    """Film and force under a given smooth approach: without the motion equation, whose error would hide it."""
+    u = solve_steady(POINT, n=32, tol=1e-7).approach
+    T = np.linspace(0.0, 1.25, 1001)
+    motion = PrescribedApproach(T, u + 0.08 * np.sin(pi * T) ** 4)
+    ends = []
+    for steps in (50, 100, 200):
+        record = simulate(POINT, motion, n=32, until=1.25, dT=1.25 / steps, tol=1e-8)
+        ends.append((record.force[-1], record.h_midplane[-1, np.abs(record.X) < 1.0]))
+    (force0, film0), (force1, film1), (force2, film2) = ends
+    assert log2(abs((force0 - force1) / (force1 - force2))) >= 1.8
+    assert log2(np.linalg.norm(film0 - film1) / np.linalg.norm(film1 - film2)) >= 1.8
 
 
 def wave_speed(n):

@@ -152,7 +152,7 @@ def newton_solution(kappa):
     """A film solved to rounding on one grid."""
     mg = Multigrid(MoesPoint(20, 8, kappa), Domain(), 32, coarsest=32)
     mg.full_multigrid(Balance(0.0, 1.0, 1.0))
-    mg.u = mg._newton.solve(mg.u, Balance(0.0, 1.0, 1.0), 20, 1e-13)
+    mg.u = mg.newton.solve(mg.u, Balance(0.0, 1.0, 1.0), 20, 1e-13)
     return mg
 
 
