@@ -8,13 +8,15 @@ module               responsibility
 ``hertz``            dry elliptic contact
 ``domain``           computed region
 ``grid``             levels: work arrays, film, residual, relaxation
-``elastic``          deflection by fast transforms
+``elastic, mlmi``    deflection: direct sum, fast transforms, multilevel multi-integration
 ``newton``           semismooth Newton on the coarsest grid, closed by load or motion
 ``multigrid``        full-approximation-scheme cycle and full multigrid
 ``steady``           `solve_steady`
 ``motion``           what drives a transient contact
 ``transient``        implicit film steps
 ``simulate``         `simulate`
+``surface``          travelling features: dent, ridge, waviness
+``impedance``        `impedance`: K and C over frequency from the linearised steady state
 ``full_contact``     `FullContact`: the whole film as a force element
 ``formulas``         published film and approach formulas, for comparison
 ``results, status``  frozen results, how a solve ended
@@ -26,6 +28,7 @@ module               responsibility
 from ehlcontact.domain import Domain
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.full_contact import FullContact
+from ehlcontact.impedance import ImpedanceResult, impedance
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.motion import FreeVibration, HarmonicLoad, PrescribedApproach, PrescribedLoad, RampLoad
 from ehlcontact.results import SimulationResult, SteadyResult
@@ -34,15 +37,18 @@ from ehlcontact.simulate import simulate
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.storage import load, save
+from ehlcontact.surface import Dent, TransverseRidge, Waviness
 from ehlcontact.version import __version__
 
 __all__ = [
     "ConvergenceError",
+    "Dent",
     "Domain",
     "FreeVibration",
     "FullContact",
     "Geometry",
     "HarmonicLoad",
+    "ImpedanceResult",
     "InputError",
     "Lubricant",
     "MoesPoint",
@@ -54,7 +60,10 @@ __all__ = [
     "SimulationResult",
     "Status",
     "SteadyResult",
+    "TransverseRidge",
+    "Waviness",
     "__version__",
+    "impedance",
     "load",
     "save",
     "simulate",

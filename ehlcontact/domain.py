@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ehlcontact.errors import InputError, require_finite
+from ehlcontact.errors import InputError, require_finite, require_instance, require_integer
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,8 +45,18 @@ class Domain:
         return self.x_in, self.x_out, self.y_max
 
 
-def check_intervals(n: int) -> int:
-    """Return `n`, the number of intervals along X, or raise `InputError` unless a multiple of 16 in 16..2048."""
-    if isinstance(n, bool) or int(n) != n or n % 16 or not 16 <= n <= 2048:
-        raise InputError("n", n, "a multiple of 16 between 16 and 2048")
-    return int(n)
+def check_intervals(n: object) -> int:
+    """Return `n`, intervals along X, or raise `InputError` unless a multiple of 16 from 16 to 2048."""
+    allowed = "a multiple of 16 between 16 and 2048"
+    intervals = require_integer("n", n, allowed, 16)
+    if intervals % 16 or intervals > 2048:
+        raise InputError("n", n, allowed)
+    return intervals
+
+
+def check_domain(domain: Domain | None, largest_load: float = 1.0) -> Domain:
+    """Return `domain`, or the default for the largest load to come; `InputError` for anything else."""
+    if domain is None:
+        return Domain.for_load(largest_load)
+    require_instance("domain", domain, Domain, "a Domain(x_in, x_out, y_max)")
+    return domain

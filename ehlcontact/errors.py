@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from numbers import Integral, Real
+from types import UnionType
 from typing import Any
 
 
@@ -49,6 +51,13 @@ def require_finite(field: str, value: object) -> float:
     return number
 
 
+def require_integer(field: str, value: object, allowed: str, lowest: int) -> int:
+    """Return `value` as an int, or raise `InputError` unless it is a whole number of at least `lowest`."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or value < lowest:
+        raise InputError(field, value, allowed)
+    return int(value)
+
+
 def require_choice(field: str, value: object, choices: tuple[str, ...]) -> str:
     """Return `value`, or raise `InputError` unless it is one of `choices`."""
     if not isinstance(value, str) or value not in choices:
@@ -57,9 +66,13 @@ def require_choice(field: str, value: object, choices: tuple[str, ...]) -> str:
 
 
 def _as_float(field: str, value: object, allowed: str) -> float:
-    if isinstance(value, bool):
+    # numbers.Real holds Python's and numpy's numbers, and bool, which is no number to a user
+    if isinstance(value, bool) or not isinstance(value, Real):
         raise InputError(field, value, allowed)
-    try:
-        return float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        raise InputError(field, value, allowed) from None
+    return float(value)
+
+
+def require_instance(field: str, value: object, kinds: type | UnionType, allowed: str) -> None:
+    """Raise `InputError` unless `value` is an instance of `kinds`; `allowed` names them."""
+    if not isinstance(value, kinds):
+        raise InputError(field, type(value).__name__, allowed)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ehlcontact.domain import Domain, check_intervals
+from ehlcontact.domain import Domain, check_domain, check_intervals
 from ehlcontact.errors import ConvergenceError, require_finite, require_positive
 from ehlcontact.newton import Balance
 from ehlcontact.scaling import Point, moes_point
@@ -46,9 +46,9 @@ class FullContact:
         largest_load: float = 1.0,
         tol: float = 3e-3,
     ) -> None:
-        domain = domain or Domain.for_load(require_positive("largest_load", largest_load))
-        self.point, self.n, self.domain = moes_point(point), check_intervals(n), domain
-        self._film = TransientFilm(self.point, domain, n, require_positive("tol", tol))
+        self.point, self.n = moes_point(point), check_intervals(n)
+        self.domain = check_domain(domain, require_positive("largest_load", largest_load))
+        self._film = TransientFilm(self.point, self.domain, self.n, require_positive("tol", tol))
         self._check(self._film.start_steady(Balance(0.0, 1.0, 1.0)))
         self.static_approach = self._film.u
         self.force = self._film.level.force()

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from scipy import linalg
 
 from ehlcontact._kernels.linearise import dense_jacobian, linearise
-from ehlcontact.domain import Domain
+from ehlcontact.domain import Domain, check_intervals
 from ehlcontact.errors import InputError
 from ehlcontact.grid import Level
 from ehlcontact.multigrid import Multigrid
@@ -109,7 +109,7 @@ def impedance(
     """
     started = time.perf_counter()
     omega = _check_frequencies(omegas)
-    if n > 128:
+    if check_intervals(n) > 128:
         raise InputError("n", n, "at most 128 (dense linear system)")
     steady = solve_steady(point, n=n, domain=domain)
     system = LinearisedContact.at(moes_point(point), steady.domain, n, steady.P, steady.approach)
@@ -187,7 +187,7 @@ class LinearisedContact:
 
 def _jacobian(level: Level, free: NDArray[np.intp], c_t: float) -> Array:
     f = level.fields
-    linearise(f.P, f.H, f.eps, level.law, level.mesh, c_t, False, f.p_coef, f.h_coef)
+    linearise(f.P, f.H, f.eps, level.law, level.mesh, c_t, 1.0, f.p_coef, f.h_coef)
     J = np.empty((free.size, free.size + 1))
     number = np.empty(f.P.size, dtype=np.int64)
     dense_jacobian(free, f.p_coef, f.h_coef, level.deflection.kernel, number, J)

@@ -174,7 +174,10 @@ class RampLoad:
 
 
 def _as_table(name: str, T: ArrayLike, values: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    t, v = np.array(T, dtype=float), np.array(values, dtype=float)
+    try:
+        t, v = np.array(T, dtype=float), np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(name, "no numbers", "tables of numbers") from None
     if t.ndim != 1 or t.size < 4 or t.shape != v.shape:
         raise InputError(name, v.shape, "a 1-D table of at least 4 values, as many as T")
     if not (np.isfinite(t).all() and np.isfinite(v).all()):

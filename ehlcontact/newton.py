@@ -128,7 +128,7 @@ class CoarseNewton:
         level, f = self.level, self.level.fields
         m = free.size
         J = np.empty((m + 1, m + 1))
-        linearise(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, False, f.p_coef, f.h_coef)
+        linearise(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, 1.0, f.p_coef, f.h_coef)
         dense_jacobian(free, f.p_coef, f.h_coef, level.deflection.kernel, self._number, J)
         J[m, :m] = balance.weight * level.force_weights.ravel()[free]
         J[m, m] = balance.stiffness

@@ -241,7 +241,8 @@ class OperatingPoint:
         speed_rpm : float
             Speed of one race relative to the other [rev/min].
         load : float
-            Force on this ball [N]; see `most_loaded_ball` for a bearing under radial load.
+            Force on this ball [N]; of Z balls under a radial load Fr the most loaded
+            one carries about 4.37 Fr/Z.
         """
         geometry = Geometry.ball_bearing(ball_diameter, pitch_diameter, conformity, race, **materials)
         omega = require_positive("speed_rpm", speed_rpm) * pi / 30.0

@@ -8,8 +8,8 @@ from math import ceil
 
 import numpy as np
 
-from ehlcontact.domain import Domain, check_intervals
-from ehlcontact.errors import ConvergenceError, InputError, require_nonnegative, require_positive
+from ehlcontact.domain import Domain, check_domain, check_intervals
+from ehlcontact.errors import ConvergenceError, InputError, require_instance, require_nonnegative, require_positive
 from ehlcontact.motion import FreeVibration, Motion, PrescribedApproach
 from ehlcontact.newton import Balance
 from ehlcontact.results import SimulationResult
@@ -99,14 +99,16 @@ def simulate(
     """
     started = time.perf_counter()
     moes = moes_point(point)
-    domain = domain or Domain.for_load(motion.largest_load)
+    require_instance("motion", motion, Motion, "a motion such as FreeVibration or HarmonicLoad")
+    n, domain = check_intervals(n), check_domain(domain, motion.largest_load)
     until = motion.default_end if until is None else require_positive("until", until)
     dT = motion.default_step if dT is None else require_positive("dT", dT)
     if dT > until:
         raise InputError("dT", dT, f"at most until = {until!r}")
     for T in snapshots:
-        require_nonnegative("snapshots", T)
-    film = TransientFilm(moes, domain, check_intervals(n), require_positive("tol", tol))
+        if not require_nonnegative("snapshots", T) <= until * (1.0 + 1e-9):
+            raise InputError("snapshots", T, f"at most until = {until!r}")
+    film = TransientFilm(moes, domain, n, require_positive("tol", tol))
     history = _History(snapshots)
     static, status = _start(film, motion, history, surface)
     steps = ceil(until / dT - 1e-9)

@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ehlcontact.domain import Domain, check_intervals
-from ehlcontact.errors import ConvergenceError, require_finite, require_positive
+from ehlcontact.domain import Domain, check_domain, check_intervals
+from ehlcontact.errors import ConvergenceError, require_finite, require_integer, require_positive
 from ehlcontact.grid import Level
 from ehlcontact.multigrid import Multigrid
 from ehlcontact.newton import Balance
@@ -19,7 +19,7 @@ from ehlcontact.version import __version__
 
 LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7
-BORDER_PRESSURE = 0.02  # of the maximum, beside the outlet; a film that ends outside the grid is not computed
+BORDER_PRESSURE = 0.02  # of the maximum, beside outlet or side; a film that ends outside the grid is not computed
 
 
 def solve_steady(
@@ -62,8 +62,9 @@ def solve_steady(
     """
     started = time.perf_counter()
     moes = moes_point(point)
-    domain = domain or Domain()
-    multigrid = Multigrid(moes, domain, check_intervals(n))
+    n, domain = check_intervals(n), check_domain(domain)
+    require_integer("max_cycles", max_cycles, "a whole number > 0", 1)
+    multigrid = Multigrid(moes, domain, n)
     require_positive("tol", tol)
     if approach is None:
         balance = Balance(0.0, 1.0, 1.0)
@@ -135,5 +136,6 @@ def central_film(level: Level) -> float:
 
 
 def touches_border(level: Level) -> bool:
-    """Whether pressure reaches the outlet border of the domain."""
-    return bool(level.P[:, -2].max() > BORDER_PRESSURE * level.P.max())
+    """Whether pressure reaches the outlet or the side border of the domain."""
+    beside = max(level.P[:, -2].max(), level.P[-2].max())
+    return bool(beside > BORDER_PRESSURE * level.P.max())

@@ -133,9 +133,20 @@ class ContactRecord:
         """What a fit uses unless told otherwise: the last two thirds.
 
         A record starts on the film of a steady contact, and until the first film made by the motion has
-        crossed, the force is not the one that belongs to the motion; it spoils a viscous fit.
+        crossed, the force is not the one that belongs to the motion; it spoils a viscous fit. Of harmonic
+        records the last whole periods within these two thirds are taken, because part of a period lets the
+        misfit of the spring leak into the damper. Of a ramp the whole record is: later it never comes near
+        the static load again.
         """
         start, end = float(self.T[0]), float(self.T[-1])
+        motion = self.motion or {}
+        if motion.get("kind") == "ramp":
+            return start, end
+        if motion.get("kind") == "harmonic" and motion.get("omega"):
+            period = 2.0 * np.pi / motion["omega"]
+            periods = int((end - start) / 1.5 / period + 1e-9)
+            if periods >= 1:
+                return end - periods * period, end
         return start + (end - start) / 3.0, end
 
     def window(self, start: float, end: float) -> Self:

@@ -6,6 +6,7 @@ C, W, E, S, N, WW. The elastic part ``dH = -du + K dP`` is left to the caller: t
 
 from ehlcontact._kernels.jit import jit
 from ehlcontact._kernels.laws import density, density_slope, log_viscosity_slope
+from ehlcontact._kernels.reynolds import FILM_FLOOR
 
 NEIGHBOURS = 6
 
@@ -27,11 +28,11 @@ def neighbour(q, j, i):
 
 
 @jit
-def linearise(P, H, eps, law, mesh, c_t, frozen_flow, p_coef, h_coef):
+def linearise(P, H, eps, law, mesh, c_t, flow_slope, p_coef, h_coef):
     """Derivatives at all interior nodes; `p_coef` and `h_coef`, both (6, ny+1, nx+1), written.
 
-    With `frozen_flow` the flow factor eps is taken as given (Picard), as relaxation wants it: its truncated
-    elasticity cannot follow the change of H^3.
+    `flow_slope` is the share of the derivatives of the flow factor eps that is taken: 1 is Newton's
+    linearisation, 0 takes eps as given (Picard).
     """
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
     for j in range(ny):
@@ -44,17 +45,13 @@ def linearise(P, H, eps, law, mesh, c_t, frozen_flow, p_coef, h_coef):
                 jq, iq = neighbour(q, j, i)
                 a = half * (eps[j, i] + eps[jq, iq])
                 p_coef[q, j, i] = a
-                h_coef[q, j, i] = 0.0
                 p_centre -= a
-                if not frozen_flow:
-                    jump = half * (P[jq, iq] - p)  # dN/d eps, of this node and of the neighbour alike
-                    jumps += jump
-                    p_coef[q, j, i] += jump * eps[jq, iq] * log_flow_slope(P[jq, iq], law)
-                    h_coef[q, j, i] = jump * 3.0 * eps[jq, iq] / max(H[jq, iq], 1e-8)
-            h_coef[0, j, i] = 0.0
-            if not frozen_flow:
-                p_centre += jumps * eps[j, i] * log_flow_slope(p, law)
-                h_coef[0, j, i] = jumps * 3.0 * eps[j, i] / max(H[j, i], 1e-8)
+                jump = flow_slope * half * (P[jq, iq] - p)  # dN/d eps, of this node and of the neighbour alike
+                jumps += jump
+                p_coef[q, j, i] += jump * eps[jq, iq] * log_flow_slope(P[jq, iq], law)
+                h_coef[q, j, i] = jump * 3.0 * eps[jq, iq] / max(H[jq, iq], FILM_FLOOR)
+            p_centre += jumps * eps[j, i] * log_flow_slope(p, law)
+            h_coef[0, j, i] = jumps * 3.0 * eps[j, i] / max(H[j, i], FILM_FLOOR)
             c0 = mesh.inv_hx * (1.5 if i > 1 else 1.0) + c_t
             c1 = mesh.inv_hx * (-2.0 if i > 1 else -1.0)
             c2 = mesh.inv_hx * (0.5 if i > 1 else 0.0)

@@ -6,6 +6,10 @@ is left, theta = 1: the deflection of such a distributed change decays like 1/r^
 near coefficients stand for all (distributive Jacobi; Venner and Lubrecht 2000, ch. 6). theta is a *smooth*
 function of the local ratio of both terms: a hard switch flips to and fro from sweep to sweep and leaves a
 limit cycle along the switch line.
+
+The flow factor eps falls by orders of magnitude from one node to the next on the flanks of the pressure. Taken
+as given, single nodes there never settle; with its full derivatives they overshoot. Three quarters of them
+serve everywhere.
 """
 
 from ehlcontact._kernels.jit import jit
@@ -17,6 +21,7 @@ NEAR = 2  # near influence coefficients kept on either side
 SHARE = 0.25  # part of a distributed change that each neighbour takes back
 SWITCH = 1.0  # eps/h^2 at which theta = 1/2 in steady flow (Venner and Lubrecht's hard switch: 0.3)
 SQUEEZE = 10.0  # how much more the squeeze term raises it than the wedge term
+FLOW_SLOPE = 0.75  # share of the derivatives of eps; see below
 LARGEST_CHANGE = 0.15  # of P in one sweep; far from the solution the linear model overshoots
 
 
@@ -143,7 +148,7 @@ def relax_lines(fields, rhs, law, mesh, c_t, near, spread):
         update_flow(P, H, law, mesh, fields.eps, fields.mass)
         if colour == 0:
             distribution_weights(P, fields.eps, mesh, c_t, fields.theta)
-        linearise(P, H, fields.eps, law, mesh, c_t, True, fields.p_coef, fields.h_coef)
+        linearise(P, H, fields.eps, law, mesh, c_t, FLOW_SLOPE, fields.p_coef, fields.h_coef)
         for j in range(colour, ny, 2):
             relax_line(j, fields, rhs, mesh, c_t, near, spread)
         for j in range(colour, ny, 2):

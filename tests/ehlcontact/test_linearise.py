@@ -39,19 +39,20 @@ def linear(p_coef, h_coef, dP, dH):
 
 
 @pytest.mark.parametrize("kernel", KERNELS)
-@pytest.mark.parametrize("frozen", [False, True], ids=["full", "frozen flow"])
+@pytest.mark.parametrize("flow_slope", [1.0, 0.0, 0.75])
 @pytest.mark.parametrize("what", ["P", "H"])
-def test_against_differences(level, kernel, frozen, what):
+def test_against_differences(level, kernel, flow_slope, what):
     f = level.fields
     f.P[...] += 0.05  # off zero, so that both differences exist
     level.update_residual()
     p_coef, h_coef = (np.full((6, *f.P.shape), np.nan) for _ in range(2))
-    kernel(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, frozen, p_coef, h_coef)
+    kernel(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, flow_slope, p_coef, h_coef)
     rng = np.random.default_rng(3)
     change = rng.normal(size=f.P.shape)
     none = np.zeros_like(change)
     dP, dH = (change, none) if what == "P" else (none, change * f.H)
-    expected = difference(level, dP, dH, f.eps.copy() if frozen else None)
+    full, frozen = (difference(level, dP, dH, eps) for eps in (None, f.eps.copy()))
+    expected = flow_slope * full + (1.0 - flow_slope) * frozen
     got = linear(p_coef, h_coef, dP, dH)
     scale = np.abs(expected).max()
     np.testing.assert_allclose(got[:-1, 1:-1], expected[:-1, 1:-1], atol=1e-7 * scale, rtol=1e-6)
@@ -59,7 +60,7 @@ def test_against_differences(level, kernel, frozen, what):
 
 def test_first_line_has_no_second_upstream_neighbour(level):
     f = level.fields
-    lin.linearise(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, False, f.p_coef, f.h_coef)
+    lin.linearise(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, 1.0, f.p_coef, f.h_coef)
     assert (f.p_coef[5, :-1, 1] == 0.0).all()
     assert (f.h_coef[5, :-1, 1] == 0.0).all()
 
@@ -74,7 +75,7 @@ def test_dense_jacobian(level, kernel):
     level.update_residual()
     P, size = f.P.copy(), f.P.size
     free = np.flatnonzero(P > 0.0)
-    lin.linearise(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, False, f.p_coef, f.h_coef)
+    lin.linearise(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, 1.0, f.p_coef, f.h_coef)
     J = np.full((free.size + 1, free.size + 1), np.nan)
     kernel(free, f.p_coef, f.h_coef, level.deflection.kernel, np.empty(size, dtype=np.int64), J)
 

@@ -128,12 +128,14 @@ def test_tables_3_and_5(case):
 def test_table_6():
     """Ramp from 1 to 3.67 in T = 1.69, n = 128, T <= 5.6 on [-5, 3] x [-4, 4].
 
-    The whole record is fitted: only its beginning visits load 1, where root and tangent are asked for.
+    The default window of a ramp is the whole record: only its beginning visits load 1, where root and
+    tangent are asked for.
     """
     record = simulate(
         MoesPoint(58.07, 4.62, 1.0), RampLoad(3.67, 1.69, 2.4), n=128, domain=Domain(-5.0, 3.0, 4.0), until=5.6
     )
-    result = fit(ContactRecord.from_result(record), model="cubic", window=(0.0, 5.6))
+    result = fit(ContactRecord.from_result(record), model="cubic")
+    assert result.window == (pytest.approx((0.0, 5.6)),)
     root, tangent = oracles.spring_root_and_tangent(0.8674, 0.3823, -0.0185)
     assert (root, tangent) == pytest.approx((0.8486, 1.476), abs=6e-4)
     assert result.root == pytest.approx(root, rel=0.005)

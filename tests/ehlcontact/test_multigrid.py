@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlcontact import ConvergenceError, Domain, MoesPoint, solve_steady
+from ehlcontact import Domain, MoesPoint, solve_steady
 from ehlcontact.multigrid import Multigrid, coarsest_intervals, initial_approach
 from ehlcontact.newton import Balance
 
@@ -79,13 +79,13 @@ def test_hard_points_converge(M, L, kappa):
     assert result.residual < 1e-4
 
 
-@pytest.mark.xfail(strict=True, raises=ConvergenceError, reason="single nodes on steep flanks never settle")
 @pytest.mark.parametrize(
     ("M", "L", "kappa", "viscosity"), [(500, 15, 0.12, "barus"), (2900, 19, 0.11, "roelands")]
 )
 def test_incompressible_oil_at_high_pressure(M, L, kappa, viscosity):
-    """Known defect: without compressibility the residual of a few nodes beside the core goes to and fro."""
-    solve_steady(MoesPoint(M, L, kappa, viscosity=viscosity, density="incompressible"), n=128)
+    """Steep flanks without compressibility: nodes there swing to and fro if relaxation takes eps as given."""
+    result = solve_steady(MoesPoint(M, L, kappa, viscosity=viscosity, density="incompressible"), n=128)
+    assert result.residual < 1e-4
 
 
 def test_initial_approach_is_bounded():

@@ -120,7 +120,7 @@ def test_line_solves_its_linear_system(point, j):
     level.update_residual()
     relax.distribution_weights(f.P, f.eps, level.mesh, level.c_t, f.theta)
     f.theta[:, [1, -2]] = 0.0  # the border takes no share
-    linearise(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, True, f.p_coef, f.h_coef)
+    linearise(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, relax.FLOW_SLOPE, f.p_coef, f.h_coef)
     # a small right-hand side, so that no change is limited
     level.rhs += 1e-3 * np.random.default_rng(8).normal(size=f.P.shape) - level.r
     level.update_residual()
@@ -137,7 +137,7 @@ def test_dry_node_joins_only_if_its_residual_asks_for_pressure(level):
     f = level.fields
     level.rhs *= 30.0  # both signs of the residual
     level.update_residual()
-    linearise(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, True, f.p_coef, f.h_coef)
+    linearise(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, relax.FLOW_SLOPE, f.p_coef, f.h_coef)
     for j in range(level.ny):
         relax.relax_line(j, f, level.rhs, level.mesh, level.c_t, level.near, level.spread)
     inner = (slice(0, -1), slice(1, -1))
