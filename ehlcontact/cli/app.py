@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from ehlcontact.cli import export, fit, run, simulate, steady, unbuilt
+from ehlcontact.cli import export, fit, impedance, run, simulate, steady, unbuilt
 from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain, one_line
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.version import __version__
@@ -44,7 +44,7 @@ def _program(
     """Transient elastohydrodynamic rolling contacts, reduced to elements for rotordynamics."""
 
 
-for module in (steady, simulate, fit, export, run):
+for module in (steady, simulate, impedance, fit, export, run):
     module.register(app)
 unbuilt.register(app)
 

@@ -6,7 +6,7 @@ import typer
 
 from ehlcontact.cli.output import USAGE, complain
 
-NAMES = ("impedance", "element", "reproduce")
+NAMES = ("element", "reproduce")
 
 
 def register(app: typer.Typer) -> None:

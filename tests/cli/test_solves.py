@@ -34,6 +34,18 @@ def test_steady_table_and_json_file(call, point, tmp_path):
     assert json.loads((tmp_path / "r.json").read_text())["domain"] == [-4.0, 1.5, 2.5]
 
 
+def test_impedance(call, refused, point):
+    result = call("impedance", *point, "--n", "32", "--omega", "0", "--omega", "3", "--json", "-")
+    assert result.code == 0 and result.err == ""
+    document = json.loads(result.out)
+    assert document["omega"] == [0.0, 3.0]
+    assert all(k > 1.0 for k in document["stiffness"]) and all(c > 0.0 for c in document["damping"])
+    table = call("impedance", *point, "--n", "32", "--omega", "3")
+    assert table.code == 0 and "Omega = 3" in table.out
+    refused(["omegas", "-1"], "impedance", *point, "--omega", "-1")
+    refused(["n", "128"], "impedance", *point, "--n", "256", "--omega", "1")
+
+
 def test_from_simulation_to_fmu(call, point, tmp_path):
     record, element, target = tmp_path / "r.h5", tmp_path / "element.json", tmp_path / "x.fmu"
     result = call(
