@@ -16,6 +16,7 @@ from ehlcontact.scaling import MoesPoint
 
 Array = NDArray[np.float64]
 
+LARGEST_ASPECT = 2.0  # physical mesh size along X over that along Y
 FORCE_FACTOR = 1.5 / np.pi  # eq. 4: force = 3/(2 pi) iint P
 
 
@@ -47,7 +48,9 @@ class Level:
         self.X = np.linspace(domain.x_in, domain.x_out, nx + 1)
         self.Y = np.linspace(0.0, domain.y_max, ny + 1)
         self.hx, self.hy = (domain.x_out - domain.x_in) / nx, domain.y_max / ny
-        self.mesh = reynolds.Mesh(self.hx**-2, point.kappa**2 * self.hy**-2, 1.0 / self.hx, point.lam)
+        # On a mesh finer along X, smooth changes of P deflect the film further beyond the near coefficients.
+        switch = relax.SWITCH * max(1.0, 0.5 * self.hy / (point.kappa * self.hx))
+        self.mesh = reynolds.Mesh(self.hx**-2, point.kappa**2 * self.hy**-2, 1.0 / self.hx, point.lam, switch)
         S = shape_factor(point.kappa)
         self.gap = S * self.X**2 + (1.0 - S) * self.Y[:, None] ** 2
         self.deflection = Deflection(nx, ny, self.hx, self.hy, point.kappa)
@@ -129,8 +132,10 @@ def build_hierarchy(point: MoesPoint, domain: Domain, n: int, coarsest: int) -> 
     while (n >> halvings) % 2 == 0 and (n >> (halvings + 1)) >= coarsest:
         halvings += 1
     hx = (domain.x_out - domain.x_in) / n
-    # hy as near to hx as the halvings allow
-    ny = max(4, round(domain.y_max / hx / 2**halvings)) * 2**halvings
+    # hy as near to hx as the halvings allow, but no finer than half as physically: relaxation by lines along X
+    # fails where the lines lie much closer together than their nodes
+    hy = hx * max(1.0, point.kappa / LARGEST_ASPECT)
+    ny = max(4, round(domain.y_max / hy / 2**halvings)) * 2**halvings
     return [Level(point, domain, n >> k, ny >> k) for k in range(halvings, -1, -1)]
 
 

@@ -19,7 +19,8 @@ from ehlcontact._kernels.reynolds import operator_at, update_flow
 BAND_LOWER, BAND_UPPER = 4, 3  # WW neighbour with two near coefficients upstream; E with two downstream
 NEAR = 2  # near influence coefficients kept on either side
 SHARE = 0.25  # part of a distributed change that each neighbour takes back
-SWITCH = 1.0  # eps/h^2 at which theta = 1/2 in steady flow (Venner and Lubrecht's hard switch: 0.3)
+SWITCH = 1.0  # eps/hx^2 at which theta = 1/2 in steady flow (Venner and Lubrecht's hard switch: 0.3),
+# for meshes up to twice as fine along X as along Y, physically; in proportion more for finer ones
 SQUEEZE = 10.0  # how much more the squeeze term raises it than the wedge term
 FLOW_SLOPE = 0.75  # share of the derivatives of eps; see below
 LARGEST_CHANGE = 0.15  # of P in one sweep; far from the solution the linear model overshoots
@@ -32,7 +33,7 @@ def distribution_weights(P, eps, mesh, c_t, theta):
     The squeeze term, unlike the wedge term, does not vanish for smooth changes. Plain changes of P, whose
     smooth part deflects the film far beyond the near coefficients, are then safe only at larger eps.
     """
-    switch = SWITCH * (1.0 + SQUEEZE * c_t / (1.5 * mesh.inv_hx))
+    switch = mesh.switch * (1.0 + SQUEEZE * c_t / (1.5 * mesh.inv_hx))
     for j in range(P.shape[0] - 1):
         js = j - 1 if j > 0 else 1
         for i in range(1, P.shape[1] - 1):

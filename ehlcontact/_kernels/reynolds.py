@@ -25,6 +25,7 @@ class Mesh(NamedTuple):
     cy: float  # kappa^2/hy^2
     inv_hx: float  # 1/hx
     lam: float  # Reynolds coefficient lambda
+    switch: float  # eps/hx^2 at which both relaxations have equal parts, in steady flow
 
 
 @jit

@@ -88,6 +88,12 @@ def test_incompressible_oil_at_high_pressure(M, L, kappa, viscosity):
     assert result.residual < 1e-4
 
 
+@pytest.mark.parametrize(("M", "L", "kappa"), [(152.9, 3.33, 0.084), (200, 10, 3.0), (200, 10, 5.0), (50, 5, 5.0)])
+def test_narrow_ellipses_converge(M, L, kappa):
+    """Long axis across or along rolling: mesh, switch value and coarsest grid follow kappa."""
+    assert solve_steady(MoesPoint(M, L, kappa), n=128).residual < 1e-4
+
+
 def test_initial_approach_is_bounded():
     assert initial_approach(MoesPoint(1e-3, 5, 1.0)) == -1.0
     assert initial_approach(MoesPoint(1e6, 0, 1.0)) == 0.99
