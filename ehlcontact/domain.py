@@ -5,6 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ehlcontact.errors import InputError, require_finite, require_instance, require_integer
+from ehlcontact.hertz import radius_ratio
+from ehlcontact.scaling import MoesPoint
+
+LIGHT_LOAD = 3.0  # N below which the default region grows
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,9 +58,23 @@ def check_intervals(n: object) -> int:
     return intervals
 
 
-def check_domain(domain: Domain | None, largest_load: float = 1.0) -> Domain:
-    """Return `domain`, or the default for the largest load to come; `InputError` for anything else."""
+def default_domain(point: MoesPoint, largest_load: float = 1.0) -> Domain:
+    """Return the default region, widened for a load that will rise and for a light one.
+
+    Where the film holds the bodies apart by much of a dry approach, pressure reaches far beyond the Hertz
+    ellipse: below N = sqrt(Rx/Ry) M = 3, Wijnant's load number, inlet and sides grow with N^-0.6.
+    """
+    domain = Domain.for_load(largest_load)
+    N = radius_ratio(point.kappa) ** 0.5 * point.M
+    if N >= LIGHT_LOAD:
+        return domain
+    wider = min((LIGHT_LOAD / N) ** 0.6, 10.0)
+    return Domain(domain.x_in * wider, domain.x_out * wider**0.7, domain.y_max * wider)
+
+
+def check_domain(domain: Domain | None, point: MoesPoint, largest_load: float = 1.0) -> Domain:
+    """Return `domain`, or the default for the point and the largest load to come."""
     if domain is None:
-        return Domain.for_load(largest_load)
+        return default_domain(point, largest_load)
     require_instance("domain", domain, Domain, "a Domain(x_in, x_out, y_max)")
     return domain

@@ -47,7 +47,7 @@ class FullContact:
         tol: float = 3e-3,
     ) -> None:
         self.point, self.n = moes_point(point), check_intervals(n)
-        self.domain = check_domain(domain, require_positive("largest_load", largest_load))
+        self.domain = check_domain(domain, self.point, require_positive("largest_load", largest_load))
         self._film = TransientFilm(self.point, self.domain, self.n, require_positive("tol", tol))
         self._check(self._film.start_steady(Balance(0.0, 1.0, 1.0)))
         self.static_approach = self._film.u

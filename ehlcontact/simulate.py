@@ -100,7 +100,7 @@ def simulate(
     started = time.perf_counter()
     moes = moes_point(point)
     require_instance("motion", motion, Motion, "a motion such as FreeVibration or HarmonicLoad")
-    n, domain = check_intervals(n), check_domain(domain, motion.largest_load)
+    n, domain = check_intervals(n), check_domain(domain, moes, motion.largest_load)
     until = motion.default_end if until is None else require_positive("until", until)
     dT = motion.default_step if dT is None else require_positive("dT", dT)
     if dT > until:

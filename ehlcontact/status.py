@@ -16,7 +16,7 @@ class Status(StrEnum):
     NONFINITE = "nonfinite"
     MAX_CYCLES = "max_cycles"
     OUT_OF_DOMAIN = "out_of_domain"
-    CLOSED_GAP = "closed_gap"
+    UNRESOLVED = "unresolved"
     INTERRUPTED = "interrupted"
 
     @property
@@ -32,12 +32,12 @@ class Status(StrEnum):
 
 _ADVICE = {
     Status.CONVERGED: "Both residuals are below tolerance.",
-    Status.STAGNATED: "The residual no longer falls: try another n (a finer grid as a rule), or a wider domain.",
+    Status.STAGNATED: "The residual no longer falls: try a wider domain at light load, else a finer grid.",
     Status.DIVERGED: "The residual grows: use a finer grid, or a smaller time step.",
     Status.NONFINITE: "NaN or infinity appeared: use a finer grid, or check that M, L and kappa are meant.",
     Status.MAX_CYCLES: "The cycles ran out while still converging: raise max_cycles.",
-    Status.OUT_OF_DOMAIN: "Pressure reaches the outlet or side border: give a wider domain.",
-    Status.CLOSED_GAP: "The surfaces touch: the feature is too high for this film, or the grid too coarse for it.",
+    Status.OUT_OF_DOMAIN: "Pressure reaches the border of the computed region: give a wider domain.",
+    Status.UNRESOLVED: "The grid is too coarse for this film, which is zero or negative somewhere: raise n.",
     Status.INTERRUPTED: "Stopped by the user; what was computed until then is kept.",
 }
 

@@ -19,7 +19,8 @@ from ehlcontact.version import __version__
 
 LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7
-BORDER_PRESSURE = 0.02  # of the maximum, beside outlet or side; a film that ends outside the grid is not computed
+BORDER_SLOPE = 0.1  # of the maximum per semi-axis, at inlet and sides
+BORDER_PRESSURE = 0.02  # of the maximum, beside the outlet; a film that ends outside the grid is not computed
 
 
 def solve_steady(
@@ -53,6 +54,11 @@ def solve_steady(
     callback : callable, optional
         Called with the cycle number and the relative residual after every cycle.
 
+    Returns
+    -------
+    SteadyResult
+        Ctrl-C ends it early with status ``interrupted``.
+
     Raises
     ------
     InputError
@@ -62,7 +68,7 @@ def solve_steady(
     """
     started = time.perf_counter()
     moes = moes_point(point)
-    n, domain = check_intervals(n), check_domain(domain)
+    n, domain = check_intervals(n), check_domain(domain, moes)
     require_integer("max_cycles", max_cycles, "a whole number > 0", 1)
     multigrid = Multigrid(moes, domain, n)
     require_positive("tol", tol)
@@ -87,12 +93,14 @@ def solve_steady(
         status = classify(residuals, scale, tol, settled, max_cycles)
         if status is None:
             previous = multigrid.u
-            multigrid.cycle(balance)
-            changes.append(abs(multigrid.u - previous))
-            if callback is not None:
-                callback(len(changes), residuals[-1] / scale)
-    if status is Status.CONVERGED and touches_border(level):
-        status = Status.OUT_OF_DOMAIN
+            try:
+                multigrid.cycle(balance)
+                changes.append(abs(multigrid.u - previous))
+                if callback is not None:
+                    callback(len(changes), residuals[-1] / scale)
+            except KeyboardInterrupt:
+                status = Status.INTERRUPTED
+    status = judge(status, level)
     result = SteadyResult(
         point=moes,
         scales=scales_of(point),
@@ -114,7 +122,7 @@ def solve_steady(
         seconds=time.perf_counter() - started,
         version=__version__,
     )
-    if throw and not status.ok:
+    if throw and not status.ok and status is not Status.INTERRUPTED:
         raise ConvergenceError(f"steady solve {status}: {status.advice}", result)
     return result
 
@@ -135,7 +143,17 @@ def central_film(level: Level) -> float:
     return float(centre + 0.5 * s * (right - left) + 0.5 * s * s * (right - 2.0 * centre + left))
 
 
+def judge(status: Status, level: Level) -> Status:
+    """Status of a solve whose residuals say `status`: converged only with a film, and within the domain."""
+    if status is Status.CONVERGED and not level.H.min() > 0.0:
+        return Status.UNRESOLVED
+    if status is Status.CONVERGED and touches_border(level):
+        return Status.OUT_OF_DOMAIN
+    return status
+
+
 def touches_border(level: Level) -> bool:
-    """Whether pressure reaches the outlet or the side border of the domain."""
-    beside = max(level.P[:, -2].max(), level.P[-2].max())
-    return bool(beside > BORDER_PRESSURE * level.P.max())
+    """Whether pressure reaches the border of the domain: at the outlet, or steeply at inlet or sides."""
+    P = level.P
+    steepness = max(P[:, 1].max() / level.hx, P[-2].max() / level.hy)
+    return bool(P[:, -2].max() > BORDER_PRESSURE * P.max() or steepness > BORDER_SLOPE * P.max())

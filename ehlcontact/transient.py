@@ -17,7 +17,7 @@ from ehlcontact.multigrid import Multigrid
 from ehlcontact.newton import Balance, Factors
 from ehlcontact.scaling import MoesPoint
 from ehlcontact.status import Status, classify
-from ehlcontact.steady import central_film, touches_border
+from ehlcontact.steady import central_film, judge
 
 STEP_CYCLES = 25
 SMALLEST_SCALE = 0.01  # of the residuals, in dry approaches
@@ -151,11 +151,7 @@ class TransientFilm:
                 break
             settled = settled and abs(load_residual) < 0.1 * small * max(1.0, balance.stiffness)
             status = classify(residuals, self.scale, self.tol, settled, max_cycles)
-        if status is Status.CONVERGED and touches_border(level):
-            status = Status.OUT_OF_DOMAIN
-        if status is Status.CONVERGED and not level.H.min() > 0.0:
-            status = Status.CLOSED_GAP
-        return Step(residuals[-1] / self.scale, load_residual, len(residuals) - 1, status)
+        return Step(residuals[-1] / self.scale, load_residual, len(residuals) - 1, judge(status, level))
 
     def save_state(self) -> FilmState:
         """Everything needed to come back here."""

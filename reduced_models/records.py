@@ -105,7 +105,11 @@ class ContactRecord:
         """
         status = str(simulation.status)
         if status != "converged" and not accept_unconverged:
-            raise InputError("simulation.status", status, "'converged', or pass accept_unconverged=True")
+            raise InputError(
+                "simulation.status",
+                status,
+                "'converged' (in Python, accept_unconverged=True takes it all the same)",
+            )
         motion = dict(simulation.motion.to_dict())
         domain = simulation.domain
         if not isinstance(domain, tuple | list):

@@ -167,7 +167,8 @@ def distribution_weight(P, eps, j, i, hx, hy, kappa, c_t):
     below = eps[1, i] if j == 0 else eps[j - 1, i]
     along = [0.5 * (eps[j, i] + e) / hx**2 for e in (eps[j, i - 1], eps[j, i + 1])]
     across = [0.5 * kappa**2 * (eps[j, i] + e) / hy**2 for e in (below, eps[j + 1, i])]
-    ratio = max(along + across) / (1.0 + 10.0 * c_t * hx / 1.5)
+    switch = max(1.0, 0.5 * hy / (kappa * hx)) * (1.0 + 10.0 * c_t * hx / 1.5)
+    ratio = max(along + across) / switch
     return 1.0 / (1.0 + ratio**4)
 
 

@@ -6,7 +6,7 @@ module             responsibility
 ``app``            the program: subcommands, errors to one line and an exit code
 ``options``        operating-point options shared by the subcommands
 ``output``         consoles, tables, JSON, progress, checks of where results go
-``steady`` ...     one subcommand each: ``steady``, ``simulate``, ``fit``, ``export``, ``run``
+``steady`` ...     one subcommand each: ``steady``, ``simulate``, ``impedance``, ``fit``, ``export``, ``run``
 ``unbuilt``        subcommands whose names are fixed but which are not built yet
 ``study``          the study behind ``run``: schema, stages, report, figures
 =================  ===================================================================================
@@ -16,12 +16,17 @@ Exit codes: 0 success; 1 not converged or interrupted, with what was reached sav
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Run the program on `arguments` (the process's own if not given) and exit."""
-    from ehlcontact.cli.app import execute
+    try:
+        from ehlcontact.cli.app import execute
 
-    raise SystemExit(execute(arguments))
+        raise SystemExit(execute(arguments))
+    except KeyboardInterrupt:  # while the program was still being imported
+        sys.stderr.write("ehlcontact: interrupted before anything was computed\n")
+        raise SystemExit(1) from None

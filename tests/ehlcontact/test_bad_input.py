@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import (
+    ConvergenceError,
     Domain,
     FreeVibration,
     FullContact,
@@ -19,7 +20,7 @@ from ehlcontact.domain import check_intervals
 from ehlcontact.impedance import impedance
 
 POINT = MoesPoint(200, 10, 0.5)
-LIGHT_SIDE = Domain(-12.0, 2.5, 5.0)
+LIGHT_SIDE = Domain(-12.0, 2.5, 3.0)
 
 
 @pytest.mark.parametrize("n", ["x", None, float("nan"), float("inf"), [16], 32.0, True, 0, -16, 100, 4096])
@@ -61,7 +62,31 @@ def test_field_is_named(field, call):
 
 
 def test_pressure_at_the_side_border_is_told():
-    """M = 5 at kappa = 0.12 floods this domain to its sides: 5 % of the largest pressure is still there."""
+    """M = 5 at kappa = 0.12 floods this domain to its sides."""
     result = solve_steady(MoesPoint(5, 5, 0.12), n=64, domain=LIGHT_SIDE, throw=False)
     assert str(result.status) == "out_of_domain"
     assert "wider" in result.status.advice
+
+
+def test_light_load_gets_room():
+    """The default region of the same contact is wide enough, and the film carries it far apart."""
+    result = solve_steady(MoesPoint(5, 5, 0.12), n=64)
+    assert result.approach < -5.0
+    assert result.domain.x_in < -8.0
+
+
+def test_film_below_the_grid_is_told():
+    """Residuals below tolerance, but surfaces that overlap: no result to rely on."""
+    with pytest.raises(ConvergenceError, match="raise n") as caught:
+        solve_steady(MoesPoint(200, 10, 1.0), n=16)
+    assert str(caught.value.result.status) == "unresolved"
+    assert caught.value.result.h_min < 0.0
+
+
+def test_interrupted_steady_solve_keeps_what_it_has():
+    def stop(cycle, residual):
+        if cycle == 2:
+            raise KeyboardInterrupt
+
+    result = solve_steady(POINT, n=32, callback=stop)
+    assert str(result.status) == "interrupted" and result.cycles == 1

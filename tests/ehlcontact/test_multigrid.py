@@ -90,8 +90,13 @@ def test_incompressible_oil_at_high_pressure(M, L, kappa, viscosity):
 
 @pytest.mark.parametrize(("M", "L", "kappa"), [(152.9, 3.33, 0.084), (200, 10, 3.0), (200, 10, 5.0), (50, 5, 5.0)])
 def test_narrow_ellipses_converge(M, L, kappa):
-    """Long axis across or along rolling: mesh, switch value and coarsest grid follow kappa."""
-    assert solve_steady(MoesPoint(M, L, kappa), n=128).residual < 1e-4
+    """Long axis across or along rolling: mesh, switch value and coarsest grid follow kappa.
+
+    The equations are solved; whether 128 intervals resolve the film of a long ellipse is another matter, and told.
+    """
+    result = solve_steady(MoesPoint(M, L, kappa), n=128, throw=False)
+    assert result.residual < 1e-4 and abs(result.load_residual) < 1e-6
+    assert result.status in (("converged",) if result.h_min > 0.0 else ("unresolved",))
 
 
 def test_initial_approach_is_bounded():
