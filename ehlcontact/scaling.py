@@ -18,7 +18,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from math import pi, sqrt
 
-from ehlcontact.errors import InputError, require_nonnegative, require_positive
+from ehlcontact.errors import InputError, require_finite, require_nonnegative, require_positive
 from ehlcontact.hertz import HertzContact, ellipse_ratio, elliptic_integrals, hertz_contact, shape_factor
 from ehlcontact.lubricant import FluidLaw, Lubricant
 
@@ -47,8 +47,8 @@ class MoesPoint:
     def __post_init__(self) -> None:
         object.__setattr__(self, "M", require_positive("M", self.M))
         object.__setattr__(self, "L", require_nonnegative("L", self.L))
-        object.__setattr__(self, "kappa", require_positive("kappa", self.kappa))
         object.__setattr__(self, "alpha", require_positive("alpha", self.alpha))
+        object.__setattr__(self, "kappa", require_finite("kappa", self.kappa))
         if not 1e-2 <= self.kappa <= 1e2:
             raise InputError("kappa", self.kappa, "between 0.01 and 100")
         Lubricant(self.eta0, self.alpha, self.viscosity, self.density)  # raises on what it cannot take

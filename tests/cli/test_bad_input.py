@@ -20,7 +20,7 @@ def steady(**changes):
         ("M", "inf", "> 0"),
         ("L", "-1", ">= 0"),
         ("L", "nan", ">= 0"),
-        ("kappa", "0", "> 0"),
+        ("kappa", "0", "between 0.01 and 100"),
         ("kappa", "1e-3", "between 0.01 and 100"),
         ("alpha", "0", "> 0"),
         ("alpha", "-1e-8", "> 0"),
