@@ -187,8 +187,25 @@ def _as_table(name: str, T: ArrayLike, values: ArrayLike) -> tuple[NDArray[np.fl
     return t, v
 
 
+class _Tabulated:
+    """Time span of a motion given by a table."""
+
+    __slots__ = ()
+    _table: tuple[NDArray[np.float64], NDArray[np.float64]]
+
+    @property
+    def default_end(self) -> float:
+        """End of the table."""
+        return float(self._table[0][-1])
+
+    @property
+    def default_step(self) -> float:
+        """Mean spacing of the table."""
+        return self.default_end / (len(self._table[0]) - 1)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
-class PrescribedLoad:
+class PrescribedLoad(_Tabulated):
     """Load given by a table (linear interpolation) on bodies with (`omega_n`) or without inertia."""
 
     T: ArrayLike
@@ -218,16 +235,6 @@ class PrescribedLoad:
         return float(np.interp(T, *self._table))
 
     @property
-    def default_end(self) -> float:
-        """End of the table."""
-        return float(self._table[0][-1])
-
-    @property
-    def default_step(self) -> float:
-        """Mean spacing of the table."""
-        return self.default_end / (len(self._table[0]) - 1)
-
-    @property
     def largest_load(self) -> float:
         """Largest load of the table."""
         return float(self._table[1].max())
@@ -239,7 +246,7 @@ class PrescribedLoad:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class PrescribedApproach:
+class PrescribedApproach(_Tabulated):
     """Approach u(T) given by a table (cubic spline, so that the rate is continuous)."""
 
     T: ArrayLike
@@ -263,16 +270,6 @@ class PrescribedApproach:
     def rate(self, T: float) -> float:
         """Rate of the prescribed approach."""
         return float(self._spline(T, 1))
-
-    @property
-    def default_end(self) -> float:
-        """End of the table."""
-        return float(self._table[0][-1])
-
-    @property
-    def default_step(self) -> float:
-        """Mean spacing of the table."""
-        return self.default_end / (len(self._table[0]) - 1)
 
     @property
     def largest_load(self) -> float:

@@ -42,7 +42,7 @@ def solve_steady(
     n : int
         Intervals along X, a multiple of 16.
     domain : Domain, optional
-        Computed region, ``Domain()`` if not given.
+        Computed region; by default ``Domain()``, wider at light load.
     approach : float, optional
         Prescribe the approach (dry Hertz value 1) instead of the load.
     tol : float

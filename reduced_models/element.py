@@ -7,6 +7,7 @@ fitted interval. Nonato and Cavalca (2010), eqs. 8 and 11 with the terms their T
 from __future__ import annotations
 
 import os
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -23,7 +24,7 @@ from reduced_models.law import Law, contact, contact_values, part_values
 _Floats = NDArray[np.float64]
 
 
-class ViscousContact:
+class ViscousContact(ABC):
     """What `LinearContact` and `CubicContact` have in common; build one of those.
 
     Approach in units of the dry Hertz approach or m, rate in its time derivative, force in units of the
@@ -48,8 +49,9 @@ class ViscousContact:
         for name in (*self.parameter_names, "low", "high"):
             object.__setattr__(self, name, getattr(self.law, name))
 
+    @abstractmethod
     def _law(self) -> Law:
-        raise NotImplementedError
+        """The force law of the coefficients, checked."""
 
     @property
     def parameters(self) -> dict[str, float]:
@@ -114,7 +116,7 @@ class ViscousContact:
         """Nothing to save."""
         return None
 
-    def restore_state(self, state: object) -> None:
+    def restore_state(self, state: object) -> None:  # noqa: B027 - no memory, nothing to restore
         """Nothing to restore."""
 
     def to_si(self, scales: Scales) -> Self:
