@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact._kernels import boundary, columns, relax, reynolds
+from ehlcontact._kernels import boundary, relax, reynolds
 from ehlcontact._kernels.linearise import NEIGHBOURS
 from ehlcontact.domain import Domain
 from ehlcontact.elastic import Deflection
@@ -16,7 +16,6 @@ from ehlcontact.scaling import MoesPoint
 
 Array = NDArray[np.float64]
 
-LARGEST_ASPECT = 2.0  # physical mesh size along X over that along Y
 FORCE_FACTOR = 1.5 / np.pi  # eq. 4: force = 3/(2 pi) iint P
 
 
@@ -72,7 +71,6 @@ class Level:
         self.film_rhs: Array | float = 0.0
         self.c_t = 0.0
         self.r = np.zeros(shape)  # residual of the Reynolds equation, zero on the border
-        self.column_work = np.zeros((2, ny + 1))
         self.marks = np.zeros(shape, dtype=np.uint8)
         self.nodes = np.zeros(shape[0] * shape[1], dtype=np.int64)
         self.force_weights = np.full(shape, 2.0 * FORCE_FACTOR * self.hx * self.hy)
@@ -115,9 +113,6 @@ class Level:
         self.update_film(u)
         f, mesh = self.fields, self.mesh
         relax.relax_lines(f, self.rhs, self.law, mesh, self.c_t, self.near, self.spread)
-        if mesh.cy > 1.2 * mesh.cx:  # the flow couples most strongly along Y
-            work = self.column_work
-            columns.relax_columns(f.P, f.eps, f.mass, self.rhs, mesh, self.c_t, self.near[0, 0], work)
         own = self.near[0, 0]
         boundary.relax_boundary(f.P, f.eps, f.mass, self.rhs, mesh, self.c_t, own, self.nodes, self.marks)
 
@@ -132,9 +127,9 @@ def build_hierarchy(point: MoesPoint, domain: Domain, n: int, coarsest: int) -> 
     while (n >> halvings) % 2 == 0 and (n >> (halvings + 1)) >= coarsest:
         halvings += 1
     hx = (domain.x_out - domain.x_in) / n
-    # hy as near to hx as the halvings allow, but no finer than half as physically: relaxation by lines along X
-    # fails where the lines lie much closer together than their nodes
-    hy = hx * max(1.0, point.kappa / LARGEST_ASPECT)
+    # hy as near to hx as the halvings allow, but physically no finer: relaxation by lines along X fails where the
+    # lines lie closer together than their nodes
+    hy = hx * max(1.0, point.kappa)
     ny = max(4, round(domain.y_max / hy / 2**halvings)) * 2**halvings
     return [Level(point, domain, n >> k, ny >> k) for k in range(halvings, -1, -1)]
 

@@ -12,7 +12,7 @@ from scipy.interpolate import RectBivariateSpline
 
 from ehlcontact._kernels import transfer
 from ehlcontact.domain import Domain
-from ehlcontact.grid import LARGEST_ASPECT, Level, build_hierarchy
+from ehlcontact.grid import Level, build_hierarchy
 from ehlcontact.newton import Balance, CoarseNewton
 from ehlcontact.scaling import MoesPoint
 
@@ -22,7 +22,7 @@ CYCLES_PER_LEVEL = 1  # of full multigrid, before the finest level
 
 def coarsest_intervals(point: MoesPoint) -> int:
     """Intervals of the coarsest grid: 16; more at high load, to see the inlet, and for narrow ellipses."""
-    if point.kappa > LARGEST_ASPECT:
+    if point.kappa > 2.0:
         return 32
     return 16 if point.M < 1000.0 else 24
 

