@@ -44,6 +44,10 @@ class Domain:
             return cls()
         return cls(-4.5 - growth, 1.5 + 3.0 * growth, 3.0 + 2.0 * growth)
 
+    def scaled(self, factor: float) -> Domain:
+        """Return the region stretched by `factor`."""
+        return Domain(self.x_in * factor, self.x_out * factor, self.y_max * factor)
+
     def as_tuple(self) -> tuple[float, float, float]:
         """(x_in, x_out, y_max)."""
         return self.x_in, self.x_out, self.y_max

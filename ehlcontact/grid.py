@@ -43,13 +43,10 @@ class Level:
 
     def __init__(self, point: MoesPoint, domain: Domain, nx: int, ny: int) -> None:
         self.nx, self.ny = nx, ny
-        self.law = point.law
         self.X = np.linspace(domain.x_in, domain.x_out, nx + 1)
         self.Y = np.linspace(0.0, domain.y_max, ny + 1)
         self.hx, self.hy = (domain.x_out - domain.x_in) / nx, domain.y_max / ny
-        # On a mesh finer along X, smooth changes of P deflect the film further beyond the near coefficients.
-        switch = relax.SWITCH * max(1.0, 0.5 * self.hy / (point.kappa * self.hx))
-        self.mesh = reynolds.Mesh(self.hx**-2, point.kappa**2 * self.hy**-2, 1.0 / self.hx, point.lam, switch)
+        self.set_point(point)
         S = shape_factor(point.kappa)
         self.gap = S * self.X**2 + (1.0 - S) * self.Y[:, None] ** 2
         self.deflection = Deflection(nx, ny, self.hx, self.hy, point.kappa)
@@ -76,6 +73,13 @@ class Level:
         self.force_weights = np.full(shape, 2.0 * FORCE_FACTOR * self.hx * self.hy)
         self.force_weights[0] *= 0.5
 
+    def set_point(self, point: MoesPoint) -> None:
+        """Coefficients of the Reynolds equation at `point`; its kappa must be that of the level."""
+        self.law = point.law
+        # On a mesh finer along X, smooth changes of P deflect the film further beyond the near coefficients.
+        switch = relax.SWITCH * max(1.0, 0.5 * self.hy / (point.kappa * self.hx))
+        self.mesh = reynolds.Mesh(self.hx**-2, point.kappa**2 * self.hy**-2, 1.0 / self.hx, point.lam, switch)
+
     @property
     def P(self) -> Array:
         """Pressure."""
@@ -101,6 +105,18 @@ class Level:
         reynolds.update_flow(f.P, f.H, self.law, self.mesh, f.eps, f.mass)
         reynolds.residual(f.P, f.eps, f.mass, self.mesh, self.c_t, self.rhs, self.r)
         return self.r
+
+    def density(self) -> Array:
+        """Density at the present P, over ambient density."""
+        rho, unused = np.empty_like(self.P), np.empty_like(self.P)
+        reynolds.update_flow(self.P, np.ones_like(self.P), self.law, self.mesh, unused, rho)
+        return rho
+
+    def transport(self, content: Array, history: Array) -> Array:
+        """Discrete ``d(content)/dX + d(content)/dT``; `history` is the known part of the latter, as in `rhs`."""
+        still, change = np.zeros_like(content), np.zeros_like(content)
+        reynolds.residual(still, still, content, self.mesh, self.c_t, history, change)
+        return change
 
     def residual_norm(self) -> float:
         """Mean of |r| over the nodes of the whole domain with P > 0, from the last `update_residual`."""

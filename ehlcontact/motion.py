@@ -2,7 +2,8 @@
 
 A motion gives the load ``f_ext(T)`` (static load 1), whether the bodies have inertia (``omega_n``), and how
 the record starts. With inertia the approach obeys ``u''/Omega_n^2 + f = f_ext`` (eq. 5); without it the film
-carries the load at every instant (eq. 6); `PrescribedApproach` drives u itself.
+carries the load at every instant (eq. 6); `PrescribedApproach` drives u itself. Its ``corners`` are the times at
+which its slope jumps: controlled time steps end there and begin anew.
 """
 
 from __future__ import annotations
@@ -16,9 +17,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.errors import InputError, require_finite, require_positive
+from ehlcontact.table import Tabulated, as_table
 
 SMALL_VIBRATION = 1.5**0.5  # dry angular frequency over Omega_n
 STEPS_PER_PERIOD = 80
+CORNER = 0.3  # jump of a table's slope, over its steepest, that counts as a corner; 1/20 period of a sine is 0.31
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +47,7 @@ class FreeVibration:
     offset: float = 0.0
     rate: float | None = None
     kind: ClassVar[str] = "free"
+    corners: ClassVar[tuple[float, ...]] = ()
 
     def __post_init__(self) -> None:
         require_positive("omega_n", self.omega_n)
@@ -78,8 +82,8 @@ class FreeVibration:
 
     @property
     def largest_load(self) -> float:
-        """Largest film force to expect, for the domain."""
-        return 1.0 + 1.5 * (abs(self.offset) + abs(self.initial_rate) / (SMALL_VIBRATION * self.omega_n))
+        """Largest film force to expect, for the domain: dry Hertz load at the amplitude of a linear vibration."""
+        return (1.0 + abs(self.offset) + abs(self.initial_rate) / (SMALL_VIBRATION * self.omega_n)) ** 1.5
 
     @property
     def initial_rate(self) -> float:
@@ -99,6 +103,7 @@ class HarmonicLoad:
     amplitude: float = 0.1
     omega_n: float | None = None
     kind: ClassVar[str] = "harmonic"
+    corners: ClassVar[tuple[float, ...]] = ()
 
     def __post_init__(self) -> None:
         require_positive("omega", self.omega)
@@ -154,6 +159,11 @@ class RampLoad:
         return 1.0 + (self.ratio - 1.0) * min(max(T / self.duration, 0.0), 1.0)
 
     @property
+    def corners(self) -> tuple[float, ...]:
+        """End of the ramp."""
+        return (self.duration,)
+
+    @property
     def default_end(self) -> float:
         """The ramp and two dry periods after it."""
         return self.duration + 4.0 * pi / (SMALL_VIBRATION * self.omega_n)
@@ -173,39 +183,8 @@ class RampLoad:
         return {"kind": self.kind, "ratio": self.ratio, "duration": self.duration, "omega_n": self.omega_n}
 
 
-def _as_table(name: str, T: ArrayLike, values: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    try:
-        t, v = np.array(T, dtype=float), np.array(values, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(name, "no numbers", "tables of numbers") from None
-    if t.ndim != 1 or t.size < 4 or t.shape != v.shape:
-        raise InputError(name, v.shape, "a 1-D table of at least 4 values, as many as T")
-    if not (np.isfinite(t).all() and np.isfinite(v).all()):
-        raise InputError(name, "NaN or infinity", "finite numbers")
-    if t[0] != 0.0 or not (np.diff(t) > 0.0).all():
-        raise InputError("T", t[0], "increasing and starting at 0")
-    return t, v
-
-
-class _Tabulated:
-    """Time span of a motion given by a table."""
-
-    __slots__ = ()
-    _table: tuple[NDArray[np.float64], NDArray[np.float64]]
-
-    @property
-    def default_end(self) -> float:
-        """End of the table."""
-        return float(self._table[0][-1])
-
-    @property
-    def default_step(self) -> float:
-        """Mean spacing of the table."""
-        return self.default_end / (len(self._table[0]) - 1)
-
-
 @dataclass(frozen=True, slots=True, eq=False)
-class PrescribedLoad(_Tabulated):
+class PrescribedLoad(Tabulated):
     """Load given by a table (linear interpolation) on bodies with (`omega_n`) or without inertia."""
 
     T: ArrayLike
@@ -215,7 +194,7 @@ class PrescribedLoad(_Tabulated):
     _table: tuple[NDArray[np.float64], NDArray[np.float64]] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        table = _as_table("values", self.T, self.values)
+        table = as_table("values", self.T, self.values)
         if not (table[1] > 0.0).all():
             raise InputError("values", float(table[1].min()), "loads > 0 (the contact must stay loaded)")
         if self.omega_n is not None:
@@ -235,6 +214,14 @@ class PrescribedLoad(_Tabulated):
         return float(np.interp(T, *self._table))
 
     @property
+    def corners(self) -> tuple[float, ...]:
+        """Times of the table at which its slope jumps by more than `CORNER` of its steepest slope."""
+        T, values = self._table
+        slope = np.diff(values) / np.diff(T)
+        jump = np.abs(np.diff(slope)) > CORNER * np.abs(slope).max()
+        return tuple(T[1:-1][jump].tolist())
+
+    @property
     def largest_load(self) -> float:
         """Largest load of the table."""
         return float(self._table[1].max())
@@ -246,12 +233,13 @@ class PrescribedLoad(_Tabulated):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class PrescribedApproach(_Tabulated):
+class PrescribedApproach(Tabulated):
     """Approach u(T) given by a table (cubic spline, so that the rate is continuous)."""
 
     T: ArrayLike
     values: ArrayLike
     kind: ClassVar[str] = "approach"
+    corners: ClassVar[tuple[float, ...]] = ()
     omega_n: ClassVar[None] = None
     _table: tuple[NDArray[np.float64], NDArray[np.float64]] = field(init=False, repr=False)
     _spline: Any = field(init=False, repr=False)
@@ -259,7 +247,7 @@ class PrescribedApproach(_Tabulated):
     def __post_init__(self) -> None:
         from scipy.interpolate import CubicSpline
 
-        table = _as_table("values", self.T, self.values)
+        table = as_table("values", self.T, self.values)
         object.__setattr__(self, "_table", table)
         object.__setattr__(self, "_spline", CubicSpline(*table))
 

@@ -7,6 +7,9 @@ the coarsest grid is solved by Newton together with u (`newton`) instead of bein
 
 from __future__ import annotations
 
+from dataclasses import replace
+from math import ceil, log
+
 import numpy as np
 from scipy.interpolate import RectBivariateSpline
 
@@ -14,10 +17,13 @@ from ehlcontact._kernels import transfer
 from ehlcontact.domain import Domain
 from ehlcontact.grid import Level, build_hierarchy
 from ehlcontact.newton import Balance, CoarseNewton
+from ehlcontact.resolution import resolved_load
 from ehlcontact.scaling import MoesPoint
 
 PRE_SWEEPS, POST_SWEEPS = 2, 1
 CYCLES_PER_LEVEL = 1  # of full multigrid, before the finest level
+LARGEST_LOADING = 4.0  # factor by which the load of a level rises at once
+CYCLES_AFTER_LOADING = 4  # on a level that carries more load than the one below
 
 
 def coarsest_intervals(point: MoesPoint) -> int:
@@ -31,6 +37,7 @@ class Multigrid:
     """A hierarchy of levels and the cycle on it; the state is P on the finest level and the approach u."""
 
     def __init__(self, point: MoesPoint, domain: Domain, n: int, coarsest: int | None = None) -> None:
+        self.point = point
         self.levels = build_hierarchy(point, domain, n, coarsest or coarsest_intervals(point))
         self.newton = CoarseNewton(self.levels[0])
         self.u = initial_approach(point)
@@ -45,19 +52,35 @@ class Multigrid:
         for level in self.levels:
             level.c_t = c_t
 
-    def full_multigrid(self, balance: Balance, start: int = 0) -> None:
-        """Solve from level `start` upwards, with one cycle on each level below the finest."""
-        if start == 0:
-            self.levels[0].set_dry_hertz()
-            self.u = self.newton.solve(self.u, balance, max_steps=60, tol=1e-9)
-        for k in range(start + 1, len(self.levels)):
+    def full_multigrid(self, balance: Balance) -> None:
+        """Solve from the coarsest level upwards, with few cycles on each level below the finest.
+
+        Every level carries the load that its mesh can resolve: a film thinner than its errors comes out negative
+        there, and is no start for anything. In Hertz units the pressure hardly changes with load.
+        """
+        loads = [resolved_load(self.point, max(level.hx, level.hy)) for level in self.levels[:-1]] + [self.point.M]
+        self._set_load(0, loads[0])
+        self.levels[0].set_dry_hertz()
+        self.u = self.newton.solve(self.u, balance, max_steps=60, tol=1e-9)
+        for k in range(1, len(self.levels)):
             coarse, fine = self.levels[k - 1], self.levels[k]
             fine.rhs[...] = 0.0
             fine.film_rhs = 0.0
             _interpolate_solution(coarse, fine)
-            if k < len(self.levels) - 1:
-                for _ in range(CYCLES_PER_LEVEL):
+            cycles = CYCLES_PER_LEVEL if fine is not self.finest else 0
+            steps = ceil(log(loads[k] / loads[k - 1]) / log(LARGEST_LOADING) - 1e-9)
+            for step in range(1, steps + 1):
+                self._set_load(k, loads[k - 1] * (loads[k] / loads[k - 1]) ** (step / steps))
+                for _ in range(CYCLES_AFTER_LOADING):
                     self.u = self._cycle(k, self.u, balance)
+            for _ in range(cycles if steps == 0 else 0):
+                self.u = self._cycle(k, self.u, balance)
+
+    def _set_load(self, k: int, M: float) -> None:
+        """Moes load on levels 0 to k."""
+        for level in self.levels[: k + 1]:
+            level.set_point(replace(self.point, M=M))
+        self.newton.factors = None
 
     def cycle(self, balance: Balance) -> None:
         """One V cycle on the finest level."""

@@ -6,10 +6,11 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.domain import Domain
-from ehlcontact.motion import Motion
+from ehlcontact.errors import InputError
+from ehlcontact.motion import Motion, PrescribedApproach
 from ehlcontact.scaling import MoesPoint, Scales
 from ehlcontact.status import Status
 
@@ -92,6 +93,22 @@ class SteadyResult:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Instants:
+    """A simulation between its steps: continuous with continuous slopes, every array of the shape of T."""
+
+    T: Array
+    approach: Array
+    rate: Array  # derivative of `approach`
+    force: Array
+    load: Array  # of the motion itself; the film force where the approach is prescribed
+    h_central: Array
+    h_min: Array
+
+    def __post_init__(self) -> None:
+        _freeze(self)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class SimulationResult:
     """History of a transient contact; entry 0 is the initial state at T = 0."""
 
@@ -130,6 +147,52 @@ class SimulationResult:
     def steps(self) -> int:
         """Number of time steps done."""
         return len(self.T) - 1
+
+    def at(self, T: ArrayLike) -> Instants:
+        """Dense output: cubic Hermite polynomials between the steps.
+
+        The approach takes its slopes from the recorded rate (fourth order where the bodies have inertia), force
+        and films from second-order differences of the record (third order).
+
+        Parameters
+        ----------
+        T : array_like
+            Times within the record, of any shape.
+
+        Raises
+        ------
+        InputError
+            A time that is not a number, or outside the record; a record of fewer than three times.
+        """
+        from scipy.interpolate import CubicHermiteSpline
+
+        try:
+            times = np.array(T, dtype=float)
+        except (TypeError, ValueError):
+            raise InputError("T", T, "numbers") from None
+        if self.T.size < 3:
+            raise InputError("steps", self.steps, "at least 2 to interpolate between")
+        outside = times[~((times >= self.T[0]) & (times <= self.T[-1]))]
+        if outside.size:
+            raise InputError("T", float(outside.flat[0]), f"between {self.T[0]:g} and {self.T[-1]:g}")
+
+        def smooth(values: Array) -> Array:
+            return CubicHermiteSpline(self.T, values, np.gradient(values, self.T, edge_order=2))(times)
+
+        approach = CubicHermiteSpline(self.T, self.approach, self.rate)
+        force = smooth(self.force)
+        motion = self.motion
+        return Instants(
+            T=times,
+            approach=approach(times),
+            rate=approach(times, 1),
+            force=force,
+            load=force.copy()
+            if isinstance(motion, PrescribedApproach)
+            else np.array([motion.load(t) for t in times.flat]).reshape(times.shape),
+            h_central=smooth(self.h_central),
+            h_min=smooth(self.h_min),
+        )
 
     def dissipated(self, start: float = 0.0, end: float = np.inf) -> float:
         """Work ``integral of force d(approach)`` over T in [start, end]: what the film took up."""

@@ -17,6 +17,7 @@ class Status(StrEnum):
     MAX_CYCLES = "max_cycles"
     OUT_OF_DOMAIN = "out_of_domain"
     UNRESOLVED = "unresolved"
+    STEP_TOO_SMALL = "step_too_small"
     INTERRUPTED = "interrupted"
 
     @property
@@ -36,8 +37,11 @@ _ADVICE = {
     Status.DIVERGED: "The residual grows: use a finer grid, or a smaller time step.",
     Status.NONFINITE: "NaN or infinity appeared: use a finer grid, or check that M, L and kappa are meant.",
     Status.MAX_CYCLES: "The cycles ran out while still converging: raise max_cycles.",
-    Status.OUT_OF_DOMAIN: "Pressure reaches the border of the computed region: give a wider domain.",
+    Status.OUT_OF_DOMAIN: "Pressure reaches the border of the computed region: give a wider domain, such as "
+    "domain=Domain.for_load(largest force to come).",
     Status.UNRESOLVED: "The grid is too coarse for this film, which is zero or negative somewhere: raise n.",
+    Status.STEP_TOO_SMALL: "However short the step, it does not meet its tolerance: allow a larger error, or "
+    "smooth what jumps (a load, a surface).",
     Status.INTERRUPTED: "Stopped by the user; what was computed until then is kept.",
 }
 

@@ -3,22 +3,30 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Generator
+from math import isfinite
 
 import numpy as np
 
 from ehlcontact.domain import Domain, check_domain, check_intervals
-from ehlcontact.errors import ConvergenceError, require_finite, require_integer, require_positive
+from ehlcontact.errors import ConvergenceError, require_choice, require_finite, require_integer, require_positive
 from ehlcontact.grid import Level
 from ehlcontact.multigrid import Multigrid
 from ehlcontact.newton import Balance
+from ehlcontact.newton_krylov import NewtonKrylov
+from ehlcontact.resolution import automatic_mesh, refined_mesh
 from ehlcontact.results import SteadyResult
-from ehlcontact.scaling import Point, moes_point, scales_of
+from ehlcontact.scaling import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.status import Status, classify
 from ehlcontact.version import __version__
 
 LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7
+LARGEST_ATTEMPTS = 4  # of an automatic mesh
+METHODS = ("automatic", "multigrid", "newton")
+FAILED = (Status.STAGNATED, Status.DIVERGED, Status.MAX_CYCLES, Status.NONFINITE)
+REFINED = (*FAILED, Status.UNRESOLVED)
+ROOM = 1.5  # growth of a domain that pressure fills
 BORDER_SLOPE = 0.1  # of the maximum per semi-axis, at inlet and sides
 BORDER_PRESSURE = 0.02  # of the maximum, beside the outlet; a film that ends outside the grid is not computed
 
@@ -26,11 +34,12 @@ BORDER_PRESSURE = 0.02  # of the maximum, beside the outlet; a film that ends ou
 def solve_steady(
     point: Point,
     *,
-    n: int = 128,
+    n: int | None = None,
     domain: Domain | None = None,
     approach: float | None = None,
     tol: float = 3e-5,
     max_cycles: int = 40,
+    method: str = "automatic",
     throw: bool = True,
     callback: Callable[[int, float], None] | None = None,
 ) -> SteadyResult:
@@ -40,15 +49,19 @@ def solve_steady(
     ----------
     point : MoesPoint or OperatingPoint
     n : int
-        Intervals along X, a multiple of 16.
+        Intervals along X, a multiple of 16; by default as many as the film needs, 128 or more.
     domain : Domain, optional
-        Computed region; by default ``Domain()``, wider at light load.
+        Computed region; by default ``Domain()``, wider at light load, and with `n` left out narrower where the
+        film is too thin for a grid of that extent.
     approach : float, optional
         Prescribe the approach (dry Hertz value 1) instead of the load.
     tol : float
         Mean |residual| over P > 0 relative to that of the dry Hertz start on the same grid.
     max_cycles : int
-        Limit of V(2,1) cycles on the finest grid.
+        Limit of V(2,1) cycles, or of Newton steps, on the finest grid.
+    method : {"automatic", "multigrid", "newton"}
+        V cycles, or Newton steps from the same full-multigrid start; both solve the same equations.
+        ``"automatic"`` cycles, and turns to Newton where that fails.
     throw : bool
         Raise on failure; otherwise look at ``result.status``.
     callback : callable, optional
@@ -68,63 +81,130 @@ def solve_steady(
     """
     started = time.perf_counter()
     moes = moes_point(point)
-    n, domain = check_intervals(n), check_domain(domain, moes)
     require_integer("max_cycles", max_cycles, "a whole number > 0", 1)
-    multigrid = Multigrid(moes, domain, n)
     require_positive("tol", tol)
+    require_choice("method", method, METHODS)
     if approach is None:
         balance = Balance(0.0, 1.0, 1.0)
     else:
-        multigrid.u = require_finite("approach", approach)
-        balance = Balance(1.0, 0.0, multigrid.u)
-    level = multigrid.finest
-    scale = dry_residual(level)
-    multigrid.full_multigrid(balance)
-    residuals: list[float] = []
-    load_residuals: list[float] = []
-    changes: list[float] = []
-    status = None
-    while status is None:
-        level.update_film(multigrid.u)
-        level.update_residual()
-        residuals.append(level.residual_norm())
-        load_residuals.append(balance.residual(multigrid.u, level.force()))
-        settled = bool(changes) and changes[-1] < APPROACH_TOLERANCE and abs(load_residuals[-1]) < LOAD_TOLERANCE
-        status = classify(residuals, scale, tol, settled, max_cycles)
-        if status is None:
-            previous = multigrid.u
-            try:
-                multigrid.cycle(balance)
-                changes.append(abs(multigrid.u - previous))
-                if callback is not None:
-                    callback(len(changes), residuals[-1] / scale)
-            except KeyboardInterrupt:
-                status = Status.INTERRUPTED
-    status = judge(status, level)
-    result = SteadyResult(
-        point=moes,
-        scales=scales_of(point),
-        domain=domain,
-        n=n,
-        X=level.X.copy(),
-        Y=level.Y.copy(),
-        P=level.P.T.copy(),
-        H=level.H.T.copy(),
-        approach=float(multigrid.u),
-        force=level.force(),
-        h_central=central_film(level),
-        h_min=float(level.H.min()),
-        residuals=np.array(residuals),
-        load_residuals=np.array(load_residuals),
-        approach_changes=np.array(changes),
-        dry_residual=scale,
-        status=status,
-        seconds=time.perf_counter() - started,
-        version=__version__,
-    )
+        balance = Balance(1.0, 0.0, require_finite("approach", approach))
+    attempts = _meshes(moes, n, domain)
+    mesh = next(attempts)
+    while mesh is not None:
+        solved = _Solve(moes, *mesh, balance, tol, max_cycles, callback)
+        status = solved.run(newton=method == "newton")
+        if method == "automatic" and status in FAILED:
+            solved = _Solve(moes, *mesh, balance, tol, max_cycles, callback)
+            status = solved.run(newton=True)
+        mesh = attempts.send(status)
+    result = solved.result(status, scales_of(point), time.perf_counter() - started)
     if throw and not status.ok and status is not Status.INTERRUPTED:
         raise ConvergenceError(f"steady solve {status}: {status.advice}", result)
     return result
+
+
+class _Solve:
+    """One solve on one mesh, from full multigrid to a judged status."""
+
+    def __init__(
+        self,
+        point: MoesPoint,
+        n: int,
+        domain: Domain,
+        balance: Balance,
+        tol: float,
+        max_cycles: int,
+        callback: Callable[[int, float], None] | None,
+    ) -> None:
+        self.n, self.domain, self.balance = n, domain, balance
+        self.tol, self.max_cycles, self.callback = tol, max_cycles, callback
+        self.multigrid = Multigrid(point, domain, n)
+        if balance.weight == 0.0:
+            self.multigrid.u = balance.rhs
+        self.scale = dry_residual(self.multigrid.finest)
+        self.residuals: list[float] = []
+        self.load_residuals: list[float] = []
+        self.changes: list[float] = []
+
+    def run(self, newton: bool) -> Status:
+        """Cycle, or take Newton steps, until the residuals say how it ended."""
+        advance = NewtonKrylov(self.multigrid).step if newton else self.multigrid.cycle
+        try:
+            self.multigrid.full_multigrid(self.balance)
+            if newton:
+                self.multigrid.cycle(self.balance)
+            status = self._measure()
+            while status is None:
+                previous = self.multigrid.u
+                advance(self.balance)
+                self.changes.append(abs(self.multigrid.u - previous))
+                if self.callback is not None:
+                    self.callback(len(self.changes), self.residuals[-1] / self.scale)
+                status = self._measure()
+        except KeyboardInterrupt:
+            return Status.INTERRUPTED
+        return judge(status, self.multigrid.finest)
+
+    def _measure(self) -> Status | None:
+        mg, level = self.multigrid, self.multigrid.finest
+        level.update_film(mg.u)
+        level.update_residual()
+        self.residuals.append(level.residual_norm())
+        self.load_residuals.append(self.balance.residual(mg.u, level.force()))
+        settled = bool(self.changes) and self.changes[-1] < APPROACH_TOLERANCE
+        settled = settled and abs(self.load_residuals[-1]) < LOAD_TOLERANCE
+        if not isfinite(self.load_residuals[-1]):  # a pressure of NaN has no residual
+            return Status.NONFINITE
+        return classify(self.residuals, self.scale, self.tol, settled, self.max_cycles)
+
+    def result(self, status: Status, scales: Scales | None, seconds: float) -> SteadyResult:
+        """Everything that is kept."""
+        mg, level = self.multigrid, self.multigrid.finest
+        return SteadyResult(
+            point=mg.point,
+            scales=scales,
+            domain=self.domain,
+            n=self.n,
+            X=level.X.copy(),
+            Y=level.Y.copy(),
+            P=level.P.T.copy(),
+            H=level.H.T.copy(),
+            approach=float(mg.u),
+            force=level.force(),
+            h_central=central_film(level),
+            h_min=float(level.H.min()),
+            residuals=np.array(self.residuals),
+            load_residuals=np.array(self.load_residuals),
+            approach_changes=np.array(self.changes),
+            dry_residual=self.scale,
+            status=status,
+            seconds=seconds,
+            version=__version__,
+        )
+
+
+def _meshes(
+    point: MoesPoint, n: int | None, domain: Domain | None
+) -> Generator[tuple[int, Domain] | None, Status, None]:
+    """Meshes to try one after the other: yields (n, domain), takes the status it led to, ends with None.
+
+    With `n` given there is one. Otherwise a film that the mesh does not resolve gets a finer one, and with the
+    domain left open a pressure that reaches its border gets more room.
+    """
+    if n is not None:
+        yield check_intervals(n), check_domain(domain, point)
+        yield None
+        return
+    mesh, region = automatic_mesh(point, check_domain(domain, point) if domain is not None else None)
+    for _ in range(LARGEST_ATTEMPTS):
+        status = yield mesh, region
+        if status is Status.OUT_OF_DOMAIN and domain is None:
+            region = region.scaled(ROOM)
+        elif status in REFINED and (finer := refined_mesh(point, mesh, region, domain is None)) is not None:
+            mesh, region = finer
+        else:
+            break
+    yield None
 
 
 def dry_residual(level: Level) -> float:

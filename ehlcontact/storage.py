@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
@@ -31,19 +32,24 @@ def save(result: Result, path: str | os.PathLike[str]) -> Path:
     InputError
         The folder does not exist or cannot be written to.
     """
+    return write_fields(result, path, "save")
+
+
+def write_fields(record: Any, path: str | os.PathLike[str], field: str) -> Path:
+    """Write any dataclass as `save` does; errors name `field`."""
     target = Path(path)
     # not tempfile: it makes files that only their owner may read
     name = target.with_name(f".{target.name}.{os.getpid()}.tmp")
     try:
         name.touch()
     except OSError as error:
-        raise InputError("save", str(target), f"in a folder that can be written to ({error.strerror})") from None
+        raise InputError(field, str(target), f"in a folder that can be written to ({error.strerror})") from None
     try:
         with h5py.File(name, "w") as file:
             file.attrs["format"] = FORMAT
-            file.attrs["class"] = type(result).__name__
-            for f in fields(result):
-                value = getattr(result, f.name)
+            file.attrs["class"] = type(record).__name__
+            for f in fields(record):
+                value = getattr(record, f.name)
                 if isinstance(value, np.ndarray):
                     file.create_dataset(
                         f.name, data=value, compression="gzip" if value.ndim > 1 and value.size else None
@@ -52,7 +58,7 @@ def save(result: Result, path: str | os.PathLike[str]) -> Path:
                     file.attrs[f.name] = json.dumps(_plain(value))
         os.replace(name, target)
     except OSError as error:
-        raise InputError("save", str(target), f"a file that can be written ({error.strerror})") from None
+        raise InputError(field, str(target), f"a file that can be written ({error.strerror})") from None
     finally:
         name.unlink(missing_ok=True)
     return target
@@ -66,17 +72,22 @@ def load(path: str | os.PathLike[str]) -> Result:
     InputError
         No such file, not HDF5, truncated, not one of ours, or written by a newer version.
     """
+    return read_fields(path, _CLASSES, "file", "result of this library (steady or simulation)")
+
+
+def read_fields(path: str | os.PathLike[str], classes: Mapping[str, type[Any]], field: str, what: str) -> Any:
+    """Read what `write_fields` wrote, one of `classes` by name; errors name `field` and say `what` was wanted."""
     source = Path(path)
     if not source.is_file():
-        raise InputError("file", str(source), "an existing HDF5 result")
+        raise InputError(field, str(source), f"an existing HDF5 {what}")
     try:
         with h5py.File(source, "r") as file:
             name = file.attrs.get("class")
-            if name not in _CLASSES:
-                raise InputError("file", str(source), "a result of this library (steady or simulation)")
+            if name not in classes:
+                raise InputError(field, str(source), f"a {what}")
             if int(file.attrs["format"]) > FORMAT:
-                raise InputError("file", str(source), f"of format {FORMAT} or older; upgrade to read it")
-            cls = _CLASSES[name]
+                raise InputError(field, str(source), f"of format {FORMAT} or older; upgrade to read it")
+            cls = classes[name]
             values = {
                 f.name: file[f.name][...] if f.name in file else _rebuild(f.name, json.loads(file.attrs[f.name]))
                 for f in fields(cls)
@@ -84,7 +95,7 @@ def load(path: str | os.PathLike[str]) -> Result:
     except (OSError, KeyError, ValueError, TypeError) as error:
         if isinstance(error, InputError):
             raise
-        raise InputError("file", str(source), "a complete HDF5 result of this library") from None
+        raise InputError(field, str(source), f"a complete HDF5 {what}") from None
     return cls(**values)
 
 

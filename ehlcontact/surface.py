@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,17 @@ from ehlcontact.errors import InputError, require_finite, require_nonnegative, r
 
 Array = NDArray[np.float64]
 Surface = Callable[[Array, Array, float], Array]
+
+RATE_STEP = 1e-6  # of the central difference along the path of the film, in X and T
+
+
+class SurfaceStep(NamedTuple):
+    """A surface over one time step; arrays (ny + 1, nx + 1)."""
+
+    height: Array  # at the end of the step
+    before: Array  # at its beginning
+    earlier: Array  # at the beginning of the step before
+    rate: Array  # (d/dX + d/dT) G at the end: what passing film sees; 0 in pure rolling
 
 
 def surface_height(surface: Surface | None, X: Array, Y: Array, T: float) -> Array | float:
@@ -31,20 +43,38 @@ def surface_height(surface: Surface | None, X: Array, Y: Array, T: float) -> Arr
     if surface is None:
         return 0.0
     G = np.asarray(surface(X[None, :], Y[:, None], T), dtype=float)
-    if np.broadcast_shapes(G.shape, (Y.size, X.size)) != (Y.size, X.size):
-        raise InputError("surface", G.shape, f"a function returning shape {(Y.size, X.size)}")
+    try:
+        G = np.broadcast_to(G, (Y.size, X.size)).copy()
+    except ValueError:
+        raise InputError("surface", G.shape, f"a function returning shape {(Y.size, X.size)}") from None
     if not np.isfinite(G).all():
         raise InputError("surface", "NaN or infinity", f"finite everywhere (T = {T:g})")
-    return np.broadcast_to(G, (Y.size, X.size)).copy()
+    return G
+
+
+def surface_step(
+    surface: Surface | None, X: Array, Y: Array, T: float, dT: float, dT_before: float
+) -> SurfaceStep | None:
+    """`surface` over the step `dT` that ends at T and follows one of length `dT_before`; None without one."""
+    if surface is None:
+        return None
+    height, before, earlier = (
+        np.asarray(surface_height(surface, X, Y, max(time, 0.0))) for time in (T, T - dT, T - dT - dT_before)
+    )
+    ahead, behind = (
+        np.asarray(surface_height(surface, X + step, Y, T + step)) for step in (RATE_STEP, -RATE_STEP)
+    )
+    return SurfaceStep(height, before, earlier, (ahead - behind) / (2.0 * RATE_STEP))
 
 
 @dataclass(frozen=True, slots=True)
 class Dent:
     """Round dent (depth > 0) or bump (depth < 0) centred on Y = 0.
 
-    ``depth cos(pi r/(2 radius)) exp(-2 (r/radius)^2)`` within a half wave, r in the *physical* metric:
-    ``r^2 = (X - X0 - speed T)^2 + (Y/kappa)^2`` with lengths in semi-axes a. The shape of Mourier, Mazuyer,
-    Lubrecht and Donnet, Tribology Int. 39 (2006) 1745, with their ``1.2 r0`` as `radius`.
+    ``depth cos(pi r/(2 radius)) exp(-2 (r/radius)^2)``, r in the *physical* metric:
+    ``r^2 = (X - X0 - speed T)^2 + (Y/kappa)^2`` with lengths in semi-axes a. Beyond r = radius a rim stands out,
+    1.7 % of the depth high at 1.2 radius. The shape of Mourier, Mazuyer, Lubrecht and Donnet, Tribology Int. 39
+    (2006) 1745, with their ``1.2 r0`` as `radius`.
     """
 
     depth: float

@@ -18,10 +18,12 @@ from ehlcontact.newton import Balance, Factors
 from ehlcontact.scaling import MoesPoint
 from ehlcontact.status import Status, classify
 from ehlcontact.steady import central_film, judge
+from ehlcontact.surface import SurfaceStep
 
 STEP_CYCLES = 25
 SMALLEST_SCALE = 0.01  # of the residuals, in dry approaches
 LARGEST_EXTRAPOLATION = 2.0  # step ratio up to which past pressures predict the next
+NEGLIGIBLE_FORCE = 0.01  # below which it does not matter what the border cuts off, unless a load is to be carried
 CHANGE_SHARE = 1.0 / 30.0  # of the tolerance, for changes of u and force: they are means over the field
 
 
@@ -94,31 +96,41 @@ class TransientFilm:
         # full multigrid may still overlap in the centre
         self.scale = max(central_film(self.level), SMALLEST_SCALE)
         step = self._solve(balance, 2 * STEP_CYCLES)
-        self._remember_rest()
+        self._mass = self.level.fields.mass.copy()
+        self._mass_before = self._mass
+        self.forget_past()
         return step
 
-    def _remember_rest(self) -> None:
+    def forget_past(self) -> None:
+        """Begin anew from here, as after rest: what moves the film is about to change its slope."""
         self._past = ()
-        self._mass = self.level.fields.mass.copy()
-        self._mass_before = self._mass.copy()
         self._dT = 0.0
 
-    def advance(self, dT: float, balance: Balance, u_guess: float, surface: Array | float = 0.0) -> Step:
+    @property
+    def last_step(self) -> float:
+        """Length of the step that led here; 0 from rest."""
+        return self._dT
+
+    def advance(self, dT: float, balance: Balance, u_guess: float, surface: SurfaceStep | None = None) -> Step:
         """One step of length dT, closed by `balance`; the state moves to the end of the step.
 
-        `surface` is the height of the features at the end of the step, shape (ny + 1, nx + 1).
+        `surface` holds the features on the surfaces, over this step and the one of length `last_step` before.
         """
         level, mg = self.level, self.multigrid
-        # From rest the past is not smooth: the first step is backward Euler, as the limit ratio = 0 makes it.
+        # From rest or a corner the past is not smooth: the first step is backward Euler, the limit ratio = 0.
         ratio = dT / self._dT if self._dT > 0.0 else 0.0
         mg.set_time_coefficient((1.0 + 2.0 * ratio) / (1.0 + ratio) / dT)
-        np.multiply(self._mass_before, ratio * ratio / (1.0 + ratio) / dT, out=level.rhs)
-        level.rhs -= self._mass * ((1.0 + ratio) / dT)
-        level.film_rhs = surface
+        level.rhs[...] = _known(dT, ratio, self._mass, self._mass_before)
+        level.film_rhs = 0.0 if surface is None else surface.height
         past = self._past
         P_now = level.P.copy()
         if past and ratio <= LARGEST_EXTRAPOLATION:
             level.P[...] = np.maximum(extrapolate(dT, P_now, past), 0.0) * (P_now > 0.0)
+        if surface is not None:
+            # A feature much deeper than the film is carried exactly: the differences would leave a multiple of
+            # its fourth derivative as a source, which eats up the film at its rim.
+            known = _known(dT, ratio, surface.before, surface.earlier)
+            level.rhs -= level.density() * (level.transport(surface.height, known) - surface.rate)
         mg.u = u_guess
         step = self._solve(balance, STEP_CYCLES)
         self._past = ((dT, P_now), *past[:1])
@@ -151,7 +163,10 @@ class TransientFilm:
                 break
             settled = settled and abs(load_residual) < 0.1 * small * max(1.0, balance.stiffness)
             status = classify(residuals, self.scale, self.tol, settled, max_cycles)
-        return Step(residuals[-1] / self.scale, load_residual, len(residuals) - 1, judge(status, level))
+        status = judge(status, level)
+        if status is Status.OUT_OF_DOMAIN and balance.stiffness > 0.0 and force < NEGLIGIBLE_FORCE:
+            status = Status.CONVERGED  # bodies that come back after a separation squeeze a film beyond any domain
+        return Step(residuals[-1] / self.scale, load_residual, len(residuals) - 1, status)
 
     def save_state(self) -> FilmState:
         """Everything needed to come back here."""
@@ -175,6 +190,11 @@ class TransientFilm:
         self.level.film_rhs = state.surface
         self.multigrid.newton.factors = state.factors
         self.level.update_film(state.u)
+
+
+def _known(dT: float, ratio: float, now: Array, before: Array) -> Array:
+    """Part of the backward difference in time that is known at the beginning of the step."""
+    return before * (ratio * ratio / (1.0 + ratio) / dT) - now * ((1.0 + ratio) / dT)
 
 
 def extrapolate(dT: float, now: Array, past: tuple[tuple[float, Array], ...]) -> Array:

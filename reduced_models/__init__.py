@@ -4,10 +4,24 @@
 |---|---|
 | records | histories of approach, rate and force, simulated or measured |
 | least_squares | linear least squares by QR, singular columns by name |
+| power_fit | variable projection for the power law |
+| estimators | the models that `fit` knows |
+| uncertainty | intervals of coefficients where residuals hang together |
 | fit | records to element: quality, validity, root and tangent |
-| law | the force law of the viscous elements and its extension, as compiled kernels |
-| element | `LinearContact`, `CubicContact`, `load_element`, python-control export |
+| sensitivity | which terms of the seven-term polynomial the records need |
+| element | the kinds of element, `load_element` |
+| element_base | what every element carries: validity box, quality, source, units, file |
 | element_file | the JSON file of an element |
+| validity | the warning for leaving the box |
+| memoryless | elements without memory: forces, tangents, python-control export |
+| ends | how springs and dampers go on outside the box |
+| viscous, viscous_law | `LinearContact`, `CubicContact`, and their law as compiled kernels |
+| polynomial, polynomial_law | `PolynomialContact`, likewise |
+| power, power_law | `PowerLawContact`, likewise |
+| film_law, film_curve, film_filters | a dry spring on a film that remembers: kernels, statics, impedance |
+| film_contact | what the elements with a film memory have in common |
+| memory, memory_fit | `FilmMemoryContact`, and its joint fit to impedance and records |
+| wide, wide_build | `WideRangeContact`, and its building from solves |
 | contact | the protocol every contact obeys; `ScaledContact` shows a dimensionless one in SI |
 | oscillator | one mass on one element |
 | jeffcott | rotor parameters, contact mounts, linear matrices |
@@ -29,17 +43,30 @@ from reduced_models.contact import Contact as Contact
 from reduced_models.contact import ScaledContact as ScaledContact
 from reduced_models.contact import TangentContact as TangentContact
 from reduced_models.contact import has_tangents as has_tangents
+from reduced_models.element import ContactElement as ContactElement
 from reduced_models.element import CubicContact as CubicContact
+from reduced_models.element import FilmMemoryContact as FilmMemoryContact
 from reduced_models.element import LinearContact as LinearContact
+from reduced_models.element import PolynomialContact as PolynomialContact
+from reduced_models.element import PowerLawContact as PowerLawContact
+from reduced_models.element import WideRangeContact as WideRangeContact
 from reduced_models.element import load_element as load_element
 from reduced_models.fit import FitResult as FitResult
 from reduced_models.fit import fit as fit
 from reduced_models.jeffcott import ContactMount as ContactMount
 from reduced_models.jeffcott import JeffcottRotor as JeffcottRotor
 from reduced_models.jeffcott import RotorState as RotorState
+from reduced_models.memory_fit import MemoryFit as MemoryFit
+from reduced_models.memory_fit import fit_memory as fit_memory
 from reduced_models.oscillator import OscillatorResult as OscillatorResult
 from reduced_models.oscillator import simulate_oscillator as simulate_oscillator
 from reduced_models.records import ContactRecord as ContactRecord
 from reduced_models.rotor_result import RotorResult as RotorResult
 from reduced_models.rotor_result import RotorStatus as RotorStatus
 from reduced_models.rotor_simulation import simulate_rotor as simulate_rotor
+from reduced_models.sensitivity import Sensitivity as Sensitivity
+from reduced_models.sensitivity import SensitivityRow as SensitivityRow
+from reduced_models.sensitivity import sensitivity as sensitivity
+from reduced_models.validity import OutsideValidityWarning as OutsideValidityWarning
+from reduced_models.wide_build import wide_range_contact as wide_range_contact
+from reduced_models.wide_build import wide_range_from_solves as wide_range_from_solves

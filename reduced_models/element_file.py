@@ -107,6 +107,23 @@ def numbers(name: str, section: str, entries: Mapping[str, Any], required: tuple
     return found
 
 
+def band(name: str, section: Mapping[str, Any], key: str) -> tuple[float, float] | None:
+    """Return the optional pair [low, high] of the object ``valid`` as floats, None where it is absent or null.
+
+    Raises
+    ------
+    InputError
+        It is no pair of finite numbers.
+    """
+    value = section.get(key)
+    if value is None:
+        return None
+    if not isinstance(value, list) or len(value) != 2:
+        raise InputError(f"{name}: valid.{key}", value, "a pair of finite numbers, or null")
+    pair = numbers(name, f"valid.{key}", {"low": value[0], "high": value[1]}, ("low", "high"))
+    return pair["low"], pair["high"]
+
+
 class _NotANumberError(ValueError):
     """JSON text held NaN or Infinity, which Python reads but JSON does not allow."""
 

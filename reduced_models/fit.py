@@ -1,4 +1,4 @@
-"""Least-squares fit of the viscous elements to records: Nonato and Cavalca (2010), eqs. 9-13."""
+"""Least-squares fit of elements to records: Nonato and Cavalca (2010), eqs. 9-13, and the power law."""
 
 from __future__ import annotations
 
@@ -10,16 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError, require_choice
-from reduced_models.element import CubicContact, LinearContact
 from reduced_models.element_file import library_version
-from reduced_models.least_squares import linear_fit
+from reduced_models.estimators import ESTIMATORS, Samples
+from reduced_models.memoryless import MemorylessContact
 from reduced_models.records import ContactRecord
-
-_POWERS = {"linear": (1,), "cubic": (1, 2, 3)}
-_ELEMENTS: dict[str, type[LinearContact] | type[CubicContact]] = {
-    "linear": LinearContact,
-    "cubic": CubicContact,
-}
+from reduced_models.uncertainty import half_widths, independent_samples
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,23 +22,25 @@ class FitResult:
     """An element and how well it stands for the records.
 
     Judge by ``rms``; the signed sum ``e_f`` of eq. 13 is near zero by construction. Of a cubic, ``root`` and
-    ``tangent`` are identifiable from a small vibration while K1, K2, K3 are not.
+    ``tangent`` are identifiable from a small vibration while K1, K2, K3 are not: see their intervals.
     """
 
-    element: LinearContact | CubicContact
+    element: MemorylessContact
     model: str
     parameters: Mapping[str, float]
-    std_errors: Mapping[str, float]  # lower bounds: the residuals are taken as independent
-    covariance: NDArray[np.float64]  # in the order of parameters
+    std_errors: Mapping[str, float]  # square roots of the diagonal of covariance
+    intervals: Mapping[str, tuple[float, float]]  # 95 %, Student's; see `uncertainty`
+    covariance: NDArray[np.float64]  # in the order of parameters, enlarged for residuals that hang together
     rms: float  # RMS error of the force / standard deviation of the force
     e_f: float  # eq. 13 for the force: sum(f - f_fit)/sum(f)
     e_acc: float | None  # eq. 13 for u'' = Omega_n^2 (load - f_fit); None without inertia
     root: float | None  # approach where the spring carries the static load (1, dimensionless)
     tangent: float | None  # spring tangent there
-    valid: Mapping[str, float]  # low, high: fitted approach; rate: largest |rate|
-    condition: float  # of the column-scaled design matrix
+    valid: Mapping[str, Any]  # low, high: fitted approach; rate: largest |rate|; load, omega: (low, high)
+    condition: float  # of the column-scaled design matrix, or Jacobian
     window: tuple[tuple[float, float], ...]  # (start, end) in T, one per record
     samples: int
+    independent_samples: float  # how many of them are worth something: `uncertainty`
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the element, ready for JSON."""
@@ -54,12 +51,15 @@ class FitResult:
             "e_f": self.e_f,
             "root": self.root,
             "tangent": self.tangent,
-            "valid": dict(self.valid),
+            "valid": {k: list(v) if isinstance(v, tuple) else v for k, v in self.valid.items()},
             "condition": self.condition,
             "e_acc": self.e_acc,
             "std_errors": dict(self.std_errors),
+            "intervals": {name: list(pair) for name, pair in self.intervals.items()},
+            "covariance": self.covariance.tolist(),
             "window": [list(span) for span in self.window],
             "samples": self.samples,
+            "independent_samples": self.independent_samples,
         }
 
 
@@ -74,8 +74,9 @@ def fit(
     ----------
     records : ContactRecord or sequence of ContactRecord
         Several are fitted together, sample by sample.
-    model : {"cubic", "linear"}
-        F = K1 u + K2 u^2 + K3 u^3 + C1 u' (eq. 11 as Table 2 reduces it), or F = K1 u + C1 u' (eq. 8).
+    model : {"cubic", "linear", "polynomial", "power"}
+        F = K1 u + K2 u^2 + K3 u^3 + C1 u' (eq. 11 as Table 2 reduces it), F = K1 u + C1 u' (eq. 8), the seven
+        terms of eq. 11, or F = K (u + u0)_+^n + F0 + C u'.
     window : (start, end), optional
         Part of T to fit, in every record. Left out, each record gives up its first third
         (`ContactRecord.default_window`): the film of the steady start has to leave the contact first.
@@ -89,48 +90,96 @@ def fit(
     ------
     InputError
         Unknown model; no record, or records of different points, scales or units; a window without samples; a
-        record that varies too little (it names the columns); a fit that makes no contact (C1 < 0, or a spring
-        that does not push at the ends of the range).
+        record that varies too little (it names the columns) or whose rate is not the derivative of its approach;
+        a fit that makes no contact (C1 < 0, or a spring that does not push at the ends of the range).
     """
-    require_choice("model", model, tuple(_POWERS))
+    require_choice("model", model, tuple(ESTIMATORS))
+    samples, spans = take_samples(records, window)
+    estimate = ESTIMATORS[model](samples)
+    spread = float(np.std(samples.force))
+    if spread == 0.0:
+        raise InputError("force", float(samples.force[0]), "a history that varies")
+    for cut in samples.cuts:
+        cut.require_matching_rate()
+
+    residuals = samples.force - estimate.fitted
+    independent = independent_samples(samples.split(residuals))
+    covariance = estimate.covariance * (samples.force.size / independent)
+    errors = np.sqrt(np.diag(covariance))
+    values = np.array(list(estimate.parameters.values()))
+    widths = half_widths(errors, independent)
+    box = _validity(samples)
+    first = samples.records[0]
+    element = estimate.build(**estimate.parameters, **box, units=first.units)
+    root = tangent = None
+    if first.static_load is not None:
+        root = element.approach_at(first.static_load)
+        tangent = float(element.stiffness(root, 0.0))
+    names = tuple(estimate.parameters)
+    result = FitResult(
+        element=element,
+        model=model,
+        parameters=estimate.parameters,
+        std_errors=dict(zip(names, errors.tolist(), strict=True)),
+        intervals=dict(
+            zip(names, zip((values - widths).tolist(), (values + widths).tolist(), strict=True), strict=True)
+        ),
+        covariance=covariance,
+        rms=float(np.sqrt(np.mean(residuals**2))) / spread,
+        e_f=float(np.sum(residuals) / np.sum(samples.force)),
+        e_acc=acceleration_error(samples, estimate.fitted),
+        root=root,
+        tangent=tangent,
+        valid={key.removesuffix("_range"): value for key, value in box.items()},
+        condition=estimate.condition,
+        window=spans,
+        samples=int(samples.force.size),
+        independent_samples=independent,
+    )
+    quality = {key: value for key, value in result.to_dict().items() if key not in ("parameters", "valid")}
+    return replace(result, element=replace(element, fit=quality, source=_source(samples.records)))  # type: ignore[type-var]
+
+
+def take_samples(
+    records: ContactRecord | Sequence[ContactRecord], window: tuple[float, float] | None
+) -> tuple[Samples, tuple[tuple[float, float], ...]]:
+    """Check that the records belong together, and cut each to its window; returns samples and windows.
+
+    Raises
+    ------
+    InputError
+        No record, records of different contacts, a window that is no pair or holds too few samples.
+    """
     taken = [records] if isinstance(records, ContactRecord) else list(records)
     if not taken:
         raise InputError("records", 0, "at least one record")
     _require_one_contact(taken)
-    spans = [record.default_window if window is None else _span(window) for record in taken]
+    spans = tuple(record.default_window if window is None else _span(window) for record in taken)
     cuts = [record.window(*span) for record, span in zip(taken, spans, strict=True)]
+    return Samples(taken, cuts), spans
 
-    u, v, f = (np.concatenate([getattr(cut, name) for cut in cuts]) for name in ("approach", "rate", "force"))
-    columns = {f"approach^{i}" if i > 1 else "approach": u**i for i in _POWERS[model]} | {"rate": v}
-    solved = linear_fit(columns, f)
-    spread = float(np.std(f))
-    if spread == 0.0:
-        raise InputError("force", float(f[0]), "a history that varies")
 
-    names = _ELEMENTS[model].parameter_names
-    parameters = dict(zip(names, solved.values.tolist(), strict=True))
-    valid = {"low": float(u.min()), "high": float(u.max()), "rate": float(np.abs(v).max())}
-    element = _ELEMENTS[model](**parameters, **valid, units=taken[0].units)  # type: ignore[arg-type]
-    static_load = taken[0].static_load
-    root = None if static_load is None else element.approach_at(static_load)
-    result = FitResult(
-        element=element,
-        model=model,
-        parameters=parameters,
-        std_errors=dict(zip(names, np.sqrt(np.diag(solved.covariance)).tolist(), strict=True)),
-        covariance=solved.covariance,
-        rms=float(np.sqrt(np.mean((f - solved.fitted) ** 2))) / spread,
-        e_f=float(np.sum(f - solved.fitted) / np.sum(f)),
-        e_acc=_acceleration_error(cuts, solved.fitted),
-        root=root,
-        tangent=None if root is None else float(element.stiffness(root, 0.0)),
-        valid=valid,
-        condition=solved.condition,
-        window=tuple(spans),
-        samples=int(f.size),
-    )
-    quality = {key: value for key, value in result.to_dict().items() if key not in ("parameters", "valid")}
-    return replace(result, element=replace(element, fit=quality, source=_source(taken)))
+def acceleration_error(samples: Samples, fitted: NDArray[np.float64]) -> float | None:
+    """Eq. 13 for the acceleration that the motion equation (eq. 7) gives with the fitted force."""
+    true, modelled = 0.0, 0.0
+    for cut, force in zip(samples.cuts, samples.split(fitted), strict=True):
+        if cut.omega_n is None or cut.load is None or cut.acceleration is None:
+            return None
+        true += float(np.sum(cut.acceleration))
+        modelled += float(np.sum(cut.omega_n**2 * (cut.load - force)))
+    return (true - modelled) / true if true != 0.0 else None
+
+
+def _validity(samples: Samples) -> dict[str, Any]:
+    u, v, f = samples.approach, samples.rate, samples.force
+    omegas = [cut.omega for cut in samples.cuts]
+    return {
+        "low": float(u.min()),
+        "high": float(u.max()),
+        "rate": float(np.abs(v).max()),
+        "load_range": (float(f.min()), float(f.max())),
+        "omega_range": (min(omegas), max(omegas)),
+    }
 
 
 def _span(window: tuple[float, float]) -> tuple[float, float]:
@@ -141,7 +190,7 @@ def _span(window: tuple[float, float]) -> tuple[float, float]:
         raise InputError("window", window, "a pair (start, end) of numbers") from None
 
 
-def _require_one_contact(records: list[ContactRecord]) -> None:
+def _require_one_contact(records: Sequence[ContactRecord]) -> None:
     first = records[0]
     for i, record in enumerate(records):
         if not isinstance(record, ContactRecord):
@@ -155,19 +204,7 @@ def _require_one_contact(records: list[ContactRecord]) -> None:
                 )
 
 
-def _acceleration_error(cuts: list[ContactRecord], fitted: NDArray[np.float64]) -> float | None:
-    """Eq. 13 for the acceleration that the motion equation (eq. 7) gives with the fitted force."""
-    true, modelled, start = 0.0, 0.0, 0
-    for cut in cuts:
-        if cut.omega_n is None or cut.load is None or cut.acceleration is None:
-            return None
-        true += float(np.sum(cut.acceleration))
-        modelled += float(np.sum(cut.omega_n**2 * (cut.load - fitted[start : start + len(cut)])))
-        start += len(cut)
-    return (true - modelled) / true if true != 0.0 else None
-
-
-def _source(records: list[ContactRecord]) -> dict[str, Any]:
+def _source(records: Sequence[ContactRecord]) -> dict[str, Any]:
     def plain(name: str) -> Any:
         values = [getattr(record, name) for record in records]
         return values[0] if all(value == values[0] for value in values) else values

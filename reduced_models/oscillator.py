@@ -4,41 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import solve_ivp
 
 from ehlcontact.errors import ConvergenceError, InputError, require_choice, require_finite, require_positive
+from reduced_models.memoryless import MemorylessContact
 
 METHODS = ("Radau", "BDF", "LSODA", "DOP853", "RK45", "RK23")
 _IMPLICIT = ("Radau", "BDF", "LSODA")
 
 Load = float | ArrayLike | Callable[[float], float]
-
-
-class SpringDamper(Protocol):
-    """What the oscillator asks of an element."""
-
-    @property
-    def high(self) -> float:
-        """Upper end of the fitted approach, taken as the scale of the motion."""
-
-    def force(self, approach: Any, rate: Any) -> Any:
-        """Contact force."""
-
-    def stiffness(self, approach: Any, rate: Any) -> Any:
-        """Tangent dF/du."""
-
-    def damping(self, approach: Any, rate: Any) -> Any:
-        """Tangent dF/du'."""
-
-    def spring(self, approach: Any) -> Any:
-        """Force at zero rate."""
-
-    def damper(self, approach: Any) -> Any:
-        """Damping coefficient."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +33,7 @@ class OscillatorResult:
 
 
 def simulate_oscillator(
-    element: SpringDamper,
+    element: MemorylessContact,
     T: ArrayLike,
     *,
     omega_n: float | None,
@@ -69,13 +47,14 @@ def simulate_oscillator(
 
     Parameters
     ----------
-    element : LinearContact, CubicContact or alike
-        With an element in SI, T is in s and ``omega_n = 1/sqrt(mass)``.
+    element : LinearContact, CubicContact, PolynomialContact or PowerLawContact
+        It warns, once, where the motion leaves its validity box. With an element in SI, T is in s and
+        ``omega_n = 1/sqrt(mass)``.
     T : array_like, shape (N,)
         Increasing times of the result; the first is the start. No step is longer than the widest gap between
         them, so a load that T resolves is not stepped over.
     omega_n : float or None
-        None leaves inertia out: u' = (load - spring(u))/c(u), which needs a damper and a load > 0.
+        None leaves inertia out: the rate follows from F(u, u') = load, which needs a damper and a load > 0.
     load : float, array_like of shape (N,) or callable
         An array holds the load at T, with straight lines between.
     u0, v0 : float
@@ -102,8 +81,7 @@ def simulate_oscillator(
     if omega_n is None:
         rates, jacobian = _quasi_static(element, applied)
         atol = [rtol * size]
-        if float(element.damper(u0)) <= 0.0:
-            raise InputError("damping at u0", float(element.damper(u0)), "> 0 for a motion without inertia")
+        element.rate_at(start[0], 1.0)  # needs a damper
     else:
         square = require_positive("omega_n", omega_n) ** 2
         rates, jacobian = _inertial(element, applied, square)
@@ -127,11 +105,14 @@ def simulate_oscillator(
     if not solution.success or not np.all(np.isfinite(solution.y)):
         reached = float(result.T[-1]) if result.T.size else float(times[0])
         raise ConvergenceError(f"oscillator broke off at T = {reached:g}: {solution.message}", result)
+    spread = float(np.std(result.approach))
+    omega = float(np.std(result.rate)) / spread if spread > 0.0 else None
+    element.warn_outside(result.approach, result.rate, omega)
     return result
 
 
 def _inertial(
-    element: SpringDamper, applied: Callable[[float], float], square: float
+    element: MemorylessContact, applied: Callable[[float], float], square: float
 ) -> tuple[Callable, Callable]:
     def rates(time: float, y: NDArray[np.float64]) -> list[float]:
         u, v = float(y[0]), float(y[1])
@@ -147,18 +128,18 @@ def _inertial(
     return rates, jacobian
 
 
-def _quasi_static(element: SpringDamper, applied: Callable[[float], float]) -> tuple[Callable, Callable]:
+def _quasi_static(element: MemorylessContact, applied: Callable[[float], float]) -> tuple[Callable, Callable]:
     def rates(time: float, y: NDArray[np.float64]) -> list[float]:
         u, f = float(y[0]), applied(time)
         if f <= 0.0:
             raise InputError(f"load at T = {time:g}", f, "> 0 for a motion without inertia")
-        return [(f - float(element.spring(u))) / float(element.damper(u))]
+        return [element.rate_at(u, f)]
 
     def jacobian(time: float, y: NDArray[np.float64]) -> list[list[float]]:
         u = float(y[0])
         v = rates(time, y)[0]
         # On F(u, v) = load: dv/du = -F_u/F_v.
-        return [[-float(element.stiffness(u, v)) / float(element.damper(u))]]
+        return [[-element.stiffness(u, v) / element.damping(u, v)]]
 
     return rates, jacobian
 
@@ -187,7 +168,7 @@ def _load(load: Load, times: NDArray[np.float64]) -> Callable[[float], float]:
 
 
 def _result(
-    element: SpringDamper, solution: Any, rates: Callable, applied: Callable[[float], float]
+    element: MemorylessContact, solution: Any, rates: Callable, applied: Callable[[float], float]
 ) -> OscillatorResult:
     T = np.asarray(solution.t, dtype=np.float64)
     y = np.asarray(solution.y, dtype=np.float64).reshape(-1, T.size) if T.size else np.empty((2, 0))

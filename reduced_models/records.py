@@ -14,6 +14,7 @@ from ehlcontact.scaling import MoesPoint, Scales
 from reduced_models.element_file import UNITS
 
 MIN_SAMPLES = 4
+MISMATCH = 0.1  # share of the motion; 8 samples per period of a true rate stay below it
 _REQUIRED = ("T", "approach", "rate", "force")
 _HISTORIES = (*_REQUIRED, "load", "acceleration")
 
@@ -152,6 +153,44 @@ class ContactRecord:
             if periods >= 1:
                 return end - periods * period, end
         return start + (end - start) / 3.0, end
+
+    @property
+    def omega(self) -> float:
+        """Angular frequency of the motion: of a harmonic load its own, else from the spreads of rate and approach.
+
+        0 for a record that does not move.
+        """
+        motion = self.motion or {}
+        if motion.get("kind") == "harmonic" and motion.get("omega"):
+            return float(motion["omega"])
+        spread = float(np.std(self.approach))
+        return float(np.std(self.rate)) / spread if spread > 0.0 else 0.0
+
+    def require_matching_rate(self) -> None:
+        """Make sure that `rate` is the time derivative of `approach`.
+
+        The rate is integrated by trapezoids, which noise does not upset as differences would, and a straight
+        drift, as of an offset sensor, is left out.
+
+        Raises
+        ------
+        InputError
+            What remains is more than a tenth of the motion: another sign or unit, a delay, or samples too far
+            apart for the motion.
+        """
+        moved = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(self.T) * (self.rate[1:] + self.rate[:-1]))])
+        trend = np.column_stack([np.ones_like(self.T), self.T - self.T.mean()])
+        error = self.approach - moved
+        error = error - trend @ np.linalg.lstsq(trend, error, rcond=None)[0]
+        motion = max(float(np.std(self.approach)), float(np.std(moved)))
+        still = motion <= 1e-12 * float(np.abs(self.approach).max())  # but for rounding
+        share = 0.0 if still else float(np.std(error)) / motion
+        if share > MISMATCH:
+            raise InputError(
+                "rate",
+                f"{share:.0%} off the derivative of approach",
+                f"the time derivative of approach within {MISMATCH:.0%} (sign, units, delay, sampling?)",
+            )
 
     def window(self, start: float, end: float) -> Self:
         """The part with start <= T <= end.

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from collections.abc import Sequence
 from typing import Annotated
 
 import typer
 
-from ehlcontact.cli import export, fit, impedance, run, simulate, steady, unbuilt
+from ehlcontact.cli import export, fit, impedance, reproduce, run, simulate, steady, unbuilt
 from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain, one_line
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.version import __version__
@@ -44,7 +45,7 @@ def _program(
     """Transient elastohydrodynamic rolling contacts, reduced to elements for rotordynamics."""
 
 
-for module in (steady, simulate, impedance, fit, export, run):
+for module in (steady, simulate, impedance, fit, export, run, reproduce):
     module.register(app)
 unbuilt.register(app)
 
@@ -53,9 +54,11 @@ def execute(arguments: Sequence[str] | None = None) -> int:
     """Run one command line; returns the exit code, and says on stderr in one line what was wrong."""
     command = typer.main.get_command(app)
     try:
-        code = command.main(
-            None if arguments is None else list(arguments), prog_name="ehlcontact", standalone_mode=False
-        )
+        with warnings.catch_warnings():
+            warnings.showwarning = lambda message, *_: complain(f"warning: {message}")
+            code = command.main(
+                None if arguments is None else list(arguments), prog_name="ehlcontact", standalone_mode=False
+            )
         return code if isinstance(code, int) else 0
     except InputError as error:
         complain(str(error))

@@ -11,8 +11,7 @@ from ehlcontact.cli import options as o
 from ehlcontact.cli.output import check_file, check_json, show_table, write_json
 from ehlcontact.errors import InputError, require_choice
 
-BUILT = ("linear", "cubic")
-PLANNED = ("polynomial", "power", "memory")
+PLANNED = ("memory",)
 
 
 def register(app: typer.Typer) -> None:
@@ -22,7 +21,7 @@ def register(app: typer.Typer) -> None:
 
 def fit(
     files: Annotated[list[Path], typer.Argument(metavar="R.h5...", help="Results of `ehlcontact simulate`.")],
-    model: Annotated[str, typer.Option("--model", help="linear or cubic.")] = "cubic",
+    model: Annotated[str, typer.Option("--model", help="linear, cubic, polynomial or power.")] = "cubic",
     window: Annotated[
         tuple[float, float] | None,
         typer.Option("--window", metavar="START END", help="Part of T to fit; the last two thirds by default."),
@@ -31,14 +30,15 @@ def fit(
     json_to: o.JsonTo = None,
 ) -> None:
     """Fit a contact element to one or several simulations of the same contact."""
-    if model in PLANNED:
-        raise InputError("--model", model, "linear or cubic; this one is not built yet")
-    require_choice("--model", model, BUILT)
     from ehlcontact.results import SimulationResult
     from ehlcontact.storage import load
     from reduced_models import ContactRecord
     from reduced_models import fit as least_squares
+    from reduced_models.estimators import ESTIMATORS
 
+    if model in PLANNED and model not in ESTIMATORS:
+        raise InputError("--model", model, f"one of {', '.join(ESTIMATORS)}; this one is not built yet")
+    require_choice("--model", model, tuple(ESTIMATORS))
     check_file("--save", save, (".json",))
     check_json(json_to)
     records = []
@@ -56,7 +56,8 @@ def fit(
     write_json(fitted.to_dict(), json_to)
     valid = fitted.valid
     rows = [
-        (name, f"{value:.5g}", f"+- {fitted.std_errors[name]:.1g}") for name, value in fitted.parameters.items()
+        (name, f"{value:.5g}", f"{fitted.intervals[name][0]:.4g} .. {fitted.intervals[name][1]:.4g} (95 %)")
+        for name, value in fitted.parameters.items()
     ]
     rows += [
         ("rms error", f"{100 * fitted.rms:.2f} %", "of the standard deviation of the force"),
@@ -64,6 +65,10 @@ def fit(
         ("root", "-" if fitted.root is None else f"{fitted.root:.5f}", "approach under the static load"),
         ("tangent", "-" if fitted.tangent is None else f"{fitted.tangent:.4f}", "stiffness there"),
         ("valid", f"{valid['low']:.4f} .. {valid['high']:.4f}", f"|rate| <= {valid['rate']:.3g}"),
-        ("condition", f"{fitted.condition:.3g}", f"{fitted.samples} samples"),
+        (
+            "condition",
+            f"{fitted.condition:.3g}",
+            f"{fitted.samples} samples, {fitted.independent_samples:.0f} of them independent",
+        ),
     ]
     show_table(f"{model} element", rows, json_to)

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ehlcontact.cli import options as o
+from ehlcontact.cli.figure_file import FigureTo, check_figure, write_figure
 from ehlcontact.cli.output import FAILED, check_file, check_json, complain, progress, show_table, write_json
-from ehlcontact.errors import InputError, require_positive
+from ehlcontact.errors import ConvergenceError, InputError, require_positive
 from ehlcontact.motion import FreeVibration, HarmonicLoad, Motion, RampLoad
 from ehlcontact.scaling import MoesPoint
 
 _MOTION, _TIME = "Motion (exactly one of --free, --harmonic, --ramp)", "Time"
+_RESTART = "Restart"
 
 
 def register(app: typer.Typer) -> None:
@@ -64,7 +67,11 @@ def simulate(
     ] = None,
     dt: Annotated[
         float | None,
-        typer.Option("--dt", help="Step; by default 1/80 period.", rich_help_panel=_TIME),
+        typer.Option("--dt", help="Step (1/80 period); with --error, the first.", rich_help_panel=_TIME),
+    ] = None,
+    error: Annotated[
+        float | None,
+        typer.Option("--error", help="Control the step: local error per step.", rich_help_panel=_TIME),
     ] = None,
     alpha: o.Alpha = o.ALPHA,
     eta0: o.Eta0 = o.ETA0,
@@ -73,7 +80,20 @@ def simulate(
     n: o.Intervals = 128,
     domain: o.Region = None,
     save: o.Save = None,
+    figure: FigureTo = None,
     json_to: o.JsonTo = None,
+    checkpoint: Annotated[
+        Path | None,
+        typer.Option(
+            "--checkpoint", metavar="FILE", help="Keep a file to restart from.", rich_help_panel=_RESTART
+        ),
+    ] = None,
+    restart: Annotated[
+        Path | None,
+        typer.Option(
+            "--restart", metavar="FILE", help="Go on from a checkpoint of this run.", rich_help_panel=_RESTART
+        ),
+    ] = None,
 ) -> None:
     """Simulate the transient contact under a motion; Ctrl-C keeps what was computed."""
     from ehlcontact.simulate import simulate as integrate
@@ -82,15 +102,36 @@ def simulate(
     point = MoesPoint(M, L, kappa, alpha, eta0, viscosity, density)
     region = o.region(domain, n)
     motion = choose_motion(free, harmonic, ramp, omega_n, offset, rate, amplitude)
-    for name, value in (("until", until), ("dt", dt)):
+    for name, value in (("until", until), ("dt", dt), ("error", error)):
         if value is not None:
             require_positive(name, value)
     check_file("--save", save, o.HDF5)
+    check_file("--checkpoint", checkpoint, o.HDF5)
+    check_figure(figure)
     check_json(json_to)
+    failure = ""
     with progress("transient film") as update:
-        result = integrate(point, motion, n=n, domain=region, until=until, dT=dt, throw=False, callback=update)
+        try:
+            result = integrate(
+                point,
+                motion,
+                n=n,
+                domain=region,
+                until=until,
+                dT=dt,
+                error=error,
+                callback=update,
+                checkpoint=checkpoint,
+                restart=restart,
+            )
+        except ConvergenceError as stopped:
+            result, failure = stopped.result, str(stopped)
     if save is not None:
         store(result, save)
+    if figure is not None:
+        from ehlcontact.cli.figures_transient import draw_simulation
+
+        write_figure(draw_simulation, result, figure)
     write_json(result.summary(), json_to)
     show_table(
         "transient film",
@@ -111,8 +152,10 @@ def simulate(
         json_to,
     )
     if not result.status.ok:
-        kept = f"; partial result in {save}" if save else ""
-        complain(f"{result.status} at T = {result.T[-1]:.4g}: {result.status.advice}{kept}")
+        message = failure or f"simulation {result.status} at T = {result.T[-1]:.6g}: {result.status.advice}"
+        kept = [f"partial result in {save}"] if save else []
+        kept += [f"go on with --restart {checkpoint}"] if checkpoint else []
+        complain("; ".join([message, *kept]))
         raise typer.Exit(FAILED)
 
 

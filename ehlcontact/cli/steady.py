@@ -5,6 +5,7 @@ from __future__ import annotations
 import typer
 
 from ehlcontact.cli import options as o
+from ehlcontact.cli.figure_file import FigureTo, check_figure, write_figure
 from ehlcontact.cli.output import FAILED, check_file, check_json, complain, progress, show_table, write_json
 from ehlcontact.scaling import MoesPoint
 
@@ -25,6 +26,7 @@ def steady(
     n: o.Intervals = 128,
     domain: o.Region = None,
     save: o.Save = None,
+    figure: FigureTo = None,
     json_to: o.JsonTo = None,
 ) -> None:
     """Solve the steady film of a contact."""
@@ -34,6 +36,7 @@ def steady(
     point = MoesPoint(M, L, kappa, alpha, eta0, viscosity, density)
     region = o.region(domain, n)
     check_file("--save", save, o.HDF5)
+    check_figure(figure)
     check_json(json_to)
     with progress("steady film") as update:
         result = solve_steady(
@@ -45,6 +48,10 @@ def steady(
         )
     if save is not None:
         store(result, save)
+    if figure is not None:
+        from ehlcontact.cli.figures_film import draw_steady
+
+        write_figure(draw_steady, result, figure)
     write_json(result.summary(), json_to)
     show_table(
         "steady film",

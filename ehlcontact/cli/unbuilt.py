@@ -6,7 +6,7 @@ import typer
 
 from ehlcontact.cli.output import USAGE, complain
 
-NAMES = ("element", "reproduce")
+NAMES = ("element",)
 
 
 def register(app: typer.Typer) -> None:

@@ -67,6 +67,11 @@ def test_domain(refused, bounds, words):
         (["--harmonic", "3", "--until", "-1"], ("until", "-1.0", "> 0")),
         (["--harmonic", "3", "--dt", "nan"], ("dt", "nan", "> 0")),
         (["--harmonic", "3", "--until", "1", "--dt", "2"], ("dT", "2.0", "until")),
+        (["--harmonic", "3", "--error", "0"], ("error", "0.0", "> 0")),
+        (["--harmonic", "3", "--error", "0.5"], ("error", "0.5", "0.1")),
+        (["--harmonic", "3", "--checkpoint", "c.txt"], ("--checkpoint", "c.txt", ".h5")),
+        (["--harmonic", "3", "--checkpoint", "none/c.h5"], ("--checkpoint", "none/c.h5", "exists")),
+        (["--harmonic", "3", "--restart", "none.h5"], ("restart", "none.h5", "checkpoint")),
     ],
 )
 def test_motions(refused, point, options, words):
@@ -98,7 +103,7 @@ def test_files_that_are_not_ours(refused, tmp_path):
         refused((name, "must be"), "export", tmp_path / name, "-o", tmp_path / "x.fmu")
 
 
-@pytest.mark.parametrize("model", ["polynomial", "power", "memory"])
+@pytest.mark.parametrize("model", ["memory"])
 def test_models_that_are_not_built(refused, model):
     refused(("--model", model, "not built yet"), "fit", "r.h5", "--model", model)
 

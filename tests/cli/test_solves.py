@@ -117,3 +117,41 @@ def test_interrupted_simulation_is_saved(call, point, tmp_path, monkeypatch):
     assert result.code == 1 and "interrupted" in result.err and len(result.err.splitlines()) == 1
     stored = load(tmp_path / "p.h5")
     assert isinstance(stored, SimulationResult) and stored.steps == 5 and stored.status is Status.INTERRUPTED
+
+
+def test_interrupted_simulation_goes_on_from_its_checkpoint(call, refused, point, tmp_path, monkeypatch):
+    from ehlcontact.transient import TransientFilm
+
+    run = ["simulate", *point, "--n", "16", "--harmonic", "3", "--until", "1", "--error", "1e-3", "--json", "-"]
+    whole = json.loads(call(*run).out)
+    advance, calls = TransientFilm.advance, []
+
+    def stopped(self, *arguments):
+        calls.append(1)
+        if len(calls) > 8:
+            raise KeyboardInterrupt
+        return advance(self, *arguments)
+
+    checkpoint = tmp_path / "c.h5"
+    with monkeypatch.context() as patch:
+        patch.setattr(TransientFilm, "advance", stopped)
+        result = call(*run, "--checkpoint", checkpoint)
+    assert result.code == 1 and len(result.err.splitlines()) == 1
+    assert "interrupted" in result.err and f"go on with --restart {checkpoint}" in result.err
+    assert 0 < json.loads(result.out)["steps"] < whole["steps"]
+    again = call(*run, "--restart", checkpoint)
+    assert again.code == 0 and again.err == ""
+    assert json.loads(again.out) | {"seconds": 0} == whole | {"seconds": 0}
+    refused(
+        ("restart", "motion.omega", "3.0", "2.0"), *(o if o != "3" else "2" for o in run), "--restart", checkpoint
+    )
+
+
+def test_step_that_cannot_meet_its_error_is_said(call, point, tmp_path, monkeypatch):
+    monkeypatch.setattr("ehlcontact.stepping.local_error", lambda before, entry, motion: 1.0)
+    result = call("simulate", *point, "--n", "16", "--free", "5", "--error", "1e-3", "--save", tmp_path / "p.h5")
+    assert result.code == 1 and len(result.err.splitlines()) == 1
+    for words in ("step_too_small at T = ", "a step of ", "tolerated error 0.001", "partial result in"):
+        assert words in result.err
+    stored = load(tmp_path / "p.h5")
+    assert stored.status is Status.STEP_TOO_SMALL and stored.steps == 2

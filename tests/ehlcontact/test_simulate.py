@@ -231,7 +231,9 @@ def test_failed_step_keeps_the_history(monkeypatch, throw):
         )
 
     if throw:
-        with pytest.raises(ConvergenceError, match=r"simulation max_cycles at T = 0\.2: The cycles") as caught:
+        with pytest.raises(
+            ConvergenceError, match=r"simulation max_cycles at T = 0\.2 \(step 0\.1, residual .*\): The cycles"
+        ) as caught:
             run()
         result = caught.value.result
     else:

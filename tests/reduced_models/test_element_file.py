@@ -19,8 +19,25 @@ def test_round_trip_is_exact(tmp_path, record):
     document = json.loads(path.read_text())
     assert (document["schema"], document["version"], document["kind"]) == ("ehlcontact-element", 1, "cubic")
     assert set(document["parameters"]) == {"K1", "K2", "K3", "C1"}
-    assert set(document["valid"]) == {"low", "high", "rate"}
+    assert set(document["valid"]) == {"low", "high", "rate", "load", "omega"}
+    assert {"covariance", "intervals", "condition", "independent_samples", "rms"} <= set(document["fit"])
+    assert element.rms == document["fit"]["rms"] and element.load_range == tuple(document["valid"]["load"])
     assert set(document["source"]) == {"point", "scales", "n", "domain", "motion", "version"}
+
+
+@pytest.mark.parametrize("model", ["linear", "cubic", "polynomial", "power"])
+def test_every_kind_comes_back_from_its_file(tmp_path, record, scales, model):
+    element = fit(record, model).element
+    assert load_element(element.save(tmp_path / "e.json")) == element
+    si = element.to_si(scales)
+    back = load_element(si.save(tmp_path / "si.json"))
+    assert back == si and back.omega_range[0] == pytest.approx(element.omega_range[0] / scales.time)
+
+
+def test_a_file_without_the_newer_bounds_is_read(tmp_path, cubic):
+    path = cubic.save(tmp_path / "old.json")
+    _edit(path, valid={"low": 0.75, "high": 1.0, "rate": None})
+    assert load_element(path) == cubic and load_element(path).load_range is None
 
 
 def test_si_and_linear_round_trip(tmp_path, linear, scales):
@@ -65,7 +82,7 @@ def _edit(path, **changes):
         ({"version": 2}, "newer library"),
         ({"version": "1"}, "version"),
         ({"version": True}, "version"),
-        ({"kind": "spline"}, "linear or cubic"),
+        ({"kind": "spline"}, "linear or cubic or polynomial or power"),
         ({"kind": ["cubic"]}, "kind"),
         ({"units": "mm"}, "dimensionless or SI"),
         ({"parameters": ...}, "parameters"),
@@ -74,6 +91,9 @@ def _edit(path, **changes):
         ({"parameters": {"K1": 1.0, "K2": 0.0, "K3": 0.0, "C1": -1.0}}, "C1"),
         ({"valid": {"low": 0.7}}, "valid.high"),
         ({"valid": {"low": 0.7, "high": 1.0, "rate": "fast"}}, "valid.rate"),
+        ({"valid": {"low": 0.7, "high": 1.0, "load": 3.0}}, "valid.load"),
+        ({"valid": {"low": 0.7, "high": 1.0, "omega": [3.0, None]}}, "valid.omega.high"),
+        ({"valid": {"low": 0.7, "high": 1.0, "omega": [3.0, 1.0]}}, "omega_range"),
         ({"fit": [1]}, "fit"),
     ],
 )

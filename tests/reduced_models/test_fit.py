@@ -46,16 +46,24 @@ def test_roots_and_tangents_of_the_published_cubics(coefficients, root, tangent)
     assert element.stiffness(u, 0.0) == pytest.approx(tangent, abs=6e-3)
 
 
-@pytest.mark.parametrize("model", ["linear", "cubic"])
+@pytest.mark.parametrize("model", ["linear", "cubic", "polynomial"])
 def test_qr_agrees_with_the_papers_normal_equations(record, model):
     noisy = with_noise(record).window(1.0, 3.0)
     u, v, f = noisy.approach, noisy.rate, noisy.force
-    # eq. 10, and eq. 12 without the rows and columns of C2, C3, B4; order as printed.
-    terms = [u, v] if model == "linear" else [u, v, u**2, u**3]
+    # eq. 10; eq. 12 without the rows and columns of C2, C3, B4; eq. 12. Order as printed.
+    terms = {
+        "linear": [u, v],
+        "cubic": [u, v, u**2, u**3],
+        "polynomial": [u, v, u**2, v**2, u**3, v**3, u * v],
+    }[model]
     matrix = np.array([[np.sum(a * b) for b in terms] for a in terms])
     right = np.array([np.sum(f * a) for a in terms])
     solved = np.linalg.solve(matrix, right)
-    names = ["K1", "C1"] if model == "linear" else ["K1", "C1", "K2", "K3"]
+    names = {
+        "linear": ["K1", "C1"],
+        "cubic": ["K1", "C1", "K2", "K3"],
+        "polynomial": ["K1", "C1", "K2", "C2", "K3", "C3", "B4"],
+    }[model]
     result = fit(noisy, model, window=(0.0, 9.0))
     # The normal matrix has the square of the condition number.
     np.testing.assert_allclose([result.parameters[name] for name in names], solved, rtol=1e-6)
@@ -73,7 +81,8 @@ def test_figures_are_what_they_say(record):
     A = np.column_stack([cut.approach, cut.approach**2, cut.approach**3, cut.rate])
     assert result.condition == pytest.approx(np.linalg.cond(A / np.linalg.norm(A, axis=0)), rel=1e-6)
     variance = np.sum((cut.force - fitted) ** 2) / (len(cut) - 4)
-    np.testing.assert_allclose(result.covariance, variance * np.linalg.inv(A.T @ A), rtol=1e-5)
+    enlarged = variance * len(cut) / result.independent_samples
+    np.testing.assert_allclose(result.covariance, enlarged * np.linalg.inv(A.T @ A), rtol=1e-5)
     assert result.std_errors["C1"] == pytest.approx(np.sqrt(result.covariance[3, 3]))
 
 
@@ -114,6 +123,7 @@ def test_json_keys_of_the_command_line(record):
     assert {"model", "parameters", "rms", "e_f", "root", "tangent", "valid", "condition"} <= set(document)
     assert set(document["parameters"]) == {"K1", "C1"} and {"low", "high"} <= set(document["valid"])
     assert document["window"] == [[1.0, 3.0]]
+    assert len(document["covariance"]) == 2 and set(document["intervals"]) == {"K1", "C1"}
 
 
 def test_source_says_where_the_data_came_from(record):
@@ -171,10 +181,41 @@ def test_bad_windows(record, window):
 
 
 def test_unknown_model(record):
-    with pytest.raises(InputError, match="linear, cubic"):
+    with pytest.raises(InputError, match="linear, cubic, polynomial, power"):
         fit(record, "quartic")
 
 
 def test_negative_damping_is_refused_not_exported(record):
     with pytest.raises(InputError, match="C1"):
-        fit(replace(record, rate=-record.rate))
+        fit(replace(record, force=record.force - 0.1 * record.rate))
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda r: replace(r, rate=-r.rate),
+        lambda r: replace(r, rate=1e-3 * r.rate),
+        lambda r: replace(r, rate=np.roll(r.rate, 5)),
+        lambda r: replace(r, rate=2.0 * r.rate),
+    ],
+    ids=["sign", "units", "delay", "factor"],
+)
+@pytest.mark.parametrize("model", ["cubic", "power"])
+def test_rate_that_is_not_the_derivative_is_refused(record, model, spoil):
+    with pytest.raises(InputError, match="derivative of approach"):
+        fit(spoil(record), model)
+
+
+def test_noisy_rate_with_an_offset_is_accepted(record):
+    noise = 0.1 * np.std(record.rate) * np.random.default_rng(2).standard_normal(len(record))
+    assert fit(replace(record, rate=record.rate + noise + 0.05)).rms < 0.05
+
+
+def test_validity_box_is_what_the_records_covered(record):
+    result = fit([record, replace(record, motion={"kind": "harmonic", "omega": 9.0})], window=(1.0, 3.0))
+    cut, element = record.window(1.0, 3.0), result.element
+    assert (element.low, element.high) == (cut.approach.min(), cut.approach.max())
+    assert element.rate == np.abs(cut.rate).max()
+    assert element.load_range == (cut.force.min(), cut.force.max())
+    assert element.omega_range == (pytest.approx(6.0, rel=0.02), 9.0)
+    assert result.valid["omega"] == element.omega_range and element.rms == result.rms

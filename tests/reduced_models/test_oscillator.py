@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models import LinearContact, simulate_oscillator
+from reduced_models import LinearContact, OutsideValidityWarning, PolynomialContact, simulate_oscillator
 
 T = np.linspace(0.0, 2.0, 101)
 
@@ -55,6 +55,16 @@ def test_without_inertia_the_force_is_the_load(cubic):
     assert np.abs(light.approach - r.approach).max() < 1e-4
 
 
+def test_polynomial_without_inertia_meets_the_load_at_every_rate(cubic):
+    terms = {"C2": 0.004, "C3": -0.001, "B4": 0.002} | cubic.parameters
+    element = PolynomialContact(**terms, low=0.75, high=1.0, rate=1.5)
+    r = simulate_oscillator(
+        element, T, omega_n=None, load=lambda t: 1.0 + 0.1 * np.sin(2 * np.pi * t), u0=0.87, method="RK23"
+    )
+    np.testing.assert_allclose(r.force, r.load, rtol=1e-12)
+    assert np.abs(r.rate).max() > 0.3
+
+
 def test_linear_without_inertia_is_a_first_order_lag(wide):
     r = simulate_oscillator(wide, T, omega_n=None, load=1.2, u0=0.5)
     exact = 0.8 + (0.5 - 0.8) * np.exp(-1.5 / 0.05 * T)
@@ -80,7 +90,8 @@ def test_si_motion_is_the_scaled_one(cubic, scales):
 
 def test_mass_that_leaves_the_contact_flies_and_comes_back(cubic):
     times = np.linspace(0.0, 3.0, 601)
-    r = simulate_oscillator(cubic, times, omega_n=5.13, u0=2.5)
+    with pytest.warns(OutsideValidityWarning, match=r"approach -1\.8.* \(fitted 0\.75 to 1\)"):
+        r = simulate_oscillator(cubic, times, omega_n=5.13, u0=2.5)
     assert r.force.min() == 0.0 and r.approach.min() < cubic.law.o_low and r.force[-1] >= 0.0
     flying = r.force == 0.0
     np.testing.assert_allclose(np.diff(r.rate, 2)[flying[:-2] & flying[2:]], 0.0, atol=1e-6)

@@ -1,0 +1,252 @@
+"""The film as a tribologist looks at it: whole plane, mid-planes, horseshoe, fringes, histories.
+
+Everything works on a `SteadyResult` and on the snapshots of a `SimulationResult`. Upper-case attributes are
+dimensionless as in `results`; their lower-case properties are SI and need an `OperatingPoint`'s scales.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.errors import InputError, require_finite, require_instance, require_positive
+from ehlcontact.results import SimulationResult, SteadyResult
+from ehlcontact.scaling import Scales
+
+Array = NDArray[np.float64]
+
+
+def require_scales(scales: Scales | None) -> Scales:
+    """Return `scales`, or raise `InputError` where a purely dimensionless point has none."""
+    if scales is None:
+        raise InputError("scales", None, "those of a result made from an OperatingPoint: SI values need units")
+    return scales
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Profile:
+    """Film and pressure along a line through the centre; `X` is x/a or y/b."""
+
+    X: Array  # (k,)
+    H: Array  # (k,)
+    P: Array  # (k,)
+    scales: Scales | None
+    across: bool  # along Y at X = 0, otherwise along X at Y = 0
+
+    @property
+    def x(self) -> Array:
+        """Place [m]."""
+        scales = require_scales(self.scales)
+        return self.X * (scales.b if self.across else scales.a)
+
+    @property
+    def h(self) -> Array:
+        """Film [m]."""
+        return self.H * require_scales(self.scales).length
+
+    @property
+    def p(self) -> Array:
+        """Pressure [Pa]."""
+        return self.P * require_scales(self.scales).pressure
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Constriction:
+    """The horseshoe: where and how far the film is narrowed, films at the nodes in dry approaches."""
+
+    central: float  # at X = Y = 0
+    minimum: float
+    X: float  # place of the minimum, and its mirror image at -Y
+    Y: float  # >= 0
+    exit_film: float  # least film along Y = 0
+    exit_place: float  # X
+    side_film: float  # least film along X = 0
+    side_place: float  # Y >= 0
+
+    @property
+    def ratio(self) -> float:
+        """Central over minimum film."""
+        return self.central / self.minimum
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Film:
+    """Film and pressure at one instant over the whole plane."""
+
+    X: Array  # (nx + 1,)
+    Y: Array  # (2 ny + 1,), both signs
+    H: Array  # (nx + 1, 2 ny + 1)
+    P: Array  # (nx + 1, 2 ny + 1)
+    scales: Scales | None
+
+    @property
+    def x(self) -> Array:
+        """Place along rolling [m]."""
+        return self.X * require_scales(self.scales).a
+
+    @property
+    def y(self) -> Array:
+        """Place across [m]."""
+        return self.Y * require_scales(self.scales).b
+
+    @property
+    def h(self) -> Array:
+        """Film [m]."""
+        return self.H * require_scales(self.scales).length
+
+    @property
+    def p(self) -> Array:
+        """Pressure [Pa]."""
+        return self.P * require_scales(self.scales).pressure
+
+    @property
+    def along(self) -> Profile:
+        """Mid-plane along rolling, Y = 0."""
+        middle = self.Y.size // 2
+        return Profile(self.X, self.H[:, middle], self.P[:, middle], self.scales, False)
+
+    @property
+    def across(self) -> Profile:
+        """Mid-plane across, X = 0; by linear interpolation where no node lies there."""
+        i = int(np.clip(np.searchsorted(self.X, 0.0), 1, self.X.size - 1))
+        share = float((0.0 - self.X[i - 1]) / (self.X[i] - self.X[i - 1]))
+        H, P = ((1.0 - share) * field[i - 1] + share * field[i] for field in (self.H, self.P))
+        return Profile(self.Y, H, P, self.scales, True)
+
+    @property
+    def constriction(self) -> Constriction:
+        """Central and minimum film, and the least films of both mid-planes."""
+        along, across = self.along, self.across
+        i, j = np.unravel_index(int(np.argmin(self.H)), self.H.shape)
+        exit_at, side_at = int(np.argmin(along.H)), int(np.argmin(across.H))
+        return Constriction(
+            central=float(np.interp(0.0, along.X, along.H)),
+            minimum=float(self.H[i, j]),
+            X=float(self.X[i]),
+            Y=abs(float(self.Y[j])),
+            exit_film=float(along.H[exit_at]),
+            exit_place=float(along.X[exit_at]),
+            side_film=float(across.H[side_at]),
+            side_place=abs(float(across.X[side_at])),
+        )
+
+
+def film_of(result: SteadyResult | SimulationResult, T: float | None = None) -> Film:
+    """Whole-plane film of a steady result, or of a simulation at one of its snapshots.
+
+    Parameters
+    ----------
+    result : SteadyResult or SimulationResult
+    T : float, optional
+        Time of the snapshot, to the nearest step; the last one by default. Only for a simulation.
+
+    Raises
+    ------
+    InputError
+        T given for a steady film, or no snapshot there.
+    """
+    require_instance("result", result, SteadyResult | SimulationResult, "a SteadyResult or a SimulationResult")
+    if isinstance(result, SteadyResult):
+        if T is not None:
+            raise InputError("T", T, "left out: a steady film has no time")
+        H, P = result.H, result.P
+    else:
+        k = _snapshot(result, T)
+        H, P = result.snapshot_H[k], result.snapshot_P[k]
+    Y = np.concatenate([-result.Y[:0:-1], result.Y])
+    return Film(result.X, Y, _mirrored(H), _mirrored(P), result.scales)
+
+
+def _snapshot(run: SimulationResult, T: float | None) -> int:
+    """Number of the snapshot within a time step of T."""
+    kept = run.snapshot_T
+    if kept.size == 0:
+        raise InputError("snapshots", (), "asked for when simulating: this result kept no whole fields")
+    if T is None:
+        return kept.size - 1
+    k = int(np.argmin(np.abs(kept - require_finite("T", T))))
+    step = float(np.diff(run.T).max()) if run.steps else 0.0
+    if abs(kept[k] - T) > step * (1.0 + 1e-9):
+        raise InputError("T", T, "near a snapshot: " + ", ".join(f"{t:g}" for t in kept))
+    return k
+
+
+def _mirrored(field: Array) -> Array:
+    """Both signs of Y from the half that was computed."""
+    return np.concatenate([field[:, :0:-1], field], axis=1)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Interferogram:
+    """Fringes of a film, shape (nx + 1, 2 ny + 1) each."""
+
+    intensity: Array  # in [0, 1]
+    order: Array  # path difference in wavelengths: bright fringes at the whole numbers
+
+    @property
+    def resolved(self) -> NDArray[np.bool_]:
+        """Where the grid resolves the fringes: less than half an order from node to node."""
+        along, across = np.gradient(self.order)
+        return np.maximum(np.abs(along), np.abs(across)) < 0.5
+
+
+def interferogram(
+    film: Film, wavelength: float, refractive_index: float = 1.5, phase: float = 0.0
+) -> Interferogram:
+    """Pseudo-interferogram of a film between a transparent and a reflecting surface.
+
+    Two beams at normal incidence, of equal strength: ``I = (1 + cos(4 pi n h/wavelength + phase))/2`` (Born and
+    Wolf, Principles of Optics, ch. 7; for EHL films Gohar and Cameron, Nature 200 (1963) 458).
+
+    Parameters
+    ----------
+    film : Film
+    wavelength : float
+        Of the light, in vacuum [m].
+    refractive_index : float
+        Of the oil; its rise with pressure is left out.
+    phase : float
+        Phase [rad] that the reflections add: 0 makes h = 0 bright, pi dark.
+
+    Raises
+    ------
+    InputError
+        A film without SI scales, wavelength or index not positive, phase not finite.
+    """
+    wave = require_positive("wavelength", wavelength)
+    index = require_positive("refractive_index", refractive_index)
+    turn = require_finite("phase", phase) / (2.0 * np.pi)
+    order = 2.0 * index * film.h / wave + turn
+    return Interferogram(0.5 * (1.0 + np.cos(2.0 * np.pi * order)), order)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FilmHistory:
+    """Central and minimum film over time."""
+
+    T: Array  # (steps + 1,)
+    central: Array  # (steps + 1,) in dry approaches
+    minimum: Array
+    scales: Scales | None
+
+    @property
+    def t(self) -> Array:
+        """Time [s]."""
+        return self.T * require_scales(self.scales).time
+
+    @property
+    def h_central(self) -> Array:
+        """Central film [m]."""
+        return self.central * require_scales(self.scales).length
+
+    @property
+    def h_min(self) -> Array:
+        """Minimum film [m]."""
+        return self.minimum * require_scales(self.scales).length
+
+
+def film_history(run: SimulationResult) -> FilmHistory:
+    """Central and minimum film of a simulation over time."""
+    return FilmHistory(run.T, run.h_central, run.h_min, run.scales)

@@ -1,0 +1,73 @@
+"""What a mesh has to resolve: grid and domain chosen from the film to be expected."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import exp, log
+
+from scipy.optimize import brentq
+
+from ehlcontact.domain import Domain, default_domain
+from ehlcontact.formulas import nvm_central_film
+from ehlcontact.scaling import MoesPoint
+
+FEWEST_INTERVALS, MOST_INTERVALS = 128, 2048
+LARGEST_MESH = 0.12  # in semi-axes; what the pressure itself asks for
+MESH_OF_INLET = 0.3  # largest mesh over the width of the inlet; films come out negative from about 0.8
+LARGEST_GRID = 800_000  # nodes
+THIN = 0.06  # inlet width below which `CLOSE` will do
+CLOSE = Domain(-2.0, 1.35, 1.6)  # around a film so thin that oil further out makes no difference
+
+
+def inlet_width(point: MoesPoint) -> float:
+    """Width of the zone, in semi-axes, where the pressure of the inlet rises to that of the dry contact.
+
+    The gap beside a dry contact opens like x^(3/2), and the film to be carried in is Hc.
+    """
+    film = nvm_central_film(point.M, point.L, point.kappa) / point.film_to_moes
+    return film ** (2.0 / 3.0)
+
+
+def resolved_load(point: MoesPoint, mesh: float) -> float:
+    """Moes load up to which `mesh` (in semi-axes) resolves the film at L and kappa of `point`; at most its M."""
+
+    def excess(log_load: float) -> float:
+        return inlet_width(replace(point, M=exp(log_load))) * MESH_OF_INLET - mesh
+
+    highest = log(point.M)
+    lowest = min(0.0, highest)
+    if excess(highest) >= 0.0:
+        return point.M
+    if excess(lowest) <= 0.0:
+        return exp(lowest)
+    return exp(float(brentq(excess, lowest, highest, xtol=1e-3)))
+
+
+def automatic_mesh(point: MoesPoint, domain: Domain | None = None) -> tuple[int, Domain]:
+    """Intervals along X, and the domain if none is given, that resolve the steady film.
+
+    The default domain as long as a grid of `LARGEST_GRID` nodes resolves it, then `CLOSE`.
+    """
+    wanted = min(MESH_OF_INLET * inlet_width(point), LARGEST_MESH) / max(1.0, point.kappa)
+    choices = [default_domain(point), CLOSE] if domain is None else [domain]
+    n, chosen = FEWEST_INTERVALS, choices[0]
+    for chosen in choices:
+        n = FEWEST_INTERVALS
+        while (chosen.x_out - chosen.x_in) / n > wanted and nodes(2 * n, chosen, point.kappa) <= LARGEST_GRID:
+            n *= 2
+        if (chosen.x_out - chosen.x_in) / n <= wanted:
+            break
+    return n, chosen
+
+
+def refined_mesh(point: MoesPoint, n: int, domain: Domain, free: bool) -> tuple[int, Domain] | None:
+    """Next mesh to try after n intervals on `domain` failed; if `free`, the domain may close in on a thin film."""
+    if free and domain != CLOSE and inlet_width(point) < THIN:
+        return n, CLOSE
+    return (2 * n, domain) if nodes(2 * n, domain, point.kappa) <= LARGEST_GRID else None
+
+
+def nodes(n: int, domain: Domain, kappa: float) -> float:
+    """Nodes of a grid of n intervals along X, about; infinite beyond `MOST_INTERVALS`."""
+    length = domain.x_out - domain.x_in
+    return n * n * domain.y_max / (length * max(1.0, kappa)) if n <= MOST_INTERVALS else float("inf")

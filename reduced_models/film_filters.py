@@ -1,0 +1,175 @@
+"""Linear response of the film memory: gains from an impedance, and the test that they dissipate.
+
+A small motion about rest under load F has, in the units of that load (force F, length F^(2/3), time F^(1/3)),
+
+    Z(Omega) = K_0 + i Omega (3/2) G(Omega),
+    G = c + g_i/(1 + i Omega/p_i) + g_f/(1 + i Omega/p_f) + 1/(1 + i Omega/p_i) sum_k g_k/(1 + i Omega/nu)^k
+
+with the static tangent K_0. G is linear in the gains, so that they interpolate as impedances do, and
+C(Omega) = (3/2) Re G.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.polynomial import Chebyshev
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import nnls
+
+from ehlcontact.errors import InputError, require_integer, require_positive
+
+_Floats = NDArray[np.float64]
+_Complex = NDArray[np.complex128]
+
+DRY = 1.5  # tangent of the dry contact in units of its load and approach
+SMALL_OMEGA = 1e-5  # stands for 0
+WEIGHT_C, WEIGHT_K = 0.05, 0.01  # relative errors of C and K that count alike
+MOST_LAGS = 32
+POINTS, PIECES = 64, 12
+LEAST_VISCOUS = 1e-3
+
+
+@dataclass(frozen=True)
+class FilterRates:
+    """Number of lags in the chain, and the rates of the filters in own time.
+
+    Raises
+    ------
+    InputError
+        No lag or more than 32, or a rate that is not > 0.
+    """
+
+    lags: int
+    lag_rate: float
+    inlet_rate: float
+    fast_rate: float
+
+    def __post_init__(self) -> None:
+        allowed = f"a whole number from 1 to {MOST_LAGS}"
+        object.__setattr__(self, "lags", require_integer("lags", self.lags, allowed, 1))
+        if self.lags > MOST_LAGS:
+            raise InputError("lags", self.lags, allowed)
+        for name in ("lag_rate", "inlet_rate", "fast_rate"):
+            object.__setattr__(self, name, require_positive(name, getattr(self, name)))
+
+    def basis(self, omega: ArrayLike) -> _Complex:
+        """Response of every filter, shape (number of omegas, 3 + lags)."""
+        s = 1j * np.maximum(np.asarray(omega, float), SMALL_OMEGA)[:, None]
+        inlet = 1.0 / (1.0 + s / self.inlet_rate)
+        chain = (1.0 / (1.0 + s / self.lag_rate)) ** np.arange(1, self.lags + 1)
+        return np.hstack([np.ones_like(s), inlet, 1.0 / (1.0 + s / self.fast_rate), inlet * chain])
+
+    def passive(self, gains: ArrayLike) -> bool:
+        """Whether every row of `gains`, shape (rows, 3 + lags) or (3 + lags,), has Re G >= 0 at all frequencies.
+
+        A polynomial of degree d cannot dip below its least value on M Chebyshev points by more than
+        (sec(pi d/2M) - 1) times half its range there (Ehlich and Zeller 1964). That settles it piece by piece;
+        only where it does not, the eigenvalues of `least_dissipation` do.
+        """
+        rows = np.atleast_2d(np.asarray(gains, float))
+        values = np.tensordot(rows, _polynomials(self), axes=(1, 2))
+        least, most = values.min(axis=2), values.max(axis=2)
+        dip = 0.5 * (most - least) * (1.0 / math.cos(0.5 * math.pi * (2 + self.lags) / POINTS) - 1.0)
+        return all(self.least_dissipation(row) >= 0.0 for row in rows[np.any(least < dip, axis=1)])
+
+    def least_dissipation(self, gains: ArrayLike) -> float:
+        """Smallest Re G over all frequencies from 0 to infinity; the gains are passive where it is >= 0.
+
+        In x = 1/(1 + (Omega/nu)^2) from 0 to 1, Re G times positive factors is a polynomial of degree 2 + lags.
+        Its extrema, found as eigenvalues, decide the sign without a scan; taken again from the level of the
+        lowest one, they end on the minimum itself.
+        """
+        g = np.array(gains, dtype=np.float64)
+        level = math.inf
+        for _ in range(20):  # from one level to the lowest dip below it; two or three rounds
+            dip = float(self._dissipation(g, self._extrema(g, level)).min())
+            if not dip < level - 1e-12:
+                break
+            level = dip
+        return level
+
+    def _dissipation(self, gains: _Floats, x: _Floats) -> _Floats:
+        return np.asarray(self._real_basis(x) @ gains)
+
+    def _real_basis(self, x: _Floats) -> _Floats:
+        """Re of the response of every filter at x = 1/(1 + (Omega/nu)^2)."""
+        omega = self.lag_rate * np.sqrt(np.maximum(1.0 / np.maximum(x, 1e-30) - 1.0, 0.0))
+        return self.basis(omega).real
+
+    def _factor(self, x: _Floats) -> _Floats:
+        """Positive factor that makes a polynomial in x of it."""
+        inlet, fast = ((self.lag_rate / rate) ** 2 for rate in (self.inlet_rate, self.fast_rate))
+        return np.asarray((x + inlet * (1.0 - x)) * (x + fast * (1.0 - x)))
+
+    def _extrema(self, gains: _Floats, level: float) -> _Floats:
+        """Ends of [0, 1] and the extrema of the polynomial that has the sign of Re G - level."""
+        shifted = gains.copy()
+        if math.isfinite(level):
+            shifted[0] -= level
+
+        def polynomial(x: _Floats) -> _Floats:
+            return self._dissipation(shifted, x) * self._factor(x)
+
+        extrema = Chebyshev.interpolate(polynomial, 2 + self.lags, domain=[0.0, 1.0]).deriv().roots()
+        inside = extrema.real[(np.abs(extrema.imag) < 1e-6) & (extrema.real > 0.0) & (extrema.real < 1.0)]
+        return np.concatenate([[0.0, 1.0], inside])
+
+
+@lru_cache(maxsize=16)
+def _polynomials(rates: FilterRates) -> _Floats:
+    """The polynomial of every filter at the Chebyshev points of the pieces of [0, 1]: (pieces, points, filters).
+
+    The pieces halve towards x = 0, high frequencies, where the polynomials are small.
+    """
+    ends = np.append(0.0, 0.5 ** np.arange(PIECES - 1, -1, -1))
+    place = 0.5 + 0.5 * np.cos(math.pi * (np.arange(POINTS) + 0.5) / POINTS)
+    x = (ends[:-1, None] + np.diff(ends)[:, None] * place).ravel()
+    return np.asarray(rates._real_basis(x) * rates._factor(x)[:, None]).reshape(PIECES, POINTS, 3 + rates.lags)
+
+
+@dataclass(frozen=True, eq=False)
+class GainFit:
+    """Gains of one load, and what they make of its impedance."""
+
+    gains: _Floats  # (3 + lags,)
+    stiffness: _Floats  # K(Omega) of the gains
+    damping: _Floats
+    residuals: _Floats  # weighted: relative errors of C over 5 %, then of K over 1 %
+
+
+def fit_gains(
+    rates: FilterRates, omega: ArrayLike, stiffness: ArrayLike, damping: ArrayLike, static: float
+) -> GainFit:
+    """Gains >= 0 by linear least squares on C and K, relative, 5 % of C counting like 1 % of K.
+
+    The viscous gain is at least a thousandth of the damping at the lowest frequency, so that the fastest motion
+    is damped too, and is raised until the gains dissipate at every frequency, inside the data and beyond.
+
+    Parameters
+    ----------
+    rates : FilterRates
+    omega, stiffness, damping : array_like, shape (k,)
+        Impedance in the units of its load.
+    static : float
+        Tangent of the static curve in those units.
+    """
+    w, K, C = (np.asarray(values, float) for values in (omega, stiffness, damping))
+    if not np.all(C > 0.0):
+        raise InputError("damping", float(C.min()), "> 0 at every frequency (a contact dissipates)")
+    basis = rates.basis(w) * DRY
+    rows = np.vstack([basis.real / (WEIGHT_C * C)[:, None], -(w[:, None] * basis.imag) / (WEIGHT_K * K)[:, None]])
+    target = np.concatenate([np.full(w.size, 1.0 / WEIGHT_C), (K - static) / (WEIGHT_K * K)])
+    floor = LEAST_VISCOUS * float(C[np.argmin(w)]) / DRY
+    gains, _ = nnls(rows, target - rows[:, 0] * floor)
+    gains[0] += floor
+    for _ in range(10):
+        least = rates.least_dissipation(gains)
+        if least >= 0.0:
+            break
+        gains[0] -= 1.001 * least
+    G = basis @ gains
+    return GainFit(gains, static - w * G.imag, G.real, rows @ gains - target)

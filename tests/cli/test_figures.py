@@ -1,0 +1,88 @@
+"""Figures beside the numbers: what is drawn, in which units, and files that cannot be written."""
+
+import numpy as np
+import pytest
+
+from ehlcontact import Geometry, HarmonicLoad, Lubricant, MoesPoint, OperatingPoint, simulate, solve_steady
+
+IN_SI = OperatingPoint(Geometry(12.7e-3, 20e-3), Lubricant(0.1), 20.0, 0.5)
+PLAIN = MoesPoint(50.0, 5.0, 0.5)
+
+
+def labels(figure):
+    return {
+        text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel(), axes.get_title()) if text
+    }
+
+
+def line(figure, name):
+    """Data of the first line called `name`."""
+    lines = [line for axes in figure.axes for line in axes.get_lines() if line.get_label() == name]
+    return np.asarray(lines[0].get_xdata()), np.asarray(lines[0].get_ydata())
+
+
+@pytest.mark.parametrize(("point", "si"), [(IN_SI, True), (PLAIN, False)], ids=["SI", "dimensionless"])
+def test_steady_figure(point, si):
+    from ehlcontact.cli.figures_film import draw_steady
+
+    result = solve_steady(point, n=32)
+    figure = draw_steady(result)
+    seen = labels(figure)
+    assert any("pressure [GPa]" in text for text in seen) == si
+    assert any("fringes" in text for text in seen) == si  # only with scales
+    x, film = line(figure, "film")
+    place, gap = (point.scales.a * 1e3, point.scales.length * 1e6) if si else (1.0, 1.0)
+    np.testing.assert_allclose(x, result.X * place)
+    np.testing.assert_allclose(film, result.H[:, 0] * gap)
+    np.testing.assert_allclose(line(figure, "dry Hertz")[1].max(), point.scales.pressure * 1e-9 if si else 1.0)
+
+
+@pytest.mark.parametrize(("point", "si"), [(IN_SI, True), (PLAIN, False)], ids=["SI", "dimensionless"])
+def test_simulation_figure(point, si):
+    from ehlcontact.cli.figures_transient import draw_simulation
+
+    run = simulate(point, HarmonicLoad(3.0), n=32, until=1.0, dT=0.1)
+    figure = draw_simulation(run)
+    assert (
+        {"approach [um]", "force [N]"} <= labels(figure) if si else {"approach u", "force f/f0"} <= labels(figure)
+    )
+    t, minimum = line(figure, "minimum")
+    np.testing.assert_allclose(t, run.T * (run.scales.time * 1e3 if si else 1.0))
+    np.testing.assert_allclose(minimum, run.h_min * (run.scales.length * 1e6 if si else 1.0))
+    (wave,) = [mesh for axes in figure.axes for mesh in axes.collections if axes.get_ylabel() == "place X = x/a"]
+    shown = np.asarray(wave.get_array())
+    assert shown.shape == (int((np.abs(run.X) <= 1.1).sum()), run.T.size)
+    np.testing.assert_allclose(shown[:, 0], 0.0)
+
+
+@pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf"])
+def test_steady_command_draws(call, point, tmp_path, suffix):
+    target = tmp_path / f"film{suffix}"
+    result = call("steady", *point, "--n", "32", "--figure", target, "--json", "-")
+    assert result.code == 0 and result.err == "" and result.out.startswith("{")
+    head = target.read_bytes()[:5]
+    assert head.startswith({".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF"}[suffix])
+
+
+def test_simulate_command_draws(call, point, tmp_path):
+    target = tmp_path / "run.png"
+    options = ["--harmonic", "3", "--dt", "0.2", "--until", "1", "--json", "-"]
+    result = call("simulate", *point, "--n", "32", *options, "--figure", target)
+    assert result.code == 0 and result.err == "" and result.out.startswith("{")
+    assert target.read_bytes().startswith(b"\x89PNG")
+
+
+def test_figure_that_cannot_be_written(refused, point, tmp_path):
+    refused(["--figure", ".png", "film.bmp"], "steady", *point, "--figure", tmp_path / "film.bmp")
+    refused(["--figure", "folder that exists"], "steady", *point, "--figure", tmp_path / "no" / "film.png")
+
+
+def test_drawing_leaves_matplotlib_alone(tmp_path):
+    import matplotlib as mpl
+
+    from ehlcontact.cli.figure_file import write_figure
+    from ehlcontact.cli.figures_film import draw_steady
+
+    before = dict(mpl.rcParams)
+    write_figure(draw_steady, solve_steady(PLAIN, n=32), tmp_path / "film.png")
+    assert dict(mpl.rcParams) == before

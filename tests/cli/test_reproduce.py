@@ -1,0 +1,182 @@
+"""``ehlcontact reproduce``: the page, resuming, failures, and the paper's numbers themselves."""
+
+import json
+import re
+import warnings
+
+import pytest
+
+from ehlcontact import InputError, Status, load
+from ehlcontact.cli.reproduce import runs
+from ehlcontact.cli.reproduce.figures import FIGURES
+from ehlcontact.cli.reproduce.page import text_of
+from ehlcontact.cli.reproduce.paper import paper_fits, paper_sensitivity
+from reduced_models import OutsideValidityWarning, load_element
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Filled by the first test that needs simulations; the others resume from it."""
+    return tmp_path_factory.mktemp("reproduction")
+
+
+def test_papers_numbers_are_all_there():
+    found = paper_fits()
+    assert [sum(1 for table, _ in found if table == t) for t in (1, 3, 4, 5, 6)] == [3, 3, 3, 3, 1]
+    assert set(paper_sensitivity()) == {None, "K1", "C1", "K2", "C2", "K3", "C3", "B4"}
+    # Computed apart from this package: the approach and the tangent on which all cubics agree.
+    assert found[3, "2"].root == pytest.approx(0.8709, abs=2e-4)
+    assert found[3, "2"].tangent == pytest.approx(1.532, abs=2e-3)
+    assert found[1, "1"].K2 is None and found[4, "4"].e_second is None
+
+
+def test_table_3_and_its_figures(call, folder):
+    arguments = ("reproduce", "--table", "3", "--figure", "10", "--figure", "18", "-o", folder, "--n", "64")
+    result = call(*arguments, "--json", "-")
+    assert result.code == 0 and result.err == "", result
+    document = json.loads(result.out)
+    assert set(document["tables"]) == {"3"} and set(document["figures"]) == {"10", "18"}
+    rows = document["tables"]["3"]["rows"]
+    assert [row["source"] for row in rows[:5]] == [
+        "paper", "ours, n = 32", "ours, n = 64", "extrapolated", "extrapolated against paper",
+    ]  # fmt: skip
+    for k in range(3):
+        paper, coarse, fine, best = rows[5 * k : 5 * k + 4]
+        assert best["root"] == pytest.approx((4 * fine["root"] - coarse["root"]) / 3)
+        assert best["root"] == pytest.approx(paper["root"], rel=0.01)
+        assert fine["tangent"] == pytest.approx(paper["tangent"], rel=0.02)
+        assert fine["C1"] == pytest.approx(paper["C1"], rel=0.1)
+    numbers = document["figures"]["10"]["numbers"]["case 2"]
+    assert numbers["approach_rms"] < 0.01 and numbers["rk23_against_radau"] < 1e-4
+    page = (folder / "reproduction.html").read_text()
+    assert page.count("data:image/png;base64,") == 2 and "4656-4671" in page
+    assert not re.search(r"(src|href)=.?http", page)
+    assert json.loads((folder / "reproduction.json").read_text()) == document
+
+
+def test_finished_simulations_are_not_computed_again(call, folder, monkeypatch):
+    monkeypatch.setattr(runs, "simulate", None)
+    result = call("reproduce", "--table", "1", "--table", "2", "--figure", "8", "-o", folder, "--n", "64")
+    assert result.code == 0 and "page:" in result.out, result
+    tables = json.loads((folder / "reproduction.json").read_text())["tables"]
+    linear = [row for row in tables["1"]["rows"] if row["source"] == "ours, last two thirds"]
+    assert [row["K1"] for row in linear] == pytest.approx([1.152, 1.152, 1.151], rel=0.02)
+    left_out = {row["removed"]: row for row in tables["2"]["rows"]}
+    for name in ("C1", "C2", "C3", "B4"):
+        harmless = abs(left_out[name]["case 2: e_f"])
+        assert all(abs(left_out[K]["case 2: e_f"]) > 5.0 * harmless for K in ("K1", "K2", "K3"))
+
+
+def test_a_damaged_or_foreign_file_is_computed_again(call, folder, monkeypatch):
+    asked = []
+
+    def simulate(point, motion, **options):
+        asked.append(options["n"])
+        raise InputError("n", options["n"], "asked for")
+
+    monkeypatch.setattr(runs, "simulate", simulate)
+    file = folder / "case_2_n64.h5"
+    whole = file.read_bytes()
+    for damaged in (whole[:5000], (folder / "case_1_n64.h5").read_bytes()):
+        file.write_bytes(damaged)
+        assert call("reproduce", "--figure", "6", "-o", folder, "--n", "64").code == 2
+    file.write_bytes(whole)
+    assert asked == [64, 64]
+
+
+def test_interrupt_keeps_what_is_finished(call, tmp_path, monkeypatch):
+    simulate, done = runs.simulate, []
+
+    def interrupted(*arguments, **options):
+        if done:
+            raise KeyboardInterrupt
+        done.append(simulate(*arguments, **options))
+        return done[0]
+
+    monkeypatch.setattr(runs, "simulate", interrupted)
+    result = call("reproduce", "--figure", "5", "-o", tmp_path, "--n", "32")
+    assert result.code == 1 and "resumes" in result.err and len(result.err.splitlines()) == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["case_2_n32.h5"]
+    assert load(tmp_path / "case_2_n32.h5").status is Status.CONVERGED
+
+
+def test_a_case_that_fails_is_told_and_the_page_is_made_without_it(call, tmp_path, monkeypatch):
+    simulate = runs.simulate
+
+    def short_of_breath(point, motion, **options):
+        return simulate(point, motion, **(options | {"tol": 1e-14}))
+
+    monkeypatch.setattr(runs, "simulate", short_of_breath)
+    result = call("reproduce", "--table", "3", "--figure", "6", "-o", tmp_path, "--n", "32", "--json", "-")
+    assert result.code == 1 and "case 2, n = 32" in result.err
+    document = json.loads(result.out)
+    assert document["status"] == "not converged" and "case 2, n = 32" in document["failed"]
+    assert document["missing_figures"] == {"6": "no simulation of case 2"}
+    assert "Not converged" in (tmp_path / "reproduction.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--table", "7"), ("--table", "7", "1, 2, 3")),
+        (("--figure", "3"), ("--figure", "3", "2, 4")),
+        (("--n", "48"), ("48", "multiple of 32")),
+        (("--n", "100"), ("100", "multiple of 16")),
+        (("--json", "/nowhere/r.json"), ("--json", "/nowhere")),
+    ],
+)
+def test_bad_input(refused, tmp_path, arguments, words):
+    refused(words, "reproduce", "-o", tmp_path / "out", *arguments)
+
+
+def test_every_figure_with_results_is_listed():
+    assert sorted(FIGURES) == [2, *range(4, 20)]
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(None, ""), ("x", "x"), (3, "3"), (0.870912, "0.87091"), (4.1e-8, "4.100e-08"), (0.0, "0")]
+)
+def test_cells(value, text):
+    assert text_of(value) == text
+
+
+def test_fit_and_export_of_the_new_models(call, refused, folder, tmp_path):
+    """Both fit from the command line; an FMU is made of linear and cubic elements only, and that is said."""
+    for model in ("polynomial", "power"):
+        element = tmp_path / f"{model}.json"
+        result = call("fit", folder / "case_2_n64.h5", "--model", model, "--save", element, "--json", "-")
+        assert result.code == 0 and result.err == "", result
+        document = json.loads(result.out)
+        assert load_element(element).parameters == document["parameters"]
+        assert set(document["intervals"]) == set(document["parameters"])
+        refused(("element", "LinearContact", "CubicContact"), "export", element, "-o", tmp_path / "x.fmu")
+
+
+def test_a_warning_is_one_line_on_stderr(call, monkeypatch, tmp_path):
+    def warn(*arguments):
+        warnings.warn("CubicContact used outside its validity box", OutsideValidityWarning, stacklevel=1)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("ehlcontact.cli.reproduce.runs.compute", warn)
+    with warnings.catch_warnings():
+        warnings.simplefilter("default")
+        result = call("reproduce", "--table", "3", "-o", tmp_path)
+    assert result.err.splitlines()[0] == "ehlcontact: warning: CubicContact used outside its validity box"
+
+
+@pytest.mark.slow
+@pytest.mark.literature
+def test_tables_3_5_6_extrapolated(call, tmp_path):
+    """From n = 64 and 128: tangent and C1 as asked; the root within 0.5 %, as tests/ehlcontact/test_literature.py.
+
+    0.2 % of the root is not met by cases 1, 2 and 6, and finer grids do not bring it nearer.
+    """
+    result = call("reproduce", *(f"--table={k}" for k in (3, 5, 6)), "-o", tmp_path, "--json", "-")
+    assert result.code == 0, result.err
+    tables = json.loads(result.out)["tables"]
+    rows = [row for number in "356" for row in tables[number]["rows"]]
+    for paper, best in zip(rows[0::5], rows[3::5], strict=True):
+        assert (paper["source"], best["source"]) == ("paper", "extrapolated")
+        assert best["root"] == pytest.approx(paper["root"], rel=0.005)
+        assert best["tangent"] == pytest.approx(paper["tangent"], rel=0.01)
+        assert best["C1"] == pytest.approx(paper["C1"], rel=0.1)

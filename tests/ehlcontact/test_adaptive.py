@@ -1,0 +1,218 @@
+"""Controlled time steps: error against tolerance, corners, several-fold loads, and steps that cannot be met."""
+
+from math import pi
+
+import numpy as np
+import pytest
+
+from ehlcontact import (
+    ConvergenceError,
+    Domain,
+    FreeVibration,
+    HarmonicLoad,
+    InputError,
+    MoesPoint,
+    PrescribedApproach,
+    PrescribedLoad,
+    RampLoad,
+    Status,
+    simulate,
+)
+from ehlcontact.step_control import LARGEST_GROWTH, StepControl, next_time
+
+POINT = MoesPoint(200, 10, 0.5)
+N = 32
+T = np.linspace(0.0, 2.0, 41)
+PULSE = PrescribedLoad([0.0, 0.5, 0.7, 1.2, 1.4, 6.0], [1.0, 1.0, 1.3, 1.3, 1.0, 1.0])
+
+
+def several_fold(low, high, omega_n=None):
+    """Load from `low` to `high` and back, all within one transit each."""
+    return PrescribedLoad([0.0, 0.5, 1.5, 2.5, 3.5, 6.0], [low, low, high, high, low, low], omega_n)
+
+
+def largest_error(record, reference):
+    """Largest error of the approach, by dense output of the reference."""
+    inside = record.T <= reference.T[-1]
+    return np.abs(record.approach - reference.at(record.T[inside]).approach).max()
+
+
+@pytest.fixture(scope="module")
+def pulse_reference():
+    return simulate(POINT, PULSE, n=N, until=3.0, error=1e-5)
+
+
+@pytest.fixture(scope="module")
+def pulse():
+    return {error: simulate(POINT, PULSE, n=N, until=3.0, error=error) for error in (1e-3, 1e-4)}
+
+
+def test_corners_and_end_are_met(pulse):
+    for record in pulse.values():
+        assert record.status is Status.CONVERGED
+        assert {0.5, 0.7, 1.2, 1.4} <= set(record.T)
+        assert record.T[-1] == 3.0
+        assert (np.diff(record.T) > 0.0).all()
+
+
+def test_error_falls_with_the_tolerance(pulse, pulse_reference):
+    """Local errors of third order under a tolerance tau add up to about tau^(2/3): 4.6 for a tenth."""
+    errors = {error: largest_error(record, pulse_reference) for error, record in pulse.items()}
+    assert errors[1e-3] < 2e-3
+    assert errors[1e-4] < 2e-4
+    assert errors[1e-3] / errors[1e-4] > 3.0
+
+
+def test_fewer_steps_than_fixed_ones_of_the_same_accuracy(pulse, pulse_reference):
+    controlled = pulse[1e-4]
+    fixed = simulate(POINT, PULSE, n=N, until=3.0, dT=3.0 / (2 * controlled.steps), tol=3e-4)
+    assert fixed.steps == 2 * controlled.steps
+    assert largest_error(fixed, pulse_reference) > largest_error(controlled, pulse_reference)
+
+
+def test_steps_grow_where_nothing_happens():
+    """Two transits after the pulse the film is at rest again."""
+    record = simulate(POINT, PULSE, n=N, until=6.0, error=1e-3)
+    steps, middles = np.diff(record.T), 0.5 * (record.T[1:] + record.T[:-1])
+    ramp = (middles > 0.5) & (middles < 0.7)
+    assert steps[middles > 4.5].min() > 3.0 * np.median(steps[ramp])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("motion", "until"),
+    [
+        (PULSE, 3.0),
+        (RampLoad(1.3, 0.5, 5.13), 4.0),
+        (FreeVibration(5.13), 2.5),
+        (HarmonicLoad(2.0 * pi), 3.0),
+        (PrescribedApproach(T, 0.88 + 0.03 * (1.0 - np.cos(pi * T))), 2.0),
+    ],
+    ids=lambda m: getattr(m, "kind", ""),
+)
+def test_second_order_in_the_number_of_steps(motion, until):
+    """Error over number of steps from tolerances 3e-3 to 1e-4, with the steps as the controller varies them."""
+    reference = simulate(POINT, motion, n=N, until=until, error=1e-5)
+    name = "force" if isinstance(motion, PrescribedApproach) else "approach"
+    steps, errors = [], []
+    for error in (3e-3, 1e-4):
+        record = simulate(POINT, motion, n=N, until=until, error=error)
+        steps.append(record.steps)
+        errors.append(np.abs(getattr(record, name) - getattr(reference.at(record.T), name)).max())
+    assert np.log(errors[0] / errors[1]) / np.log(steps[1] / steps[0]) >= 1.8
+    assert 0.4 < np.log(errors[0] / errors[1]) / np.log(3e-3 / 1e-4) < 1.2
+
+
+def test_snapshots_are_taken_at_their_times():
+    wanted = (0.0, 0.123, 0.4567)
+    record = simulate(POINT, HarmonicLoad(pi), n=N, until=0.8, error=1e-3, snapshots=wanted)
+    assert tuple(record.snapshot_T) == wanted
+
+
+def test_controlled_motion_with_inertia_obeys_its_equation():
+    record = simulate(POINT, FreeVibration(5.13), n=N, until=1.0, error=3e-4)
+    residual = record.acceleration / 5.13**2 + record.force - record.load
+    assert np.abs(residual).max() < 1e-4
+    dT = np.diff(record.T)
+    moved = 0.5 * dT * (record.rate[1:] + record.rate[:-1])
+    np.testing.assert_allclose(np.diff(record.approach), moved, atol=1e-12)
+
+
+def test_load_that_rises_forty_fold():
+    """From 5 % to twice the static load: the domain is widened beforehand."""
+    record = simulate(POINT, several_fold(0.05, 2.0), n=64, error=1e-3)
+    assert record.status is Status.CONVERGED
+    assert record.domain == Domain.for_load(2.0)
+    assert record.force.min() == pytest.approx(0.05, abs=1e-4)
+    assert record.force.max() == pytest.approx(2.0, abs=1e-3)
+    assert record.approach[-1] == pytest.approx(record.approach[0], abs=0.02)
+    assert (record.h_min > 0.0).all()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("omega_n", [None, 5.13])
+def test_load_that_rises_sixty_fold(omega_n):
+    record = simulate(POINT, several_fold(0.05, 3.0, omega_n), n=128, error=1e-3)
+    assert record.status is Status.CONVERGED
+    assert record.force.max() >= 3.0 - 1e-3
+    assert (record.h_min > 0.0).all()
+
+
+def test_overload_of_a_given_domain_is_said_with_advice():
+    motion = PrescribedApproach([0.0, 0.5, 1.0, 2.0], [0.87, 1.5, 2.5, 4.0])
+    with pytest.raises(
+        ConvergenceError, match=r"out_of_domain .*force so far 2\.[23].*domain=Domain\.for_load\("
+    ) as caught:
+        simulate(POINT, motion, n=N, error=1e-3, domain=Domain())
+    result = caught.value.result
+    assert result.status is Status.OUT_OF_DOMAIN
+    assert result.T[-1] < 1.0
+    assert simulate(POINT, motion, n=64, error=1e-3).force[-1] > 8.0  # the default domain is wide enough
+
+
+def test_vibration_that_separates_and_comes_back():
+    """Let go two dry approaches below: the bodies part (no film force), fall back and are caught by the film."""
+    motion = FreeVibration(5.13, offset=2.0)
+    record = simulate(POINT, motion, n=64, error=1e-3, until=1.5)
+    assert record.status is Status.CONVERGED
+    away = record.force < 1e-6
+    assert away.sum() >= 3
+    assert record.approach[away].max() < 0.0
+    np.testing.assert_allclose(record.acceleration[away], 5.13**2, rtol=1e-4)  # free flight under the load
+    assert record.force[record.T > record.T[away].max()].max() > 2.0
+    assert record.force.max() == record.force[0]  # bounced back lower than it came
+
+
+def test_step_that_cannot_meet_its_tolerance():
+    def jump(X, Y, T):
+        return (0.05 if T > 0.3 else 0.0) + 0.0 * X * Y
+
+    def run(throw):
+        return simulate(POINT, HarmonicLoad(3.0), n=N, until=1.0, error=1e-3, surface=jump, throw=throw)
+
+    message = r"step_too_small at T = 0\.2999\d+ \(a step of \d.*e-0\d .* the tolerated error 0\.001\): However"
+    with pytest.raises(ConvergenceError, match=message) as caught:
+        run(throw=True)
+    result = caught.value.result
+    assert result.status is Status.STEP_TOO_SMALL
+    assert result.steps > 5
+    assert result.T[-1] == pytest.approx(0.3, abs=1e-4)
+    assert np.isfinite(result.approach).all()
+    assert run(throw=False).status is Status.STEP_TOO_SMALL
+
+
+def test_corners():
+    assert PULSE.corners == (0.5, 0.7, 1.2, 1.4)
+    assert RampLoad(3.0, 1.69, 2.4).corners == (1.69,)
+    assert FreeVibration(5.0).corners == HarmonicLoad(1.0).corners == ()
+    assert PrescribedLoad.from_function(lambda T: 1.0 + 0.3 * np.sin(T), 2.0 * pi, 40).corners == ()
+    assert PrescribedLoad([0.0, 1.0, 2.0, 3.0], np.ones(4)).corners == ()
+
+
+def test_next_time_leaves_no_sliver():
+    stops = [1.0, 2.0]
+    assert next_time(0.0, 0.3, stops, 1e-6) == (0.3, 0.3)
+    assert next_time(0.5, 0.3, stops, 1e-6) == (0.75, 0.25)
+    assert next_time(0.75, 0.3, stops, 1e-6) == (1.0, 0.25)
+    assert next_time(1.0, 5.0, stops, 1e-6) == (2.0, 1.0)
+
+
+def test_step_control():
+    control = StepControl(1e-3, 0.1)
+    control.accepted(0.1, 1e-9)
+    assert control.step == LARGEST_GROWTH * 0.1
+    control.accepted(0.1, 0.6)
+    assert control.step < 0.1
+    control = StepControl(1e-3, 0.1, last_error=0.6)
+    control.accepted(0.1, 0.5)
+    assert control.step == 0.1  # as good as it can be: factors of the coarsest grid stay valid
+    control.refused(0.1, 8.0, 3)
+    assert 0.03 < control.step < 0.05
+    control.refused(0.1, 1e9, 3)
+    assert control.step == pytest.approx(0.02)
+
+
+@pytest.mark.parametrize("error", [0.0, -1e-3, float("nan"), float("inf"), 0.2, True, "small"])
+def test_bad_error_is_named(error):
+    with pytest.raises(InputError, match=r"^error = .*: must be "):
+        simulate(POINT, HarmonicLoad(3.0), n=N, error=error)

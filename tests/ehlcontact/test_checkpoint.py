@@ -1,0 +1,269 @@
+"""Restart from a checkpoint: bit for bit the uninterrupted run, or one line that says why not."""
+
+import os
+import shutil
+import subprocess
+import sys
+from dataclasses import fields
+
+import h5py
+import numpy as np
+import pytest
+
+from ehlcontact import (
+    ConvergenceError,
+    Dent,
+    Domain,
+    FreeVibration,
+    HarmonicLoad,
+    InputError,
+    MoesPoint,
+    PrescribedApproach,
+    PrescribedLoad,
+    RampLoad,
+    Status,
+    Waviness,
+    load,
+    save,
+    simulate,
+)
+from ehlcontact.transient import TransientFilm
+
+POINT = MoesPoint(200, 10, 0.5)
+N = 32
+FIXED = dict(n=N, until=0.8, dT=0.05, snapshots=(0.1, 0.52))
+CONTROLLED = dict(n=N, until=0.8, error=1e-3, snapshots=(0.1, 0.52))
+RUNS = {
+    "free": (FreeVibration(5.13), FIXED),
+    "harmonic over waviness": (HarmonicLoad(3.0), FIXED | dict(surface=Waviness(0.05, 0.5))),
+    "ramp, controlled": (RampLoad(1.3, 0.3, 5.13), CONTROLLED),
+    "pulse, controlled": (PrescribedLoad([0.0, 0.3, 0.4, 0.5, 0.8], [1.0, 1.0, 1.3, 1.0, 1.0]), CONTROLLED),
+    "approach, controlled": (PrescribedApproach([0.0, 0.3, 0.6, 0.8], [0.88, 0.95, 0.90, 0.88]), CONTROLLED),
+}
+
+
+def assert_same_bits(one, other):
+    for f in fields(one):
+        a, b = getattr(one, f.name), getattr(other, f.name)
+        if isinstance(a, np.ndarray):
+            assert a.dtype == b.dtype
+            np.testing.assert_array_equal(a, b, err_msg=f.name)
+        elif f.name == "motion":
+            assert a.to_dict() == b.to_dict()
+        elif f.name != "seconds":
+            assert a == b, f.name
+
+
+def stop_after(T_stop):
+    def callback(T, until):
+        if T > T_stop:
+            raise KeyboardInterrupt
+
+    return callback
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_restart_equals_the_uninterrupted_run(name, tmp_path):
+    motion, settings = RUNS[name]
+    path = tmp_path / "c.h5"
+    whole = simulate(POINT, motion, **settings)
+    for T in (0.0, 0.25, 0.55):
+        part = simulate(POINT, motion, **settings, checkpoint=path, callback=stop_after(T))
+        assert part.status is Status.INTERRUPTED
+        assert T < part.T[-1] < 0.8
+        assert_same_bits(whole, simulate(POINT, motion, **settings, restart=path))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("point", [MoesPoint(2900, 19, 0.11), MoesPoint(58, 5, 1.5)], ids=str)
+@pytest.mark.parametrize("n", [64, 128])
+def test_other_points_and_grids(point, n, tmp_path):
+    """Other coarsest grids, engines and a ring of restarts, in another process."""
+    settings = dict(n=n, until=0.2, dT=0.02)
+    whole = simulate(point, HarmonicLoad(3.0), **settings)
+    simulate(point, HarmonicLoad(3.0), **settings, checkpoint=tmp_path / "c.h5", callback=stop_after(0.07))
+    simulate(
+        point,
+        HarmonicLoad(3.0),
+        **settings,
+        restart=tmp_path / "c.h5",
+        checkpoint=tmp_path / "c.h5",
+        callback=stop_after(0.13),
+    )
+    script = (
+        "import sys; from ehlcontact import *\n"
+        f"point = MoesPoint({point.M}, {point.L}, {point.kappa})\n"
+        f"save(simulate(point, HarmonicLoad(3.0), n={n}, until=0.2, dT=0.02, restart=sys.argv[1]), sys.argv[2])"
+    )
+    subprocess.run([sys.executable, "-c", script, tmp_path / "c.h5", tmp_path / "r.h5"], check=True)
+    assert_same_bits(whole, load(tmp_path / "r.h5"))
+
+
+def test_ctrl_c_within_a_step_leaves_a_current_checkpoint(tmp_path, monkeypatch):
+    motion, settings = RUNS["free"]
+    path = tmp_path / "c.h5"
+    whole = simulate(POINT, motion, **settings)
+    advance, calls = TransientFilm.advance, []
+
+    def stopped(self, *arguments):
+        calls.append(1)
+        if len(calls) == 7:
+            self.level.P[...] *= 1.3  # half way through a cycle
+            raise KeyboardInterrupt
+        return advance(self, *arguments)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(TransientFilm, "advance", stopped)
+        part = simulate(POINT, motion, **settings, checkpoint=path)
+    assert part.status is Status.INTERRUPTED
+    assert part.steps == 6
+    assert_same_bits(whole, simulate(POINT, motion, **settings, restart=path))
+
+
+def test_a_killed_run_goes_on_from_its_last_checkpoint(tmp_path):
+    """The file after any step, as a kill -9 would leave it."""
+    motion, settings = RUNS["ramp, controlled"]
+    path, kept = tmp_path / "c.h5", tmp_path / "kept.h5"
+
+    def copy(T, until):
+        if not kept.exists() and T > 0.4:
+            shutil.copy(path, kept)
+
+    whole = simulate(POINT, motion, **settings, checkpoint=path, checkpoint_every=0.0, callback=copy)
+    assert_same_bits(whole, simulate(POINT, motion, **settings, restart=kept))
+
+
+def test_checkpoints_are_not_written_more_often_than_asked(tmp_path):
+    motion, settings = RUNS["free"]
+    path = tmp_path / "c.h5"
+    seen = []
+    simulate(
+        POINT, motion, **settings, checkpoint=path, callback=lambda T, until: seen.append(path.stat().st_mtime_ns)
+    )
+    assert len(set(seen)) == 1  # at the start; the next one at the end
+    assert path.stat().st_mtime_ns > seen[0]
+    assert [p.name for p in tmp_path.iterdir()] == ["c.h5"]
+
+
+def test_failed_step_leaves_the_last_good_one(tmp_path, monkeypatch):
+    motion, settings = RUNS["free"]
+    path = tmp_path / "c.h5"
+    whole = simulate(POINT, motion, **settings)
+
+    def no_more_cycles(T, until):
+        if T > 0.3:
+            monkeypatch.setattr("ehlcontact.transient.STEP_CYCLES", 0)
+
+    with pytest.raises(ConvergenceError, match=r"step 0\.05, residual .* with tol 0\.003"), monkeypatch.context():
+        simulate(POINT, motion, **settings, checkpoint=path, callback=no_more_cycles)
+    monkeypatch.undo()
+    assert_same_bits(whole, simulate(POINT, motion, **settings, restart=path))
+
+
+def test_a_finished_run_can_be_extended(tmp_path):
+    motion = HarmonicLoad(3.0)
+    simulate(POINT, motion, n=N, until=0.4, dT=0.05, checkpoint=tmp_path / "c.h5")
+    longer = simulate(POINT, motion, n=N, until=0.8, dT=0.05, restart=tmp_path / "c.h5")
+    assert_same_bits(simulate(POINT, motion, n=N, until=0.8, dT=0.05), longer)
+
+
+@pytest.fixture(scope="module")
+def stopped(tmp_path_factory):
+    """Checkpoint of a free vibration over a dent, at T = 0.2, and the arguments of its run."""
+    path = tmp_path_factory.mktemp("checkpoint") / "c.h5"
+    arguments = dict(
+        point=POINT,
+        motion=FreeVibration(5.13),
+        n=N,
+        until=0.4,
+        dT=0.05,
+        snapshots=(0.1,),
+        surface=Dent(0.05, 0.5, start=-0.5),
+    )
+    simulate(**arguments, checkpoint=path, callback=stop_after(0.16))
+    return path, arguments
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (dict(point=MoesPoint(210, 10, 0.5)), ("point", "M=200", "M=210")),
+        (dict(domain=Domain(-4.0, 1.5, 3.0)), ("domain", "x_in=-4.5", "x_in=-4.0")),
+        (dict(n=64), ("n", "32", "64")),
+        (dict(motion=FreeVibration(5.2)), ("motion.omega_n", "5.13", "5.2")),
+        (dict(motion=HarmonicLoad(5.13)), ("motion.kind", "free", "harmonic")),
+        (dict(tol=1e-3), ("tol", "0.003", "0.001")),
+        (dict(dT=0.04), ("dT", "0.05", "0.04")),
+        (dict(error=1e-3), ("error", "None", "0.001")),
+        (dict(snapshots=(0.1, 0.15)), ("snapshots", "[0.1]", "0.15")),
+        (dict(surface=Dent(0.06, 0.5, start=-0.5)), ("surface", "0.0464", "0.0557")),
+        (dict(surface=None), ("surface", "none")),
+    ],
+    ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
+)
+def test_checkpoint_of_another_run(stopped, change, words):
+    path, arguments = stopped
+    with pytest.raises(
+        InputError, match=r"^restart = '.*c\.h5': must be a checkpoint of this run: its "
+    ) as caught:
+        simulate(**(arguments | change), restart=path)
+    message = str(caught.value)
+    assert "\n" not in message
+    assert len(message) < 600
+    for word in words:
+        assert word in message
+
+
+def test_end_before_the_checkpoint(stopped):
+    path, arguments = stopped
+    with pytest.raises(InputError, match=r"^until = 0\.1: must be at least 0\.2"):
+        simulate(**(arguments | dict(until=0.1)), restart=path)
+
+
+def test_checkpoint_of_another_version(stopped, tmp_path):
+    path = shutil.copy(stopped[0], tmp_path / "c.h5")
+    with h5py.File(path, "a") as file:
+        file.attrs["version"] = '"0.0.1"'
+    with pytest.raises(InputError, match=r"its version is 0\.0\.1, asked for is "):
+        simulate(**stopped[1], restart=path)
+
+
+@pytest.mark.parametrize("part", [0.0, 0.02, 0.5, 0.9, 0.999])
+def test_truncated_checkpoint(stopped, tmp_path, part):
+    data = stopped[0].read_bytes()
+    path = tmp_path / "cut.h5"
+    path.write_bytes(data[: int(part * len(data))])
+    with pytest.raises(InputError, match=r"^restart = '.*cut\.h5': must be .*checkpoint") as caught:
+        simulate(**stopped[1], restart=path)
+    assert "\n" not in str(caught.value)
+
+
+def test_files_that_are_no_checkpoint(stopped, tmp_path):
+    save(simulate(POINT, HarmonicLoad(3.0), n=N, until=0.1, dT=0.05), tmp_path / "result.h5")
+    (tmp_path / "text.h5").write_text("T,u\n0,1\n")
+    for name in ("result.h5", "text.h5", "missing.h5", "."):
+        with pytest.raises(InputError, match=r"^restart = .*: must be .*checkpoint of `simulate`"):
+            simulate(**stopped[1], restart=tmp_path / name)
+
+
+def test_a_checkpoint_is_no_result(stopped):
+    with pytest.raises(InputError, match=r"^file = .*: must be a result of this library"):
+        load(stopped[0])
+
+
+def test_checkpoint_in_no_folder(tmp_path):
+    with pytest.raises(InputError, match=r"^checkpoint = .*: must be in a folder that can be written to"):
+        simulate(POINT, HarmonicLoad(3.0), n=N, until=0.1, dT=0.05, checkpoint=tmp_path / "none" / "c.h5")
+    with pytest.raises(InputError, match=r"^checkpoint_every = -1\.0: must be "):
+        simulate(POINT, HarmonicLoad(3.0), n=16, checkpoint=tmp_path / "c.h5", checkpoint_every=-1.0)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="permissions of POSIX")
+def test_checkpoint_is_readable_by_others(stopped):
+    assert stopped[0].stat().st_mode & 0o777 == 0o666 & ~_umask()
+
+
+def _umask():
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

@@ -1,0 +1,178 @@
+"""Film of the whole plane, profiles, fringes and film waves: identities, known answers, bad input."""
+
+import numpy as np
+import pytest
+
+from ehlcontact import (
+    FreeVibration,
+    Geometry,
+    HarmonicLoad,
+    InputError,
+    Lubricant,
+    MoesPoint,
+    OperatingPoint,
+    PrescribedLoad,
+    simulate,
+    solve_steady,
+)
+from ehlcontact.film import Film, film_history, film_of, interferogram
+from ehlcontact.film_wave import FilmWave, film_wave, track_wave
+
+STEEL_ON_GLASS = OperatingPoint(Geometry(12.7e-3, 20e-3, e2=8e10, nu2=0.2), Lubricant(0.1), 20.0, 0.5)
+
+
+@pytest.fixture(scope="module")
+def steady():
+    return solve_steady(STEEL_ON_GLASS, n=64)
+
+
+@pytest.fixture(scope="module")
+def film(steady):
+    return film_of(steady)
+
+
+@pytest.fixture(scope="module")
+def harmonic():
+    return simulate(MoesPoint(200.0, 10.0, 0.5), HarmonicLoad(np.pi), n=32, until=1.0)
+
+
+def wedge(gap):
+    """Film of the given gap [m] over X, the same for all Y."""
+    X = np.linspace(-1.0, 1.0, gap.size)
+    Y = np.linspace(-1.0, 1.0, 9)
+    scales = STEEL_ON_GLASS.scales
+    H = np.repeat((gap / scales.length)[:, None], Y.size, axis=1)
+    return Film(X, Y, H, np.zeros_like(H), scales)
+
+
+def test_film_fills_the_plane(steady, film):
+    assert film.H.shape == (steady.X.size, 2 * steady.Y.size - 1) == film.P.shape
+    np.testing.assert_array_equal(film.H, film.H[:, ::-1])
+    np.testing.assert_array_equal(film.Y, -film.Y[::-1])
+    np.testing.assert_array_equal(film.H[:, steady.Y.size - 1 :], steady.H)
+    # eq. 4 over the whole plane
+    cell = (film.X[1] - film.X[0]) * (film.Y[1] - film.Y[0])
+    assert 1.5 / np.pi * film.P.sum() * cell == pytest.approx(1.0, abs=1e-6)
+
+
+def test_si_values(film):
+    scales = STEEL_ON_GLASS.scales
+    load = film.p.sum() * (film.x[1] - film.x[0]) * (film.y[1] - film.y[0])
+    assert load == pytest.approx(STEEL_ON_GLASS.load, rel=1e-6)
+    assert film.h.min() == pytest.approx(film.H.min() * scales.length)
+    across, along = film.across, film.along
+    assert across.x[-1] == pytest.approx(3.0 * scales.b) and along.x[0] == pytest.approx(-4.5 * scales.a)
+    np.testing.assert_allclose(along.h, film.h[:, film.Y.size // 2])
+    np.testing.assert_allclose(along.p, film.p[:, film.Y.size // 2])
+
+
+def test_midplanes_cross_in_the_centre(steady, film):
+    along = np.interp(0.0, film.along.X, film.along.H)
+    assert film.across.H[film.Y.size // 2] == pytest.approx(along, rel=1e-12)
+    assert along == pytest.approx(steady.h_central, rel=2e-3)
+
+
+def test_horseshoe(steady, film):
+    found = film.constriction
+    assert found.minimum == steady.h_min
+    at = np.argwhere(film.H == found.minimum)
+    assert {abs(float(film.Y[j])) for _, j in at} == {found.Y} and {float(film.X[i]) for i, _ in at} == {found.X}
+    # side lobes, narrower than the exit, on the rim of the Hertz ellipse
+    assert found.minimum <= found.side_film < found.central and found.minimum <= found.exit_film < found.central
+    assert 0.7 < found.side_place < 1.1 and 0.7 < found.exit_place < 1.1
+    assert found.ratio == pytest.approx(found.central / found.minimum) and found.ratio > 1.2
+
+
+def test_fringes_of_a_wedge():
+    """Bright where 2 n h is a whole number of wavelengths, dark half-way, and the other way round at phase pi."""
+    wave, index = 600e-9, 1.5
+    film = wedge(np.linspace(0.0, 2.0 * wave / (2.0 * index), 41))
+    fringes = interferogram(film, wave, index)
+    np.testing.assert_allclose(fringes.order[[0, 10, 20, 40], 0], [0.0, 0.5, 1.0, 2.0], atol=1e-12)
+    np.testing.assert_allclose(fringes.intensity[[0, 10, 20, 30, 40], 3], [1.0, 0.0, 1.0, 0.0, 1.0], atol=1e-12)
+    turned = interferogram(film, wave, index, np.pi)
+    np.testing.assert_allclose(turned.intensity, 1.0 - fringes.intensity, atol=1e-12)
+    np.testing.assert_allclose(turned.order, fringes.order + 0.5)
+    assert fringes.resolved.all()
+    assert not interferogram(film, wave / 12.0, index).resolved.any()
+
+
+def test_fringes_of_a_contact(film):
+    fringes = interferogram(film, 550e-9)
+    assert fringes.intensity.shape == film.H.shape
+    assert 0.0 <= fringes.intensity.min() and fringes.intensity.max() <= 1.0
+    np.testing.assert_allclose(fringes.order, 3.0 * film.h / 550e-9)
+
+
+def test_snapshots_of_a_simulation():
+    run = simulate(
+        STEEL_ON_GLASS,
+        PrescribedLoad(np.linspace(0, 1, 4), np.ones(4)),
+        n=32,
+        until=0.4,
+        dT=0.1,
+        snapshots=[0.2, 0.4],
+    )
+    np.testing.assert_array_equal(film_of(run).along.H, run.h_midplane[-1])
+    np.testing.assert_array_equal(film_of(run, 0.2).along.P, run.p_midplane[2])
+    history = film_history(run)
+    np.testing.assert_allclose(history.t, run.T * run.scales.time)
+    np.testing.assert_allclose(history.h_min, run.h_min * run.scales.length)
+    np.testing.assert_allclose(history.h_central, run.h_central * run.scales.length)
+    with pytest.raises(InputError, match=r"0\.2, 0\.4"):
+        film_of(run, 0.05)
+
+
+def test_film_bad_input(steady, harmonic):
+    with pytest.raises(InputError, match="steady film has no time"):
+        film_of(steady, 1.0)
+    with pytest.raises(InputError, match="kept no whole fields"):
+        film_of(harmonic)
+    with pytest.raises(InputError, match="SteadyResult"):
+        film_of(steady.H)
+    plain = film_of(solve_steady(MoesPoint(20.0, 5.0, 1.0), n=32))
+    for ask in (lambda: plain.h, lambda: plain.along.x, lambda: interferogram(plain, 6e-7)):
+        with pytest.raises(InputError, match="OperatingPoint"):
+            ask()
+    with pytest.raises(InputError, match="OperatingPoint"):
+        film_history(harmonic).h_min  # noqa: B018
+    film = film_of(steady)
+    for arguments in ((0.0,), (-6e-7,), (6e-7, 0.0), (6e-7, 1.5, np.nan)):
+        with pytest.raises(InputError):
+            interferogram(film, *arguments)
+
+
+@pytest.mark.parametrize("speed", [0.5, 1.0, 2.0, -1.0])
+def test_tracking_a_known_wave(speed):
+    X, T = np.linspace(-2.0, 1.5, 113), np.linspace(0.0, 6.0, 301)
+    phase = X[None, :] - speed * T[:, None]
+    track = track_wave(FilmWave(X, T, np.sin(3.0 * phase) + 0.3 * np.cos(5.0 * phase)))
+    assert track.speed == pytest.approx(speed, rel=5e-3)
+    assert track.spread < 0.01
+    np.testing.assert_allclose(track.delay, (track.X - track.X[0]) / speed, atol=0.02)
+
+
+@pytest.mark.parametrize(
+    "motion", [pytest.param(HarmonicLoad(np.pi), id="harmonic", marks=pytest.mark.slow), FreeVibration(5.13)]
+)
+def test_film_is_carried_at_the_mean_speed(motion):
+    """Measured dX/dT is 1 in incompressible oil; in compressible oil a part of the film follows the pressure."""
+    run = simulate(MoesPoint(200.0, 10.0, 0.5, density="incompressible"), motion, n=64)
+    wave = film_wave(run)
+    assert wave.change.shape == (run.T.size, run.X.size)
+    assert not wave.change[0].any()
+    track = track_wave(wave)
+    assert track.speed == pytest.approx(1.0, abs=0.005)
+    assert track.spread < 0.01
+
+
+def test_tracking_bad_input():
+    X, T = np.linspace(-1.0, 1.0, 21), np.linspace(0.0, 4.0, 41)
+    still = FilmWave(X, T, np.zeros((41, 21)))
+    with pytest.raises(InputError, match="at rest"):
+        track_wave(still)
+    for start, end in ((0.5, -0.5), (-2.0, 0.5), (0.0, 1.5)):
+        with pytest.raises(InputError, match="in order within"):
+            track_wave(still, start, end)
+    with pytest.raises(InputError, match=r"at least 2\.4"):
+        track_wave(FilmWave(X, 0.5 * T, np.zeros((41, 21))))

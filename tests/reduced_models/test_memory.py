@@ -1,0 +1,333 @@
+"""Film-memory element: its law against an oracle, steps of any length, passivity, rotor, files."""
+
+import json
+import math
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from ehlcontact import InputError
+from reduced_models import (
+    FilmMemoryContact,
+    JeffcottRotor,
+    OutsideValidityWarning,
+    ScaledContact,
+    has_tangents,
+    load_element,
+    simulate_rotor,
+)
+from reduced_models.film_filters import FilterRates, fit_gains
+
+OMEGAS = np.concatenate([[0.0], np.geomspace(0.03, 60.0, 24)])
+# Fitted to M = 200, L = 10, kappa = 0.5 on n = 64.
+COEFFICIENTS = {
+    "film": 0.129,
+    "exponent": 0.13,
+    "squeeze": 0.25,
+    "lag_rate": 5.4,
+    "inlet_rate": 33.0,
+    "fast_rate": 60.0,
+    "gains": (0.001, 0.002, 0.005, 0.013, 0.0, 0.009, 0.011, 0.0, 0.0, 0.0, 0.021),
+}
+BOX = {"low": 0.5, "high": 1.2, "rate": 2.0, "load_range": (0.5, 1.5), "omega_range": (0.0, 60.0)}
+
+
+@pytest.fixture
+def memory():
+    return FilmMemoryContact(**COEFFICIENTS, **BOX)
+
+
+def wave(omega, steps, periods=1.0, amplitude=0.05, centre=0.87):
+    T = np.linspace(0.0, periods * 2.0 * pi / omega, round(steps * periods) + 1)
+    return T, centre + amplitude * np.sin(omega * T), amplitude * omega * np.cos(omega * T)
+
+
+def test_starts_at_rest_under_the_reference_load(memory):
+    u = memory.approach_at(1.0)
+    assert u == pytest.approx(1.0 - COEFFICIENTS["film"], rel=1e-12)
+    assert memory.advance(0.1, u, 0.0) == pytest.approx(1.0, rel=1e-12)
+    assert not has_tangents(memory), "its force does not follow from approach and rate alone"
+
+
+@pytest.mark.parametrize("u", [-50.0, -0.5, 0.3, 0.871, 1.0, 3.0])
+def test_static_curve_is_the_film_law(memory, u):
+    F = memory.spring(u)
+    assert F > 0.0
+    assert F ** (2.0 / 3.0) - memory.film * F**-memory.exponent == pytest.approx(u, rel=1e-10)
+    assert memory.approach_at(F) == pytest.approx(u, rel=1e-9)
+    h = 1e-6 * max(1.0, abs(u))
+    slope = (memory.spring(u + h) - memory.spring(u - h)) / (2.0 * h)
+    assert memory.spring_tangent(u) == pytest.approx(slope, rel=1e-5)
+
+
+def test_force_fades_where_the_surfaces_part(memory):
+    u = np.linspace(-20.0, 1.5, 4000)
+    F = memory.spring(u)
+    assert (F > 0.0).all() and (np.diff(F) > 0.0).all() and F[0] < 1e-12
+    assert memory.spring(-1e30) < 1e-100
+
+
+@pytest.mark.parametrize("omega", [1.0, pi, 4.0 * pi])
+def test_law_agrees_with_its_equations_integrated_otherwise(memory, omega):
+    """The continuous-time system of `to_control`, by an explicit method with tight tolerance."""
+    T, u, v = wave(omega, 400)
+    system = memory.to_control()
+    n = memory.lags + 2
+
+    def motion(t):
+        return np.array([0.87 + 0.05 * math.sin(omega * t), 0.05 * omega * math.cos(omega * t)])
+
+    def rates(t, x):
+        return system.updfcn(t, x, motion(t), {})
+
+    solved = solve_ivp(rates, (0.0, T[-1]), np.zeros(n), method="DOP853", rtol=1e-9, atol=1e-12, t_eval=T)
+    exact = np.array([system.outfcn(t, x, motion(t), {})[0] for t, x in zip(T, solved.y.T, strict=True)])
+    assert np.abs(memory.drive(T, u, v) - exact)[1:].max() < 2e-5
+
+
+def test_steps_are_second_order_or_better(memory):
+    omega = 2.0 * pi
+    ends = [memory.drive(*wave(omega, steps, 1.25))[-1] for steps in (16, 32, 1024)]
+    assert abs(ends[1] - ends[2]) < 0.3 * abs(ends[0] - ends[2])
+    assert abs(ends[0] - ends[2]) < 5e-3
+
+
+def test_rotor_steps_give_the_damping_of_slow_motion(memory):
+    """Steps of 9, five transits of the film each, at Omega = 0.05: the first harmonic against the impedance."""
+    omega, amplitude, periods = 0.05, 1e-3, 9
+    T, u, v = wave(omega, 2.0 * pi / omega / 9.0, periods, amplitude, memory.approach_at(1.0))
+    assert T[1] == pytest.approx(9.0, rel=0.01)
+    force = memory.drive(T, u, v)[1:]
+    columns = np.column_stack([np.ones(T.size - 1), np.sin(omega * T[1:]), np.cos(omega * T[1:])])
+    _, K, wC = np.linalg.lstsq(columns, force, rcond=None)[0] / amplitude
+    Z = memory.impedance(omega)[0]
+    assert K == pytest.approx(Z.real, rel=5e-3)
+    assert wC == pytest.approx(Z.imag, rel=0.03)
+
+
+def test_a_long_step_ends_on_the_static_force(memory):
+    for dt in (1e3, 1e6, 1e12):
+        memory.rest(0.5)
+        assert memory.advance(dt, 1.1, 0.0) == pytest.approx(memory.spring(1.1), rel=1e-3 if dt < 1e4 else 1e-6)
+
+
+def test_a_jump_of_approach_is_felt_even_at_zero_rate(memory):
+    memory.rest(0.8)
+    assert memory.advance(0.01, 0.9, 0.0) > memory.spring(0.9) + 0.005
+
+
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
+def test_no_step_blows_up(memory):
+    rng = np.random.default_rng(5)
+    for _ in range(3000):
+        dt = 10.0 ** rng.uniform(-9.0, 6.0)
+        force = memory.advance(dt, rng.uniform(-3.0, 2.0), rng.normal())
+        assert math.isfinite(force) and force >= 0.0
+    for _ in range(3):
+        force = memory.advance(1e4, 0.87, 0.0)
+    assert force == pytest.approx(memory.spring(0.87), rel=1e-6)
+
+
+def test_tangents_are_the_derivatives_of_a_step(memory):
+    rng = np.random.default_rng(1)
+    for _ in range(60):
+        memory.rest(rng.uniform(0.6, 1.1))
+        for _ in range(3):
+            memory.advance(10.0 ** rng.uniform(-2.0, 1.0), rng.uniform(0.6, 1.1), 0.5 * rng.normal())
+        dt, u, v, h = 10.0 ** rng.uniform(-3.0, 2.0), rng.uniform(0.6, 1.1), 0.5 * rng.normal(), 1e-6
+        before = memory.save_state()
+        F, stiffness, damping = memory.step_tangents(dt, u, v)
+        np.testing.assert_array_equal(memory.save_state(), before)
+        up, down = (memory.step_tangents(dt, u + s, v)[0] for s in (h, -h))
+        assert stiffness == pytest.approx((up - down) / (2.0 * h), rel=1e-5, abs=1e-6)
+        up, down = (memory.step_tangents(dt, u, v + s)[0] for s in (h, -h))
+        assert damping == pytest.approx((up - down) / (2.0 * h), rel=1e-5, abs=1e-6)
+        assert memory.advance(dt, u, v) == F
+
+
+def test_state_is_saved_and_restored(memory):
+    T, u, v = wave(pi, 40)
+    for i in range(1, 20):
+        memory.advance(T[1], u[i], v[i])
+    state = memory.save_state()
+    first = [memory.advance(T[1], u[i], v[i]) for i in range(20, 40)]
+    memory.restore_state(state)
+    assert [memory.advance(T[1], u[i], v[i]) for i in range(20, 40)] == first
+    other = memory.copy()
+    other.advance(0.1, 1.0, 0.0)
+    memory.restore_state(state)
+    assert memory.advance(T[1], u[20], v[20]) == first[0], "a copy has a state of its own"
+
+
+def test_impedance_is_that_of_a_small_motion(memory):
+    for omega in (0.2, pi, 20.0):
+        periods = max(2, math.ceil(3.0 * omega))
+        T, u, v = wave(omega, 100, periods, 1e-5, memory.approach_at(1.0))
+        last = slice(-101, -1)
+        force = memory.drive(T, u, v)[last]
+        columns = np.column_stack([np.ones(100), np.sin(omega * T[last]), np.cos(omega * T[last])])
+        _, K, wC = np.linalg.lstsq(columns, force, rcond=None)[0] / 1e-5
+        assert complex(K, wC) == pytest.approx(memory.impedance(omega)[0], rel=1e-3)
+
+
+@pytest.mark.parametrize("omega", [0.05, 1.0, pi, 8.0, 30.0, 200.0])
+@pytest.mark.parametrize("amplitude", [0.01, 0.1])
+def test_periodic_motion_dissipates(memory, omega, amplitude):
+    T, u, v = wave(omega, 400, max(2, math.ceil(2.0 * omega)), amplitude)
+    last = slice(-401, None)
+    assert np.trapezoid(memory.drive(T, u, v)[last], u[last]) > 0.0
+
+
+def test_least_dissipation_is_the_minimum_over_all_frequencies():
+    rng = np.random.default_rng(2)
+    omega = np.concatenate([[0.0], np.geomspace(1e-3, 1e5, 20000)])
+    for lags in (1, 4, 12, 16):
+        rates = FilterRates(lags, 0.7 * lags, 30.0, 80.0)
+        response = rates.basis(omega).real
+        for _ in range(10):
+            gains = rng.normal(size=3 + lags)
+            least = rates.least_dissipation(gains)
+            assert least == pytest.approx((response @ gains).min(), abs=1e-5)
+            for margin in (-1.0, -1e-3, -1e-7, 1e-7, 1e-3, 1.0):
+                shifted = gains.copy()
+                shifted[0] += margin - least
+                assert rates.passive(shifted) == (margin > 0.0)
+                assert rates.passive([shifted, np.ones(3 + lags) * [1.0, *[0.0] * (2 + lags)]]) == (margin > 0.0)
+
+
+def test_fit_of_gains_is_exact_on_its_own_data_and_enforces_passivity(memory):
+    rates, w = memory.rates, OMEGAS
+    Z = memory.impedance(w)
+    C = 1.5 * (rates.basis(w) @ np.array(memory.gains)).real
+    fitted = fit_gains(rates, w, Z.real, C, Z.real[0])
+    np.testing.assert_allclose(fitted.damping, C, rtol=1e-6)
+    # Data up to Omega = 0.9 that call for a wave whose damping turns negative beyond.
+    rates, wave_gains = FilterRates(8, 5.0, 30.0, 60.0), np.zeros(11)
+    wave_gains[-1] = 0.05
+    w = np.linspace(0.0, 0.9, 12)
+    G = rates.basis(w) @ wave_gains
+    assert rates.least_dissipation(wave_gains) < 0.0 < G.real.min()
+    enforced = fit_gains(rates, w, 1.4 - 1.5 * w * G.imag, 1.5 * G.real, 1.4)
+    assert enforced.gains[0] > 0.0
+    assert rates.least_dissipation(enforced.gains) >= 0.0
+
+
+def test_active_gains_are_refused():
+    gains = (0.0,) * 10 + (0.05,)
+    with pytest.raises(InputError, match="passive"):
+        FilmMemoryContact(**(COEFFICIENTS | {"gains": gains}), **BOX)
+
+
+def test_si_element_is_the_dimensionless_one_in_other_units(memory, scales):
+    si = memory.to_si(scales)
+    wrapped = ScaledContact(memory, scales)
+    T, u, v = wave(pi, 40)
+    for i in range(1, 40):
+        arguments = T[1] * scales.time, u[i] * scales.length, v[i] * scales.rate
+        force = si.advance(*arguments)
+        assert force == pytest.approx(wrapped.advance(*arguments), rel=1e-12)
+    assert si.spring(1e-6) == pytest.approx(memory.spring(1e-6 / scales.length) * scales.force)
+    assert si.approach_at(900.0) == pytest.approx(memory.approach_at(0.9) * scales.length)
+    Z = memory.impedance(pi) * scales.stiffness
+    np.testing.assert_allclose(si.impedance(pi / scales.time), Z)
+    assert si.omega_range[1] == pytest.approx(60.0 / scales.time)
+    F, stiffness, damping = si.step_tangents(T[1] * scales.time, scales.length, 0.0)
+    ours = memory.step_tangents(T[1], 1.0, 0.0)
+    expected = [
+        value * unit for value, unit in zip(ours, (scales.force, scales.stiffness, scales.damping), strict=True)
+    ]
+    assert [F, stiffness, damping] == pytest.approx(expected)
+    with pytest.raises(InputError, match="units"):
+        si.to_si(scales)
+
+
+def test_file_round_trip(memory, scales, tmp_path):
+    for element in (memory, replace(memory, fit={"rms": 0.01}, source={"n": 64}), memory.to_si(scales)):
+        back = load_element(element.save(tmp_path / "e.json"))
+        assert back == element and type(back) is FilmMemoryContact
+        assert back.fit == element.fit and back.source == element.source
+        document = json.loads((tmp_path / "e.json").read_text())
+        assert (document["schema"], document["kind"]) == ("ehlcontact-element", "memory")
+        u = element.approach_at(1.1 if element.scales is None else 1.1 * scales.force)
+        assert back.advance(1e-6, u, 0.0) == element.advance(1e-6, u, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("section", "key", "value", "message"),
+    [
+        ("parameters", "gains", 1.0, "parameters.gains"),
+        ("parameters", "gains", [1.0, "x", 2.0, 3.0], "gains"),
+        ("parameters", "film", None, "parameters.film"),
+        ("parameters", "film", -1.0, "film"),
+        ("parameters", "lag_rate", 0.0, "lag_rate"),
+        (None, "scales", [1.0], "scales"),
+        (None, "units", "SI", "scales"),
+        ("valid", "low", 5.0, "low"),
+    ],
+)
+def test_wrong_files_name_the_entry(memory, tmp_path, section, key, value, message):
+    path = memory.save(tmp_path / "wrong.json")
+    document = json.loads(path.read_text())
+    (document if section is None else document[section])[key] = value
+    path.write_text(json.dumps(document))
+    with pytest.raises(InputError, match=message) as caught:
+        load_element(path)
+    assert "wrong.json" in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_leaving_the_box_is_told_once(memory):
+    with pytest.warns(OutsideValidityWarning, match="approach 1.5"):
+        memory.advance(0.1, 1.5, 0.0)
+    memory.advance(0.1, 1.6, 0.0)  # warnings are errors here: a second one would fail
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"film": 0.0}, "film"),
+        ({"exponent": 0.0}, "exponent"),
+        ({"squeeze": -0.1}, "squeeze"),
+        ({"inlet_rate": math.inf}, "inlet_rate"),
+        ({"gains": (0.1, 0.1, 0.1)}, "gains"),
+        ({"gains": (0.1, math.nan, 0.1, 0.1)}, "gains"),
+    ],
+)
+def test_bad_coefficients(changes, message):
+    with pytest.raises(InputError, match=message):
+        FilmMemoryContact(**(COEFFICIENTS | changes), **BOX)
+
+
+@pytest.mark.parametrize("dt", [0.0, -1.0, math.nan, math.inf])
+def test_bad_steps(memory, dt):
+    with pytest.raises(InputError, match="dt"):
+        memory.advance(dt, 0.9, 0.0)
+
+
+def test_not_a_number_leaves_the_state(memory):
+    before = memory.save_state()
+    with pytest.raises(InputError, match="finite"):
+        memory.advance(0.1, math.nan, 0.0)
+    np.testing.assert_array_equal(memory.save_state(), before)
+
+
+def test_a_rotor_runs_on_it(memory, scales):
+    """A kicked journal: damped to the static equilibrium, the state moved from step to step only."""
+    rotor = JeffcottRotor.vertical(
+        disc_mass=20.0, journal_mass=1.0, shaft_stiffness=2e7, shaft_damping=200.0, load=(0.0, -1000.0)
+    )
+    contact = memory.to_si(scales)
+    u = contact.approach_at(abs(float(rotor.static_load[0])) / rotor.bearings)
+    start = replace(rotor.rest_state(np.array([-u])), journal_velocity=np.array([0.0, 2e-3]))
+    contact.rest(u)
+    dt = 5.0 * scales.time
+    run = simulate_rotor(rotor, [contact], dt=dt, until=2000 * dt, start=start)
+    assert run.status == "converged"
+    first, last = (np.ptp(run.approach[part, 0]) for part in (slice(0, 200), slice(-200, None)))
+    assert last < 0.5 * first and run.approach[-200:, 0].mean() == pytest.approx(u, rel=1e-3)
+    replay = memory.to_si(scales)
+    replay.rest(u)
+    forces = [replay.advance(dt, a, b) for a, b in zip(run.approach[1:, 0], run.rate[1:, 0], strict=True)]
+    np.testing.assert_allclose(forces, run.force[1:, 0], rtol=1e-9)

@@ -1,0 +1,115 @@
+"""Fit of the film-memory element to impedance and records of full EHL, and the one element for all cases."""
+
+import importlib.util
+from dataclasses import replace
+from math import pi
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from ehlcontact import FreeVibration, HarmonicLoad, InputError, MoesPoint, impedance, simulate
+from reduced_models import ContactRecord, fit_memory
+
+POINT = MoesPoint(200, 10, 0.5)
+OMEGAS = np.concatenate([[0.0], np.geomspace(0.03, 60.0, 24)])
+EXAMPLE = Path(__file__).parents[2] / "examples" / "one_element_for_all.py"
+
+
+@pytest.fixture(scope="module")
+def coarse():
+    """Impedance and records of the same contact on a coarse grid."""
+    response = impedance(POINT, OMEGAS, n=32)
+    motions = (FreeVibration(5.13), HarmonicLoad(pi / 4), HarmonicLoad(2.0 * pi))
+    records = [
+        ContactRecord.from_result(simulate(POINT, motion, n=32, domain=response.domain)) for motion in motions
+    ]
+    return response, records
+
+
+def test_one_element_fits_impedance_and_records(coarse):
+    response, records = coarse
+    result = fit_memory(response, records, lags=8)
+    assert max(result.record_rms) < 0.015
+    band = response.omega <= 30.0
+    assert np.abs(result.damping_error[band]).max() < 0.1 and np.abs(result.stiffness_error[band]).max() < 0.01
+    element = result.element
+    Z = element.impedance(response.omega[1:])
+    np.testing.assert_allclose(
+        Z.imag / response.omega[1:] / response.damping[1:] - 1.0, result.damping_error[1:], atol=1e-9
+    )
+    assert element.rms == result.rms < 0.01
+    assert element.source["n"] == 32 and element.source["point"]["M"] == 200
+    assert element.is_valid(0.87) and element.omega_range == (0.0, 60.0)
+    T, u, v = (getattr(records[0], name) for name in ("T", "approach", "rate"))
+    error = element.drive(T, u, v) - records[0].force
+    assert np.sqrt(np.mean(error**2)) / np.std(records[0].force) == pytest.approx(result.record_rms[0])
+
+
+def test_cross_validation_chooses_the_order_and_the_impedance_alone_will_do(coarse, monkeypatch):
+    monkeypatch.setattr("reduced_models.memory_fit.ORDERS", (2, 8))
+    result = fit_memory(coarse[0])
+    assert result.validation[2] > 1.5 * result.validation[8] and result.element.lags == 8
+    assert result.rms is None and result.element.squeeze == 0.0
+    assert result.element.load_range == (0.9, 1.1)
+
+
+def test_records_of_simulations_know_where_to_solve_the_impedance(coarse):
+    response, records = coarse
+    element = fit_memory(None, records[2], lags=4).element
+    C = np.interp(0.05, response.omega, response.damping)
+    assert element.impedance(0.05)[0].imag / 0.05 == pytest.approx(C, rel=0.05)
+    with pytest.raises(InputError, match="give an impedance"):
+        fit_memory(None)
+    with pytest.raises(InputError, match="give an impedance"):
+        fit_memory(None, replace(records[0], n=None))
+
+
+def test_bad_data_for_the_fit(coarse):
+    response, records = coarse
+    plain = SimpleNamespace(
+        omega=response.omega, stiffness=response.stiffness, damping=response.damping, approach=response.approach
+    )
+    with pytest.raises(InputError, match="at least 8 frequencies"):
+        fit_memory(impedance(POINT, [0.0, 1.0], n=32))
+    few = SimpleNamespace(
+        **(vars(plain) | {key: getattr(plain, key)[9:] for key in ("omega", "stiffness", "damping")})
+    )
+    with pytest.raises(InputError, match="lowest omega"):
+        fit_memory(few)
+    with pytest.raises(InputError, match="approach"):
+        fit_memory(SimpleNamespace(**(vars(plain) | {"approach": 1.0})))
+    with pytest.raises(InputError, match=r"records\[0\].n"):
+        fit_memory(response, replace(records[0], n=64))
+    with pytest.raises(InputError, match="rate"):
+        fit_memory(plain, replace(records[0], rate=-records[0].rate))
+    with pytest.raises(InputError, match="damping"):
+        fit_memory(SimpleNamespace(**(vars(plain) | {"damping": -plain.damping})), lags=4)
+    with pytest.raises(InputError, match="lags"):
+        fit_memory(plain, lags=0)
+
+
+@pytest.mark.slow
+def test_one_element_for_all():
+    """What issue 4 asks for, on n = 64; `examples/one_element_for_all.py` prints it at any n."""
+    spec = importlib.util.spec_from_file_location("one_element_for_all", EXAMPLE)
+    example = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(example)
+    Z = impedance(example.POINT, example.OMEGAS, n=64, domain=example.DOMAIN)
+    seen = {name: example.record(motion, 64) for name, motion in example.fitted_motions().items()}
+    unseen = {"chirp": example.record(example.chirp(), 64), "step": example.record(example.load_step(), 64)}
+    result = fit_memory(Z, list(seen.values()))
+    rows = {name: errors for name, *errors in example.table(result, seen, unseen)}
+    assert len(rows) == 11
+    assert max(memory for memory, *_ in rows.values()) < 0.012
+    assert max(one for _, _, one in rows.values()) > 0.04, "what one viscous cubic makes of it"
+    band = (Z.omega >= 0.02) & (Z.omega <= 30.0)
+    assert np.abs(result.damping_error[band]).max() < 0.1
+    assert np.abs(result.stiffness_error[band]).max() < 0.01
+    w = np.geomspace(0.022, 29.5, 40)  # frequencies that the fit did not see
+    between, ours = impedance(example.POINT, w, n=64, domain=example.DOMAIN), result.element.impedance(w)
+    assert np.abs(ours.imag / w / between.damping - 1.0).max() < 0.1
+    assert np.abs(ours.real / between.stiffness - 1.0).max() < 0.01
+    low = result.element.impedance(0.05)[0].imag / 0.05
+    assert low == pytest.approx(np.interp(0.05, Z.omega, Z.damping), rel=0.03)

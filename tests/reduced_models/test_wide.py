@@ -1,0 +1,210 @@
+"""Wide-range element: static curve from lift-off to overload, memory that follows the load, and full EHL."""
+
+import json
+from dataclasses import replace
+from math import inf, nan, pi
+
+import numpy as np
+import pytest
+
+from ehlcontact import ConvergenceError, InputError, MoesPoint, PrescribedLoad, impedance, simulate, solve_steady
+from reduced_models import (
+    OutsideValidityWarning,
+    WideRangeContact,
+    fit_memory,
+    load_element,
+    wide_range_contact,
+    wide_range_from_solves,
+)
+
+# Shape of M = 2900, L = 19, kappa = 0.11.
+LOADS = np.array([0.005, 0.02, 0.1, 0.3, 1.0, 3.0])
+FILM = np.array([0.0649, 0.0659, 0.0626, 0.0574, 0.0499, 0.0400])
+TABLES = {
+    "loads": tuple(LOADS),
+    "approach": tuple(LOADS ** (2.0 / 3.0) - FILM),
+    "gain_loads": (0.03, 0.3, 2.0),
+    "gains": tuple(
+        tuple(scale * g for g in (0.02, 0.01, 0.05, 0.2, 0.1, 0.1, 0.2)) for scale in (0.4, 0.11, 0.03)
+    ),
+    "squeeze": 0.2,
+    "lag_rate": 2.5,
+    "inlet_rate": 20.0,
+    "fast_rate": 60.0,
+}
+
+
+@pytest.fixture
+def wide():
+    return WideRangeContact(**TABLES)
+
+
+def test_static_curve_goes_through_its_table(wide):
+    np.testing.assert_allclose(wide.spring(np.array(wide.approach)), wide.loads, rtol=1e-10)
+    for F, u in zip(wide.loads, wide.approach, strict=True):
+        assert wide.approach_at(F) == pytest.approx(u, abs=1e-10)
+    assert (wide.low, wide.high) == (wide.approach[0], wide.approach[-1])
+    assert wide.load_range == (0.005, 3.0)
+
+
+def test_static_curve_rises_from_nothing_without_a_kink(wide):
+    u = np.concatenate([-np.geomspace(1e3, 0.1, 400), np.linspace(-0.09, 4.0, 2000)])
+    F = wide.spring(u)
+    assert (F > 0.0).all() and (np.diff(F) > 0.0).all()
+    for F, u in zip(wide.loads, wide.approach, strict=True):
+        below, above = (wide.spring_tangent(u + s) for s in (-1e-7, 1e-7))
+        assert above == pytest.approx(below, rel=1e-3), f"slope at load {F}"
+    h = 1e-7
+    for u in (-1.0, -0.02, 0.05, 0.4, 1.2, 5.0):
+        slope = (wide.spring(u + h) - wide.spring(u - h)) / (2.0 * h)
+        assert wide.spring_tangent(u) == pytest.approx(slope, rel=1e-4)
+
+
+def test_impedance_interpolates_over_the_load(wide):
+    """At a load of the table in the units of that load: K and C scale with F^(1/3) and F^(2/3)."""
+    for F, gains in zip(wide.gain_loads, wide.gains, strict=True):
+        own = F ** (1.0 / 3.0)
+        C = 1.5 * float((wide.rates.basis([pi]) @ np.array(gains))[0].real)
+        Z = wide.impedance(pi / own, F)[0]
+        assert Z.imag / (pi / own) == pytest.approx(C * own * own, rel=1e-9)
+    between = [wide.impedance(0.01, F)[0].imag / F ** (2.0 / 3.0) for F in (0.3, 0.7, 2.0)]
+    assert between[0] > between[1] > between[2]
+
+
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
+def test_tangents_across_the_table(wide):
+    rng = np.random.default_rng(3)
+    for _ in range(100):
+        wide.rest(rng.uniform(-0.2, 2.0))
+        wide.advance(0.3, rng.uniform(-0.2, 2.0), rng.normal())
+        dt, u, v, h = 10.0 ** rng.uniform(-2.0, 1.0), rng.uniform(-0.2, 2.0), rng.normal(), 1e-7
+        _, stiffness, damping = wide.step_tangents(dt, u, v)
+        up, down = (wide.step_tangents(dt, u + s, v)[0] for s in (h, -h))
+        assert stiffness == pytest.approx((up - down) / (2.0 * h), rel=1e-4, abs=1e-5)
+        up, down = (wide.step_tangents(dt, u, v + s)[0] for s in (h, -h))
+        assert damping == pytest.approx((up - down) / (2.0 * h), rel=1e-4, abs=1e-5)
+
+
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
+def test_surfaces_may_part_and_meet_again(wide):
+    """Pulled apart fast and pressed together again: no pull, no spurious force, then the static one."""
+    T = np.linspace(0.0, 6.0, 601)
+    phase = pi * (np.clip((T - 1.0) / 0.5, 0.0, 1.0) + np.clip((T - 4.0) / 0.5, 0.0, 1.0))
+    moving = ((T > 1.0) & (T < 1.5)) | ((T > 4.0) & (T < 4.5))
+    u = -1.05 + 1.95 * np.cos(phase)
+    v = np.where(moving, -1.95 * np.sin(phase) * pi / 0.5, 0.0)
+    force = wide.drive(T, u, v)
+    assert (force >= 0.0).all()
+    apart = (T > 1.3) & (T < 3.99)
+    assert force[apart].max() < 0.002 and force[apart].min() == 0.0
+    assert force[(T > 3.5) & (T < 4.0)] == pytest.approx(wide.spring(-3.0), rel=1e-3)
+    closing = (T > 4.3) & (T < 4.45)
+    assert (force[closing] > wide.spring(u[closing])).all()
+    assert wide.advance(1e6, 0.9, 0.0) == pytest.approx(wide.spring(0.9), rel=1e-5)
+
+
+def test_slow_cycle_dissipates_and_follows_the_static_curve(wide):
+    T = np.linspace(0.0, 2000.0, 201)  # steps of 10: one turn of a rotor
+    u = 0.75 - 0.7 * np.cos(2.0 * pi * T / 2000.0)
+    v = 0.7 * 2.0 * pi / 2000.0 * np.sin(2.0 * pi * T / 2000.0)
+    force = wide.drive(T, u, v)
+    assert 0.0 < np.trapezoid(force, u) < 0.01
+    np.testing.assert_allclose(force, wide.spring(u), atol=3e-3)
+
+
+def test_files_and_si(wide, scales, tmp_path):
+    si = wide.to_si(scales)
+    for element in (wide, si):
+        back = load_element(element.save(tmp_path / "w.json"))
+        assert back == element and type(back) is WideRangeContact
+        assert json.loads((tmp_path / "w.json").read_text())["kind"] == "wide"
+    assert si.load_range == (0.005 * scales.force, 3.0 * scales.force)
+    assert si.low == wide.low * scales.length
+    u = 0.9
+    expected = wide.advance(0.1, u, 0.3) * scales.force
+    assert si.advance(0.1 * scales.time, u * scales.length, 0.3 * scales.rate) == pytest.approx(expected)
+
+
+def test_leaving_the_loads_is_told_once(wide):
+    with pytest.warns(OutsideValidityWarning, match="approach"):
+        wide.advance(1.0, 3.0, 0.0)
+    wide.advance(1.0, 3.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"loads": (0.1, 0.05, 0.2, 0.3, 1.0, 3.0)}, r"loads\[1\]"),
+        ({"loads": (0.0, 0.02, 0.1, 0.3, 1.0, 3.0)}, r"loads\[0\]"),
+        ({"loads": LOADS[1:]}, "approach"),
+        ({"loads": (1.0,), "approach": (0.9,)}, "loads"),
+        ({"loads": "many"}, "loads"),
+        ({"approach": (nan, 0.0, 0.1, 0.4, 0.9, 2.0)}, "approach"),
+        ({"approach": (-0.04, 0.01, 0.15, 0.39, 1.2, 2.0)}, r"approach\[4\]"),
+        ({"approach": (-0.04, 0.01, 0.15, 0.39, 0.38, 2.0)}, r"approach\[4\]"),
+        ({"gain_loads": (0.03, 0.3)}, "gains"),
+        ({"gain_loads": (0.0, 0.3, 2.0)}, "gain_loads"),
+        ({"gains": ((0.1, 0.1, 0.1),) * 3}, "gains"),
+        ({"gains": ((0.1, 0.1, 0.1, 0.1), (0.1, 0.1, 0.1), (0.1, 0.1, 0.1))}, "gains"),
+        ({"gains": ((0.0, 0.0, 0.0, -0.1),) * 3}, "passive"),
+        ({"fast_rate": -1.0}, "fast_rate"),
+        ({"squeeze": inf}, "squeeze"),
+        ({"units": "SI"}, "scales"),
+    ],
+)
+def test_bad_tables_are_named(changes, message):
+    with pytest.raises(InputError, match=message):
+        WideRangeContact(**(TABLES | changes))
+
+
+def test_wrong_files_name_the_entry(wide, tmp_path):
+    path = wide.save(tmp_path / "wrong.json")
+    document = json.loads(path.read_text())
+    for key, value in (("gains", 3.0), ("loads", None), ("squeeze", "much")):
+        changed = document | {"parameters": document["parameters"] | {key: value}}
+        path.write_text(json.dumps(changed))
+        with pytest.raises(InputError, match=rf"wrong\.json.*{key}"):
+            load_element(path)
+
+
+def test_from_solves_meets_loads_it_was_not_made_of():
+    point = MoesPoint(200, 10, 0.5)
+    loads, unused = (0.05, 0.1, 0.25, 0.6, 1.0, 2.0), (0.16, 0.4, 1.5)
+    wide = wide_range_from_solves(point, loads, memory_loads=(0.2, 1.0), lags=6, n=48)
+    for F in unused:
+        u = solve_steady(replace(point, M=200 * F), n=48).approach * F ** (2.0 / 3.0)
+        assert wide.spring(u) == pytest.approx(F, rel=0.01)
+    Z = impedance(point, [0.05, pi, 2.0 * pi], n=48)
+    ours = wide.impedance(Z.omega)
+    np.testing.assert_allclose(ours.real, Z.stiffness, rtol=0.02)
+    assert ours[0].imag / 0.05 == pytest.approx(Z.damping[0], rel=0.05)
+    assert wide.source["point"]["M"] == 200 and wide.source["n"] == 48
+
+
+def test_bad_solves():
+    with pytest.raises(InputError, match=r"loads\[0\]"):
+        wide_range_from_solves(MoesPoint(200, 10, 0.5), (0.0, 1.0), n=32)
+    with pytest.raises(InputError, match="number of responses"):
+        wide_range_contact((0.5, 1.0), (0.8, 0.87), (1.0,), [])
+    with pytest.raises((InputError, ConvergenceError)):
+        wide_range_from_solves(MoesPoint(200, 10, 0.5), (1e-9, 1.0), n=32)
+
+
+@pytest.mark.slow
+def test_a_6205_from_lift_off_to_overload():
+    """Static curve against unused solves, and a load pulse from 5 % to 200 % and back against full EHL."""
+    point = MoesPoint(2900, 19, 0.11)
+    omegas = np.concatenate([[0.0], np.geomspace(0.03, 60.0, 24)])
+    memory = fit_memory(impedance(point, omegas, n=128), lags=12).element
+    wide = wide_range_from_solves(point, memory=memory, n=128)
+    for F in (0.01 * 1.3, 0.025, 0.06, 0.12, 0.2, 0.45, 0.8, 1.3, 2.2, 2.7):
+        u = solve_steady(replace(point, M=2900 * F), n=128).approach * F ** (2.0 / 3.0)
+        assert wide.spring(u) == pytest.approx(F, rel=0.01)
+    T = np.linspace(0.0, 12.0, 601)
+    load = 0.05 + 1.95 * np.sin(pi * np.clip((T - 1.0) / 8.0, 0.0, 1.0)) ** 2
+    run = simulate(point, PrescribedLoad(T, load), n=128)
+    error = wide.drive(run.T, run.approach, run.rate) - run.force
+    rms = np.sqrt(np.mean(error**2)) / run.force.max()
+    static = np.sqrt(np.mean((wide.spring(run.approach) - run.force) ** 2)) / run.force.max()
+    assert rms < 0.006
+    assert rms < 0.6 * static, "memory must be better than no memory"
