@@ -81,7 +81,7 @@ class ImpedanceResult:
 
 
 def impedance(
-    point: Point, omegas: Sequence[float] | Array, *, n: int = 64, domain: Domain | None = None
+    point: Point, omegas: Sequence[float] | Array, *, n: int = 80, domain: Domain | None = None
 ) -> ImpedanceResult:
     """Linearise the converged steady contact and return K(Omega) and C(Omega).
 

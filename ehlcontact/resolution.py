@@ -13,7 +13,8 @@ from ehlcontact.scaling import MoesPoint
 
 FEWEST_INTERVALS, MOST_INTERVALS = 128, 2048
 LARGEST_MESH = 0.12  # in semi-axes; what the pressure itself asks for
-MESH_OF_INLET = 0.3  # largest mesh over the width of the inlet; films come out negative from about 0.8
+MESH_OF_INLET = 0.6  # largest mesh over the width of the inlet; films come out negative from about 0.8
+LOADING_MESH = 0.4  # the same on the way to the load, where a negative film spoils the start
 LARGEST_GRID = 800_000  # nodes
 THIN = 0.06  # inlet width below which `CLOSE` will do
 CLOSE = Domain(-2.0, 1.35, 1.6)  # around a film so thin that oil further out makes no difference
@@ -32,7 +33,7 @@ def resolved_load(point: MoesPoint, mesh: float) -> float:
     """Moes load up to which `mesh` (in semi-axes) resolves the film at L and kappa of `point`; at most its M."""
 
     def excess(log_load: float) -> float:
-        return inlet_width(replace(point, M=exp(log_load))) * MESH_OF_INLET - mesh
+        return inlet_width(replace(point, M=exp(log_load))) * LOADING_MESH - mesh
 
     highest = log(point.M)
     lowest = min(0.0, highest)

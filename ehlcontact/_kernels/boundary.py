@@ -13,7 +13,7 @@ from ehlcontact._kernels.reynolds import operator_at
 PASSES = 4
 REACH = 3  # nodes on either side of the boundary
 DOMINANCE = 3.0  # flow term over wedge term
-SQUEEZE_DOMINANCE = 10.0  # flow term over squeeze term
+SQUEEZE_DOMINANCE = 30.0  # flow term over squeeze term
 
 
 @jit

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -34,9 +34,12 @@ def export(
     check_file("--output", output, (".fmu",))
     check_json(json_to)
     from fmu import BuildError, export_contact, verify
-    from reduced_models import load_element
+    from reduced_models import CubicContact, LinearContact, load_element
 
-    element = load_element(file)
+    element: Any = load_element(file)
+    if not isinstance(element, LinearContact | CubicContact):
+        kinds = f"{LinearContact.kind} or {CubicContact.kind}; FMUs of other kinds are not built yet"
+        raise InputError(str(file), f"kind {element.kind!r}", kinds)
     try:
         export_contact(element, output, fmi=fmi, model_name=name)
     except BuildError as error:

@@ -30,7 +30,7 @@ def impedance(
     eta0: o.Eta0 = o.ETA0,
     viscosity: o.Viscosity = o.VISCOSITY,
     density: o.Density = o.DENSITY,
-    n: o.Intervals = 64,
+    n: o.Intervals = 80,
     domain: o.Region = None,
     json_to: o.JsonTo = None,
 ) -> None:

@@ -276,3 +276,9 @@ def test_bad_input_is_named(field, arguments):
     arguments = {"point": POINT, "n": N, **arguments}
     with pytest.raises(InputError, match=rf"^{field} = .*: must be "):
         simulate(arguments.pop("point"), HarmonicLoad(pi), **arguments)
+
+
+def test_fast_squeezing_of_a_narrow_ellipse():
+    """Local passes along the cavitation boundary must keep out of where the squeeze term rules."""
+    record = simulate(MoesPoint(500, 15, 0.12), HarmonicLoad(12.56), n=128, until=0.4)
+    assert record.cycles.max() < 10

@@ -11,6 +11,7 @@ from ehlcontact.cli.reproduce.runs import Runs
 from ehlcontact.errors import InputError
 from reduced_models import (
     ContactRecord,
+    ElementFit,
     FitResult,
     OscillatorResult,
     OutsideValidityWarning,
@@ -29,7 +30,7 @@ class Fits:
     """Elements of the cases, each fitted once."""
 
     runs: Runs
-    _fits: dict[tuple[str, str, int, bool], FitResult | str] = field(default_factory=dict)
+    _fits: dict[tuple[str, str, int, bool], ElementFit | str] = field(default_factory=dict)
 
     def record(self, case: str, n: int | None = None) -> ContactRecord | None:
         """History of the case on the grid with `n` intervals (by default the finer), None if it failed."""
@@ -46,7 +47,7 @@ class Fits:
         found = self._fitted(case, model, self.runs.n, whole)
         return found if isinstance(found, str) else None
 
-    def _fitted(self, case: str, model: str, n: int, whole: bool) -> FitResult | str:
+    def _fitted(self, case: str, model: str, n: int, whole: bool) -> ElementFit | str:
         key = (case, model, n, whole)
         if key not in self._fits:
             record = self.record(case, n)

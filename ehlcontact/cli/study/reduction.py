@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from ehlcontact.errors import InputError
 from ehlcontact.motion import HarmonicLoad
@@ -18,7 +18,7 @@ RECORDS = {
     "harmonic": "harmonic, contact band",
     "rotor_band": "harmonic, rotor band",
 }
-MODELS = ("linear", "cubic")
+MODELS: tuple[Literal["linear", "cubic"], ...] = ("linear", "cubic")
 CHOSEN = ("rotor_band", "cubic")  # the element of the FMU and of the rotor: fitted at its load and frequency
 
 
@@ -52,7 +52,8 @@ class Reduction:
 
 def reduce_records(simulations: Mapping[str, SimulationResult], scales: Scales) -> Reduction:
     """Fit every model to every record; a fit that makes no contact is kept as the reason why."""
-    fits, refused = {}, {}
+    fits: dict[tuple[str, str], FitResult] = {}
+    refused: dict[tuple[str, str], str] = {}
     for record, simulation in simulations.items():
         data = ContactRecord.from_result(simulation)
         for model in MODELS:
