@@ -27,6 +27,15 @@ Density = Annotated[
     typer.Option("--density", help="dowson-higginson or incompressible.", rich_help_panel=_POINT, metavar="LAW"),
 ]
 Intervals = Annotated[int, typer.Option("--n", help="Intervals along X, a multiple of 16.", rich_help_panel=_GRID)]
+ChosenIntervals = Annotated[
+    int | None,
+    typer.Option(
+        "--n",
+        show_default="what the film needs, 128 or more",
+        help="Intervals along X, a multiple of 16.",
+        rich_help_panel=_GRID,
+    ),
+]
 Region = Annotated[
     tuple[float, float, float] | None,
     typer.Option(
@@ -54,9 +63,10 @@ ALPHA, ETA0, VISCOSITY, DENSITY = 2.2e-8, 0.04, "roelands", "dowson-higginson"
 HDF5 = (".h5", ".hdf5")
 
 
-def region(domain: tuple[float, float, float] | None, n: int) -> Domain | None:
-    """Check `n` and return the domain, None where the default is wanted."""
-    check_intervals(n)
+def region(domain: tuple[float, float, float] | None, n: int | None) -> Domain | None:
+    """Check `n`, where given, and return the domain, None where the default is wanted."""
+    if n is not None:
+        check_intervals(n)
     return None if domain is None else Domain(*domain)
 
 
