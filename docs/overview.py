@@ -3,6 +3,7 @@
 Run ``ehlcontact run examples/deep_groove_6205.toml`` first, then ``python docs/overview.py``.
 """
 
+import json
 from pathlib import Path
 
 import h5py
@@ -10,14 +11,14 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from ehlcontact import SimulationResult, SteadyResult, load
-from reduced_models import load_element
+from reduced_models import FilmMemoryContact
 
 RESULTS = Path("results/deep_groove_6205")
 PICTURE = Path("docs/images/overview.png")
 
 
 def main() -> None:
-    """Draw pressure, film wave, force loop and rotor response side by side."""
+    """Draw pressure, film wave, damping over frequency and rotor response side by side."""
     steady, run = load(RESULTS / "steady.h5"), load(RESULTS / "harmonic.h5")
     assert isinstance(steady, SteadyResult)
     assert isinstance(run, SimulationResult)
@@ -42,21 +43,22 @@ def main() -> None:
     figure.colorbar(image, ax=panel)
 
     panel = axes[1, 0]
-    element = load_element(RESULTS / "elements" / "harmonic_cubic.json")
-    late = run.T > run.T[-1] / 3.0
-    for name, force, style in (
-        ("full film", run.force, "-"),
-        ("cubic spring and damper", element.force(run.approach, run.rate), "--"),
-    ):
-        panel.plot(
-            run.approach[late] * scales.length * 1e6,
-            (force - element.spring(run.approach))[late] * scales.force,
-            style,
-            label=name,
-        )
-    panel.set(xlabel="approach [um]", ylabel="damping force [N]")
-    panel.set_title("force over approach, less the spring", loc="left")
-    panel.legend(frameon=False, fontsize=8, loc="center")
+    found = json.loads((RESULTS / "results.json").read_text(encoding="utf-8"))
+    film, rotor = found["memory"]["impedance"], found["operating_point"]["rotor_omega"]
+    memory = FilmMemoryContact.load(RESULTS / "elements" / "memory.json")
+    omega = np.geomspace(0.5 * rotor, film["omega"][-1], 300)
+    panel.loglog(film["omega"][1:], film["damping"][1:], "o", markersize=4, label="full film")
+    panel.plot(omega, memory.impedance(omega).imag / omega, label="film memory, one element")
+    cubics = [row for row in found["fits"] if row["model"] == "cubic" and "refused" not in row]
+    at = [np.mean(row["valid"]["omega"]) for row in cubics]
+    panel.plot(
+        at, [row["parameters"]["C1"] for row in cubics], "s", color="tab:red", label="cubics, one band each"
+    )
+    panel.axvline(rotor, color="grey", linestyle=":")
+    panel.annotate(" rotor", (rotor, 0.3), xycoords=("data", "axes fraction"), color="grey")
+    panel.set(xlabel="frequency [u_sum/2a]", ylabel="damping [-]")
+    panel.set_title("damping of the contact and of its elements", loc="left")
+    panel.legend(frameon=False, fontsize=8)
 
     panel = axes[1, 1]
     with h5py.File(RESULTS / "rotor_full.h5", "r") as file:
@@ -65,7 +67,8 @@ def main() -> None:
     panel.plot(t * 1e3, force[:, 1], label="contact 2")
     panel.set(xlabel="time [ms]", ylabel="contact force [N]")
     panel.set_title("Jeffcott rotor on full contacts", loc="left")
-    panel.legend(frameon=False, fontsize=8)
+    panel.set_ylim(top=700)
+    panel.legend(frameon=False, fontsize=8, ncols=2)
     PICTURE.parent.mkdir(exist_ok=True)
     figure.savefig(PICTURE, dpi=110)
 

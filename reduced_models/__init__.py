@@ -7,7 +7,7 @@
 | power_fit | variable projection for the power law |
 | estimators | the models that `fit` knows |
 | uncertainty | intervals of coefficients where residuals hang together |
-| fit | records to element: quality, validity, root and tangent |
+| fit, fit_result | records to element: quality, validity, root and tangent |
 | sensitivity | which terms of the seven-term polynomial the records need |
 | element | the kinds of element, `load_element` |
 | element_base | what every element carries: validity box, quality, source, units, file |
@@ -19,13 +19,14 @@
 | polynomial, polynomial_law | `PolynomialContact`, likewise |
 | power, power_law | `PowerLawContact`, likewise |
 | film_law, film_curve, film_filters | a dry spring on a film that remembers: kernels, statics, impedance |
+| film_ode | the film law in continuous time |
 | film_contact | what the elements with a film memory have in common |
-| memory, memory_fit | `FilmMemoryContact`, and its joint fit to impedance and records |
+| memory, memory_target, memory_fit | `FilmMemoryContact`, and its joint fit to impedance and records |
 | wide, wide_build | `WideRangeContact`, and its building from solves |
 | contact | the protocol every contact obeys; `ScaledContact` shows a dimensionless one in SI |
 | oscillator | one mass on one element |
 | jeffcott | rotor parameters, contact mounts, linear matrices |
-| equilibrium | static equilibrium on contacts without memory |
+| equilibrium | static equilibrium on contacts that know their statics |
 | time_integration | generalised-alpha step condensed onto the journal |
 | contact_forces | forces and slopes of all contacts in a step |
 | rotor_simulation | the transient run: checks, Ctrl-C, failure |
@@ -53,6 +54,7 @@ from reduced_models.element import WideRangeContact as WideRangeContact
 from reduced_models.element import load_element as load_element
 from reduced_models.fit import FitResult as FitResult
 from reduced_models.fit import fit as fit
+from reduced_models.fit_result import ElementFit as ElementFit
 from reduced_models.jeffcott import ContactMount as ContactMount
 from reduced_models.jeffcott import JeffcottRotor as JeffcottRotor
 from reduced_models.jeffcott import RotorState as RotorState

@@ -24,16 +24,19 @@ class Contact(Protocol):
 
 @runtime_checkable
 class TangentContact(Contact, Protocol):
-    """A contact without memory, whose force and tangents follow from approach and rate alone."""
+    """A contact that knows its statics and the exact tangents of a step; every reduced element does."""
 
-    def force(self, approach: float, rate: float) -> float:
-        """Contact force."""
+    def rest(self, approach: float) -> float:
+        """Put the contact at rest at this approach; returns the static force."""
 
-    def stiffness(self, approach: float, rate: float) -> float:
-        """Tangent dF/du."""
+    def spring(self, approach: float) -> float:
+        """Static force; the state stays."""
 
-    def damping(self, approach: float, rate: float) -> float:
-        """Tangent dF/du'."""
+    def spring_tangent(self, approach: float) -> float:
+        """Slope of the static force."""
+
+    def step_tangents(self, dt: float, approach: float, rate: float) -> tuple[float, float, float]:
+        """What `advance` would return, and its derivatives dF/du and dF/du'; the state stays."""
 
 
 def has_tangents(contact: object) -> bool:
@@ -70,17 +73,28 @@ class ScaledContact:
         """Give the wrapped contact its state back."""
         self.contact.restore_state(state)
 
-    def force(self, approach: float, rate: float) -> float:
-        """Force [N], where the contact has no memory."""
-        s = self.scales
-        return float(self.contact.force(approach / s.length, rate / s.rate)) * s.force
+    def rest(self, approach: float) -> float:
+        """Put the contact at rest, where it can be; force [N]."""
+        return float(self.contact.rest(approach / self.scales.length)) * self.scales.force
 
-    def stiffness(self, approach: float, rate: float) -> float:
-        """Tangent dF/du [N/m], where the contact gives one."""
-        s = self.scales
-        return float(self.contact.stiffness(approach / s.length, rate / s.rate)) * s.stiffness
+    def spring(self, approach: float) -> float:
+        """Static force [N], where the contact gives one."""
+        return float(self.contact.spring(approach / self.scales.length)) * self.scales.force
 
-    def damping(self, approach: float, rate: float) -> float:
-        """Tangent dF/du' [N s/m], where the contact gives one."""
+    def spring_tangent(self, approach: float) -> float:
+        """Slope of the static force [N/m], where the contact gives one."""
+        return float(self.contact.spring_tangent(approach / self.scales.length)) * self.scales.stiffness
+
+    def step_tangents(self, dt: float, approach: float, rate: float) -> tuple[float, float, float]:
+        """Force [N], dF/du [N/m] and dF/du' [N s/m] at the end of a step, where the contact gives them."""
         s = self.scales
-        return float(self.contact.damping(approach / s.length, rate / s.rate)) * s.damping
+        force, stiffness, damping = self.contact.step_tangents(dt / s.time, approach / s.length, rate / s.rate)
+        return force * s.force, stiffness * s.stiffness, damping * s.damping
+
+    def warn_outside(self, approach: Any, rate: Any, omega: float | None, force: Any, stacklevel: int = 2) -> None:
+        """Warn where the motion leaves the validity box of a wrapped element; a full contact has none."""
+        warn = getattr(self.contact, "warn_outside", None)
+        if warn is not None:
+            s = self.scales
+            scaled = None if omega is None else omega * s.time
+            warn(approach / s.length, rate / s.rate, scaled, force / s.force, stacklevel + 1)

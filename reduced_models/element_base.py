@@ -74,6 +74,30 @@ class ContactElement(ABC):
         """Go back to a saved state."""
 
     @abstractmethod
+    def rest(self, approach: float) -> float:
+        """Put the contact at rest at this approach; returns the static force."""
+
+    @abstractmethod
+    def spring(self, approach: ArrayLike) -> float | NDArray[np.float64]:
+        """Static force."""
+
+    @abstractmethod
+    def spring_tangent(self, approach: float) -> float:
+        """Slope of the static force."""
+
+    @abstractmethod
+    def step_tangents(self, dt: float, approach: float, rate: float) -> tuple[float, float, float]:
+        """What `advance` would return, and its derivatives dF/du and dF/du'; the state stays."""
+
+    @abstractmethod
+    def approach_at(self, force: float) -> float:
+        """Static approach under `force` > 0."""
+
+    def copy(self) -> Self:
+        """The same element with a state of its own, at rest."""
+        return replace(self)  # type: ignore[type-var]
+
+    @abstractmethod
     def _si_factors(self, scales: Scales) -> dict[str, float]:
         """SI value of the unit of every coefficient."""
 
@@ -103,12 +127,17 @@ class ContactElement(ABC):
         return inside if u.ndim else bool(inside)
 
     def warn_outside(
-        self, approach: ArrayLike = (), rate: ArrayLike = (), omega: float | None = None, stacklevel: int = 2
+        self,
+        approach: ArrayLike = (),
+        rate: ArrayLike = (),
+        omega: float | None = None,
+        force: ArrayLike = (),
+        stacklevel: int = 2,
     ) -> None:
         """Warn, once per element, where a motion leaves the validity box.
 
-        Small excursions go unmentioned: a twentieth of the interval of approach or of the largest rate, an
-        octave of frequency.
+        Small excursions go unmentioned: a twentieth of the intervals of approach and load or of the largest
+        rate, an octave of frequency.
 
         Parameters
         ----------
@@ -116,6 +145,8 @@ class ContactElement(ABC):
             Of the motion.
         omega : float, optional
             Its angular frequency.
+        force : array_like
+            Contact forces along it.
         """
         if self._warned:
             return
@@ -127,6 +158,13 @@ class ContactElement(ABC):
             said.append(f"approach {float(worst):.4g} (fitted {text_of((self.low, self.high))})")
         if v.size and v.max() > fastest:
             said.append(f"rate {float(v.max()):.4g} (fitted up to {self.rate:.4g})")
+        f = np.asarray(force, float)
+        if f.size and self.load_range is not None:
+            least, most = self.load_range
+            slack = MARGIN * (most - least)
+            if f.min() < least - slack or f.max() > most + slack:
+                worst = f.max() if f.max() - most > least - f.min() else f.min()
+                said.append(f"force {float(worst):.4g} (fitted {text_of(self.load_range)})")
         if omega is not None and self.omega_range is not None:
             if not self.omega_range[0] / OCTAVE <= omega <= self.omega_range[1] * OCTAVE:
                 said.append(f"angular frequency {omega:.4g} (fitted {text_of(self.omega_range)})")

@@ -1,4 +1,4 @@
-"""Static equilibrium of a rotor on contacts without memory."""
+"""Static equilibrium of a rotor on contacts that know their statics."""
 
 from __future__ import annotations
 
@@ -36,30 +36,32 @@ def static_equilibrium(rotor: JeffcottRotor, contacts: Sequence[Any]) -> RotorSt
     ----------
     rotor : JeffcottRotor
     contacts : sequence
-        One per mount, in SI, with ``force`` and ``stiffness``.
+        One per mount, in SI, with `TangentContact`'s ``spring`` and ``spring_tangent``; their states stay.
 
     Raises
     ------
     InputError
-        Wrong number of contacts, a contact with memory, or no static load.
+        Wrong number of contacts, a contact without static law, or no static load.
     ConvergenceError
         The contacts do not stand against the load; ``result`` is the last state.
     """
     if len(contacts) != len(rotor.mounts):
         raise InputError("contacts", len(contacts), f"one per mount, {len(rotor.mounts)}")
     if not all(has_tangents(contact) for contact in contacts):
-        raise InputError("contacts", "with memory", "without memory, or start from rotor.state_at(approaches)")
+        raise InputError(
+            "contacts", "without static law", "reduced elements, or start from rotor.state_at(approaches)"
+        )
     load, normals, offsets = rotor.static_load, rotor.normals, rotor.offsets
     size = float(np.linalg.norm(load))
     if size == 0.0:
         raise InputError("static load", 0.0, "different from zero to press the contacts")
 
     def balance(q: _Floats) -> _Floats:
-        forces = [c.force(float(u), 0.0) for c, u in zip(contacts, normals @ q + offsets, strict=True)]
+        forces = [c.spring(float(u)) for c, u in zip(contacts, normals @ q + offsets, strict=True)]
         return rotor.bearings * normals.T @ np.array(forces) - load
 
     def tangent(q: _Floats) -> _Floats:
-        stiffness = [c.stiffness(float(u), 0.0) for c, u in zip(contacts, normals @ q + offsets, strict=True)]
+        stiffness = [c.spring_tangent(float(u)) for c, u in zip(contacts, normals @ q + offsets, strict=True)]
         return rotor.bearings * (normals.T * np.array(stiffness)) @ normals
 
     q = np.zeros(load.size)

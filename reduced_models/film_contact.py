@@ -18,6 +18,7 @@ from reduced_models.element_base import ContactElement
 from reduced_models.element_file import band, numbers
 from reduced_models.film_filters import DRY, FilterRates
 from reduced_models.film_law import CHAIN, FilmLaw, film_drive, film_rest, film_step, static, static_forces
+from reduced_models.film_ode import film_rate, film_rates
 
 _Floats = NDArray[np.float64]
 _SCALES = tuple(f.name for f in fields(Scales))
@@ -119,10 +120,6 @@ class FilmContact(ContactElement):
         f, length, _ = self._units
         return float(film_rest(self.law, require_finite("approach", approach) / length, self._state)) * f
 
-    def copy(self) -> Self:
-        """The same element at rest, with a state of its own."""
-        return replace(self)  # type: ignore[type-var]
-
     def drive(self, T: ArrayLike, approach: ArrayLike, rate: ArrayLike) -> _Floats:
         """Force along a whole record, from rest at its first approach; the element's own state stays.
 
@@ -188,27 +185,35 @@ class FilmContact(ContactElement):
         G = self.rates.basis(w * own) @ gains
         return np.asarray((tangent + 1j * w * own * own * DRY * G) * f / length)
 
+    @property
+    def state_count(self) -> int:
+        """Number of states of the film in continuous time."""
+        return 2 + self.lags
+
+    def state_rates(self, states: _Floats, approach: float, rate: float) -> tuple[float, _Floats]:
+        """Force and d(states)/dt in continuous time; states are all zero at rest.
+
+        What `advance` does with a motion that is cubic within the step; the element's own state is not touched.
+        """
+        f, length, time = self._units
+        rates = np.empty(states.size)
+        force = film_rates(self.law, states, approach / length, rate / length * time, rates)
+        return float(force) * f, rates / time
+
+    def rate_at(self, states: _Floats, approach: float, force: float) -> float:
+        """Rate at which the contact carries `force` > 0: the motion without inertia."""
+        f, length, time = self._units
+        return float(film_rate(self.law, states, approach / length, force / f)) * length / time
+
     def to_control(self, name: str = "contact") -> Any:
         """Nonlinear python-control system with inputs u, v, output F and the film's states (continuous time)."""
         import control
 
-        f, length, time = self._units
-        law, beta = self.law, self.squeeze
-        rates = np.array([law.inlet_rate, law.fast_rate, *[law.lag_rate] * self.lags])
-
-        def motion(inputs: _Floats) -> tuple[float, float, float, _Floats]:
-            x, g, _ = static(float(inputs[0]) / length, law)
-            gains = np.array([np.interp(x, law.gain_x, column) for column in law.gains.T])
-            return g, math.sqrt(g), math.sqrt(g) * float(inputs[1]) / length * time, gains
-
         def update(t: float, x: _Floats, inputs: _Floats, params: object) -> _Floats:
-            _, theta, i, _ = motion(inputs)
-            made = x[0] + beta * x[0] ** 2 / (1.0 + abs(beta * x[0]))
-            return np.asarray(rates * (np.array([i, i, made, *x[2:-1]]) - x) / theta / time)
+            return self.state_rates(np.asarray(x), float(inputs[0]), float(inputs[1]))[1]
 
         def output(t: float, x: _Floats, inputs: _Floats, params: object) -> _Floats:
-            g, _, i, gains = motion(inputs)
-            return np.array([max(g + gains[0] * i + gains[1:] @ x, 0.0) ** 1.5 * f])
+            return np.array([self.state_rates(np.asarray(x), float(inputs[0]), float(inputs[1]))[0]])
 
         states = ["s", "y", *(f"q{k}" for k in range(1, self.lags + 1))]
         return control.nlsys(update, output, inputs=["u", "v"], outputs=["F"], states=states, name=name)

@@ -151,7 +151,7 @@ def _one_lag(old, start, end, bump, mu, poisson, share):
 
 
 @njit(cache=True)
-def _squeezed(s, beta):
+def squeezed(s, beta):
     """phi(s) and its derivative."""
     b = beta * s
     d = 1.0 + abs(b)
@@ -188,10 +188,10 @@ def film_step(law, old, new, dt, u, v):
     mean = (travel - (s - old[INLET]) / p) / span
     mean_u = (1.0 - s_u / p - mean * span_u) / span
     mean_v = -s_v / (p * span)
-    f0 = _squeezed(old[INLET], law.squeeze)[0]
-    f, f_s = _squeezed(s, law.squeeze)
-    f_mean, f_mean_s = _squeezed(mean, law.squeeze)
-    f_half, f_half_s = _squeezed(0.5 * (old[INLET] + s), law.squeeze)
+    f0 = squeezed(old[INLET], law.squeeze)[0]
+    f, f_s = squeezed(s, law.squeeze)
+    f_mean, f_mean_s = squeezed(mean, law.squeeze)
+    f_half, f_half_s = squeezed(0.5 * (old[INLET] + s), law.squeeze)
     hump = f_mean - f_half
     hump_u = f_mean_s * mean_u - 0.5 * f_half_s * s_u
     hump_v = f_mean_s * mean_v - 0.5 * f_half_s * s_v

@@ -1,10 +1,10 @@
-"""Least-squares fit of elements to records: Nonato and Cavalca (2010), eqs. 9-13, and the power law."""
+"""Records to element; least squares after Nonato and Cavalca (2010), eqs. 9-13."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from typing import Any
+from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,47 +12,40 @@ from numpy.typing import NDArray
 from ehlcontact.errors import InputError, require_choice
 from reduced_models.element_file import library_version
 from reduced_models.estimators import ESTIMATORS, Samples
+from reduced_models.fit_result import ElementFit
+from reduced_models.memory_fit import MemoryFit, fit_memory
 from reduced_models.memoryless import MemorylessContact
 from reduced_models.records import ContactRecord
 from reduced_models.uncertainty import half_widths, independent_samples
 
+MEMORY = "memory"
+MODELS = (*ESTIMATORS, MEMORY)
 
-@dataclass(frozen=True, eq=False)
-class FitResult:
-    """An element and how well it stands for the records.
 
-    Judge by ``rms``; the signed sum ``e_f`` of eq. 13 is near zero by construction. Of a cubic, ``root`` and
-    ``tangent`` are identifiable from a small vibration while K1, K2, K3 are not: see their intervals.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FitResult(ElementFit):
+    """A least-squares fit of a memoryless element.
+
+    Of a cubic, ``root`` and ``tangent`` are identifiable from a small vibration while K1, K2, K3 are not: see
+    their intervals.
     """
 
     element: MemorylessContact
-    model: str
     parameters: Mapping[str, float]
+    rms: float
+    e_f: float
+    condition: float
     std_errors: Mapping[str, float]  # square roots of the diagonal of covariance
     intervals: Mapping[str, tuple[float, float]]  # 95 %, Student's; see `uncertainty`
     covariance: NDArray[np.float64]  # in the order of parameters, enlarged for residuals that hang together
-    rms: float  # RMS error of the force / standard deviation of the force
-    e_f: float  # eq. 13 for the force: sum(f - f_fit)/sum(f)
     e_acc: float | None  # eq. 13 for u'' = Omega_n^2 (load - f_fit); None without inertia
-    root: float | None  # approach where the spring carries the static load (1, dimensionless)
-    tangent: float | None  # spring tangent there
-    valid: Mapping[str, Any]  # low, high: fitted approach; rate: largest |rate|; load, omega: (low, high)
-    condition: float  # of the column-scaled design matrix, or Jacobian
     window: tuple[tuple[float, float], ...]  # (start, end) in T, one per record
     samples: int
     independent_samples: float  # how many of them are worth something: `uncertainty`
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the element, ready for JSON."""
-        return {
-            "model": self.model,
-            "parameters": dict(self.parameters),
-            "rms": self.rms,
-            "e_f": self.e_f,
-            "root": self.root,
-            "tangent": self.tangent,
-            "valid": {k: list(v) if isinstance(v, tuple) else v for k, v in self.valid.items()},
-            "condition": self.condition,
+        return super().to_dict() | {
             "e_acc": self.e_acc,
             "std_errors": dict(self.std_errors),
             "intervals": {name: list(pair) for name, pair in self.intervals.items()},
@@ -63,27 +56,39 @@ class FitResult:
         }
 
 
+Records = ContactRecord | Sequence[ContactRecord]
+Window = tuple[float, float]
+
+
+@overload
+def fit(records: Records, model: Literal["memory"], window: None = None) -> MemoryFit: ...
+@overload
 def fit(
-    records: ContactRecord | Sequence[ContactRecord],
-    model: str = "cubic",
-    window: tuple[float, float] | None = None,
-) -> FitResult:
-    """Fit a spring and a damper to the force of one or several records of the same contact.
+    records: Records,
+    model: Literal["linear", "cubic", "polynomial", "power"] = "cubic",
+    window: Window | None = None,
+) -> FitResult: ...
+@overload
+def fit(records: Records, model: str, window: Window | None = None) -> ElementFit: ...
+def fit(records: Records, model: str = "cubic", window: Window | None = None) -> ElementFit:
+    """Fit a contact element to one or several records of the same contact.
 
     Parameters
     ----------
     records : ContactRecord or sequence of ContactRecord
         Several are fitted together, sample by sample.
-    model : {"cubic", "linear", "polynomial", "power"}
+    model : {"cubic", "linear", "polynomial", "power", "memory"}
         F = K1 u + K2 u^2 + K3 u^3 + C1 u' (eq. 11 as Table 2 reduces it), F = K1 u + C1 u' (eq. 8), the seven
-        terms of eq. 11, or F = K (u + u0)_+^n + F0 + C u'.
+        terms of eq. 11, F = K (u + u0)_+^n + F0 + C u', or the film memory: `fit_memory`, which solves the
+        impedance of the contact too.
     window : (start, end), optional
         Part of T to fit, in every record. Left out, each record gives up its first third
-        (`ContactRecord.default_window`): the film of the steady start has to leave the contact first.
+        (`ContactRecord.default_window`): the film of the steady start has to leave the contact first. A film
+        memory knows that film, and takes whole records only.
 
     Returns
     -------
-    FitResult
+    FitResult, or MemoryFit for the film memory
         With the element, valid over the approach that was fitted.
 
     Raises
@@ -93,7 +98,15 @@ def fit(
         record that varies too little (it names the columns) or whose rate is not the derivative of its approach;
         a fit that makes no contact (C1 < 0, or a spring that does not push at the ends of the range).
     """
-    require_choice("model", model, tuple(ESTIMATORS))
+    require_choice("model", model, MODELS)
+    if model != MEMORY:
+        return _least_squares(records, model, window)
+    if window is not None:
+        raise InputError("window", window, "left out with the memory model: it takes whole records, from rest")
+    return fit_memory(None, records)
+
+
+def _least_squares(records: Records, model: str, window: Window | None) -> FitResult:
     samples, spans = take_samples(records, window)
     estimate = ESTIMATORS[model](samples)
     spread = float(np.std(samples.force))
@@ -136,8 +149,8 @@ def fit(
         samples=int(samples.force.size),
         independent_samples=independent,
     )
-    quality = {key: value for key, value in result.to_dict().items() if key not in ("parameters", "valid")}
-    return replace(result, element=replace(element, fit=quality, source=_source(samples.records)))  # type: ignore[type-var]
+    quality, source = result.quality(), _source(samples.records)
+    return replace(result, element=replace(element, fit=quality, source=source))  # type: ignore[type-var]
 
 
 def take_samples(

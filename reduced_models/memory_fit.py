@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field, replace
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +13,11 @@ from scipy.optimize import least_squares
 from ehlcontact import Domain, ImpedanceResult, impedance
 from ehlcontact.errors import InputError
 from reduced_models.element_file import library_version
-from reduced_models.film_curve import LEAST_EXPONENT
 from reduced_models.film_filters import WEIGHT_C, WEIGHT_K, FilterRates, GainFit, fit_gains
 from reduced_models.film_law import film_drive
+from reduced_models.fit_result import ElementFit
 from reduced_models.memory import FilmMemoryContact
+from reduced_models.memory_target import FOLDS, Response, Target
 from reduced_models.records import ContactRecord
 
 _Floats = NDArray[np.float64]
@@ -24,115 +25,26 @@ _Floats = NDArray[np.float64]
 OMEGAS = (0.0, *np.geomspace(0.03, 60.0, 24).tolist())  # that an impedance is solved at
 ORDERS = (4, 6, 8, 12, 16)  # numbers of lags to choose from
 TOLERATED = 1.05  # a shorter chain is taken if its cross-validation error is at most so much larger
-FOLDS = 3
 FORCE_WEIGHT = 0.01  # RMS error of a record over its spread that counts like 5 % of C
 TRANSIT = 1.6  # start: time in which the chain carries the film through
 STARTS = ((30.0, 60.0), (200.0, 80.0))  # inlet and fast rate; the better of two minima is taken
 LIMITS = ((0.5, 200.0), (2.0, 300.0), (5.0, 1000.0), (0.0, 20.0))  # lag, inlet, fast rate, squeeze
-LOWEST = 0.1  # a frequency up to here is needed: it gives the static tangent and the damping of rotors
 SMALL_MOTION = 0.1  # load range that an impedance alone stands for
 
 
-class Response(Protocol):
-    """What is asked of an impedance; `ehlcontact.impedance` returns one."""
-
-    @property
-    def omega(self) -> _Floats:
-        """Frequencies, shape (k,)."""
-
-    @property
-    def stiffness(self) -> _Floats:
-        """K(Omega)."""
-
-    @property
-    def damping(self) -> _Floats:
-        """C(Omega)."""
-
-    @property
-    def approach(self) -> float:
-        """Static approach under load 1."""
-
-
-@dataclass(frozen=True)
-class Target:
-    """Everything that one fit sees, as plain arrays in the order of frequency."""
-
-    omega: _Floats
-    stiffness: _Floats
-    damping: _Floats
-    approach: float
-    records: tuple[ContactRecord, ...] = ()
-
-    @classmethod
-    def of(cls, response: Response, records: Sequence[ContactRecord]) -> Target:
-        """Check and sort.
-
-        Raises
-        ------
-        InputError
-            Too few frequencies or none low enough, an approach beyond the dry one, SI records, or records that
-            are not of the contact of the impedance.
-        """
-        order = np.argsort(response.omega)
-        omega = np.asarray(response.omega, float)[order]
-        if omega.size < 8:
-            raise InputError("omega", omega.size, "at least 8 frequencies")
-        if omega[0] > LOWEST:
-            raise InputError("lowest omega", float(omega[0]), f"at most {LOWEST}")
-        if not response.approach < 1.0:
-            raise InputError("approach", response.approach, "below 1: there must be a film (refine the grid)")
-        for i, record in enumerate(records):
-            if record.units != "dimensionless":
-                raise InputError(f"records[{i}].units", record.units, "dimensionless")
-            for name in ("point", "n"):
-                ours, theirs = getattr(response, name, None), getattr(record, name)
-                if ours is not None and theirs is not None and ours != theirs:
-                    raise InputError(f"records[{i}].{name}", theirs, f"as of the impedance, {ours!r}")
-            record.require_matching_rate()
-        stiffness, damping = np.asarray(response.stiffness, float), np.asarray(response.damping, float)
-        return cls(omega, stiffness[order], damping[order], float(response.approach), tuple(records))
-
-    @property
-    def film(self) -> tuple[float, float]:
-        """Film at load 1 and its exponent, from approach and static tangent: 1/K_0 = 2/3 + exponent film."""
-        film = 1.0 - self.approach
-        return film, max((1.0 / float(self.stiffness[0]) - 2.0 / 3.0) / film, LEAST_EXPONENT)
-
-    @property
-    def static(self) -> float:
-        """Tangent of the element's static curve at load 1."""
-        film, exponent = self.film
-        return 1.0 / (2.0 / 3.0 + exponent * film)
-
-    def part(self, fold: int, inside: bool) -> Target:
-        """The data of one fold, or all but those; the lowest frequency belongs to all."""
-        keep = (np.arange(self.omega.size) % FOLDS == fold) == inside
-        keep[0] = True
-        records = tuple(r for i, r in enumerate(self.records) if (i % FOLDS == fold) == inside)
-        return replace(
-            self,
-            omega=self.omega[keep],
-            stiffness=self.stiffness[keep],
-            damping=self.damping[keep],
-            records=records,
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class MemoryFit:
-    """A film-memory element and how well it stands for the data."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MemoryFit(ElementFit):
+    """A film-memory element and how well it stands for the data; ``rms`` is of all samples together."""
 
     element: FilmMemoryContact
     record_rms: tuple[float, ...]  # RMS error of the force over its standard deviation, whole record, each
-    rms: float | None  # of all samples together, None without records
     damping_error: _Floats  # relative error of C at every frequency
     stiffness_error: _Floats
     validation: dict[int, float] = field(default_factory=dict)  # cross-validation error by number of lags
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the element, ready for JSON."""
-        return {
-            "rms": self.rms,
+        return super().to_dict() | {
             "record_rms": list(self.record_rms),
             "damping_error_max": float(np.abs(self.damping_error).max()),
             "stiffness_error_max": float(np.abs(self.stiffness_error).max()),
@@ -178,19 +90,28 @@ def fit_memory(
     element, gains = _solve(target, lags)
     errors = [_force_error(element, record) for record in taken]
     spreads = [float(np.std(record.force)) for record in taken]
-    pooled = None
+    rms = e_f = None
     if taken:
-        force = np.concatenate([record.force for record in taken])
-        pooled = float(np.sqrt(np.mean(np.concatenate(errors) ** 2)) / np.std(force))
+        error, force = np.concatenate(errors), np.concatenate([record.force for record in taken])
+        rms, e_f = float(np.sqrt(np.mean(error**2)) / np.std(force)), float(-np.sum(error) / np.sum(force))
+    root = element.approach_at(1.0)
+    box = {"low": element.low, "high": element.high, "rate": element.rate}
     result = MemoryFit(
         element=element,
+        model=element.kind,
+        parameters=element.parameters,
+        rms=rms,
+        e_f=e_f,
+        root=root,
+        tangent=element.spring_tangent(root),
+        valid=box | {"load": element.load_range, "omega": element.omega_range},
+        condition=None,
         record_rms=tuple(float(np.sqrt(np.mean(e**2))) / s for e, s in zip(errors, spreads, strict=True)),
-        rms=pooled,
         damping_error=gains.damping / target.damping - 1.0,
         stiffness_error=gains.stiffness / target.stiffness - 1.0,
         validation=scores,
     )
-    return replace(result, element=replace(element, fit=result.to_dict(), source=_source(response, taken)))
+    return replace(result, element=replace(element, fit=result.quality(), source=_source(response, taken)))
 
 
 def impedance_of(records: Sequence[ContactRecord]) -> ImpedanceResult:

@@ -66,6 +66,10 @@ class MemorylessContact(ContactElement):
         value = self._springs(approach)[0]
         return value if value.ndim else float(value)
 
+    def spring_tangent(self, approach: float) -> float:
+        """Slope of the force at zero rate."""
+        return self._at(float(approach), 0.0)[1]
+
     def damper(self, approach: ArrayLike) -> float | _Floats:
         """Damping coefficient c(u) at zero rate, before the force is clipped."""
         value = self._springs(approach)[1]
@@ -101,6 +105,14 @@ class MemorylessContact(ContactElement):
         if not (low <= approach <= high and -fastest <= rate <= fastest):
             self.warn_outside(approach, rate)
         return self._at(approach, rate)[0]
+
+    def step_tangents(self, dt: float, approach: float, rate: float) -> tuple[float, float, float]:
+        """Force, dF/du and dF/du' at the end of a step; `dt` is ignored."""
+        return self._at(float(approach), float(rate))
+
+    def rest(self, approach: float) -> float:
+        """Force at rest; there is no state to set."""
+        return self._at(float(approach), 0.0)[0]
 
     def save_state(self) -> object:
         """Nothing to save."""

@@ -11,7 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import solve_ivp
 
 from ehlcontact.errors import ConvergenceError, InputError, require_choice, require_finite, require_positive
+from reduced_models.element_base import ContactElement
+from reduced_models.film_contact import FilmContact
 from reduced_models.memoryless import MemorylessContact
+from reduced_models.validity import frequency_of
 
 METHODS = ("Radau", "BDF", "LSODA", "DOP853", "RK45", "RK23")
 _IMPLICIT = ("Radau", "BDF", "LSODA")
@@ -33,7 +36,7 @@ class OscillatorResult:
 
 
 def simulate_oscillator(
-    element: MemorylessContact,
+    element: ContactElement,
     T: ArrayLike,
     *,
     omega_n: float | None,
@@ -47,9 +50,10 @@ def simulate_oscillator(
 
     Parameters
     ----------
-    element : LinearContact, CubicContact, PolynomialContact or PowerLawContact
+    element : ContactElement
         It warns, once, where the motion leaves its validity box. With an element in SI, T is in s and
-        ``omega_n = 1/sqrt(mass)``.
+        ``omega_n = 1/sqrt(mass)``. A film memory starts from rest at `u0`, in continuous time; the element's own
+        state is not touched.
     T : array_like, shape (N,)
         Increasing times of the result; the first is the start. No step is longer than the widest gap between
         them, so a load that T resolves is not stepped over.
@@ -78,18 +82,28 @@ def simulate_oscillator(
     applied = _load(load, times)
     start = [require_finite("u0", u0)]
     size = max(abs(float(element.high)), abs(u0))
-    if omega_n is None:
-        rates, jacobian = _quasi_static(element, applied)
-        atol = [rtol * size]
-        element.rate_at(start[0], 1.0)  # needs a damper
-    else:
+    atol = [rtol * size]
+    square = None
+    if omega_n is not None:
         square = require_positive("omega_n", omega_n) ** 2
-        rates, jacobian = _inertial(element, applied, square)
         start.append(require_finite("v0", v0))
         # Rate of an oscillation as large as the motion, on the secant stiffness.
-        speed = np.sqrt(square * abs(float(element.force(size, 0.0))) / size) * size
-        atol = [rtol * size, rtol * speed]
-    options: dict[str, Any] = {"jac": jacobian} if method in _IMPLICIT else {}
+        speed = np.sqrt(square * abs(float(element.spring(size))) / size) * size
+        atol.append(rtol * speed)
+    options: dict[str, Any] = {}
+    if isinstance(element, FilmContact):
+        rates = _film(element, applied, square)
+        start += [0.0] * element.state_count
+        atol += [rtol] * element.state_count
+    elif isinstance(element, MemorylessContact):
+        if square is None:
+            element.rate_at(start[0], 1.0)  # needs a damper
+        rates, jacobian = (
+            _quasi_static(element, applied) if square is None else _inertial(element, applied, square)
+        )
+        options = {"jac": jacobian} if method in _IMPLICIT else {}
+    else:
+        raise InputError("element", type(element).__name__, "a contact element")
     solution = solve_ivp(
         rates,
         (times[0], times[-1]),
@@ -101,14 +115,34 @@ def simulate_oscillator(
         max_step=float(np.diff(times).max()),
         **options,
     )
-    result = _result(element, solution, rates, applied)
+    result = _result(element, solution, rates, applied, omega_n is not None)
     if not solution.success or not np.all(np.isfinite(solution.y)):
         reached = float(result.T[-1]) if result.T.size else float(times[0])
         raise ConvergenceError(f"oscillator broke off at T = {reached:g}: {solution.message}", result)
-    spread = float(np.std(result.approach))
-    omega = float(np.std(result.rate)) / spread if spread > 0.0 else None
-    element.warn_outside(result.approach, result.rate, omega)
+    omega = frequency_of(result.approach, result.rate)
+    element.warn_outside(result.approach, result.rate, omega, result.force)
     return result
+
+
+def _film(element: FilmContact, applied: Callable[[float], float], square: float | None) -> Callable:
+    """Approach, rate where there is inertia, and the states of the film."""
+
+    def inertial(time: float, y: NDArray[np.float64]) -> NDArray[np.float64]:
+        force, states = element.state_rates(y[2:], float(y[0]), float(y[1]))
+        return np.array([y[1], square * (applied(time) - force), *states])  # type: ignore[operator]
+
+    def quasi_static(time: float, y: NDArray[np.float64]) -> NDArray[np.float64]:
+        v = element.rate_at(y[1:], float(y[0]), _pressing(applied, time))
+        return np.array([v, *element.state_rates(y[1:], float(y[0]), v)[1]])
+
+    return quasi_static if square is None else inertial
+
+
+def _pressing(applied: Callable[[float], float], time: float) -> float:
+    f = applied(time)
+    if f <= 0.0:
+        raise InputError(f"load at T = {time:g}", f, "> 0 for a motion without inertia")
+    return f
 
 
 def _inertial(
@@ -130,10 +164,7 @@ def _inertial(
 
 def _quasi_static(element: MemorylessContact, applied: Callable[[float], float]) -> tuple[Callable, Callable]:
     def rates(time: float, y: NDArray[np.float64]) -> list[float]:
-        u, f = float(y[0]), applied(time)
-        if f <= 0.0:
-            raise InputError(f"load at T = {time:g}", f, "> 0 for a motion without inertia")
-        return [element.rate_at(u, f)]
+        return [element.rate_at(float(y[0]), _pressing(applied, time))]
 
     def jacobian(time: float, y: NDArray[np.float64]) -> list[list[float]]:
         u = float(y[0])
@@ -168,12 +199,16 @@ def _load(load: Load, times: NDArray[np.float64]) -> Callable[[float], float]:
 
 
 def _result(
-    element: MemorylessContact, solution: Any, rates: Callable, applied: Callable[[float], float]
+    element: ContactElement, solution: Any, rates: Callable, applied: Callable[[float], float], inertia: bool
 ) -> OscillatorResult:
     T = np.asarray(solution.t, dtype=np.float64)
     y = np.asarray(solution.y, dtype=np.float64).reshape(-1, T.size) if T.size else np.empty((2, 0))
     load = np.array([applied(time) for time in T])
-    rate = y[1] if y.shape[0] == 2 else np.array([rates(time, y[:, i])[0] for i, time in enumerate(T)])
-    force = np.asarray(element.force(y[0], rate), dtype=np.float64)
+    rate = y[1] if inertia else np.array([rates(time, y[:, i])[0] for i, time in enumerate(T)])
+    if isinstance(element, MemorylessContact):
+        force = np.asarray(element.force(y[0], rate), dtype=np.float64)
+    elif isinstance(element, FilmContact):
+        states = y[2 if inertia else 1 :].T
+        force = np.array([element.state_rates(*at)[0] for at in zip(states, y[0], rate, strict=True)])
     status = "converged" if solution.success else "failed"
     return OscillatorResult(T, y[0], rate, force, load, int(solution.nfev), status)

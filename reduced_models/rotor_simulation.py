@@ -10,6 +10,7 @@ from reduced_models.contact import Contact
 from reduced_models.jeffcott import JeffcottRotor, RotorState
 from reduced_models.rotor_result import RotorResult, RotorStatus
 from reduced_models.rotor_stepper import RotorStepper
+from reduced_models.validity import frequency_of
 
 
 def simulate_rotor(
@@ -27,19 +28,22 @@ def simulate_rotor(
     """Integrate the rotor from t = 0 to `until` in steps of `dt`.
 
     Generalised-alpha steps (second order); disc, shaft and journal mass are condensed exactly, so that each
-    step solves only for the journal. Reduced elements are iterated by Newton with their tangents, contacts
-    without tangents by secants; every evaluation starts each contact from its state at the start of the step.
+    step solves only for the journal. Reduced elements, memory included, are iterated by Newton with their exact
+    tangents, contacts without tangents by secants; every evaluation starts each contact from its state at the
+    start of the step. Elements warn, once, where the run left their validity box.
 
     Parameters
     ----------
     rotor : JeffcottRotor
     contacts : sequence of Contact
-        One per mount, in SI (see `ScaledContact`), each its own object. A contact with memory must be at the
-        state that belongs to `start`; it is left at the state of the end.
+        One per mount, in SI (see `ScaledContact`); those with a memory each their own object. They are left at
+        the state of the end.
     dt, until : float
         Step and end [s]; the last step may pass `until` by less than dt.
     start : "static" or RotorState
-        "static" needs contacts without memory; otherwise use ``rotor.state_at(approaches)``.
+        "static" finds the equilibrium of reduced elements and puts them at rest there. Full contacts need
+        ``rotor.state_at(approaches)``. A given state leaves the contacts as they are, so that a run can go on:
+        those with a memory must be at the state that belongs to it (`FilmMemoryContact.rest`).
     tolerance : float
         Largest imbalance of the forces on the journal, relative to the static load (or to the unbalance or
         the forces of the start, if one of them is larger). Not below the noise of a full contact's solver.
@@ -58,7 +62,7 @@ def simulate_rotor(
     Raises
     ------
     InputError
-        Wrong number of contacts, or a value outside its range.
+        Wrong number of contacts, one with a memory in two mounts, or a value outside its range.
     ConvergenceError
         A step, or a contact in it, did not converge; ``result`` holds the steps before it.
     """
@@ -80,12 +84,12 @@ def simulate_rotor(
                 callback(step, steps)
     except KeyboardInterrupt:
         run.rewind()
-        return run.result(RotorStatus.INTERRUPTED)
+        return _checked(contacts, run.result(RotorStatus.INTERRUPTED))
     except ConvergenceError as error:
         run.rewind()
         message = f"rotor at t = {run.time:.6g} s: {error}"
         raise ConvergenceError(message, run.result(RotorStatus.NOT_CONVERGED)) from error
-    return run.result(RotorStatus.CONVERGED)
+    return _checked(contacts, run.result(RotorStatus.CONVERGED))
 
 
 def _check_contacts(rotor: JeffcottRotor, contacts: Sequence[Contact]) -> None:
@@ -98,6 +102,8 @@ def _check_contacts(rotor: JeffcottRotor, contacts: Sequence[Contact]) -> None:
             )
         if getattr(contact, "units", "SI") != "SI":
             raise InputError(f"contacts[{i}].units", contact.units, "SI; see to_si and ScaledContact")  # type: ignore[attr-defined]
+        if any(contact is other for other in contacts[:i]) and contact.save_state() is not None:
+            raise InputError(f"contacts[{i}]", "used twice", "its own object: it has a memory (take a copy)")
 
 
 def _start_state(rotor: JeffcottRotor, contacts: Sequence[Contact], start: str | RotorState) -> RotorState:
@@ -105,4 +111,17 @@ def _start_state(rotor: JeffcottRotor, contacts: Sequence[Contact], start: str |
         return start
     if start != "static":
         raise InputError("start", start, "'static' or a RotorState")
-    return rotor.static_equilibrium(contacts)
+    state = rotor.static_equilibrium(contacts)
+    for contact, approach in zip(contacts, rotor.approaches(state.journal).tolist(), strict=True):
+        contact.rest(approach)  # type: ignore[attr-defined]
+    return state
+
+
+def _checked(contacts: Sequence[Contact], result: RotorResult) -> RotorResult:
+    """Let the elements warn where the run left their validity box."""
+    for i, contact in enumerate(contacts):
+        warn = getattr(contact, "warn_outside", None)
+        if warn is not None:
+            u, v, f = result.approach[:, i], result.rate[:, i], result.force[:, i]
+            warn(u, v, frequency_of(u, v), f, stacklevel=4)
+    return result

@@ -126,6 +126,7 @@ class RotorStepper:
             residual = linear.D @ (q - pending.q_free) + linear.weight * self._net(force)[self._journal]
             error = float(np.linalg.norm(residual))
             if error <= self._allowed:
+                self._contacts.accept(u, rate)
                 return q, u, rate, force, iteration
             if not math.isfinite(error):
                 break
@@ -133,7 +134,7 @@ class RotorStepper:
                 q = 0.5 * (q + last)  # overshoot across a kink: a contact opens or closes
                 continue
             previous, last = error, q
-            q = q - np.linalg.solve(self._slope_matrix(self._contacts.slopes(u, rate)), residual)
+            q = q - np.linalg.solve(self._slope_matrix(self._contacts.last_slopes), residual)
         raise ConvergenceError(
             f"force imbalance {error:.3g} N above {self._allowed:.3g} N in {iteration} iterations", None
         )

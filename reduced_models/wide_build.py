@@ -108,7 +108,7 @@ def wide_range_from_solves(
     memory, lags
         As for `wide_range_contact`.
     n : int
-        Intervals along X; at most 128.
+        Intervals along X.
 
     Raises
     ------

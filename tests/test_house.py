@@ -67,7 +67,8 @@ def relative(folder, pattern):
 
 
 @pytest.mark.parametrize(
-    ("package", "pattern"), [("fmu", "*.c"), ("fmu", "*.h"), ("fmu", "*.txt"), ("ehlcontact", "*.j2")]
+    ("package", "pattern"),
+    [("fmu", "*.c"), ("fmu", "*.h"), ("fmu", "*.txt"), ("ehlcontact", "*.j2"), ("ehlcontact", "*.csv")],
 )
 def test_data_files_are_installed(package, pattern):
     """What the checkout has, the imported package has too: in CI that is the one from the wheel."""

@@ -6,9 +6,11 @@ module             responsibility
 ``app``            the program: subcommands, errors to one line and an exit code
 ``options``        operating-point options shared by the subcommands
 ``output``         consoles, tables, JSON, progress, checks of where results go
-``steady`` ...     one subcommand each: ``steady``, ``simulate``, ``impedance``, ``fit``, ``export``, ``run``
-``unbuilt``        subcommands whose names are fixed but which are not built yet
+``steady`` ...     one subcommand each: ``steady``, ``simulate``, ``impedance``, ``fit``, ``element``, ``export``,
+                   ``run``, ``atlas``
+``figure_file``    ``--figure``: pictures of one result, drawn by ``figures_film`` and ``figures_transient``
 ``study``          the study behind ``run``: schema, stages, report, figures
+``reproduce``      the paper's tables and figures beside ours
 =================  ===================================================================================
 
 Exit codes: 0 success; 1 not converged or interrupted, with what was reached saved; 2 bad input.

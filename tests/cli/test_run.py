@@ -69,15 +69,19 @@ def test_everything_is_there(finished):
     assert results["steady"]["status"] == "converged" and results["versions"]["ehlcontact"]
     for name in ("steady", "free", "harmonic", "rotor_band"):
         assert load(folder / f"{name}.h5").status.ok
+    assert results["rotor"]["whole"]["memory"]["force"] < 0.03
+    assert max(results["memory"]["record_rms"]) < 0.05 and len(results["memory"]["impedance"]["omega"]) > 20
     dimensionless = load_element(folder / "elements" / "rotor_band_cubic.json")
     si = load_element(folder / "elements" / "rotor_band_cubic_si.json")
+    memory = load_element(folder / "elements" / "memory_si.json")
+    assert memory.units == "SI" and memory.parameters == results["memory"]["parameters"]
     assert si.units == "SI" and dimensionless.to_si(load(folder / "rotor_band.h5").scales) == si
 
 
 def test_report_is_self_contained(finished):
     _, folder = finished
     page = (folder / "report.html").read_text()
-    assert page.count("data:image/png;base64,") == 10
+    assert page.count("data:image/png;base64,") == 11
     assert not re.search(r'(src|href)="(?!data:)', page) and "http" not in re.sub(r'base64,[^"]*', "", page)
     assert "Traceback" not in page and "nan" not in re.sub(r'base64,[^"]*', "", page).lower().split()
 

@@ -43,7 +43,7 @@ def test_impedance(call, refused, point):
     table = call("impedance", *point, "--n", "32", "--omega", "3")
     assert table.code == 0 and "Omega = 3" in table.out
     refused(["omegas", "-1"], "impedance", *point, "--omega", "-1")
-    refused(["n", "128"], "impedance", *point, "--n", "256", "--omega", "1")
+    refused(["n", "16"], "impedance", *point, "--n", "100", "--omega", "1")
 
 
 def test_from_simulation_to_fmu(call, point, tmp_path):
@@ -83,6 +83,19 @@ def test_from_simulation_to_fmu(call, point, tmp_path):
     document = json.loads(result.out)
     assert document["passes"] and document["findings"] == [] and document["force"] < 1e-12
     assert "modelDescription.xml" in zipfile.ZipFile(target).namelist()
+
+
+def test_film_memory_from_a_simulation_alone(call, point, tmp_path):
+    """The impedance is solved on the way, at the record's point, grid and domain."""
+    record, element, report = tmp_path / "r.h5", tmp_path / "e.json", tmp_path / "fit.json"
+    assert call("simulate", *point, "--n", "32", "--free", "5", "--save", record).code == 0
+    result = call("fit", record, "--model", "memory", "--save", element, "--json", report)
+    assert result.code == 0 and "C(Omega)" in result.out and "root" in result.out, result
+    document = json.loads(report.read_text())
+    assert set(FIT_KEYS) <= set(document) and document["rms"] < 0.02 and document["condition"] is None
+    loaded = load_element(element)
+    assert loaded.parameters == document["parameters"] and loaded.source["n"] == 32
+    assert loaded.approach_at(1.0) == document["root"]
 
 
 def test_a_steady_file_cannot_be_fitted(call, refused, point, tmp_path):

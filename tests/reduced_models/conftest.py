@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlcontact.scaling import Scales
-from reduced_models import ContactRecord, CubicContact, LinearContact
+from reduced_models import ContactRecord, CubicContact, FilmMemoryContact, LinearContact
 
 # Nonato and Cavalca (2010), Table 3 case 2 (free vibration, Omega_n = 5.13).
 PAPER = {"K1": 0.806, "K2": 0.346, "K3": 0.054, "C1": 0.013}
@@ -23,6 +23,25 @@ def cubic():
 @pytest.fixture
 def linear():
     return LinearContact(K1=1.15, C1=0.0124, low=0.75, high=1.0)
+
+
+@pytest.fixture
+def memory():
+    """Fitted to M = 200, L = 10, kappa = 0.5 on n = 64."""
+    return FilmMemoryContact(
+        film=0.129,
+        exponent=0.13,
+        squeeze=0.25,
+        lag_rate=5.4,
+        inlet_rate=33.0,
+        fast_rate=60.0,
+        gains=(0.001, 0.002, 0.005, 0.013, 0.0, 0.009, 0.011, 0.0, 0.0, 0.0, 0.021),
+        low=0.5,
+        high=1.2,
+        rate=2.0,
+        load_range=(0.5, 1.5),
+        omega_range=(0.0, 60.0),
+    )
 
 
 @pytest.fixture

@@ -1,8 +1,9 @@
 """The contact protocol and its SI face."""
 
+import numpy as np
 import pytest
 
-from reduced_models import Contact, ScaledContact, has_tangents
+from reduced_models import Contact, OutsideValidityWarning, ScaledContact, has_tangents
 
 
 def test_scaled_contact_is_to_si(cubic, scales):
@@ -10,8 +11,10 @@ def test_scaled_contact_is_to_si(cubic, scales):
     u, v = 0.9 * scales.length, 0.4 * scales.rate
     assert isinstance(wrapped, Contact) and isinstance(si, Contact)
     assert wrapped.advance(1e-6, u, v) == pytest.approx(si.force(u, v), rel=1e-13)
-    for name in ("force", "stiffness", "damping"):
-        assert getattr(wrapped, name)(u, v) == pytest.approx(getattr(si, name)(u, v), rel=1e-13)
+    for name in ("rest", "spring", "spring_tangent"):
+        assert getattr(wrapped, name)(u) == pytest.approx(getattr(si, name)(u), rel=1e-13)
+    assert si.step_tangents(1e-6, u, v) == (si.force(u, v), si.stiffness(u, v), si.damping(u, v))
+    assert wrapped.step_tangents(1e-6, u, v) == pytest.approx(si.step_tangents(1e-6, u, v), rel=1e-13)
 
 
 def test_scaled_contact_scales_time_and_keeps_the_state_of_what_it_wraps(maxwell, scales):
@@ -27,3 +30,12 @@ def test_scaled_contact_scales_time_and_keeps_the_state_of_what_it_wraps(maxwell
 def test_tangents_are_seen_through_the_wrapper(cubic, maxwell, scales):
     assert has_tangents(cubic) and has_tangents(ScaledContact(cubic, scales))
     assert not has_tangents(maxwell(1, 1, 1)) and not has_tangents(ScaledContact(maxwell(1, 1, 1), scales))
+
+
+def test_box_of_a_wrapped_element_is_watched_in_si(cubic, maxwell, scales):
+    u, v, f = (
+        np.array([0.9, x]) * unit for x, unit in ((1.2, scales.length), (0.4, scales.rate), (1.0, scales.force))
+    )
+    with pytest.warns(OutsideValidityWarning, match="approach 1.2 "):
+        ScaledContact(cubic, scales).warn_outside(u, v, None, f)
+    ScaledContact(maxwell(1, 1, 1), scales).warn_outside(u, v, None, f)  # no box, nothing to say

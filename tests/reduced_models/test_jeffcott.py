@@ -87,9 +87,9 @@ def test_side_load_on_one_contact_is_not_held(contact):
         rotor.static_equilibrium([contact])
 
 
-def test_static_needs_stateless_contacts_one_each_and_a_load(contact, maxwell):
+def test_static_needs_static_laws_one_each_and_a_load(contact, maxwell):
     rotor = JeffcottRotor.vertical(**BODY)
-    with pytest.raises(InputError, match="without memory"):
+    with pytest.raises(InputError, match="without static law"):
         rotor.static_equilibrium([maxwell(1.0, 1.0, 1.0)])
     with pytest.raises(InputError, match="one per mount"):
         rotor.static_equilibrium([contact, contact])

@@ -13,6 +13,7 @@ from reduced_models import (
     WideRangeContact,
     fit_memory,
     load_element,
+    simulate_oscillator,
     wide_range_contact,
     wide_range_from_solves,
 )
@@ -110,6 +111,15 @@ def test_slow_cycle_dissipates_and_follows_the_static_curve(wide):
     force = wide.drive(T, u, v)
     assert 0.0 < np.trapezoid(force, u) < 0.01
     np.testing.assert_allclose(force, wide.spring(u), atol=3e-3)
+
+
+def test_oscillator_agrees_with_steps_at_every_load(wide):
+    """Load from 0.3 to 2 and back, across the rows of the gains: continuous time against exact steps."""
+    T = np.linspace(0.0, 12.0, 2401)
+    load = 0.3 + 1.7 * np.exp(-((T - 5.0) ** 2))
+    run = simulate_oscillator(wide, T, omega_n=4.0, load=load, u0=wide.approach_at(0.3), rtol=1e-8)
+    assert run.force.max() > 1.8
+    assert np.abs(wide.drive(T, run.approach, run.rate) - run.force)[1:].max() < 2e-4
 
 
 def test_files_and_si(wide, scales, tmp_path):

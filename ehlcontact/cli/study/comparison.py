@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ehlcontact.cli.study.reduction import Reduction
+from ehlcontact.cli.study.reduction import MEMORY, Reduction
 from ehlcontact.cli.study.rotor import build_rotor, load_rotor, run_reduced
 from ehlcontact.cli.study.schema import Study
 from reduced_models import Comparison, RotorResult, compare
@@ -21,7 +21,7 @@ class RotorComparison:
 
     full: RotorResult
     full_half: RotorResult  # half the step, shorter
-    reduced: Mapping[str, RotorResult]  # "rotor_band" and, where it could be fitted, "harmonic"
+    reduced: Mapping[str, RotorResult]  # "rotor_band" and, where they could be fitted, "memory" and "harmonic"
     whole: Mapping[str, Comparison]  # full against each reduced run, from the start
     last: Mapping[str, Comparison]  # likewise, the last revolution
     half: Comparison  # full against reduced, both with half the step
@@ -48,10 +48,10 @@ def compare_rotors(study: Study, reduction: Reduction, folder: Path) -> RotorCom
     rotor = build_rotor(study)
     full = load_rotor(folder / "rotor_full.h5", rotor)
     full_half = load_rotor(folder / "rotor_half_step.h5", rotor)
-    elements = {"rotor_band": reduction.chosen}
-    wrong = reduction.element_si(*WRONG)
-    if wrong is not None:
-        elements["harmonic"] = wrong
+    elements: dict[str, Any] = {"rotor_band": reduction.chosen}
+    for name, element in ((MEMORY, reduction.memory_si), ("harmonic", reduction.element_si(*WRONG))):
+        if element is not None:
+            elements[name] = element
     r = study.rotor
     reduced = {name: run_reduced(study, element, 0, r.revolutions) for name, element in elements.items()}
     reduced_half = run_reduced(study, reduction.chosen, 1, r.check_revolutions)

@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from ehlcontact.errors import InputError
+from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.impedance import ImpedanceResult
 from ehlcontact.motion import HarmonicLoad
 from ehlcontact.results import SimulationResult
 from ehlcontact.scaling import Scales
-from reduced_models import ContactRecord, CubicContact, FitResult, fit
+from reduced_models import ContactRecord, CubicContact, FitResult, MemoryFit, fit, fit_memory
+from reduced_models.memory_fit import impedance_of
 
 RECORDS = {
     "free": "free vibration",
@@ -19,21 +21,29 @@ RECORDS = {
     "rotor_band": "harmonic, rotor band",
 }
 MODELS: tuple[Literal["linear", "cubic"], ...] = ("linear", "cubic")
+MEMORY = "memory"  # the film-memory element, fitted to all records and the impedance together
 CHOSEN = ("rotor_band", "cubic")  # the element of the FMU and of the rotor: fitted at its load and frequency
 
 
 @dataclass(frozen=True)
 class Reduction:
-    """Fits by (record, model), and why some pairs have none."""
+    """Fits by (record, model), and why some pairs have none; and the one element for all records."""
 
     fits: Mapping[tuple[str, str], FitResult]
     refused: Mapping[tuple[str, str], str]
+    memory: MemoryFit | str  # or why there is none
+    impedance: ImpedanceResult | None
     scales: Scales
 
     def element_si(self, record: str, model: str) -> Any:
         """The element in SI units, None where the fit was refused."""
         found = self.fits.get((record, model))
         return None if found is None else found.element.to_si(self.scales)
+
+    @property
+    def memory_si(self) -> Any:
+        """The film-memory element in SI units, None where the fit was refused."""
+        return None if isinstance(self.memory, str) else self.memory.element.to_si(self.scales)
 
     @property
     def chosen(self) -> CubicContact:
@@ -54,14 +64,22 @@ def reduce_records(simulations: Mapping[str, SimulationResult], scales: Scales) 
     """Fit every model to every record; a fit that makes no contact is kept as the reason why."""
     fits: dict[tuple[str, str], FitResult] = {}
     refused: dict[tuple[str, str], str] = {}
+    records = {name: ContactRecord.from_result(simulation) for name, simulation in simulations.items()}
     for record, simulation in simulations.items():
-        data = ContactRecord.from_result(simulation)
+        data = records[record]
         for model in MODELS:
             try:
                 fits[record, model] = fit(data, model, _window(simulation))
             except InputError as error:
                 refused[record, model] = str(error)
-    return Reduction(fits, refused, scales)
+    response: ImpedanceResult | None = None
+    memory: MemoryFit | str
+    try:
+        response = impedance_of(list(records.values()))
+        memory = fit_memory(response, list(records.values()))
+    except (InputError, ConvergenceError) as error:
+        memory = str(error)
+    return Reduction(fits, refused, memory, response, scales)
 
 
 def _window(simulation: SimulationResult) -> tuple[float, float] | None:
@@ -86,6 +104,9 @@ def save_elements(reduction: Reduction, folder: Path) -> list[Path]:
     for (record, model), found in reduction.fits.items():
         files.append(found.element.save(target / f"{record}_{model}.json"))
         files.append(reduction.element_si(record, model).save(target / f"{record}_{model}_si.json"))
+    if not isinstance(reduction.memory, str):
+        files.append(reduction.memory.element.save(target / f"{MEMORY}.json"))
+        files.append(reduction.memory_si.save(target / f"{MEMORY}_si.json"))
     return files
 
 

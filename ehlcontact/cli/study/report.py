@@ -11,9 +11,10 @@ from matplotlib.figure import Figure
 
 from ehlcontact.cli.output import write_text
 from ehlcontact.cli.study import figures
-from ehlcontact.cli.study.reduction import RECORDS
+from ehlcontact.cli.study.reduction import MEMORY, RECORDS
 from ehlcontact.cli.study.results import Findings
 
+TITLES = RECORDS | {MEMORY: "all bands, with film memory"}
 TEMPLATE = "report.html.j2"
 
 
@@ -30,7 +31,7 @@ def write_report(found: Findings, path: Path) -> Path:
     with figures.styled():
         images = {name: figures.embedded(draw()) for name, draw in drawings(found).items()}
     page = environment.get_template(TEMPLATE).render(
-        found=found, op=found.operating_point, scales=found.study.point.scales, titles=RECORDS, images=images
+        found=found, op=found.operating_point, scales=found.study.point.scales, titles=TITLES, images=images
     )
     write_text(path, page)
     return path
@@ -40,7 +41,7 @@ def drawings(found: Findings) -> dict[str, Callable[[], Figure]]:
     """The figures by name, not drawn yet."""
     scales, fits, rotors = found.study.point.scales, found.reduction.fits, found.rotors
     cubic = {name: fits[name, "cubic"] for name in found.simulations if (name, "cubic") in fits}
-    reduced, wrong = rotors.reduced["rotor_band"], rotors.reduced.get("harmonic")
+    reduced = rotors.reduced["rotor_band"]
     free = found.simulations["free"]
     return {
         "film_maps": lambda: figures.film_maps(found.steady, scales),
@@ -50,8 +51,9 @@ def drawings(found: Findings) -> dict[str, Callable[[], Figure]]:
         "free": lambda: figures.histories(free, cubic.get("free"), scales),
         "film_wave": lambda: figures.film_wave(found.simulations["harmonic"], scales),
         "loops": lambda: figures.loops(found.simulations, cubic, RECORDS, scales),
+        "impedance": lambda: figures.impedance(found.reduction, found.study.rotor_omega),
         "orbit": lambda: figures.orbit(rotors.full, reduced),
-        "response": lambda: figures.response(rotors.full, reduced, wrong),
+        "response": lambda: figures.response(rotors.full, rotors.reduced),
         "spectrum": lambda: figures.spectrum(rotors.full, reduced),
     }
 

@@ -63,7 +63,7 @@ class Findings:
 
     @property
     def cycle_work(self) -> dict[str, float]:
-        """Work taken up in the last cycle of the rotor-band record [J]: by the film, and by the cubic elements."""
+        """Work taken up in the last cycle of the rotor-band record [J]: by the film, and by the elements."""
         run, scales = self.simulations["rotor_band"], self.study.point.scales
         last = run.T >= run.T[-1] - self.study.rotor_motion.period * (1.0 + 1e-9)
         u, rate = run.approach[last], run.rate[last]
@@ -71,6 +71,9 @@ class Findings:
         for (record, model), found in self.reduction.fits.items():
             if model == "cubic" and record != "free":
                 forces[record] = np.asarray(found.element.force(u, rate))
+        memory = self.reduction.memory
+        if not isinstance(memory, str):
+            forces["memory"] = memory.element.drive(run.T, run.approach, run.rate)[last]
         unit = scales.force * scales.length
         return {name: float(np.trapezoid(force, u)) * unit for name, force in forces.items()}
 
@@ -92,6 +95,14 @@ class Findings:
         return sorted(rows, key=lambda row: (list(RECORDS).index(row["record"]), row["model"]))
 
     @property
+    def memory(self) -> dict[str, Any]:
+        """The film-memory element and the impedance it was fitted to, or why there is none."""
+        found, response = self.reduction.memory, self.reduction.impedance
+        if isinstance(found, str) or response is None:
+            return {"refused": found}
+        return found.to_dict() | {"impedance": response.summary()}
+
+    @property
     def answer(self) -> str:
         """What the study found, in one paragraph."""
         point, s = self.operating_point, self.study
@@ -100,12 +111,19 @@ class Findings:
         c = self.rotors.whole["rotor_band"]
         displacement, force = 100.0 * (c.displacement or 0.0), 100.0 * (c.force or 0.0)
         k = float(chosen.stiffness(chosen.approach_at(point["load"]), 0.0))
-        wrong = self.reduction.fits.get(("harmonic", "cubic"))
         lesson = ""
+        one = self.rotors.whole.get("memory")
+        if one is not None:
+            lesson = (
+                f" One film-memory element, fitted to the impedance and all records at once, has "
+                f"{100.0 * (one.displacement or 0.0):.2f} % and {100.0 * (one.force or 0.0):.2f} %, and holds in "
+                f"every band."
+            )
+        wrong = self.reduction.fits.get(("harmonic", "cubic"))
         if wrong is not None:
             ratio = found.parameters["C1"] / wrong.parameters["C1"]
-            lesson = (
-                f" Fitted at Omega = {s.harmonic.omega:.3g}, the contact's own band, the same model has a damping "
+            lesson += (
+                f" Fitted at Omega = {s.harmonic.omega:.3g}, the contact's own band, the cubic has a damping "
                 f"{ratio:.1f} times smaller: an element is good for the band it was fitted in."
             )
         return (
@@ -139,6 +157,7 @@ class Findings:
                 for name, run in self.simulations.items()
             },
             "fits": self.fits,
+            "memory": self.memory,
             "fmu": self.fmu,
             "cycle_work": self.cycle_work,
             "rotor": self.rotors.to_dict(),

@@ -6,6 +6,7 @@ module           shows
 ``style``        fonts, colours, figure to embedded PNG
 ``film``         the steady film: maps, profiles, interferogram, convergence
 ``transient``    histories, the film wave, force against approach
+``impedance``    stiffness and damping over frequency, and what the elements have of them
 ``rotor``        orbit, time response, spectrum
 ===============  ================================================================
 """
@@ -14,6 +15,7 @@ from ehlcontact.cli.study.figures.film import convergence as convergence
 from ehlcontact.cli.study.figures.film import film_maps as film_maps
 from ehlcontact.cli.study.figures.film import interferogram as interferogram
 from ehlcontact.cli.study.figures.film import midplane as midplane
+from ehlcontact.cli.study.figures.impedance import impedance as impedance
 from ehlcontact.cli.study.figures.rotor import orbit as orbit
 from ehlcontact.cli.study.figures.rotor import response as response
 from ehlcontact.cli.study.figures.rotor import spectrum as spectrum

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import RectBivariateSpline
 
 from ehlcontact.cli.study.figures.style import BLUE, GREY, ORANGE, RED, legend_above, new_figure
+from ehlcontact.film import Film
+from ehlcontact.film import interferogram as fringes_of
 from ehlcontact.results import SteadyResult
 from ehlcontact.scaling import Scales
 
@@ -94,11 +96,10 @@ def midplane(result: SteadyResult, scales: Scales) -> Figure:
 def interferogram(result: SteadyResult, scales: Scales) -> Figure:
     """What an optical rig with three lines of light would show of this film."""
     y, x, H = _refined(result.H, result, scales)
-    film = H * scales.length
-    contrast = np.exp(-((film / COHERENCE) ** 2))
-    channels = [
-        0.5 * (1.0 - contrast * np.cos(4.0 * np.pi * REFRACTIVE_INDEX * film / wave)) for wave in WAVELENGTHS
-    ]
+    film = Film(x / (scales.a * 1e3), y / (scales.b * 1e3), H, np.zeros_like(H), scales)
+    contrast = np.exp(-((film.h / COHERENCE) ** 2))
+    fringes = [fringes_of(film, wave, REFRACTIVE_INDEX, np.pi).intensity for wave in WAVELENGTHS]
+    channels = [0.5 + contrast * (intensity - 0.5) for intensity in fringes]
     figure = new_figure(3.0)
     axes = figure.subplots()
     axes.imshow(

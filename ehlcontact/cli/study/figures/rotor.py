@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from matplotlib.figure import Figure
 
-from ehlcontact.cli.study.figures.style import BLUE, GREY, ORANGE, RED, legend_above, new_figure
+from ehlcontact.cli.study.figures.style import BLUE, GREEN, GREY, ORANGE, RED, legend_above, new_figure
 from reduced_models import RotorResult
 
-FULL, REDUCED, WRONG = "full film in the loop", "element of this band", "element of the contact band"
+FULL, REDUCED = "full film in the loop", "element of this band"
+OTHERS = {"memory": ("film memory", GREEN), "harmonic": ("element of the contact band", ORANGE)}
 
 
 def orbit(full: RotorResult, reduced: RotorResult) -> Figure:
@@ -38,8 +41,9 @@ def orbit(full: RotorResult, reduced: RotorResult) -> Figure:
     return figure
 
 
-def response(full: RotorResult, reduced: RotorResult, wrong: RotorResult | None) -> Figure:
-    """Journal displacement and force of contact 1 over time, and the differences."""
+def response(full: RotorResult, runs: Mapping[str, RotorResult]) -> Figure:
+    """Journal displacement and force of contact 1 over time, and the differences of all reduced runs."""
+    reduced = runs["rotor_band"]
     figure = new_figure(7.2)
     panels = figure.subplots(4, 1, sharex=True, height_ratios=(2, 1, 2, 1))
     t = full.t * 1e3
@@ -53,8 +57,9 @@ def response(full: RotorResult, reduced: RotorResult, wrong: RotorResult | None)
         upper.plot(t, signal(reduced), "--", color=RED, label=REDUCED)
         upper.set_ylabel(f"{name} [{unit}]")
         lower.plot(t, signal(reduced) - signal(full), color=RED, label=REDUCED)
-        if wrong is not None:
-            lower.plot(t, signal(wrong) - signal(full), color=ORANGE, label=WRONG, linewidth=1.2)
+        for other, (label, colour) in OTHERS.items():
+            if other in runs:
+                lower.plot(t, signal(runs[other]) - signal(full), color=colour, label=label, linewidth=1.2)
         lower.set_ylabel(f"difference\n[{unit}]")
         lower.axhline(0.0, color=GREY, linewidth=0.8)
     legend_above(panels[0])
