@@ -13,8 +13,9 @@ from ehlcontact.scaling import MoesPoint
 
 FEWEST_INTERVALS, MOST_INTERVALS = 128, 2048
 LARGEST_MESH = 0.12  # in semi-axes; what the pressure itself asks for
-MESH_OF_INLET = 0.6  # largest mesh over the width of the inlet; films come out negative from about 0.8
-LOADING_MESH = 0.4  # the same on the way to the load, where a negative film spoils the start
+MESH_OF_INLET = 0.6  # largest mesh over the width of the inlet
+NEGATIVE_FILM = 0.8  # of that width: mesh above which the load has to be approached in steps,
+LOADING_MESH = 0.4  # each resolved this well
 LARGEST_GRID = 800_000  # nodes
 THIN = 0.06  # inlet width below which `CLOSE` will do
 CLOSE = Domain(-2.0, 1.35, 1.6)  # around a film so thin that oil further out makes no difference
@@ -30,14 +31,14 @@ def inlet_width(point: MoesPoint) -> float:
 
 
 def resolved_load(point: MoesPoint, mesh: float) -> float:
-    """Moes load up to which `mesh` (in semi-axes) resolves the film at L and kappa of `point`; at most its M."""
+    """Moes load, at most that of `point`, which `mesh` (in semi-axes) carries with a positive film."""
 
     def excess(log_load: float) -> float:
         return inlet_width(replace(point, M=exp(log_load))) * LOADING_MESH - mesh
 
     highest = log(point.M)
     lowest = min(0.0, highest)
-    if excess(highest) >= 0.0:
+    if mesh <= NEGATIVE_FILM * inlet_width(point) or excess(highest) >= 0.0:
         return point.M
     if excess(lowest) <= 0.0:
         return exp(lowest)
