@@ -1,16 +1,20 @@
-"""A stand-in for the solver that worker processes can import: smooth in the point, at once, and always the same."""
+"""A stand-in for the solver that worker processes can import: smooth in the point, and done at once."""
 
 from __future__ import annotations
 
 import math
 import time
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ehlcontact import Domain, MoesPoint
 from ehlcontact.formulas import nvm_central_film
+from reduced_models.atlas_build import SEED, settings
+from reduced_models.atlas_sample import sample_points
 from reduced_models.atlas_solve import OMEGAS
+from reduced_models.atlas_work import WorkFile
 
 PAUSE = 0.05
 
@@ -27,6 +31,13 @@ def solve(point: MoesPoint) -> dict[str, Any]:
     entry |= {"stiffness": stiffness.tolist(), "damping": damping.tolist()}
     # A few fail, as they do in earnest.
     return entry | {"status": "stagnated" if math.sin(1e4 * point.M) > 0.95 else "converged"}
+
+
+def prefill(work: Path, draws: int, light_draws: int, seed: int = SEED) -> None:
+    """Work file of a build that has nothing left to solve."""
+    with WorkFile(work, settings(seed)) as file:
+        for name, point in sample_points(draws, light_draws, seed).items():
+            file.add(name, solve(point))
 
 
 def solve_slowly(point: MoesPoint) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from ehlcontact.cli import export, fit, impedance, reproduce, run, simulate, steady, unbuilt
+from ehlcontact.cli import atlas, element, export, fit, impedance, reproduce, run, simulate, steady
 from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain, one_line
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.version import __version__
@@ -45,9 +45,8 @@ def _program(
     """Transient elastohydrodynamic rolling contacts, reduced to elements for rotordynamics."""
 
 
-for module in (steady, simulate, impedance, fit, export, run, reproduce):
+for module in (steady, simulate, impedance, fit, element, export, run, reproduce, atlas):
     module.register(app)
-unbuilt.register(app)
 
 
 def execute(arguments: Sequence[str] | None = None) -> int:

@@ -1,0 +1,261 @@
+"""The build of the atlas: what is sampled, what survives a kill, processes and a Dask cluster."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import atlas_stub
+import numpy as np
+import pytest
+
+from ehlcontact import Domain, InputError, MoesPoint
+from ehlcontact.resolution import inlet_width
+from reduced_models.atlas_assemble import RATES, assemble, smooth_gains
+from reduced_models.atlas_box import BOX
+from reduced_models.atlas_build import build_atlas, solve_samples
+from reduced_models.atlas_sample import SAMPLED, sample_points
+from reduced_models.atlas_solve import CLOSE_MESHES, OMEGAS, mesh_of, solve_point
+from reduced_models.atlas_table import AtlasTable
+from reduced_models.atlas_work import WorkFile
+from reduced_models.film_filters import DRY
+
+DRAWS, LIGHT = 24, 24
+TESTS = Path(__file__).parents[1]
+BUILD = f"""
+import sys
+from pathlib import Path
+from atlas_stub import solve_slowly
+from reduced_models.atlas_build import build_atlas
+if __name__ == "__main__":
+    folder = Path(sys.argv[1])
+    build_atlas(folder / "a.npz", folder / "a.jsonl", {DRAWS}, {LIGHT}, processes=2, solve=solve_slowly)
+"""
+
+
+@pytest.fixture
+def entries():
+    return [{"point": name, **atlas_stub.solve(p)} for name, p in sample_points(DRAWS, LIGHT, 1).items()]
+
+
+def test_more_draws_add_to_the_fewer():
+    few, many = sample_points(16, 8, 3), sample_points(64, 20, 3)
+    assert set(few) <= set(many) and len(many) > len(few)
+    assert all(many[name] == point for name, point in few.items())
+    assert sample_points(16, 8, 4).values() != few.values()
+
+
+def test_samples_fill_a_box_that_holds_the_promised_one():
+    points = list(sample_points(256, 128, 4).values())
+    for name in ("M", "L", "kappa"):
+        values = [getattr(p, name) for p in points]
+        (low, high), (least, most) = getattr(BOX, name), getattr(SAMPLED, name)
+        assert min(values) == pytest.approx(least) and max(values) == pytest.approx(most)
+        assert most > high and (least < low or low == 0.0)
+    pressures = [p.p_hertz for p in points]
+    assert BOX.p_hertz < max(pressures) <= SAMPLED.p_hertz * (1.0 + 1e-9)
+
+
+def test_mesh_is_finer_for_thinner_films_and_ends():
+    widths, steps = [], []
+    for M in np.geomspace(20.0, 3e4, 40).tolist():
+        point = MoesPoint(M, 2.0, 0.6)
+        mesh = mesh_of(point)
+        if mesh is not None:
+            widths.append(inlet_width(point))
+            steps.append((mesh.domain.x_out - mesh.domain.x_in) / mesh.n / widths[-1])
+        else:
+            assert inlet_width(point) < CLOSE_MESHES[-1][0]
+    assert len(widths) > 25 and max(steps) < 0.55
+
+
+def test_a_solved_point_has_everything_that_is_assembled():
+    entry = json.loads(json.dumps(solve_point(MoesPoint(5.0, 3.0, 0.5))))
+    assert entry["status"] == "converged" and entry["n"] == 64
+    assert len(entry["stiffness"]) == len(entry["damping"]) == len(OMEGAS)
+    assert entry["approach"] < 1.0 and 0.0 < entry["h_min"] < entry["h_central"]
+
+
+def test_too_thin_a_film_is_left_out_at_once():
+    entry = solve_point(MoesPoint(30000.0, 0.5, 1.0))
+    assert entry["status"] == "unresolved" and "approach" not in entry
+
+
+def test_torn_line_is_dropped_and_the_rest_kept(tmp_path):
+    path, settings = tmp_path / "w.jsonl", {"seed": 1}
+    with WorkFile(path, settings) as file:
+        file.add("a", {"x": 1.0})
+        file.add("b", {"x": 2.0})
+    whole = path.read_bytes()
+    for cut in range(len(whole) - 1, len(whole) - 15, -1):
+        path.write_bytes(whole[:cut])
+        with WorkFile(path, settings) as file:
+            assert list(file.entries) == ["a"]
+            file.add("b", {"x": 2.0})
+        assert path.read_bytes() == whole
+
+
+@pytest.mark.parametrize(
+    ("content", "settings", "word"),
+    [
+        ('{"schema": "other"}\n', {"seed": 1}, "work file"),
+        ("text\n", {"seed": 1}, "work file"),
+        (None, {"seed": 2}, "seed"),
+    ],
+)
+def test_other_work_files_are_refused(tmp_path, content, settings, word):
+    path = tmp_path / "w.jsonl"
+    if content is None:
+        with WorkFile(path, {"seed": 1}):
+            pass
+    else:
+        path.write_text(content)
+    before = path.read_bytes()
+    with pytest.raises(InputError, match=word):
+        WorkFile(path, settings)
+    assert path.read_bytes() == before
+
+
+def test_too_few_converged_points_make_no_atlas(entries):
+    with pytest.raises(InputError, match="converged points"):
+        assemble([{**e, "status": "stagnated"} for e in entries], {})
+
+
+def test_table_file_and_what_is_recorded_in_it(tmp_path, entries):
+    table = assemble(entries, {"command": "c", "version": "v"})
+    table.save(tmp_path / "a.npz")
+    read = AtlasTable.load(tmp_path / "a.npz")
+    assert np.array_equal(read.points, table.points)
+    np.testing.assert_allclose(read.damping, table.damping, rtol=1e-6)
+    failed = sum(e["status"] != "converged" for e in entries)
+    assert read.metadata["left_out"] == {"stagnated": failed} and failed > 0
+    assert read.metadata["points"] == len(entries) - failed and read.box == BOX
+
+
+@pytest.mark.parametrize("damage", ["missing", "short", "other", "newer"])
+def test_damaged_tables_are_refused(tmp_path, entries, damage):
+    path = tmp_path / "a.npz"
+    assemble(entries, {"version": "v"}).save(path)
+    if damage == "missing":
+        path.unlink()
+    elif damage == "short":
+        path.write_bytes(path.read_bytes()[:-100])
+    elif damage == "other":
+        np.savez(path, x=np.zeros(3))
+    else:
+        arrays = dict(np.load(path))
+        header = json.loads(str(arrays["metadata"]))
+        arrays["metadata"] = np.array(json.dumps({**header, "schema_version": 99}))
+        np.savez(path, **arrays)
+    with pytest.raises(InputError, match="atlas"):
+        AtlasTable.load(path)
+
+
+def test_far_oil_is_learnt_from_the_points_solved_on_both_domains(entries):
+    """With pairs that differ by lambda times a constant, the points solved near alone get just that."""
+    shift, close = 0.4, list(Domain(-2.0, 1.35, 1.6).as_tuple())
+    points = [MoesPoint(e["M"], e["L"], e["kappa"]) for e in entries]
+    changed, plain = [], assemble(entries, {})
+    for i, (e, p) in enumerate(zip(entries, points, strict=True)):
+        near = e | {"domain": close, "damping": [c - shift * p.lam for c in e["damping"]]}
+        near["approach"] = e["approach"] + 2.0 * p.lam
+        changed.append(near if i % 5 == 0 else e | {"close": near})
+    table = assemble(changed, {})
+    np.testing.assert_allclose(table.damping, plain.damping, rtol=1e-9)
+    np.testing.assert_allclose(table.approach, plain.approach, rtol=1e-9)
+
+
+def test_gains_reproduce_an_impedance_of_the_filters():
+    wanted = np.zeros(3 + RATES.lags)
+    wanted[[0, 1, 5]] = 0.05, 0.2, 0.4
+    omega = np.array(OMEGAS)
+    G = RATES.basis(omega) @ wanted * DRY
+    K, C = 1.4 - omega * G.imag, G.real
+    gains = smooth_gains(omega, K, C) * C[1]
+    found = RATES.basis(omega) @ gains * DRY
+    np.testing.assert_allclose(found.real, C, rtol=0.02, atol=0.02 * C[1])
+
+
+@pytest.mark.slow
+def test_killed_build_goes_on_and_ends_the_same(tmp_path):
+    """kill -9 twice, once leaving a torn line: byte for byte the atlas of an undisturbed build."""
+    script = tmp_path / "build.py"
+    script.write_text(BUILD)
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(TESTS), str(TESTS.parent)])}
+    disturbed, calm = tmp_path / "disturbed", tmp_path / "calm"
+    disturbed.mkdir(), calm.mkdir()
+    work = disturbed / "a.jsonl"
+    for least in (5, 15):
+        process = subprocess.Popen([sys.executable, str(script), str(disturbed)], env=environment)
+        deadline = time.monotonic() + 60.0
+        while not work.exists() or work.read_bytes().count(b"\n") <= least:
+            assert process.poll() is None and time.monotonic() < deadline
+            time.sleep(0.01)
+        process.kill()
+        process.wait()
+        assert not (disturbed / "a.npz").exists()
+    with work.open("ab") as stream:
+        stream.write(b'{"point": "all-3", "M": 12')
+    kept = work.read_bytes().count(b"\n")
+    for folder in (disturbed, calm):
+        subprocess.run([sys.executable, str(script), str(folder)], env=environment, check=True)
+    assert (disturbed / "a.npz").read_bytes() == (calm / "a.npz").read_bytes()
+    assert work.read_bytes().count(b"\n") > kept
+    assert sorted(work.read_bytes().splitlines()) == sorted((calm / "a.jsonl").read_bytes().splitlines())
+
+
+@pytest.mark.slow
+def test_dask_cluster_with_a_worker_killed_in_mid_run(tmp_path):
+    """Scheduler and workers as processes of their own; the atlas is that of a local build."""
+    pytest.importorskip("distributed")
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(TESTS), str(TESTS.parent)])}
+    address = tmp_path / "scheduler.json"
+    command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--port", "0", "--no-dashboard"]
+    processes = [_start([*command, "--host", "127.0.0.1", "--scheduler-file", str(address)], environment)]
+    try:
+        deadline = time.monotonic() + 60.0
+        while not address.exists() or not address.read_text():
+            assert processes[0].poll() is None and time.monotonic() < deadline
+            time.sleep(0.05)
+        scheduler = json.loads(address.read_text())["address"]
+        worker = [sys.executable, "-m", "distributed.cli.dask_worker", scheduler, "--nthreads", "1", "--no-nanny"]
+        folder = ["--local-directory", str(tmp_path), "--no-dashboard"]
+        processes += [_start([*worker, *folder], environment) for _ in range(2)]
+        killed = []
+
+        def kill_one(done, total):
+            if done == 5:
+                os.kill(processes[1].pid, signal.SIGKILL)
+                killed.append((done, total))
+
+        build_atlas(
+            tmp_path / "dask.npz",
+            tmp_path / "dask.jsonl",
+            DRAWS,
+            LIGHT,
+            scheduler=scheduler,
+            progress=kill_one,
+            solve=atlas_stub.solve_slowly,
+        )
+        assert killed and killed[0][0] < killed[0][1]
+        assert processes[1].wait(10) == -signal.SIGKILL and processes[2].poll() is None
+    finally:
+        for process in processes:
+            process.kill()
+            process.wait()
+    build_atlas(tmp_path / "here.npz", tmp_path / "here.jsonl", DRAWS, LIGHT, solve=atlas_stub.solve)
+    assert (tmp_path / "dask.npz").read_bytes() == (tmp_path / "here.npz").read_bytes()
+
+
+def _start(command, environment):
+    return subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def test_no_cluster_at_the_address(tmp_path, monkeypatch):
+    pytest.importorskip("distributed")
+    monkeypatch.setattr("reduced_models.atlas_workers.CONNECT_SECONDS", 0.5)
+    with pytest.raises(InputError, match="--scheduler"):
+        solve_samples(tmp_path / "w.jsonl", 2, 2, scheduler="tcp://127.0.0.1:1", solve=atlas_stub.solve)
