@@ -199,7 +199,7 @@ class Checkpoint:
                 )
 
         same("version", self.version, __version__)
-        for name in ("point", "domain", "n", "tol", "error"):
+        for name in ("point", "domain", "n", "error", "tol"):
             same(name, getattr(self, name), getattr(task, name))
         ours, theirs = self.motion.to_dict(), task.motion.to_dict()
         for key in ours:
@@ -227,6 +227,15 @@ def load_checkpoint(path: str | os.PathLike[str]) -> Checkpoint:
         path, {Checkpoint.__name__: Checkpoint}, "restart", "checkpoint of `simulate`"
     )
     return checkpoint
+
+
+def require_replaceable(path: str | os.PathLike[str], restart: str | os.PathLike[str] | None) -> None:
+    """Raise `InputError` if writing checkpoints to `path` would lose a file that the run does not go on from."""
+    target = Path(path)
+    if target.exists() and not (restart is not None and Path(restart).exists() and target.samefile(restart)):
+        raise InputError(
+            "checkpoint", str(path), "a new file, or the one given as restart (this one exists, and would be lost)"
+        )
 
 
 def _brief(value: Any) -> str:

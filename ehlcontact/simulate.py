@@ -9,7 +9,7 @@ from math import ceil, inf
 
 import numpy as np
 
-from ehlcontact.checkpoint import Checkpoint, Task, load_checkpoint
+from ehlcontact.checkpoint import Checkpoint, Task, load_checkpoint, require_replaceable
 from ehlcontact.domain import Domain, check_domain, check_intervals
 from ehlcontact.errors import ConvergenceError, InputError, require_instance, require_nonnegative, require_positive
 from ehlcontact.history import History
@@ -19,12 +19,13 @@ from ehlcontact.scaling import Point, moes_point, scales_of
 from ehlcontact.status import Status
 from ehlcontact.step_control import StepControl
 from ehlcontact.stepping import End, Run, march_controlled, march_fixed
-from ehlcontact.surface import Surface
+from ehlcontact.surface import Surface, surface_height
 from ehlcontact.transient import TransientFilm
 from ehlcontact.version import __version__
 
 LARGEST_ERROR = 0.1
 FIRST_STEP = 0.25  # of the motion's own step: what is tried first under error control
+MOST_STEPS = 1_000_000  # in fixed steps
 TOL_SHARE = 3.0  # tol over error: the last changes of force and approach are then a tenth of the error
 
 
@@ -74,8 +75,8 @@ def simulate(
     callback : callable, optional
         Called with T and `until` after every step.
     checkpoint : path, optional
-        HDF5 file that is replaced, in one move, every `checkpoint_every` seconds (0: after every step) and at the
-        end, however the run ends: it holds the last step that was solved.
+        HDF5 file, new or that of `restart`; replaced, in one move, every `checkpoint_every` seconds (0: after
+        every step) and at the end, once the start was solved.
     checkpoint_every : float
         Seconds between checkpoints.
     restart : path, optional
@@ -98,6 +99,8 @@ def simulate(
     started = time.perf_counter()
     task, end_time = _task(point, motion, n, domain, until, dT, error, tol, snapshots)
     require_nonnegative("checkpoint_every", checkpoint_every)
+    if checkpoint is not None:
+        require_replaceable(checkpoint, restart)
     film = TransientFilm(task.point, task.domain, task.n, task.tol)
     earlier = None
     if restart is not None:
@@ -140,7 +143,8 @@ def simulate(
         store(run)
     result = _collect(run, task, point, end.status, seconds())
     if throw and not end.status.ok and end.status is not Status.INTERRUPTED:
-        raise ConvergenceError(_message(result, end), result)
+        G = surface_height(surface, film.level.X, film.level.Y, float(result.T[-1]))
+        raise ConvergenceError(_message(result, end, -float(np.min(G))), result)
     return result
 
 
@@ -171,6 +175,10 @@ def _task(
     if dT > end:
         raise InputError("dT", dT, f"at most until = {end!r}")
     if error is None:
+        if end / dT > MOST_STEPS:
+            raise InputError(
+                "dT", dT, f"at least until/{MOST_STEPS:,}".replace(",", " ") + f" = {end / MOST_STEPS:g}"
+            )
         dT = end / ceil(end / dT - 1e-9)
     for T in snapshots:
         if not require_nonnegative("snapshots", T) <= end * (1.0 + 1e-9):
@@ -209,10 +217,14 @@ def _collect(run: Run, task: Task, point: Point, status: Status, seconds: float)
     )
 
 
-def _message(result: SimulationResult, end: End) -> str:
-    """Status, time, what is known of step and force, and advice."""
+def _message(result: SimulationResult, end: End, highest: float) -> str:
+    """Status, time, what is known of step, force and the height of the surface, and advice."""
     notes = [end.note] if end.note else []
     if end.status is Status.OUT_OF_DOMAIN:
         notes.append(f"force so far {result.force.max():.3g} static loads")
+    if end.status is not Status.OUT_OF_DOMAIN and highest > abs(result.h_min[-1]):
+        notes.append(
+            f"the surface stands out by {highest:.3g} dry approaches: one that closes the gap has no film"
+        )
     note = f" ({', '.join(notes)})" if notes else ""
     return f"simulation {end.status} at T = {result.T[-1]:.6g}{note}: {end.status.advice}"

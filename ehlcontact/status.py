@@ -33,8 +33,9 @@ class Status(StrEnum):
 
 _ADVICE = {
     Status.CONVERGED: "Both residuals are below tolerance.",
-    Status.STAGNATED: "The residual no longer falls: try a wider domain at light load, else a finer grid.",
-    Status.DIVERGED: "The residual grows: use a finer grid, or a smaller time step.",
+    Status.STAGNATED: "The residual no longer falls: try a wider domain at light load, else a finer grid, "
+    "a smaller time step where there is one, or a tolerance above rounding (1e-9).",
+    Status.DIVERGED: "The residual grows: use a finer grid; in a simulation also a smaller time step.",
     Status.NONFINITE: "NaN or infinity appeared: use a finer grid, or check that M, L and kappa are meant.",
     Status.MAX_CYCLES: "The cycles ran out while still converging: raise max_cycles.",
     Status.OUT_OF_DOMAIN: "Pressure reaches the border of the computed region: give a wider domain, such as "

@@ -20,6 +20,7 @@ from ehlcontact.errors import InputError, require_finite, require_nonnegative, r
 Array = NDArray[np.float64]
 Surface = Callable[[Array, Array, float], Array]
 
+PROBED = 8  # every so many nodes are compared with their images at -Y
 RATE_STEP = 1e-6  # of the central difference along the path of the film, in X and T
 
 
@@ -38,7 +39,7 @@ def surface_height(surface: Surface | None, X: Array, Y: Array, T: float) -> Arr
     Raises
     ------
     InputError
-        The surface returns another shape, NaN or infinity.
+        The surface returns another shape, NaN or infinity, or is not even in Y.
     """
     if surface is None:
         return 0.0
@@ -49,6 +50,10 @@ def surface_height(surface: Surface | None, X: Array, Y: Array, T: float) -> Arr
         raise InputError("surface", G.shape, f"a function returning shape {(Y.size, X.size)}") from None
     if not np.isfinite(G).all():
         raise InputError("surface", "NaN or infinity", f"finite everywhere (T = {T:g})")
+    some = slice(None, None, PROBED)
+    mirrored = np.asarray(surface(X[None, some], -Y[some, None], T), dtype=float)
+    if not np.allclose(mirrored, G[some, some], rtol=1e-6, atol=1e-12):
+        raise InputError("surface", "another for -Y than for Y", "even in Y: only Y >= 0 is computed")
     return G
 
 

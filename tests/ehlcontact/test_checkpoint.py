@@ -72,6 +72,15 @@ def test_restart_equals_the_uninterrupted_run(name, tmp_path):
         assert part.status is Status.INTERRUPTED
         assert T < part.T[-1] < 0.8
         assert_same_bits(whole, simulate(POINT, motion, **settings, restart=path))
+        path.unlink()
+
+
+def test_an_existing_file_is_not_overwritten(tmp_path):
+    path = tmp_path / "kept.h5"
+    path.write_bytes(b"somebody's result")
+    with pytest.raises(InputError, match=r"^checkpoint = .*would be lost"):
+        simulate(POINT, HarmonicLoad(3.0), n=16, until=0.1, dT=0.1, checkpoint=path)
+    assert path.read_bytes() == b"somebody's result"
 
 
 @pytest.mark.slow

@@ -3,7 +3,17 @@
 import numpy as np
 import pytest
 
-from ehlcontact import Dent, InputError, MoesPoint, PrescribedLoad, TransverseRidge, Waviness, simulate
+from ehlcontact import (
+    ConvergenceError,
+    Dent,
+    HarmonicLoad,
+    InputError,
+    MoesPoint,
+    PrescribedLoad,
+    TransverseRidge,
+    Waviness,
+    simulate,
+)
 from ehlcontact.surface import surface_height, surface_step
 
 X, Y = np.linspace(-2.0, 1.0, 31), np.linspace(0.0, 1.0, 5)
@@ -88,3 +98,21 @@ def test_film_round_a_carried_dent(depth, largest):
         assert film[outside].min() > 0.3 * central
     change = (run.h_midplane[-1] - finer.h_midplane[-1])[outside]
     assert np.sqrt(np.mean(change**2)) < largest * central
+
+
+def test_surface_must_be_even_in_y():
+    with pytest.raises(InputError, match=r"^surface = .*even in Y"):
+        simulate(
+            MoesPoint(200, 10, 0.5), HarmonicLoad(3.0), n=16, until=0.1, surface=lambda X, Y, T: 0.01 * Y + 0.0 * X
+        )
+
+
+def test_surface_that_closes_the_gap_is_named():
+    ridge = TransverseRidge(3.0, 0.4, start=0.0)
+    with pytest.raises(ConvergenceError, match="surface stands out by 3"):
+        simulate(MoesPoint(200, 10, 0.5), HarmonicLoad(3.0), n=32, until=0.1, surface=ridge)
+
+
+def test_endless_fixed_steps_are_refused():
+    with pytest.raises(InputError, match=r"^dT = 1e-09: must be at least"):
+        simulate(MoesPoint(200, 10, 0.5), HarmonicLoad(3.0), n=16, until=10.0, dT=1e-9)
