@@ -14,10 +14,13 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.errors import InputError, require_choice, require_finite, require_nonnegative
+from ehlcontact.errors import InputError, require_choice, require_finite, require_instance, require_nonnegative
 from ehlcontact.scaling import Scales
 from reduced_models.element_file import UNITS, band, numbers, read_document, write_document
 from reduced_models.validity import MARGIN, OCTAVE, Band, OutsideValidityWarning, text_of
+
+SAME_SCALES = 1e-6  # relative; more than a rounded file or another order of the same arithmetic makes
+_SCALED_BY = ("force", "length", "time")
 
 
 class ContactElement(ABC):
@@ -98,8 +101,8 @@ class ContactElement(ABC):
         return replace(self)  # type: ignore[type-var]
 
     @abstractmethod
-    def _si_factors(self, scales: Scales) -> dict[str, float]:
-        """SI value of the unit of every coefficient."""
+    def _si_coefficients(self, scales: Scales) -> dict[str, Any]:
+        """Fields of the element in SI, its validity box and units apart."""
 
     @property
     def parameters(self) -> dict[str, float]:
@@ -184,12 +187,13 @@ class ContactElement(ABC):
         Raises
         ------
         InputError
-            The element is in SI already.
+            The element is in SI already, or its ``source`` knows the scales and they are others.
         """
+        require_instance("scales", scales, Scales, "the Scales of an operating point")
         if self.units == "SI":
             raise InputError("units", self.units, "dimensionless, to be taken to SI")
-        factor = self._si_factors(scales)
-        changes: dict[str, Any] = {name: value * factor[name] for name, value in self.parameters.items()}
+        _require_own_scales(scales, self.source)
+        changes = self._si_coefficients(scales)
         changes |= {"low": self.low * scales.length, "high": self.high * scales.length, "units": "SI"}
         changes["rate"] = None if self.rate is None else self.rate * scales.rate
         for name, unit in (("load_range", scales.force), ("omega_range", 1.0 / scales.time)):
@@ -253,6 +257,16 @@ class ContactElement(ABC):
             return cls(**values)
         except InputError as error:
             raise InputError(f"{name}: {error.field}", error.value, error.allowed) from None
+
+
+def _require_own_scales(scales: Scales, source: Mapping[str, Any] | None) -> None:
+    fitted = None if source is None else source.get("scales")
+    if not isinstance(fitted, Mapping):
+        return
+    known = {name: fitted[name] for name in _SCALED_BY if isinstance(fitted.get(name), int | float)}
+    given = {name: getattr(scales, name) for name in known}
+    if any(not math.isclose(given[name], known[name], rel_tol=SAME_SCALES) for name in known):
+        raise InputError("scales", given, f"those of the point the element was fitted at: {known}")
 
 
 def _band(name: str, value: Any) -> Band:

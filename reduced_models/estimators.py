@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -18,6 +18,7 @@ from reduced_models.records import ContactRecord
 from reduced_models.viscous import CubicContact, LinearContact
 
 _Floats = NDArray[np.float64]
+NO_DAMPING = 1e-9  # largest force of a damper over the largest of the contact that may be rounding
 
 # Columns of eq. 12: name, and what stands in it.
 COLUMNS: dict[str, tuple[str, Callable[[_Floats, _Floats], _Floats]]] = {
@@ -67,6 +68,22 @@ class Estimate:
     covariance: _Floats  # as if the residuals were independent
     condition: float  # of the column-scaled (Jacobian) matrix
     build: Callable[..., MemorylessContact]  # called with parameters, validity box and units
+    damping: str | None = None  # coefficient of u', where it is the whole damper
+
+    def without_negative_damping(self, samples: Samples, errors: _Floats) -> Estimate:
+        """Damping 0 where it is negative by rounding, or by no more than its standard error in `errors`."""
+        if self.damping is None:
+            return self
+        damping = self.parameters[self.damping]
+        error = float(errors[list(self.parameters).index(self.damping)])
+        smallest = NO_DAMPING * float(np.abs(samples.force).max()) / float(np.abs(samples.rate).max())
+        if not -max(error, smallest) <= damping < 0.0:
+            return self
+        return replace(
+            self,
+            parameters=self.parameters | {self.damping: 0.0},
+            fitted=self.fitted - damping * samples.rate,
+        )
 
 
 def linear_estimate(samples: Samples, names: Sequence[str], build: Callable[..., MemorylessContact]) -> Estimate:
@@ -74,11 +91,14 @@ def linear_estimate(samples: Samples, names: Sequence[str], build: Callable[...,
     columns = {COLUMNS[name][0]: COLUMNS[name][1](samples.approach, samples.rate) for name in names}
     solved = linear_fit(columns, samples.force)
     parameters = dict(zip(names, solved.values.tolist(), strict=True))
-    return Estimate(parameters, solved.fitted, solved.covariance, solved.condition, build)
+    damping = "C1" if set(names).isdisjoint(("C2", "C3", "B4")) else None
+    return Estimate(parameters, solved.fitted, solved.covariance, solved.condition, build, damping)
 
 
 def _power_estimate(samples: Samples) -> Estimate:
-    return Estimate(*fit_power_law(samples.approach, samples.rate, samples.force), build=PowerLawContact)
+    return Estimate(
+        *fit_power_law(samples.approach, samples.rate, samples.force), build=PowerLawContact, damping="C"
+    )
 
 
 def _of_columns(element: type[MemorylessContact]) -> Callable[[Samples], Estimate]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Mapping
-from dataclasses import asdict, fields, replace
+from dataclasses import asdict, fields
 from functools import cached_property
 from typing import Any, Self
 
@@ -218,20 +218,8 @@ class FilmContact(ContactElement):
         states = ["s", "y", *(f"q{k}" for k in range(1, self.lags + 1))]
         return control.nlsys(update, output, inputs=["u", "v"], outputs=["F"], states=states, name=name)
 
-    def to_si(self, scales: Scales) -> Self:
-        """The same element in m, m/s, s and N; time scales with 2a/u_sum."""
-        if self.units == "SI":
-            raise InputError("units", self.units, "dimensionless, to be taken to SI")
-        changes: dict[str, Any] = {"units": "SI", "scales": scales}
-        changes |= {"low": self.low * scales.length, "high": self.high * scales.length}
-        changes["rate"] = None if self.rate is None else self.rate * scales.rate
-        for key, unit in (("load_range", scales.force), ("omega_range", 1.0 / scales.time)):
-            bounds = getattr(self, key)
-            changes[key] = None if bounds is None else (bounds[0] * unit, bounds[1] * unit)
-        return replace(self, **changes)  # type: ignore[type-var]
-
-    def _si_factors(self, scales: Scales) -> dict[str, float]:
-        return {}  # the coefficients stay dimensionless
+    def _si_coefficients(self, scales: Scales) -> dict[str, Any]:
+        return {"scales": scales}  # the coefficients stay dimensionless
 
     def to_dict(self) -> dict[str, Any]:
         """Content of the element file, header apart; ``parameters`` dimensionless, ``scales`` of an SI element."""

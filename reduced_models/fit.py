@@ -15,7 +15,7 @@ from reduced_models.estimators import ESTIMATORS, Samples
 from reduced_models.fit_result import ElementFit
 from reduced_models.memory_fit import MemoryFit, fit_memory
 from reduced_models.memoryless import MemorylessContact
-from reduced_models.records import ContactRecord
+from reduced_models.records import ContactRecord, as_records
 from reduced_models.uncertainty import half_widths, independent_samples
 
 MEMORY = "memory"
@@ -94,9 +94,15 @@ def fit(records: Records, model: str = "cubic", window: Window | None = None) ->
     Raises
     ------
     InputError
-        Unknown model; no record, or records of different points, scales or units; a window without samples; a
-        record that varies too little (it names the columns) or whose rate is not the derivative of its approach;
-        a fit that makes no contact (C1 < 0, or a spring that does not push at the ends of the range).
+        Unknown model; no record, something else, or records of different points, scales or units; a window
+        without samples; a record that varies too little (it names the columns) or whose rate is not the
+        derivative of its approach; a fit that makes no contact (C1 < 0, or a spring that does not push at the ends
+        of the range).
+
+    Notes
+    -----
+    Damping of a linear, cubic or power-law element that comes out negative, but within its standard error or with
+    a force below 1e-9 of the largest contact force, is no damping: it is taken as 0, the spring as fitted.
     """
     require_choice("model", model, MODELS)
     if model != MEMORY:
@@ -119,6 +125,8 @@ def _least_squares(records: Records, model: str, window: Window | None) -> FitRe
     independent = independent_samples(samples.split(residuals))
     covariance = estimate.covariance * (samples.force.size / independent)
     errors = np.sqrt(np.diag(covariance))
+    estimate = estimate.without_negative_damping(samples, errors)
+    residuals = samples.force - estimate.fitted
     values = np.array(list(estimate.parameters.values()))
     widths = half_widths(errors, independent)
     box = _validity(samples)
@@ -161,9 +169,10 @@ def take_samples(
     Raises
     ------
     InputError
-        No record, records of different contacts, a window that is no pair or holds too few samples.
+        No record, something else, records of different contacts, a window that is no pair or holds too few
+        samples.
     """
-    taken = [records] if isinstance(records, ContactRecord) else list(records)
+    taken = as_records(records)
     if not taken:
         raise InputError("records", 0, "at least one record")
     _require_one_contact(taken)
@@ -206,8 +215,6 @@ def _span(window: tuple[float, float]) -> tuple[float, float]:
 def _require_one_contact(records: Sequence[ContactRecord]) -> None:
     first = records[0]
     for i, record in enumerate(records):
-        if not isinstance(record, ContactRecord):
-            raise InputError(f"records[{i}]", type(record).__name__, "a ContactRecord")
         for name in ("units", "point", "scales", "static_load"):
             if getattr(record, name) != getattr(first, name):
                 raise InputError(

@@ -13,6 +13,7 @@ from ehlcontact.errors import InputError
 
 # A direction that holds less than this share of its column is rounding, or the solver's own tolerance.
 SINGULAR = 1e-10
+SHARE = 1e-3  # of a column in another that counts, far above the rounding of what SINGULAR lets pass
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,17 +43,16 @@ def linear_fit(columns: Mapping[str, NDArray[np.float64]], target: NDArray[np.fl
     if A.shape[0] <= A.shape[1]:
         raise InputError("samples", A.shape[0], f"more than the {A.shape[1]} parameters")
     norms = np.linalg.norm(A, axis=0)
-    zero = [name for name, norm in zip(names, norms, strict=True) if norm == 0.0]
-    if zero:
-        raise InputError("columns " + ", ".join(zero), 0.0, "somewhere different from zero")
-    basis, R, pivots = qr(A / norms, mode="economic", pivoting=True)
-    dependent = [names[pivots[i]] for i in range(len(names)) if abs(R[i, i]) < SINGULAR]
-    if dependent:
-        kept = ", ".join(name for name in names if name not in dependent)
+    basis, R, pivots = qr(A / np.where(norms > 0.0, norms, 1.0), mode="economic", pivoting=True)
+    rank = int(np.count_nonzero(np.abs(np.diag(R)) >= SINGULAR))  # pivoting sorts the diagonal
+    if rank < len(names):
+        # What the last columns are made of belongs to the dependence as much as they do.
+        shares = np.abs(solve_triangular(R[:rank, :rank], R[:rank, rank:])).max(axis=1, initial=0.0)
+        singular = {*pivots[rank:].tolist(), *pivots[:rank][shares > SHARE].tolist()}
         raise InputError(
-            "columns " + ", ".join(dependent),
-            "dependent",
-            f"independent of {kept} (the record varies too little)",
+            "columns " + ", ".join(name for i, name in enumerate(names) if i in singular),
+            "zero or dependent",
+            "different from zero and independent of each other (the record varies too little)",
         )
     values = np.empty(len(names))
     values[pivots] = solve_triangular(R, basis.T @ target)

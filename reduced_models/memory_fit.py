@@ -18,7 +18,7 @@ from reduced_models.film_law import film_drive
 from reduced_models.fit_result import ElementFit
 from reduced_models.memory import FilmMemoryContact
 from reduced_models.memory_target import FOLDS, Response, Target
-from reduced_models.records import ContactRecord
+from reduced_models.records import ContactRecord, as_records
 
 _Floats = NDArray[np.float64]
 
@@ -77,7 +77,7 @@ def fit_memory(
     InputError
         Data that do not go together; see `Target.of`.
     """
-    taken = (records,) if isinstance(records, ContactRecord) else tuple(records)
+    taken = as_records(records)
     if response is None:
         response = impedance_of(taken)
     target = Target.of(response, taken)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.errors import InputError, require_positive
+from ehlcontact.scaling import Scales
 from reduced_models.element_base import ContactElement
 
 _Floats = NDArray[np.float64]
@@ -36,6 +37,14 @@ class MemorylessContact(ContactElement):
     @abstractmethod
     def _static_approach(self, force: float) -> float:
         """Approach at which the spring carries `force` > 0."""
+
+    @abstractmethod
+    def _si_factors(self, scales: Scales) -> dict[str, float]:
+        """SI value of the unit of every coefficient."""
+
+    def _si_coefficients(self, scales: Scales) -> dict[str, Any]:
+        factor = self._si_factors(scales)
+        return {name: value * factor[name] for name, value in self.parameters.items()}
 
     @overload
     def force(self, approach: float, rate: float) -> float: ...

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.errors import InputError, require_choice, require_finite, require_positive
+from ehlcontact.errors import InputError, require_choice, require_finite, require_instance, require_positive
 from ehlcontact.scaling import MoesPoint, Scales
 from reduced_models.element_file import UNITS
 
@@ -209,6 +209,27 @@ class ContactRecord:
             raise InputError("window", (start, end), f"one that holds {MIN_SAMPLES} samples of T in {span}")
         cut = {name: getattr(self, name)[inside] for name in _HISTORIES if getattr(self, name) is not None}
         return replace(self, **cut)
+
+
+def as_records(records: object) -> tuple[ContactRecord, ...]:
+    """One record or several as a tuple.
+
+    Raises
+    ------
+    InputError
+        Something else, or something else among them.
+    """
+    if isinstance(records, ContactRecord):
+        return (records,)
+    if not isinstance(records, Iterable):
+        allowed = "a ContactRecord or a sequence of them; ContactRecord.from_result(result) makes one"
+        raise InputError("records", type(records).__name__, allowed)
+    taken = tuple(records)
+    for i, record in enumerate(taken):
+        require_instance(
+            f"records[{i}]", record, ContactRecord, "a ContactRecord; ContactRecord.from_result(result) makes one"
+        )
+    return taken
 
 
 def _history(name: str, values: ArrayLike) -> NDArray[np.float64]:

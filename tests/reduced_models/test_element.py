@@ -1,5 +1,7 @@
 """The force law against a slow twin, its derivatives, its ends, and its units."""
 
+from dataclasses import asdict, replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -113,6 +115,22 @@ def test_si_element_is_the_same_law_in_other_units(element, scales):
     assert type(si) is type(element) and si.units == "SI"
     with pytest.raises(InputError, match="dimensionless"):
         si.to_si(scales)
+
+
+@pytest.mark.parametrize("name", ["cubic", "linear", "memory"])
+def test_si_refuses_the_scales_of_another_contact(name, request, scales, tmp_path):
+    fitted = replace(request.getfixturevalue(name), source={"scales": asdict(scales)})
+    read = type(fitted).load(fitted.save(tmp_path / "element.json"))
+    for element in (fitted, read):
+        for wrong in ("force", "length", "time"):
+            with pytest.raises(InputError, match=r"^scales = .*the element was fitted at"):
+                element.to_si(replace(scales, **{wrong: 1.00001 * getattr(scales, wrong)}))
+        assert element.to_si(replace(scales, force=(1.0 + 1e-9) * scales.force)).units == "SI"
+        with pytest.raises(InputError, match=r"^scales = 'int'"):
+            element.to_si(5)
+    # Nobody knows the scales of an element from a dimensionless point.
+    for source in (None, {"n": 64}, {"scales": None}):
+        assert replace(fitted, source=source).to_si(replace(scales, force=7.0)).units == "SI"
 
 
 def test_si_takes_the_rate_along(scales):

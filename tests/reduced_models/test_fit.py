@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -113,6 +114,16 @@ def test_records_of_different_contacts_are_refused(record):
         fit([a, b])
     with pytest.raises(InputError, match=r"records\[1\]"):
         fit([a, "b"])
+
+
+@pytest.mark.parametrize("model", ["cubic", "memory"])
+@pytest.mark.parametrize("records", [5, None, SimpleNamespace(T=[0.0, 1.0])])
+def test_what_is_no_record_is_told_how_to_become_one(records, model):
+    with pytest.raises(InputError, match=r"^records = .*a ContactRecord or a sequence of them.*from_result"):
+        fit(records, model)
+
+
+def test_no_record_at_all_is_refused():
     with pytest.raises(InputError, match="at least one"):
         fit([])
 
@@ -155,12 +166,14 @@ def test_without_inertia_there_is_no_acceleration_error(record):
 
 def test_constant_record_names_its_columns(record):
     still = replace(record, approach=np.full(301, 0.87), rate=np.sin(record.T))
-    with pytest.raises(InputError, match=r"columns .*approach.* varies too little"):
+    with pytest.raises(InputError, match=r"columns approach, approach\^2, approach\^3 = .* varies too little"):
         fit(still)
+    with pytest.raises(InputError, match=r"columns approach, approach\^2, approach\^3, rate = "):
+        fit(replace(still, rate=np.zeros(301)))
 
 
 def test_zero_rate_is_named(record):
-    with pytest.raises(InputError, match="columns rate"):
+    with pytest.raises(InputError, match="columns rate = "):
         fit(replace(record, rate=np.zeros(301)))
 
 
@@ -188,6 +201,28 @@ def test_unknown_model(record):
 def test_negative_damping_is_refused_not_exported(record):
     with pytest.raises(InputError, match="C1"):
         fit(replace(record, force=record.force - 0.1 * record.rate))
+
+
+@pytest.mark.parametrize(("model", "name"), [("linear", "C1"), ("cubic", "C1"), ("power", "C")])
+def test_undamped_record_has_no_damping(record, model, name):
+    spring = {"linear": record.approach, "cubic": record.approach**3, "power": (record.approach + 0.1) ** 1.5}[
+        model
+    ]
+    below = 1e-11 * record.rate  # what rounding leaves, made certain to be negative
+    result = fit(replace(record, force=spring - below), model)
+    cut = record.window(*result.window[0])
+    assert result.parameters[name] == 0.0 and result.element.damping(0.87, 0.1) == 0.0 and result.rms < 1e-5
+    assert result.rms > 0.0 and np.ptp(result.element.force(0.87, cut.rate)) == 0.0
+
+
+def test_damping_is_zero_only_within_its_standard_error(record):
+    error = fit(with_noise(record)).std_errors["C1"]
+    noisy = with_noise(record)
+    c1 = fit(noisy).parameters["C1"]
+    barely = replace(noisy, force=noisy.force - (c1 + 0.9 * error) * noisy.rate)
+    assert fit(barely).parameters["C1"] == 0.0
+    with pytest.raises(InputError, match="C1"):
+        fit(replace(noisy, force=noisy.force - (c1 + 1.2 * error) * noisy.rate))
 
 
 @pytest.mark.parametrize(
