@@ -117,7 +117,15 @@ def test_ctrl_c_and_resume(tmp_path):
     )
     command = [sys.executable, "-m", "ehlcontact.cli", "run", str(study), "-o", str(tmp_path / "out")]
     environment = os.environ | {"PYTHONPATH": str(PACKAGE_ROOT)}
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment)
+    process = subprocess.Popen(
+        command,
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env=environment,
+        # a shell's background job passes on that it ignores Ctrl-C
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
     ledger = tmp_path / "out" / "stages.json"
     deadline = time.monotonic() + 50.0
     while time.monotonic() < deadline and not (ledger.exists() and "rotor_half_step" in ledger.read_text()):
