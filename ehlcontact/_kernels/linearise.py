@@ -6,7 +6,7 @@ C, W, E, S, N, WW. The elastic part ``dH = -du + K dP`` is left to the caller: t
 
 from ehlcontact._kernels.jit import jit
 from ehlcontact._kernels.laws import density, density_slope, log_viscosity_slope
-from ehlcontact._kernels.mean import flow_mean, flow_mean_slopes
+from ehlcontact._kernels.mean import flow_mean_slopes
 from ehlcontact._kernels.reynolds import FILM_FLOOR
 
 NEIGHBOURS = 6
@@ -44,10 +44,10 @@ def linearise(P, H, eps, law, mesh, c_t, flow_slope, p_coef, h_coef):
             for q in range(1, 5):
                 coupling = mesh.cx if q < 3 else mesh.cy
                 jq, iq = neighbour(q, j, i)
-                a = coupling * flow_mean(eps[j, i], eps[jq, iq])
+                own, other = flow_mean_slopes(eps[j, i], eps[jq, iq])
+                a = coupling * (own + other)  # the mean is the sum of its slopes
                 p_coef[q, j, i] = a
                 p_centre -= a
-                own, other = flow_mean_slopes(eps[j, i], eps[jq, iq])
                 drop = flow_slope * coupling * (P[jq, iq] - p)
                 jumps += drop * own
                 p_coef[q, j, i] += drop * other * log_flow_slope(P[jq, iq], law)
