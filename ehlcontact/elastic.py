@@ -27,7 +27,7 @@ Lags = NDArray[np.integer[Any]]
 
 ENGINES = ("direct", "fft", "mlmi")
 BLOCK = 2**15  # numbers transformed along X at a time
-DENSE_UP_TO = 16  # intervals along X; below, a matrix product is faster than any transform
+MATRICES_UP_TO = 64  # intervals along X, for `MatrixTransforms`
 
 
 class Engine(Protocol):
@@ -113,7 +113,25 @@ class DirectSum:
 
 
 class FastFourier:
-    """The convolution by fast transforms, a matrix product on small grids. Parameters as in `deflection`.
+    """The convolution by zero-padded transforms, on small grids written out as matrix products.
+
+    Parameters as in `deflection`. Periods 4 ny and 2 nx keep images out of the domain, because pressure vanishes
+    on the border nodes.
+    """
+
+    def __init__(self, nx: int, ny: int, hx: float, hy: float, kappa: float) -> None:
+        self.nx, self.ny = nx, ny
+        self.kernel = influence_coefficients(nx + 1, 2 * ny + 1, hx, hy, kappa)
+        transforms = MatrixTransforms if nx <= MATRICES_UP_TO else FastTransforms
+        self._transforms: MatrixTransforms | FastTransforms = transforms(self.kernel)
+
+    def __call__(self, P: Array) -> Array:
+        """Deflection of the pressure `P`, shape (ny + 1, nx + 1), zero on the outer border nodes."""
+        return self._transforms(P)
+
+
+class FastTransforms:
+    """Convolution of even fields with `kernel`, shape (2 ny + 1, nx + 1), by fast transforms.
 
     Along Y the even, zero-padded sequence of period 4 ny needs a cosine transform of 2 ny + 1 numbers. As
     pressure fills only the first ny of them and deflection is wanted there only, its even frequencies are a
@@ -121,22 +139,14 @@ class FastFourier:
     goes to frequencies and back, so that it stays in cache; that gains more than threads do.
     """
 
-    def __init__(self, nx: int, ny: int, hx: float, hy: float, kappa: float) -> None:
-        self.nx, self.ny = nx, ny
-        self.kernel = influence_coefficients(nx + 1, 2 * ny + 1, hx, hy, kappa)
-        if nx <= DENSE_UP_TO:
-            self._matrix = self._dense()
-        else:
-            # Periods 4 ny and 2 nx: zero padding that keeps images out of the domain, because pressure
-            # vanishes on the border nodes.
-            spectrum = fft.dctn(self.kernel, type=1) / (4 * ny)
-            self._spectrum = np.concatenate([spectrum[::2], spectrum[1::2]])  # even frequencies first
+    def __init__(self, kernel: Array) -> None:
+        self._ny, self._nx = kernel.shape[0] // 2, kernel.shape[1] - 1
+        spectrum = fft.dctn(kernel, type=1) / (4 * self._ny)
+        self._spectrum = np.concatenate([spectrum[::2], spectrum[1::2]])  # even frequencies first
 
     def __call__(self, P: Array) -> Array:
-        """Deflection of the pressure `P`, shape (ny + 1, nx + 1), zero on the outer border nodes."""
-        nx, ny = self.nx, self.ny
-        if nx <= DENSE_UP_TO:
-            return (self._matrix @ P.ravel()).reshape(P.shape)
+        """As `FastFourier`."""
+        nx, ny = self._nx, self._ny
         rows = np.empty((2 * ny + 1, nx + 1))
         rows[: ny + 1] = fft.dct(P, 1, axis=0)
         rows[ny + 1 :] = fft.dct(P[:ny], 3, axis=0)
@@ -150,13 +160,26 @@ class FastFourier:
         W[:ny] += fft.dct(rows[ny + 1 :], 2, axis=0)  # zero at j = ny
         return W
 
-    def _dense(self) -> Array:
-        """Influence of every node on every node, images at Y < 0 included."""
-        j, i = (index.ravel() for index in np.indices((self.ny + 1, self.nx + 1)))
-        lag = np.abs(i[:, None] - i[None, :])
-        matrix = self.kernel[np.abs(j[:, None] - j[None, :]), lag]
-        image = self.kernel[np.minimum(j[:, None] + j[None, :], 2 * self.ny), lag]
-        return matrix + np.where(j[None, :] > 0, image, 0.0)
+
+class MatrixTransforms:
+    """The same with transforms written out as matrices: on small grids the calls of fast ones cost more."""
+
+    def __init__(self, kernel: Array) -> None:
+        ny, nx = kernel.shape[0] // 2, kernel.shape[1] - 1
+        spectrum = fft.dctn(kernel, type=1)
+        phase = pi / (2 * ny) * np.outer(np.arange(2 * ny + 1), np.arange(ny + 1))
+        share = np.where(np.arange(2 * ny + 1) % (2 * ny) == 0, 1.0, 2.0)  # of frequencies that stand for two
+        self._across = np.cos(phase) * np.where(np.arange(ny + 1) == 0, 1.0, 2.0)
+        self._back_across = np.ascontiguousarray((np.cos(phase) * share[:, None]).T) / (4 * ny)
+        phase = pi / nx * np.outer(np.arange(nx + 1), np.arange(nx + 1))
+        self._along = np.concatenate([np.cos(phase), np.sin(phase)], axis=1)
+        share = np.where(np.arange(nx + 1) % nx == 0, 1.0, 2.0)
+        self._back_along = np.ascontiguousarray(self._along.T) / (2 * nx)
+        self._spectrum = np.concatenate([spectrum * share, spectrum * share], axis=1)
+
+    def __call__(self, P: Array) -> Array:
+        """As `FastFourier`."""
+        return self._back_across @ (((self._across @ P @ self._along) * self._spectrum) @ self._back_along)
 
 
 Deflection = FastFourier  # what the solver uses

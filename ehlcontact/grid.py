@@ -24,14 +24,13 @@ class Fields(NamedTuple):
 
     P: Array
     H: Array
-    eps: Array  # flow factor
-    mass: Array  # rho H
+    flow: reynolds.Flow
     theta: Array  # distribution weight of the relaxation
     w: Array  # distributed change
     p_coef: Array  # (6, ny + 1, nx + 1)
     h_coef: Array  # (6, ny + 1, nx + 1)
-    band: Array  # (nx - 1, bandwidth)
-    b: Array  # (nx - 1,)
+    band: Array  # (bandwidth, nx - 1 + PAD)
+    b: Array  # (nx - 1 + PAD,)
 
 
 class Level:
@@ -55,14 +54,13 @@ class Level:
         self.fields = Fields(
             P=np.zeros(shape),
             H=np.zeros(shape),
-            eps=np.zeros(shape),
-            mass=np.zeros(shape),
+            flow=reynolds.Flow(*(np.zeros(shape) for _ in reynolds.Flow._fields)),
             theta=np.zeros(shape),
             w=np.zeros(shape),
             p_coef=np.zeros((NEIGHBOURS, *shape)),
             h_coef=np.zeros((NEIGHBOURS, *shape)),
-            band=np.zeros((nx - 1, relax.BAND_LOWER + relax.BAND_UPPER + 1)),
-            b=np.zeros(nx - 1),
+            band=np.zeros((relax.BAND_LOWER + relax.BAND_UPPER + 1, nx - 1 + relax.PAD)),
+            b=np.zeros(nx - 1 + relax.PAD),
         )
         self.rhs = np.zeros(shape)
         self.film_rhs: Array | float = 0.0
@@ -99,38 +97,42 @@ class Level:
         np.add(self.gap, self.film_rhs - u, out=self.fields.H)
         self.fields.H[...] += self.deflection(self.fields.P)
 
+    def update(self, u: float) -> Array:
+        """Film, flow and residual from P and the approach u; returns ``self.r``."""
+        self.update_film(u)
+        return self.update_residual()
+
     def update_residual(self) -> Array:
-        """Residual ``rhs - N(P, H)`` of the present P and H; returns ``self.r``."""
+        """Flow and residual ``rhs - N(P, H)`` from P and H; returns ``self.r``."""
         f = self.fields
-        reynolds.update_flow(f.P, f.H, self.law, self.mesh, f.eps, f.mass)
-        reynolds.residual(f.P, f.eps, f.mass, self.mesh, self.c_t, self.rhs, self.r)
+        reynolds.update_flow(f.P, f.H, self.law, self.mesh, f.flow)
+        reynolds.residual(f.P, f.flow, self.mesh, self.c_t, self.rhs, self.r)
         return self.r
 
     def density(self) -> Array:
         """Density at the present P, over ambient density."""
-        rho, unused = np.empty_like(self.P), np.empty_like(self.P)
-        reynolds.update_flow(self.P, np.ones_like(self.P), self.law, self.mesh, unused, rho)
-        return rho
+        f = self.fields
+        reynolds.update_flow(f.P, f.H, self.law, self.mesh, f.flow)
+        return f.flow.rho
 
     def transport(self, content: Array, history: Array) -> Array:
         """Discrete ``d(content)/dX + d(content)/dT``; `history` is the known part of the latter, as in `rhs`."""
-        still, change = np.zeros_like(content), np.zeros_like(content)
-        reynolds.residual(still, still, content, self.mesh, self.c_t, history, change)
+        change = np.zeros_like(content)
+        reynolds.transport(content, self.mesh, self.c_t, history, change)
         return change
 
     def residual_norm(self) -> float:
-        """Mean of |r| over the nodes of the whole domain with P > 0, from the last `update_residual`."""
+        """Mean of |r| over the nodes of the whole domain with P > 0, from the last `update`."""
         wet = self.force_weights * (self.fields.P > 0.0)
         total = float(wet.sum())
         return float(np.vdot(wet, np.abs(self.r))) / total if total > 0.0 else 0.0
 
-    def relax(self, u: float) -> None:
-        """One relaxation sweep at approach u; P written, H left to the next `update_film`."""
-        self.update_film(u)
+    def relax(self) -> None:
+        """One relaxation sweep from the state of the last `update`; P written, the rest left to the next one."""
         f, mesh = self.fields, self.mesh
         relax.relax_lines(f, self.rhs, self.law, mesh, self.c_t, self.near, self.spread)
         own = self.near[0, 0]
-        boundary.relax_boundary(f.P, f.eps, f.mass, self.rhs, mesh, self.c_t, own, self.nodes, self.marks)
+        boundary.relax_boundary(f.P, f.H, f.flow, self.rhs, self.law, mesh, self.c_t, own, self.nodes, self.marks)
 
     def set_dry_hertz(self) -> None:
         """Dry Hertz pressure, the start of every solve."""

@@ -67,7 +67,7 @@ def coefficients(level: Level, c_t: complex) -> tuple[Any, Any]:
         p_coef, h_coef = (a + c_t * (b - a) for a, b in zip(steady, unit, strict=True))
         return p_coef, h_coef
     f = level.fields
-    linearise(f.P, f.H, f.eps, level.law, level.mesh, c_t, 1.0, f.p_coef, f.h_coef)
+    linearise(f.P, f.flow, level.mesh, c_t, 1.0, f.p_coef, f.h_coef)
     return f.p_coef, f.h_coef
 
 

@@ -49,8 +49,7 @@ class LinearisedContact:
         self._multigrid = Multigrid(point, domain, n)
         level = self._level = self._multigrid.finest
         level.P[...] = P.T
-        level.update_film(u)
-        level.update_residual()
+        level.update(u)
         self._free = level.P > 0.0
         self.nodes = np.flatnonzero(self._free)
         self.weights = level.force_weights.ravel()[self.nodes]

@@ -34,7 +34,11 @@ def coarsest_intervals(point: MoesPoint) -> int:
 
 
 class Multigrid:
-    """A hierarchy of levels and the cycle on it; the state is P on the finest level and the approach u."""
+    """A hierarchy of levels and the cycle on it; the state is P on the finest level and the approach u.
+
+    Film, flow and residual of the finest level belong to that state after `full_multigrid` and `cycle`; who
+    changes it in other ways calls ``finest.update(u)``.
+    """
 
     def __init__(self, point: MoesPoint, domain: Domain, n: int, coarsest: int | None = None) -> None:
         self.point = point
@@ -71,10 +75,9 @@ class Multigrid:
             steps = ceil(log(loads[k] / loads[k - 1]) / log(LARGEST_LOADING) - 1e-9)
             for step in range(1, steps + 1):
                 self._set_load(k, loads[k - 1] * (loads[k] / loads[k - 1]) ** (step / steps))
-                for _ in range(CYCLES_AFTER_LOADING):
-                    self.u = self._cycle(k, self.u, balance)
-            for _ in range(cycles if steps == 0 else 0):
-                self.u = self._cycle(k, self.u, balance)
+                self._repeat(k, CYCLES_AFTER_LOADING, balance)
+            self._repeat(k, cycles if steps == 0 else 0, balance)
+        self.finest.update(self.u)
 
     def _set_load(self, k: int, M: float) -> None:
         """Moes load on levels 0 to k."""
@@ -82,19 +85,25 @@ class Multigrid:
             level.set_point(replace(self.point, M=M))
         self.newton.factors = None
 
+    def _repeat(self, k: int, cycles: int, balance: Balance) -> None:
+        for _ in range(cycles):
+            self.levels[k].update(self.u)
+            self.u = self._cycle(k, self.u, balance)
+
     def cycle(self, balance: Balance) -> None:
         """One V cycle on the finest level."""
         self.u = self._cycle(len(self.levels) - 1, self.u, balance)
+        self.finest.update(self.u)
 
     def _cycle(self, k: int, u: float, balance: Balance) -> float:
+        """One V cycle on level k, from the state of its last `update`; P written, returns u."""
         fine = self.levels[k]
         if k == 0:
             return self.newton.correct(u, balance)
         for _ in range(PRE_SWEEPS):
-            fine.relax(u)
+            fine.relax()
+            r = fine.update(u)
         coarse = self.levels[k - 1]
-        fine.update_film(u)
-        r = fine.update_residual()
         r[fine.P <= 0.0] = 0.0
         transfer.restrict_pressure(fine.P, coarse.P)
         start = coarse.P.copy()
@@ -111,7 +120,8 @@ class Multigrid:
         u = self._cycle(k - 1, u, balance.shifted(shift))
         transfer.add_correction(coarse.P, start, fine.P)
         for _ in range(POST_SWEEPS):
-            fine.relax(u)
+            fine.update(u)
+            fine.relax()
         return u
 
 

@@ -117,8 +117,7 @@ class CoarseNewton:
     def _evaluate(self, u: float, balance: Balance) -> tuple[float, Nodes]:
         """Merit (rms residual over free nodes and balance residual) and the flat numbers of free nodes."""
         level = self.level
-        level.update_film(u)
-        r = level.update_residual()
+        r = level.update(u)
         free = np.flatnonzero((level.P > 0.0) | (r < 0.0))
         rms = float(np.sqrt(np.mean(r.ravel()[free] ** 2))) if free.size else 0.0
         return rms + 3.0 * abs(balance.residual(u, level.force())), free
@@ -128,7 +127,7 @@ class CoarseNewton:
         level, f = self.level, self.level.fields
         m = free.size
         J = np.empty((m + 1, m + 1))
-        linearise(f.P, f.H, f.eps, level.law, level.mesh, level.c_t, 1.0, f.p_coef, f.h_coef)
+        linearise(f.P, f.flow, level.mesh, level.c_t, 1.0, f.p_coef, f.h_coef)
         dense_jacobian(free, f.p_coef, f.h_coef, level.deflection.kernel, self._number, J)
         J[m, :m] = balance.weight * level.force_weights.ravel()[free]
         J[m, m] = balance.stiffness

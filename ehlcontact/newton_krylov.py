@@ -65,10 +65,9 @@ class NewtonKrylov:
         self.factorisations = 0
 
     def step(self, balance: Balance) -> None:
-        """One Newton step and one relaxation sweep; P of the finest level and u written."""
+        """One Newton step and one relaxation sweep; state of the multigrid written, as by `Multigrid.cycle`."""
         mg, level = self.multigrid, self.multigrid.finest
-        level.update_film(mg.u)
-        r = level.update_residual()
+        r = level.r
         free = (level.P > 0.0) | (r < 0.0)
         system = LinearFilm(level, free, balance)
         b = system.right_hand_side(r, balance.residual(mg.u, level.force()))
@@ -87,7 +86,9 @@ class NewtonKrylov:
         dP = solution.x[:-1].reshape(level.P.shape)
         level.P[...] = np.maximum(level.P + damping * dP, 0.0)
         mg.u += damping * float(solution.x[-1])
-        level.relax(mg.u)
+        level.update(mg.u)
+        level.relax()
+        level.update(mg.u)
 
     def solve(
         self,
@@ -122,9 +123,8 @@ class NewtonKrylov:
         krylov, factorisations = self.krylov_iterations, self.factorisations
         residuals: list[float] = []
         change, status = np.inf, None
+        level.update(mg.u)
         while status is None:
-            level.update_film(mg.u)
-            level.update_residual()
             residuals.append(level.residual_norm())
             load_residual = balance.residual(mg.u, level.force())
             settled = change < settle and abs(load_residual) < settle

@@ -147,8 +147,6 @@ class _Solve:
 
     def _measure(self) -> Status | None:
         mg, level = self.multigrid, self.multigrid.finest
-        level.update_film(mg.u)
-        level.update_residual()
         self.residuals.append(level.residual_norm())
         self.load_residuals.append(self.balance.residual(mg.u, level.force()))
         settled = bool(self.changes) and self.changes[-1] < APPROACH_TOLERANCE
@@ -210,8 +208,7 @@ def _meshes(
 def dry_residual(level: Level) -> float:
     """Mean |residual| of the dry Hertz pressure on this grid, the scale of all residuals; P and H written."""
     level.set_dry_hertz()
-    level.update_film(1.0)
-    level.update_residual()
+    level.update(1.0)
     return level.residual_norm()
 
 

@@ -96,7 +96,7 @@ class TransientFilm:
         # full multigrid may still overlap in the centre
         self.scale = max(central_film(self.level), SMALLEST_SCALE)
         step = self._solve(balance, 2 * STEP_CYCLES)
-        self._mass = self.level.fields.mass.copy()
+        self._mass = self.level.fields.flow.mass.copy()
         self._mass_before = self._mass
         self.forget_past()
         return step
@@ -134,7 +134,7 @@ class TransientFilm:
         mg.u = u_guess
         step = self._solve(balance, STEP_CYCLES)
         self._past = ((dT, P_now), *past[:1])
-        self._mass_before, self._mass = self._mass, level.fields.mass.copy()
+        self._mass_before, self._mass = self._mass, level.fields.flow.mass.copy()
         self._dT = dT
         return step
 
@@ -146,16 +146,13 @@ class TransientFilm:
         force = np.inf
         small = CHANGE_SHARE * self.tol
         while status is None:
+            previous = mg.u, force
             if residuals:
-                previous = mg.u, force
                 mg.cycle(balance)
-                level.update_film(mg.u)
-                force = level.force()
-                settled = abs(mg.u - previous[0]) < small and abs(force - previous[1]) < small
             else:
-                level.update_film(mg.u)
-                force = level.force()
-            level.update_residual()
+                level.update(mg.u)
+            force = level.force()
+            settled = abs(mg.u - previous[0]) < small and abs(force - previous[1]) < small
             residuals.append(level.residual_norm())
             load_residual = balance.residual(mg.u, force)
             if not isfinite(load_residual):

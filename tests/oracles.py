@@ -174,8 +174,8 @@ def distribution_weight(P, eps, j, i, hx, hy, kappa, c_t):
     if P[j, i] <= 0.0:
         return 0.0
     below = eps[1, i] if j == 0 else eps[j - 1, i]
-    along = flow_mean(eps[j, i], max(eps[j, i - 1], eps[j, i + 1])) / hx**2
-    across = flow_mean(eps[j, i], max(below, eps[j + 1, i])) * kappa**2 / hy**2
+    along = max(flow_mean(eps[j, i], other) for other in (eps[j, i - 1], eps[j, i + 1])) / hx**2
+    across = max(flow_mean(eps[j, i], other) for other in (below, eps[j + 1, i])) * kappa**2 / hy**2
     switch = 3.0 * max(1.0, 0.5 * hy / (kappa * hx)) * (1.0 + 10.0 * c_t * hx / 1.5)
     ratio = max(along, across) / switch
     return 1.0 / (1.0 + ratio**4)

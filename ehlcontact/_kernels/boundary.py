@@ -6,19 +6,23 @@ them. Only where flow through the gap dominates: elsewhere the film answers to t
 frozen film makes these passes diverge.
 """
 
-from ehlcontact._kernels.jit import jit
-from ehlcontact._kernels.mean import flow_mean
-from ehlcontact._kernels.reynolds import operator_at
+from ehlcontact._kernels.jit import jit, jit_node
+from ehlcontact._kernels.reynolds import operator_at, update_across, update_along, update_node
 
 PASSES = 4
 REACH = 3  # nodes on either side of the boundary
+STENCIL = 2  # of the Reynolds operator
+RELAXED, READ = 2, 1  # marks of nodes
 DOMINANCE = 3.0  # flow term over wedge term
 SQUEEZE_DOMINANCE = 30.0  # flow term over squeeze term
 
 
 @jit
 def mark_boundary(P, marks):
-    """Mark the nodes within REACH of a change between P > 0 and P = 0; `marks` (bytes) written."""
+    """Mark as RELAXED the nodes within REACH of a change between P > 0 and P = 0, and as READ those around.
+
+    `marks` (bytes) written, 0 elsewhere.
+    """
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
     marks[:] = 0
     for j in range(ny):
@@ -27,36 +31,57 @@ def mark_boundary(P, marks):
             east = i + 1 < nx and (P[j, i + 1] > 0.0) != wet
             north = j + 1 < ny and (P[j + 1, i] > 0.0) != wet
             if east or north:
-                for jj in range(max(j - REACH, -REACH), min(j + REACH + 1, ny - 1) + 1):
-                    for ii in range(max(i - REACH, 1), min(i + REACH + 1, nx - 1) + 1):
-                        marks[abs(jj), ii] = 1
+                for jj in range(max(j - REACH - STENCIL, -ny), min(j + REACH + 1 + STENCIL, ny) + 1):
+                    for ii in range(max(i - REACH - STENCIL, 0), min(i + REACH + 1 + STENCIL, nx) + 1):
+                        near = -REACH <= jj - j <= REACH + 1 and -REACH <= ii - i <= REACH + 1
+                        inside = abs(jj) < ny and 0 < ii < nx
+                        marks[abs(jj), ii] = max(marks[abs(jj), ii], RELAXED if near and inside else READ)
 
 
-@jit
-def total_flow(j, i, eps, mesh):
+@jit_node
+def total_flow(j, i, flow, mesh):
     """Sum of the four couplings of one node."""
-    js = j - 1 if j > 0 else 1
-    e = eps[j, i]
-    along = flow_mean(e, eps[j, i - 1]) + flow_mean(e, eps[j, i + 1])
-    return mesh.cx * along + mesh.cy * (flow_mean(e, eps[js, i]) + flow_mean(e, eps[j + 1, i]))
+    face = j - 1 if j > 0 else 0
+    along = flow.along[j, i - 1] + flow.along[j, i]
+    return mesh.cx * along + mesh.cy * (flow.across[face, i] + flow.across[j, i])
 
 
 @jit
-def relax_boundary(P, eps, mass, rhs, mesh, c_t, self_deflection, nodes, marks):
-    """Relax P near the cavitation boundary at frozen eps and mass; `P` written, `nodes`, `marks` work space."""
+def update_marked(P, H, law, mesh, flow, marks):
+    """Flow at the nodes that are marked, and on the faces of those to be relaxed."""
+    for j in range(P.shape[0]):
+        for i in range(P.shape[1]):
+            if marks[j, i]:
+                update_node(j, i, P, H, law, mesh, flow)
+    for j in range(P.shape[0] - 1):
+        for i in range(1, P.shape[1] - 1):
+            if marks[j, i] == RELAXED:
+                update_along(j, i - 1, flow)
+                update_along(j, i, flow)
+                update_across(j - 1 if j > 0 else 0, i, flow)
+                update_across(j, i, flow)
+
+
+@jit
+def relax_boundary(P, H, flow, rhs, law, mesh, c_t, self_deflection, nodes, marks):
+    """Relax P near the cavitation boundary at frozen film and flow.
+
+    `P` and, there, `flow` are written; `nodes`, `marks` are work space.
+    """
     width = P.shape[1]
     mark_boundary(P, marks)
+    update_marked(P, H, law, mesh, flow, marks)
     transport = DOMINANCE * 1.5 * mesh.inv_hx + SQUEEZE_DOMINANCE * c_t
     count = 0
     for j in range(P.shape[0] - 1):
         for i in range(1, width - 1):
-            if marks[j, i] and total_flow(j, i, eps, mesh) > transport * self_deflection:
+            if marks[j, i] == RELAXED and total_flow(j, i, flow, mesh) > transport * self_deflection:
                 nodes[count] = j * width + i
                 count += 1
     for sweep in range(PASSES):
         for s in range(count):
             node = nodes[s] if sweep % 2 == 0 else nodes[count - 1 - s]
             j, i = node // width, node % width
-            own = total_flow(j, i, eps, mesh) + (1.5 * mesh.inv_hx + c_t) * self_deflection
-            res = rhs[j, i] - operator_at(j, i, P, eps, mass, mesh, c_t)
+            own = total_flow(j, i, flow, mesh) + (1.5 * mesh.inv_hx + c_t) * self_deflection
+            res = rhs[j, i] - operator_at(j, i, P, flow, mesh, c_t)
             P[j, i] = max(P[j, i] - res / own, 0.0)

@@ -1,8 +1,12 @@
-"""The one numba decorator of the library.
+"""The numba decorators of the library.
 
 Not ``fastmath=True``: it would fold away the tests for NaN and infinity that the drivers rely on.
 """
 
+from functools import partial
+from typing import Any
+
 from numba import njit
 
-jit = njit(cache=True, error_model="numpy", fastmath={"contract", "nsz"})
+jit: Any = partial(njit, cache=True, error_model="numpy", fastmath={"contract", "nsz"})
+jit_node: Any = partial(jit, forceinline=True)  # for one node: a call with a dozen arrays costs more than the work

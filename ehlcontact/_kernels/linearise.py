@@ -4,10 +4,7 @@
 C, W, E, S, N, WW. The elastic part ``dH = -du + K dP`` is left to the caller: transforms, dense or truncated.
 """
 
-from ehlcontact._kernels.jit import jit
-from ehlcontact._kernels.laws import density, density_slope, log_viscosity_slope
-from ehlcontact._kernels.mean import flow_mean_slopes
-from ehlcontact._kernels.reynolds import FILM_FLOOR
+from ehlcontact._kernels.jit import jit, jit_node
 
 NEIGHBOURS = 6
 
@@ -28,51 +25,56 @@ def neighbour(q, j, i):
     return j, i
 
 
+@jit_node
+def _face(flow, jq, iq, coupling, mean, skew, drop):
+    """Flow from neighbour (jq, iq): coupling, derivatives to ln(eps) of the node, to P and H of the neighbour."""
+    other = drop * coupling * (0.5 * mean - skew)
+    a = coupling * mean
+    own = drop * coupling * (0.5 * mean + skew)
+    return a, own, a + other * flow.eps_slope[jq, iq], other * flow.film_slope[jq, iq]
+
+
+@jit_node
+def linearise_at(j, i, P, flow, mesh, c_t, share):
+    """Derivatives at one interior node: six to P, then six to H; `share` is `flow_slope` of `linearise`."""
+    js, face, side = (j - 1, j - 1, -1.0) if j > 0 else (1, 0, 1.0)  # the line below line 0 is its image
+    p, cx, cy = P[j, i], mesh.cx, mesh.cy
+    along, skew, across, slant = flow.along, flow.along_skew, flow.across, flow.across_skew
+    aw, dw, pw, hw = _face(flow, j, i - 1, cx, along[j, i - 1], -skew[j, i - 1], share * (P[j, i - 1] - p))
+    ae, de, pe, he = _face(flow, j, i + 1, cx, along[j, i], skew[j, i], share * (P[j, i + 1] - p))
+    as_, ds, ps, hs = _face(flow, js, i, cy, across[face, i], side * slant[face, i], share * (P[js, i] - p))
+    an, dn, pn, hn = _face(flow, j + 1, i, cy, across[j, i], slant[j, i], share * (P[j + 1, i] - p))
+    # the wedge term of `reynolds.transport_at`
+    if i > 1:
+        c0, c1, c2, c5 = 0.5 * mesh.inv_hx, -mesh.inv_hx, mesh.inv_hx / 3.0, mesh.inv_hx / 6.0
+        pww, hww = -c5 * flow.mass_slope[j, i - 2], -c5 * flow.rho[j, i - 2]
+    else:
+        c0, c1, c2 = 0.0, -0.5 * mesh.inv_hx, 0.5 * mesh.inv_hx
+        pww, hww = 0.0, 0.0
+    c0 += c_t
+    jumps = dw + de + ds + dn
+    pc = jumps * flow.eps_slope[j, i] - (aw + ae + as_ + an) - c0 * flow.mass_slope[j, i]
+    hc = jumps * flow.film_slope[j, i] - c0 * flow.rho[j, i]
+    pw -= c1 * flow.mass_slope[j, i - 1]
+    hw -= c1 * flow.rho[j, i - 1]
+    pe -= c2 * flow.mass_slope[j, i + 1]
+    he -= c2 * flow.rho[j, i + 1]
+    return pc, pw, pe, ps, pn, pww, hc, hw, he, hs, hn, hww
+
+
 @jit
-def linearise(P, H, eps, law, mesh, c_t, flow_slope, p_coef, h_coef):
+def linearise(P, flow, mesh, c_t, flow_slope, p_coef, h_coef):
     """Derivatives at all interior nodes; `p_coef` and `h_coef`, both (6, ny+1, nx+1), written.
 
     `flow_slope` is the share of the derivatives of the flow factor eps that is taken: 1 is Newton's
     linearisation, 0 takes eps as given (Picard).
     """
-    ny, nx = P.shape[0] - 1, P.shape[1] - 1
-    for j in range(ny):
-        for i in range(1, nx):
-            p = P[j, i]
-            p_centre = 0.0
-            jumps = 0.0
-            for q in range(1, 5):
-                coupling = mesh.cx if q < 3 else mesh.cy
-                jq, iq = neighbour(q, j, i)
-                own, other = flow_mean_slopes(eps[j, i], eps[jq, iq])
-                a = coupling * (own + other)  # the mean is the sum of its slopes
-                p_coef[q, j, i] = a
-                p_centre -= a
-                drop = flow_slope * coupling * (P[jq, iq] - p)
-                jumps += drop * own
-                p_coef[q, j, i] += drop * other * log_flow_slope(P[jq, iq], law)
-                h_coef[q, j, i] = drop * other * 3.0 / max(H[jq, iq], FILM_FLOOR)
-            p_centre += jumps * log_flow_slope(p, law)
-            h_coef[0, j, i] = jumps * 3.0 / max(H[j, i], FILM_FLOOR)
-            c0 = mesh.inv_hx * (0.5 if i > 1 else 0.0) + c_t
-            c1 = mesh.inv_hx * (-1.0 if i > 1 else -0.5)
-            c2 = mesh.inv_hx * (1.0 / 3.0 if i > 1 else 0.5)
-            c5 = mesh.inv_hx / 6.0 if i > 1 else 0.0
-            far = i - 2 if i > 1 else 0
-            p_coef[0, j, i] = p_centre - c0 * density_slope(p, law) * H[j, i]
-            h_coef[0, j, i] -= c0 * density(p, law)
-            p_coef[1, j, i] -= c1 * density_slope(P[j, i - 1], law) * H[j, i - 1]
-            h_coef[1, j, i] -= c1 * density(P[j, i - 1], law)
-            p_coef[2, j, i] -= c2 * density_slope(P[j, i + 1], law) * H[j, i + 1]
-            h_coef[2, j, i] -= c2 * density(P[j, i + 1], law)
-            p_coef[5, j, i] = -c5 * density_slope(P[j, far], law) * H[j, far]
-            h_coef[5, j, i] = -c5 * density(P[j, far], law)
-
-
-@jit
-def log_flow_slope(P, law):
-    """D ln(eps)/dP at fixed H."""
-    return density_slope(P, law) / density(P, law) - log_viscosity_slope(P, law)
+    for j in range(P.shape[0] - 1):
+        for i in range(1, P.shape[1] - 1):
+            derivatives = linearise_at(j, i, P, flow, mesh, c_t, flow_slope)
+            for q in range(NEIGHBOURS):
+                p_coef[q, j, i] = derivatives[q]
+                h_coef[q, j, i] = derivatives[NEIGHBOURS + q]
 
 
 @jit

@@ -10,24 +10,15 @@ apart, and a flow that always falls with the downstream pressure and rises with 
 
 import math
 
-from ehlcontact._kernels.jit import jit
+from ehlcontact._kernels.jit import jit_node
 
 TINY = 1e-290  # keeps 0/0 out where both flow factors underflow
 
 
-@jit
+@jit_node
 def flow_mean(a, b):
-    """Mean of two flow factors."""
+    """Mean of two flow factors, and its skew: the derivatives to ln(a) and ln(b) are ``mean/2 +- skew``."""
     g = math.sqrt(a * b) + TINY
     s = 0.5 * (a + b) / g - 1.0
-    return g * (1.0 + s * s / (2.0 + s))
-
-
-@jit
-def flow_mean_slopes(a, b):
-    """Derivatives of `flow_mean` to ln(a) and ln(b)."""
-    g = math.sqrt(a * b) + TINY
-    s = 0.5 * (a + b) / g - 1.0
-    even = 0.5 * g * (1.0 + s * s / (2.0 + s))
-    odd = 0.25 * (a - b) * s * (4.0 + s) / ((2.0 + s) * (2.0 + s))
-    return even + odd, even - odd
+    share = 1.0 / (2.0 + s)
+    return g * (1.0 + s * s * share), 0.25 * (a - b) * s * (4.0 + s) * share * share

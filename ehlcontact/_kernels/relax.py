@@ -12,12 +12,12 @@ as given, single nodes there never settle; with its full derivatives they oversh
 serve everywhere.
 """
 
-from ehlcontact._kernels.jit import jit
-from ehlcontact._kernels.linearise import NEIGHBOURS, linearise, neighbour
-from ehlcontact._kernels.mean import flow_mean
+from ehlcontact._kernels.jit import jit, jit_node
+from ehlcontact._kernels.linearise import linearise_at
 from ehlcontact._kernels.reynolds import operator_at, update_flow
 
 BAND_LOWER, BAND_UPPER = 4, 3  # WW neighbour with two near coefficients upstream; E with two downstream
+PAD = max(BAND_LOWER, BAND_UPPER)
 NEAR = 2  # near influence coefficients kept on either side
 SHARE = 0.25  # part of a distributed change that each neighbour takes back
 SWITCH = 3.0  # eps/hx^2 at which theta = 1/2 in steady flow (Venner and Lubrecht's hard switch: 0.3),
@@ -28,7 +28,7 @@ LARGEST_CHANGE = 0.15  # of P in one sweep; far from the solution the linear mod
 
 
 @jit
-def distribution_weights(P, eps, mesh, c_t, theta):
+def distribution_weights(P, flow, mesh, c_t, theta):
     """Weight theta of the distributed change at every interior node; 0 where P = 0. `theta` written.
 
     The squeeze term, unlike the wedge term, does not vanish for smooth changes. Plain changes of P, whose
@@ -36,31 +36,66 @@ def distribution_weights(P, eps, mesh, c_t, theta):
     """
     switch = mesh.switch * (1.0 + SQUEEZE * c_t / (1.5 * mesh.inv_hx))
     for j in range(P.shape[0] - 1):
-        js = j - 1 if j > 0 else 1
+        face = j - 1 if j > 0 else 0
         for i in range(1, P.shape[1] - 1):
-            e = eps[j, i]
-            along = mesh.cx * flow_mean(e, max(eps[j, i - 1], eps[j, i + 1]))
-            across = mesh.cy * flow_mean(e, max(eps[js, i], eps[j + 1, i]))
+            along = mesh.cx * max(flow.along[j, i - 1], flow.along[j, i])
+            across = mesh.cy * max(flow.across[face, i], flow.across[j, i])
             ratio = max(along, across) / switch
-            theta[j, i] = 1.0 / (1.0 + ratio**4) if P[j, i] > 0.0 else 0.0
+            theta[j, i] = 1.0 / (1.0 + ratio * ratio * ratio * ratio) if P[j, i] > 0.0 else 0.0
 
 
 @jit
 def solve_band(band, b, m):
-    """Solve the banded system in place; no pivoting, the leading part being upstream-triangular."""
+    """Solve the banded system in place; no pivoting, the leading part being upstream-triangular.
+
+    ``band[BAND_LOWER + o, r]`` couples row r to row r + o. Both arrays have `PAD` columns beyond m, so that the
+    inner loops need no limits.
+    """
+    band[:, m:] = 0.0
+    b[m:] = 0.0
     for r in range(m):
-        pivot = 1.0 / band[r, BAND_LOWER]
-        for s in range(1, min(BAND_LOWER, m - 1 - r) + 1):
-            factor = band[r + s, BAND_LOWER - s] * pivot
-            if factor != 0.0:
-                for c in range(1, BAND_UPPER + 1):
-                    band[r + s, BAND_LOWER - s + c] -= factor * band[r, BAND_LOWER + c]
-                b[r + s] -= factor * b[r]
+        pivot = 1.0 / band[BAND_LOWER, r]
+        band[BAND_LOWER, r] = pivot
+        for s in range(1, BAND_LOWER + 1):
+            factor = band[BAND_LOWER - s, r + s] * pivot
+            for c in range(1, BAND_UPPER + 1):
+                band[BAND_LOWER - s + c, r + s] -= factor * band[BAND_LOWER + c, r]
+            b[r + s] -= factor * b[r]
     for r in range(m - 1, -1, -1):
         value = b[r]
-        for c in range(1, min(BAND_UPPER, m - 1 - r) + 1):
-            value -= band[r, BAND_LOWER + c] * b[r + c]
-        b[r] = value / band[r, BAND_LOWER]
+        for c in range(1, BAND_UPPER + 1):
+            value -= band[BAND_LOWER + c, r] * b[r + c]
+        b[r] = value * band[BAND_LOWER, r]
+
+
+@jit_node
+def assemble_at(j, i, P, flow, theta, mesh, c_t, near, spread, band):
+    """Row of one node in the matrix of the distributed changes of line j; column ``i - 1`` of `band` written.
+
+    A unit change at node k of the line raises P there by 1 and lowers its neighbours by SHARE theta_k, and
+    deflects the film near it by ``near - theta_k spread``. So every entry is ``a - theta_k d``: `a` answers a
+    plain change, `d` what a distributed one gives away.
+    """
+    pc, pw, pe, ps, pn, pww, hc, hw, he, _, _, hww = linearise_at(j, i, P, flow, mesh, c_t, FLOW_SLOPE)
+    n0, n1, n2 = near[0, 0], near[0, 1], near[0, 2]
+    s0, s1, s2 = spread[0, 0], spread[0, 1], spread[0, 2]
+    across = pn + (2.0 * ps if j == 1 else ps)  # line 1 gives to the symmetry line twice: itself and its image
+    r, last = i - 1, P.shape[1] - 1
+    d = hww * s2
+    band[0, r] = hww * n2 - theta[j, max(i - 4, 0)] * d
+    d = hww * s1 + hw * s2 + SHARE * pww
+    band[1, r] = hww * n1 + hw * n2 - theta[j, max(i - 3, 0)] * d
+    d = hww * s0 + hw * s1 + hc * s2 + SHARE * pw
+    band[2, r] = pww + hww * n0 + hw * n1 + hc * n2 - theta[j, max(i - 2, 0)] * d
+    d = hww * s1 + hw * s0 + hc * s1 + he * s2 + SHARE * (pww + pc)
+    band[3, r] = pw + hww * n1 + hw * n0 + hc * n1 + he * n2 - theta[j, i - 1] * d
+    d = hww * s2 + hw * s1 + hc * s0 + he * s1 + SHARE * (pw + pe + across)
+    band[4, r] = pc + hww * n2 + hw * n1 + hc * n0 + he * n1 - theta[j, i] * d
+    d = hw * s2 + hc * s1 + he * s0 + SHARE * pc
+    band[5, r] = pe + hw * n2 + hc * n1 + he * n0 - theta[j, i + 1] * d
+    d = hc * s2 + he * s1 + SHARE * pe
+    band[6, r] = hc * n2 + he * n1 - theta[j, min(i + 2, last)] * d
+    band[7, r] = he * n2 - theta[j, min(i + 3, last)] * (he * s2)
 
 
 @jit
@@ -70,41 +105,16 @@ def relax_line(j, fields, rhs, mesh, c_t, near, spread):
     ``near[dj, di]`` are the influence coefficients and ``spread[dj, di]`` their mean over the four neighbours.
     A node joins the solve if P > 0 or if its residual asks for pressure (complementarity).
     """
-    P, eps, mass, theta = fields.P, fields.eps, fields.mass, fields.theta
-    band, b = fields.band, fields.b
-    nx = P.shape[1] - 1
-    m = nx - 1
+    P, flow, band, b = fields.P, fields.flow, fields.band, fields.b
+    m = P.shape[1] - 2
     for r in range(m):
-        i = r + 1
-        band[r, :] = 0.0
-        res = rhs[j, i] - operator_at(j, i, P, eps, mass, mesh, c_t)
-        if P[j, i] <= 0.0 and res >= 0.0:
-            band[r, BAND_LOWER] = 1.0
+        b[r] = rhs[j, r + 1] - operator_at(j, r + 1, P, flow, mesh, c_t)
+        if P[j, r + 1] > 0.0 or b[r] < 0.0:
+            assemble_at(j, r + 1, P, flow, fields.theta, mesh, c_t, near, spread, band)
+        else:
+            band[:, r] = 0.0
+            band[BAND_LOWER, r] = 1.0
             b[r] = 0.0
-            continue
-        b[r] = res
-        for q in range(NEIGHBOURS):
-            jq, iq = neighbour(q, j, i)
-            c = BAND_LOWER + iq - i
-            in_line = jq == j
-            a = fields.p_coef[q, j, i]
-            if in_line:
-                band[r, c] += a
-                if iq - 1 >= 1:
-                    band[r, c - 1] -= a * SHARE * theta[j, iq - 1]
-                if iq + 1 < nx:
-                    band[r, c + 1] -= a * SHARE * theta[j, iq + 1]
-            else:
-                # line 1 gives to the symmetry line twice, itself and through its image
-                band[r, c] -= a * SHARE * theta[j, i] * (2.0 if j == 1 and jq == 0 else 1.0)
-            a = fields.h_coef[q, j, i]
-            if a != 0.0 and in_line:
-                for d in range(max(-NEAR, 1 - iq), min(NEAR, nx - 1 - iq) + 1):
-                    band[r, c + d] += a * (near[0, abs(d)] - theta[j, iq + d] * spread[0, abs(d)])
-    for r in range(BAND_LOWER):  # entries that point off the line
-        band[r, : BAND_LOWER - r] = 0.0
-    for r in range(m - BAND_UPPER, m):
-        band[r, BAND_LOWER + m - r :] = 0.0
     solve_band(band, b, m)
     for r in range(m):
         fields.w[j, r + 1] = min(max(b[r], -LARGEST_CHANGE), LARGEST_CHANGE)
@@ -143,14 +153,17 @@ def near_film(j, H, theta, w, near, spread):
 
 @jit
 def relax_lines(fields, rhs, law, mesh, c_t, near, spread):
-    """One sweep over all lines; P, H (near field only), eps and mass of `fields` written."""
-    P, H = fields.P, fields.H
+    """One sweep over all lines, from the flow of P and H; P, H (near field only) and flow of `fields` written.
+
+    The flow is that of the state between the colours then.
+    """
+    P, H, flow = fields.P, fields.H, fields.flow
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
     for colour in range(2):
-        update_flow(P, H, law, mesh, fields.eps, fields.mass)
         if colour == 0:
-            distribution_weights(P, fields.eps, mesh, c_t, fields.theta)
-        linearise(P, H, fields.eps, law, mesh, c_t, FLOW_SLOPE, fields.p_coef, fields.h_coef)
+            distribution_weights(P, flow, mesh, c_t, fields.theta)
+        else:
+            update_flow(P, H, law, mesh, flow)
         for j in range(colour, ny, 2):
             relax_line(j, fields, rhs, mesh, c_t, near, spread)
         for j in range(colour, ny, 2):
@@ -161,4 +174,3 @@ def relax_lines(fields, rhs, law, mesh, c_t, near, spread):
         if colour == 0:
             for j in range(1, ny, 2):
                 near_film(j, H, fields.theta, fields.w, near, spread)
-    update_flow(P, H, law, mesh, fields.eps, fields.mass)

@@ -5,7 +5,7 @@ import oracles
 import pytest
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact.elastic import DENSE_UP_TO, Deflection, influence_coefficients
+from ehlcontact.elastic import Deflection, FastTransforms, MatrixTransforms, influence_coefficients
 from ehlcontact.grid import Level
 
 
@@ -28,7 +28,7 @@ def test_influence_is_the_integral_over_the_cell(i, k):
 @pytest.mark.parametrize(("nx", "ny"), [(8, 6), (16, 8), (32, 12), (48, 32), (64, 32)])
 @pytest.mark.parametrize("kappa", [0.3, 1.0])
 def test_deflection_is_the_direct_sum(nx, ny, kappa):
-    """Dense branch up to 16 intervals, transforms beyond; both to rounding."""
+    """To rounding, on small grids and on one beyond `MATRICES_UP_TO`."""
     hx, hy = 6.0 / nx, 3.0 / ny
     P = np.random.default_rng(nx).uniform(size=(ny + 1, nx + 1))
     P[-1] = 0.0
@@ -38,10 +38,15 @@ def test_deflection_is_the_direct_sum(nx, ny, kappa):
     np.testing.assert_allclose(got, expected, rtol=1e-12, atol=1e-12 * expected.max())
 
 
-def test_both_branches_are_reached():
-    assert 8 < DENSE_UP_TO < 32
-    assert hasattr(Deflection(DENSE_UP_TO, 4, 0.1, 0.1, 1.0), "_matrix")
-    assert not hasattr(Deflection(DENSE_UP_TO + 16, 4, 0.1, 0.1, 1.0), "_matrix")
+@pytest.mark.parametrize("transforms", [FastTransforms, MatrixTransforms])
+@pytest.mark.parametrize(("nx", "ny"), [(16, 4), (24, 10), (48, 5)])
+def test_both_kinds_of_transforms(transforms, nx, ny):
+    kernel = influence_coefficients(nx + 1, 2 * ny + 1, 0.1, 0.07, 0.3)
+    P = np.random.default_rng(nx).uniform(size=(ny + 1, nx + 1))
+    P[-1] = 0.0
+    P[:, [0, -1]] = 0.0
+    expected = oracles.deflection(P, 0.1, 0.07, 0.3)
+    np.testing.assert_allclose(transforms(kernel)(P), expected, rtol=1e-12, atol=1e-12 * expected.max())
 
 
 @pytest.mark.parametrize("nx", [16, 64])
