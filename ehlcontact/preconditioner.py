@@ -22,7 +22,7 @@ from ehlcontact.grid import Array, Level
 from ehlcontact.linear_film import LinearFilm, coefficients, stencil_matrix
 
 REACH = 1  # of the near coefficients; 2 saves few iterations and doubles the time of the factors
-LARGEST_DENSE = 48  # intervals along X of the coarse grid
+LARGEST_DENSE = 32  # intervals along X of the coarse grid
 CROSS = ((0, 0), (0, -1), (0, 1), (-1, 0), (1, 0))
 SQUARE = tuple((dj, di) for dj in range(-REACH, REACH + 1) for di in range(-REACH, REACH + 1))
 SPARSE_LU = {  # structure symmetric, no small pivots: a third of the time of the default ordering

@@ -7,22 +7,19 @@ frozen film makes these passes diverge.
 """
 
 from ehlcontact._kernels.jit import jit, jit_node
+from ehlcontact._kernels.linearise import NEIGHBOURS, neighbour
 from ehlcontact._kernels.reynolds import operator_at, update_across, update_along, update_node
 
 PASSES = 4
 REACH = 3  # nodes on either side of the boundary
-STENCIL = 2  # of the Reynolds operator
-RELAXED, READ = 2, 1  # marks of nodes
+MARKED, UPDATED = 1, 2
 DOMINANCE = 3.0  # flow term over wedge term
 SQUEEZE_DOMINANCE = 30.0  # flow term over squeeze term
 
 
 @jit
 def mark_boundary(P, marks):
-    """Mark as RELAXED the nodes within REACH of a change between P > 0 and P = 0, and as READ those around.
-
-    `marks` (bytes) written, 0 elsewhere.
-    """
+    """Mark the nodes within REACH of a change between P > 0 and P = 0; `marks` (bytes) written, 0 elsewhere."""
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
     marks[:] = 0
     for j in range(ny):
@@ -31,11 +28,9 @@ def mark_boundary(P, marks):
             east = i + 1 < nx and (P[j, i + 1] > 0.0) != wet
             north = j + 1 < ny and (P[j + 1, i] > 0.0) != wet
             if east or north:
-                for jj in range(max(j - REACH - STENCIL, -ny), min(j + REACH + 1 + STENCIL, ny) + 1):
-                    for ii in range(max(i - REACH - STENCIL, 0), min(i + REACH + 1 + STENCIL, nx) + 1):
-                        near = -REACH <= jj - j <= REACH + 1 and -REACH <= ii - i <= REACH + 1
-                        inside = abs(jj) < ny and 0 < ii < nx
-                        marks[abs(jj), ii] = max(marks[abs(jj), ii], RELAXED if near and inside else READ)
+                for jj in range(max(j - REACH, -REACH), min(j + REACH + 1, ny - 1) + 1):
+                    for ii in range(max(i - REACH, 1), min(i + REACH + 1, nx - 1) + 1):
+                        marks[abs(jj), ii] = MARKED
 
 
 @jit_node
@@ -48,14 +43,19 @@ def total_flow(j, i, flow, mesh):
 
 @jit
 def update_marked(P, H, law, mesh, flow, marks):
-    """Flow at the nodes that are marked, and on the faces of those to be relaxed."""
-    for j in range(P.shape[0]):
-        for i in range(P.shape[1]):
-            if marks[j, i]:
-                update_node(j, i, P, H, law, mesh, flow)
+    """Flow at marked nodes, their neighbours and the faces between; `marks` of the neighbours become UPDATED."""
     for j in range(P.shape[0] - 1):
         for i in range(1, P.shape[1] - 1):
-            if marks[j, i] == RELAXED:
+            if marks[j, i] == MARKED:
+                update_node(j, i, P, H, law, mesh, flow)
+                for q in range(1, NEIGHBOURS):
+                    jq, iq = neighbour(q, j, i)
+                    if iq >= 0 and marks[jq, iq] == 0:
+                        update_node(jq, iq, P, H, law, mesh, flow)
+                        marks[jq, iq] = UPDATED
+    for j in range(P.shape[0] - 1):
+        for i in range(1, P.shape[1] - 1):
+            if marks[j, i] == MARKED:
                 update_along(j, i - 1, flow)
                 update_along(j, i, flow)
                 update_across(j - 1 if j > 0 else 0, i, flow)
@@ -75,7 +75,7 @@ def relax_boundary(P, H, flow, rhs, law, mesh, c_t, self_deflection, nodes, mark
     count = 0
     for j in range(P.shape[0] - 1):
         for i in range(1, width - 1):
-            if marks[j, i] == RELAXED and total_flow(j, i, flow, mesh) > transport * self_deflection:
+            if marks[j, i] == MARKED and total_flow(j, i, flow, mesh) > transport * self_deflection:
                 nodes[count] = j * width + i
                 count += 1
     for sweep in range(PASSES):
