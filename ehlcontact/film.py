@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError, require_finite, require_instance, require_positive
+from ehlcontact.lowest_film import lowest_film
 from ehlcontact.results import SimulationResult, SteadyResult
 from ehlcontact.scaling import Scales
 
@@ -54,7 +55,7 @@ class Profile:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Constriction:
-    """The horseshoe: where and how far the film is narrowed, films at the nodes in dry approaches."""
+    """The horseshoe: where and how far the film is narrowed, in dry approaches; on the mid-planes at the nodes."""
 
     central: float  # at X = Y = 0
     minimum: float
@@ -119,13 +120,13 @@ class Film:
     def constriction(self) -> Constriction:
         """Central and minimum film, and the least films of both mid-planes."""
         along, across = self.along, self.across
-        i, j = np.unravel_index(int(np.argmin(self.H)), self.H.shape)
+        minimum, row, column = lowest_film(self.H.T[self.Y.size // 2 :])
         exit_at, side_at = int(np.argmin(along.H)), int(np.argmin(across.H))
         return Constriction(
             central=float(np.interp(0.0, along.X, along.H)),
-            minimum=float(self.H[i, j]),
-            X=float(self.X[i]),
-            Y=abs(float(self.Y[j])),
+            minimum=minimum,
+            X=float(self.X[0] + column * (self.X[1] - self.X[0])),
+            Y=float(row * (self.Y[1] - self.Y[0])),
             exit_film=float(along.H[exit_at]),
             exit_place=float(along.X[exit_at]),
             side_film=float(across.H[side_at]),

@@ -7,7 +7,7 @@ from ehlcontact.errors import ConvergenceError, require_finite, require_positive
 from ehlcontact.newton import Balance
 from ehlcontact.scaling import Point, moes_point
 from ehlcontact.status import Status
-from ehlcontact.steady import central_film
+from ehlcontact.steady import central_film, minimum_film
 from ehlcontact.transient import FilmState, Step, TransientFilm
 
 
@@ -85,7 +85,7 @@ class FullContact:
     @property
     def h_min(self) -> float:
         """Smallest film."""
-        return float(self._film.level.H.min())
+        return minimum_film(self._film.level)
 
     def save_state(self) -> FilmState:
         """Everything needed to come back to the present."""

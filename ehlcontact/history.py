@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.grid import Level
-from ehlcontact.steady import central_film
+from ehlcontact.steady import central_film, minimum_film
 from ehlcontact.transient import Step, TransientFilm
 
 Array = NDArray[np.float64]
@@ -49,7 +49,7 @@ class Entry:
             level.force(),
             load,
             central_film(level),
-            float(level.H.min()),
+            minimum_film(level),
             level.H[0].copy(),
             level.P[0].copy(),
             step,

@@ -39,7 +39,7 @@ class SteadyResult:
     approach: float  # mutual approach / dry approach
     force: float  # film force / static load
     h_central: float  # film at X = Y = 0
-    h_min: float
+    h_min: float  # smallest film, between the nodes too
     residuals: Array  # mean |residual| over P > 0: start after full multigrid, then each cycle
     load_residuals: Array  # residual of the load (or approach) equation, likewise
     approach_changes: Array  # change of the approach in each cycle

@@ -11,6 +11,7 @@ import numpy as np
 from ehlcontact.domain import Domain, check_domain, check_intervals
 from ehlcontact.errors import ConvergenceError, require_choice, require_finite, require_integer, require_positive
 from ehlcontact.grid import Level
+from ehlcontact.lowest_film import lowest_film
 from ehlcontact.multigrid import Multigrid
 from ehlcontact.newton import Balance
 from ehlcontact.newton_krylov import NewtonKrylov
@@ -170,7 +171,7 @@ class _Solve:
             approach=float(mg.u),
             force=level.force(),
             h_central=central_film(level),
-            h_min=float(level.H.min()),
+            h_min=minimum_film(level),
             residuals=np.array(self.residuals),
             load_residuals=np.array(self.load_residuals),
             approach_changes=np.array(self.changes),
@@ -218,6 +219,11 @@ def central_film(level: Level) -> float:
     s = -level.X[i] / level.hx
     left, centre, right = level.H[0, i - 1 : i + 2]
     return float(centre + 0.5 * s * (right - left) + 0.5 * s * s * (right - 2.0 * centre + left))
+
+
+def minimum_film(level: Level) -> float:
+    """Smallest film, between the nodes too; not above that of the lowest node."""
+    return lowest_film(level.H)[0]
 
 
 def judge(status: Status, level: Level) -> Status:

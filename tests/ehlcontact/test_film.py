@@ -74,9 +74,9 @@ def test_midplanes_cross_in_the_centre(steady, film):
 
 def test_horseshoe(steady, film):
     found = film.constriction
-    assert found.minimum == steady.h_min
-    at = np.argwhere(film.H == found.minimum)
-    assert {abs(float(film.Y[j])) for _, j in at} == {found.Y} and {float(film.X[i]) for i, _ in at} == {found.X}
+    assert found.minimum == pytest.approx(steady.h_min, rel=1e-12)
+    near = np.abs(film.X[:, None] - found.X) < 0.1, np.abs(film.Y - found.Y) < 0.1
+    assert found.minimum < film.H[near[0] & near[1]].min() < 1.03 * film.H.min()
     # side lobes, narrower than the exit, on the rim of the Hertz ellipse
     assert found.minimum <= found.side_film < found.central and found.minimum <= found.exit_film < found.central
     assert 0.7 < found.side_place < 1.1 and 0.7 < found.exit_place < 1.1

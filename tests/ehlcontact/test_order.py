@@ -82,6 +82,30 @@ def test_steady_film_is_second_order(steady, M, L, kappa):
         assert 0.5 * log2(coarse / fine) >= 1.8 or coarse < 5e-4 * getattr(limit, name), name
 
 
+NOT_YET = pytest.mark.xfail(
+    strict=True,
+    reason="1.5: the film is 1.8 % too thin at n = 64, 0.8 % too thick at 128 and 0.2 % at 256; the error comes "
+    "from the flank of the pressure beside the side lobe, two cells wide at 128; near second order from 384 on",
+)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("M", "L", "kappa"),
+    [
+        (200, 10, 1.0),
+        pytest.param(200, 10, 0.5, marks=NOT_YET),
+        (500, 15, 0.12),
+        (58.07, 4.62, 1.0),
+    ],
+)
+def test_smallest_film_is_second_order(steady, M, L, kappa):
+    """Its error against n = 512 falls with order 1.8 or more from n = 64 to 256, over two halvings together."""
+    limit = steady(M, L, kappa, 512).h_min
+    coarse, fine = (abs(steady(M, L, kappa, n).h_min - limit) for n in (64, 256))
+    assert 0.5 * log2(coarse / fine) >= 1.8
+
+
 def test_time_steps_are_second_order():
     """u and force at fixed T of a free vibration, Delta T halved three times."""
     motion = FreeVibration(5.13)

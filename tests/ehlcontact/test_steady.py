@@ -59,7 +59,7 @@ def test_shapes_and_symmetry_line(steady):
     assert result.P.shape == result.H.shape == (65, result.Y.size)
     assert (result.P[[0, -1]] == 0.0).all()
     assert (result.P[:, -1] == 0.0).all()
-    assert result.h_min == result.H.min()
+    assert 0.0 < result.h_min <= result.H.min()  # between the nodes
     i = np.argmin(np.abs(result.X))
     assert result.h_central == pytest.approx(result.H[i, 0], rel=1e-2)
     assert result.p_max == result.P.max()
