@@ -19,9 +19,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.domain import Domain, check_intervals
+from ehlcontact.domain import Domain, check_domain, check_intervals
 from ehlcontact.errors import InputError
 from ehlcontact.linearised_contact import LinearisedContact
+from ehlcontact.resolution import moving_intervals
 from ehlcontact.scaling import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.steady import solve_steady
 from ehlcontact.version import __version__
@@ -30,6 +31,7 @@ Array = NDArray[np.float64]
 
 TOLERANCE = 1e-5  # of the linear residuals; C is then within 3e-4 of the exact solve up to Omega = 30
 LARGEST_OMEGA = 200.0
+FEWEST_INTERVALS = 80
 NEAR_ZERO = 1e-4  # where C(0) is evaluated
 
 
@@ -81,7 +83,7 @@ class ImpedanceResult:
 
 
 def impedance(
-    point: Point, omegas: Sequence[float] | Array, *, n: int = 80, domain: Domain | None = None
+    point: Point, omegas: Sequence[float] | Array, *, n: int | None = None, domain: Domain | None = None
 ) -> ImpedanceResult:
     """Linearise the converged steady contact and return K(Omega) and C(Omega).
 
@@ -90,8 +92,8 @@ def impedance(
     point : MoesPoint or OperatingPoint
     omegas : sequence of float
         Dimensionless angular frequencies (time unit 2a/u_sum), 0 allowed.
-    n : int
-        Intervals along X, a multiple of 16.
+    n : int, optional
+        Intervals along X, a multiple of 16; by default as many as the inlet needs, 80 or more.
     domain : Domain, optional
         Computed region. C depends on it by about 1/extent^2.
 
@@ -104,12 +106,14 @@ def impedance(
     """
     started = time.perf_counter()
     omega = _check_frequencies(omegas)
-    check_intervals(n)
+    moes = moes_point(point)
+    domain = check_domain(domain, moes)
+    n = moving_intervals(moes, domain, FEWEST_INTERVALS) if n is None else check_intervals(n)
     steady = solve_steady(point, n=n, domain=domain)
-    contact = LinearisedContact(moes_point(point), steady.domain, n, steady.P, steady.approach)
+    contact = LinearisedContact(moes, steady.domain, n, steady.P, steady.approach)
     Z, residual = contact.respond(np.maximum(omega, NEAR_ZERO), TOLERANCE)
     return ImpedanceResult(
-        point=moes_point(point),
+        point=moes,
         scales=scales_of(point),
         domain=steady.domain,
         n=n,

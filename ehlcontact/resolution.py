@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from math import exp, log
 
@@ -11,12 +12,16 @@ from ehlcontact.domain import Domain, default_domain
 from ehlcontact.formulas import nvm_central_film
 from ehlcontact.scaling import MoesPoint
 
-FEWEST_INTERVALS, MOST_INTERVALS = 128, 2048
+MOST_INTERVALS = 2048
+DOUBLED = (128, 256, 512, 1024, 2048)
+STEPPED = (80, 96, 128, 160, 192, 256, 320, 384, 512, 640, 768, 1024)  # all of many halvings
 LARGEST_MESH = 0.12  # in semi-axes; what the pressure itself asks for
-MESH_OF_INLET = 0.6  # largest mesh over the width of the inlet
+MESH_OF_INLET = 0.6  # largest mesh over the width of the inlet,
+MESH_OF_MOVING_INLET = 1.0 / 3.0  # and where damping is wanted
 NEGATIVE_FILM = 0.8  # of that width: mesh above which the load has to be approached in steps,
 LOADING_MESH = 0.4  # each resolved this well
 LARGEST_GRID = 800_000  # nodes
+LARGEST_MOVING_GRID = 70_000  # nodes; sparse factors take half a minute and 1.5 GB there
 THIN = 0.06  # inlet width below which `CLOSE` will do
 CLOSE = Domain(-2.0, 1.35, 1.6)  # around a film so thin that oil further out makes no difference
 
@@ -50,16 +55,35 @@ def automatic_mesh(point: MoesPoint, domain: Domain | None = None) -> tuple[int,
 
     The default domain as long as a grid of `LARGEST_GRID` nodes resolves it, then `CLOSE`.
     """
-    wanted = min(MESH_OF_INLET * inlet_width(point), LARGEST_MESH) / max(1.0, point.kappa)
-    choices = [default_domain(point), CLOSE] if domain is None else [domain]
-    n, chosen = FEWEST_INTERVALS, choices[0]
-    for chosen in choices:
-        n = FEWEST_INTERVALS
-        while (chosen.x_out - chosen.x_in) / n > wanted and nodes(2 * n, chosen, point.kappa) <= LARGEST_GRID:
-            n *= 2
-        if (chosen.x_out - chosen.x_in) / n <= wanted:
-            break
+    wanted = MESH_OF_INLET * inlet_width(point)
+    chosen = default_domain(point) if domain is None else domain
+    n = _intervals(point, chosen, wanted, DOUBLED, LARGEST_GRID)
+    if domain is None and _mesh(point, chosen, n) > min(wanted, LARGEST_MESH):
+        chosen = CLOSE
+        n = _intervals(point, chosen, wanted, DOUBLED, LARGEST_GRID)
     return n, chosen
+
+
+def moving_intervals(point: MoesPoint, domain: Domain, fewest: int) -> int:
+    """Intervals along X, `fewest` or more, with which damping comes out within a few per cent.
+
+    Measured against finer grids: C is off by 1 to 4 % where the mesh is a third of the inlet width, by 12 to 16 %
+    where it is 0.6 of it.
+    """
+    counts = [n for n in STEPPED if n >= fewest]
+    return _intervals(point, domain, MESH_OF_MOVING_INLET * inlet_width(point), counts, LARGEST_MOVING_GRID)
+
+
+def _mesh(point: MoesPoint, domain: Domain, n: int) -> float:
+    """Mesh size in the longer semi-axis."""
+    return (domain.x_out - domain.x_in) / n * max(1.0, point.kappa)
+
+
+def _intervals(point: MoesPoint, domain: Domain, wanted: float, counts: Sequence[int], largest: int) -> int:
+    """First of `counts` that meshes as finely as `wanted` and as pressure needs; the last of `largest` nodes."""
+    wanted = min(wanted, LARGEST_MESH)
+    affordable = [n for n in counts if nodes(n, domain, point.kappa) <= largest] or counts[:1]
+    return next((n for n in affordable if _mesh(point, domain, n) <= wanted), affordable[-1])
 
 
 def refined_mesh(point: MoesPoint, n: int, domain: Domain, free: bool) -> tuple[int, Domain] | None:

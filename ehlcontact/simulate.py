@@ -14,6 +14,7 @@ from ehlcontact.domain import Domain, check_domain, check_intervals
 from ehlcontact.errors import ConvergenceError, InputError, require_instance, require_nonnegative, require_positive
 from ehlcontact.history import History
 from ehlcontact.motion import Motion, PrescribedApproach
+from ehlcontact.resolution import moving_intervals
 from ehlcontact.results import SimulationResult
 from ehlcontact.scaling import Point, moes_point, scales_of
 from ehlcontact.status import Status
@@ -25,6 +26,7 @@ from ehlcontact.version import __version__
 
 LARGEST_ERROR = 0.1
 FIRST_STEP = 0.25  # of the motion's own step: what is tried first under error control
+FEWEST_INTERVALS = 128
 MOST_STEPS = 1_000_000  # in fixed steps
 TOL_SHARE = 3.0  # tol over error: the last changes of force and approach are then a tenth of the error
 
@@ -33,7 +35,7 @@ def simulate(
     point: Point,
     motion: Motion,
     *,
-    n: int = 128,
+    n: int | None = None,
     domain: Domain | None = None,
     until: float | None = None,
     dT: float | None = None,
@@ -53,8 +55,8 @@ def simulate(
     ----------
     point : MoesPoint or OperatingPoint
     motion : FreeVibration, HarmonicLoad, RampLoad, PrescribedLoad or PrescribedApproach
-    n : int
-        Intervals along X, a multiple of 16.
+    n : int, optional
+        Intervals along X, a multiple of 16; by default as many as the inlet needs, 128 or more.
     domain : Domain, optional
         Computed region; by default wide enough for the largest load of the motion.
     until, dT : float, optional
@@ -151,7 +153,7 @@ def simulate(
 def _task(
     point: Point,
     motion: Motion,
-    n: int,
+    n: int | None,
     domain: Domain | None,
     until: float | None,
     dT: float | None,
@@ -162,7 +164,8 @@ def _task(
     """Checked arguments with their defaults, and the end of the run."""
     moes = moes_point(point)
     require_instance("motion", motion, Motion, "a motion such as FreeVibration or HarmonicLoad")
-    n, domain = check_intervals(n), check_domain(domain, moes, motion.largest_load)
+    domain = check_domain(domain, moes, motion.largest_load)
+    n = moving_intervals(moes, domain, FEWEST_INTERVALS) if n is None else check_intervals(n)
     end = motion.default_end if until is None else require_positive("until", until)
     tol = require_positive("tol", tol)
     default = motion.default_step

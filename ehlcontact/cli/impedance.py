@@ -30,7 +30,7 @@ def impedance(
     eta0: o.Eta0 = o.ETA0,
     viscosity: o.Viscosity = o.VISCOSITY,
     density: o.Density = o.DENSITY,
-    n: o.Intervals = 80,
+    n: o.ChosenIntervals = None,
     domain: o.Region = None,
     json_to: o.JsonTo = None,
 ) -> None:
@@ -49,7 +49,7 @@ def impedance(
         [
             *o.point_rows(point),
             *((f"Omega = {w:g}", f"K {k:.4f}", f"C {c:.5f}") for w, k, c in triples),
-            ("time", f"{result.seconds:.2f}", f"s, n = {n} on {o.domain_text(result.domain)}"),
+            ("time", f"{result.seconds:.2f}", f"s, n = {result.n} on {o.domain_text(result.domain)}"),
         ],
         json_to,
     )

@@ -31,7 +31,7 @@ ChosenIntervals = Annotated[
     int | None,
     typer.Option(
         "--n",
-        show_default="what the film needs, 128 or more",
+        show_default="what the film needs",
         help="Intervals along X, a multiple of 16.",
         rich_help_panel=_GRID,
     ),

@@ -77,7 +77,7 @@ def simulate(
     eta0: o.Eta0 = o.ETA0,
     viscosity: o.Viscosity = o.VISCOSITY,
     density: o.Density = o.DENSITY,
-    n: o.Intervals = 128,
+    n: o.ChosenIntervals = None,
     domain: o.Region = None,
     save: o.Save = None,
     figure: FigureTo = None,
@@ -145,7 +145,7 @@ def simulate(
             ("steps", f"{result.steps}", f"to T = {result.T[-1]:.4g}, {result.cycles[1:].mean():.1f} cycles each")
             if result.steps
             else ("steps", "0", ""),
-            ("grid", f"{n}", f"on {o.domain_text(result.domain)}"),
+            ("grid", f"{result.n}", f"on {o.domain_text(result.domain)}"),
             ("time", f"{result.seconds:.1f}", "s"),
             ("status", str(result.status), ""),
         ],
