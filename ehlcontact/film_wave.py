@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError, require_finite
+from ehlcontact.errors import InputError, require_finite, require_instance
 from ehlcontact.results import SimulationResult
 
 Array = NDArray[np.float64]
@@ -42,7 +42,14 @@ class WaveTrack:
 
 
 def film_wave(run: SimulationResult) -> FilmWave:
-    """Film along Y = 0 less the film at rest, which is that of T = 0, over place and time."""
+    """Film along Y = 0 less the film at rest, which is that of T = 0, over place and time.
+
+    Raises
+    ------
+    InputError
+        `run` is no result of `simulate`.
+    """
+    require_instance("run", run, SimulationResult, "a result of simulate")
     return FilmWave(run.X, run.T, run.h_midplane - run.h_midplane[0])
 
 

@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 
 from ehlcontact.domain import Domain
-from ehlcontact.errors import InputError
+from ehlcontact.errors import InputError, require_instance
 from ehlcontact.motion import Motion, motion_from_dict
 from ehlcontact.results import SimulationResult, SteadyResult
 from ehlcontact.scaling import MoesPoint, Scales
@@ -30,8 +30,9 @@ def save(result: Result, path: str | os.PathLike[str]) -> Path:
     Raises
     ------
     InputError
-        The folder does not exist or cannot be written to.
+        `result` is none; the folder does not exist or cannot be written to.
     """
+    require_instance("result", result, Result, "a result of solve_steady or simulate")
     return write_fields(result, path, "save")
 
 

@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 Surface = Callable[[Array, Array, float], Array]
 
 PROBED = 8  # every so many nodes are compared with their images at -Y
+LARGEST_MISS = 0.75  # of the height, midway between nodes: fewer than 2.4 nodes to a wave; a step misses half
 RATE_STEP = 1e-6  # of the central difference along the path of the film, in X and T
 
 
@@ -57,6 +58,15 @@ def surface_height(surface: Surface | None, X: Array, Y: Array, T: float) -> Arr
     return G
 
 
+def require_resolved(surface: Surface, height: Array, X: Array, Y: Array, T: float) -> None:
+    """Raise `InputError` where `height` (Y.size, X.size), at the nodes, says nothing of what lies between them."""
+    between = np.asarray(surface(0.5 * (X[None, :-1] + X[None, 1:]), Y[:, None], T), dtype=float)
+    missed = float(np.abs(between - 0.5 * (height[:, :-1] + height[:, 1:])).max())
+    if missed > LARGEST_MISS * max(float(np.abs(height).max()), float(np.abs(between).max())):
+        allowed = f"resolved by the grid, whose mesh is {X[1] - X[0]:.3g} along X: raise n, or smooth it"
+        raise InputError("surface", f"{missed:.3g} off midway between nodes at T = {T:g}", allowed)
+
+
 def surface_step(
     surface: Surface | None, X: Array, Y: Array, T: float, dT: float, dT_before: float
 ) -> SurfaceStep | None:
@@ -66,6 +76,7 @@ def surface_step(
     height, before, earlier = (
         np.asarray(surface_height(surface, X, Y, max(time, 0.0))) for time in (T, T - dT, T - dT - dT_before)
     )
+    require_resolved(surface, height, X, Y, T)
     ahead, behind = (
         np.asarray(surface_height(surface, X + step, Y, T + step)) for step in (RATE_STEP, -RATE_STEP)
     )

@@ -176,3 +176,8 @@ def test_tracking_bad_input():
             track_wave(still, start, end)
     with pytest.raises(InputError, match=r"at least 2\.4"):
         track_wave(FilmWave(X, 0.5 * T, np.zeros((41, 21))))
+
+
+def test_film_wave_of_a_steady_film_is_refused(steady):
+    with pytest.raises(InputError, match=r"^run = 'SteadyResult'.*simulate"):
+        film_wave(steady)

@@ -233,3 +233,9 @@ def test_target_that_is_a_folder(steady_si, tmp_path):
     with pytest.raises(InputError, match=r"^save = "):
         save(steady_si, tmp_path / "taken.h5")
     assert [p.name for p in tmp_path.iterdir()] == ["taken.h5"]
+
+
+def test_only_results_are_saved(tmp_path):
+    with pytest.raises(InputError, match=r"^result = 'int'.*solve_steady or simulate"):
+        save(5, tmp_path / "five.h5")
+    assert not list(tmp_path.iterdir())

@@ -107,6 +107,23 @@ def test_surface_must_be_even_in_y():
         )
 
 
+@pytest.mark.parametrize(("wavelength", "refused"), [(0.8, False), (0.4, True), (0.2, True)])
+def test_waviness_shorter_than_the_mesh_is_refused(wavelength, refused):
+    """The mesh is 0.1875: 0.8 is four nodes to a wave, 0.4 two."""
+    grid, wave = np.linspace(-4.5, 1.5, 33), Waviness(0.01, wavelength, start=0.0)
+    if refused:
+        with pytest.raises(
+            InputError, match=r"^surface = .*midway between nodes.*mesh is 0\.188 along X: raise n"
+        ):
+            surface_step(wave, grid, Y, 0.5, 0.1, 0.1)
+    else:
+        surface_step(wave, grid, Y, 0.5, 0.1, 0.1)
+
+
+def test_step_of_a_surface_is_not_taken_for_a_short_wave():
+    surface_step(lambda X, Y, T: 0.01 * (X > 0.23) + 0.0 * Y, X, Y, 0.5, 0.1, 0.1)
+
+
 def test_surface_that_closes_the_gap_is_named():
     ridge = TransverseRidge(3.0, 0.4, start=0.0)
     with pytest.raises(ConvergenceError, match="surface stands out by 3"):
