@@ -86,11 +86,12 @@ def dense_jacobian(free, p_coef, h_coef, kernel, number, J):
     """
     width = p_coef.shape[2]
     m = free.shape[0]
+    lines, columns = free // width, free % width
     number[:] = -1
     for c in range(m):
         number[free[c]] = c
     for r in range(m):
-        j, i = free[r] // width, free[r] % width
+        j, i = lines[r], columns[r]
         J[r, : m + 1] = 0.0
         for q in range(NEIGHBOURS):
             h = h_coef[q, j, i]
@@ -100,11 +101,10 @@ def dense_jacobian(free, p_coef, h_coef, kernel, number, J):
             jq, iq = neighbour(q, j, i)
             J[r, m] -= h
             for c in range(m):
-                jc, ic = free[c] // width, free[c] % width
-                lag = abs(iq - ic)
-                k = kernel[abs(jq - jc), lag]
-                if jc > 0:  # the image at Y < 0
-                    k += kernel[jq + jc, lag]
+                lag = abs(iq - columns[c])
+                k = kernel[abs(jq - lines[c]), lag]
+                if lines[c] > 0:  # the image at Y < 0
+                    k += kernel[jq + lines[c], lag]
                 J[r, c] += h * k
             if number[jq * width + iq] >= 0:
                 J[r, number[jq * width + iq]] += p

@@ -141,13 +141,15 @@ def apply_line(j, P, theta, w):
 
 @jit
 def near_film(j, H, theta, w, near, spread):
-    """Add to line j of `H` the near part of the deflection caused by both neighbour lines."""
+    """Add to line j of `H` the near deflection caused by both neighbour lines, whose ends have w = 0."""
     nx = H.shape[1] - 1
     for i in range(1, nx):
         change = 0.0
-        for jj in (j - 1, j + 1):
-            for d in range(max(-NEAR, 1 - i), min(NEAR, nx - 1 - i) + 1):
-                change += w[jj, i + d] * (near[1, abs(d)] - theta[jj, i + d] * spread[1, abs(d)])
+        for d in range(-NEAR, NEAR + 1):
+            k = min(max(i + d, 0), nx)
+            plain = w[j - 1, k] + w[j + 1, k]
+            given = theta[j - 1, k] * w[j - 1, k] + theta[j + 1, k] * w[j + 1, k]
+            change += near[1, abs(d)] * plain - spread[1, abs(d)] * given
         H[j, i] += change
 
 
