@@ -13,14 +13,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact._kernels.lowest import lowest_of_cells
+
 Array = NDArray[np.float64]
 
 NEAR = 1.1  # times the lowest node: cells with no node below that are not searched
-ZOOMED = 4  # cells, those lowest where sampled: the bottom may lie just beyond the side of the first
-ZOOMS = (1.0 / 8.0, 1.0 / 64.0, 1.0 / 512.0)  # half widths in cells, each about the lowest sample before
-_STENCIL = np.arange(-1, 3)  # nodes of a cell from 0 to 1 and their neighbours
-_TO_POWERS = np.linalg.inv(np.vander(_STENCIL.astype(float)))
-_COARSE, _FINE = np.linspace(0.0, 1.0, 9), np.linspace(-1.0, 1.0, 17)
 
 
 def lowest_film(H: Array) -> tuple[float, float, float]:
@@ -49,16 +46,8 @@ def lowest_film(H: Array) -> tuple[float, float, float]:
     rows, columns = np.nonzero(_cells_near(H, NEAR * node))
     if not rows.size:
         return at_node
-    above = H[np.abs(rows[:, None, None] + _STENCIL[:, None]), columns[:, None, None] + _STENCIL] - node
-    weights = _weights(_COARSE)
-    values = (weights @ above @ weights.T).reshape(rows.size, -1)
-    drop, t, s = 0.0, float(j), float(i)
-    for k in np.argsort(values.min(axis=1))[:ZOOMED]:
-        a, b = divmod(int(np.argmin(values[k])), _COARSE.size)
-        lower, t_k, s_k = _zoom_in(above[k], float(_COARSE[a]), float(_COARSE[b]))
-        if lower < drop:
-            drop, t, s = lower, float(rows[k]) + t_k, float(columns[k]) + s_k
-    return (node + drop, t, s) if drop > -node else at_node
+    lowest, row, column = lowest_of_cells(H, rows, columns, np.empty((rows.size, 3)))
+    return (lowest, row, column) if 0.0 < lowest < node else at_node
 
 
 def _cells_near(H: Array, limit: float) -> NDArray[np.bool_]:
@@ -67,19 +56,3 @@ def _cells_near(H: Array, limit: float) -> NDArray[np.bool_]:
     cells = low[:-1, :-1] | low[1:, :-1] | low[:-1, 1:] | low[1:, 1:]
     cells[-1] = cells[:, 0] = cells[:, -1] = False
     return cells
-
-
-def _zoom_in(nodes: Array, t: float, s: float) -> tuple[float, float, float]:
-    """Smallest value of the polynomial through `nodes` (4, 4) next to (t, s) within their cell, and its place."""
-    value = 0.0
-    for width in ZOOMS:
-        along_t, along_s = (np.clip(x + width * _FINE, 0.0, 1.0) for x in (t, s))
-        values = _weights(along_t) @ nodes @ _weights(along_s).T
-        a, b = np.unravel_index(int(np.argmin(values)), values.shape)
-        value, t, s = float(values[a, b]), float(along_t[a]), float(along_s[b])
-    return value, t, s
-
-
-def _weights(x: Array) -> Array:
-    """Weights of the four nodes in the cubic through them at x (k,) of the cell: (k, 4)."""
-    return np.vander(x, 4) @ _TO_POWERS

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import MoesPoint, PrescribedLoad, simulate
+from ehlcontact._kernels.lowest import cubic_at
 from ehlcontact.lowest_film import lowest_film
 
 LEAST = 0.08
@@ -14,6 +15,17 @@ LEAST = 0.08
 def nodes(ny=12, nx=16):
     """Row and column of every node, in cells."""
     return np.meshgrid(np.arange(ny + 1.0), np.arange(nx + 1.0), indexing="ij")
+
+
+@pytest.mark.parametrize("kernel", [cubic_at, cubic_at.py_func], ids=["jit", "python"])
+def test_cubics_are_exact_for_cubics(kernel):
+    rng = np.random.default_rng(9)
+    c = rng.normal(size=(4, 4))
+    row, column = nodes(8, 9)
+    H = np.polynomial.polynomial.polyval2d(row, column, c)
+    for t, s in rng.uniform(size=(10, 2)):
+        exact = np.polynomial.polynomial.polyval2d(3.0 + t, 5.0 + s, c)
+        assert kernel(H, 3, 5, t, s) == pytest.approx(exact, rel=1e-11)
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.3, pi / 4, 1.2, 2.5])
