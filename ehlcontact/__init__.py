@@ -16,6 +16,7 @@ module                  responsibility
 ``preconditioner``      its two-grid preconditioner
 ``linear_solve``        its flexible Krylov solution
 ``newton_krylov``       semismooth Newton on the finest grid
+``lowest_film``         the smallest film between the nodes
 ``steady``              `solve_steady`
 ``motion, table``       what drives a transient contact
 ``transient``           implicit film steps
