@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from ehlcontact.domain import Domain, check_domain, check_intervals
+from ehlcontact.domain import Domain, check_domain
 from ehlcontact.errors import ConvergenceError, require_finite, require_positive
 from ehlcontact.newton import Balance
+from ehlcontact.resolution import moving_intervals
 from ehlcontact.scaling import Point, moes_point
 from ehlcontact.status import Status
 from ehlcontact.steady import central_film, minimum_film
 from ehlcontact.transient import FilmState, Step, TransientFilm
+
+FEWEST_INTERVALS = 80
 
 
 class FullContact:
@@ -20,8 +23,8 @@ class FullContact:
     Parameters
     ----------
     point : MoesPoint or OperatingPoint
-    n : int
-        Intervals along X, a multiple of 16.
+    n : int, optional
+        Intervals along X, a multiple of 16; by default as many as the inlet needs, 80 or more.
     domain : Domain, optional
         Computed region; give `largest_load` instead if the load will rise.
     largest_load : float
@@ -41,13 +44,14 @@ class FullContact:
         self,
         point: Point,
         *,
-        n: int = 64,
+        n: int | None = None,
         domain: Domain | None = None,
         largest_load: float = 1.0,
         tol: float = 3e-3,
     ) -> None:
-        self.point, self.n = moes_point(point), check_intervals(n)
+        self.point = moes_point(point)
         self.domain = check_domain(domain, self.point, require_positive("largest_load", largest_load))
+        self.n = moving_intervals(n, self.point, self.domain, FEWEST_INTERVALS)
         self._film = TransientFilm(self.point, self.domain, self.n, require_positive("tol", tol))
         self._check(self._film.start_steady(Balance(0.0, 1.0, 1.0)))
         self.static_approach = self._film.u

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.domain import Domain, check_domain, check_intervals
+from ehlcontact.domain import Domain, check_domain
 from ehlcontact.errors import InputError
 from ehlcontact.linearised_contact import LinearisedContact
 from ehlcontact.resolution import moving_intervals
@@ -108,7 +108,7 @@ def impedance(
     omega = _check_frequencies(omegas)
     moes = moes_point(point)
     domain = check_domain(domain, moes)
-    n = moving_intervals(moes, domain, FEWEST_INTERVALS) if n is None else check_intervals(n)
+    n = moving_intervals(n, moes, domain, FEWEST_INTERVALS)
     steady = solve_steady(point, n=n, domain=domain)
     contact = LinearisedContact(moes, steady.domain, n, steady.P, steady.approach)
     Z, residual = contact.respond(np.maximum(omega, NEAR_ZERO), TOLERANCE)

@@ -10,7 +10,7 @@ from math import ceil, inf
 import numpy as np
 
 from ehlcontact.checkpoint import Checkpoint, Task, load_checkpoint, require_replaceable
-from ehlcontact.domain import Domain, check_domain, check_intervals
+from ehlcontact.domain import Domain, check_domain
 from ehlcontact.errors import ConvergenceError, InputError, require_instance, require_nonnegative, require_positive
 from ehlcontact.history import History
 from ehlcontact.motion import Motion, PrescribedApproach
@@ -165,7 +165,7 @@ def _task(
     moes = moes_point(point)
     require_instance("motion", motion, Motion, "a motion such as FreeVibration or HarmonicLoad")
     domain = check_domain(domain, moes, motion.largest_load)
-    n = moving_intervals(moes, domain, FEWEST_INTERVALS) if n is None else check_intervals(n)
+    n = moving_intervals(n, moes, domain, FEWEST_INTERVALS)
     end = motion.default_end if until is None else require_positive("until", until)
     tol = require_positive("tol", tol)
     default = motion.default_step

@@ -49,11 +49,11 @@ def test_given_domain_is_kept(M, L, kappa):
 
 def test_moving_intervals_follow_the_inlet():
     domain = Domain()
-    assert r.moving_intervals(MoesPoint(200, 10, 0.5), domain, 80) == 80
-    assert r.moving_intervals(MoesPoint(200, 10, 0.5), domain, 128) == 128
+    assert r.moving_intervals(None, MoesPoint(200, 10, 0.5), domain, 80) == 80
+    assert r.moving_intervals(None, MoesPoint(200, 10, 0.5), domain, 128) == 128
     for M, L, kappa in BOX:
         point = MoesPoint(M, L, kappa)
-        n = r.moving_intervals(point, domain, 80)
+        n = r.moving_intervals(None, point, domain, 80)
         mesh = 6.0 / n * max(1.0, kappa)
         resolved = mesh <= min(r.MESH_OF_MOVING_INLET * r.inlet_width(point), r.LARGEST_MESH)
         following = next((k for k in r.STEPPED if k > n), None)
