@@ -45,6 +45,7 @@ class Level:
         self.X = np.linspace(domain.x_in, domain.x_out, nx + 1)
         self.Y = np.linspace(0.0, domain.y_max, ny + 1)
         self.hx, self.hy = (domain.x_out - domain.x_in) / nx, domain.y_max / ny
+        self.cautious = False
         self.set_point(point)
         S = shape_factor(point.kappa)
         self.gap = S * self.X**2 + (1.0 - S) * self.Y[:, None] ** 2
@@ -72,11 +73,20 @@ class Level:
         self.force_weights[0] *= 0.5
 
     def set_point(self, point: MoesPoint) -> None:
-        """Coefficients of the Reynolds equation at `point`; its kappa must be that of the level."""
+        """Numbers that the kernels need at `point`, whose kappa must be that of the level."""
         self.law = point.law
         # On a mesh finer along X, smooth changes of P deflect the film further beyond the near coefficients.
-        switch = relax.SWITCH * max(1.0, 0.5 * self.hy / (point.kappa * self.hx))
-        self.mesh = reynolds.Mesh(self.hx**-2, point.kappa**2 * self.hy**-2, 1.0 / self.hx, point.lam, switch)
+        # In a contact long along rolling the same P deflects it more too (kernel over hx goes like 1/K(kappa));
+        # that the value should rise like kappa itself is measured, not derived.
+        switch = relax.SWITCH * max(1.0, 0.5 * self.hy / (point.kappa * self.hx)) * max(1.0, point.kappa)
+        self.mesh = reynolds.Mesh(
+            cx=self.hx**-2,
+            cy=point.kappa**2 * self.hy**-2,
+            inv_hx=1.0 / self.hx,
+            lam=point.lam,
+            switch=switch * (relax.CAUTIOUS_SWITCH if self.cautious else 1.0),
+            damping=relax.CAUTIOUS_DAMPING if self.cautious else 0.0,
+        )
 
     @property
     def P(self) -> Array:

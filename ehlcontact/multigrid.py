@@ -17,7 +17,7 @@ from ehlcontact._kernels import transfer
 from ehlcontact.domain import Domain
 from ehlcontact.grid import Level, build_hierarchy
 from ehlcontact.newton import Balance, CoarseNewton
-from ehlcontact.resolution import resolved_load
+from ehlcontact.resolution import resolved_load, thin_sides
 from ehlcontact.scaling import MoesPoint
 
 PRE_SWEEPS, POST_SWEEPS = 2, 1
@@ -27,7 +27,12 @@ CYCLES_AFTER_LOADING = 4  # on a level that carries more load than the one below
 
 
 def coarsest_intervals(point: MoesPoint) -> int:
-    """Intervals of the coarsest grid: 16; more at high load, to see the inlet, and for narrow ellipses."""
+    """Intervals of the coarsest grid: 16; more at high load, to see the inlet, and for narrow ellipses.
+
+    With thin sides too few lines across the contact correct nothing: cycles diverge from 32 intervals.
+    """
+    if thin_sides(point):
+        return 64
     if point.kappa > 2.0:
         return 32
     return 16 if point.M < 1000.0 else 24
@@ -40,9 +45,15 @@ class Multigrid:
     changes it in other ways calls ``finest.update(u)``.
     """
 
-    def __init__(self, point: MoesPoint, domain: Domain, n: int, coarsest: int | None = None) -> None:
+    def __init__(
+        self, point: MoesPoint, domain: Domain, n: int, coarsest: int | None = None, cautious: bool = False
+    ) -> None:
         self.point = point
-        self.levels = build_hierarchy(point, domain, n, coarsest or coarsest_intervals(point))
+        fewest = min(coarsest_intervals(point), max(32, n // 4))  # leaves some levels to a small grid
+        self.levels = build_hierarchy(point, domain, n, coarsest or fewest)
+        for level in self.levels:
+            level.cautious = cautious
+            level.set_point(point)
         self.newton = CoarseNewton(self.levels[0])
         self.u = initial_approach(point)
 

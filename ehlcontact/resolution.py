@@ -20,10 +20,13 @@ MESH_OF_INLET = 0.6  # largest mesh over the width of the inlet,
 MESH_OF_MOVING_INLET = 1.0 / 3.0  # and where damping is wanted
 NEGATIVE_FILM = 0.8  # of that width: mesh above which the load has to be approached in steps,
 LOADING_MESH = 0.4  # each resolved this well
-LARGEST_GRID = 800_000  # nodes
+LARGEST_GRID = 1_000_000  # nodes
 LARGEST_MOVING_GRID = 70_000  # nodes; sparse factors take half a minute and 1.5 GB there
 THIN = 0.06  # inlet width below which `CLOSE` will do
 CLOSE = Domain(-2.0, 1.35, 1.6)  # around a film so thin that oil further out makes no difference
+VERY_THIN = 0.03  # below which it is chosen at once
+MESH_OF_SIDES = 0.4  # largest mesh over that width for thin sides
+TIGHT = Domain(-1.5, 1.2, 1.25)
 
 
 def inlet_width(point: MoesPoint) -> float:
@@ -33,6 +36,16 @@ def inlet_width(point: MoesPoint) -> float:
     """
     film = nvm_central_film(point.M, point.L, point.kappa) / point.film_to_moes
     return film ** (2.0 / 3.0)
+
+
+def thin_sides(point: MoesPoint) -> bool:
+    """Whether the side lobes, not the inlet, set the mesh.
+
+    Along a contact that is long in the rolling direction, oil leaks out over the sides all the way, and the film
+    in the side lobes falls to a tenth and less of the central film. A mesh that sees the inlet well leaves it
+    negative there.
+    """
+    return point.kappa > 0.8 and inlet_width(point) < VERY_THIN
 
 
 def resolved_load(point: MoesPoint, mesh: float) -> float:
@@ -53,15 +66,14 @@ def resolved_load(point: MoesPoint, mesh: float) -> float:
 def automatic_mesh(point: MoesPoint, domain: Domain | None = None) -> tuple[int, Domain]:
     """Intervals along X, and the domain if none is given, that resolve the steady film.
 
-    The default domain as long as a grid of `LARGEST_GRID` nodes resolves it, then `CLOSE`.
+    The default domain, `CLOSE` around a very thin film, where cycles on more oil converge slowly, and `TIGHT` for
+    thin sides.
     """
-    wanted = MESH_OF_INLET * inlet_width(point)
-    chosen = default_domain(point) if domain is None else domain
-    n = _intervals(point, chosen, wanted, DOUBLED, LARGEST_GRID)
-    if domain is None and _mesh(point, chosen, n) > min(wanted, LARGEST_MESH):
-        chosen = CLOSE
-        n = _intervals(point, chosen, wanted, DOUBLED, LARGEST_GRID)
-    return n, chosen
+    width, sides = inlet_width(point), thin_sides(point)
+    wanted = (MESH_OF_SIDES if sides else MESH_OF_INLET) * width
+    if domain is None:
+        domain = TIGHT if sides else CLOSE if width < VERY_THIN else default_domain(point)
+    return _intervals(point, domain, wanted, DOUBLED, LARGEST_GRID), domain
 
 
 def moving_intervals(n: int | None, point: MoesPoint, domain: Domain, fewest: int) -> int:
@@ -90,7 +102,7 @@ def _intervals(point: MoesPoint, domain: Domain, wanted: float, counts: Sequence
 
 def refined_mesh(point: MoesPoint, n: int, domain: Domain, free: bool) -> tuple[int, Domain] | None:
     """Next mesh to try after n intervals on `domain` failed; if `free`, the domain may close in on a thin film."""
-    if free and domain != CLOSE and inlet_width(point) < THIN:
+    if free and domain not in {CLOSE, TIGHT} and inlet_width(point) < THIN:
         return n, CLOSE
     return (2 * n, domain) if nodes(2 * n, domain, point.kappa) <= LARGEST_GRID else None
 

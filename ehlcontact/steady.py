@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Generator
 from math import isfinite
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from ehlcontact.lowest_film import lowest_film
 from ehlcontact.multigrid import Multigrid
 from ehlcontact.newton import Balance
 from ehlcontact.newton_krylov import NewtonKrylov
-from ehlcontact.resolution import automatic_mesh, refined_mesh
+from ehlcontact.resolution import automatic_mesh, nodes, refined_mesh
 from ehlcontact.results import SteadyResult
 from ehlcontact.scaling import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.status import Status, classify
@@ -24,12 +25,27 @@ from ehlcontact.version import __version__
 LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7
 LARGEST_ATTEMPTS = 4  # of an automatic mesh
-METHODS = ("automatic", "multigrid", "newton")
+LARGEST_NEWTON = 300_000  # nodes: sparse factors take minutes and gigabytes beyond
 FAILED = (Status.STAGNATED, Status.DIVERGED, Status.MAX_CYCLES, Status.NONFINITE)
 REFINED = (*FAILED, Status.UNRESOLVED)
 ROOM = 1.5  # growth of a domain that pressure fills
 BORDER_SLOPE = 0.1  # of the maximum per semi-axis, at inlet and sides
 BORDER_PRESSURE = 0.02  # of the maximum, beside the outlet; a film that ends outside the grid is not computed
+
+
+class Way(NamedTuple):
+    """How one mesh is solved."""
+
+    newton: bool
+    cautious: bool  # relaxation: slower, and does not swing from line to line where others do
+
+
+LAST_RESORT = Way(True, True)
+WAYS = {
+    "automatic": (Way(False, False), Way(False, True), LAST_RESORT),
+    "multigrid": (Way(False, False),),
+    "newton": (Way(True, False),),
+}
 
 
 def solve_steady(
@@ -39,7 +55,7 @@ def solve_steady(
     domain: Domain | None = None,
     approach: float | None = None,
     tol: float = 3e-5,
-    max_cycles: int = 40,
+    max_cycles: int = 80,
     method: str = "automatic",
     throw: bool = True,
     callback: Callable[[int, float], None] | None = None,
@@ -62,7 +78,7 @@ def solve_steady(
         Limit of V(2,1) cycles, or of Newton steps, on the finest grid.
     method : {"automatic", "multigrid", "newton"}
         V cycles, or Newton steps from the same full-multigrid start; both solve the same equations.
-        ``"automatic"`` cycles, and turns to Newton where that fails.
+        ``"automatic"`` cycles, where that fails with cautious relaxation, and at last turns to Newton.
     throw : bool
         Raise on failure; otherwise look at ``result.status``.
     callback : callable, optional
@@ -84,7 +100,7 @@ def solve_steady(
     moes = moes_point(point)
     require_integer("max_cycles", max_cycles, "a whole number > 0", 1)
     require_positive("tol", tol)
-    require_choice("method", method, METHODS)
+    require_choice("method", method, tuple(WAYS))
     if approach is None:
         balance = Balance(0.0, 1.0, 1.0)
     else:
@@ -92,11 +108,13 @@ def solve_steady(
     attempts = _meshes(moes, n, domain)
     mesh = next(attempts)
     while mesh is not None:
-        solved = _Solve(moes, *mesh, balance, tol, max_cycles, callback)
-        status = solved.run(newton=method == "newton")
-        if method == "automatic" and status in FAILED:
-            solved = _Solve(moes, *mesh, balance, tol, max_cycles, callback)
-            status = solved.run(newton=True)
+        for way in WAYS[method]:
+            if way is LAST_RESORT and nodes(*mesh, moes.kappa) > LARGEST_NEWTON:
+                break
+            solved = _Solve(moes, *mesh, balance, tol, max_cycles, callback, way.cautious)
+            status = solved.run(way.newton)
+            if status not in FAILED:
+                break
         mesh = attempts.send(status)
     result = solved.result(status, scales_of(point), time.perf_counter() - started)
     if throw and not status.ok and status is not Status.INTERRUPTED:
@@ -116,10 +134,11 @@ class _Solve:
         tol: float,
         max_cycles: int,
         callback: Callable[[int, float], None] | None,
+        cautious: bool,
     ) -> None:
         self.n, self.domain, self.balance = n, domain, balance
         self.tol, self.max_cycles, self.callback = tol, max_cycles, callback
-        self.multigrid = Multigrid(point, domain, n)
+        self.multigrid = Multigrid(point, domain, n, cautious=cautious)
         if balance.weight == 0.0:
             self.multigrid.u = balance.rhs
         self.scale = dry_residual(self.multigrid.finest)

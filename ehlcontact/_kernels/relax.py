@@ -22,6 +22,8 @@ NEAR = 2  # near influence coefficients kept on either side
 SHARE = 0.25  # part of a distributed change that each neighbour takes back
 SWITCH = 3.0  # eps/hx^2 at which theta = 1/2 in steady flow (Venner and Lubrecht's hard switch: 0.3),
 # for meshes up to twice as fine along X as along Y, physically; in proportion more for finer ones
+CAUTIOUS_SWITCH, CAUTIOUS_DAMPING = 5.0, 0.3  # where eps/hx^2 is near the switch all over the contact, as in very
+# thin films of isoviscous oil: factor of the switch, and share by which distributed changes are cut
 SQUEEZE = 10.0  # how much more the squeeze term raises it than the wedge term
 FLOW_SLOPE = 0.75  # share of the derivatives of eps; see below
 LARGEST_CHANGE = 0.15  # of P in one sweep; far from the solution the linear model overshoots
@@ -117,7 +119,8 @@ def relax_line(j, fields, rhs, mesh, c_t, near, spread):
             b[r] = 0.0
     solve_band(band, b, m)
     for r in range(m):
-        fields.w[j, r + 1] = min(max(b[r], -LARGEST_CHANGE), LARGEST_CHANGE)
+        change = (1.0 - mesh.damping * fields.theta[j, r + 1]) * b[r]
+        fields.w[j, r + 1] = min(max(change, -LARGEST_CHANGE), LARGEST_CHANGE)
 
 
 @jit

@@ -29,6 +29,7 @@ class Mesh(NamedTuple):
     inv_hx: float  # 1/hx
     lam: float  # Reynolds coefficient lambda
     switch: float  # eps/hx^2 at which both relaxations have equal parts, in steady flow
+    damping: float  # share by which distributed changes are cut; 0 mostly
 
 
 class Flow(NamedTuple):

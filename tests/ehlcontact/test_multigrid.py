@@ -99,6 +99,16 @@ def test_narrow_ellipses_converge(M, L, kappa):
     assert result.status in (("converged",) if result.h_min > 0.0 else ("unresolved",))
 
 
+def test_cautious_relaxation_where_the_other_swings():
+    """Isoviscous oil, eps/hx^2 near its switch all over the contact: lines swing, and cautious ones do not."""
+    point, domain = MoesPoint(30000, 0, 0.35), Domain(-2.0, 1.35, 1.6)
+    plain = solve_steady(point, n=512, domain=domain, method="multigrid", throw=False)
+    assert plain.status == "diverged"
+    result = solve_steady(point, n=512, domain=domain)
+    assert result.h_min > 0.0
+    assert result.residual < 3e-5
+
+
 def test_initial_approach_is_bounded():
     assert initial_approach(MoesPoint(1e-3, 5, 1.0)) == -1.0
     assert initial_approach(MoesPoint(1e6, 0, 1.0)) == 0.99

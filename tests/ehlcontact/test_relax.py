@@ -140,6 +140,18 @@ def test_line_solves_its_linear_system(point, j):
     np.testing.assert_allclose(f.w[j, 1:-1], expected, rtol=1e-8, atol=1e-12)
 
 
+def test_damping_cuts_distributed_changes_alone(level):
+    f, undamped = level.fields, level.mesh
+    f.theta[:, 1:-1] = np.random.default_rng(4).uniform(size=(level.ny + 1, level.nx - 1))
+    w = []
+    for mesh in (undamped, undamped._replace(damping=0.3)):
+        relax.relax_line(2, f, 0.01 * level.rhs, mesh, level.c_t, level.near, level.spread)
+        w.append(f.w[2].copy())
+    free = np.abs(w[0]) < relax.LARGEST_CHANGE
+    assert np.count_nonzero(w[0][free]) > 5
+    np.testing.assert_allclose(w[1][free], ((1.0 - 0.3 * f.theta[2]) * w[0])[free], rtol=1e-12)
+
+
 def test_dry_node_joins_only_if_its_residual_asks_for_pressure(level):
     f = level.fields
     level.rhs *= 30.0  # both signs of the residual

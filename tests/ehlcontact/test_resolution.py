@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, MoesPoint
+from ehlcontact import Domain, MoesPoint, solve_steady
 from ehlcontact import resolution as r
 from ehlcontact.domain import check_intervals
 from ehlcontact.impedance import impedance
@@ -34,11 +34,29 @@ def test_steady_mesh_resolves_the_inlet_or_is_the_finest(M, L, kappa):
     point = MoesPoint(M, L, kappa)
     n, domain = r.automatic_mesh(point)
     mesh = (domain.x_out - domain.x_in) / n * max(1.0, kappa)
-    wanted = min(r.MESH_OF_INLET * r.inlet_width(point), r.LARGEST_MESH)
+    share = r.MESH_OF_SIDES if r.thin_sides(point) else r.MESH_OF_INLET
+    wanted = min(share * r.inlet_width(point), r.LARGEST_MESH)
     finer = r.nodes(2 * n, domain, kappa)
     assert mesh <= wanted or finer > r.LARGEST_GRID
     assert r.nodes(n, domain, kappa) <= r.LARGEST_GRID
     assert n == 128 or 2.0 * mesh > wanted  # no finer than needed
+
+
+def test_region_closes_in_on_thin_films():
+    assert r.automatic_mesh(MoesPoint(2900, 19, 0.11))[1] == Domain()
+    assert r.automatic_mesh(MoesPoint(30000, 0, 0.3))[1] == r.CLOSE
+    assert not r.thin_sides(MoesPoint(200, 10, 3.0))
+    assert r.thin_sides(MoesPoint(7333, 2.6, 3.0))
+    assert r.automatic_mesh(MoesPoint(7333, 2.6, 3.0))[1] == r.TIGHT
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("M", "L", "kappa"), [(1625, 6.82, 4.73), (3786, 5.9, 2.74), (12834, 3.2, 1.09)])
+def test_side_lobes_of_long_contacts(M, L, kappa):
+    """Films of 1e-4 dry approaches in the side lobes, long axis along rolling, unattended."""
+    result = solve_steady(MoesPoint(M, L, kappa))
+    assert result.status == "converged"
+    assert 0.0 < result.h_min < 0.3 * result.h_central
 
 
 @pytest.mark.parametrize(("M", "L", "kappa"), BOX)
