@@ -80,6 +80,7 @@ def main() -> None:
         if known["seed"] == arguments.seed:
             rows = known["rows"][: len(points)]
     print(f"seed {arguments.seed}: {len(points)} of {arguments.points} points below 3.5 GPa, {len(rows)} known")
+    measure(MoesPoint(20.0, 5.0, 0.5))  # compiles
     for point in points[len(rows) :]:
         rows.append(measure(point))
         if rows[-1]["status"] != "converged":
