@@ -9,6 +9,7 @@ measured one evidently had not. About two minutes on one core:
     python examples/dimple.py [dimple.png]
 """
 
+import argparse
 import csv
 import sys
 from collections.abc import Callable
@@ -92,8 +93,13 @@ def roll(surface: Surface, centres: list[float], n: int = 256) -> SimulationResu
         dT=mesh,
         surface=surface,
         snapshots=[k * mesh for k in steps],
-        callback=lambda T, end: print(f"\r  dimple at X = {START + T:+.2f}  ({T / end:4.0%})", end="", flush=True),
+        callback=show_progress if sys.stdout.isatty() else None,
     )
+
+
+def show_progress(T: float, end: float) -> None:
+    """One line, written over and over."""
+    print(f"\r  dimple at X = {START + T:+.2f}  ({T / end:4.0%})", end="\r", flush=True)
 
 
 def gaps(run: SimulationResult) -> list[Curve]:
@@ -167,6 +173,9 @@ def draw(shallow: SimulationResult, deep: SimulationResult, rimless: SimulationR
 
 
 def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("picture", nargs="?", type=Path, default=Path("dimple.png"))
+    target = parser.parse_args().picture
     steady = solve_steady(POINT, n=256)
     unit = POINT.scales.length * 1e9
     central, least = steady.h_central * unit, steady.h_min * unit
@@ -179,13 +188,12 @@ def main() -> None:
     ):
         theirs = published(kind)
         run = roll(surface, [dimple_centre(curve) for curve in theirs])
-        print(f"\rdimple {name}: {run.steps} steps, {run.cycles[1:].mean():.1f} cycles each,", end=" ")
+        print(f"dimple {name}: {run.steps} steps, {run.cycles[1:].mean():.1f} cycles each,", end=" ")
         print(f"least film {run.h_min.min() * unit:.0f} nm")
         report(
             f"  difference from their {kind} outside the dimple, over the central film", gaps(run), theirs, central
         )
         runs.append(run)
-    target = Path(sys.argv[1] if len(sys.argv) > 1 else "dimple.png")
     draw(runs[0], runs[1], runs[2], target)
     print(f"picture: {target}")
 
