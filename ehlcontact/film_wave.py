@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 
 STATIONS = 25  # places at which a travelling wave is timed
 OVERSAMPLING = 4  # of its records, for delays finer than the time step
+FEWEST_STEPS = 4  # in the time a wave takes from start to end
 SLOWEST = 4.0  # times slower than the surfaces: the slowest wave that is found
 
 
@@ -70,12 +71,15 @@ def track_wave(wave: FilmWave, start: float = -0.6, end: float = 0.6) -> WaveTra
     Raises
     ------
     InputError
-        Stations out of order or outside the grid, a record too short, or one in which nothing moves.
+        Stations out of order or outside the grid; a record too short, of too long steps, or without a wave.
     """
     first, last = require_finite("start", start), require_finite("end", end)
     if not wave.X[0] <= first < last <= wave.X[-1]:
         raise InputError("start, end", (first, last), f"in order within [{wave.X[0]:g}, {wave.X[-1]:g}]")
     length = float(wave.T[-1] - wave.T[0])
+    coarsest = (last - first) / FEWEST_STEPS
+    if wave.T.size < 3 or float(np.diff(wave.T).max()) > coarsest:
+        raise InputError("wave", f"a record of {wave.T.size - 1} steps", f"one in steps of {coarsest:.3g} at most")
     if length < 2.0 * (last - first):
         raise InputError("wave", f"a record of {length:g}", f"one of at least {2.0 * (last - first):g}")
     stations = np.linspace(first, last, STATIONS)

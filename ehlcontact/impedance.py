@@ -22,8 +22,9 @@ from numpy.typing import NDArray
 from ehlcontact.domain import Domain, check_domain
 from ehlcontact.errors import InputError
 from ehlcontact.linearised_contact import LinearisedContact
-from ehlcontact.resolution import moving_intervals
+from ehlcontact.resolution import automatic_mesh, moving_intervals
 from ehlcontact.scaling import MoesPoint, Point, Scales, moes_point, scales_of
+from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.version import __version__
 
@@ -91,11 +92,11 @@ def impedance(
     ----------
     point : MoesPoint or OperatingPoint
     omegas : sequence of float
-        Dimensionless angular frequencies (time unit 2a/u_sum), 0 allowed.
+        Dimensionless angular frequencies (time unit 2a/u_sum), from 0 to 200.
     n : int, optional
         Intervals along X, a multiple of 16; by default as many as the inlet needs, 80 or more.
     domain : Domain, optional
-        Computed region. C depends on it by about 1/extent^2.
+        Computed region, by default that of `solve_steady`. C depends on it by about 1/extent^2.
 
     Raises
     ------
@@ -107,9 +108,11 @@ def impedance(
     started = time.perf_counter()
     omega = _check_frequencies(omegas)
     moes = moes_point(point)
-    domain = check_domain(domain, moes)
+    domain = automatic_mesh(moes)[1] if domain is None else check_domain(domain, moes)
     n = moving_intervals(n, moes, domain, FEWEST_INTERVALS)
     steady = solve_steady(point, n=n, domain=domain)
+    if steady.status is Status.INTERRUPTED:
+        raise KeyboardInterrupt  # there is nothing to keep: no frequency has been looked at
     contact = LinearisedContact(moes, steady.domain, n, steady.P, steady.approach)
     Z, residual = contact.respond(np.maximum(omega, NEAR_ZERO), TOLERANCE)
     return ImpedanceResult(
@@ -133,7 +136,7 @@ def _check_frequencies(omegas: Sequence[float] | Array) -> Array:
     except (TypeError, ValueError):
         raise InputError("omegas", omegas, "numbers") from None
     if omega.ndim != 1 or omega.size == 0:
-        raise InputError("omegas", list(np.shape(omega)), "a list of at least one frequency")
+        raise InputError("omegas", f"of shape {np.shape(omega)}", "a flat list of at least one frequency")
     bad = omega[~(np.isfinite(omega) & (omega >= 0.0) & (omega <= LARGEST_OMEGA))]
     if bad.size:
         raise InputError("omegas", float(bad[0]), f"finite, >= 0 and <= {LARGEST_OMEGA:g}")

@@ -25,7 +25,10 @@ LARGEST_MOVING_GRID = 70_000  # nodes; sparse factors take half a minute and 1.5
 THIN = 0.06  # inlet width below which `CLOSE` will do
 CLOSE = Domain(-2.0, 1.35, 1.6)  # around a film so thin that oil further out makes no difference
 VERY_THIN = 0.03  # below which it is chosen at once
-MESH_OF_SIDES = 0.4  # largest mesh over that width for thin sides
+LONG = 0.7  # kappa above which side lobes are thinner than the film in the outlet
+MESH_OF_THIN_SIDES = 0.4  # largest mesh over that width where they are very thin,
+FINE_SIDES, FINE_THIN_SIDES = 0.3, 0.17  # and meshes for their film to be within some ten per cent,
+AFFORDABLE_GRID = 500_000  # as long as that takes no more nodes
 TIGHT = Domain(-1.5, 1.2, 1.25)
 
 
@@ -45,7 +48,7 @@ def thin_sides(point: MoesPoint) -> bool:
     in the side lobes falls to a tenth and less of the central film. A mesh that sees the inlet well leaves it
     negative there.
     """
-    return point.kappa > 0.8 and inlet_width(point) < VERY_THIN
+    return point.kappa > LONG and inlet_width(point) < VERY_THIN
 
 
 def resolved_load(point: MoesPoint, mesh: float) -> float:
@@ -70,10 +73,14 @@ def automatic_mesh(point: MoesPoint, domain: Domain | None = None) -> tuple[int,
     thin sides.
     """
     width, sides = inlet_width(point), thin_sides(point)
-    wanted = (MESH_OF_SIDES if sides else MESH_OF_INLET) * width
     if domain is None:
         domain = TIGHT if sides else CLOSE if width < VERY_THIN else default_domain(point)
-    return _intervals(point, domain, wanted, DOUBLED, LARGEST_GRID), domain
+    needed = (MESH_OF_THIN_SIDES if sides else MESH_OF_INLET) * width
+    if point.kappa > LONG:  # the smallest film, in the side lobes, needs more than to be positive
+        n = _intervals(point, domain, (FINE_THIN_SIDES if sides else FINE_SIDES) * width, DOUBLED, AFFORDABLE_GRID)
+        if _mesh(point, domain, n) <= needed:
+            return n, domain
+    return _intervals(point, domain, needed, DOUBLED, LARGEST_GRID), domain
 
 
 def moving_intervals(n: int | None, point: MoesPoint, domain: Domain, fewest: int) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from math import ceil, inf
 
 import numpy as np
@@ -101,6 +101,8 @@ def simulate(
     started = time.perf_counter()
     task, end_time = _task(point, motion, n, domain, until, dT, error, tol, snapshots)
     require_nonnegative("checkpoint_every", checkpoint_every)
+    if not (surface is None or callable(surface)):
+        raise InputError("surface", surface, "a function of X, Y and T, or None")
     if checkpoint is not None:
         require_replaceable(checkpoint, restart)
     film = TransientFilm(task.point, task.domain, task.n, task.tol)
@@ -183,6 +185,8 @@ def _task(
                 "dT", dT, f"at least until/{MOST_STEPS:,}".replace(",", " ") + f" = {end / MOST_STEPS:g}"
             )
         dT = end / ceil(end / dT - 1e-9)
+    if not isinstance(snapshots, Iterable):
+        raise InputError("snapshots", snapshots, "a list of times")
     for T in snapshots:
         if not require_nonnegative("snapshots", T) <= end * (1.0 + 1e-9):
             raise InputError("snapshots", T, f"at most until = {end!r}")

@@ -181,3 +181,9 @@ def test_tracking_bad_input():
 def test_film_wave_of_a_steady_film_is_refused(steady):
     with pytest.raises(InputError, match=r"^run = 'SteadyResult'.*simulate"):
         film_wave(steady)
+
+
+def test_wave_in_too_long_steps_is_refused():
+    run = simulate(MoesPoint(200.0, 10.0, 0.5), HarmonicLoad(np.pi), n=32, until=4.0, dT=1.0)
+    with pytest.raises(InputError, match=r"^wave = 'a record of 4 steps': must be one in steps of 0.3 at most"):
+        track_wave(film_wave(run))

@@ -11,6 +11,7 @@ from ehlcontact.full_contact import FullContact
 from ehlcontact.impedance import impedance
 from ehlcontact.linearised_contact import LinearisedContact
 from ehlcontact.multigrid import Multigrid
+from ehlcontact.resolution import CLOSE, automatic_mesh
 from ehlcontact.steady import solve_steady
 
 POINT = MoesPoint(200, 10, 0.5)
@@ -114,3 +115,19 @@ def test_agrees_with_small_motion_in_time(steady, omega):
 def test_bad_frequencies_are_named(omegas):
     with pytest.raises(InputError, match=r"^omegas = .*: must be "):
         impedance(POINT, omegas, n=32)
+
+
+def test_interrupted_start_gives_no_result(monkeypatch):
+    """The film that Ctrl-C leaves is not converged: its linearisation would be no answer."""
+
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("ehlcontact.multigrid.Multigrid.cycle", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        impedance(MoesPoint(200, 10, 0.5), [0.0, 1.0], n=48)
+
+
+def test_thin_film_on_the_region_of_its_steady_solve():
+    point = MoesPoint(20000, 2, 0.2)
+    assert impedance(point, [1.0], n=256).domain == automatic_mesh(point)[1] == CLOSE

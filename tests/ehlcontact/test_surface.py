@@ -107,17 +107,26 @@ def test_surface_must_be_even_in_y():
         )
 
 
-@pytest.mark.parametrize(("wavelength", "refused"), [(0.8, False), (0.4, True), (0.2, True)])
+@pytest.mark.parametrize(
+    ("wavelength", "refused"), [(0.8, False), (0.4, True), (0.2, True), (0.1, True), (0.0942, True)]
+)
 def test_waviness_shorter_than_the_mesh_is_refused(wavelength, refused):
     """The mesh is 0.1875: 0.8 is four nodes to a wave, 0.4 two."""
     grid, wave = np.linspace(-4.5, 1.5, 33), Waviness(0.01, wavelength, start=0.0)
     if refused:
-        with pytest.raises(
-            InputError, match=r"^surface = .*midway between nodes.*mesh is 0\.188 along X: raise n"
-        ):
+        with pytest.raises(InputError, match=r"^surface = .*between nodes.*mesh is 0\.188 along X: raise n"):
             surface_step(wave, grid, Y, 0.5, 0.1, 0.1)
     else:
         surface_step(wave, grid, Y, 0.5, 0.1, 0.1)
+
+
+def test_dent_that_leaves_the_grid_is_resolved():
+    """Its tail alone looks rough there; and a ridge narrower than the mesh does not hide on a node."""
+    grid = np.linspace(-4.5, 1.5, 65)
+    for T in np.arange(0.0, 12.0, 0.02):
+        surface_step(Dent(0.03, 0.6, kappa=0.5), grid, Y, T, 0.02, 0.02)
+    with pytest.raises(InputError, match="between nodes"):
+        surface_step(TransverseRidge(0.01, 0.05, start=grid[40]), grid, Y, 0.0, 0.1, 0.1)
 
 
 def test_step_of_a_surface_is_not_taken_for_a_short_wave():
@@ -133,3 +142,9 @@ def test_surface_that_closes_the_gap_is_named():
 def test_endless_fixed_steps_are_refused():
     with pytest.raises(InputError, match=r"^dT = 1e-09: must be at least"):
         simulate(MoesPoint(200, 10, 0.5), HarmonicLoad(3.0), n=16, until=10.0, dT=1e-9)
+
+
+@pytest.mark.parametrize(("arguments", "named"), [({"surface": 3}, "surface"), ({"snapshots": 0.5}, "snapshots")])
+def test_what_is_no_surface_and_no_list(arguments, named):
+    with pytest.raises(InputError, match=rf"^{named} = "):
+        simulate(MoesPoint(200, 10, 0.5), HarmonicLoad(3.0), n=16, until=0.1, **arguments)
