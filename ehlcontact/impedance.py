@@ -20,12 +20,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.domain import Domain, check_domain
-from ehlcontact.errors import InputError
+from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.linearised_contact import LinearisedContact
 from ehlcontact.resolution import automatic_mesh, moving_intervals
+from ehlcontact.results import SteadyResult
 from ehlcontact.scaling import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.status import Status
-from ehlcontact.steady import solve_steady
+from ehlcontact.steady import ROOM, solve_steady
 from ehlcontact.version import __version__
 
 Array = NDArray[np.float64]
@@ -108,11 +109,9 @@ def impedance(
     started = time.perf_counter()
     omega = _check_frequencies(omegas)
     moes = moes_point(point)
-    domain = automatic_mesh(moes)[1] if domain is None else check_domain(domain, moes)
-    n = moving_intervals(n, moes, domain, FEWEST_INTERVALS)
-    steady = solve_steady(point, n=n, domain=domain)
-    if steady.status is Status.INTERRUPTED:
-        raise KeyboardInterrupt  # there is nothing to keep: no frequency has been looked at
+    region = automatic_mesh(moes)[1] if domain is None else check_domain(domain, moes)
+    steady = _steady(point, n, region, free=domain is None)
+    n, domain = steady.n, steady.domain
     contact = LinearisedContact(moes, steady.domain, n, steady.P, steady.approach)
     Z, residual = contact.respond(np.maximum(omega, NEAR_ZERO), TOLERANCE)
     return ImpedanceResult(
@@ -128,6 +127,20 @@ def impedance(
         seconds=time.perf_counter() - started,
         version=__version__,
     )
+
+
+def _steady(point: Point, n: int | None, domain: Domain, free: bool) -> SteadyResult:
+    """The film to linearise; if `free`, on a wider domain where light load needs it."""
+    moes = moes_point(point)
+    intervals = moving_intervals(n, moes, domain, FEWEST_INTERVALS)
+    steady = solve_steady(point, n=intervals, domain=domain, throw=not free)
+    if free and steady.status is Status.OUT_OF_DOMAIN:
+        return _steady(point, n, domain.scaled(ROOM), free=False)
+    if steady.status is Status.INTERRUPTED:
+        raise KeyboardInterrupt  # there is nothing to keep: no frequency has been looked at
+    if not steady.status.ok:
+        raise ConvergenceError(f"steady solve {steady.status}: {steady.status.advice}", steady)
+    return steady
 
 
 def _check_frequencies(omegas: Sequence[float] | Array) -> Array:

@@ -20,7 +20,7 @@ from ehlcontact.grid import Array, Level
 
 Nodes = NDArray[np.intp]
 
-LARGEST_STEP = 0.3  # of any pressure or of u, in one iteration
+LARGEST_STEP = 0.3  # of any pressure, or of u over its size where that is above 1, in one iteration
 SMALLEST_DAMPING = 2.0**-6
 CORRECTION_STEPS = 4  # of the coarsest grid in one cycle
 LARGEST_RENEWALS = 2  # of the factors in one cycle
@@ -150,5 +150,9 @@ class CoarseNewton:
         solution = linalg.lu_solve(factors.lu, rhs, overwrite_b=True, check_finite=False)
         dP = np.zeros_like(level.P)
         dP.ravel()[factors.free] = solution[:-1]
-        largest = float(np.abs(solution).max())
-        return dP, float(solution[-1]), LARGEST_STEP / max(largest, LARGEST_STEP)
+        return dP, float(solution[-1]), step_length(dP, float(solution[-1]), u)
+
+
+def step_length(dP: Array, du: float, u: float) -> float:
+    """Share of a Newton direction that keeps it within LARGEST_STEP."""
+    return LARGEST_STEP / max(float(np.abs(dP).max()), abs(du) / max(1.0, abs(u)), LARGEST_STEP)

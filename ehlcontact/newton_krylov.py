@@ -18,7 +18,7 @@ from ehlcontact.grid import Array
 from ehlcontact.linear_film import LinearFilm
 from ehlcontact.linear_solve import solve_linear
 from ehlcontact.multigrid import Multigrid
-from ehlcontact.newton import LARGEST_STEP, Balance
+from ehlcontact.newton import Balance, step_length
 from ehlcontact.preconditioner import Preconditioner
 from ehlcontact.status import Status, classify
 
@@ -81,9 +81,8 @@ class NewtonKrylov:
         self.krylov_iterations += solution.iterations
         if solution.iterations > WORN_OUT:
             self.prepared = None
-        largest = float(np.abs(solution.x).max())
-        damping = LARGEST_STEP / max(largest, LARGEST_STEP)
         dP = solution.x[:-1].reshape(level.P.shape)
+        damping = step_length(dP, float(solution.x[-1]), mg.u)
         level.P[...] = np.maximum(level.P + damping * dP, 0.0)
         mg.u += damping * float(solution.x[-1])
         level.update(mg.u)

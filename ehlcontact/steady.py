@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ehlcontact.domain import Domain, check_domain, check_intervals
+from ehlcontact.domain import Domain, check_domain, check_intervals, default_domain
 from ehlcontact.errors import ConvergenceError, require_choice, require_finite, require_integer, require_positive
 from ehlcontact.grid import Level
 from ehlcontact.lowest_film import lowest_film
@@ -105,6 +105,8 @@ def solve_steady(
         balance = Balance(0.0, 1.0, 1.0)
     else:
         balance = Balance(1.0, 0.0, require_finite("approach", approach))
+        if approach > 1.0 and domain is None:
+            domain = default_domain(moes, approach**1.5)
     attempts = _meshes(moes, n, domain)
     mesh = next(attempts)
     while mesh is not None:

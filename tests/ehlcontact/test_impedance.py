@@ -131,3 +131,9 @@ def test_interrupted_start_gives_no_result(monkeypatch):
 def test_thin_film_on_the_region_of_its_steady_solve():
     point = MoesPoint(20000, 2, 0.2)
     assert impedance(point, [1.0], n=256).domain == automatic_mesh(point)[1] == CLOSE
+
+
+def test_region_widens_at_light_load():
+    point = MoesPoint(7, 1, 0.08)
+    assert impedance(point, [1.0], n=64).domain.x_in == solve_steady(point, n=64).domain.x_in
+    assert impedance(point, [1.0], n=128).domain.x_in < 1.2 * solve_steady(point, n=64).domain.x_in

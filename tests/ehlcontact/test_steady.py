@@ -174,3 +174,18 @@ def test_bad_input_is_named(field, arguments):
     arguments = {"point": POINT, **arguments}
     with pytest.raises(InputError, match=rf"^{field} = .*: must be "):
         solve_steady(arguments.pop("point"), **arguments)
+
+
+@pytest.mark.parametrize(("M", "L", "kappa"), [(5, 1, 0.08), (7, 1, 0.08), (5, 25, 0.08)])
+def test_lightest_corner_of_the_box(M, L, kappa):
+    """The film holds the bodies apart by many dry approaches: u must be free to go far in few Newton steps."""
+    result = solve_steady(MoesPoint(M, L, kappa))
+    assert result.approach < -5.0
+    assert result.n == 128
+
+
+def test_prescribed_approach_above_one_gets_room():
+    result = solve_steady(MoesPoint(200, 10, 0.5), approach=5.0)
+    assert result.status == "converged"
+    assert result.domain.x_out > 2.0
+    assert result.force > 11.0
