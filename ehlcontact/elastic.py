@@ -27,7 +27,7 @@ Lags = NDArray[np.integer[Any]]
 
 ENGINES = ("direct", "fft", "mlmi")
 BLOCK = 2**15  # numbers transformed along X at a time
-MATRICES_UP_TO = 96  # intervals along X, for `MatrixTransforms`
+MATRICES_UP_TO = 64  # intervals along X, for `MatrixTransforms`; beyond, BLAS starts threads, and waits for them
 
 
 class Engine(Protocol):

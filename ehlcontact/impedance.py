@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
 
 from ehlcontact.domain import Domain, check_domain
 from ehlcontact.errors import ConvergenceError, InputError
@@ -110,15 +111,15 @@ def impedance(
     omega = _check_frequencies(omegas)
     moes = moes_point(point)
     region = automatic_mesh(moes)[1] if domain is None else check_domain(domain, moes)
-    steady = _steady(point, n, region, free=domain is None)
-    n, domain = steady.n, steady.domain
-    contact = LinearisedContact(moes, steady.domain, n, steady.P, steady.approach)
-    Z, residual = contact.respond(np.maximum(omega, NEAR_ZERO), TOLERANCE)
+    with threadpool_limits(1, user_api="blas"):  # its threads wait for each other on matrices as small as these
+        steady = _steady(point, n, region, free=domain is None)
+        contact = LinearisedContact(moes, steady.domain, steady.n, steady.P, steady.approach)
+        Z, residual = contact.respond(np.maximum(omega, NEAR_ZERO), TOLERANCE)
     return ImpedanceResult(
         point=moes,
         scales=scales_of(point),
         domain=steady.domain,
-        n=n,
+        n=steady.n,
         omega=omega,
         stiffness=Z.real.copy(),
         damping=Z.imag / np.maximum(omega, NEAR_ZERO),
