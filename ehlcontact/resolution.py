@@ -29,7 +29,7 @@ LONG = 0.7  # kappa above which side lobes are thinner than the film in the outl
 MESH_OF_THIN_SIDES = 0.4  # largest mesh over that width where they are very thin,
 FINE_SIDES, FINE_THIN_SIDES = 0.3, 0.17  # and meshes for their film to be within some ten per cent,
 AFFORDABLE_GRID = 500_000  # as long as that takes no more nodes
-TIGHT = Domain(-1.5, 1.2, 1.25)
+TIGHT = Domain(-1.5, 1.2, 1.25)  # around such a film: so that its mesh can be afforded
 
 
 def inlet_width(point: MoesPoint) -> float:

@@ -71,14 +71,16 @@ def solve_steady(
         Computed region; by default ``Domain()``, wider at light load, and with `n` left out narrower where the
         film is too thin for a grid of that extent.
     approach : float, optional
-        Prescribe the approach (dry Hertz value 1) instead of the load.
+        Prescribe the approach (dry Hertz value 1) instead of the load; above 1 the default domain widens for the
+        force it takes.
     tol : float
         Mean |residual| over P > 0 relative to that of the dry Hertz start on the same grid.
     max_cycles : int
         Limit of V(2,1) cycles, or of Newton steps, on the finest grid.
     method : {"automatic", "multigrid", "newton"}
         V cycles, or Newton steps from the same full-multigrid start; both solve the same equations.
-        ``"automatic"`` cycles, where that fails with cautious relaxation, and at last turns to Newton.
+        ``"automatic"`` cycles; where that fails it cycles with cautious relaxation, and at last, on grids that
+        allow it, turns to Newton.
     throw : bool
         Raise on failure; otherwise look at ``result.status``.
     callback : callable, optional

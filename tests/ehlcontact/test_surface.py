@@ -130,7 +130,9 @@ def test_dent_that_leaves_the_grid_is_resolved():
 
 
 def test_step_of_a_surface_is_not_taken_for_a_short_wave():
-    surface_step(lambda X, Y, T: 0.01 * (X > 0.23) + 0.0 * Y, X, Y, 0.5, 0.1, 0.1)
+    step = surface_step(lambda X, Y, T: 0.01 * (X > 0.23) + 0.0 * Y, X, Y, 0.5, 0.1, 0.1)
+    assert step is not None
+    np.testing.assert_array_equal(step.height, np.broadcast_to(0.01 * (X > 0.23), (Y.size, X.size)))
 
 
 def test_surface_that_closes_the_gap_is_named():
