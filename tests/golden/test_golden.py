@@ -1,7 +1,7 @@
 """The library's own numbers must not move unnoticed.
 
 Tighter than any discretisation error, looser than rounding across machines. If a change is meant:
-``python tests/ehlcontact/golden/regenerate.py``, and a line under "Numerics" in CHANGELOG.md.
+``python tests/golden/regenerate.py``, and a line under "Numerics" in CHANGELOG.md.
 """
 
 import importlib.util
@@ -10,9 +10,7 @@ from pathlib import Path
 
 import pytest
 
-_spec = importlib.util.spec_from_file_location(
-    "golden_regenerate", Path(__file__).parent / "golden" / "regenerate.py"
-)
+_spec = importlib.util.spec_from_file_location("golden_regenerate", Path(__file__).with_name("regenerate.py"))
 golden = importlib.util.module_from_spec(_spec)
 _spec.loader.exec_module(golden)
 EXPECTED = json.loads(golden.FILE.read_text())
@@ -21,6 +19,8 @@ EXPECTED = json.loads(golden.FILE.read_text())
 def test_every_case_is_recorded():
     assert set(EXPECTED["steady"]) == set(golden.STEADY)
     assert set(EXPECTED["transient"]) == set(golden.TRANSIENT)
+    assert set(EXPECTED["fit"]) == set(golden.MODELS)
+    assert set(EXPECTED["atlas"]) == set(golden.ATLAS)
 
 
 @pytest.mark.parametrize("name", golden.STEADY)
@@ -38,3 +38,21 @@ def test_impedance():
     got = golden.response()
     assert got["stiffness"] == pytest.approx(EXPECTED["impedance"]["stiffness"], rel=1e-4)
     assert got["damping"] == pytest.approx(EXPECTED["impedance"]["damping"], rel=1e-3)
+
+
+def alike(got, expected, rel):
+    """The same keys, and numbers or lists of numbers within `rel`."""
+    assert set(got) == set(expected)
+    for name in expected:
+        assert got[name] == pytest.approx(expected[name], rel=rel, abs=1e-9), name
+
+
+@pytest.mark.parametrize("model", golden.MODELS)
+def test_fit(model):
+    # the seven terms are hardly identifiable: rounding of the record is seen through their condition
+    alike(golden.fitted(model), EXPECTED["fit"][model], rel=1e-2 if model in ("polynomial", "memory") else 1e-3)
+
+
+@pytest.mark.parametrize("name", golden.ATLAS)
+def test_atlas(name):
+    alike(golden.answered(name), EXPECTED["atlas"][name], rel=1e-6)

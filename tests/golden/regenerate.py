@@ -2,7 +2,9 @@
 
 Run from the root of the checkout, look at the difference, and record it under "Numerics" in CHANGELOG.md:
 
-    python tests/ehlcontact/golden/regenerate.py
+    python tests/golden/regenerate.py
+
+`bits.py` beside this file is sharper, and for two checkouts on one machine.
 """
 
 import json
@@ -10,8 +12,17 @@ from pathlib import Path
 
 import numpy as np
 
-from ehlcontact import FreeVibration, HarmonicLoad, MoesPoint, PrescribedApproach, RampLoad, simulate, solve_steady
-from ehlcontact.impedance import impedance
+from ehlcontact import (
+    FreeVibration,
+    HarmonicLoad,
+    MoesPoint,
+    PrescribedApproach,
+    RampLoad,
+    impedance,
+    simulate,
+    solve_steady,
+)
+from reduced_models import Atlas, ContactRecord, fit, fit_memory
 
 FILE = Path(__file__).with_name("golden.json")
 PAPER = MoesPoint(200, 10, 0.5)
@@ -33,6 +44,8 @@ TRANSIENT = {
     "approach": (PrescribedApproach(T, 0.88 + 0.05 * np.sin(np.pi * T) ** 2), {}),
 }
 OMEGAS = [0.0, 0.25, 3.0, 12.0]
+MODELS = ("linear", "cubic", "polynomial", "power", "memory")
+ATLAS = {"paper": PAPER, "narrow": MoesPoint(500, 15, 0.12), "heavy": MoesPoint(9000, 16, 0.1)}
 
 
 def steady(name):
@@ -56,12 +69,40 @@ def response():
     return {"stiffness": result.stiffness.tolist(), "damping": result.damping.tolist()}
 
 
+def fitted(model):
+    """What every model makes of one short record: coefficients, quality, and the statics of the element."""
+    if model == "memory":
+        response = impedance(PAPER, [0.0, *np.geomspace(0.03, 60.0, 12)], n=32)
+        result = fit_memory(response, lags=6)
+        return {"root": result.root, "tangent": result.tangent, "gains": list(result.element.gains)}
+    record = ContactRecord.from_result(simulate(PAPER, FreeVibration(5.13), n=32, tol=1e-7))
+    result = fit(record, model=model)
+    return {"root": result.root, "tangent": result.tangent, "rms": result.rms, **result.parameters}
+
+
+def answered(name):
+    """The atlas at one point, with its bars, and the force and tangents of its elements in one step."""
+    atlas, point = Atlas(), ATLAS[name]
+    answer = atlas.at(point)
+    found = {k: getattr(answer, k) for k in ("approach", "h_central", "h_min")}
+    found |= {k: getattr(answer, k).tolist() for k in ("stiffness", "damping")}
+    found["bars"] = [answer.error["approach"], answer.error["h_central"], *answer.error["damping"].tolist()]
+    for model in ("wide", "memory", "cubic"):
+        element = atlas.element(point, model)
+        rest = element.approach_at(1.0)
+        element.rest(rest)
+        found[model] = [rest, *element.step_tangents(0.3, rest + 0.02, 0.05)]
+    return found
+
+
 def everything():
     """All golden values."""
     return {
         "steady": {name: steady(name) for name in STEADY},
         "transient": {name: transient(name) for name in TRANSIENT},
         "impedance": response(),
+        "fit": {model: fitted(model) for model in MODELS},
+        "atlas": {name: answered(name) for name in ATLAS},
     }
 
 

@@ -1,0 +1,349 @@
+"""Every number of the library to the last bit, to hold two checkouts against each other on one machine.
+
+    python tests/golden/bits.py before.json            # in the old checkout
+    python tests/golden/bits.py after.json before.json # in the new one: prints what differs, exit code 1 if any
+
+Scalars are kept as hexadecimal floats, arrays as the digest of their bytes beside their sum, so that a small
+difference can be told from a wild one. Only public names are used: the layout of the library may change under it.
+Wall times and versions are left out. Use a fresh ``NUMBA_CACHE_DIR`` for each checkout. `golden.json` is for other
+machines, this is for one.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sys
+import tempfile
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ehlcontact import (
+    ConvergenceError,
+    Dent,
+    Domain,
+    FreeVibration,
+    FullContact,
+    HarmonicLoad,
+    Lubricant,
+    MoesPoint,
+    OperatingPoint,
+    PrescribedApproach,
+    PrescribedLoad,
+    RampLoad,
+    Waviness,
+    film_of,
+    film_wave,
+    impedance,
+    simulate,
+    solve_steady,
+    track_wave,
+)
+from reduced_models import (
+    Atlas,
+    ContactRecord,
+    CubicContact,
+    JeffcottRotor,
+    LinearContact,
+    PolynomialContact,
+    PowerLawContact,
+    ScaledContact,
+    compare,
+    fit,
+    fit_memory,
+    load_element,
+    sensitivity,
+    simulate_oscillator,
+    simulate_rotor,
+    wide_range_from_solves,
+)
+
+PAPER = MoesPoint(200, 10, 0.5)
+NARROW = MoesPoint(500, 15, 0.12)
+BEARING = OperatingPoint.ball_bearing(
+    Lubricant(0.0367, 2.0e-8),
+    ball_diameter=7.94e-3,
+    pitch_diameter=39.04e-3,
+    conformity=0.52,
+    speed_rpm=3000.0,
+    load=300.0,
+)
+T = np.linspace(0.0, 1.0, 21)
+LEFT_OUT = {"seconds", "version", "law", "rotor", "element"}
+Leaves = Iterator[tuple[str, Any]]
+
+
+def leaves(name: str, value: Any) -> Leaves:
+    """All numbers and arrays in `value`, by dotted name."""
+    if value is None or isinstance(value, bool | int | float | str | np.generic | np.ndarray):
+        yield name, value
+    elif is_dataclass(value) and not isinstance(value, type):
+        for field in fields(value):
+            if (
+                field.name not in LEFT_OUT
+                and field.name[0] != "_"
+                and field.name not in ("law", "rotor", "element")
+            ):
+                yield from leaves(f"{name}.{field.name}", getattr(value, field.name))
+    elif isinstance(value, Mapping):
+        for key, entry in value.items():
+            if key not in LEFT_OUT:
+                yield from leaves(f"{name}.{key}", entry)
+    elif isinstance(value, list | tuple):
+        for i, entry in enumerate(value):
+            yield from leaves(f"{name}[{i}]", entry)
+
+
+def plain(value: Any) -> Any:
+    """A leaf as JSON that differs where a bit does."""
+    if isinstance(value, np.ndarray):
+        content = np.ascontiguousarray(value)
+        digest = hashlib.sha256(content.tobytes()).hexdigest()[:16]
+        return f"{content.dtype}{list(content.shape)} {digest} sum {float(np.sum(content.astype(complex)).real)!r}"
+    if isinstance(value, float | np.floating):
+        return f"{float(value).hex()} = {float(value)!r}"
+    return value if value is None or isinstance(value, bool | str) else str(value)
+
+
+def steady_films() -> Leaves:
+    """Fields on given and on chosen grids, both methods, failures too."""
+    cases: dict[str, tuple[Any, dict[str, Any]]] = {
+        "paper": (PAPER, {"n": 64}),
+        "chosen": (PAPER, {}),
+        "circle": (MoesPoint(20, 10, 1.0), {"n": 64, "tol": 1e-8}),
+        "barus": (MoesPoint(50, 6, 0.5, viscosity="barus", density="incompressible"), {"n": 64}),
+        "isoviscous": (MoesPoint(200, 0, 1.0), {}),
+        "deep groove": (MoesPoint(2900, 19, 0.11), {}),
+        "along rolling": (MoesPoint(50, 6, 2.0), {}),
+        "light": (MoesPoint(5, 12, 0.12), {}),
+        "thin": (MoesPoint(3786, 5.9, 0.7), {}),
+        "newton": (PAPER, {"n": 64, "method": "newton", "tol": 1e-8}),
+        "approach": (PAPER, {"n": 64, "approach": 0.6}),
+        "pressed": (PAPER, {"n": 64, "approach": 1.3}),
+        "domain": (PAPER, {"n": 64, "domain": Domain(-3.0, 1.5, 2.0)}),
+        "SI": (BEARING, {}),
+        "few cycles": (PAPER, {"n": 64, "max_cycles": 1, "throw": False}),
+        "no room": (PAPER, {"n": 32, "domain": Domain(-1.2, 1.2, 1.2), "throw": False}),
+        "unresolved": (MoesPoint(10000, 2, 0.5), {"n": 32, "throw": False}),
+    }
+    for name, (point, options) in cases.items():
+        result = solve_steady(point, **options)
+        yield from leaves(name, result)
+        yield from leaves(name, {k: v for k, v in result.summary().items() if k not in ("seconds", "version")})
+    yield from leaves("film", film_of(solve_steady(BEARING, n=64)).constriction)
+
+
+def records() -> Leaves:
+    """Histories of every motion, in fixed and in controlled steps, over surfaces, stopped and resumed."""
+    cases: dict[str, tuple[Any, Any, dict[str, Any]]] = {
+        "free": (PAPER, FreeVibration(5.13), {"n": 32}),
+        "offset": (PAPER, FreeVibration(2.56, offset=0.05), {"n": 32, "until": 1.0}),
+        "harmonic": (PAPER, HarmonicLoad(np.pi), {"n": 32, "until": 1.0}),
+        "inertia": (PAPER, HarmonicLoad(np.pi, omega_n=5.13), {"n": 32, "until": 1.0}),
+        "ramp": (PAPER, RampLoad(1.5, 0.5, 5.13), {"n": 32, "until": 1.0}),
+        "load": (PAPER, PrescribedLoad(T, 1.0 + 0.1 * T), {"n": 32}),
+        "approach": (PAPER, PrescribedApproach(T, 0.88 + 0.05 * np.sin(np.pi * T) ** 2), {"n": 32}),
+        "controlled": (PAPER, RampLoad(1.5, 0.5, 5.13), {"n": 32, "until": 1.0, "error": 1e-3}),
+        "controlled approach": (
+            PAPER,
+            PrescribedApproach(T, 0.88 + 0.05 * np.sin(np.pi * T) ** 2),
+            {"n": 32, "error": 1e-3, "snapshots": (0.5, 1.0)},
+        ),
+        "dent": (PAPER, HarmonicLoad(np.pi), {"n": 64, "until": 0.5, "surface": Dent(0.05, 0.8, speed=1.2)}),
+        "waves": (PAPER, HarmonicLoad(np.pi), {"n": 64, "until": 0.5, "surface": Waviness(0.01, 0.8)}),
+        "narrow": (NARROW, FreeVibration(5.13), {"until": 0.2, "snapshots": (0.1,)}),
+        "SI": (BEARING, FreeVibration(BEARING.omega_n(0.5)), {"n": 64, "until": 1.0}),
+        "failing": (PAPER, RampLoad(60.0, 0.3, 5.13), {"n": 32, "until": 0.5, "throw": False}),
+    }
+    for name, (point, motion, options) in cases.items():
+        result = simulate(point, motion, **options)
+        yield from leaves(name, result)
+        if result.steps > 2:
+            yield from leaves(f"{name} between", result.at([0.25 * result.T[-1], 0.7 * result.T[-1]]))
+    wave = film_wave(simulate(PAPER, HarmonicLoad(np.pi), n=32, until=4.0))
+    yield from leaves("wave", track_wave(wave))
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "run.h5"
+        simulate(PAPER, FreeVibration(5.13), n=32, until=0.25, dT=0.0125, checkpoint=file)
+        yield from leaves(
+            "resumed", simulate(PAPER, FreeVibration(5.13), n=32, until=0.5, dT=0.0125, restart=file)
+        )
+
+
+def responses() -> Leaves:
+    """Impedances."""
+    omega = [0.0, 0.05, 0.25, 3.0, 12.0, 30.0]
+    yield from leaves("paper", impedance(PAPER, omega, n=32))
+    yield from leaves("chosen", impedance(PAPER, omega))
+    yield from leaves("narrow", impedance(NARROW, omega))
+    yield from leaves("light", impedance(MoesPoint(5, 12, 0.12), omega))
+    yield from leaves("SI", impedance(BEARING, omega))
+
+
+def full_contact() -> Leaves:
+    """The film as a force element, with a return to a saved state and a step that fails."""
+    contact = FullContact(PAPER, n=32)
+    forces = [contact.advance(0.05, 0.88 + 0.02 * k) for k in range(6)]
+    state = contact.save_state()
+    forces += [contact.advance(0.3, 0.7), contact.advance(0.1, 0.3)]
+    contact.restore_state(state)
+    try:
+        contact.advance(1e-3, 4.0)
+    except ConvergenceError as error:
+        yield "refused", str(error)
+    forces += [contact.advance(0.01, 0.95), contact.h_central, contact.h_min]
+    yield "forces", np.array(forces)
+
+
+def fits() -> Leaves:
+    """Every model fitted to the same records."""
+    free = ContactRecord.from_result(simulate(PAPER, FreeVibration(5.13), n=32))
+    harmonic = ContactRecord.from_result(simulate(PAPER, HarmonicLoad(2.0 * np.pi), n=32))
+    for model in ("linear", "cubic", "polynomial", "power"):
+        yield from leaves(model, fit([free, harmonic], model=model).to_dict())
+        yield from leaves(f"{model} of one", fit(free, model=model).to_dict())
+    yield from leaves("window", fit(free, window=(0.5, 2.0)).to_dict())
+    response = impedance(PAPER, [0.0, *np.geomspace(0.03, 60.0, 14)], n=32)
+    memory = fit_memory(response, [free], lags=6)
+    yield from leaves("memory", memory.to_dict())
+    yield from leaves("memory chosen", fit_memory(response).to_dict())
+    yield from leaves("sensitivity", sensitivity([free, harmonic]))
+    yield from element("fitted memory", memory.element)
+    wide = wide_range_from_solves(
+        PAPER,
+        loads=[0.3, 0.7, 1.0, 1.8],
+        memory_loads=[0.5, 1.0],
+        omegas=[0.0, *np.geomspace(0.05, 30.0, 9)],
+        n=32,
+    )
+    yield from element("wide from solves", wide)
+
+
+def element(name: str, contact: Any) -> Leaves:
+    """Forces, tangents, statics, steps and the file of an element."""
+    low, high = contact.low, contact.high
+    u = np.linspace(low - 0.6 * (high - low), high + 0.6 * (high - low), 41)
+    scale = (high - low) * (1.0 if contact.units == "dimensionless" else 2e4)
+    v = scale * np.array([-3.0, -0.7, 0.0, 0.4, 2.5])
+    yield f"{name}.spring", np.asarray(contact.spring(u))
+    yield f"{name}.tangent", np.array([contact.spring_tangent(float(x)) for x in u])
+    load = float(contact.spring(0.5 * (low + high)))
+    yield (
+        f"{name}.approach_at",
+        np.array([contact.approach_at(share * load) for share in (0.05, 0.6, 1.0, 1.4, 5.0)]),
+    )
+    if hasattr(contact, "force"):
+        for what in ("force", "stiffness", "damping"):
+            yield f"{name}.{what}", getattr(contact, what)(u[:, None], v[None, :])
+        yield f"{name}.rate_at", contact.rate_at(0.5 * (low + high), 1.01 * load)
+    dt = 0.05 if contact.units == "dimensionless" else 1e-6
+    contact.rest(low)
+    steps = []
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for k in range(40):
+            at = 0.5 * (low + high) + 0.7 * (high - low) * np.sin(0.3 * k)
+            rate = 0.7 * (high - low) * 0.3 / dt * np.cos(0.3 * k)
+            steps += [*contact.step_tangents(dt, at, rate), contact.advance(dt, at, rate)]
+    yield f"{name}.steps", np.array(steps)
+    if hasattr(contact, "impedance"):
+        yield f"{name}.impedance", contact.impedance(np.array([0.0, 0.01, 1.0, 6.0, 40.0]) * 0.05 / dt)
+        states = np.linspace(-0.01, 0.02, contact.state_count)
+        force, rates = contact.state_rates(states, 0.5 * (low + high), v[3])
+        yield f"{name}.rates", np.append(rates, force)
+        t = np.linspace(0.0, 20.0 * dt, 30)
+        yield f"{name}.drive", contact.drive(t, np.linspace(low, high, 30), np.full(30, (high - low) / t[-1]))
+    with tempfile.TemporaryDirectory() as folder:
+        path = contact.save(Path(folder) / "element.json")
+        yield from leaves(f"{name}.file", json.loads(path.read_text()))
+        again = load_element(path)
+    yield f"{name}.again", again.spring(0.5 * (low + high))
+
+
+def elements() -> Leaves:
+    """Elements by hand, from the atlas, and in SI."""
+    box = {"low": 0.75, "high": 1.0, "rate": 0.6}
+    by_hand = {
+        "linear": LinearContact(1.14, 0.013, **box),
+        "cubic": CubicContact(0.624, 0.75, -0.174, 0.013, **box),
+        "polynomial": PolynomialContact(0.62, 0.02, 0.75, 0.004, -0.17, 0.002, 0.01, **box),
+        "polynomial without rate": PolynomialContact(0.62, 0.02, 0.75, 0.0, -0.17, 0.0, 0.01, 0.75, 1.0),
+        "power": PowerLawContact(0.9, 1.6, 0.12, 0.03, 0.014, **box),
+    }
+    for name, contact in by_hand.items():
+        yield from element(name, contact)
+        yield from element(f"{name} in SI", contact.to_si(BEARING.scales))
+    atlas = Atlas()
+    for name, point in {
+        "paper": PAPER,
+        "narrow": NARROW,
+        "light": MoesPoint(7, 3, 0.3),
+        "heavy": MoesPoint(9000, 16, 0.1),
+        "isoviscous": MoesPoint(300, 0, 0.9),
+        "bearing": BEARING,
+    }.items():
+        yield from leaves(f"atlas {name}", atlas.at(point))
+        for model in ("wide", "memory", "cubic"):
+            if not (model == "cubic" and name == "light"):
+                yield from element(f"{model} {name}", atlas.element(point, model))
+
+
+def motions() -> Leaves:
+    """Rotors and oscillators on elements, and on the full film."""
+    atlas = Atlas()
+    body = {"disc_mass": 3.0, "journal_mass": 0.2, "shaft_stiffness": 2e6, "unbalance": 2e-5, "speed_rpm": 3000.0}
+    upright = JeffcottRotor.vertical(load=(0.0, -268.0), **body)
+    vee = JeffcottRotor.vee(half_angle=0.35, bearings=1, load=(0.0, -500.0), **body)
+    runs = {}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for model in ("wide", "memory", "cubic"):
+            first, second = (atlas.element(BEARING, model) for _ in range(2))
+            runs[model] = simulate_rotor(upright, [first], dt=2e-4, until=0.02)
+            yield from leaves(f"rotor {model}", runs[model])
+            yield from leaves(f"vee {model}", simulate_rotor(vee, [first, second], dt=2e-4, until=0.02))
+            dimensionless = atlas.element(PAPER, model)
+            for omega_n in (5.13, None):
+                swing = simulate_oscillator(
+                    dimensionless, np.linspace(0.0, 1.0, 21), omega_n=omega_n, load=1.05, u0=0.87, v0=0.1
+                )
+                yield from leaves(f"oscillator {model} {omega_n}", swing)
+        full = FullContact(BEARING, n=64)
+        start = upright.state_at([full.static_approach * BEARING.scales.length])
+        run = simulate_rotor(
+            upright, [ScaledContact(full, BEARING.scales)], dt=2e-4, until=0.004, start=start, tolerance=1e-4
+        )
+    yield from leaves("rotor full", run)
+    yield from leaves("compared", compare(run, runs["memory"]).to_dict())
+
+
+GROUPS: dict[str, Callable[[], Leaves]] = {
+    f.__name__: f for f in (steady_films, records, responses, full_contact, fits, elements, motions)
+}
+
+
+def main() -> None:
+    """Write the bits, and hold them against those of another checkout."""
+    target, *others = map(Path, sys.argv[1:])
+    found: dict[str, Any] = {}
+    for name, group in GROUPS.items():
+        found |= {f"{name}: {leaf}": plain(value) for leaf, value in group()}
+        print(f"{name}: {len(found)} in all", flush=True)
+    target.write_text(json.dumps(found, indent=0) + "\n")
+    for other in others:
+        known = json.loads(other.read_text())
+        differing = [k for k in {**known, **found} if known.get(k, "absent") != found.get(k, "absent")]
+        for key in differing:
+            print(f"{key}\n    {known.get(key, 'absent')}\n    {found.get(key, 'absent')}")
+        print(f"{len(found) - len(differing)} alike, {len(differing)} differ from {other}")
+        if differing:
+            raise SystemExit(1)
+
+
+if __name__ == "__main__":
+    main()
