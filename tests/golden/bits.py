@@ -5,8 +5,8 @@
 
 Scalars are kept as hexadecimal floats, arrays as the digest of their bytes beside their sum, so that a small
 difference can be told from a wild one. Only public names are used: the layout of the library may change under it.
-Wall times and versions are left out. Use a fresh ``NUMBA_CACHE_DIR`` for each checkout. `golden.json` is for other
-machines, this is for one.
+Wall times and versions are left out, and BLAS has one thread: with more, LU factors round differently from run to
+run. Use a fresh ``NUMBA_CACHE_DIR`` for each checkout. `golden.json` is for other machines, this is for one.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from ehlcontact import (
     ConvergenceError,
@@ -331,9 +332,10 @@ def main() -> None:
     """Write the bits, and hold them against those of another checkout."""
     target, *others = map(Path, sys.argv[1:])
     found: dict[str, Any] = {}
-    for name, group in GROUPS.items():
-        found |= {f"{name}: {leaf}": plain(value) for leaf, value in group()}
-        print(f"{name}: {len(found)} in all", flush=True)
+    with threadpool_limits(1, user_api="blas"):
+        for name, group in GROUPS.items():
+            found |= {f"{name}: {leaf}": plain(value) for leaf, value in group()}
+            print(f"{name}: {len(found)} in all", flush=True)
     target.write_text(json.dumps(found, indent=0) + "\n")
     for other in others:
         known = json.loads(other.read_text())
