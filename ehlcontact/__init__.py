@@ -39,21 +39,21 @@ module                  responsibility
 ======================= ==================================================================================
 """
 
-from ehlcontact.domain import Domain
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.film import Film, FilmHistory, Interferogram, film_history, film_of, interferogram
 from ehlcontact.film_wave import FilmWave, WaveTrack, film_wave, track_wave
-from ehlcontact.full_contact import FullContact
 from ehlcontact.impedance import ImpedanceResult, impedance
 from ehlcontact.lubricant import Lubricant
-from ehlcontact.motion import FreeVibration, HarmonicLoad, PrescribedApproach, PrescribedLoad, RampLoad
+from ehlcontact.point import Geometry, MoesPoint, OperatingPoint, Scales
 from ehlcontact.results import Instants, SimulationResult, SteadyResult
-from ehlcontact.scaling import Geometry, MoesPoint, OperatingPoint, Scales
-from ehlcontact.simulate import simulate
+from ehlcontact.solver.domain import Domain
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.storage import load, save
-from ehlcontact.surface import Dent, TransverseRidge, Waviness
+from ehlcontact.transient.full_contact import FullContact
+from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, PrescribedApproach, PrescribedLoad, RampLoad
+from ehlcontact.transient.simulate import simulate
+from ehlcontact.transient.surface import Dent, TransverseRidge, Waviness
 from ehlcontact.version import __version__
 
 __all__ = [

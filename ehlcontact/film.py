@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError, require_finite, require_instance, require_positive
-from ehlcontact.lowest_film import lowest_film
+from ehlcontact.point import Scales
 from ehlcontact.results import SimulationResult, SteadyResult
-from ehlcontact.scaling import Scales
+from ehlcontact.solver.lowest_film import lowest_film
 
 Array = NDArray[np.float64]
 

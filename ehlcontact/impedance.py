@@ -20,12 +20,12 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from ehlcontact.domain import Domain, check_domain
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.linearised_contact import LinearisedContact
-from ehlcontact.resolution import automatic_mesh, moving_intervals
+from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.results import SteadyResult
-from ehlcontact.scaling import MoesPoint, Point, Scales, moes_point, scales_of
+from ehlcontact.solver.domain import Domain, check_domain
+from ehlcontact.solver.linearised_contact import LinearisedContact
+from ehlcontact.solver.resolution import automatic_mesh, moving_intervals
 from ehlcontact.status import Status
 from ehlcontact.steady import ROOM, solve_steady
 from ehlcontact.version import __version__

@@ -1,7 +1,7 @@
 """Lubricant inputs and the dimensionless laws built from them.
 
 Roelands (1966) with p0 = 1.96e8 Pa, Barus (1893), and Dowson-Higginson (1966) density, each as written in
-Venner and Lubrecht (2000), ch. 1. The compiled laws live in ``_kernels/laws.py``; here are the inputs.
+Venner and Lubrecht (2000), ch. 1. The compiled laws live in ``solver/kernels/laws.py``; here are the inputs.
 """
 
 from __future__ import annotations

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.domain import Domain
 from ehlcontact.errors import InputError
-from ehlcontact.motion import Motion, PrescribedApproach
-from ehlcontact.scaling import MoesPoint, Scales
+from ehlcontact.point import MoesPoint, Scales
+from ehlcontact.solver.domain import Domain
 from ehlcontact.status import Status
+from ehlcontact.transient.motion import Motion, PrescribedApproach
 
 Array = NDArray[np.float64]
 

@@ -9,16 +9,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ehlcontact.domain import Domain, check_domain, check_intervals, default_domain
 from ehlcontact.errors import ConvergenceError, require_choice, require_finite, require_integer, require_positive
-from ehlcontact.grid import Level
-from ehlcontact.lowest_film import lowest_film
-from ehlcontact.multigrid import Multigrid
-from ehlcontact.newton import Balance
-from ehlcontact.newton_krylov import NewtonKrylov
-from ehlcontact.resolution import automatic_mesh, nodes, refined_mesh
+from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.results import SteadyResult
-from ehlcontact.scaling import MoesPoint, Point, Scales, moes_point, scales_of
+from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.domain import Domain, check_domain, check_intervals, default_domain
+from ehlcontact.solver.grid import Level
+from ehlcontact.solver.lowest_film import lowest_film
+from ehlcontact.solver.multigrid import Multigrid
+from ehlcontact.solver.newton import NewtonKrylov
+from ehlcontact.solver.resolution import automatic_mesh, nodes, refined_mesh
 from ehlcontact.status import Status, classify
 from ehlcontact.version import __version__
 

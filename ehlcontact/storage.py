@@ -12,12 +12,12 @@ from typing import Any
 import h5py
 import numpy as np
 
-from ehlcontact.domain import Domain
 from ehlcontact.errors import InputError, require_instance
-from ehlcontact.motion import Motion, motion_from_dict
+from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.results import SimulationResult, SteadyResult
-from ehlcontact.scaling import MoesPoint, Scales
+from ehlcontact.solver.domain import Domain
 from ehlcontact.status import Status
+from ehlcontact.transient.motion import Motion, motion_from_dict
 
 FORMAT = 1
 Result = SteadyResult | SimulationResult

@@ -5,7 +5,7 @@ from __future__ import annotations
 from xml.etree import ElementTree
 
 from fmu.spec import UNITS, ModelSpec, Variable
-from reduced_models.element_file import library_version
+from reduced_models.elements.file import library_version
 
 LOG_CATEGORIES = {
     "logStatusError": "Calls that failed, always logged",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from html import escape
 
 from fmu.spec import ModelSpec, Variable
-from reduced_models.element_file import library_version
+from reduced_models.elements.file import library_version
 
 _PAGE = """<!DOCTYPE html>
 <html lang="en">

@@ -41,43 +41,43 @@
 | rotor_result | histories and status of a run |
 | compare | full against reduced response |
 
-Symbols and units: `ehlcontact.scaling`.
+Symbols and units: `ehlcontact.point`.
 """
 
-from reduced_models.atlas import Atlas as Atlas
-from reduced_models.atlas import AtlasAnswer as AtlasAnswer
-from reduced_models.compare import Comparison as Comparison
-from reduced_models.compare import SignalDifference as SignalDifference
-from reduced_models.compare import compare as compare
-from reduced_models.contact import Contact as Contact
-from reduced_models.contact import ScaledContact as ScaledContact
-from reduced_models.contact import TangentContact as TangentContact
-from reduced_models.contact import has_tangents as has_tangents
-from reduced_models.element import ContactElement as ContactElement
-from reduced_models.element import CubicContact as CubicContact
-from reduced_models.element import FilmMemoryContact as FilmMemoryContact
-from reduced_models.element import LinearContact as LinearContact
-from reduced_models.element import PolynomialContact as PolynomialContact
-from reduced_models.element import PowerLawContact as PowerLawContact
-from reduced_models.element import WideRangeContact as WideRangeContact
-from reduced_models.element import load_element as load_element
-from reduced_models.fit import FitResult as FitResult
-from reduced_models.fit import fit as fit
-from reduced_models.fit_result import ElementFit as ElementFit
-from reduced_models.jeffcott import ContactMount as ContactMount
-from reduced_models.jeffcott import JeffcottRotor as JeffcottRotor
-from reduced_models.jeffcott import RotorState as RotorState
-from reduced_models.memory_fit import MemoryFit as MemoryFit
-from reduced_models.memory_fit import fit_memory as fit_memory
-from reduced_models.oscillator import OscillatorResult as OscillatorResult
-from reduced_models.oscillator import simulate_oscillator as simulate_oscillator
-from reduced_models.records import ContactRecord as ContactRecord
-from reduced_models.rotor_result import RotorResult as RotorResult
-from reduced_models.rotor_result import RotorStatus as RotorStatus
-from reduced_models.rotor_simulation import simulate_rotor as simulate_rotor
-from reduced_models.sensitivity import Sensitivity as Sensitivity
-from reduced_models.sensitivity import SensitivityRow as SensitivityRow
-from reduced_models.sensitivity import sensitivity as sensitivity
-from reduced_models.validity import OutsideValidityWarning as OutsideValidityWarning
-from reduced_models.wide_build import wide_range_contact as wide_range_contact
-from reduced_models.wide_build import wide_range_from_solves as wide_range_from_solves
+from reduced_models.atlas.atlas import Atlas as Atlas
+from reduced_models.atlas.atlas import AtlasAnswer as AtlasAnswer
+from reduced_models.elements.kinds import ContactElement as ContactElement
+from reduced_models.elements.kinds import CubicContact as CubicContact
+from reduced_models.elements.kinds import FilmMemoryContact as FilmMemoryContact
+from reduced_models.elements.kinds import LinearContact as LinearContact
+from reduced_models.elements.kinds import PolynomialContact as PolynomialContact
+from reduced_models.elements.kinds import PowerLawContact as PowerLawContact
+from reduced_models.elements.kinds import WideRangeContact as WideRangeContact
+from reduced_models.elements.kinds import load_element as load_element
+from reduced_models.elements.validity import OutsideValidityWarning as OutsideValidityWarning
+from reduced_models.fitting.fit import FitResult as FitResult
+from reduced_models.fitting.fit import fit as fit
+from reduced_models.fitting.memory import MemoryFit as MemoryFit
+from reduced_models.fitting.memory import fit_memory as fit_memory
+from reduced_models.fitting.records import ContactRecord as ContactRecord
+from reduced_models.fitting.result import ElementFit as ElementFit
+from reduced_models.fitting.sensitivity import Sensitivity as Sensitivity
+from reduced_models.fitting.sensitivity import SensitivityRow as SensitivityRow
+from reduced_models.fitting.sensitivity import sensitivity as sensitivity
+from reduced_models.fitting.wide import wide_range_contact as wide_range_contact
+from reduced_models.fitting.wide import wide_range_from_solves as wide_range_from_solves
+from reduced_models.rotor.compare import Comparison as Comparison
+from reduced_models.rotor.compare import SignalDifference as SignalDifference
+from reduced_models.rotor.compare import compare as compare
+from reduced_models.rotor.contact import Contact as Contact
+from reduced_models.rotor.contact import ScaledContact as ScaledContact
+from reduced_models.rotor.contact import TangentContact as TangentContact
+from reduced_models.rotor.contact import has_tangents as has_tangents
+from reduced_models.rotor.jeffcott import ContactMount as ContactMount
+from reduced_models.rotor.jeffcott import JeffcottRotor as JeffcottRotor
+from reduced_models.rotor.jeffcott import RotorState as RotorState
+from reduced_models.rotor.oscillator import OscillatorResult as OscillatorResult
+from reduced_models.rotor.oscillator import simulate_oscillator as simulate_oscillator
+from reduced_models.rotor.result import RotorResult as RotorResult
+from reduced_models.rotor.result import RotorStatus as RotorStatus
+from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor

@@ -11,10 +11,10 @@ import numpy as np
 
 from ehlcontact import Domain, MoesPoint
 from ehlcontact.formulas import nvm_central_film
-from reduced_models.atlas_build import SEED, settings
-from reduced_models.atlas_sample import sample_points
-from reduced_models.atlas_solve import OMEGAS
-from reduced_models.atlas_work import WorkFile
+from reduced_models.atlas.build import SEED, settings
+from reduced_models.atlas.sample import sample_points
+from reduced_models.atlas.solve import OMEGAS
+from reduced_models.atlas.work import WorkFile
 
 PAUSE = 0.05
 

@@ -53,11 +53,11 @@ def test_library_is_silent(name):
 
 
 def test_kernels_have_one_decorator():
-    """Numba's options are set in one place; see `_kernels/jit.py` for why not fastmath."""
+    """Numba's options are set in one place; see `solver/kernels/jit.py` for why not fastmath."""
     stray = [
         name
         for name in NAMES
-        if name != "ehlcontact/_kernels/jit.py" and "njit" in (ROOT / name).read_text(encoding="utf-8")
+        if name != "ehlcontact/solver/kernels/jit.py" and "njit" in (ROOT / name).read_text(encoding="utf-8")
     ]
     assert [name for name in stray if not name.startswith("reduced_models/")] == []
 
@@ -68,7 +68,14 @@ def relative(folder, pattern):
 
 @pytest.mark.parametrize(
     ("package", "pattern"),
-    [("fmu", "*.c"), ("fmu", "*.h"), ("fmu", "*.txt"), ("ehlcontact", "*.j2"), ("ehlcontact", "*.csv")],
+    [
+        ("fmu", "*.c"),
+        ("fmu", "*.h"),
+        ("fmu", "*.txt"),
+        ("ehlcontact", "*.j2"),
+        ("ehlcontact", "*.csv"),
+        ("reduced_models", "*.npz"),
+    ],
 )
 def test_data_files_are_installed(package, pattern):
     """What the checkout has, the imported package has too: in CI that is the one from the wheel."""

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from ehlcontact.cli import atlas, element, export, fit, impedance, reproduce, run, simulate, steady
+from ehlcontact.cli.commands import atlas, element, export, fit, impedance, reproduce, run, simulate, steady
 from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain, one_line
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.version import __version__

@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from ehlcontact.domain import Domain, check_intervals
-from ehlcontact.scaling import MoesPoint
+from ehlcontact.point import MoesPoint
+from ehlcontact.solver.domain import Domain, check_intervals
 
 _POINT, _GRID, _FILES = "Operating point", "Discretisation", "Results"
 

@@ -23,7 +23,7 @@ def line(figure, name):
 
 @pytest.mark.parametrize(("point", "si"), [(IN_SI, True), (PLAIN, False)], ids=["SI", "dimensionless"])
 def test_steady_figure(point, si):
-    from ehlcontact.cli.figures_film import draw_steady
+    from ehlcontact.cli.plots.film_of_result import draw_steady
 
     result = solve_steady(point, n=32)
     figure = draw_steady(result)
@@ -39,7 +39,7 @@ def test_steady_figure(point, si):
 
 @pytest.mark.parametrize(("point", "si"), [(IN_SI, True), (PLAIN, False)], ids=["SI", "dimensionless"])
 def test_simulation_figure(point, si):
-    from ehlcontact.cli.figures_transient import draw_simulation
+    from ehlcontact.cli.plots.motion_of_result import draw_simulation
 
     run = simulate(point, HarmonicLoad(3.0), n=32, until=1.0, dT=0.1)
     figure = draw_simulation(run)
@@ -80,8 +80,8 @@ def test_figure_that_cannot_be_written(refused, point, tmp_path):
 def test_drawing_leaves_matplotlib_alone(tmp_path):
     import matplotlib as mpl
 
-    from ehlcontact.cli.figure_file import write_figure
-    from ehlcontact.cli.figures_film import draw_steady
+    from ehlcontact.cli.plots.file import write_figure
+    from ehlcontact.cli.plots.film_of_result import draw_steady
 
     before = dict(mpl.rcParams)
     write_figure(draw_steady, solve_steady(PLAIN, n=32), tmp_path / "film.png")

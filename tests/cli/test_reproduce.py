@@ -7,10 +7,10 @@ import warnings
 import pytest
 
 from ehlcontact import InputError, Status, load
-from ehlcontact.cli.reproduce import runs
-from ehlcontact.cli.reproduce.figures import FIGURES
-from ehlcontact.cli.reproduce.page import text_of
-from ehlcontact.cli.reproduce.paper import paper_fits, paper_sensitivity
+from ehlcontact.cli.paper import runs
+from ehlcontact.cli.paper.data import paper_fits, paper_sensitivity
+from ehlcontact.cli.paper.figures import FIGURES
+from ehlcontact.cli.paper.page import text_of
 from reduced_models import OutsideValidityWarning, load_element
 
 
@@ -157,7 +157,7 @@ def test_a_warning_is_one_line_on_stderr(call, monkeypatch, tmp_path):
         warnings.warn("CubicContact used outside its validity box", OutsideValidityWarning, stacklevel=1)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("ehlcontact.cli.reproduce.runs.compute", warn)
+    monkeypatch.setattr("ehlcontact.cli.paper.runs.compute", warn)
     with warnings.catch_warnings():
         warnings.simplefilter("default")
         result = call("reproduce", "--table", "3", "-o", tmp_path)

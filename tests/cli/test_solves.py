@@ -115,7 +115,7 @@ def test_not_converged_is_saved_and_said(call, point, tmp_path, monkeypatch, com
 
 
 def test_interrupted_simulation_is_saved(call, point, tmp_path, monkeypatch):
-    from ehlcontact.transient import TransientFilm
+    from ehlcontact.transient.film import TransientFilm
 
     advance, calls = TransientFilm.advance, []
 
@@ -133,7 +133,7 @@ def test_interrupted_simulation_is_saved(call, point, tmp_path, monkeypatch):
 
 
 def test_interrupted_simulation_goes_on_from_its_checkpoint(call, refused, point, tmp_path, monkeypatch):
-    from ehlcontact.transient import TransientFilm
+    from ehlcontact.transient.film import TransientFilm
 
     run = ["simulate", *point, "--n", "16", "--harmonic", "3", "--until", "1", "--error", "1e-3", "--json", "-"]
     whole = json.loads(call(*run).out)
@@ -161,7 +161,7 @@ def test_interrupted_simulation_goes_on_from_its_checkpoint(call, refused, point
 
 
 def test_step_that_cannot_meet_its_error_is_said(call, point, tmp_path, monkeypatch):
-    monkeypatch.setattr("ehlcontact.stepping.local_error", lambda before, entry, motion: 1.0)
+    monkeypatch.setattr("ehlcontact.transient.run.local_error", lambda before, entry, motion: 1.0)
     result = call("simulate", *point, "--n", "16", "--free", "5", "--error", "1e-3", "--save", tmp_path / "p.h5")
     assert result.code == 1 and len(result.err.splitlines()) == 1
     for words in ("step_too_small at T = ", "a step of ", "tolerated error 0.001", "partial result in"):

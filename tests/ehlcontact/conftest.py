@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact.grid import Level
+from ehlcontact.solver.grid import Level
 
 
 def rough_level(point, nx=16, ny=8, domain=None, seed=1):

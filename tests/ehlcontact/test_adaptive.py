@@ -18,7 +18,7 @@ from ehlcontact import (
     Status,
     simulate,
 )
-from ehlcontact.step_control import LARGEST_GROWTH, StepControl, next_time
+from ehlcontact.transient.step import LARGEST_GROWTH, StepControl, next_time
 
 POINT = MoesPoint(200, 10, 0.5)
 N = 32

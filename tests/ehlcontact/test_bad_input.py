@@ -16,8 +16,8 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.domain import check_intervals
 from ehlcontact.impedance import impedance
+from ehlcontact.solver.domain import check_intervals
 
 POINT = MoesPoint(200, 10, 0.5)
 LIGHT_SIDE = Domain(-12.0, 2.5, 3.0)

@@ -5,10 +5,10 @@ import oracles
 import pytest
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact._kernels import boundary
-from ehlcontact._kernels.reynolds import operator_at, residual
-from ehlcontact.multigrid import Multigrid
-from ehlcontact.newton import Balance
+from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.kernels import boundary
+from ehlcontact.solver.kernels.reynolds import operator_at, residual
+from ehlcontact.solver.multigrid import Multigrid
 
 
 @pytest.mark.parametrize("kernel", [boundary.mark_boundary, boundary.mark_boundary.py_func], ids=["jit", "python"])

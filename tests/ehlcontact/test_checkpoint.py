@@ -27,7 +27,7 @@ from ehlcontact import (
     save,
     simulate,
 )
-from ehlcontact.transient import TransientFilm
+from ehlcontact.transient.film import TransientFilm
 
 POINT = MoesPoint(200, 10, 0.5)
 N = 32
@@ -161,7 +161,7 @@ def test_failed_step_leaves_the_last_good_one(tmp_path, monkeypatch):
 
     def no_more_cycles(T, until):
         if T > 0.3:
-            monkeypatch.setattr("ehlcontact.transient.STEP_CYCLES", 0)
+            monkeypatch.setattr("ehlcontact.transient.film.STEP_CYCLES", 0)
 
     with pytest.raises(ConvergenceError, match=r"step 0\.05, residual .* with tol 0\.003"), monkeypatch.context():
         simulate(POINT, motion, **settings, checkpoint=path, callback=no_more_cycles)

@@ -9,8 +9,8 @@ import oracles
 import pytest
 
 from ehlcontact import InputError
-from ehlcontact._kernels import mlmi as kernels
-from ehlcontact.elastic import (
+from ehlcontact.hertz import shape_factor
+from ehlcontact.solver.deflection.elastic import (
     ENGINES,
     Deflection,
     DirectSum,
@@ -19,8 +19,8 @@ from ehlcontact.elastic import (
     influence_coefficients,
     injected_coefficients,
 )
-from ehlcontact.hertz import shape_factor
-from ehlcontact.mlmi import Grid, Mlmi, correction_kernel
+from ehlcontact.solver.deflection.mlmi import Grid, Mlmi, correction_kernel
+from ehlcontact.solver.kernels import mlmi as kernels
 
 KAPPAS = [0.1, 0.5, 1.0, 3.0]
 FINEST = 1024

@@ -3,7 +3,7 @@
 import pytest
 
 from ehlcontact import Domain, InputError
-from ehlcontact.domain import check_intervals
+from ehlcontact.solver.domain import check_intervals
 
 NAN, INF = float("nan"), float("inf")
 

@@ -5,8 +5,13 @@ import oracles
 import pytest
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact.elastic import Deflection, FastTransforms, MatrixTransforms, influence_coefficients
-from ehlcontact.grid import Level
+from ehlcontact.solver.deflection.elastic import (
+    Deflection,
+    FastTransforms,
+    MatrixTransforms,
+    influence_coefficients,
+)
+from ehlcontact.solver.grid import Level
 
 
 @pytest.mark.parametrize("kappa", [0.08, 0.5, 1.0, 3.0])

@@ -84,7 +84,7 @@ def test_failed_step_leaves_it_unchanged(contact, monkeypatch):
     contact.advance(0.1, u + 0.01)
     state, force = contact.save_state(), contact.force
     with monkeypatch.context() as patch:
-        patch.setattr("ehlcontact.transient.STEP_CYCLES", 0)
+        patch.setattr("ehlcontact.transient.film.STEP_CYCLES", 0)
         with pytest.raises(ConvergenceError, match="EHL step max_cycles") as caught:
             contact.advance(0.1, u + 0.3)
     assert caught.value.result.status is Status.MAX_CYCLES

@@ -7,7 +7,7 @@ import oracles
 import pytest
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact.grid import Level, build_hierarchy
+from ehlcontact.solver.grid import Level, build_hierarchy
 
 
 def test_film_is_equation_3(level, point):

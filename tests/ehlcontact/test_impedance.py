@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from ehlcontact import InputError, MoesPoint
-from ehlcontact._kernels.linearise import dense_jacobian, linearise
-from ehlcontact.full_contact import FullContact
 from ehlcontact.impedance import impedance
-from ehlcontact.linearised_contact import LinearisedContact
-from ehlcontact.multigrid import Multigrid
-from ehlcontact.resolution import CLOSE, automatic_mesh
+from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
+from ehlcontact.solver.linearised_contact import LinearisedContact
+from ehlcontact.solver.multigrid import Multigrid
+from ehlcontact.solver.resolution import CLOSE, automatic_mesh
 from ehlcontact.steady import solve_steady
+from ehlcontact.transient.full_contact import FullContact
 
 POINT = MoesPoint(200, 10, 0.5)
 
@@ -123,7 +123,7 @@ def test_interrupted_start_gives_no_result(monkeypatch):
     def interrupted(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("ehlcontact.multigrid.Multigrid.cycle", interrupted)
+    monkeypatch.setattr("ehlcontact.solver.multigrid.Multigrid.cycle", interrupted)
     with pytest.raises(KeyboardInterrupt):
         impedance(MoesPoint(200, 10, 0.5), [0.0, 1.0], n=48)
 

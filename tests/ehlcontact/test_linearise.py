@@ -4,8 +4,8 @@ import numpy as np
 import oracles
 import pytest
 
-from ehlcontact._kernels import linearise as lin
-from ehlcontact._kernels import reynolds
+from ehlcontact.solver.kernels import linearise as lin
+from ehlcontact.solver.kernels import reynolds
 
 KERNELS = [pytest.param(lin.linearise, id="jit"), pytest.param(lin.linearise.py_func, id="python")]
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import FreeVibration, HarmonicLoad, InputError, PrescribedApproach, PrescribedLoad, RampLoad
-from ehlcontact.motion import motion_from_dict
+from ehlcontact.transient.motion import motion_from_dict
 
 NAN, INF = float("nan"), float("inf")
 T = np.linspace(0.0, 2.0, 9)

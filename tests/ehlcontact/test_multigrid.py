@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ehlcontact import Domain, MoesPoint, solve_steady
-from ehlcontact.multigrid import Multigrid, coarsest_intervals, initial_approach
-from ehlcontact.newton import Balance
+from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.multigrid import Multigrid, coarsest_intervals, initial_approach
 
 LOAD = Balance(0.0, 1.0, 1.0)
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact.grid import Level
-from ehlcontact.multigrid import initial_approach
-from ehlcontact.newton import Balance, CoarseNewton
+from ehlcontact.solver.coarse import Balance, CoarseNewton
+from ehlcontact.solver.grid import Level
+from ehlcontact.solver.multigrid import initial_approach
 
 
 def solve(point, balance, nx=16, ny=8, tol=1e-11):

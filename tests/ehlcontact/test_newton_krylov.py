@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 
 from ehlcontact import MoesPoint
-from ehlcontact._kernels import linearise as lin
-from ehlcontact.domain import check_domain
-from ehlcontact.linear_film import NEIGHBOUR_OFFSETS, LinearFilm, stencil_matrix
-from ehlcontact.linear_solve import solve_linear
-from ehlcontact.multigrid import Multigrid
-from ehlcontact.newton import Balance
-from ehlcontact.newton_krylov import NewtonKrylov, solve_newton
-from ehlcontact.preconditioner import Preconditioner
+from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.domain import check_domain
+from ehlcontact.solver.kernels import linearise as lin
+from ehlcontact.solver.linear_film import NEIGHBOUR_OFFSETS, LinearFilm, stencil_matrix
+from ehlcontact.solver.linear_solve import solve_linear
+from ehlcontact.solver.multigrid import Multigrid
+from ehlcontact.solver.newton import NewtonKrylov, solve_newton
+from ehlcontact.solver.preconditioner import Preconditioner
 from ehlcontact.status import Status
 from ehlcontact.steady import dry_residual
-from ehlcontact.transient import TransientFilm
+from ehlcontact.transient.film import TransientFilm
 
 LOAD = Balance(0.0, 1.0, 1.0)
 POINTS = [(200, 10, 1.0), (200, 10, 0.5), (500, 15, 0.12), (2900, 19, 0.11), (20, 5, 0.5), (200, 10, 2.0)]

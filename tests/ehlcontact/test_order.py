@@ -16,10 +16,10 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.grid import Level
-from ehlcontact.history import History
-from ehlcontact.stepping import Run
-from ehlcontact.transient import TransientFilm
+from ehlcontact.solver.grid import Level
+from ehlcontact.transient.film import TransientFilm
+from ehlcontact.transient.record import History
+from ehlcontact.transient.run import Run
 
 POINT = MoesPoint(200, 10, 0.5)
 RAMP = RampLoad(1.3, 2.0, 5.13)  # its corner lies beyond the end

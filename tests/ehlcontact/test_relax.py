@@ -5,11 +5,11 @@ import oracles
 import pytest
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact._kernels import relax
-from ehlcontact._kernels.linearise import linearise, neighbour
-from ehlcontact.grid import Level
-from ehlcontact.multigrid import Multigrid
-from ehlcontact.newton import Balance
+from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.grid import Level
+from ehlcontact.solver.kernels import relax
+from ehlcontact.solver.kernels.linearise import linearise, neighbour
+from ehlcontact.solver.multigrid import Multigrid
 
 LOWER, UPPER, NEAR, SHARE = relax.BAND_LOWER, relax.BAND_UPPER, relax.NEAR, relax.SHARE
 

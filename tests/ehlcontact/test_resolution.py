@@ -5,8 +5,8 @@ import pytest
 
 from ehlcontact import Domain, MoesPoint, solve_steady
 from ehlcontact import resolution as r
-from ehlcontact.domain import check_intervals
 from ehlcontact.impedance import impedance
+from ehlcontact.solver.domain import check_intervals
 
 BOX = [
     (5, 0, 5.0),

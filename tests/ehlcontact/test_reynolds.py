@@ -4,7 +4,7 @@ import numpy as np
 import oracles
 import pytest
 
-from ehlcontact._kernels import reynolds
+from ehlcontact.solver.kernels import reynolds
 
 
 @pytest.mark.parametrize("kernel", [reynolds.update_flow, reynolds.update_flow.py_func], ids=["jit", "python"])

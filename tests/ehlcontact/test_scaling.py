@@ -8,7 +8,7 @@ import pytest
 
 from ehlcontact import Geometry, InputError, Lubricant, MoesPoint, OperatingPoint
 from ehlcontact.hertz import elliptic_integrals, shape_factor
-from ehlcontact.scaling import moes_point, scales_of
+from ehlcontact.point import moes_point, scales_of
 
 NAN, INF = float("nan"), float("inf")
 BAD_POSITIVE = [0.0, -1.0, NAN, INF, True, None, "two", [1.0, 2.0], 1j]

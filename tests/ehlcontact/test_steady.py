@@ -16,8 +16,8 @@ from ehlcontact import (
     Status,
     solve_steady,
 )
-from ehlcontact.grid import build_hierarchy
-from ehlcontact.multigrid import coarsest_intervals
+from ehlcontact.solver.grid import build_hierarchy
+from ehlcontact.solver.multigrid import coarsest_intervals
 
 POINT = MoesPoint(200, 10, 0.5)
 CASES = [(200, 10, 0.5), (20, 10, 1.0), (500, 15, 0.12)]

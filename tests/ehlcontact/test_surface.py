@@ -14,7 +14,7 @@ from ehlcontact import (
     Waviness,
     simulate,
 )
-from ehlcontact.surface import surface_height, surface_step
+from ehlcontact.transient.surface import surface_height, surface_step
 
 X, Y = np.linspace(-2.0, 1.0, 31), np.linspace(0.0, 1.0, 5)
 

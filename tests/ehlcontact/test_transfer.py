@@ -4,7 +4,7 @@ import numpy as np
 import oracles
 import pytest
 
-from ehlcontact._kernels import transfer
+from ehlcontact.solver.kernels import transfer
 
 
 def jit_and_python(kernel):

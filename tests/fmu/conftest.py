@@ -9,9 +9,9 @@ import fmpy
 import pytest
 from fmpy import fmi2
 
-from ehlcontact.scaling import Scales
+from ehlcontact.point import Scales
 from fmu import export_contact
-from reduced_models.element import CubicContact, LinearContact
+from reduced_models.elements.kinds import CubicContact, LinearContact
 
 # Table 3, case 2 of Nonato and Cavalca (2010) in round numbers; the interval is that of a free vibration.
 CUBIC = CubicContact(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)

@@ -9,9 +9,9 @@ import pytest
 
 from ehlcontact.errors import InputError
 from fmu.verify import state_grid
-from reduced_models.element import CubicContact
-from reduced_models.oscillator import simulate_oscillator
-from reduced_models.validity import OutsideValidityWarning
+from reduced_models.elements.kinds import CubicContact
+from reduced_models.elements.validity import OutsideValidityWarning
+from reduced_models.rotor.oscillator import simulate_oscillator
 
 OMEGA_N = 5.13  # free vibration, case 2 of Table 3
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlcontact.scaling import Scales
+from ehlcontact.point import Scales
 from reduced_models import ContactRecord, CubicContact, FilmMemoryContact, LinearContact
 
 # Nonato and Cavalca (2010), Table 3 case 2 (free vibration, Omega_n = 5.13).

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from ehlcontact import Geometry, InputError, Lubricant, MoesPoint, OperatingPoint, __version__
-from ehlcontact.resolution import CLOSE
+from ehlcontact.solver.resolution import CLOSE
 from reduced_models import Atlas, load_element
-from reduced_models.atlas import MODELS, SHIPPED
-from reduced_models.atlas_assemble import assemble
-from reduced_models.atlas_box import BOX
-from reduced_models.atlas_element import LEAST_APPROACH
-from reduced_models.atlas_sample import sample_points
-from reduced_models.atlas_solve import OMEGAS, mesh_of, solve_point
+from reduced_models.atlas.assemble import assemble
+from reduced_models.atlas.atlas import MODELS, SHIPPED
+from reduced_models.atlas.box import BOX
+from reduced_models.atlas.elements import LEAST_APPROACH
+from reduced_models.atlas.sample import sample_points
+from reduced_models.atlas.solve import OMEGAS, mesh_of, solve_point
 
 CASE = MoesPoint(200.0, 10.0, 0.5)
 LIMITS = {"approach": 0.003, "tangent": 0.01, "film": 0.02, "damping": 0.05}  # relative errors

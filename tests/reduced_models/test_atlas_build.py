@@ -13,15 +13,15 @@ import numpy as np
 import pytest
 
 from ehlcontact import Domain, InputError, MoesPoint
-from ehlcontact.resolution import inlet_width
-from reduced_models.atlas_assemble import RATES, assemble, smooth_gains
-from reduced_models.atlas_box import BOX
-from reduced_models.atlas_build import build_atlas, solve_samples
-from reduced_models.atlas_sample import SAMPLED, sample_points
-from reduced_models.atlas_solve import CLOSE_MESHES, OMEGAS, mesh_of, solve_point
-from reduced_models.atlas_table import AtlasTable
-from reduced_models.atlas_work import WorkFile
-from reduced_models.film_filters import DRY
+from ehlcontact.solver.resolution import inlet_width
+from reduced_models.atlas.assemble import RATES, assemble, smooth_gains
+from reduced_models.atlas.box import BOX
+from reduced_models.atlas.build import build_atlas, solve_samples
+from reduced_models.atlas.sample import SAMPLED, sample_points
+from reduced_models.atlas.solve import CLOSE_MESHES, OMEGAS, mesh_of, solve_point
+from reduced_models.atlas.table import AtlasTable
+from reduced_models.atlas.work import WorkFile
+from reduced_models.elements.film_response import DRY
 
 DRAWS, LIGHT = 24, 24
 TESTS = Path(__file__).parents[1]
@@ -29,7 +29,7 @@ BUILD = f"""
 import sys
 from pathlib import Path
 from atlas_stub import solve_slowly
-from reduced_models.atlas_build import build_atlas
+from reduced_models.atlas.build import build_atlas
 if __name__ == "__main__":
     folder = Path(sys.argv[1])
     build_atlas(folder / "a.npz", folder / "a.jsonl", {DRAWS}, {LIGHT}, processes=2, solve=solve_slowly)
@@ -256,6 +256,6 @@ def _start(command, environment):
 
 def test_no_cluster_at_the_address(tmp_path, monkeypatch):
     pytest.importorskip("distributed")
-    monkeypatch.setattr("reduced_models.atlas_workers.CONNECT_SECONDS", 0.5)
+    monkeypatch.setattr("reduced_models.atlas.workers.CONNECT_SECONDS", 0.5)
     with pytest.raises(InputError, match="--scheduler"):
         solve_samples(tmp_path / "w.jsonl", 2, 2, scheduler="tcp://127.0.0.1:1", solve=atlas_stub.solve)

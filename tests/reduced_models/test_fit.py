@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ehlcontact.errors import InputError
-from ehlcontact.scaling import MoesPoint
+from ehlcontact.point import MoesPoint
 from reduced_models import ContactRecord, CubicContact, fit
 
 # Nonato and Cavalca (2010): coefficients, and the root and tangent that design.md computes from them.

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from reduced_models import has_tangents
-from reduced_models.film_filters import FilterRates, fit_gains
+from reduced_models.elements.film_response import FilterRates, fit_gains
 
 OMEGAS = np.concatenate([[0.0], np.geomspace(0.03, 60.0, 24)])
 

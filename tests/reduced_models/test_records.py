@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlcontact.errors import InputError
-from ehlcontact.scaling import MoesPoint
+from ehlcontact.point import MoesPoint
 from reduced_models import ContactRecord
 
 

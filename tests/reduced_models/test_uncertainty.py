@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from reduced_models import fit
-from reduced_models.uncertainty import autocorrelation, half_widths, independent_samples
+from reduced_models.fitting.uncertainty import autocorrelation, half_widths, independent_samples
 
 TRUE = {"K1": 0.806, "C1": 0.013}
 

@@ -9,11 +9,11 @@ from typing import Any, Literal
 
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.impedance import ImpedanceResult
-from ehlcontact.motion import HarmonicLoad
+from ehlcontact.point import Scales
 from ehlcontact.results import SimulationResult
-from ehlcontact.scaling import Scales
+from ehlcontact.transient.motion import HarmonicLoad
 from reduced_models import ContactRecord, CubicContact, FitResult, MemoryFit, fit, fit_memory
-from reduced_models.memory_fit import impedance_of
+from reduced_models.fitting.memory import impedance_of
 
 RECORDS = {
     "free": "free vibration",

@@ -9,8 +9,8 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from matplotlib.figure import Figure
 
+from ehlcontact.cli import plots as figures
 from ehlcontact.cli.output import write_text
-from ehlcontact.cli.study import figures
 from ehlcontact.cli.study.reduction import MEMORY, RECORDS
 from ehlcontact.cli.study.results import Findings
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import InputError
-from ehlcontact.full_contact import FullContact
+from ehlcontact.transient.full_contact import FullContact
 from reduced_models import (
     ContactElement,
     JeffcottRotor,

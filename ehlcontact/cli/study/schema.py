@@ -12,11 +12,11 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ehlcontact.cli.study.loads import most_loaded_ball
-from ehlcontact.domain import Domain
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant import Lubricant
-from ehlcontact.motion import FreeVibration, HarmonicLoad
-from ehlcontact.scaling import OperatingPoint
+from ehlcontact.point import OperatingPoint
+from ehlcontact.solver.domain import Domain
+from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
 from ehlcontact.version import __version__
 
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]

@@ -9,7 +9,7 @@ from typing import Any
 
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.motion import FreeVibration, HarmonicLoad
+from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
 
 Update = Callable[[float, float], None]  # done, total
 STEADY_CYCLES = 40
@@ -93,7 +93,7 @@ def _steady(study: Study, update: Update) -> Any:
 def _simulate(
     study: Study, motion: FreeVibration | HarmonicLoad, periods: float, steps: int, update: Update
 ) -> Any:
-    from ehlcontact.simulate import simulate
+    from ehlcontact.transient.simulate import simulate
 
     return simulate(
         study.point,

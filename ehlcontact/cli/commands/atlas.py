@@ -1,0 +1,83 @@
+"""``ehlcontact atlas``: what the atlas says about a point, and building one."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ehlcontact.cli import options as o
+from ehlcontact.cli.output import check_file, check_json, progress, show_table, write_json
+from ehlcontact.errors import require_integer
+
+NPZ = (".npz",)
+
+
+def register(app: typer.Typer) -> None:
+    """Add the group of subcommands."""
+    group = typer.Typer(
+        no_args_is_help=True, help="Build the table of solved contacts that elements are taken from."
+    )
+    group.command("build")(build)
+    group.callback()(_group)
+    app.add_typer(group, name="atlas")
+
+
+def _group() -> None:
+    """Build the table of solved contacts that elements are taken from."""
+
+
+def build(
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="FILE", help="The atlas, npz.")] = Path(
+        "atlas.npz"
+    ),
+    work: Annotated[
+        Path | None,
+        typer.Option("--work", metavar="FILE", help="Solved points, one line each; FILE.jsonl of the output."),
+    ] = None,
+    draws: Annotated[int, typer.Option("--draws", help="Sample points over the box.")] = 384,
+    light_draws: Annotated[int, typer.Option("--light-draws", help="More of them at light loads.")] = 256,
+    seed: Annotated[int, typer.Option("--seed", help="Of the sample.")] = 4,
+    processes: Annotated[
+        int | None, typer.Option("--processes", help="Of this machine; one per core by default.")
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Solve on this Dask cluster instead.")
+    ] = None,
+    json_to: o.JsonTo = None,
+) -> None:
+    """Solve the sample and write the atlas; stopped at any moment and started again, it goes on."""
+    from reduced_models.atlas.build import build_atlas
+
+    check_file("--output", output, NPZ)
+    kept = output.with_suffix(".jsonl") if work is None else work
+    check_file("--work", kept)
+    check_json(json_to)
+    for name, value, least in (("--draws", draws, 0), ("--light-draws", light_draws, 0), ("--seed", seed, 0)):
+        require_integer(name, value, f"a whole number >= {least}", least)
+    count = (os.cpu_count() or 1) if processes is None else processes
+    require_integer("--processes", count, "a whole number > 0", 1)
+    with progress("points") as update:
+        table = build_atlas(
+            output,
+            kept,
+            draws,
+            light_draws,
+            seed=seed,
+            processes=count,
+            scheduler=scheduler,
+            progress=update,
+        )
+    write_json({"output": str(output), "work": str(kept), **table.metadata}, json_to)
+    left_out = sum(table.metadata["left_out"].values())
+    show_table(
+        "atlas",
+        [
+            ("points", str(table.metadata["points"]), f"{left_out} left out: not converged or too thin a film"),
+            ("file", f"{output.stat().st_size / 1e6:.2f} MB", str(output)),
+            ("box", "", str(table.box)),
+        ],
+        json_to,
+    )

@@ -1,0 +1,72 @@
+"""``ehlcontact element``: a contact element from the atlas, without a solve."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ehlcontact.cli import options as o
+from ehlcontact.cli.output import check_file, check_json, show_table, write_json
+from ehlcontact.errors import require_choice
+from ehlcontact.point import MoesPoint
+from reduced_models.elements.validity import text_of
+
+
+def register(app: typer.Typer) -> None:
+    """Add the subcommand."""
+    app.command("element")(element)
+
+
+def element(
+    M: o.LoadM,
+    L: o.OilL,
+    kappa: o.Kappa,
+    alpha: o.Alpha = o.ALPHA,
+    eta0: o.Eta0 = o.ETA0,
+    viscosity: o.Viscosity = o.VISCOSITY,
+    density: o.Density = o.DENSITY,
+    model: Annotated[str, typer.Option("--model", help="wide, memory or cubic.")] = "wide",
+    atlas: Annotated[
+        Path | None,
+        typer.Option("--atlas", metavar="FILE", help="An atlas; the library's own by default."),
+    ] = None,
+    save: Annotated[Path | None, typer.Option("--save", metavar="FILE", help="Save the element as JSON.")] = None,
+    json_to: o.JsonTo = None,
+) -> None:
+    """Take a contact element from the atlas: any load, any frequency, or one of each."""
+    from reduced_models.atlas.atlas import MODELS, Atlas
+
+    require_choice("--model", model, MODELS)
+    point = MoesPoint(M, L, kappa, alpha, eta0, viscosity, density)
+    check_file("--save", save, (".json",))
+    check_json(json_to)
+    table = Atlas(atlas)
+    answer, made = table.at(point), table.element(point, model)
+    if save is not None:
+        made.save(save)
+    write_json(made.to_dict(), json_to)
+    error = answer.error
+    at = [
+        (f"C at Omega = {w:.3g}", f"{c:.5f}", f"+- {bar:.1g}")
+        for w, c, bar in zip(answer.omega, answer.damping, error["damping"], strict=True)
+        if w in (0.05, 1.0) or abs(w - 6.2832) < 1e-3
+    ]
+    show_table(
+        f"{model} element from the atlas, version {table.metadata['version']}",
+        [
+            *o.point_rows(point),
+            ("approach", f"{answer.approach:.5f}", f"+- {error['approach']:.1g}, dry Hertz 1"),
+            ("central film", f"{answer.h_central:.5f}", f"+- {error['h_central']:.1g}"),
+            ("minimum film", f"{answer.h_min:.5f}", f"+- {error['h_min']:.1g}"),
+            ("static tangent", f"{answer.stiffness[0]:.4f}", f"+- {error['stiffness'][0]:.1g}"),
+            *at,
+            (
+                "valid",
+                f"{made.low:.4f} .. {made.high:.4f}",
+                "" if made.load_range is None else f"load {text_of(made.load_range)}",
+            ),
+        ],
+        json_to,
+    )

@@ -1,0 +1,94 @@
+"""``ehlcontact fit``: simulated histories to a contact element."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ehlcontact.cli import options as o
+from ehlcontact.cli.output import check_file, check_json, show_table, write_json
+from ehlcontact.errors import InputError, require_choice
+
+if TYPE_CHECKING:
+    from reduced_models import ElementFit, FitResult
+
+
+def register(app: typer.Typer) -> None:
+    """Add the subcommand."""
+    app.command("fit")(fit)
+
+
+def fit(
+    files: Annotated[list[Path], typer.Argument(metavar="R.h5...", help="Results of `ehlcontact simulate`.")],
+    model: Annotated[str, typer.Option("--model", help="linear, cubic, polynomial, power or memory.")] = "cubic",
+    window: Annotated[
+        tuple[float, float] | None,
+        typer.Option("--window", metavar="START END", help="Part of T to fit; the last two thirds by default."),
+    ] = None,
+    save: Annotated[Path | None, typer.Option("--save", metavar="FILE", help="Save the element as JSON.")] = None,
+    json_to: o.JsonTo = None,
+) -> None:
+    """Fit a contact element to one or several simulations of the same contact."""
+    from ehlcontact.results import SimulationResult
+    from ehlcontact.storage import load
+    from reduced_models import ContactRecord, FitResult
+    from reduced_models import fit as fit_records
+    from reduced_models.fitting.fit import MEMORY, MODELS
+
+    require_choice("--model", model, MODELS)
+    if model == MEMORY and window is not None:
+        raise InputError("--window", window, "left out with --model memory, which takes whole records")
+    check_file("--save", save, (".json",))
+    check_json(json_to)
+    records = []
+    for file in files:
+        result = load(file)
+        if not isinstance(result, SimulationResult):
+            raise InputError("file", str(file), "a simulation; this is a steady film")
+        try:
+            records.append(ContactRecord.from_result(result))
+        except InputError as error:
+            raise InputError(f"{file}: {error.field}", error.value, error.allowed) from None
+    fitted = fit_records(records, model, window)
+    if save is not None:
+        fitted.element.save(save)
+    write_json(fitted.to_dict(), json_to)
+    rows = _coefficients(fitted) if isinstance(fitted, FitResult) else _memory(fitted)
+    valid = fitted.valid
+    show_table(
+        f"{model} element",
+        [
+            *rows,
+            ("root", "-" if fitted.root is None else f"{fitted.root:.5f}", "approach under the static load"),
+            ("tangent", "-" if fitted.tangent is None else f"{fitted.tangent:.4f}", "stiffness there"),
+            ("rms error", f"{100 * (fitted.rms or 0.0):.2f} %", "of the standard deviation of the force"),
+            ("e_f (eq. 13)", f"{fitted.e_f:.1e}", ""),
+            ("valid", f"{valid['low']:.4f} .. {valid['high']:.4f}", f"|rate| <= {valid['rate']:.3g}"),
+        ],
+        json_to,
+    )
+
+
+def _coefficients(fitted: FitResult) -> list[tuple[str, str, str]]:
+    rows = [
+        (name, f"{value:.5g}", f"{fitted.intervals[name][0]:.4g} .. {fitted.intervals[name][1]:.4g} (95 %)")
+        for name, value in fitted.parameters.items()
+    ]
+    worth = f"{fitted.samples} samples, {fitted.independent_samples:.0f} of them independent"
+    return [*rows, ("condition", f"{fitted.condition:.3g}", worth)]
+
+
+def _memory(fitted: ElementFit) -> list[tuple[str, str, str]]:
+    p, found = fitted.parameters, fitted.to_dict()
+    low, high = fitted.valid["omega"]
+    gains = p["gains"]
+    return [
+        ("film", f"{p['film']:.5g}", f"at rest; thins like load^-{p['exponent']:.3g}"),
+        ("squeeze", f"{p['squeeze']:.4g}", "film that a vibrating inlet makes on average"),
+        ("rates", f"{p['lag_rate']:.4g}, {p['inlet_rate']:.4g}, {p['fast_rate']:.4g}", "lag, inlet, fast"),
+        ("gains", ", ".join(f"{g:.3g}" for g in gains[:3]), f"viscous, inlet, fast; and {len(gains) - 3} lags"),
+        ("K(Omega)", f"{100 * found['stiffness_error_max']:.2f} %", "largest error against the impedance"),
+        ("C(Omega)", f"{100 * found['damping_error_max']:.1f} %", f"likewise, for Omega {low:g} .. {high:g}"),
+    ]

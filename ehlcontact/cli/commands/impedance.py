@@ -1,0 +1,55 @@
+"""``ehlcontact impedance``: stiffness and damping over frequency."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from ehlcontact.cli import options as o
+from ehlcontact.cli.output import check_json, progress, show_table, write_json
+from ehlcontact.point import MoesPoint
+
+Omegas = Annotated[
+    list[float],
+    typer.Option("--omega", help="Dimensionless frequency, >= 0; give it once per frequency."),
+]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the subcommand."""
+    app.command("impedance")(impedance)
+
+
+def impedance(
+    M: o.LoadM,
+    L: o.OilL,
+    kappa: o.Kappa,
+    omega: Omegas,
+    alpha: o.Alpha = o.ALPHA,
+    eta0: o.Eta0 = o.ETA0,
+    viscosity: o.Viscosity = o.VISCOSITY,
+    density: o.Density = o.DENSITY,
+    n: o.ChosenIntervals = None,
+    domain: o.Region = None,
+    json_to: o.JsonTo = None,
+) -> None:
+    """Linearise the steady film: stiffness K and damping C over frequency."""
+    from ehlcontact.impedance import impedance as solve
+
+    point = MoesPoint(M, L, kappa, alpha, eta0, viscosity, density)
+    region = o.region(domain, n)
+    check_json(json_to)
+    with progress("linearised contact"):
+        result = solve(point, omega, n=n, domain=region)
+    write_json(result.summary(), json_to)
+    triples = zip(result.omega, result.stiffness, result.damping, strict=True)
+    show_table(
+        "impedance: force over approach, static load 1, dry approach 1, time unit 2a/u_sum",
+        [
+            *o.point_rows(point),
+            *((f"Omega = {w:g}", f"K {k:.4f}", f"C {c:.5f}") for w, k, c in triples),
+            ("time", f"{result.seconds:.2f}", f"s, n = {result.n} on {o.domain_text(result.domain)}"),
+        ],
+        json_to,
+    )

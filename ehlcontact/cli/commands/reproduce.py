@@ -1,0 +1,92 @@
+"""``ehlcontact reproduce``: the paper's tables and figures, ours beside them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ehlcontact.cli import options as o
+from ehlcontact.cli.commands.run import prepare
+from ehlcontact.cli.output import FAILED, check_json, complain, say, write_json
+from ehlcontact.errors import InputError
+from ehlcontact.solver.domain import check_intervals
+
+PAGE, DOCUMENT = "reproduction.html", "reproduction.json"
+SMALLEST = 32
+
+
+def register(app: typer.Typer) -> None:
+    """Add the subcommand."""
+    app.command("reproduce")(reproduce)
+
+
+def reproduce(
+    table: Annotated[
+        list[int] | None, typer.Option("--table", metavar="N", help="Only these tables, 1 to 6; may be repeated.")
+    ] = None,
+    figure: Annotated[
+        list[int] | None,
+        typer.Option("--figure", metavar="N", help="Only these figures, 2 and 4 to 19; may be repeated."),
+    ] = None,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="DIR", help="Folder of the simulations and the page.")
+    ] = Path("results/reproduction"),
+    n: o.Intervals = 128,
+    json_to: o.JsonTo = None,
+) -> None:
+    """Make the tables and figures of Nonato and Cavalca (2010), ours beside theirs.
+
+    Run it again to resume: simulations that are finished in the folder are kept.
+    """
+    from ehlcontact.cli.paper.figures import ELEMENTS_OF, FIGURES
+    from ehlcontact.cli.paper.fits import Fits
+    from ehlcontact.cli.paper.page import Reproduction, draw_figures, write_page
+    from ehlcontact.cli.paper.runs import compute
+    from ehlcontact.cli.paper.tables import EXTRAPOLATED, TABLE_CASES, make_table
+
+    everything = not table and not figure
+    tables = _chosen("--table", table, tuple(TABLE_CASES), everything)
+    figures = _chosen("--figure", figure, tuple(FIGURES), everything)
+    check_intervals(n)
+    if n % SMALLEST:
+        raise InputError("n", n, "a multiple of 32 (half of it is computed too, to extrapolate)")
+    check_json(json_to)
+    prepare(output)
+
+    coarse = {case for number in tables if number in EXTRAPOLATED for case in TABLE_CASES[number]}
+    wanted = {case for number in tables for case in TABLE_CASES[number]}
+    wanted |= {case for number in figures for case in (*FIGURES[number].cases, *ELEMENTS_OF.get(number, ()))}
+    try:
+        runs = compute(output, n, sorted(wanted), sorted(coarse), 2 in figures)
+    except KeyboardInterrupt:
+        complain(f"interrupted; finished simulations are in {output}, the same command resumes")
+        raise typer.Exit(FAILED) from None
+
+    fits = Fits(runs)
+    drawn, missing = draw_figures(figures, fits)
+    numbers = {shown.number: shown.numbers(fits) for shown in drawn}
+    found = Reproduction(fits, [make_table(number, fits) for number in tables], drawn, missing, numbers)
+    page = write_page(found, output / PAGE)
+    write_json(found.to_dict(), str(output / DOCUMENT))
+    write_json(found.to_dict(), json_to)
+    say(f"page: {page}", json_to)
+    for name, why in found.failed.items():
+        complain(f"{name}: {why}")
+    if found.failed:
+        raise typer.Exit(FAILED)
+
+
+def _chosen(field: str, given: list[int] | None, known: tuple[int, ...], everything: bool) -> list[int]:
+    """Numbers asked for, in order and once each; all if nothing at all was asked for.
+
+    Raises
+    ------
+    InputError
+        A number that the paper does not have, or whose table or figure holds no result.
+    """
+    for number in given or ():
+        if number not in known:
+            raise InputError(field, number, "one of " + ", ".join(map(str, known)))
+    return sorted(set(known if everything else given or ()))

@@ -1,0 +1,114 @@
+"""Records and elements of the cases, and the reduced models integrated over them."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ehlcontact.cli.paper.runs import Runs
+from ehlcontact.errors import InputError
+from reduced_models import (
+    ContactRecord,
+    ElementFit,
+    FitResult,
+    OscillatorResult,
+    OutsideValidityWarning,
+    Sensitivity,
+    fit,
+    sensitivity,
+    simulate_oscillator,
+)
+from reduced_models.elements.memoryless import MemorylessContact
+
+PAPER_METHOD, STIFF_METHOD = "RK23", "Radau"  # Bogacki and Shampine as in the paper, and a stiff integrator
+
+
+@dataclass
+class Fits:
+    """Elements of the cases, each fitted once."""
+
+    runs: Runs
+    _fits: dict[tuple[str, str, int, bool], ElementFit | str] = field(default_factory=dict)
+
+    def record(self, case: str, n: int | None = None) -> ContactRecord | None:
+        """History of the case on the grid with `n` intervals (by default the finer), None if it failed."""
+        run = self.runs.cases.get((case, self.runs.n if n is None else n))
+        return None if run is None else ContactRecord.from_result(run)
+
+    def fit(self, case: str, model: str = "cubic", n: int | None = None, whole: bool = False) -> FitResult | None:
+        """Fit of the last two thirds or of the whole record; None if there is no record or no contact."""
+        found = self._fitted(case, model, self.runs.n if n is None else n, whole)
+        return found if isinstance(found, FitResult) else None
+
+    def refusal(self, case: str, model: str, whole: bool = False) -> str | None:
+        """Why there is no fit."""
+        found = self._fitted(case, model, self.runs.n, whole)
+        return found if isinstance(found, str) else None
+
+    def _fitted(self, case: str, model: str, n: int, whole: bool) -> ElementFit | str:
+        key = (case, model, n, whole)
+        if key not in self._fits:
+            record = self.record(case, n)
+            try:
+                if record is None:
+                    self._fits[key] = "no simulation"
+                else:
+                    span = (float(record.T[0]), float(record.T[-1])) if whole else None
+                    self._fits[key] = fit(record, model, span)
+            except InputError as error:
+                self._fits[key] = str(error)
+        return self._fits[key]
+
+    def sensitivity(self, case: str) -> Sensitivity | None:
+        """Table 2 of the case."""
+        record = self.record(case)
+        return None if record is None else sensitivity(record)
+
+    def integrated(
+        self, element: MemorylessContact, case: str, method: str = PAPER_METHOD
+    ) -> OscillatorResult | None:
+        """The reduced model under the load of the case, from the start of its fitted window.
+
+        Elements of other cases are integrated too, so leaving the validity box is expected and not told.
+        """
+        record = self.record(case)
+        if record is None:
+            return None
+        cut = record.window(*record.default_window)
+        assert cut.load is not None
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", OutsideValidityWarning)
+            return simulate_oscillator(
+                element,
+                cut.T,
+                omega_n=cut.omega_n,
+                load=cut.load,
+                u0=float(cut.approach[0]),
+                v0=float(cut.rate[0]),
+                method=method,
+                rtol=1e-7,
+            )
+
+    def difference(self, element: MemorylessContact, case: str) -> dict[str, float] | None:
+        """RMS difference of the integrated approach from the full one and between the integrators.
+
+        Both relative to the standard deviation of the full approach.
+        """
+        record = self.record(case)
+        reduced, stiff = (self.integrated(element, case, method) for method in (PAPER_METHOD, STIFF_METHOD))
+        if record is None or reduced is None or stiff is None:
+            return None
+        full = record.window(*record.default_window).approach
+        spread = float(np.std(full))
+
+        def rms(values: np.ndarray) -> float:
+            return float(np.sqrt(np.mean(values**2))) / spread
+
+        return {
+            "approach_rms": rms(reduced.approach - full),
+            "rk23_against_radau": rms(reduced.approach - stiff.approach),
+            "rk23_evaluations": reduced.evaluations,
+            "radau_evaluations": stiff.evaluations,
+        }

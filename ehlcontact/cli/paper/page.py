@@ -1,0 +1,98 @@
+"""One HTML page that holds the whole comparison, figures included, and its JSON twin."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from ehlcontact.cli.output import write_text
+from ehlcontact.cli.paper.data import CITATION
+from ehlcontact.cli.paper.figures import FIGURES, PaperFigure
+from ehlcontact.cli.paper.fits import Fits
+from ehlcontact.cli.paper.tables import Cell, Table
+from ehlcontact.cli.plots.style import embedded, styled
+from ehlcontact.version import __version__
+
+TEMPLATE = "reproduction.html.j2"
+
+
+@dataclass(frozen=True)
+class Reproduction:
+    """Tables and figures that were made."""
+
+    fits: Fits
+    tables: Sequence[Table]
+    figures: Sequence[PaperFigure]  # those whose simulations are there
+    missing: dict[int, str]  # figures that could not be drawn, and why
+    numbers: dict[int, dict[str, Any]]  # of the figures
+
+    @property
+    def failed(self) -> dict[str, str]:
+        """Simulations that did not converge, and why."""
+        return self.fits.runs.failed
+
+    def to_dict(self) -> dict[str, Any]:
+        """All numbers, ready for JSON."""
+        coarse, n = self.fits.runs.levels
+        return {
+            "status": "not converged" if self.failed else "converged",
+            "paper": CITATION,
+            "version": __version__,
+            "n": n,
+            "n_coarse": coarse,
+            "tables": {str(table.number): table.to_dict() for table in self.tables},
+            "figures": {
+                str(figure.number): {"caption": figure.caption, "numbers": self.numbers[figure.number]}
+                for figure in self.figures
+            },
+            "missing_figures": {str(number): why for number, why in self.missing.items()},
+            "failed": self.failed,
+            "seconds": {f"case {case}, n = {n}": run.seconds for (case, n), run in self.fits.runs.cases.items()},
+        }
+
+
+def draw_figures(numbers: Sequence[int], fits: Fits) -> tuple[list[PaperFigure], dict[int, str]]:
+    """The figures whose simulations are there, and why others are not."""
+    drawn, missing = [], {}
+    for number in numbers:
+        figure = FIGURES[number]
+        absent = [case for case in figure.cases if fits.runs.of(case) is None]
+        if absent:
+            missing[number] = "no simulation of case " + ", ".join(absent)
+        else:
+            drawn.append(figure)
+    return drawn, missing
+
+
+def write_page(found: Reproduction, path: Path) -> Path:
+    """Draw the figures and write the page; no other file is needed to read it."""
+    environment = Environment(
+        loader=PackageLoader("ehlcontact.cli.paper"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["cell"] = text_of
+    with styled():
+        images = {figure.number: embedded(figure.draw(found.fits)) for figure in found.figures}
+    page = environment.get_template(TEMPLATE).render(
+        found=found, images=images, citation=CITATION, version=__version__, levels=found.fits.runs.levels
+    )
+    write_text(path, page)
+    return path
+
+
+def text_of(value: Cell) -> str:
+    """A table cell in words: five significant digits, fewer for small errors."""
+    if value is None:
+        return ""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, int):
+        return str(value)
+    return f"{value:.5g}" if abs(value) >= 1e-3 or value == 0.0 else f"{value:.3e}"

@@ -1,0 +1,137 @@
+"""The simulations of the paper, each kept in one file of the output folder: an interrupted run resumes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TypeVar
+
+from ehlcontact.cli.output import progress
+from ehlcontact.cli.paper.cases import CASES, STATIC_LOADS, STATIC_OILS, Case
+from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.point import MoesPoint
+from ehlcontact.results import SimulationResult, SteadyResult
+from ehlcontact.status import Status
+from ehlcontact.steady import solve_steady
+from ehlcontact.storage import load, save
+from ehlcontact.transient.simulate import simulate
+from ehlcontact.version import __version__
+
+Kind = TypeVar("Kind", SimulationResult, SteadyResult)
+
+
+@dataclass
+class Runs:
+    """What has been computed; cases that did not converge are in ``failed``, with the reason."""
+
+    n: int
+    cases: dict[tuple[str, int], SimulationResult] = field(default_factory=dict)
+    static: dict[tuple[float, float], SteadyResult] = field(default_factory=dict)  # by (M, L)
+    failed: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def levels(self) -> tuple[int, int]:
+        """Intervals of the coarser and of the finer grid; both give the extrapolated values."""
+        return self.n // 2, self.n
+
+    def of(self, case: str) -> SimulationResult | None:
+        """The case on the finer grid, None if it failed."""
+        return self.cases.get((case, self.n))
+
+
+def compute(folder: Path, n: int, names: Iterable[str], coarse: Iterable[str], static: bool) -> Runs:
+    """Compute what is not in the folder yet.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the files.
+    n : int
+        Intervals along X.
+    names, coarse : iterable of str
+        Cases wanted on n intervals, and those also wanted on n/2.
+    static : bool
+        Whether the steady solves of Fig. 2 are wanted.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        After Ctrl-C; what was finished is in the folder.
+    """
+    runs = Runs(n)
+    wanted = [(CASES[name], n) for name in names] + [(CASES[name], n // 2) for name in coarse]
+    points = [MoesPoint(M, L, 1.0) for L in STATIC_OILS for M in STATIC_LOADS] if static else []
+    todo = len(wanted) + len(points)
+    for k, (case, level) in enumerate(wanted, start=1):
+        label = f"{k} of {todo}: {case.title}, n = {level}"
+        result = _simulated(folder / case.file(level), case, level, label)
+        if result.status.ok:
+            runs.cases[case.name, level] = result
+        else:
+            at = f"{result.status} at T = {float(result.T[-1]):.4g}" if result.T.size else str(result.status)
+            runs.failed[f"case {case.name}, n = {level}"] = f"{at}: {result.status.advice}"
+    for k, point in enumerate(points, start=len(wanted) + 1):
+        steady = _solved(folder, point, n, f"{k} of {todo}: steady film, M = {point.M:g}, L = {point.L:g}", runs)
+        if steady is not None:
+            runs.static[point.M, point.L] = steady
+    return runs
+
+
+def _simulated(path: Path, case: Case, n: int, label: str) -> SimulationResult:
+    kept = _stored(path, SimulationResult)
+    if kept is not None and _is(kept, case, n):
+        return kept
+    with progress(label) as update:
+        result = simulate(
+            case.point,
+            case.motion,
+            n=n,
+            domain=case.domain,
+            until=case.until,
+            snapshots=_until(case),
+            throw=False,
+            callback=update,
+        )
+    if result.status is Status.INTERRUPTED:
+        raise KeyboardInterrupt
+    if result.status.ok:
+        save(result, path)
+    return result
+
+
+def _until(case: Case) -> Sequence[float]:
+    end = case.motion.default_end if case.until is None else case.until
+    return [T for T in case.snapshots if T <= end * (1.0 + 1e-9)]
+
+
+def _is(kept: SimulationResult, case: Case, n: int) -> bool:
+    """Whether a stored result is the one wanted, made by this version."""
+    domain = kept.domain if case.domain is None else case.domain
+    wanted = (case.point, case.motion.to_dict(), n, domain, __version__, len(_until(case)))
+    found = (kept.point, kept.motion.to_dict(), kept.n, kept.domain, kept.version, kept.snapshot_T.size)
+    return wanted == found and kept.status.ok
+
+
+def _solved(folder: Path, point: MoesPoint, n: int, label: str, runs: Runs) -> SteadyResult | None:
+    path = folder / f"steady_M{point.M:g}_L{point.L:g}_n{n}.h5"
+    kept = _stored(path, SteadyResult)
+    if kept is not None and (kept.point, kept.n, kept.version) == (point, n, __version__):
+        return kept
+    try:
+        with progress(label):
+            result = solve_steady(point, n=n)
+    except ConvergenceError as error:
+        runs.failed[f"steady film, M = {point.M:g}, L = {point.L:g}"] = str(error)
+        return None
+    save(result, path)
+    return result
+
+
+def _stored(path: Path, kind: type[Kind]) -> Kind | None:
+    """What a file holds; None if there is none, or one that cannot be used."""
+    try:
+        found = load(path)
+    except InputError:
+        return None
+    return found if isinstance(found, kind) else None

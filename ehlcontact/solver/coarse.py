@@ -1,0 +1,158 @@
+"""Semismooth Newton with dense elasticity: the coarse-grid solver of the multigrid cycle.
+
+Unknowns are the pressures of the free nodes and the approach u, closed by the load or motion equation, so
+force balance is exact on the coarsest grid and needs no relaxation factor. Complementarity P >= 0 by the
+primal-dual active set: a node is free if P > 0 or if its residual asks for pressure.
+"""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import linalg
+
+from ehlcontact.solver.grid import Array, Level
+from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
+
+Nodes = NDArray[np.intp]
+
+LARGEST_STEP = 0.3  # of any pressure, or of u over its size where that is above 1, in one iteration
+SMALLEST_DAMPING = 2.0**-6
+CORRECTION_STEPS = 4  # of the coarsest grid in one cycle
+LARGEST_RENEWALS = 2  # of the factors in one cycle
+WORN_OUT = 0.3  # drop of the merit in one step above which factors are renewed
+CORRECTION_DROP = 1e-2  # of its residual, enough for one cycle
+
+
+@dataclass(frozen=True, slots=True)
+class Balance:
+    """The equation that closes a solve: ``stiffness * u + weight * force = rhs``.
+
+    Load balance is (0, 1, load), prescribed approach (1, 0, u), and a step of the equation of motion with
+    Newmark's rule has stiffness 4/(Omega_n dT)^2 and weight 1.
+    """
+
+    stiffness: float
+    weight: float
+    rhs: float
+
+    def residual(self, u: float, force: float) -> float:
+        """``rhs - stiffness u - weight force``."""
+        return self.rhs - self.stiffness * u - self.weight * force
+
+    def shifted(self, change: float) -> Balance:
+        """Return the same equation with `change` added to its right-hand side."""
+        return Balance(self.stiffness, self.weight, self.rhs + change)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Factors:
+    """LU factors of a bordered Jacobian, and what it was made for."""
+
+    lu: Any
+    free: Nodes
+    equation: tuple[float, float, float]  # time coefficient, balance stiffness and weight
+
+
+class CoarseNewton:
+    """Newton iterations on one level; keeps its work arrays and, between corrections, its last factors."""
+
+    def __init__(self, level: Level) -> None:
+        self.level = level
+        self.factors: Factors | None = None
+        self._number = np.empty(level.P.size, dtype=np.int64)
+
+    def solve(self, u: float, balance: Balance, max_steps: int, tol: float) -> float:
+        """Damped iterations from any start to ``merit <= tol`` or `max_steps`; P, H written, returns u."""
+        level = self.level
+        merit, free = self._evaluate(u, balance)
+        for _ in range(max_steps):
+            if not merit > tol:  # also stops on NaN, for the driver to judge
+                break
+            self.factors = self._factorise(free, balance)
+            dP, du, damping = self._direction(self.factors, free, balance, u)
+            start = level.P.copy()
+            while True:
+                level.P[...] = np.maximum(start + damping * dP, 0.0)
+                trial, free = self._evaluate(u + damping * du, balance)
+                if trial <= merit * (1.0 - 0.1 * damping) or trial <= tol or damping < SMALLEST_DAMPING:
+                    break
+                damping *= 0.5
+            u, merit = u + damping * du, trial
+        return u
+
+    def correct(self, u: float, balance: Balance) -> float:
+        """Few undamped steps near a solution; P and H written, returns u.
+
+        Old factors serve as long as they reduce the merit well. No line search here: nodes that come under
+        pressure add their residuals to the merit in the very step that brings the balance about, so it would
+        refuse good steps.
+        """
+        level = self.level
+        merit, free = self._evaluate(u, balance)
+        target = max(CORRECTION_DROP * merit, 1e-14)
+        equation = (level.c_t, balance.stiffness, balance.weight)
+        renewals = 0
+        for _ in range(CORRECTION_STEPS):
+            if not merit > target:
+                break
+            if self.factors is None or self.factors.equation != equation:
+                if renewals == LARGEST_RENEWALS:
+                    break
+                self.factors = self._factorise(free, balance)
+                renewals += 1
+            dP, du, damping = self._direction(self.factors, free, balance, u)
+            level.P[...] = np.maximum(level.P + damping * dP, 0.0)
+            u += damping * du
+            before = merit
+            merit, free = self._evaluate(u, balance)
+            if not merit < WORN_OUT * before:
+                self.factors = None
+        return u
+
+    def _evaluate(self, u: float, balance: Balance) -> tuple[float, Nodes]:
+        """Merit (rms residual over free nodes and balance residual) and the flat numbers of free nodes."""
+        level = self.level
+        r = level.update(u)
+        free = np.flatnonzero((level.P > 0.0) | (r < 0.0))
+        rms = float(np.sqrt(np.mean(r.ravel()[free] ** 2))) if free.size else 0.0
+        return rms + 3.0 * abs(balance.residual(u, level.force())), free
+
+    def _factorise(self, free: Nodes, balance: Balance) -> Factors:
+        """LU factors of the Jacobian over the free nodes, bordered by u and its balance."""
+        level, f = self.level, self.level.fields
+        m = free.size
+        J = np.empty((m + 1, m + 1))
+        linearise(f.P, f.flow, level.mesh, level.c_t, 1.0, f.p_coef, f.h_coef)
+        dense_jacobian(free, f.p_coef, f.h_coef, level.deflection.kernel, self._number, J)
+        J[m, :m] = balance.weight * level.force_weights.ravel()[free]
+        J[m, m] = balance.stiffness
+        with warnings.catch_warnings():  # a singular matrix gives infinities, which the driver reports
+            warnings.simplefilter("ignore", linalg.LinAlgWarning)
+            lu = linalg.lu_factor(J, overwrite_a=True, check_finite=False)
+        return Factors(lu, free, (level.c_t, balance.stiffness, balance.weight))
+
+    def _direction(self, factors: Factors, free: Nodes, balance: Balance, u: float) -> tuple[Array, float, float]:
+        """Newton direction in P and u, and the step length that keeps it within LARGEST_STEP.
+
+        Nodes that came under pressure after the factors were made are left to relaxation.
+        """
+        level = self.level
+        wanted = np.zeros(level.P.size, dtype=bool)
+        wanted[free] = True
+        rhs = np.append(
+            np.where(wanted[factors.free], level.r.ravel()[factors.free], 0.0), balance.residual(u, level.force())
+        )
+        solution = linalg.lu_solve(factors.lu, rhs, overwrite_b=True, check_finite=False)
+        dP = np.zeros_like(level.P)
+        dP.ravel()[factors.free] = solution[:-1]
+        return dP, float(solution[-1]), step_length(dP, float(solution[-1]), u)
+
+
+def step_length(dP: Array, du: float, u: float) -> float:
+    """Share of a Newton direction that keeps it within LARGEST_STEP."""
+    return LARGEST_STEP / max(float(np.abs(dP).max()), abs(du) / max(1.0, abs(u)), LARGEST_STEP)

@@ -1,0 +1,171 @@
+"""Grids: one `Level` holds the work arrays of one mesh, a hierarchy is a list of them, coarse to fine."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.hertz import shape_factor
+from ehlcontact.point import MoesPoint
+from ehlcontact.solver.deflection.elastic import Deflection
+from ehlcontact.solver.domain import Domain
+from ehlcontact.solver.kernels import boundary, relax, reynolds
+from ehlcontact.solver.kernels.linearise import NEIGHBOURS
+
+Array = NDArray[np.float64]
+
+FORCE_FACTOR = 1.5 / np.pi  # eq. 4: force = 3/(2 pi) iint P
+
+
+class Fields(NamedTuple):
+    """Work arrays of a level, each (ny + 1, nx + 1) unless stated; the kernels write them in place."""
+
+    P: Array
+    H: Array
+    flow: reynolds.Flow
+    theta: Array  # distribution weight of the relaxation
+    w: Array  # distributed change
+    p_coef: Array  # (6, ny + 1, nx + 1)
+    h_coef: Array  # (6, ny + 1, nx + 1)
+    band: Array  # (bandwidth, nx - 1 + PAD)
+    b: Array  # (nx - 1 + PAD,)
+
+
+class Level:
+    """One mesh of nx intervals along X and ny along Y >= 0, with its state P, H and its equations.
+
+    The equations are ``N(P, H) = rhs`` and ``H = film_rhs - u + gap + deflection(P)``; the right-hand sides
+    carry history terms on the finest level and the full-approximation corrections below it.
+    """
+
+    def __init__(self, point: MoesPoint, domain: Domain, nx: int, ny: int) -> None:
+        self.nx, self.ny = nx, ny
+        self.X = np.linspace(domain.x_in, domain.x_out, nx + 1)
+        self.Y = np.linspace(0.0, domain.y_max, ny + 1)
+        self.hx, self.hy = (domain.x_out - domain.x_in) / nx, domain.y_max / ny
+        self.cautious = False
+        self.set_point(point)
+        S = shape_factor(point.kappa)
+        self.gap = S * self.X**2 + (1.0 - S) * self.Y[:, None] ** 2
+        self.deflection = Deflection(nx, ny, self.hx, self.hy, point.kappa)
+        self.near, self.spread = _near_coefficients(self.deflection.kernel)
+        shape = (ny + 1, nx + 1)
+        self.fields = Fields(
+            P=np.zeros(shape),
+            H=np.zeros(shape),
+            flow=reynolds.Flow(*(np.zeros(shape) for _ in reynolds.Flow._fields)),
+            theta=np.zeros(shape),
+            w=np.zeros(shape),
+            p_coef=np.zeros((NEIGHBOURS, *shape)),
+            h_coef=np.zeros((NEIGHBOURS, *shape)),
+            band=np.zeros((relax.BAND_LOWER + relax.BAND_UPPER + 1, nx - 1 + relax.PAD)),
+            b=np.zeros(nx - 1 + relax.PAD),
+        )
+        self.rhs = np.zeros(shape)
+        self.film_rhs: Array | float = 0.0
+        self.c_t = 0.0
+        self.r = np.zeros(shape)  # residual of the Reynolds equation, zero on the border
+        self.marks = np.zeros(shape, dtype=np.uint8)
+        self.nodes = np.zeros(shape[0] * shape[1], dtype=np.int64)
+        self.force_weights = np.full(shape, 2.0 * FORCE_FACTOR * self.hx * self.hy)
+        self.force_weights[0] *= 0.5
+
+    def set_point(self, point: MoesPoint) -> None:
+        """Numbers that the kernels need at `point`, whose kappa must be that of the level."""
+        self.law = point.law
+        # On a mesh finer along X, smooth changes of P deflect the film further beyond the near coefficients.
+        # In a contact long along rolling the same P deflects it more too (kernel over hx goes like 1/K(kappa));
+        # that the value should rise like kappa itself is measured, not derived.
+        switch = relax.SWITCH * max(1.0, 0.5 * self.hy / (point.kappa * self.hx)) * max(1.0, point.kappa)
+        self.mesh = reynolds.Mesh(
+            cx=self.hx**-2,
+            cy=point.kappa**2 * self.hy**-2,
+            inv_hx=1.0 / self.hx,
+            lam=point.lam,
+            switch=switch * (relax.CAUTIOUS_SWITCH if self.cautious else 1.0),
+            damping=relax.CAUTIOUS_DAMPING if self.cautious else 0.0,
+        )
+
+    @property
+    def P(self) -> Array:
+        """Pressure."""
+        return self.fields.P
+
+    @property
+    def H(self) -> Array:
+        """Film thickness."""
+        return self.fields.H
+
+    def force(self) -> float:
+        """Film force ``3/(2 pi) iint P`` (eq. 4)."""
+        return float(np.vdot(self.force_weights, self.fields.P))
+
+    def update_film(self, u: float) -> None:
+        """H from P and the approach u (eq. 3)."""
+        np.add(self.gap, self.film_rhs - u, out=self.fields.H)
+        self.fields.H[...] += self.deflection(self.fields.P)
+
+    def update(self, u: float) -> Array:
+        """Film, flow and residual from P and the approach u; returns ``self.r``."""
+        self.update_film(u)
+        return self.update_residual()
+
+    def update_residual(self) -> Array:
+        """Flow and residual ``rhs - N(P, H)`` from P and H; returns ``self.r``."""
+        f = self.fields
+        reynolds.update_flow(f.P, f.H, self.law, self.mesh, f.flow)
+        reynolds.residual(f.P, f.flow, self.mesh, self.c_t, self.rhs, self.r)
+        return self.r
+
+    def density(self) -> Array:
+        """Density at the present P, over ambient density."""
+        f = self.fields
+        reynolds.update_flow(f.P, f.H, self.law, self.mesh, f.flow)
+        return f.flow.rho
+
+    def transport(self, content: Array, history: Array) -> Array:
+        """Discrete ``d(content)/dX + d(content)/dT``; `history` is the known part of the latter, as in `rhs`."""
+        change = np.zeros_like(content)
+        reynolds.transport(content, self.mesh, self.c_t, history, change)
+        return change
+
+    def residual_norm(self) -> float:
+        """Mean of |r| over the nodes of the whole domain with P > 0, from the last `update`."""
+        wet = self.force_weights * (self.fields.P > 0.0)
+        total = float(wet.sum())
+        return float(np.vdot(wet, np.abs(self.r))) / total if total > 0.0 else 0.0
+
+    def relax(self) -> None:
+        """One relaxation sweep from the state of the last `update`; P written, the rest left to the next one."""
+        f, mesh = self.fields, self.mesh
+        relax.relax_lines(f, self.rhs, self.law, mesh, self.c_t, self.near, self.spread)
+        own = self.near[0, 0]
+        boundary.relax_boundary(f.P, f.H, f.flow, self.rhs, self.law, mesh, self.c_t, own, self.nodes, self.marks)
+
+    def set_dry_hertz(self) -> None:
+        """Dry Hertz pressure, the start of every solve."""
+        self.fields.P[...] = np.sqrt(np.maximum(0.0, 1.0 - self.X**2 - self.Y[:, None] ** 2))
+
+
+def build_hierarchy(point: MoesPoint, domain: Domain, n: int, coarsest: int) -> list[Level]:
+    """Levels coarse to fine, halving n while at least `coarsest` intervals are left."""
+    halvings = 0
+    while (n >> halvings) % 2 == 0 and (n >> (halvings + 1)) >= coarsest:
+        halvings += 1
+    hx = (domain.x_out - domain.x_in) / n
+    # hy as near to hx as the halvings allow, but physically no finer: relaxation by lines along X fails where the
+    # lines lie closer together than their nodes
+    hy = hx * max(1.0, point.kappa)
+    ny = max(4, round(domain.y_max / hy / 2**halvings)) * 2**halvings
+    return [Level(point, domain, n >> k, ny >> k) for k in range(halvings, -1, -1)]
+
+
+def _near_coefficients(kernel: Array) -> tuple[Array, Array]:
+    """Near influence coefficients by lag, and their means over the four neighbours of the source."""
+    size = relax.NEAR + 1
+    lag = np.abs(np.arange(-1, size + 1))
+    k = kernel[np.ix_(lag, lag)]
+    spread = relax.SHARE * (k[:-2, 1:-1] + k[2:, 1:-1] + k[1:-1, :-2] + k[1:-1, 2:])
+    return np.ascontiguousarray(kernel[:size, :size]), np.ascontiguousarray(spread)

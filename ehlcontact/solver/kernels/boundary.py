@@ -1,0 +1,87 @@
+"""Projected point Gauss-Seidel along the cavitation boundary.
+
+Line relaxation with clipping leaves residuals on the last lines before the free boundary, where P is tiny:
+the second stall of the classical scheme, besides the switch line. A few local passes at frozen film remove
+them. Only where flow through the gap dominates: elsewhere the film answers to the pressure at once, and a
+frozen film makes these passes diverge.
+"""
+
+from ehlcontact.solver.kernels.jit import jit, jit_node
+from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
+from ehlcontact.solver.kernels.reynolds import operator_at, update_across, update_along, update_node
+
+PASSES = 4
+REACH = 3  # nodes on either side of the boundary
+MARKED, UPDATED = 1, 2
+DOMINANCE = 3.0  # flow term over wedge term
+SQUEEZE_DOMINANCE = 30.0  # flow term over squeeze term
+
+
+@jit
+def mark_boundary(P, marks):
+    """Mark the nodes within REACH of a change between P > 0 and P = 0; `marks` (bytes) written, 0 elsewhere."""
+    ny, nx = P.shape[0] - 1, P.shape[1] - 1
+    marks[:] = 0
+    for j in range(ny):
+        for i in range(1, nx):
+            wet = P[j, i] > 0.0
+            east = i + 1 < nx and (P[j, i + 1] > 0.0) != wet
+            north = j + 1 < ny and (P[j + 1, i] > 0.0) != wet
+            if east or north:
+                for jj in range(max(j - REACH, -REACH), min(j + REACH + 1, ny - 1) + 1):
+                    for ii in range(max(i - REACH, 1), min(i + REACH + 1, nx - 1) + 1):
+                        marks[abs(jj), ii] = MARKED
+
+
+@jit_node
+def total_flow(j, i, flow, mesh):
+    """Sum of the four couplings of one node."""
+    face = j - 1 if j > 0 else 0
+    along = flow.along[j, i - 1] + flow.along[j, i]
+    return mesh.cx * along + mesh.cy * (flow.across[face, i] + flow.across[j, i])
+
+
+@jit
+def update_marked(P, H, law, mesh, flow, marks):
+    """Flow at marked nodes, their neighbours and the faces between; `marks` of the neighbours become UPDATED."""
+    for j in range(P.shape[0] - 1):
+        for i in range(1, P.shape[1] - 1):
+            if marks[j, i] == MARKED:
+                update_node(j, i, P, H, law, mesh, flow)
+                for q in range(1, NEIGHBOURS):
+                    jq, iq = neighbour(q, j, i)
+                    if iq >= 0 and marks[jq, iq] == 0:
+                        update_node(jq, iq, P, H, law, mesh, flow)
+                        marks[jq, iq] = UPDATED
+    for j in range(P.shape[0] - 1):
+        for i in range(1, P.shape[1] - 1):
+            if marks[j, i] == MARKED:
+                update_along(j, i - 1, flow)
+                update_along(j, i, flow)
+                update_across(j - 1 if j > 0 else 0, i, flow)
+                update_across(j, i, flow)
+
+
+@jit
+def relax_boundary(P, H, flow, rhs, law, mesh, c_t, self_deflection, nodes, marks):
+    """Relax P near the cavitation boundary at frozen film and flow.
+
+    `P` and, there, `flow` are written; `nodes`, `marks` are work space.
+    """
+    width = P.shape[1]
+    mark_boundary(P, marks)
+    update_marked(P, H, law, mesh, flow, marks)
+    transport = DOMINANCE * 1.5 * mesh.inv_hx + SQUEEZE_DOMINANCE * c_t
+    count = 0
+    for j in range(P.shape[0] - 1):
+        for i in range(1, width - 1):
+            if marks[j, i] == MARKED and total_flow(j, i, flow, mesh) > transport * self_deflection:
+                nodes[count] = j * width + i
+                count += 1
+    for sweep in range(PASSES):
+        for s in range(count):
+            node = nodes[s] if sweep % 2 == 0 else nodes[count - 1 - s]
+            j, i = node // width, node % width
+            own = total_flow(j, i, flow, mesh) + (1.5 * mesh.inv_hx + c_t) * self_deflection
+            res = rhs[j, i] - operator_at(j, i, P, flow, mesh, c_t)
+            P[j, i] = max(P[j, i] - res / own, 0.0)

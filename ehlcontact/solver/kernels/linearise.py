@@ -1,0 +1,110 @@
+"""Derivatives of the discrete Reynolds operator; `reynolds.operator_at` is the operator itself.
+
+``dN_k = sum_q p_coef[q, k] dP_q + sum_q h_coef[q, k] dH_q`` over the neighbours q of node k, numbered
+C, W, E, S, N, WW. The elastic part ``dH = -du + K dP`` is left to the caller: transforms, dense or truncated.
+"""
+
+from ehlcontact.solver.kernels.jit import jit, jit_node
+
+NEIGHBOURS = 6
+
+
+@jit
+def neighbour(q, j, i):
+    """Line and column of neighbour q of node (j, i); the line below the symmetry line is its image."""
+    if q == 1:
+        return j, i - 1
+    if q == 2:
+        return j, i + 1
+    if q == 3:
+        return (j - 1 if j > 0 else 1), i
+    if q == 4:
+        return j + 1, i
+    if q == 5:
+        return j, i - 2
+    return j, i
+
+
+@jit_node
+def _face(flow, jq, iq, coupling, mean, skew, drop):
+    """Flow from neighbour (jq, iq): coupling, derivatives to ln(eps) of the node, to P and H of the neighbour."""
+    other = drop * coupling * (0.5 * mean - skew)
+    a = coupling * mean
+    own = drop * coupling * (0.5 * mean + skew)
+    return a, own, a + other * flow.eps_slope[jq, iq], other * flow.film_slope[jq, iq]
+
+
+@jit_node
+def linearise_at(j, i, P, flow, mesh, c_t, share):
+    """Derivatives at one interior node: six to P, then six to H; `share` is `flow_slope` of `linearise`."""
+    js, face, side = (j - 1, j - 1, -1.0) if j > 0 else (1, 0, 1.0)  # the line below line 0 is its image
+    p, cx, cy = P[j, i], mesh.cx, mesh.cy
+    along, skew, across, slant = flow.along, flow.along_skew, flow.across, flow.across_skew
+    aw, dw, pw, hw = _face(flow, j, i - 1, cx, along[j, i - 1], -skew[j, i - 1], share * (P[j, i - 1] - p))
+    ae, de, pe, he = _face(flow, j, i + 1, cx, along[j, i], skew[j, i], share * (P[j, i + 1] - p))
+    as_, ds, ps, hs = _face(flow, js, i, cy, across[face, i], side * slant[face, i], share * (P[js, i] - p))
+    an, dn, pn, hn = _face(flow, j + 1, i, cy, across[j, i], slant[j, i], share * (P[j + 1, i] - p))
+    # the wedge term of `reynolds.transport_at`
+    if i > 1:
+        c0, c1, c2, c5 = 0.5 * mesh.inv_hx, -mesh.inv_hx, mesh.inv_hx / 3.0, mesh.inv_hx / 6.0
+        pww, hww = -c5 * flow.mass_slope[j, i - 2], -c5 * flow.rho[j, i - 2]
+    else:
+        c0, c1, c2 = 0.0, -0.5 * mesh.inv_hx, 0.5 * mesh.inv_hx
+        pww, hww = 0.0, 0.0
+    c0 += c_t
+    jumps = dw + de + ds + dn
+    pc = jumps * flow.eps_slope[j, i] - (aw + ae + as_ + an) - c0 * flow.mass_slope[j, i]
+    hc = jumps * flow.film_slope[j, i] - c0 * flow.rho[j, i]
+    pw -= c1 * flow.mass_slope[j, i - 1]
+    hw -= c1 * flow.rho[j, i - 1]
+    pe -= c2 * flow.mass_slope[j, i + 1]
+    he -= c2 * flow.rho[j, i + 1]
+    return pc, pw, pe, ps, pn, pww, hc, hw, he, hs, hn, hww
+
+
+@jit
+def linearise(P, flow, mesh, c_t, flow_slope, p_coef, h_coef):
+    """Derivatives at all interior nodes; `p_coef` and `h_coef`, both (6, ny+1, nx+1), written.
+
+    `flow_slope` is the share of the derivatives of the flow factor eps that is taken: 1 is Newton's
+    linearisation, 0 takes eps as given (Picard).
+    """
+    for j in range(P.shape[0] - 1):
+        for i in range(1, P.shape[1] - 1):
+            derivatives = linearise_at(j, i, P, flow, mesh, c_t, flow_slope)
+            for q in range(NEIGHBOURS):
+                p_coef[q, j, i] = derivatives[q]
+                h_coef[q, j, i] = derivatives[NEIGHBOURS + q]
+
+
+@jit
+def dense_jacobian(free, p_coef, h_coef, kernel, number, J):
+    """Jacobian over the free interior nodes with full elasticity; `J` written, its column m is dN/du.
+
+    `free` (m,) lists flat node numbers ``j (nx + 1) + i``; `kernel` holds the influence coefficients by lag;
+    `number` is work space for one integer per node.
+    """
+    width = p_coef.shape[2]
+    m = free.shape[0]
+    lines, columns = free // width, free % width
+    number[:] = -1
+    for c in range(m):
+        number[free[c]] = c
+    for r in range(m):
+        j, i = lines[r], columns[r]
+        J[r, : m + 1] = 0.0
+        for q in range(NEIGHBOURS):
+            h = h_coef[q, j, i]
+            p = p_coef[q, j, i]
+            if h == 0.0 and p == 0.0:
+                continue
+            jq, iq = neighbour(q, j, i)
+            J[r, m] -= h
+            for c in range(m):
+                lag = abs(iq - columns[c])
+                k = kernel[abs(jq - lines[c]), lag]
+                if lines[c] > 0:  # the image at Y < 0
+                    k += kernel[jq + lines[c], lag]
+                J[r, c] += h * k
+            if number[jq * width + iq] >= 0:
+                J[r, number[jq * width + iq]] += p

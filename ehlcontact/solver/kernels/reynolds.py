@@ -1,0 +1,127 @@
+"""The discrete Reynolds equation (eq. 1): flow factor, operator and residual.
+
+Fields are (ny + 1, nx + 1) with ``P[j, i]``, i along X, j along Y >= 0, so that a line of relaxation is
+contiguous. Line j = 0 is the symmetry line; j = ny, i = 0 and i = nx carry P = 0. The operator
+
+    N(P, H) = d/dX(eps dP/dX) + kappa^2 d/dY(eps dP/dY) - d(rho H)/dX - c_t rho H,   eps = rho H^3/(eta lambda)
+
+has eps averaged to half nodes (`mean`), the wedge term third-order upstream-biased (two thirds central, one third
+second-order upstream; central on the first line), and ``c_t rho H`` as the implicit part of the squeeze term.
+After Venner and Lubrecht (2000), ch. 6, whose arithmetic mean and second-order upstream wedge leave an error of
+the film ten to thirty times larger on the same grid.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+from ehlcontact.solver.kernels.jit import jit, jit_node
+from ehlcontact.solver.kernels.laws import density, log_viscosity
+from ehlcontact.solver.kernels.mean import flow_mean
+
+FILM_FLOOR = 1e-8  # where iterates overlap; keeps eps > 0 without touching any converged film
+
+
+class Mesh(NamedTuple):
+    """Numbers of one grid that the kernels need."""
+
+    cx: float  # 1/hx^2
+    cy: float  # kappa^2/hy^2
+    inv_hx: float  # 1/hx
+    lam: float  # Reynolds coefficient lambda
+    switch: float  # eps/hx^2 at which both relaxations have equal parts, in steady flow
+    damping: float  # share by which distributed changes are cut; 0 mostly
+
+
+class Flow(NamedTuple):
+    """What the equations take from P and H, with derivatives: arrays (ny + 1, nx + 1) at nodes or half nodes.
+
+    Half nodes carry the index of the node before them; the mean and skew of `mean.flow_mean` are kept there,
+    because roots and divisions are what an evaluation costs.
+    """
+
+    eps: Any  # flow factor
+    eps_slope: Any  # d ln(eps)/dP at fixed H
+    film_slope: Any  # d ln(eps)/dH
+    mass: Any  # rho H
+    mass_slope: Any  # d(rho H)/dP at fixed H
+    rho: Any  # density
+    along: Any  # mean of eps between i and i + 1
+    along_skew: Any
+    across: Any  # mean of eps between j and j + 1
+    across_skew: Any
+
+
+@jit_node
+def update_node(j, i, P, H, law, mesh, flow):
+    """What `flow` holds at one node."""
+    rho, rho_slope = density(P[j, i], law)
+    thickness, thickness_slope = log_viscosity(P[j, i], law)
+    h = max(H[j, i], FILM_FLOOR)
+    flow.eps[j, i] = rho * h * h * h * math.exp(-thickness) / mesh.lam
+    flow.eps_slope[j, i] = rho_slope / rho - thickness_slope
+    flow.film_slope[j, i] = 3.0 / h
+    flow.mass[j, i] = rho * H[j, i]
+    flow.mass_slope[j, i] = rho_slope * H[j, i]
+    flow.rho[j, i] = rho
+
+
+@jit_node
+def update_along(j, i, flow):
+    """Mean and skew between nodes i and i + 1."""
+    flow.along[j, i], flow.along_skew[j, i] = flow_mean(flow.eps[j, i], flow.eps[j, i + 1])
+
+
+@jit_node
+def update_across(j, i, flow):
+    """Mean and skew between nodes j and j + 1."""
+    flow.across[j, i], flow.across_skew[j, i] = flow_mean(flow.eps[j, i], flow.eps[j + 1, i])
+
+
+@jit
+def update_flow(P, H, law, mesh, flow):
+    """All of `flow` from P and H."""
+    ny, nx = P.shape[0] - 1, P.shape[1] - 1
+    for j in range(ny + 1):
+        for i in range(nx + 1):
+            update_node(j, i, P, H, law, mesh, flow)
+        for i in range(nx):
+            update_along(j, i, flow)
+        if j > 0:
+            for i in range(nx + 1):
+                update_across(j - 1, i, flow)
+
+
+@jit_node
+def transport_at(j, i, mass, mesh, c_t):
+    """``d(mass)/dX + c_t mass`` at one interior node."""
+    if i > 1:
+        change = 2.0 * mass[j, i + 1] + 3.0 * mass[j, i] - 6.0 * mass[j, i - 1] + mass[j, i - 2]
+    else:
+        change = 3.0 * (mass[j, i + 1] - mass[j, i - 1])
+    return mesh.inv_hx / 6.0 * change + c_t * mass[j, i]
+
+
+@jit_node
+def operator_at(j, i, P, flow, mesh, c_t):
+    """N(P, H) at one interior node."""
+    below, face = (j - 1, j - 1) if j > 0 else (1, 0)  # the line below the symmetry line is its image
+    p = P[j, i]
+    along = flow.along[j, i] * (P[j, i + 1] - p) + flow.along[j, i - 1] * (P[j, i - 1] - p)
+    across = flow.across[j, i] * (P[j + 1, i] - p) + flow.across[face, i] * (P[below, i] - p)
+    return mesh.cx * along + mesh.cy * across - transport_at(j, i, flow.mass, mesh, c_t)
+
+
+@jit
+def residual(P, flow, mesh, c_t, rhs, out):
+    """``rhs - N(P, H)`` at all interior nodes; `out` written, its boundary left alone."""
+    for j in range(P.shape[0] - 1):
+        for i in range(1, P.shape[1] - 1):
+            out[j, i] = rhs[j, i] - operator_at(j, i, P, flow, mesh, c_t)
+
+
+@jit
+def transport(mass, mesh, c_t, known, out):
+    """``d(mass)/dX + c_t mass + known`` at all interior nodes; `out` written, its boundary left alone."""
+    for j in range(mass.shape[0] - 1):
+        for i in range(1, mass.shape[1] - 1):
+            out[j, i] = known[j, i] + transport_at(j, i, mass, mesh, c_t)

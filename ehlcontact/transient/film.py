@@ -1,0 +1,205 @@
+"""Transient film: implicit second-order steps of Reynolds, film and motion, each solved by multigrid.
+
+The squeeze term is differenced backwards over two steps (BDF2, variable step); the motion follows Newmark's
+rule with beta = 1/4, gamma = 1/2, evaluated inside the multigrid cycle through its `Balance`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+
+from ehlcontact.point import MoesPoint
+from ehlcontact.solver.coarse import Balance, Factors
+from ehlcontact.solver.domain import Domain
+from ehlcontact.solver.grid import Array, Level
+from ehlcontact.solver.multigrid import Multigrid
+from ehlcontact.status import Status, classify
+from ehlcontact.steady import central_film, judge
+from ehlcontact.transient.surface import SurfaceStep
+
+STEP_CYCLES = 25
+SMALLEST_SCALE = 0.01  # of the residuals, in dry approaches
+LARGEST_EXTRAPOLATION = 2.0  # step ratio up to which past pressures predict the next
+NEGLIGIBLE_FORCE = 0.01  # below which it does not matter what the border cuts off, unless a load is to be carried
+CHANGE_SHARE = 1.0 / 30.0  # of the tolerance, for changes of u and force: they are means over the field
+
+
+@dataclass(frozen=True, slots=True)
+class FilmState:
+    """Everything a film remembers between steps; immutable, so saving it costs one copy of the pressure."""
+
+    P: Array
+    past: tuple[tuple[float, Array], ...]  # step that followed, and pressure, latest first
+    mass: Array  # rho H
+    mass_before: Array
+    u: float
+    dT: float  # the step that led here
+    surface: Array | float
+    factors: Factors | None  # of the coarsest grid; immutable, so the reference is enough
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """Outcome of one time step."""
+
+    residual: float  # mean |residual| over P > 0, relative to the central film at rest
+    load_residual: float
+    cycles: int
+    status: Status
+
+
+class TransientFilm:
+    """A film that can be advanced in time, starting from a steady state at rest.
+
+    Parameters
+    ----------
+    point : MoesPoint
+    domain : Domain
+    n : int
+        Intervals along X.
+    tol : float
+        Residual at which a step counts as solved, relative to the central film at rest: the size of the
+        transport term d(rho H)/dX.
+    """
+
+    def __init__(self, point: MoesPoint, domain: Domain, n: int, tol: float) -> None:
+        self.multigrid = Multigrid(point, domain, n)
+        self.tol = tol
+        self.scale = 1.0
+        self._past: tuple[tuple[float, Array], ...] = ()
+        self._mass = self.level.P.copy()
+        self._mass_before = self._mass.copy()
+        self._dT = 0.0
+
+    @property
+    def level(self) -> Level:
+        """Finest level, holding P and H."""
+        return self.multigrid.finest
+
+    @property
+    def u(self) -> float:
+        """Mutual approach."""
+        return self.multigrid.u
+
+    def start_steady(self, balance: Balance, u: float | None = None, surface: Array | float = 0.0) -> Step:
+        """Solve the steady film over a resting `surface` and make it the state for all T <= 0."""
+        mg = self.multigrid
+        mg.set_time_coefficient(0.0)
+        if u is not None:
+            mg.u = u
+        mg.full_multigrid(balance)
+        self.level.film_rhs = surface
+        self.level.update_film(mg.u)
+        # full multigrid may still overlap in the centre
+        self.scale = max(central_film(self.level), SMALLEST_SCALE)
+        step = self._solve(balance, 2 * STEP_CYCLES)
+        self._mass = self.level.fields.flow.mass.copy()
+        self._mass_before = self._mass
+        self.forget_past()
+        return step
+
+    def forget_past(self) -> None:
+        """Begin anew from here, as after rest: what moves the film is about to change its slope."""
+        self._past = ()
+        self._dT = 0.0
+
+    @property
+    def last_step(self) -> float:
+        """Length of the step that led here; 0 from rest."""
+        return self._dT
+
+    def advance(self, dT: float, balance: Balance, u_guess: float, surface: SurfaceStep | None = None) -> Step:
+        """One step of length dT, closed by `balance`; the state moves to the end of the step.
+
+        `surface` holds the features on the surfaces, over this step and the one of length `last_step` before.
+        """
+        level, mg = self.level, self.multigrid
+        # From rest or a corner the past is not smooth: the first step is backward Euler, the limit ratio = 0.
+        ratio = dT / self._dT if self._dT > 0.0 else 0.0
+        mg.set_time_coefficient((1.0 + 2.0 * ratio) / (1.0 + ratio) / dT)
+        level.rhs[...] = _known(dT, ratio, self._mass, self._mass_before)
+        level.film_rhs = 0.0 if surface is None else surface.height
+        past = self._past
+        P_now = level.P.copy()
+        if past and ratio <= LARGEST_EXTRAPOLATION:
+            level.P[...] = np.maximum(extrapolate(dT, P_now, past), 0.0) * (P_now > 0.0)
+        if surface is not None:
+            # A feature much deeper than the film is carried exactly: the differences would leave a multiple of
+            # its fourth derivative as a source, which eats up the film at its rim.
+            known = _known(dT, ratio, surface.before, surface.earlier)
+            level.rhs -= level.density() * (level.transport(surface.height, known) - surface.rate)
+        mg.u = u_guess
+        step = self._solve(balance, STEP_CYCLES)
+        self._past = ((dT, P_now), *past[:1])
+        self._mass_before, self._mass = self._mass, level.fields.flow.mass.copy()
+        self._dT = dT
+        return step
+
+    def _solve(self, balance: Balance, max_cycles: int) -> Step:
+        """Cycle until the residual, the balance and the last changes of u and force are below tolerance."""
+        level, mg = self.level, self.multigrid
+        residuals: list[float] = []
+        status, settled, load_residual = None, False, 0.0
+        force = np.inf
+        small = CHANGE_SHARE * self.tol
+        while status is None:
+            previous = mg.u, force
+            if residuals:
+                mg.cycle(balance)
+            else:
+                level.update(mg.u)
+            force = level.force()
+            settled = abs(mg.u - previous[0]) < small and abs(force - previous[1]) < small
+            residuals.append(level.residual_norm())
+            load_residual = balance.residual(mg.u, force)
+            if not isfinite(load_residual):
+                status = Status.NONFINITE
+                break
+            settled = settled and abs(load_residual) < 0.1 * small * max(1.0, balance.stiffness)
+            status = classify(residuals, self.scale, self.tol, settled, max_cycles)
+        status = judge(status, level)
+        if status is Status.OUT_OF_DOMAIN and balance.stiffness > 0.0 and force < NEGLIGIBLE_FORCE:
+            status = Status.CONVERGED  # bodies that come back after a separation squeeze a film beyond any domain
+        return Step(residuals[-1] / self.scale, load_residual, len(residuals) - 1, status)
+
+    def save_state(self) -> FilmState:
+        """Everything needed to come back here."""
+        # mass arrays are replaced, never written, by advance: no copy needed
+        return FilmState(
+            P=self.level.P.copy(),
+            past=self._past,
+            mass=self._mass,
+            mass_before=self._mass_before,
+            u=self.u,
+            dT=self._dT,
+            surface=self.level.film_rhs,
+            factors=self.multigrid.newton.factors,
+        )
+
+    def restore_state(self, state: FilmState) -> None:
+        """Return to a saved state."""
+        self.level.P[...] = state.P
+        self._past, self._mass, self._mass_before = state.past, state.mass, state.mass_before
+        self.multigrid.u, self._dT = state.u, state.dT
+        self.level.film_rhs = state.surface
+        self.multigrid.newton.factors = state.factors
+        self.level.update_film(state.u)
+
+
+def _known(dT: float, ratio: float, now: Array, before: Array) -> Array:
+    """Part of the backward difference in time that is known at the beginning of the step."""
+    return before * (ratio * ratio / (1.0 + ratio) / dT) - now * ((1.0 + ratio) / dT)
+
+
+def extrapolate(dT: float, now: Array, past: tuple[tuple[float, Array], ...]) -> Array:
+    """Pressure `dT` ahead: polynomial through `now` and one or two past pressures with the steps from them."""
+    first, before = past[0]
+    slope = (now - before) / first
+    if len(past) == 1:
+        return now + dT * slope
+    second, earlier = past[1]
+    curvature = (slope - (before - earlier) / second) / (first + second)
+    return now + dT * slope + dT * (dT + first) * curvature

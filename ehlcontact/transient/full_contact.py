@@ -1,0 +1,105 @@
+"""The full EHL contact as a force element: same interface as a reduced element, whole film inside."""
+
+from __future__ import annotations
+
+from ehlcontact.errors import ConvergenceError, require_finite, require_positive
+from ehlcontact.point import Point, moes_point
+from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.domain import Domain, check_domain
+from ehlcontact.solver.resolution import moving_intervals
+from ehlcontact.status import Status
+from ehlcontact.steady import central_film, minimum_film
+from ehlcontact.transient.film import FilmState, Step, TransientFilm
+
+FEWEST_INTERVALS = 80
+
+
+class FullContact:
+    """Transient EHL contact driven by its approach, for a rotor or any other time integrator.
+
+    It starts at rest, steady under load 1. Everything is dimensionless: approach in dry approaches, force in
+    static loads, time in 2a/u_sum; ``reduced_models.ScaledContact`` wraps it in SI units.
+
+    Parameters
+    ----------
+    point : MoesPoint or OperatingPoint
+    n : int, optional
+        Intervals along X, a multiple of 16; by default as many as the inlet needs, 80 or more.
+    domain : Domain, optional
+        Computed region; give `largest_load` instead if the load will rise.
+    largest_load : float
+        Largest force to expect, in static loads.
+    tol : float
+        Residual at which a step counts as solved; see `simulate`.
+
+    Raises
+    ------
+    InputError
+        An argument outside its range.
+    ConvergenceError
+        The steady state at the start did not converge.
+    """
+
+    def __init__(
+        self,
+        point: Point,
+        *,
+        n: int | None = None,
+        domain: Domain | None = None,
+        largest_load: float = 1.0,
+        tol: float = 3e-3,
+    ) -> None:
+        self.point = moes_point(point)
+        self.domain = check_domain(domain, self.point, require_positive("largest_load", largest_load))
+        self.n = moving_intervals(n, self.point, self.domain, FEWEST_INTERVALS)
+        self._film = TransientFilm(self.point, self.domain, self.n, require_positive("tol", tol))
+        self._check(self._film.start_steady(Balance(0.0, 1.0, 1.0)))
+        self.static_approach = self._film.u
+        self.force = self._film.level.force()
+
+    def advance(self, dt: float, approach: float, rate: float = 0.0) -> float:
+        """Move to `approach` within `dt` and return the force at the end of the step.
+
+        The film equations need the approach at both ends only; `rate` belongs to the common interface of
+        contacts and is not used.
+
+        Raises
+        ------
+        InputError
+            dt not positive, or approach not finite.
+        ConvergenceError
+            The step was not solved; ``error.result`` is the `Step`, and the contact is left unchanged.
+        """
+        dt = require_positive("dt", dt)
+        u = require_finite("approach", approach)
+        state = self._film.save_state()
+        try:
+            self._check(self._film.advance(dt, Balance(1.0, 0.0, u), u))
+        except ConvergenceError:
+            self._film.restore_state(state)
+            raise
+        self.force = self._film.level.force()
+        return self.force
+
+    @property
+    def h_central(self) -> float:
+        """Film at the centre of the contact."""
+        return central_film(self._film.level)
+
+    @property
+    def h_min(self) -> float:
+        """Smallest film."""
+        return minimum_film(self._film.level)
+
+    def save_state(self) -> FilmState:
+        """Everything needed to come back to the present."""
+        return self._film.save_state()
+
+    def restore_state(self, state: FilmState) -> None:
+        """Return to a saved state."""
+        self._film.restore_state(state)
+        self.force = self._film.level.force()
+
+    def _check(self, step: Step) -> None:
+        if step.status is not Status.CONVERGED:
+            raise ConvergenceError(f"EHL step {step.status}: {step.status.advice}", step)

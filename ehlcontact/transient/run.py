@@ -1,0 +1,205 @@
+"""A simulation under way: film and motion advanced together, in fixed or in controlled steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from ehlcontact.solver.coarse import Balance
+from ehlcontact.status import Status
+from ehlcontact.transient.film import FilmState, TransientFilm
+from ehlcontact.transient.motion import FreeVibration, Motion, PrescribedApproach
+from ehlcontact.transient.record import Entry, History, MotionState
+from ehlcontact.transient.step import StepControl, difference, local_error, longest_step, next_time, shortest_step
+from ehlcontact.transient.surface import Surface, surface_height, surface_step
+
+HOPELESS = (Status.OUT_OF_DOMAIN, Status.UNRESOLVED)  # no shorter step mends these
+RESTART_CUT = 0.25  # of the step, where the motion turns a corner
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """How a run ended, and what to say about the time step."""
+
+    status: Status
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Kept:
+    """Last sound state of a run; its motion is that of the last of its entries."""
+
+    film: FilmState
+    entries: int
+    control: StepControl | None
+
+
+class Run:
+    """Film, motion and record of one simulation, and the last sound state: `kept`.
+
+    `control` is None in fixed steps; `watch` is called after every step kept.
+    """
+
+    def __init__(
+        self,
+        film: TransientFilm,
+        motion: Motion,
+        surface: Surface | None,
+        history: History,
+        control: StepControl | None,
+        watch: Callable[[Run], None],
+    ) -> None:
+        self.film, self.motion, self.surface = film, motion, surface
+        self.history, self.control = history, control
+        self.static_approach = film.u
+        self._watch = watch
+        self.state: MotionState
+        self.kept: Kept
+
+    def start(self) -> Status:
+        """Static state, then the state the motion starts from, with the acceleration that its force gives."""
+        film, motion = self.film, self.motion
+        G = surface_height(self.surface, film.level.X, film.level.Y, 0.0)
+        step = film.start_steady(Balance(0.0, 1.0, 1.0), surface=G)
+        static = self.static_approach = film.u
+        rate = 0.0
+        if isinstance(motion, PrescribedApproach):
+            rate = motion.rate(0.0)
+            if step.status.ok:
+                u = motion.approach(0.0)
+                step = film.start_steady(Balance(1.0, 0.0, u), u, G)
+        elif isinstance(motion, FreeVibration):
+            rate = motion.initial_rate
+            if step.status.ok and motion.offset != 0.0:
+                u = static + motion.offset
+                step = film.start_steady(Balance(1.0, 0.0, u), u, G)
+        elif step.status.ok and motion.load(0.0) != 1.0:
+            step = film.start_steady(Balance(0.0, 1.0, motion.load(0.0)), static, G)
+        force = film.level.force()
+        load = force if isinstance(motion, PrescribedApproach) else motion.load(0.0)
+        acceleration = motion.omega_n**2 * (load - force) if motion.omega_n else 0.0
+        self.state = MotionState(0.0, film.u, rate, acceleration)
+        self.keep(Entry.of(film, self.state, load, step))
+        return step.status
+
+    def resume(self, state: FilmState, scale: float, static_approach: float) -> None:
+        """Go on from the last entry of the history, and the film state that belongs to it."""
+        self.film.scale, self.static_approach = scale, static_approach
+        self.film.restore_state(state)
+        self.state = self.history.entries[-1].motion
+        self._mark()
+
+    def advance(self, T: float, dT: float) -> Entry:
+        """Step of length `dT` to time `T`; film and motion move, nothing is recorded."""
+        film, motion, now = self.film, self.motion, self.state
+        rate, acceleration = now.rate, now.acceleration
+        guess = now.u + dT * rate
+        if isinstance(motion, PrescribedApproach):
+            guess = motion.approach(T)
+            balance = Balance(1.0, 0.0, guess)
+        elif motion.omega_n:
+            # Newmark, beta = 1/4: u_new = predictor + dT^2/4 u''_new, put into eq. 5
+            predictor = guess + 0.25 * dT * dT * acceleration
+            stiffness = 4.0 / (motion.omega_n * dT) ** 2
+            balance = Balance(stiffness, 1.0, motion.load(T) + stiffness * predictor)
+            guess = predictor + 0.25 * dT * dT * acceleration
+        else:
+            balance = Balance(0.0, 1.0, motion.load(T))
+        feature = surface_step(self.surface, film.level.X, film.level.Y, T, dT, film.last_step)
+        step = film.advance(dT, balance, guess, feature)
+        if motion.omega_n:
+            acceleration = 4.0 * (film.u - predictor) / (dT * dT)
+            rate += 0.5 * dT * (now.acceleration + acceleration)
+        elif isinstance(motion, PrescribedApproach):
+            rate = motion.rate(T)
+        else:
+            rate = (film.u - now.u) / dT
+        load = film.level.force() if isinstance(motion, PrescribedApproach) else motion.load(T)
+        self.state = MotionState(T, film.u, rate, acceleration)
+        return Entry.of(film, self.state, load, step)
+
+    def keep(self, *entries: Entry) -> None:
+        """Record the entries, the last of which is the present state."""
+        self.history.take_snapshot(self.state.T, self.film.level)
+        self.history.entries.extend(entries)
+        if entries[-1].step.status.ok:
+            self._mark()
+            self._watch(self)
+
+    def _mark(self) -> None:
+        control = None if self.control is None else replace(self.control)
+        self.kept = Kept(self.film.save_state(), len(self.history.entries), control)
+
+    def back(self) -> None:
+        """Return to the last state kept."""
+        self.film.restore_state(self.kept.film)
+        self.state = self.history.entries[self.kept.entries - 1].motion
+
+
+def march_fixed(run: Run, steps: int, dT: float) -> End:
+    """All steps not yet recorded, of length `dT`; a step that fails is recorded and ends the run."""
+    for k in range(run.kept.entries, steps + 1):
+        entry = run.advance(k * dT, dT)
+        run.keep(entry)
+        if not entry.step.status.ok:
+            residual, tol = entry.step.residual, run.film.tol
+            return End(entry.step.status, f"step {dT:.3g}, residual {residual:.3g} with tol {tol:g}")
+    return End(Status.CONVERGED)
+
+
+def march_controlled(run: Run, until: float) -> End:
+    """Steps whose local error stays below ``control.error``; corners, snapshots and the end are met.
+
+    From rest, and from each corner, the past is not smooth: one step is compared with two of half the length,
+    of which the first is backward Euler, and those two are kept.
+    """
+    control = run.control
+    assert control is not None
+    motion, entries = run.motion, run.history.entries
+    corners = [c for c in motion.corners if c < until]
+    stops = sorted({*corners, *run.history.wanted, until})
+    shortest, longest = shortest_step(motion), longest_step(motion)
+    while run.state.T < until:
+        T, dT = next_time(run.state.T, min(control.step, longest), stops, shortest)
+        smooth = len(entries) - 1 - control.first >= 2
+        if smooth:
+            new = [run.advance(T, dT)]
+            error = local_error(entries[-3:], new[0], motion) / control.error
+        else:
+            new, error = _start_pair(run, T, dT)
+            error /= control.error
+        failed = next((e.step.status for e in new if not e.step.status.ok), None)
+        if failed is None and error <= 1.0:
+            if smooth:
+                control.accepted(dT, error)
+            else:
+                control.step, control.last_error = dT, 1.0
+            if T in corners:
+                run.film.forget_past()
+                control.first, control.step = len(entries) + len(new) - 1, RESTART_CUT * control.step
+            run.keep(*new)
+            continue
+        if failed in HOPELESS:
+            run.keep(*new)
+            return End(failed)
+        run.back()
+        if failed is None:
+            control.refused(dT, error, 3 if smooth else 2)
+            fault = f"has {error:.3g} times"
+        else:
+            control.failed(dT)
+            fault = f"ends {failed} under"
+        if control.step < shortest:
+            return End(Status.STEP_TOO_SMALL, f"a step of {dT:.3g} {fault} the tolerated error {control.error:g}")
+    return End(Status.CONVERGED)
+
+
+def _start_pair(run: Run, T: float, dT: float) -> tuple[list[Entry], float]:
+    """Two steps of dT/2 from where the past is not smooth, and their distance from one of dT."""
+    whole = run.advance(T, dT)
+    if not whole.step.status.ok:
+        return [whole], 0.0
+    run.back()
+    half = 0.5 * dT
+    pair = [run.advance(T - half, half), run.advance(T, half)]
+    return pair, difference(whole, pair[1], run.motion)

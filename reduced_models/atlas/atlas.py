@@ -1,0 +1,223 @@
+"""The atlas: answers for any point of its box at once, from contacts solved beforehand."""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.errors import InputError, require_choice, require_finite
+from ehlcontact.point import MoesPoint, Point, moes_point, scales_of
+from reduced_models.atlas.box import Box
+from reduced_models.atlas.elements import Loads, cubic_element, memory_element, passive_gains, wide_element
+from reduced_models.atlas.surface import REFERENCE, AtlasSurface
+from reduced_models.atlas.table import AtlasTable
+from reduced_models.elements.film_response import DRY
+from reduced_models.elements.kinds import CubicContact, FilmMemoryContact, WideRangeContact
+
+_Floats = NDArray[np.float64]
+
+SHIPPED = Path(__file__).with_name("atlas.npz")
+MODELS = ("memory", "wide", "cubic")
+VIBRATION = 2.0 * math.pi  # frequency of the paper's vibrations, for the cubic
+# Loads of a wide-range element, as far as the box goes.
+LOADS = np.array([0.01, 0.03, 0.07, 0.15, 0.3, 0.6, 1.0, 1.7, 3.0])
+NEIGHBOURS = 1.2  # ratio below which a load is left out beside the end of the box
+# Another oil's alpha [1/Pa] and eta0 [Pa s] enter besides M, L and kappa through the Hertz pressure alone. Within
+# these ranges they are accepted: what ln of films, K and C change at most per unit of ln alpha and ln eta0 widens
+# the error bars (solved for at light, middle and heavy load; K changes the less the thinner the film).
+ALPHA, ETA0 = (1e-8, 4e-8), (0.002, 1.0)
+OIL = {"film": (0.17, 0.015), "stiffness": (0.12, 0.015), "damping": (0.18, 0.02)}
+
+
+@dataclass(frozen=True)
+class AtlasAnswer:
+    """One point: values in the units of its static load, and in `error` the bar of each."""
+
+    point: MoesPoint
+    approach: float
+    h_central: float
+    h_min: float
+    omega: _Floats  # (k,)
+    stiffness: _Floats  # (k,) K(Omega); the static tangent at Omega = 0
+    damping: _Floats  # (k,) C(Omega)
+    error: dict[str, Any]  # the same keys, half widths
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON but for the arrays."""
+        return asdict(self)
+
+
+class Atlas:
+    """Solved contacts over M, L and kappa, interpolated.
+
+    Every answer comes with an error bar, from the errors of nearby points when each is left out. Outside the box
+    it raises: nothing is extrapolated. L = 0 means the limit of small L, where oil is incompressible.
+
+    Parameters
+    ----------
+    path : str or Path, optional
+        An atlas of ``ehlcontact atlas build``; by default the one that comes with the library.
+
+    Raises
+    ------
+    InputError
+        No readable atlas.
+    """
+
+    def __init__(self, path: str | os.PathLike[str] | None = None) -> None:
+        self._table = AtlasTable.load(SHIPPED if path is None else Path(path))
+        self._surface = AtlasSurface(self._table)
+
+    @property
+    def box(self) -> Box:
+        """Where it answers."""
+        return self._table.box
+
+    @property
+    def metadata(self) -> dict[str, Any]:
+        """Command, version, sample and meshes that made it."""
+        return dict(self._table.metadata)
+
+    def at(self, point: Point) -> AtlasAnswer:
+        """Approach, films and impedance at a point.
+
+        Raises
+        ------
+        InputError
+            A point outside the box, or an oil of other laws: it names the axis and the box.
+        """
+        moes = self._inside(point)
+        row = _rows(moes, np.ones(1))
+        values, slopes, _ = self._surface.at(row)
+        bars = self._surface.bars(row[0], values[0], slopes[0], self._oil_error(moes, float(values[0, 0])))
+        return AtlasAnswer(moes, omega=self._table.omega, **self._named(values[0]), error=self._named(bars))
+
+    def element(
+        self, point: Point, model: str = "wide", *, omega: float = VIBRATION
+    ) -> FilmMemoryContact | WideRangeContact | CubicContact:
+        """Contact element at a point, in SI for an `OperatingPoint`.
+
+        Parameters
+        ----------
+        point : MoesPoint or OperatingPoint
+        model : {"wide", "memory", "cubic"}
+            Any load at this speed; this load at any frequency; this load at one frequency.
+        omega : float
+            That frequency, for the cubic: angular, dimensionless.
+
+        Raises
+        ------
+        InputError
+            A point outside the box, another model, or a cubic at a load too light for it.
+        """
+        require_choice("model", model, MODELS)
+        moes, scales = self._inside(point), scales_of(point)
+        loads = self._loads(moes) if model == "wide" else np.ones(1)
+        rows = _rows(moes, loads)
+        values, slopes, shapes = self._surface.at(rows)
+        reference = int(np.argmin(np.abs(loads - 1.0)))
+        source = self._source(moes, rows[reference], values[reference], slopes[reference])
+        k = self._table.omega.size
+        if model == "cubic":
+            w = self._frequency(omega)
+            K, C = (
+                float(np.interp(w, self._table.omega, part)) for part in (values[0, 4 : 4 + k], values[0, 4 + k :])
+            )
+            cubic = cubic_element(float(values[0, 0]), K, max(C, 0.0), w, source)
+            return cubic if scales is None else cubic.to_si(scales)
+        gains = np.maximum(shapes * values[:, 3:4], 0.0)
+        at = Loads(
+            loads=loads,
+            approach=values[:, 0],
+            tangent=values[:, 4],
+            gains=gains,
+            rates=self._table.rates,
+            highest_omega=float(self._table.metadata["highest_omega"]),
+            fit=self._fit(gains, values[:, 4 + k :]),
+            source=source,
+        )
+        make = wide_element if model == "wide" else memory_element
+        try:
+            return make(at, scales)
+        except InputError:  # rarely: interpolated gains that would feed energy back
+            return make(replace(at, gains=passive_gains(at.rates, gains)), scales)
+
+    @cached_property
+    def _basis(self) -> _Floats:
+        """Damping at every frequency up to the highest of an element, of every filter."""
+        omega = self._table.omega
+        return self._table.rates.basis(omega[omega <= self._table.metadata["highest_omega"]]).real * DRY
+
+    def _fit(self, gains: _Floats, damping: _Floats) -> dict[str, Any]:
+        """How well the filters follow the damping of the atlas, over that at low frequency."""
+        C = damping[:, : len(self._basis)]
+        return {"rms": None, "damping_error_max": float(np.max(np.abs(gains @ self._basis.T - C) / C[:, :1]))}
+
+    def _frequency(self, omega: float) -> float:
+        value = require_finite("omega", omega)
+        if not 0.0 <= value <= self._table.omega[-1]:
+            raise InputError("omega", value, f"between 0 and {self._table.omega[-1]:g}")
+        return value
+
+    def _inside(self, point: Point) -> MoesPoint:
+        moes = moes_point(point)
+        self.box.require_inside(moes)
+        laws = self._table.metadata["viscosity"], self._table.metadata["density"]
+        if (moes.viscosity, moes.density) != laws:
+            raise InputError("viscosity and density", (moes.viscosity, moes.density), f"{laws}, as of the atlas")
+        for name, (low, high) in (("alpha", ALPHA), ("eta0", ETA0)):
+            if not low <= getattr(moes, name) <= high:
+                raise InputError(
+                    name, getattr(moes, name), f"between {low:g} and {high:g}, the range of the atlas"
+                )
+        return moes
+
+    def _loads(self, point: MoesPoint) -> _Floats:
+        """Loads of a wide-range element: those whose M and Hertz pressure stay in the box."""
+        lowest, highest = (M / point.M for M in self.box.M)
+        if point.L > 0.0:
+            highest = min(highest, (self.box.p_hertz / point.p_hertz) ** 3)
+        low, high = max(LOADS[0], lowest), min(LOADS[-1], highest)
+        inside = (LOADS > NEIGHBOURS * low) & (LOADS < high / NEIGHBOURS)
+        inside |= (LOADS == 1.0) & (low < 1.0) & (high > 1.0)  # the reference is a node, or an end
+        return np.concatenate([[low], LOADS[inside], [high]])
+
+    def _oil_error(self, point: MoesPoint, approach: float) -> _Floats:
+        """Error bars of the smooth variables for an oil whose alpha and eta0 are not those of the atlas."""
+        meta, k = self._table.metadata, self._table.omega.size
+        shift = abs(math.log(point.alpha / meta["alpha"])), abs(math.log(point.eta0 / meta["eta0"]))
+        film, K, C = (
+            OIL[name][0] * shift[0] + OIL[name][1] * shift[1] for name in ("film", "stiffness", "damping")
+        )
+        return np.concatenate([[film, film, film, C], np.full(k, K * min(1.0 - approach, 1.0)), np.full(k, C)])
+
+    def _named(self, row: _Floats) -> dict[str, Any]:
+        k = self._table.omega.size
+        named: dict[str, Any] = dict(zip(("approach", "h_central", "h_min"), row[:3].tolist(), strict=True))
+        return named | {"stiffness": row[4 : 4 + k], "damping": row[4 + k :]}
+
+    def _source(self, point: MoesPoint, row: _Floats, values: _Floats, slopes: _Floats) -> dict[str, Any]:
+        bars = self._surface.bars(row, values, slopes, self._oil_error(point, float(values[0])))
+        k = self._table.omega.size
+        return {
+            "atlas": self._table.metadata["version"],
+            "point": point.to_dict(),
+            "error": {
+                "approach": float(bars[0]),
+                "h_central": float(bars[1]),
+                "tangent": float(bars[4]),
+                "damping": float(bars[4 + k + REFERENCE]),
+            },
+        }
+
+
+def _rows(point: MoesPoint, loads: _Floats) -> _Floats:
+    """Rows (M, L, kappa) of the point under these loads."""
+    return np.column_stack([point.M * loads, np.full(loads.size, point.L), np.full(loads.size, point.kappa)])

@@ -1,0 +1,124 @@
+"""Contact elements from what the atlas says about a point and about the loads beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.errors import InputError
+from ehlcontact.point import Scales
+from reduced_models.elements.film_curve import LEAST_EXPONENT
+from reduced_models.elements.film_response import FilterRates
+from reduced_models.elements.kinds import CubicContact, FilmMemoryContact, WideRangeContact
+
+_Floats = NDArray[np.float64]
+
+LOAD_BAND = (0.9, 1.1)  # of the elements that stand for one load
+LEAST_APPROACH = 0.2  # a cubic without a constant term needs some deformation
+PASSIVE_MARGIN = 1.001
+
+
+@dataclass(frozen=True)
+class Loads:
+    """What an element is made of: answers under one or several loads, each in the units of its own."""
+
+    loads: _Floats  # (n,) in units of the reference load
+    approach: _Floats  # (n,)
+    tangent: _Floats  # (n,) static
+    gains: _Floats  # (n, 3 + lags)
+    rates: FilterRates
+    highest_omega: float
+    fit: Mapping[str, Any]
+    source: Mapping[str, Any]
+
+
+def passive_gains(rates: FilterRates, gains: _Floats) -> _Floats:
+    """Rows of gains, the viscous one raised where the row would feed energy back."""
+    rows = gains.copy()
+    for row in rows:
+        if not rates.passive(row):
+            row[0] -= PASSIVE_MARGIN * rates.least_dissipation(row)
+    return rows
+
+
+def memory_element(at: Loads, scales: Scales | None) -> FilmMemoryContact:
+    """Film memory about one load: its film and how that thins with the load follow from approach and tangent."""
+    film = 1.0 - float(at.approach[0])
+    exponent = max((1.0 / float(at.tangent[0]) - 2.0 / 3.0) / film, LEAST_EXPONENT)
+    low, high = (load ** (2.0 / 3.0) - film * load**-exponent for load in LOAD_BAND)
+    force, length, time = _units(scales)
+    return FilmMemoryContact(
+        film=film,
+        exponent=exponent,
+        squeeze=0.0,
+        lag_rate=at.rates.lag_rate,
+        inlet_rate=at.rates.inlet_rate,
+        fast_rate=at.rates.fast_rate,
+        gains=at.gains[0],
+        low=low * length,
+        high=high * length,
+        load_range=(LOAD_BAND[0] * force, LOAD_BAND[1] * force),
+        omega_range=(0.0, at.highest_omega / time),
+        units="dimensionless" if scales is None else "SI",
+        scales=scales,
+        fit=at.fit,
+        source=at.source,
+    )
+
+
+def wide_element(at: Loads, scales: Scales | None) -> WideRangeContact:
+    """Every load at the same speed."""
+    return WideRangeContact(
+        loads=at.loads,  # type: ignore[arg-type]
+        approach=at.approach * at.loads ** (2.0 / 3.0),  # type: ignore[arg-type]
+        gain_loads=at.loads,  # type: ignore[arg-type]
+        gains=at.gains,  # type: ignore[arg-type]
+        squeeze=0.0,
+        lag_rate=at.rates.lag_rate,
+        inlet_rate=at.rates.inlet_rate,
+        fast_rate=at.rates.fast_rate,
+        omega_range=(0.0, at.highest_omega / _units(scales)[2]),
+        units="dimensionless" if scales is None else "SI",
+        scales=scales,
+        fit=at.fit,
+        source=at.source,
+    )
+
+
+def cubic_element(
+    approach: float, stiffness: float, damping: float, omega: float, source: Mapping[str, Any]
+) -> CubicContact:
+    """The paper's viscous cubic, for vibrations of one frequency: load 1, tangent and curvature at its approach.
+
+    The curvature is that of a dry contact on its film, F = (1 + 2/3 K (u - u_0))^(3/2), hence F'' = K^2/3.
+
+    Raises
+    ------
+    InputError
+        So light a load that a cubic without a constant term does not describe it.
+    """
+    u = approach
+    if u < LEAST_APPROACH:
+        raise InputError("model", "cubic", f"memory or wide where the film leaves an approach of {u:.3g}")
+    powers = np.array([[u, u**2, u**3], [1.0, 2.0 * u, 3.0 * u**2], [0.0, 2.0, 6.0 * u]])
+    k1, k2, k3 = np.linalg.solve(powers, [1.0, stiffness, stiffness**2 / 3.0]).tolist()
+    low, high = (u + 1.5 / stiffness * (load ** (2.0 / 3.0) - 1.0) for load in LOAD_BAND)
+    return CubicContact(
+        K1=k1,
+        K2=k2,
+        K3=k3,
+        C1=damping,
+        low=low,
+        high=high,
+        load_range=LOAD_BAND,
+        omega_range=(omega, omega),
+        source=source,
+    )
+
+
+def _units(scales: Scales | None) -> tuple[float, float, float]:
+    return (1.0, 1.0, 1.0) if scales is None else (scales.force, scales.length, scales.time)

@@ -1,0 +1,265 @@
+"""What the contact elements with a film memory have in common: state, steps, tangents, impedance."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import asdict, fields
+from functools import cached_property
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ehlcontact.errors import InputError, require_finite, require_positive
+from ehlcontact.point import Scales
+from reduced_models.elements.base import ContactElement
+from reduced_models.elements.file import band, numbers
+from reduced_models.elements.film_law import (
+    CHAIN,
+    FilmLaw,
+    film_drive,
+    film_rest,
+    film_step,
+    static,
+    static_forces,
+)
+from reduced_models.elements.film_ode import film_rate, film_rates
+from reduced_models.elements.film_response import DRY, FilterRates
+
+_Floats = NDArray[np.float64]
+_SCALES = tuple(f.name for f in fields(Scales))
+
+
+class FilmContact(ContactElement):
+    """A dry spring on a film that remembers; see `reduced_models.elements.film_law` for the equations.
+
+    The element carries a state and starts at rest under its reference load; one element must not serve two
+    contacts (take a `copy`). Its coefficients are dimensionless always; in SI it holds the ``scales`` and
+    converts what goes in and out.
+    """
+
+    lag_rate: float
+    inlet_rate: float
+    fast_rate: float
+    squeeze: float
+    scales: Scales | None
+    law: FilmLaw
+    _state: _Floats
+    _next: _Floats
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if (self.scales is None) != (self.units == "dimensionless"):
+            raise InputError("scales", self.scales, "given for an element in SI, and only there")
+        squeeze = require_finite("squeeze", self.squeeze)
+        if squeeze < 0.0:
+            raise InputError("squeeze", squeeze, ">= 0")
+        object.__setattr__(self, "squeeze", squeeze)
+        law = self._law()
+        object.__setattr__(self, "law", law)
+        if not self.rates.passive(law.gains):
+            least = min(self.rates.least_dissipation(row) for row in law.gains)
+            raise InputError("least dissipation of gains", least, ">= 0 at every frequency (passive)")
+        size = CHAIN + law.gains.shape[1] - 3
+        object.__setattr__(self, "_state", np.zeros(size))
+        object.__setattr__(self, "_next", np.zeros(size))
+        self.rest(self.approach_at(self._units[0]))
+
+    @abstractmethod
+    def _law(self) -> FilmLaw:
+        """The law of the coefficients, checked."""
+
+    @property
+    @abstractmethod
+    def lags(self) -> int:
+        """Number of lags that carry the film through the contact."""
+
+    @property
+    def rates(self) -> FilterRates:
+        """Rates of the filters."""
+        return FilterRates(self.lags, self.lag_rate, self.inlet_rate, self.fast_rate)
+
+    @cached_property
+    def _units(self) -> tuple[float, float, float]:
+        s = self.scales
+        return (1.0, 1.0, 1.0) if s is None else (s.force, s.length, s.time)
+
+    def advance(self, dt: float, approach: float, rate: float) -> float:
+        """Force at the end of a step `dt` > 0, at the approach and rate of that end; moves the state there.
+
+        The step may have any length: between its ends the approach is taken as the cubic through both
+        approaches and rates, and every filter is integrated exactly.
+        """
+        u, v = float(approach), float(rate)
+        low, high, fastest = self._box
+        if not (low <= u <= high and -fastest <= v <= fastest):
+            self.warn_outside(u, v)
+        f, length, time = self._units
+        force = film_step(self.law, self._state, self._next, _step(dt) / time, u / length, v / length * time)[0]
+        if not math.isfinite(force):
+            raise InputError("approach and rate", (u, v), "finite")
+        old = self._state
+        object.__setattr__(self, "_state", self._next)
+        object.__setattr__(self, "_next", old)
+        return float(force) * f
+
+    def step_tangents(self, dt: float, approach: float, rate: float) -> tuple[float, float, float]:
+        """Force, dF/du and dF/du' at the end of a step from the present state, which stays where it is.
+
+        These are the exact derivatives of what `advance` would return, memory included.
+        """
+        f, length, time = self._units
+        u, v = float(approach) / length, float(rate) / length * time
+        force, stiffness, damping = film_step(self.law, self._state, self._next, _step(dt) / time, u, v)
+        return float(force) * f, float(stiffness) * f / length, float(damping) * f / length * time
+
+    def save_state(self) -> object:
+        """Copy of the film's state."""
+        return self._state.copy()
+
+    def restore_state(self, state: object) -> None:
+        """Go back to a saved state."""
+        self._state[:] = state  # type: ignore[call-overload]
+
+    def rest(self, approach: float) -> float:
+        """Put the contact at rest at this approach, with the film of a steady contact; returns the force."""
+        f, length, _ = self._units
+        return float(film_rest(self.law, require_finite("approach", approach) / length, self._state)) * f
+
+    def drive(self, T: ArrayLike, approach: ArrayLike, rate: ArrayLike) -> _Floats:
+        """Force along a whole record, from rest at its first approach; the element's own state stays.
+
+        Parameters
+        ----------
+        T, approach, rate : array_like, shape (N,)
+            Increasing times and the motion, in the units of the element. The motion sets in with ``rate[0]``.
+
+        Returns
+        -------
+        ndarray, shape (N,)
+        """
+        f, length, time = self._units
+        t, u, v = (np.ascontiguousarray(values, np.float64) for values in (T, approach, rate))
+        if t.ndim != 1 or u.shape != t.shape or v.shape != t.shape or np.any(np.diff(t) <= 0.0):
+            raise InputError("T", t.shape, "increasing times, as many as approaches and rates")
+        force = np.empty(t.size)
+        film_drive(self.law, t / time, u / length, v / length * time, force)
+        return force * f
+
+    def spring(self, approach: ArrayLike) -> float | _Floats:
+        """Static force."""
+        f, length, _ = self._units
+        u = np.asarray(approach, np.float64) / length
+        force = np.empty(u.size)
+        static_forces(self.law, u.ravel(), force)
+        return force.reshape(u.shape) * f if u.ndim else float(force[0]) * f
+
+    def spring_tangent(self, approach: float) -> float:
+        """Slope of the static force."""
+        f, length, _ = self._units
+        _, g, g_u = static(float(approach) / length, self.law)
+        return 1.5 * math.sqrt(g) * g_u * f / length
+
+    def approach_at(self, force: float) -> float:
+        """Static approach under `force` > 0."""
+        f, length, _ = self._units
+        target = require_positive("force", force) / f
+        x = math.log(target)
+        k = int(np.clip(np.searchsorted(self.law.x, x) - 1, 0, self.law.x.size - 2))
+        low, high = self.law.u[k], self.law.u[k + 1]
+        reach = high - low
+        while self._static_x(low) > x:
+            low, reach = low - reach, 2.0 * reach
+        while self._static_x(high) < x:
+            high, reach = high + reach, 2.0 * reach
+        from scipy.optimize import brentq
+
+        return float(brentq(lambda u: self._static_x(u) - x, low, high, xtol=1e-15, rtol=1e-14)) * length
+
+    def _static_x(self, u: float) -> float:
+        return float(static(u, self.law)[0])
+
+    def impedance(self, omega: ArrayLike, load: float | None = None) -> NDArray[np.complex128]:
+        """Z(Omega) = K + i Omega C of a small motion about rest under `load` (by default the reference load)."""
+        f, length, time = self._units
+        at = 1.0 if load is None else require_positive("load", load) / f
+        own = at ** (1.0 / 3.0)
+        w = np.atleast_1d(np.asarray(omega, np.float64)) * time
+        x = math.log(at)
+        gains = np.array([np.interp(x, self.law.gain_x, column) for column in self.law.gains.T])
+        tangent = self.spring_tangent(self.approach_at(at * f)) * length / f
+        G = self.rates.basis(w * own) @ gains
+        return np.asarray((tangent + 1j * w * own * own * DRY * G) * f / length)
+
+    @property
+    def state_count(self) -> int:
+        """Number of states of the film in continuous time."""
+        return 2 + self.lags
+
+    def state_rates(self, states: _Floats, approach: float, rate: float) -> tuple[float, _Floats]:
+        """Force and d(states)/dt in continuous time; states are all zero at rest.
+
+        What `advance` does with a motion that is cubic within the step; the element's own state is not touched.
+        """
+        f, length, time = self._units
+        rates = np.empty(states.size)
+        force = film_rates(self.law, states, approach / length, rate / length * time, rates)
+        return float(force) * f, rates / time
+
+    def rate_at(self, states: _Floats, approach: float, force: float) -> float:
+        """Rate at which the contact carries `force` > 0: the motion without inertia."""
+        f, length, time = self._units
+        return float(film_rate(self.law, states, approach / length, force / f)) * length / time
+
+    def to_control(self, name: str = "contact") -> Any:
+        """Nonlinear python-control system with inputs u, v, output F and the film's states (continuous time)."""
+        import control
+
+        def update(t: float, x: _Floats, inputs: _Floats, params: object) -> _Floats:
+            return self.state_rates(np.asarray(x), float(inputs[0]), float(inputs[1]))[1]
+
+        def output(t: float, x: _Floats, inputs: _Floats, params: object) -> _Floats:
+            return np.array([self.state_rates(np.asarray(x), float(inputs[0]), float(inputs[1]))[0]])
+
+        states = ["s", "y", *(f"q{k}" for k in range(1, self.lags + 1))]
+        return control.nlsys(update, output, inputs=["u", "v"], outputs=["F"], states=states, name=name)
+
+    def _si_coefficients(self, scales: Scales) -> dict[str, Any]:
+        return {"scales": scales}  # the coefficients stay dimensionless
+
+    def to_dict(self) -> dict[str, Any]:
+        """Content of the element file, header apart; ``parameters`` dimensionless, ``scales`` of an SI element."""
+        return super().to_dict() | {"scales": None if self.scales is None else asdict(self.scales)}
+
+    @classmethod
+    def from_document(cls, name: str, document: Mapping[str, Any]) -> Self:
+        """Build the element from a document of `read_document`; `name` is the file, for messages."""
+        if document["kind"] != cls.kind:
+            raise InputError(name, f"kind {document['kind']!r}", f"of kind {cls.kind!r}")
+        valid, scales = document["valid"], document.get("scales")
+        values: dict[str, Any] = cls._coefficients(name, document["parameters"])
+        values |= numbers(name, "valid", valid, ("low", "high"))
+        values |= {f"{key}_range": band(name, valid, key) for key in ("load", "omega")}
+        values["rate"] = None if valid.get("rate") is None else numbers(name, "valid", valid, ("rate",))["rate"]
+        if scales is not None:
+            if not isinstance(scales, dict):
+                raise InputError(f"{name}: scales", scales, "an object or null")
+            values["scales"] = Scales(**numbers(name, "scales", scales, _SCALES))
+        values |= {key: document.get(key) for key in ("units", "fit", "source")}
+        try:
+            return cls(**values)
+        except InputError as error:
+            raise InputError(f"{name}: {error.field}", error.value, error.allowed) from None
+
+    @classmethod
+    @abstractmethod
+    def _coefficients(cls, name: str, entries: Mapping[str, Any]) -> dict[str, Any]:
+        """Constructor arguments from the object ``parameters`` of a file."""
+
+
+def _step(dt: float) -> float:
+    if not (dt > 0.0 and math.isfinite(dt)):
+        raise InputError("dt", dt, "finite and > 0")
+    return float(dt)

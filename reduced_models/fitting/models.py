@@ -1,0 +1,114 @@
+"""The models that `fit` knows: from samples to coefficients, the fitted force and its uncertainty."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reduced_models.elements.memoryless import MemorylessContact
+from reduced_models.elements.polynomial import PolynomialContact
+from reduced_models.elements.power import PowerLawContact
+from reduced_models.elements.viscous import CubicContact, LinearContact
+from reduced_models.fitting.least_squares import linear_fit
+from reduced_models.fitting.power import fit_power_law
+from reduced_models.fitting.records import ContactRecord
+
+_Floats = NDArray[np.float64]
+NO_DAMPING = 1e-9  # largest force of a damper over the largest of the contact that may be rounding
+
+# Columns of eq. 12: name, and what stands in it.
+COLUMNS: dict[str, tuple[str, Callable[[_Floats, _Floats], _Floats]]] = {
+    "K1": ("approach", lambda u, v: u),
+    "C1": ("rate", lambda u, v: v),
+    "K2": ("approach^2", lambda u, v: u**2),
+    "C2": ("rate^2", lambda u, v: v**2),
+    "K3": ("approach^3", lambda u, v: u**3),
+    "C3": ("rate^3", lambda u, v: v**3),
+    "B4": ("approach*rate", lambda u, v: u * v),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """What is fitted: the records, and of each the part inside its window."""
+
+    records: Sequence[ContactRecord]
+    cuts: Sequence[ContactRecord]
+
+    @cached_property
+    def approach(self) -> _Floats:
+        """Approach of all cuts, one after the other."""
+        return np.concatenate([cut.approach for cut in self.cuts])
+
+    @cached_property
+    def rate(self) -> _Floats:
+        """Rate likewise."""
+        return np.concatenate([cut.rate for cut in self.cuts])
+
+    @cached_property
+    def force(self) -> _Floats:
+        """Force likewise."""
+        return np.concatenate([cut.force for cut in self.cuts])
+
+    def split(self, values: _Floats) -> list[_Floats]:
+        """Values of all cuts as one array per cut."""
+        return np.split(values, np.cumsum([len(cut) for cut in self.cuts])[:-1])
+
+
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """Coefficients by name; arrays in their order."""
+
+    parameters: dict[str, float]
+    fitted: _Floats  # force of all cuts
+    covariance: _Floats  # as if the residuals were independent
+    condition: float  # of the column-scaled (Jacobian) matrix
+    build: Callable[..., MemorylessContact]  # called with parameters, validity box and units
+    damping: str | None = None  # coefficient of u', where it is the whole damper
+
+    def without_negative_damping(self, samples: Samples, errors: _Floats) -> Estimate:
+        """Damping 0 where it is negative by rounding, or by no more than its standard error in `errors`."""
+        if self.damping is None:
+            return self
+        damping = self.parameters[self.damping]
+        error = float(errors[list(self.parameters).index(self.damping)])
+        smallest = NO_DAMPING * float(np.abs(samples.force).max()) / float(np.abs(samples.rate).max())
+        if not -max(error, smallest) <= damping < 0.0:
+            return self
+        return replace(
+            self,
+            parameters=self.parameters | {self.damping: 0.0},
+            fitted=self.fitted - damping * samples.rate,
+        )
+
+
+def linear_estimate(samples: Samples, names: Sequence[str], build: Callable[..., MemorylessContact]) -> Estimate:
+    """Least squares of the columns of eq. 12 that belong to `names`."""
+    columns = {COLUMNS[name][0]: COLUMNS[name][1](samples.approach, samples.rate) for name in names}
+    solved = linear_fit(columns, samples.force)
+    parameters = dict(zip(names, solved.values.tolist(), strict=True))
+    damping = "C1" if set(names).isdisjoint(("C2", "C3", "B4")) else None
+    return Estimate(parameters, solved.fitted, solved.covariance, solved.condition, build, damping)
+
+
+def _power_estimate(samples: Samples) -> Estimate:
+    return Estimate(
+        *fit_power_law(samples.approach, samples.rate, samples.force), build=PowerLawContact, damping="C"
+    )
+
+
+def _of_columns(element: type[MemorylessContact]) -> Callable[[Samples], Estimate]:
+    return lambda samples: linear_estimate(samples, element.parameter_names, element)
+
+
+# A new model is entered here, and nowhere else for `fit` and the command line to offer it.
+ESTIMATORS: dict[str, Callable[[Samples], Estimate]] = {
+    "linear": _of_columns(LinearContact),
+    "cubic": _of_columns(CubicContact),
+    "polynomial": _of_columns(PolynomialContact),
+    "power": _power_estimate,
+}

@@ -1,0 +1,250 @@
+"""Histories of approach, rate and force: what every reduced model is fitted to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ehlcontact.errors import InputError, require_choice, require_finite, require_instance, require_positive
+from ehlcontact.point import MoesPoint, Scales
+from reduced_models.elements.file import UNITS
+
+MIN_SAMPLES = 4
+MISMATCH = 0.1  # share of the motion; 8 samples per period of a true rate stay below it
+_REQUIRED = ("T", "approach", "rate", "force")
+_HISTORIES = (*_REQUIRED, "load", "acceleration")
+
+
+@dataclass(frozen=True, eq=False)
+class ContactRecord:
+    """One history of a contact, simulated or measured.
+
+    Parameters
+    ----------
+    T, approach, rate, force : array_like, shape (N,)
+        Time, mutual approach, its time derivative and contact force: dimensionless, or s, m, m/s and N.
+    load, acceleration : array_like, shape (N,), optional
+        Applied load and second derivative of the approach.
+    point : MoesPoint, optional
+        Operating point of the contact.
+    scales : Scales, optional
+        SI values of the units.
+    n : int, optional
+        Grid intervals of the simulation.
+    domain : tuple of float, optional
+        (x_in, x_out, y_max) of the simulation; damping depends on it.
+    motion : mapping, optional
+        Description of the motion.
+    omega_n : float, optional
+        Omega_n of eq. 5; None for a record without inertia. Dimensionless records only.
+    static_load : float, optional
+        Load at which the static approach (``root``) of a fit is given; 1 for a dimensionless record.
+    units : {"dimensionless", "SI"}
+
+    Raises
+    ------
+    InputError
+        A history that is not one-dimensional, too short, not finite or of another length than T; T not
+        strictly increasing; omega_n with SI units. The message names the field.
+    """
+
+    T: NDArray[np.float64]
+    approach: NDArray[np.float64]
+    rate: NDArray[np.float64]
+    force: NDArray[np.float64]
+    load: NDArray[np.float64] | None = None
+    acceleration: NDArray[np.float64] | None = None
+    point: MoesPoint | None = None
+    scales: Scales | None = None
+    n: int | None = None
+    domain: tuple[float, ...] | None = None
+    motion: Mapping[str, Any] | None = None
+    omega_n: float | None = None
+    static_load: float | None = None
+    units: str = "dimensionless"
+
+    def __post_init__(self) -> None:
+        require_choice("units", self.units, UNITS)
+        for name in _HISTORIES:
+            if name in _REQUIRED or getattr(self, name) is not None:
+                object.__setattr__(self, name, _history(name, getattr(self, name)))
+        for name in _HISTORIES[1:]:
+            values = getattr(self, name)
+            if values is not None and values.size != self.T.size:
+                raise InputError(f"length of {name}", values.size, f"that of T, {self.T.size}")
+        if np.any(np.diff(self.T) <= 0.0):
+            at = int(np.argmax(np.diff(self.T) <= 0.0)) + 1
+            raise InputError(f"T[{at}]", float(self.T[at]), f"above T[{at - 1}] = {float(self.T[at - 1])!r}")
+        if self.omega_n is not None:
+            object.__setattr__(self, "omega_n", require_positive("omega_n", self.omega_n))
+            if self.units == "SI":
+                raise InputError("omega_n", self.omega_n, "None for a record in SI units")
+        if self.static_load is None and self.units == "dimensionless":
+            object.__setattr__(self, "static_load", 1.0)
+        elif self.static_load is not None:
+            object.__setattr__(self, "static_load", require_positive("static_load", self.static_load))
+
+    @classmethod
+    def from_result(cls, simulation: Any, *, accept_unconverged: bool = False) -> Self:
+        """Record of an `ehlcontact` simulation.
+
+        Parameters
+        ----------
+        simulation : SimulationResult
+            Of ``ehlcontact.simulate``, or read back from its file.
+        accept_unconverged : bool
+            Take the record of a run that did not end as converged.
+
+        Raises
+        ------
+        InputError
+            The run did not converge, or its histories cannot be used.
+        """
+        status = str(simulation.status)
+        if status != "converged" and not accept_unconverged:
+            raise InputError(
+                "simulation.status",
+                status,
+                "'converged' (in Python, accept_unconverged=True takes it all the same)",
+            )
+        motion = dict(simulation.motion.to_dict())
+        domain = simulation.domain
+        if not isinstance(domain, tuple | list):
+            domain = (domain.x_in, domain.x_out, domain.y_max)
+        return cls(
+            T=simulation.T,
+            approach=simulation.approach,
+            rate=simulation.rate,
+            force=simulation.force,
+            load=simulation.load,
+            acceleration=simulation.acceleration,
+            point=simulation.point,
+            scales=simulation.scales,
+            n=int(simulation.n),
+            domain=tuple(float(value) for value in domain),
+            motion=motion,
+            omega_n=motion.get("omega_n"),
+        )
+
+    def __len__(self) -> int:
+        return int(self.T.size)
+
+    @property
+    def default_window(self) -> tuple[float, float]:
+        """What a fit uses unless told otherwise: the last two thirds.
+
+        A record starts on the film of a steady contact, and until the first film made by the motion has
+        crossed, the force is not the one that belongs to the motion; it spoils a viscous fit. Of harmonic
+        records the last whole periods within these two thirds are taken, because part of a period lets the
+        misfit of the spring leak into the damper. Of a ramp the whole record is: later it never comes near
+        the static load again.
+        """
+        start, end = float(self.T[0]), float(self.T[-1])
+        motion = self.motion or {}
+        if motion.get("kind") == "ramp":
+            return start, end
+        if motion.get("kind") == "harmonic" and motion.get("omega"):
+            period = 2.0 * np.pi / motion["omega"]
+            periods = int((end - start) / 1.5 / period + 1e-9)
+            if periods >= 1:
+                return end - periods * period, end
+        return start + (end - start) / 3.0, end
+
+    @property
+    def omega(self) -> float:
+        """Angular frequency of the motion: of a harmonic load its own, else from the spreads of rate and approach.
+
+        0 for a record that does not move.
+        """
+        motion = self.motion or {}
+        if motion.get("kind") == "harmonic" and motion.get("omega"):
+            return float(motion["omega"])
+        spread = float(np.std(self.approach))
+        return float(np.std(self.rate)) / spread if spread > 0.0 else 0.0
+
+    def require_matching_rate(self) -> None:
+        """Make sure that `rate` is the time derivative of `approach`.
+
+        The rate is integrated by trapezoids, which noise does not upset as differences would, and a straight
+        drift, as of an offset sensor, is left out.
+
+        Raises
+        ------
+        InputError
+            What remains is more than a tenth of the motion: another sign or unit, a delay, or samples too far
+            apart for the motion.
+        """
+        moved = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(self.T) * (self.rate[1:] + self.rate[:-1]))])
+        trend = np.column_stack([np.ones_like(self.T), self.T - self.T.mean()])
+        error = self.approach - moved
+        error = error - trend @ np.linalg.lstsq(trend, error, rcond=None)[0]
+        motion = max(float(np.std(self.approach)), float(np.std(moved)))
+        still = motion <= 1e-12 * float(np.abs(self.approach).max())  # but for rounding
+        share = 0.0 if still else float(np.std(error)) / motion
+        if share > MISMATCH:
+            raise InputError(
+                "rate",
+                f"{share:.0%} off the derivative of approach",
+                f"the time derivative of approach within {MISMATCH:.0%} (sign, units, delay, sampling?)",
+            )
+
+    def window(self, start: float, end: float) -> Self:
+        """The part with start <= T <= end.
+
+        Raises
+        ------
+        InputError
+            start >= end, or fewer than 4 samples between them.
+        """
+        start, end = require_finite("start", start), require_finite("end", end)
+        if start >= end:
+            raise InputError("start", start, f"below end = {end!r}")
+        inside = (self.T >= start) & (self.T <= end)
+        if np.count_nonzero(inside) < MIN_SAMPLES:
+            span = f"[{float(self.T[0])!r}, {float(self.T[-1])!r}]"
+            raise InputError("window", (start, end), f"one that holds {MIN_SAMPLES} samples of T in {span}")
+        cut = {name: getattr(self, name)[inside] for name in _HISTORIES if getattr(self, name) is not None}
+        return replace(self, **cut)
+
+
+def as_records(records: object) -> tuple[ContactRecord, ...]:
+    """One record or several as a tuple.
+
+    Raises
+    ------
+    InputError
+        Something else, or something else among them.
+    """
+    if isinstance(records, ContactRecord):
+        return (records,)
+    if not isinstance(records, Iterable):
+        allowed = "a ContactRecord or a sequence of them; ContactRecord.from_result(result) makes one"
+        raise InputError("records", type(records).__name__, allowed)
+    taken = tuple(records)
+    for i, record in enumerate(taken):
+        require_instance(
+            f"records[{i}]", record, ContactRecord, "a ContactRecord; ContactRecord.from_result(result) makes one"
+        )
+    return taken
+
+
+def _history(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    try:
+        array = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(name, type(values).__name__, "a one-dimensional array of numbers") from None
+    if values is None:
+        raise InputError(name, None, "given")
+    if array.ndim != 1:
+        raise InputError(f"shape of {name}", array.shape, "one-dimensional")
+    if array.size < MIN_SAMPLES:
+        raise InputError(f"length of {name}", array.size, f"at least {MIN_SAMPLES}")
+    if not np.all(np.isfinite(array)):
+        at = int(np.argmin(np.isfinite(array)))
+        raise InputError(f"{name}[{at}]", float(array[at]), "a finite number")
+    array.setflags(write=False)
+    return array

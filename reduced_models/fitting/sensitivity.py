@@ -1,0 +1,132 @@
+"""Which terms of the seven-term polynomial the records need: Table 2 of Nonato and Cavalca (2010), and BIC."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reduced_models.elements.polynomial import PolynomialContact
+from reduced_models.fitting.fit import acceleration_error, take_samples
+from reduced_models.fitting.models import COLUMNS, Samples, linear_estimate
+from reduced_models.fitting.records import ContactRecord
+from reduced_models.fitting.uncertainty import autocorrelation, independent_samples
+
+TERMS = PolynomialContact.parameter_names
+CORRELATED = 0.5  # autocorrelation of neighbouring residuals above which AIC and BIC of all samples mislead
+
+
+@dataclass(frozen=True, slots=True)
+class SensitivityRow:
+    """The fit without one term, all others fitted again.
+
+    ``aic`` and ``bic`` are differences from the full model, negative where the term is not worth its keep.
+    """
+
+    removed: str | None  # None: the full model
+    rms: float  # RMS error of the force / standard deviation of the force
+    e_f: float  # eq. 13
+    e_acc: float | None
+    aic: float
+    bic: float
+    rms_without_refit: float  # the term struck out of the full fit, the others as they were
+
+
+@dataclass(frozen=True, slots=True)
+class Sensitivity:
+    """Table 2 for our records; the first row is the full model."""
+
+    rows: tuple[SensitivityRow, ...]
+    samples: int
+    independent_samples: float  # of the full model's residuals; what aic and bic count
+    lag_one: float  # autocorrelation of neighbouring residuals, mean over the records
+
+    @property
+    def ranking(self) -> tuple[str, ...]:
+        """Terms from the one whose removal does most harm (rms) to the one whose does least."""
+        ordered = sorted(self.rows[1:], key=lambda row: -row.rms)
+        return tuple(row.removed for row in ordered if row.removed is not None)
+
+    @property
+    def warning(self) -> str | None:
+        """What to keep in mind of aic and bic, if anything."""
+        if self.lag_one <= CORRELATED:
+            return None
+        return (
+            f"residuals hang together (autocorrelation {self.lag_one:.2f}): AIC and BIC count "
+            f"{self.independent_samples:.0f} independent samples instead of {self.samples}, and are a rough guide"
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """All numbers, ready for JSON."""
+        return {
+            "rows": [asdict(row) for row in self.rows],
+            "ranking": list(self.ranking),
+            "samples": self.samples,
+            "independent_samples": self.independent_samples,
+            "lag_one": self.lag_one,
+            "warning": self.warning,
+        }
+
+
+def sensitivity(
+    records: ContactRecord | Sequence[ContactRecord], window: tuple[float, float] | None = None
+) -> Sensitivity:
+    """Fit eq. 11 in full, then seven times with one coefficient left out.
+
+    As in the paper, the others are fitted again. The signed sums of its eq. 13 are near zero by construction
+    whatever is missing, so that rms decides; the error without a new fit tells how large the term is.
+
+    Parameters
+    ----------
+    records, window
+        As for `fit`.
+
+    Returns
+    -------
+    Sensitivity
+
+    Raises
+    ------
+    InputError
+        As `fit` does for the records; the polynomials need not make a contact.
+    """
+    samples, _ = take_samples(records, window)
+    for cut in samples.cuts:
+        cut.require_matching_rate()
+    full = linear_estimate(samples, TERMS, PolynomialContact)
+    parts = samples.split(samples.force - full.fitted)
+    independent = independent_samples(parts)
+    scale = float(np.mean((samples.force - full.fitted) ** 2))
+    rows = []
+    for removed in (None, *TERMS):
+        kept = [name for name in TERMS if name != removed]
+        fitted = linear_estimate(samples, kept, PolynomialContact).fitted
+        # Of normal residuals -2 ln(likelihood) = N ln(mean square): here of the samples that are independent.
+        gain = independent * float(np.log(np.mean((samples.force - fitted) ** 2) / scale))
+        fewer = len(TERMS) - len(kept)
+        struck = fitted if removed is None else full.fitted - _term(samples, removed, full.parameters[removed])
+        rows.append(
+            SensitivityRow(
+                removed=removed,
+                rms=_relative(samples, fitted),
+                e_f=float(np.sum(samples.force - fitted) / np.sum(samples.force)),
+                e_acc=acceleration_error(samples, fitted),
+                aic=gain - 2.0 * fewer,
+                bic=gain - float(np.log(independent)) * fewer,
+                rms_without_refit=_relative(samples, struck),
+            )
+        )
+    lag_one = float(np.mean([autocorrelation(part)[1] for part in parts]))
+    return Sensitivity(tuple(rows), int(samples.force.size), independent, lag_one)
+
+
+def _term(samples: Samples, name: str, value: float) -> NDArray[np.float64]:
+    return value * COLUMNS[name][1](samples.approach, samples.rate)
+
+
+def _relative(samples: Samples, fitted: NDArray[np.float64]) -> float:
+    return float(np.sqrt(np.mean((samples.force - fitted) ** 2)) / np.std(samples.force))

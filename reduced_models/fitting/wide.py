@@ -1,0 +1,161 @@
+"""A wide-range element from solves: steady films over the load, impedances at some of the loads."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import least_squares
+
+from ehlcontact import impedance, solve_steady
+from ehlcontact.errors import InputError
+from ehlcontact.point import Point, moes_point, scales_of
+from reduced_models.elements.file import library_version
+from reduced_models.elements.film_curve import increasing
+from reduced_models.elements.film_response import FilterRates, fit_gains
+from reduced_models.elements.memory import FilmMemoryContact
+from reduced_models.elements.wide import WideRangeContact
+from reduced_models.fitting.memory import LIMITS, OMEGAS, STARTS, TRANSIT, Response
+
+_Floats = NDArray[np.float64]
+
+LOADS = (0.005, 0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.6, 1.0, 1.7, 3.0)
+MEMORY_LOADS = (0.03, 0.1, 0.3, 1.0, 2.0)
+
+
+def wide_range_contact(
+    loads: ArrayLike,
+    approach: ArrayLike,
+    gain_loads: ArrayLike,
+    responses: Sequence[Response],
+    *,
+    lags: int = 12,
+    memory: FilmMemoryContact | None = None,
+    source: dict[str, Any] | None = None,
+) -> WideRangeContact:
+    """Element from tables, every row in the units of its own load, as solves at that load give them.
+
+    Parameters
+    ----------
+    loads : array_like, shape (n,)
+        In units of the reference load.
+    approach : array_like, shape (n,)
+        Static approach under each, in the dry approach of that load.
+    gain_loads : array_like, shape (k,)
+        Loads of the impedances.
+    responses : sequence of k impedances
+        In the units of their loads.
+    lags : int
+        Length of the chain, where `memory` does not set it.
+    memory : FilmMemoryContact, optional
+        Element fitted at the reference load, whose rates and squeeze term are taken. Without it the rates are
+        fitted to all impedances together and there is no squeeze term.
+    source : dict, optional
+        Kept in the file.
+
+    Raises
+    ------
+    InputError
+        Tables that make no contact.
+    """
+    at, places = increasing("loads", loads, 2), increasing("gain_loads", gain_loads)
+    if len(responses) != places.size:
+        raise InputError("number of responses", len(responses), f"one per load of gain_loads, {places.size}")
+    u = np.asarray(approach, float) * at ** (2.0 / 3.0)
+    if memory is not None:
+        rates, squeeze = memory.rates, memory.squeeze
+    else:
+        rates, squeeze = _common_rates(responses, lags), 0.0
+    gains = [fit_gains(rates, r.omega, r.stiffness, r.damping, _static(r)).gains.tolist() for r in responses]
+    omegas = [(float(np.min(r.omega)), float(np.max(r.omega))) for r in responses]
+    return WideRangeContact(
+        loads=at,  # type: ignore[arg-type]
+        approach=u,  # type: ignore[arg-type]
+        gain_loads=places,  # type: ignore[arg-type]
+        gains=gains,  # type: ignore[arg-type]
+        squeeze=squeeze,
+        lag_rate=rates.lag_rate,
+        inlet_rate=rates.inlet_rate,
+        fast_rate=rates.fast_rate,
+        omega_range=(min(low for low, _ in omegas), max(high for _, high in omegas)),
+        source=source,
+    )
+
+
+def wide_range_from_solves(
+    point: Point,
+    loads: Sequence[float] = LOADS,
+    *,
+    memory_loads: Sequence[float] = MEMORY_LOADS,
+    omegas: Sequence[float] = OMEGAS,
+    memory: FilmMemoryContact | None = None,
+    lags: int = 12,
+    n: int = 128,
+) -> WideRangeContact:
+    """Solve at M times each load and build the element; the domain of every solve is that of its own load.
+
+    Parameters
+    ----------
+    point : MoesPoint or OperatingPoint
+        The reference: its load is 1.
+    loads, memory_loads : sequence of float
+        Loads of the steady solves and of the impedances, increasing, in units of the reference load.
+    omegas : sequence of float
+        Frequencies of the impedances in the time of each load.
+    memory, lags
+        As for `wide_range_contact`.
+    n : int
+        Intervals along X.
+
+    Raises
+    ------
+    InputError
+        Loads that are not increasing and > 0, or tables that make no contact.
+    ConvergenceError
+        A solve did not converge.
+    """
+    at, places = increasing("loads", loads, 2), increasing("memory_loads", memory_loads)
+    for name, values in (("loads[0]", at), ("memory_loads[0]", places)):
+        if values[0] <= 0.0:
+            raise InputError(name, float(values[0]), "> 0")
+    moes, scales = moes_point(point), scales_of(point)
+    steady = [solve_steady(replace(moes, M=moes.M * f), n=n) for f in at.tolist()]
+    responses = [impedance(replace(moes, M=moes.M * f), omegas, n=n) for f in places.tolist()]
+    source = {
+        "point": moes.to_dict(),
+        "scales": None if scales is None else asdict(scales),
+        "n": n,
+        "domain": [list(s.domain.as_tuple()) for s in steady],
+        "motion": None,
+        "version": library_version(),
+    }
+    approach = [s.approach for s in steady]
+    return wide_range_contact(at, approach, places, responses, lags=lags, memory=memory, source=source)
+
+
+def _static(response: Response) -> float:
+    """Tangent at rest: K at the lowest frequency."""
+    return float(response.stiffness[np.argmin(response.omega)])
+
+
+def _common_rates(responses: Sequence[Response], lags: int) -> FilterRates:
+    """Rates that serve all impedances best, each in its own time."""
+
+    def rates(p: _Floats) -> FilterRates:
+        return FilterRates(lags, *(float(value) for value in np.exp(p)))
+
+    def residuals(p: _Floats) -> _Floats:
+        fits = [fit_gains(rates(p), r.omega, r.stiffness, r.damping, _static(r)) for r in responses]
+        return np.concatenate([fit.residuals for fit in fits])
+
+    lower, upper = np.log(np.array(LIMITS[:3])).T
+    solutions = [
+        least_squares(
+            residuals, np.log([lags / TRANSIT, *start]), bounds=(lower, upper), diff_step=1e-3, max_nfev=30
+        )
+        for start in STARTS
+    ]
+    return rates(min(solutions, key=lambda solution: solution.cost).x)

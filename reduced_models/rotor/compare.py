@@ -1,0 +1,125 @@
+"""How far a reduced response is from the full one, relative to how much the full one moves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.errors import InputError, require_nonnegative
+from reduced_models.rotor.result import RotorResult
+
+_Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class SignalDifference:
+    """Difference of one signal; relative figures are None where the full signal is constant."""
+
+    rms: float  # RMS of reduced - full
+    maximum: float  # largest |reduced - full|
+    amplitude: float  # half peak-to-peak of full
+    std: float  # standard deviation of full
+    rms_over_amplitude: float | None
+    rms_over_std: float | None
+    maximum_over_amplitude: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Differences by signal: disc_x, disc_y, journal_x, journal_y, approach_i [m], force_i [N]; i from 1."""
+
+    signals: Mapping[str, SignalDifference]
+    t_start: float
+    t_end: float
+    samples: int
+
+    @property
+    def displacement(self) -> float | None:
+        """Largest `rms_over_amplitude` of the disc and journal signals."""
+        return self._worst(("disc", "journal"))
+
+    @property
+    def force(self) -> float | None:
+        """Largest `rms_over_amplitude` of the contact forces."""
+        return self._worst(("force",))
+
+    def to_dict(self) -> dict[str, object]:
+        """All figures, ready for JSON."""
+        return {
+            "t_start": self.t_start,
+            "t_end": self.t_end,
+            "samples": self.samples,
+            "displacement": self.displacement,
+            "force": self.force,
+            "signals": {name: asdict(signal) for name, signal in self.signals.items()},
+        }
+
+    def _worst(self, prefixes: tuple[str, ...]) -> float | None:
+        figures = [
+            signal.rms_over_amplitude
+            for name, signal in self.signals.items()
+            if name.startswith(prefixes) and signal.rms_over_amplitude is not None
+        ]
+        return max(figures, default=None)
+
+
+def compare(full: RotorResult, reduced: RotorResult, *, discard: float = 0.0) -> Comparison:
+    """Compare two runs over the time they share.
+
+    Parameters
+    ----------
+    full, reduced : RotorResult
+        Of rotors with the same contacts; `reduced` is interpolated linearly where its times differ.
+    discard : float
+        Transient to leave out at the beginning [s].
+
+    Raises
+    ------
+    InputError
+        Different numbers of contacts, or fewer than 2 shared times after `discard`.
+    """
+    if full.force.shape[1] != reduced.force.shape[1]:
+        raise InputError(
+            "contacts of reduced", reduced.force.shape[1], f"as many as of full, {full.force.shape[1]}"
+        )
+    begin = float(full.t[0]) + require_nonnegative("discard", discard)
+    # Times are multiples of dt, so equal ones may differ by rounding.
+    slack = 1e-9 * float(full.t[-1])
+    shared = (full.t >= begin - slack) & (full.t <= reduced.t[-1] + slack)
+    if np.count_nonzero(shared) < 2:
+        raise InputError("discard", discard, "small enough to leave 2 times that both runs hold")
+    t = full.t[shared]
+    signals = {
+        name: _difference(values[shared], np.interp(t, reduced.t, other))
+        for (name, values), (_, other) in zip(_signals(full), _signals(reduced), strict=True)
+    }
+    return Comparison(signals, float(t[0]), float(t[-1]), int(t.size))
+
+
+def _signals(result: RotorResult) -> Iterator[tuple[str, _Floats]]:
+    for body in ("disc", "journal"):
+        for axis, letter in enumerate("xy"):
+            yield f"{body}_{letter}", getattr(result, body)[:, axis]
+    for name in ("approach", "force"):
+        for i, values in enumerate(getattr(result, name).T, start=1):
+            yield f"{name}_{i}", values
+
+
+def _difference(full: _Floats, reduced: _Floats) -> SignalDifference:
+    error = reduced - full
+    rms, maximum = float(np.sqrt(np.mean(error**2))), float(np.abs(error).max())
+    amplitude, std = 0.5 * float(np.ptp(full)), float(np.std(full))
+    # A constant signal keeps rounding as its spread: nothing to be relative to.
+    moves = amplitude > 1e-12 * float(np.abs(full).max())
+    return SignalDifference(
+        rms,
+        maximum,
+        amplitude,
+        std,
+        rms / amplitude if moves else None,
+        rms / std if moves else None,
+        maximum / amplitude if moves else None,
+    )

@@ -1,0 +1,268 @@
+"""A Jeffcott rotor on contacts: disc, elastic shaft, journal, and where the contacts sit. SI units.
+
+Four degrees of freedom: disc (x, y) and journal (x, y), y upwards. Both bearings are taken as identical and
+move as one, so one journal stands for both: its mass is that of the two journals, and the contacts of one
+bearing push on it ``bearings`` times.
+
+    m_d q_d'' + d_d q_d' + c_s (q_d' - q_j') + k_s (q_d - q_j) = m_d g + W + m_e omega^2 (cos, sin)(omega t)
+    m_j q_j'' - c_s (q_d' - q_j') - k_s (q_d - q_j)            = m_j g - bearings sum_i F_i n_i
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import cos, pi, sin
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.linalg import lstsq
+
+from ehlcontact.errors import (
+    InputError,
+    require_choice,
+    require_finite,
+    require_nonnegative,
+    require_positive,
+)
+from reduced_models.rotor.equilibrium import static_equilibrium
+
+_Floats = NDArray[np.float64]
+
+DOWN = -pi / 2.0
+
+
+@dataclass(frozen=True, slots=True)
+class ContactMount:
+    """Where a contact sits: approach = n . q_journal + offset, n = (cos angle, sin angle).
+
+    Parameters
+    ----------
+    angle : float
+        Direction from the journal centre to the contact [rad]; -pi/2 is below.
+    offset : float
+        Approach with the journal at the origin [m].
+
+    Raises
+    ------
+    InputError
+        Not finite, or an angle beyond one turn (given in degrees?).
+    """
+
+    angle: float
+    offset: float = 0.0
+
+    def __post_init__(self) -> None:
+        if abs(require_finite("angle", self.angle)) > 2.0 * pi:
+            raise InputError("angle", self.angle, "between -2 pi and 2 pi; angles are in radians")
+        require_finite("offset", self.offset)
+
+    @property
+    def normal(self) -> _Floats:
+        """Unit vector from the journal to the contact, shape (2,)."""
+        return np.array([cos(self.angle), sin(self.angle)])
+
+
+@dataclass(frozen=True, eq=False)
+class RotorState:
+    """Positions [m] and velocities [m/s] of disc and journal, each of shape (2,)."""
+
+    disc: _Floats
+    journal: _Floats
+    disc_velocity: _Floats
+    journal_velocity: _Floats
+
+    def __post_init__(self) -> None:
+        for name in ("disc", "journal", "disc_velocity", "journal_velocity"):
+            object.__setattr__(self, name, _vector(name, getattr(self, name)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class JeffcottRotor:
+    """Jeffcott rotor on contacts, after the equations at the head of this module.
+
+    Parameters
+    ----------
+    disc_mass, journal_mass : float
+        Of the disc, and of both journals together [kg].
+    shaft_stiffness, shaft_damping : float
+        Between disc and journal [N/m], [N s/m]; the damping acts in the fixed frame (external).
+    disc_damping : float
+        From the disc to the ground [N s/m].
+    unbalance : float
+        Mass times eccentricity of the disc [kg m].
+    speed_rpm : float
+        Constant speed [rev/min].
+    gravity : (float, float)
+        Acceleration [m/s^2].
+    load : (float, float)
+        Constant force on the disc [N], to bring the contacts to the load they were reduced at.
+    mounts : tuple of ContactMount
+        Contacts of one bearing.
+    bearings : int
+        How many identical bearings carry the rotor.
+    directions : {"xy", "y"}
+        With "y", disc and journal move in y only.
+
+    Raises
+    ------
+    InputError
+        A value outside its range; the message names it.
+    """
+
+    disc_mass: float
+    journal_mass: float
+    shaft_stiffness: float
+    mounts: tuple[ContactMount, ...]
+    shaft_damping: float = 0.0
+    disc_damping: float = 0.0
+    unbalance: float = 0.0
+    speed_rpm: float = 0.0
+    gravity: tuple[float, float] = (0.0, -9.81)
+    load: tuple[float, float] = (0.0, 0.0)
+    bearings: int = 2
+    directions: str = "xy"
+
+    def __post_init__(self) -> None:
+        for name in ("disc_mass", "journal_mass", "shaft_stiffness"):
+            require_positive(name, getattr(self, name))
+        for name in ("shaft_damping", "disc_damping", "unbalance", "speed_rpm"):
+            require_nonnegative(name, getattr(self, name))
+        for name in ("gravity", "load"):
+            object.__setattr__(self, name, tuple(_vector(name, getattr(self, name)).tolist()))
+        require_choice("directions", self.directions, ("xy", "y"))
+        if not isinstance(self.bearings, int) or self.bearings < 1:
+            raise InputError("bearings", self.bearings, "a whole number >= 1")
+        object.__setattr__(self, "mounts", tuple(self.mounts))
+        if not self.mounts or not all(isinstance(mount, ContactMount) for mount in self.mounts):
+            raise InputError("mounts", self.mounts, "at least one ContactMount")
+
+    @classmethod
+    def vertical(cls, *, offset: float = 0.0, **parameters: Any) -> Self:
+        """Rotor that moves in y only, above a single contact: the smallest system with a shaft in it.
+
+        Parameters
+        ----------
+        offset : float
+            Approach with the journal at the origin [m].
+        **parameters
+            As for the class; ``bearings`` is 1 unless given.
+        """
+        defaults: dict[str, Any] = {"bearings": 1, "directions": "y"}
+        return cls(mounts=(ContactMount(DOWN, offset),), **(defaults | parameters))
+
+    @classmethod
+    def vee(cls, *, half_angle: float, offset: float = 0.0, **parameters: Any) -> Self:
+        """Rotor in two contacts at +-`half_angle` [rad] from straight below, like two balls of a bearing."""
+        if not 0.0 < require_positive("half_angle", half_angle) < pi / 2.0:
+            raise InputError("half_angle", half_angle, "between 0 and pi/2")
+        mounts = (ContactMount(DOWN - half_angle, offset), ContactMount(DOWN + half_angle, offset))
+        return cls(mounts=mounts, **parameters)
+
+    @property
+    def omega(self) -> float:
+        """Speed [rad/s]."""
+        return self.speed_rpm * pi / 30.0
+
+    @property
+    def axes(self) -> tuple[int, ...]:
+        """Directions that move: 0 for x, 1 for y."""
+        return (0, 1) if self.directions == "xy" else (1,)
+
+    @property
+    def normals(self) -> _Floats:
+        """Unit normals of the contacts along the directions that move, shape (contacts, directions)."""
+        return np.array([mount.normal[list(self.axes)] for mount in self.mounts])
+
+    @property
+    def offsets(self) -> _Floats:
+        """Offsets of the contacts [m], shape (contacts,)."""
+        return np.array([mount.offset for mount in self.mounts])
+
+    @property
+    def disc_load(self) -> _Floats:
+        """Static force on the disc [N] along the directions that move."""
+        return (self.disc_mass * np.array(self.gravity) + np.array(self.load))[list(self.axes)]
+
+    @property
+    def static_load(self) -> _Floats:
+        """Static force that the contacts have to carry [N] along the directions that move."""
+        return self.disc_load + self.journal_mass * np.array(self.gravity)[list(self.axes)]
+
+    def matrices(self) -> tuple[_Floats, _Floats, _Floats]:
+        """Mass, damping and stiffness without contacts; order: disc, then journal, along the moving axes."""
+        one, coupling = np.eye(len(self.axes)), np.array([[1.0, -1.0], [-1.0, 1.0]])
+        ground = np.diag([self.disc_damping, 0.0])
+        masses = np.diag([self.disc_mass, self.journal_mass])
+        M, C, K = (
+            np.asarray(np.kron(part, one), dtype=np.float64)
+            for part in (masses, self.shaft_damping * coupling + ground, self.shaft_stiffness * coupling)
+        )
+        return M, C, K
+
+    def applied_force(self, t: float) -> _Floats:
+        """Static load and unbalance at time `t` [s], in the order of `matrices`."""
+        angle, swing = self.omega * t, self.unbalance * self.omega**2
+        rotating = swing * np.array([cos(angle), sin(angle)])[list(self.axes)]
+        return np.concatenate([self.disc_load + rotating, self.static_load - self.disc_load])
+
+    def approaches(self, journal: ArrayLike) -> _Floats:
+        """Approach of every contact [m] with the journal at `journal`, shape (2,)."""
+        return self.normals @ _vector("journal", journal)[list(self.axes)] + self.offsets
+
+    def state_at(self, approaches: ArrayLike) -> RotorState:
+        """State at rest with given approaches of the contacts [m], the shaft bent by the static load.
+
+        Raises
+        ------
+        InputError
+            Not one approach per contact, or approaches that no position of the journal gives.
+        """
+        wanted = np.asarray(approaches, dtype=np.float64)
+        if wanted.shape != (len(self.mounts),) or not np.all(np.isfinite(wanted)):
+            raise InputError("approaches", approaches, f"{len(self.mounts)} finite numbers, one per contact")
+        position: _Floats = lstsq(self.normals, wanted - self.offsets)[0]
+        miss = float(np.abs(self.normals @ position + self.offsets - wanted).max())
+        if miss > 1e-9 * float(np.abs(wanted).max()):
+            raise InputError("approaches", approaches, f"reachable by one journal position (off by {miss:.3g} m)")
+        return self.rest_state(position)
+
+    def rest_state(self, position: _Floats) -> RotorState:
+        """State at rest with the journal at `position` (moving directions only) and the shaft bent."""
+        journal, disc = np.zeros(2), np.zeros(2)
+        journal[list(self.axes)] = position
+        disc[list(self.axes)] = position + self.disc_load / self.shaft_stiffness
+        return RotorState(disc, journal, np.zeros(2), np.zeros(2))
+
+    def static_forces(self) -> _Floats:
+        """Force on every contact under the static load, where equilibrium alone decides it [N].
+
+        Raises
+        ------
+        InputError
+            More contacts than moving directions, or a load that would pull at a contact.
+        """
+        normals = self.normals
+        if np.linalg.matrix_rank(normals) < len(self.mounts):
+            raise InputError("mounts", len(self.mounts), "no more independent contacts than moving directions")
+        forces: _Floats = lstsq(self.bearings * normals.T, self.static_load)[0]
+        carried = self.bearings * normals.T @ forces
+        if np.any(forces <= 0.0) or not np.allclose(carried, self.static_load, rtol=1e-9, atol=1e-9):
+            raise InputError("static load", self.static_load.tolist(), "carried by pushing contacts")
+        return forces
+
+    def static_equilibrium(self, contacts: Sequence[Any]) -> RotorState:
+        """State at rest under the static load; see `reduced_models.rotor.equilibrium.static_equilibrium`."""
+        return static_equilibrium(self, contacts)
+
+
+def _vector(name: str, values: ArrayLike) -> _Floats:
+    try:
+        array = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(name, values, "two finite numbers") from None
+    if array.shape != (2,) or not np.all(np.isfinite(array)):
+        raise InputError(name, values, "two finite numbers")
+    array.setflags(write=False)
+    return array
