@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError, require_finite, require_instance, require_positive
+from ehlcontact.checks import require_finite, require_instance, require_positive
+from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from ehlcontact.results import SimulationResult, SteadyResult
 from ehlcontact.solver.lowest_film import lowest_film

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError, require_finite, require_instance
+from ehlcontact.checks import require_finite, require_instance
+from ehlcontact.errors import InputError
 from ehlcontact.results import SimulationResult
 
 Array = NDArray[np.float64]

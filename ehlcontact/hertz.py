@@ -13,7 +13,8 @@ from math import log, pi
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
-from ehlcontact.errors import InputError, require_positive
+from ehlcontact.checks import require_positive
+from ehlcontact.errors import InputError
 
 
 def elliptic_integrals(kappa: float) -> tuple[float, float]:

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from math import log
 from typing import NamedTuple
 
-from ehlcontact.errors import InputError, require_choice, require_nonnegative, require_positive
+from ehlcontact.checks import require_choice, require_nonnegative, require_positive
+from ehlcontact.errors import InputError
 
 VISCOSITY_LAWS = ("roelands", "barus")
 DENSITY_LAWS = ("dowson-higginson", "incompressible")

@@ -18,7 +18,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from math import pi, sqrt
 
-from ehlcontact.errors import InputError, require_finite, require_nonnegative, require_positive
+from ehlcontact.checks import require_finite, require_nonnegative, require_positive
+from ehlcontact.errors import InputError
 from ehlcontact.hertz import HertzContact, ellipse_ratio, elliptic_integrals, hertz_contact, shape_factor
 from ehlcontact.lubricant import FluidLaw, Lubricant
 

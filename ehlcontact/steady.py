@@ -9,10 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ehlcontact.errors import ConvergenceError, require_choice, require_finite, require_integer, require_positive
+from ehlcontact.checks import require_choice, require_finite, require_integer, require_positive
+from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.results import SteadyResult
-from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.domain import Domain, check_domain, check_intervals, default_domain
 from ehlcontact.solver.grid import Level
 from ehlcontact.solver.lowest_film import lowest_film
@@ -104,9 +105,9 @@ def solve_steady(
     require_positive("tol", tol)
     require_choice("method", method, tuple(WAYS))
     if approach is None:
-        balance = Balance(0.0, 1.0, 1.0)
+        balance = Balance.of_load()
     else:
-        balance = Balance(1.0, 0.0, require_finite("approach", approach))
+        balance = Balance.of_approach(require_finite("approach", approach))
         if approach > 1.0 and domain is None:
             domain = default_domain(moes, approach**1.5)
     attempts = _meshes(moes, n, domain)

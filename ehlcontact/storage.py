@@ -12,7 +12,8 @@ from typing import Any
 import h5py
 import numpy as np
 
-from ehlcontact.errors import InputError, require_instance
+from ehlcontact.checks import require_instance
+from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.results import SimulationResult, SteadyResult
 from ehlcontact.solver.domain import Domain

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg
 
+from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid import Array, Level
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
 
@@ -26,27 +27,6 @@ CORRECTION_STEPS = 4  # of the coarsest grid in one cycle
 LARGEST_RENEWALS = 2  # of the factors in one cycle
 WORN_OUT = 0.3  # drop of the merit in one step above which factors are renewed
 CORRECTION_DROP = 1e-2  # of its residual, enough for one cycle
-
-
-@dataclass(frozen=True, slots=True)
-class Balance:
-    """The equation that closes a solve: ``stiffness * u + weight * force = rhs``.
-
-    Load balance is (0, 1, load), prescribed approach (1, 0, u), and a step of the equation of motion with
-    Newmark's rule has stiffness 4/(Omega_n dT)^2 and weight 1.
-    """
-
-    stiffness: float
-    weight: float
-    rhs: float
-
-    def residual(self, u: float, force: float) -> float:
-        """``rhs - stiffness u - weight force``."""
-        return self.rhs - self.stiffness * u - self.weight * force
-
-    def shifted(self, change: float) -> Balance:
-        """Return the same equation with `change` added to its right-hand side."""
-        return Balance(self.stiffness, self.weight, self.rhs + change)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

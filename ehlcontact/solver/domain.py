@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ehlcontact.errors import InputError, require_finite, require_instance, require_integer
+from ehlcontact.checks import require_finite, require_instance, require_integer
+from ehlcontact.errors import InputError
 from ehlcontact.hertz import radius_ratio
 from ehlcontact.point import MoesPoint
 

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid import Array, Level
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, linearise, neighbour
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy import linalg
 
 from ehlcontact.point import MoesPoint
-from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Array
 from ehlcontact.solver.linear_film import LinearFilm
@@ -23,7 +23,7 @@ from ehlcontact.solver.preconditioner import NearCorrection, Preconditioner
 
 Complex = NDArray[np.complex128]
 
-PRESCRIBED = Balance(1.0, 0.0, 0.0)
+PRESCRIBED = Balance.of_approach(0.0)
 KEEP_FACTORS = 5.0  # change of Omega for which the factors of short waves serve
 SOLVE_SHARE = 0.3  # of the tolerance, for the solves themselves
 SMALLEST_NEW_PART = 1e-10  # of a vector, outside the space so far

@@ -14,7 +14,8 @@ import numpy as np
 from scipy.interpolate import RectBivariateSpline
 
 from ehlcontact.point import MoesPoint
-from ehlcontact.solver.coarse import Balance, CoarseNewton
+from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.coarse import CoarseNewton
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Level, build_hierarchy
 from ehlcontact.solver.kernels import transfer

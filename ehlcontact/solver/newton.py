@@ -14,7 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ehlcontact.solver.coarse import Balance, step_length
+from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.coarse import step_length
 from ehlcontact.solver.grid import Array
 from ehlcontact.solver.linear_film import LinearFilm
 from ehlcontact.solver.linear_solve import solve_linear

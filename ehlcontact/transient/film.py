@@ -12,7 +12,8 @@ from math import isfinite
 import numpy as np
 
 from ehlcontact.point import MoesPoint
-from ehlcontact.solver.coarse import Balance, Factors
+from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.coarse import Factors
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Array, Level
 from ehlcontact.solver.multigrid import Multigrid

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from ehlcontact.errors import ConvergenceError, require_finite, require_positive
+from ehlcontact.checks import require_finite, require_positive
+from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import Point, moes_point
-from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.domain import Domain, check_domain
 from ehlcontact.solver.resolution import moving_intervals
 from ehlcontact.status import Status
@@ -53,7 +54,7 @@ class FullContact:
         self.domain = check_domain(domain, self.point, require_positive("largest_load", largest_load))
         self.n = moving_intervals(n, self.point, self.domain, FEWEST_INTERVALS)
         self._film = TransientFilm(self.point, self.domain, self.n, require_positive("tol", tol))
-        self._check(self._film.start_steady(Balance(0.0, 1.0, 1.0)))
+        self._check(self._film.start_steady(Balance.of_load()))
         self.static_approach = self._film.u
         self.force = self._film.level.force()
 
@@ -74,7 +75,7 @@ class FullContact:
         u = require_finite("approach", approach)
         state = self._film.save_state()
         try:
-            self._check(self._film.advance(dt, Balance(1.0, 0.0, u), u))
+            self._check(self._film.advance(dt, Balance.of_approach(u), u))
         except ConvergenceError:
             self._film.restore_state(state)
             raise

@@ -16,7 +16,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.errors import InputError, require_finite, require_positive
+from ehlcontact.checks import require_finite, require_positive
+from ehlcontact.errors import InputError
 from ehlcontact.transient.table import Tabulated, as_table
 
 SMALL_VIBRATION = 1.5**0.5  # dry angular frequency over Omega_n

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.balance import Balance
 from ehlcontact.status import Status
 from ehlcontact.transient.film import FilmState, TransientFilm
 from ehlcontact.transient.motion import FreeVibration, Motion, PrescribedApproach
@@ -60,21 +60,21 @@ class Run:
         """Static state, then the state the motion starts from, with the acceleration that its force gives."""
         film, motion = self.film, self.motion
         G = surface_height(self.surface, film.level.X, film.level.Y, 0.0)
-        step = film.start_steady(Balance(0.0, 1.0, 1.0), surface=G)
+        step = film.start_steady(Balance.of_load(), surface=G)
         static = self.static_approach = film.u
         rate = 0.0
         if isinstance(motion, PrescribedApproach):
             rate = motion.rate(0.0)
             if step.status.ok:
                 u = motion.approach(0.0)
-                step = film.start_steady(Balance(1.0, 0.0, u), u, G)
+                step = film.start_steady(Balance.of_approach(u), u, G)
         elif isinstance(motion, FreeVibration):
             rate = motion.initial_rate
             if step.status.ok and motion.offset != 0.0:
                 u = static + motion.offset
-                step = film.start_steady(Balance(1.0, 0.0, u), u, G)
+                step = film.start_steady(Balance.of_approach(u), u, G)
         elif step.status.ok and motion.load(0.0) != 1.0:
-            step = film.start_steady(Balance(0.0, 1.0, motion.load(0.0)), static, G)
+            step = film.start_steady(Balance.of_load(motion.load(0.0)), static, G)
         force = film.level.force()
         load = force if isinstance(motion, PrescribedApproach) else motion.load(0.0)
         acceleration = motion.omega_n**2 * (load - force) if motion.omega_n else 0.0
@@ -96,7 +96,7 @@ class Run:
         guess = now.u + dT * rate
         if isinstance(motion, PrescribedApproach):
             guess = motion.approach(T)
-            balance = Balance(1.0, 0.0, guess)
+            balance = Balance.of_approach(guess)
         elif motion.omega_n:
             # Newmark, beta = 1/4: u_new = predictor + dT^2/4 u''_new, put into eq. 5
             predictor = guess + 0.25 * dT * dT * acceleration
@@ -104,7 +104,7 @@ class Run:
             balance = Balance(stiffness, 1.0, motion.load(T) + stiffness * predictor)
             guess = predictor + 0.25 * dT * dT * acceleration
         else:
-            balance = Balance(0.0, 1.0, motion.load(T))
+            balance = Balance.of_load(motion.load(T))
         feature = surface_step(self.surface, film.level.X, film.level.Y, T, dT, film.last_step)
         step = film.advance(dT, balance, guess, feature)
         if motion.omega_n:

@@ -9,7 +9,8 @@ from math import ceil, inf
 
 import numpy as np
 
-from ehlcontact.errors import ConvergenceError, InputError, require_instance, require_nonnegative, require_positive
+from ehlcontact.checks import require_instance, require_nonnegative, require_positive
+from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, moes_point, scales_of
 from ehlcontact.results import SimulationResult
 from ehlcontact.solver.domain import Domain, check_domain

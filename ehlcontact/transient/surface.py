@@ -15,7 +15,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError, require_finite, require_nonnegative, require_positive
+from ehlcontact.checks import require_finite, require_nonnegative, require_positive
+from ehlcontact.errors import InputError
 
 Array = NDArray[np.float64]
 Surface = Callable[[Array, Array, float], Array]

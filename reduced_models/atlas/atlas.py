@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError, require_choice, require_finite
+from ehlcontact.checks import require_choice, require_finite
+from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Point, moes_point, scales_of
 from reduced_models.atlas.box import Box
 from reduced_models.atlas.elements import Loads, cubic_element, memory_element, passive_gains, wide_element

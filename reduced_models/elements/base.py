@@ -14,7 +14,8 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.errors import InputError, require_choice, require_finite, require_instance, require_nonnegative
+from ehlcontact.checks import require_choice, require_finite, require_instance, require_nonnegative
+from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from reduced_models.elements.file import UNITS, band, numbers, read_document, write_document
 from reduced_models.elements.validity import MARGIN, OCTAVE, Band, OutsideValidityWarning, text_of

@@ -12,7 +12,8 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.errors import InputError, require_finite, require_positive
+from ehlcontact.checks import require_finite, require_positive
+from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.file import band, numbers

@@ -20,7 +20,8 @@ from numpy.polynomial import Chebyshev
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import nnls
 
-from ehlcontact.errors import InputError, require_integer, require_positive
+from ehlcontact.checks import require_integer, require_positive
+from ehlcontact.errors import InputError
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]

@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ehlcontact.errors import InputError, require_finite, require_positive
+from ehlcontact.checks import require_finite, require_positive
+from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from reduced_models.elements.file import numbers
 from reduced_models.elements.film_curve import LEAST_EXPONENT, as_rows, require_rising

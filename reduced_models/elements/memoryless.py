@@ -8,7 +8,8 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.errors import InputError, require_positive
+from ehlcontact.checks import require_positive
+from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from reduced_models.elements.base import ContactElement
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from ehlcontact.errors import require_positive
+from ehlcontact.checks import require_positive
 from ehlcontact.point import Scales
 from reduced_models.elements.memoryless import MemorylessContact
 from reduced_models.elements.polynomial_law import PolynomialLaw, contact, contact_values, damper, part_values

@@ -9,7 +9,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.errors import require_nonnegative, require_positive
+from ehlcontact.checks import require_nonnegative, require_positive
 from reduced_models.elements.ends import Ends, fade, hertz, joined_ends
 
 

@@ -13,7 +13,7 @@ from numba import njit
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from ehlcontact.errors import require_nonnegative
+from ehlcontact.checks import require_nonnegative
 from reduced_models.elements.ends import Ends, fade, hertz, joined_ends
 
 

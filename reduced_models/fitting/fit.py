@@ -9,7 +9,8 @@ from typing import Any, Literal, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError, require_choice
+from ehlcontact.checks import require_choice
+from ehlcontact.errors import InputError
 from reduced_models.elements.file import library_version
 from reduced_models.elements.memoryless import MemorylessContact
 from reduced_models.fitting.memory import MemoryFit, fit_memory

@@ -9,7 +9,8 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.errors import InputError, require_choice, require_finite, require_instance, require_positive
+from ehlcontact.checks import require_choice, require_finite, require_instance, require_positive
+from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Scales
 from reduced_models.elements.file import UNITS
 

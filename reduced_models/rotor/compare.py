@@ -8,7 +8,8 @@ from dataclasses import asdict, dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError, require_nonnegative
+from ehlcontact.checks import require_nonnegative
+from ehlcontact.errors import InputError
 from reduced_models.rotor.result import RotorResult
 
 _Floats = NDArray[np.float64]

@@ -19,13 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import lstsq
 
-from ehlcontact.errors import (
-    InputError,
-    require_choice,
-    require_finite,
-    require_nonnegative,
-    require_positive,
-)
+from ehlcontact.checks import require_choice, require_finite, require_nonnegative, require_positive
+from ehlcontact.errors import InputError
 from reduced_models.rotor.equilibrium import static_equilibrium
 
 _Floats = NDArray[np.float64]

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import solve_ivp
 
-from ehlcontact.errors import ConvergenceError, InputError, require_choice, require_finite, require_positive
+from ehlcontact.checks import require_choice, require_finite, require_positive
+from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.film_element import FilmContact
 from reduced_models.elements.memoryless import MemorylessContact

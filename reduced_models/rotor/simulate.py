@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from ehlcontact.errors import ConvergenceError, InputError, require_positive
+from ehlcontact.checks import require_positive
+from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.elements.validity import frequency_of
 from reduced_models.rotor.contact import Contact
 from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState

@@ -18,13 +18,13 @@ from scipy import fft
 
 from ehlcontact import Domain, FreeVibration, MoesPoint, simulate, solve_steady
 from ehlcontact.impedance import impedance
-from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.steady import central_film
 from ehlcontact.transient.film import TransientFilm
 from reduced_models import ContactRecord, fit
 
-LOAD = Balance(0.0, 1.0, 1.0)
+LOAD = Balance.of_load()
 
 
 def median_time(work: Callable[[], object], repetitions: int) -> float:

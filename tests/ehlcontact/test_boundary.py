@@ -5,7 +5,7 @@ import oracles
 import pytest
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.kernels import boundary
 from ehlcontact.solver.kernels.reynolds import operator_at, residual
 from ehlcontact.solver.multigrid import Multigrid
@@ -41,8 +41,8 @@ def test_marks(kernel):
 @pytest.fixture(scope="module")
 def solved():
     mg = Multigrid(MoesPoint(20, 5, 0.5), Domain(), 32, coarsest=32)
-    mg.full_multigrid(Balance(0.0, 1.0, 1.0))
-    mg.u = mg.newton.solve(mg.u, Balance(0.0, 1.0, 1.0), 20, 1e-13)
+    mg.full_multigrid(Balance.of_load())
+    mg.u = mg.newton.solve(mg.u, Balance.of_load(), 20, 1e-13)
     mg.finest.update_residual()
     return mg.finest
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from ehlcontact import Domain, MoesPoint, solve_steady
-from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.multigrid import Multigrid, coarsest_intervals, initial_approach
 
-LOAD = Balance(0.0, 1.0, 1.0)
+LOAD = Balance.of_load()
 
 
 def residual_of(mg):
@@ -44,7 +44,7 @@ def test_solution_is_a_fixed_point_of_the_cycle():
     np.testing.assert_allclose(mg.finest.P, P, atol=1e-10)
 
 
-@pytest.mark.parametrize("balance", [Balance(1.0, 0.0, 0.7), Balance(3.0, 1.0, 3.2)], ids=["approach", "motion"])
+@pytest.mark.parametrize("balance", [Balance.of_approach(0.7), Balance(3.0, 1.0, 3.2)], ids=["approach", "motion"])
 def test_other_balances_close_the_cycle(balance):
     mg = Multigrid(MoesPoint(20, 8, 0.5), Domain(), 64)
     mg.full_multigrid(balance)

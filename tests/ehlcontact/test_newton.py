@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact.solver.coarse import Balance, CoarseNewton
+from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.coarse import CoarseNewton
 from ehlcontact.solver.grid import Level
 from ehlcontact.solver.multigrid import initial_approach
 
@@ -20,7 +21,7 @@ def solve(point, balance, nx=16, ny=8, tol=1e-11):
 @pytest.mark.parametrize("viscosity", ["roelands", "barus"])
 def test_load_balance(kappa, viscosity):
     point = MoesPoint(50, 6, kappa, viscosity=viscosity)
-    level, _ = solve(point, Balance(0.0, 1.0, 1.0))
+    level, _ = solve(point, Balance.of_load())
     assert level.residual_norm() < 1e-10
     assert level.force() == pytest.approx(1.0, abs=1e-11)
     # complementarity: pressure, or a residual that asks for none
@@ -29,7 +30,7 @@ def test_load_balance(kappa, viscosity):
 
 
 def test_prescribed_approach():
-    level, u = solve(MoesPoint(50, 6, 0.5), Balance(1.0, 0.0, 0.6))
+    level, u = solve(MoesPoint(50, 6, 0.5), Balance.of_approach(0.6))
     assert u == pytest.approx(0.6, abs=1e-12)
     assert level.residual_norm() < 1e-10
 
@@ -43,7 +44,7 @@ def test_equation_of_motion():
 
 
 def test_quadratic_convergence():
-    point, balance = MoesPoint(50, 6, 0.5), Balance(0.0, 1.0, 1.0)
+    point, balance = MoesPoint(50, 6, 0.5), Balance.of_load()
     level = Level(point, Domain(), 16, 8)
     level.set_dry_hertz()
     newton = CoarseNewton(level)
@@ -58,7 +59,7 @@ def test_quadratic_convergence():
 
 
 def test_correct_reduces_the_residual_a_hundredfold():
-    point, balance = MoesPoint(50, 6, 0.5), Balance(0.0, 1.0, 1.0)
+    point, balance = MoesPoint(50, 6, 0.5), Balance.of_load()
     level, u = solve(point, balance)
     level.P[...] *= 1.0 + 1e-3 * np.random.default_rng(1).normal(size=level.P.shape)
     newton = CoarseNewton(level)
@@ -70,7 +71,7 @@ def test_correct_reduces_the_residual_a_hundredfold():
 def test_nan_ends_the_iteration():
     level = Level(MoesPoint(50, 6, 0.5), Domain(), 16, 8)
     level.P[3, 3] = np.nan
-    u = CoarseNewton(level).solve(0.5, Balance(0.0, 1.0, 1.0), max_steps=60, tol=1e-9)
+    u = CoarseNewton(level).solve(0.5, Balance.of_load(), max_steps=60, tol=1e-9)
     assert u == 0.5
 
 

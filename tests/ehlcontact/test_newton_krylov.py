@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import MoesPoint
-from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.domain import check_domain
 from ehlcontact.solver.kernels import linearise as lin
 from ehlcontact.solver.linear_film import NEIGHBOUR_OFFSETS, LinearFilm, stencil_matrix
@@ -18,7 +18,7 @@ from ehlcontact.status import Status
 from ehlcontact.steady import dry_residual
 from ehlcontact.transient.film import TransientFilm
 
-LOAD = Balance(0.0, 1.0, 1.0)
+LOAD = Balance.of_load()
 POINTS = [(200, 10, 1.0), (200, 10, 0.5), (500, 15, 0.12), (2900, 19, 0.11), (20, 5, 0.5), (200, 10, 2.0)]
 FINE = [pytest.param(*point, 128) for point in POINTS]
 FINEST = [pytest.param(*point, 256, marks=pytest.mark.slow) for point in POINTS]
@@ -168,7 +168,7 @@ def test_complementarity():
     assert (level.r[level.P == 0.0] >= 0.0).all()
 
 
-@pytest.mark.parametrize("balance", [Balance(1.0, 0.0, 0.7), Balance(3.0, 1.0, 3.2)], ids=["approach", "motion"])
+@pytest.mark.parametrize("balance", [Balance.of_approach(0.7), Balance(3.0, 1.0, 3.2)], ids=["approach", "motion"])
 def test_other_balances(balance):
     multigrid, scale = hierarchy(20, 8, 0.5, 64)
     outcome = solve_newton(multigrid, balance, scale, 1e-9)

@@ -5,7 +5,7 @@ import oracles
 import pytest
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact.solver.coarse import Balance
+from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid import Level
 from ehlcontact.solver.kernels import relax
 from ehlcontact.solver.kernels.linearise import linearise, neighbour
@@ -170,8 +170,8 @@ def test_dry_node_joins_only_if_its_residual_asks_for_pressure(level):
 def newton_solution(kappa):
     """A film solved to rounding on one grid."""
     mg = Multigrid(MoesPoint(20, 8, kappa), Domain(), 32, coarsest=32)
-    mg.full_multigrid(Balance(0.0, 1.0, 1.0))
-    mg.u = mg.newton.solve(mg.u, Balance(0.0, 1.0, 1.0), 20, 1e-13)
+    mg.full_multigrid(Balance.of_load())
+    mg.u = mg.newton.solve(mg.u, Balance.of_load(), 20, 1e-13)
     return mg
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import Domain, MoesPoint, solve_steady
-from ehlcontact import resolution as r
+from ehlcontact.solver import resolution as r
 from ehlcontact.impedance import impedance
 from ehlcontact.solver.domain import check_intervals
 

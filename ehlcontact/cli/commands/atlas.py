@@ -8,9 +8,9 @@ from typing import Annotated
 
 import typer
 
+from ehlcontact.checks import require_integer
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import check_file, check_json, progress, show_table, write_json
-from ehlcontact.errors import require_integer
 
 NPZ = (".npz",)
 

@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
+from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import check_file, check_json, show_table, write_json
-from ehlcontact.errors import require_choice
 from ehlcontact.point import MoesPoint
 from reduced_models.elements.validity import text_of
 

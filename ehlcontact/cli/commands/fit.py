@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import check_file, check_json, show_table, write_json
-from ehlcontact.errors import InputError, require_choice
+from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
     from reduced_models import ElementFit, FitResult

@@ -7,10 +7,11 @@ from typing import Annotated
 
 import typer
 
+from ehlcontact.checks import require_positive
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import FAILED, check_file, check_json, complain, progress, show_table, write_json
 from ehlcontact.cli.plots.file import FigureTo, check_figure, write_figure
-from ehlcontact.errors import ConvergenceError, InputError, require_positive
+from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import MoesPoint
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, Motion, RampLoad
 

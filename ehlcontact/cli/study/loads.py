@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from math import cos, pi
 
-from ehlcontact.errors import InputError, require_positive
+from ehlcontact.checks import require_positive
+from ehlcontact.errors import InputError
 
 STRIBECK = 4.37  # Q_max = 4.37 F_r/Z: the limit of many balls
 

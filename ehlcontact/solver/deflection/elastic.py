@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from ehlcontact.errors import require_choice
+from ehlcontact.checks import require_choice
 from ehlcontact.hertz import elliptic_integrals
 from ehlcontact.solver.kernels import mlmi as kernels
 

@@ -1,0 +1,135 @@
+"""Checks of inputs: each returns what it was given, in its plain form, or raises one line that names it."""
+
+from __future__ import annotations
+
+import math
+from numbers import Integral, Real
+from types import UnionType
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ehlcontact.errors import InputError
+
+Array = NDArray[np.float64]
+
+
+def require_positive(field: str, value: object) -> float:
+    """Return `value` as a float, or raise `InputError` unless it is finite and > 0."""
+    number = _as_float(field, value, "a finite number > 0")
+    if not (math.isfinite(number) and number > 0.0):
+        raise InputError(field, number, "a finite number > 0")
+    return number
+
+
+def require_nonnegative(field: str, value: object) -> float:
+    """Return `value` as a float, or raise `InputError` unless it is finite and >= 0."""
+    number = _as_float(field, value, "a finite number >= 0")
+    if not (math.isfinite(number) and number >= 0.0):
+        raise InputError(field, number, "a finite number >= 0")
+    return number
+
+
+def require_finite(field: str, value: object) -> float:
+    """Return `value` as a float, or raise `InputError` unless it is finite."""
+    number = _as_float(field, value, "a finite number")
+    if not math.isfinite(number):
+        raise InputError(field, number, "a finite number")
+    return number
+
+
+def require_integer(field: str, value: object, allowed: str, lowest: int) -> int:
+    """Return `value` as an int, or raise `InputError` unless it is a whole number of at least `lowest`."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or value < lowest:
+        raise InputError(field, value, allowed)
+    return int(value)
+
+
+def require_choice(field: str, value: object, choices: tuple[str, ...]) -> str:
+    """Return `value`, or raise `InputError` unless it is one of `choices`."""
+    if not isinstance(value, str) or value not in choices:
+        raise InputError(field, value, "one of " + ", ".join(choices))
+    return value
+
+
+def require_instance(field: str, value: object, kinds: type | UnionType, allowed: str) -> None:
+    """Raise `InputError` unless `value` is an instance of `kinds`; `allowed` names them."""
+    if not isinstance(value, kinds):
+        raise InputError(field, type(value).__name__, allowed)
+
+
+def as_column(
+    field: str, values: ArrayLike, *, least: int = 1, size: int | None = None, increasing: bool = False
+) -> Array:
+    """Return `values` as a new read-only array of finite numbers, shape (k,).
+
+    Parameters
+    ----------
+    field : str
+        Its name in messages.
+    values : array_like
+    least : int
+        Smallest length.
+    size : int, optional
+        Length it must have.
+    increasing : bool
+        Whether each value must lie above the one before.
+
+    Raises
+    ------
+    InputError
+        Anything else; where one entry is to blame, the message names it by its number.
+    """
+    array = _numbers(field, values, "a one-dimensional array of numbers")
+    if array.ndim != 1:
+        raise InputError(f"shape of {field}", array.shape, "one-dimensional")
+    if array.size < least:
+        raise InputError(f"length of {field}", array.size, f"at least {least}")
+    if size is not None and array.size != size:
+        raise InputError(f"length of {field}", array.size, str(size))
+    _require_finite_entries(field, array)
+    falls = np.diff(array) <= 0.0
+    if increasing and falls.any():
+        at = int(np.argmax(falls)) + 1
+        raise InputError(f"{field}[{at}]", float(array[at]), f"above {field}[{at - 1}] = {float(array[at - 1])!r}")
+    array.setflags(write=False)
+    return array
+
+
+def as_rows(field: str, values: ArrayLike, rows: int, least: int) -> Array:
+    """Return `values` as a new read-only array of finite numbers, shape (`rows`, k) with k >= `least`.
+
+    Raises
+    ------
+    InputError
+        Anything else.
+    """
+    array = _numbers(field, values, "rows of numbers, all of one length")
+    if array.ndim != 2 or array.shape[0] != rows or array.shape[1] < least:
+        raise InputError(f"shape of {field}", array.shape, f"({rows}, {least} or more)")
+    _require_finite_entries(field, array)
+    array.setflags(write=False)
+    return array
+
+
+def _numbers(field: str, values: ArrayLike, allowed: str) -> Array:
+    if values is None:
+        raise InputError(field, None, "given")
+    try:
+        return np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(field, type(values).__name__, allowed) from None
+
+
+def _require_finite_entries(field: str, array: Array) -> None:
+    bad = ~np.isfinite(array)
+    if bad.any():
+        at = ", ".join(str(k) for k in np.unravel_index(int(np.argmax(bad)), array.shape))
+        raise InputError(f"{field}[{at}]", float(array.flat[int(np.argmax(bad))]), "a finite number")
+
+
+def _as_float(field: str, value: object, allowed: str) -> float:
+    # numbers.Real holds Python's and numpy's numbers, and bool, which is no number to a user
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise InputError(field, value, allowed)
+    return float(value)
