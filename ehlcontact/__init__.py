@@ -44,6 +44,7 @@ from ehlcontact.film import Film, FilmHistory, Interferogram, film_history, film
 from ehlcontact.film_wave import FilmWave, WaveTrack, film_wave, track_wave
 from ehlcontact.impedance import ImpedanceResult, impedance
 from ehlcontact.lubricant import Lubricant
+from ehlcontact.origin import __version__
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint, Scales
 from ehlcontact.results import Instants, SimulationResult, SteadyResult
 from ehlcontact.solver.domain import Domain
@@ -54,7 +55,6 @@ from ehlcontact.transient.full_contact import FullContact
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, PrescribedApproach, PrescribedLoad, RampLoad
 from ehlcontact.transient.simulate import simulate
 from ehlcontact.transient.surface import Dent, TransverseRidge, Waviness
-from ehlcontact.version import __version__
 
 __all__ = [
     "ConvergenceError",

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.domain import Domain, check_domain
@@ -28,7 +29,6 @@ from ehlcontact.solver.linearised_contact import LinearisedContact
 from ehlcontact.solver.resolution import automatic_mesh, moving_intervals
 from ehlcontact.status import Status
 from ehlcontact.steady import ROOM, solve_steady
-from ehlcontact.version import __version__
 
 Array = NDArray[np.float64]
 

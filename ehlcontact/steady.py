@@ -11,6 +11,7 @@ import numpy as np
 
 from ehlcontact.checks import require_choice, require_finite, require_integer, require_positive
 from ehlcontact.errors import ConvergenceError
+from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.balance import Balance
@@ -21,7 +22,6 @@ from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.solver.resolution import automatic_mesh, nodes, refined_mesh
 from ehlcontact.status import Status, classify
-from ehlcontact.version import __version__
 
 LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7

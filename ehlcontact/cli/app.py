@@ -12,7 +12,7 @@ import typer
 from ehlcontact.cli.commands import atlas, element, export, fit, impedance, reproduce, run, simulate, steady
 from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain, one_line
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.version import __version__
+from ehlcontact.origin import __version__
 
 # Root of the usage errors; typer's own or click's, depending on the version of typer.
 UsageFailure: type[Exception] = [base for base in typer.BadParameter.__mro__ if hasattr(base, "format_message")][

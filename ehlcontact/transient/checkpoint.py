@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
+from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.coarse import Factors
 from ehlcontact.solver.domain import Domain
@@ -29,7 +30,6 @@ from ehlcontact.transient.record import Array, Entry, History, MotionState
 from ehlcontact.transient.run import Run
 from ehlcontact.transient.step import StepControl
 from ehlcontact.transient.surface import Surface, surface_height
-from ehlcontact.version import __version__
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,6 +11,7 @@ import numpy as np
 
 from ehlcontact.checks import require_instance, require_nonnegative, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.origin import __version__
 from ehlcontact.point import Point, moes_point, scales_of
 from ehlcontact.results import SimulationResult
 from ehlcontact.solver.domain import Domain, check_domain
@@ -23,7 +24,6 @@ from ehlcontact.transient.record import History
 from ehlcontact.transient.run import End, Run, march_controlled, march_fixed
 from ehlcontact.transient.step import StepControl
 from ehlcontact.transient.surface import Surface, surface_height
-from ehlcontact.version import __version__
 
 LARGEST_ERROR = 0.1
 FIRST_STEP = 0.25  # of the motion's own step: what is tried first under error control

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ehlcontact import Domain, MoesPoint, solve_steady
-from ehlcontact.solver import resolution as r
 from ehlcontact.impedance import impedance
+from ehlcontact.solver import resolution as r
 from ehlcontact.solver.domain import check_intervals
 
 BOX = [

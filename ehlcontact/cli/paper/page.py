@@ -15,7 +15,7 @@ from ehlcontact.cli.paper.figures import FIGURES, PaperFigure
 from ehlcontact.cli.paper.fits import Fits
 from ehlcontact.cli.paper.tables import Cell, Table
 from ehlcontact.cli.plots.style import embedded, styled
-from ehlcontact.version import __version__
+from ehlcontact.origin import __version__
 
 TEMPLATE = "reproduction.html.j2"
 

@@ -17,9 +17,9 @@ from ehlcontact.cli.study.comparison import RotorComparison, compare_rotors
 from ehlcontact.cli.study.reduction import RECORDS, Reduction, export_fmu, reduce_records, save_elements
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import InputError
+from ehlcontact.origin import __version__
 from ehlcontact.results import SimulationResult, SteadyResult
 from ehlcontact.storage import load
-from ehlcontact.version import __version__
 
 LIBRARIES = ("numpy", "scipy", "numba", "fmpy", "h5py")
 

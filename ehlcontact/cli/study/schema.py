@@ -14,10 +14,10 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from ehlcontact.cli.study.loads import most_loaded_ball
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant import Lubricant
+from ehlcontact.origin import __version__
 from ehlcontact.point import OperatingPoint
 from ehlcontact.solver.domain import Domain
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
-from ehlcontact.version import __version__
 
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]

@@ -1,0 +1,49 @@
+"""Where numbers come from: the contact, the mesh it was solved on, and the library that did it.
+
+Results are such origins (they inherit its fields); records, elements and the atlas keep what `source_of` makes of one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from ehlcontact.point import MoesPoint, Scales
+from ehlcontact.solver.domain import Domain
+
+__version__ = "0.1.0"  # of the distribution; stated here and in pyproject.toml, held together by a test
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Origin:
+    """The part that all results have in common."""
+
+    point: MoesPoint
+    scales: Scales | None  # None for a purely dimensionless point
+    domain: Domain
+    n: int  # intervals along X
+    seconds: float  # that it took
+    version: str = __version__
+
+    def source(self, motion: Any = None) -> dict[str, Any]:
+        """What an element made from this result keeps as its ``source``."""
+        return source_of(self.point, self.scales, self.n, self.domain.as_tuple(), motion)
+
+
+def source_of(
+    point: MoesPoint | None,
+    scales: Scales | None,
+    n: Any,
+    domain: Any,
+    motion: Any = None,
+) -> dict[str, Any]:
+    """Provenance of an element, ready for JSON; `n`, `domain` and `motion` may be lists where there are several."""
+    return {
+        "point": None if point is None else point.to_dict(),
+        "scales": None if scales is None else asdict(scales),
+        "n": n,
+        "domain": list(domain) if isinstance(domain, tuple) else domain,
+        "motion": dict(motion) if isinstance(motion, Mapping) else motion,
+        "version": __version__,
+    }
