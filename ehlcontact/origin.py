@@ -1,6 +1,6 @@
 """Where numbers come from: the contact, the mesh it was solved on, and the library that did it.
 
-Results are such origins (they inherit its fields); records, elements and the atlas keep what `source_of` makes of one.
+Results are such origins (they inherit its fields); elements and the atlas keep what `source_of` makes of one.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def source_of(
     domain: Any,
     motion: Any = None,
 ) -> dict[str, Any]:
-    """Provenance of an element, ready for JSON; `n`, `domain` and `motion` may be lists where there are several."""
+    """Provenance of an element, ready for JSON; `n`, `domain`, `motion` may be lists where there are several."""
     return {
         "point": None if point is None else point.to_dict(),
         "scales": None if scales is None else asdict(scales),

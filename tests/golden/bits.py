@@ -6,7 +6,8 @@
 Scalars are kept as hexadecimal floats, arrays as the digest of their bytes beside their sum, so that a small
 difference can be told from a wild one. Only public names are used: the layout of the library may change under it.
 Wall times and versions are left out, and BLAS has one thread: with more, LU factors round differently from run to
-run. Use a fresh ``NUMBA_CACHE_DIR`` for each checkout. `golden.json` is for other machines, this is for one.
+run. Use a fresh ``NUMBA_CACHE_DIR`` for each checkout, and run twice: the process that compiles the kernels rounds
+transient films differently from those that find them compiled. `golden.json` is for other machines, this is for one.
 """
 
 from __future__ import annotations
