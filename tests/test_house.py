@@ -53,11 +53,11 @@ def test_library_is_silent(name):
 
 
 def test_kernels_have_one_decorator():
-    """Numba's options are set in one place; see `solver/kernels/jit.py` for why not fastmath."""
+    """Numba's options are set in one place; see `ehlcontact/jit.py` for why not fastmath."""
     stray = [
         name
         for name in NAMES
-        if name != "ehlcontact/solver/kernels/jit.py" and "njit" in (ROOT / name).read_text(encoding="utf-8")
+        if name != "ehlcontact/jit.py" and "njit" in (ROOT / name).read_text(encoding="utf-8")
     ]
     assert [name for name in stray if not name.startswith("reduced_models/")] == []
 

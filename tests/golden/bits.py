@@ -7,7 +7,7 @@ Scalars are kept as hexadecimal floats, arrays as the digest of their bytes besi
 difference can be told from a wild one. Only public names are used: the layout of the library may change under it.
 Wall times and versions are left out, and BLAS has one thread: with more, LU factors round differently from run to
 run. Use a fresh ``NUMBA_CACHE_DIR`` for each checkout, and run twice: the process that compiles the kernels rounds
-transient films differently from those that find them compiled. `golden.json` is for other machines, this is for one.
+transient films differently from those that find them compiled. For other machines there is `golden.json`.
 """
 
 from __future__ import annotations

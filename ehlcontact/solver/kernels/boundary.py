@@ -6,7 +6,7 @@ them. Only where flow through the gap dominates: elsewhere the film answers to t
 frozen film makes these passes diverge.
 """
 
-from ehlcontact.solver.kernels.jit import jit, jit_node
+from ehlcontact.jit import jit, jit_node
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
 from ehlcontact.solver.kernels.reynolds import operator_at, update_across, update_along, update_node
 

@@ -2,7 +2,7 @@
 
 import math
 
-from ehlcontact.solver.kernels.jit import jit_node
+from ehlcontact.jit import jit_node
 
 
 @jit_node

@@ -4,7 +4,7 @@
 C, W, E, S, N, WW. The elastic part ``dH = -du + K dP`` is left to the caller: transforms, dense or truncated.
 """
 
-from ehlcontact.solver.kernels.jit import jit, jit_node
+from ehlcontact.jit import jit, jit_node
 
 NEIGHBOURS = 6
 

@@ -1,6 +1,6 @@
 """Cubics between the nodes of the film, and where they are lowest; `solver.lowest_film` is the whole."""
 
-from ehlcontact.solver.kernels.jit import jit, jit_node
+from ehlcontact.jit import jit, jit_node
 
 SAMPLES = 8  # intervals along either side of a cell, where it is sampled first
 ZOOMED = 4  # cells, those lowest where sampled: the bottom may lie just beyond the side of the first

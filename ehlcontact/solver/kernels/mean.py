@@ -10,7 +10,7 @@ apart, and a flow that always falls with the downstream pressure and rises with 
 
 import math
 
-from ehlcontact.solver.kernels.jit import jit_node
+from ehlcontact.jit import jit_node
 
 TINY = 1e-290  # keeps 0/0 out where both flow factors underflow
 

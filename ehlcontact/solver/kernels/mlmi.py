@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ehlcontact.solver.kernels.jit import jit
+from ehlcontact.jit import jit
 
 # Sixth-order interpolation half way between nodes at distances 1, 3, 5: exact for polynomials of degree 5.
 W1, W3, W5 = 150.0 / 256.0, -25.0 / 256.0, 3.0 / 256.0

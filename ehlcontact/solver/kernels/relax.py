@@ -12,7 +12,7 @@ as given, single nodes there never settle; with its full derivatives they oversh
 serve everywhere.
 """
 
-from ehlcontact.solver.kernels.jit import jit, jit_node
+from ehlcontact.jit import jit, jit_node
 from ehlcontact.solver.kernels.linearise import linearise_at
 from ehlcontact.solver.kernels.reynolds import operator_at, update_flow
 

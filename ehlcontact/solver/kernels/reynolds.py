@@ -14,7 +14,7 @@ the film ten to thirty times larger on the same grid.
 import math
 from typing import Any, NamedTuple
 
-from ehlcontact.solver.kernels.jit import jit, jit_node
+from ehlcontact.jit import jit, jit_node
 from ehlcontact.solver.kernels.laws import density, log_viscosity
 from ehlcontact.solver.kernels.mean import flow_mean
 

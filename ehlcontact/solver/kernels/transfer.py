@@ -1,6 +1,6 @@
 """Grid transfer on half domains: full weighting down, bilinear up."""
 
-from ehlcontact.solver.kernels.jit import jit
+from ehlcontact.jit import jit
 
 
 @jit
