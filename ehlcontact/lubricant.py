@@ -1,17 +1,19 @@
-"""Lubricant inputs and the dimensionless laws built from them.
+"""The oil: inputs, and the laws of viscosity and density, dimensionless and compiled for the solver's kernels.
 
 Roelands (1966) with p0 = 1.96e8 Pa, Barus (1893), and Dowson-Higginson (1966) density, each as written in
-Venner and Lubrecht (2000), ch. 1. The compiled laws live in ``solver/kernels/laws.py``; here are the inputs.
+Venner and Lubrecht (2000), ch. 1. A new law is entered here: its name, its numbers in `FluidLaw`, and its branch
+in `density` or `log_viscosity`.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from math import log
 from typing import NamedTuple
 
 from ehlcontact.checks import require_choice, require_nonnegative, require_positive
 from ehlcontact.errors import InputError
+from ehlcontact.jit import jit_node
 
 VISCOSITY_LAWS = ("roelands", "barus")
 DENSITY_LAWS = ("dowson-higginson", "incompressible")
@@ -67,12 +69,12 @@ class Lubricant:
         object.__setattr__(self, "alpha", require_nonnegative("alpha", self.alpha))
         require_choice("viscosity", self.viscosity, VISCOSITY_LAWS)
         require_choice("density", self.density, DENSITY_LAWS)
-        if self.viscosity == "roelands" and log(self.eta0) + ROELANDS_LOG <= 0.0:
+        if self.viscosity == "roelands" and math.log(self.eta0) + ROELANDS_LOG <= 0.0:
             raise InputError("eta0", self.eta0, "> 6.31e-5 Pa s for Roelands' law")
 
     def law(self, p_hertz: float, alpha_bar: float) -> FluidLaw:
         """Laws in units of the Hertz pressure; `alpha_bar` = alpha p_h, both given for isoviscous oil."""
-        q = log(self.eta0) + ROELANDS_LOG
+        q = math.log(self.eta0) + ROELANDS_LOG
         return FluidLaw(
             roelands=self.viscosity == "roelands" and alpha_bar > 0.0,
             alpha_bar=alpha_bar,
@@ -82,3 +84,22 @@ class Lubricant:
             compressible=self.density == "dowson-higginson",
             d=DOWSON_HIGGINSON_C1 / p_hertz,
         )
+
+
+@jit_node
+def density(P, law):
+    """Density at P = p/p_h over ambient density, Dowson-Higginson or 1, and its derivative."""
+    if law.compressible:
+        inverse = 1.0 / (law.d + P)
+        return (law.d + 1.34 * P) * inverse, 0.34 * law.d * inverse * inverse
+    return 1.0, 0.0
+
+
+@jit_node
+def log_viscosity(P, law):
+    """Logarithm of viscosity over eta0 at P = p/p_h, Roelands or Barus, and its derivative."""
+    if law.roelands:
+        base = 1.0 + law.s * P
+        power = math.exp(law.z * math.log(base))
+        return law.q * (power - 1.0), law.q * law.z * law.s * power / base
+    return law.alpha_bar * P, law.alpha_bar

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from enum import StrEnum
-from math import isfinite
 
 
 class Status(StrEnum):
@@ -45,42 +43,3 @@ _ADVICE = {
     "smooth what jumps (a load, a surface).",
     Status.INTERRUPTED: "Stopped by the user; what was computed until then is kept.",
 }
-
-STAGNATION_CYCLES = 6
-STAGNATION_FACTOR = 0.7
-DIVERGENCE_FACTOR = 1e3
-
-
-def classify(
-    residuals: Sequence[float], scale: float, tol: float, settled: bool, max_cycles: int
-) -> Status | None:
-    """Status of an iteration, or None to go on.
-
-    Parameters
-    ----------
-    residuals : sequence of float
-        Residual of the start and of each cycle.
-    scale : float
-        Residual they are measured against; fixed by the problem, not by the start.
-    tol : float
-        Convergence when ``residuals[-1] <= tol * scale`` and `settled`.
-    settled : bool
-        Whether the other criteria (load balance, approach) hold.
-    max_cycles : int
-        Limit.
-    """
-    last = residuals[-1]
-    if not isfinite(last):
-        return Status.NONFINITE
-    if last <= tol * scale and settled:
-        return Status.CONVERGED
-    if last > DIVERGENCE_FACTOR * scale:
-        return Status.DIVERGED
-    cycles = len(residuals) - 1
-    if cycles >= max_cycles:
-        return Status.MAX_CYCLES
-    if cycles > 2 * STAGNATION_CYCLES:
-        recent = min(residuals[-STAGNATION_CYCLES:])
-        if recent > STAGNATION_FACTOR * min(residuals[:-STAGNATION_CYCLES]):
-            return Status.STAGNATED
-    return None

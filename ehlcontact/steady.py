@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Generator
-from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
@@ -15,13 +14,13 @@ from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain, check_domain, check_intervals, default_domain
-from ehlcontact.solver.grid import Level
-from ehlcontact.solver.lowest_film import lowest_film
+from ehlcontact.solver.iterate import Goal, Track, iterate
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.solver.resolution import automatic_mesh, nodes, refined_mesh
-from ehlcontact.status import Status, classify
+from ehlcontact.status import Status
 
 LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7
@@ -30,22 +29,20 @@ LARGEST_NEWTON = 300_000  # nodes: sparse factors take minutes and gigabytes bey
 FAILED = (Status.STAGNATED, Status.DIVERGED, Status.MAX_CYCLES, Status.NONFINITE)
 REFINED = (*FAILED, Status.UNRESOLVED)
 ROOM = 1.5  # growth of a domain that pressure fills
-BORDER_SLOPE = 0.1  # of the maximum per semi-axis, at inlet and sides
-BORDER_PRESSURE = 0.02  # of the maximum, beside the outlet; a film that ends outside the grid is not computed
 
 
-class Way(NamedTuple):
+class Method(NamedTuple):
     """How one mesh is solved."""
 
     newton: bool
-    cautious: bool  # relaxation: slower, and does not swing from line to line where others do
+    cautious: bool  # relaxation
 
 
-LAST_RESORT = Way(True, True)
-WAYS = {
-    "automatic": (Way(False, False), Way(False, True), LAST_RESORT),
-    "multigrid": (Way(False, False),),
-    "newton": (Way(True, False),),
+LAST_RESORT = Method(newton=True, cautious=True)
+METHODS = {
+    "automatic": (Method(False, False), Method(False, True), LAST_RESORT),
+    "multigrid": (Method(False, False),),
+    "newton": (Method(True, False),),
 }
 
 
@@ -58,6 +55,7 @@ def solve_steady(
     tol: float = 3e-5,
     max_cycles: int = 80,
     method: str = "automatic",
+    deflection: str = "fft",
     throw: bool = True,
     callback: Callable[[int, float], None] | None = None,
 ) -> SteadyResult:
@@ -82,6 +80,9 @@ def solve_steady(
         V cycles, or Newton steps from the same full-multigrid start; both solve the same equations.
         ``"automatic"`` cycles; where that fails it cycles with cautious relaxation, and at last, on grids that
         allow it, turns to Newton.
+    deflection : {"fft", "mlmi", "direct"}
+        Engine of the elastic deflection: fast transforms, exact to rounding; multilevel multi-integration, as in
+        the paper; the direct sum, slow. See `ehlcontact.solver.deflection`.
     throw : bool
         Raise on failure; otherwise look at ``result.status``.
     callback : callable, optional
@@ -103,7 +104,8 @@ def solve_steady(
     moes = moes_point(point)
     require_integer("max_cycles", max_cycles, "a whole number > 0", 1)
     require_positive("tol", tol)
-    require_choice("method", method, tuple(WAYS))
+    require_choice("method", method, tuple(METHODS))
+    require_choice("deflection", deflection, tuple(ENGINES))
     if approach is None:
         balance = Balance.of_load()
     else:
@@ -113,11 +115,11 @@ def solve_steady(
     attempts = _meshes(moes, n, domain)
     mesh = next(attempts)
     while mesh is not None:
-        for way in WAYS[method]:
+        for way in METHODS[method]:
             if way is LAST_RESORT and nodes(*mesh, moes.kappa) > LARGEST_NEWTON:
                 break
-            solved = _Solve(moes, *mesh, balance, tol, max_cycles, callback, way.cautious)
-            status = solved.run(way.newton)
+            solved = _Attempt(moes, mesh, way, deflection)
+            status = solved.run(balance, tol, max_cycles, callback)
             if status not in FAILED:
                 break
         mesh = attempts.send(status)
@@ -127,62 +129,34 @@ def solve_steady(
     return result
 
 
-class _Solve:
+class _Attempt:
     """One solve on one mesh, from full multigrid to a judged status."""
 
-    def __init__(
-        self,
-        point: MoesPoint,
-        n: int,
-        domain: Domain,
-        balance: Balance,
-        tol: float,
-        max_cycles: int,
-        callback: Callable[[int, float], None] | None,
-        cautious: bool,
-    ) -> None:
-        self.n, self.domain, self.balance = n, domain, balance
-        self.tol, self.max_cycles, self.callback = tol, max_cycles, callback
-        self.multigrid = Multigrid(point, domain, n, cautious=cautious)
-        if balance.weight == 0.0:
-            self.multigrid.u = balance.rhs
-        self.scale = dry_residual(self.multigrid.finest)
-        self.residuals: list[float] = []
-        self.load_residuals: list[float] = []
-        self.changes: list[float] = []
+    def __init__(self, point: MoesPoint, mesh: tuple[int, Domain], method: Method, deflection: str) -> None:
+        self.n, self.domain = mesh
+        self.method = method
+        self.multigrid = Multigrid(point, self.domain, self.n, deflection=deflection, cautious=method.cautious)
+        self.scale = self.multigrid.finest.dry_residual()
+        self.track = Track()
 
-    def run(self, newton: bool) -> Status:
+    def run(self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None) -> Status:
         """Cycle, or take Newton steps, until the residuals say how it ended."""
-        advance = NewtonKrylov(self.multigrid).step if newton else self.multigrid.cycle
+        mg = self.multigrid
+        if balance.weight == 0.0:
+            mg.u = balance.rhs
+        goal = Goal(self.scale, tol, most, LOAD_TOLERANCE, APPROACH_TOLERANCE)
         try:
-            self.multigrid.full_multigrid(self.balance)
-            if newton:
-                self.multigrid.cycle(self.balance)
-            status = self._measure()
-            while status is None:
-                previous = self.multigrid.u
-                advance(self.balance)
-                self.changes.append(abs(self.multigrid.u - previous))
-                if self.callback is not None:
-                    self.callback(len(self.changes), self.residuals[-1] / self.scale)
-                status = self._measure()
+            mg.full_multigrid(balance)
+            if self.method.newton:
+                mg.cycle(balance)
+            advance = NewtonKrylov(mg).step if self.method.newton else mg.cycle
+            return iterate(mg, balance, advance, goal, self.track, watch)
         except KeyboardInterrupt:
             return Status.INTERRUPTED
-        return judge(status, self.multigrid.finest)
-
-    def _measure(self) -> Status | None:
-        mg, level = self.multigrid, self.multigrid.finest
-        self.residuals.append(level.residual_norm())
-        self.load_residuals.append(self.balance.residual(mg.u, level.force()))
-        settled = bool(self.changes) and self.changes[-1] < APPROACH_TOLERANCE
-        settled = settled and abs(self.load_residuals[-1]) < LOAD_TOLERANCE
-        if not isfinite(self.load_residuals[-1]):  # a pressure of NaN has no residual
-            return Status.NONFINITE
-        return classify(self.residuals, self.scale, self.tol, settled, self.max_cycles)
 
     def result(self, status: Status, scales: Scales | None, seconds: float) -> SteadyResult:
         """Everything that is kept."""
-        mg, level = self.multigrid, self.multigrid.finest
+        mg, level, track = self.multigrid, self.multigrid.finest, self.track
         return SteadyResult(
             point=mg.point,
             scales=scales,
@@ -194,11 +168,11 @@ class _Solve:
             H=level.H.T.copy(),
             approach=float(mg.u),
             force=level.force(),
-            h_central=central_film(level),
-            h_min=minimum_film(level),
-            residuals=np.array(self.residuals),
-            load_residuals=np.array(self.load_residuals),
-            approach_changes=np.array(self.changes),
+            h_central=level.central_film(),
+            h_min=level.lowest_film(),
+            residuals=np.array(track.residuals),
+            load_residuals=np.array(track.balance_residuals),
+            approach_changes=np.array(track.changes),
             dry_residual=self.scale,
             status=status,
             seconds=seconds,
@@ -228,39 +202,3 @@ def _meshes(
         else:
             break
     yield None
-
-
-def dry_residual(level: Level) -> float:
-    """Mean |residual| of the dry Hertz pressure on this grid, the scale of all residuals; P and H written."""
-    level.set_dry_hertz()
-    level.update(1.0)
-    return level.residual_norm()
-
-
-def central_film(level: Level) -> float:
-    """Film at X = Y = 0, by quadratic interpolation where no node lies there."""
-    i = int(np.clip(np.searchsorted(level.X, 0.0) - 1, 1, level.nx - 2))
-    s = -level.X[i] / level.hx
-    left, centre, right = level.H[0, i - 1 : i + 2]
-    return float(centre + 0.5 * s * (right - left) + 0.5 * s * s * (right - 2.0 * centre + left))
-
-
-def minimum_film(level: Level) -> float:
-    """Smallest film, between the nodes too; not above that of the lowest node."""
-    return lowest_film(level.H)[0]
-
-
-def judge(status: Status, level: Level) -> Status:
-    """Status of a solve whose residuals say `status`: converged only with a film, and within the domain."""
-    if status is Status.CONVERGED and not level.H.min() > 0.0:
-        return Status.UNRESOLVED
-    if status is Status.CONVERGED and touches_border(level):
-        return Status.OUT_OF_DOMAIN
-    return status
-
-
-def touches_border(level: Level) -> bool:
-    """Whether pressure reaches the border of the domain: at the outlet, or steeply at inlet or sides."""
-    P = level.P
-    steepness = max(P[:, 1].max() / level.hx, P[-2].max() / level.hy)
-    return bool(P[:, -2].max() > BORDER_PRESSURE * P.max() or steepness > BORDER_SLOPE * P.max())

@@ -27,6 +27,7 @@ CORRECTION_STEPS = 4  # of the coarsest grid in one cycle
 LARGEST_RENEWALS = 2  # of the factors in one cycle
 WORN_OUT = 0.3  # drop of the merit in one step above which factors are renewed
 CORRECTION_DROP = 1e-2  # of its residual, enough for one cycle
+BALANCE_WEIGHT = 3.0  # of the balance beside the rms residual of the nodes
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,13 +39,28 @@ class Factors:
     equation: tuple[float, float, float]  # time coefficient, balance stiffness and weight
 
 
+def bordered_lu(level: Level, free: Nodes, derivatives: tuple[Array, Array], balance: Balance) -> Any:
+    """LU factors of the dense Jacobian of `level` over the nodes `free`, (m,), bordered by u and its balance.
+
+    `derivatives` are those to pressure and to film, (6, ny + 1, nx + 1) each, real or complex.
+    """
+    m = free.size
+    J = np.empty((m + 1, m + 1), dtype=derivatives[0].dtype)
+    number = np.empty(level.P.size, dtype=np.int64)
+    dense_jacobian(free, *derivatives, level.deflection.kernel, number, J)
+    J[m, :m] = balance.weight * level.force_weights.ravel()[free]
+    J[m, m] = balance.stiffness
+    with warnings.catch_warnings():  # a singular matrix gives infinities, which the driver reports
+        warnings.simplefilter("ignore", linalg.LinAlgWarning)
+        return linalg.lu_factor(J, overwrite_a=True, check_finite=False)
+
+
 class CoarseNewton:
     """Newton iterations on one level; keeps its work arrays and, between corrections, its last factors."""
 
     def __init__(self, level: Level) -> None:
         self.level = level
         self.factors: Factors | None = None
-        self._number = np.empty(level.P.size, dtype=np.int64)
 
     def solve(self, u: float, balance: Balance, max_steps: int, tol: float) -> float:
         """Damped iterations from any start to ``merit <= tol`` or `max_steps`; P, H written, returns u."""
@@ -100,20 +116,13 @@ class CoarseNewton:
         r = level.update(u)
         free = np.flatnonzero((level.P > 0.0) | (r < 0.0))
         rms = float(np.sqrt(np.mean(r.ravel()[free] ** 2))) if free.size else 0.0
-        return rms + 3.0 * abs(balance.residual(u, level.force())), free
+        return rms + BALANCE_WEIGHT * abs(balance.residual(u, level.force())), free
 
     def _factorise(self, free: Nodes, balance: Balance) -> Factors:
         """LU factors of the Jacobian over the free nodes, bordered by u and its balance."""
         level, f = self.level, self.level.fields
-        m = free.size
-        J = np.empty((m + 1, m + 1))
-        linearise(f.P, f.flow, level.mesh, level.c_t, 1.0, f.p_coef, f.h_coef)
-        dense_jacobian(free, f.p_coef, f.h_coef, level.deflection.kernel, self._number, J)
-        J[m, :m] = balance.weight * level.force_weights.ravel()[free]
-        J[m, m] = balance.stiffness
-        with warnings.catch_warnings():  # a singular matrix gives infinities, which the driver reports
-            warnings.simplefilter("ignore", linalg.LinAlgWarning)
-            lu = linalg.lu_factor(J, overwrite_a=True, check_finite=False)
+        linearise(f.P, f.flow, level.stencil, level.c_t, 1.0, f.p_coef, f.h_coef)
+        lu = bordered_lu(level, free, (f.p_coef, f.h_coef), balance)
         return Factors(lu, free, (level.c_t, balance.stiffness, balance.weight))
 
     def _direction(self, factors: Factors, free: Nodes, balance: Balance, u: float) -> tuple[Array, float, float]:

@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from ehlcontact.hertz import shape_factor
 from ehlcontact.point import MoesPoint
-from ehlcontact.solver.deflection.elastic import Deflection
+from ehlcontact.solver.deflection import make_deflection
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.kernels import boundary, relax, reynolds
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS
+from ehlcontact.solver.lowest_film import lowest_film
 
 Array = NDArray[np.float64]
 
@@ -36,20 +37,20 @@ class Fields(NamedTuple):
 class Level:
     """One mesh of nx intervals along X and ny along Y >= 0, with its state P, H and its equations.
 
-    The equations are ``N(P, H) = rhs`` and ``H = film_rhs - u + gap + deflection(P)``; the right-hand sides
+    The equations are ``N(P, H) = rhs`` and ``H = film_shift - u + gap + deflection(P)``; the right-hand sides
     carry history terms on the finest level and the full-approximation corrections below it.
     """
 
-    def __init__(self, point: MoesPoint, domain: Domain, nx: int, ny: int) -> None:
+    def __init__(self, point: MoesPoint, domain: Domain, nx: int, ny: int, deflection: str = "fft") -> None:
         self.nx, self.ny = nx, ny
         self.X = np.linspace(domain.x_in, domain.x_out, nx + 1)
         self.Y = np.linspace(0.0, domain.y_max, ny + 1)
         self.hx, self.hy = (domain.x_out - domain.x_in) / nx, domain.y_max / ny
-        self.cautious = False
+        self.cautious = False  # relaxation: slower, and does not swing from line to line where the other does
         self.set_point(point)
         S = shape_factor(point.kappa)
         self.gap = S * self.X**2 + (1.0 - S) * self.Y[:, None] ** 2
-        self.deflection = Deflection(nx, ny, self.hx, self.hy, point.kappa)
+        self.deflection = make_deflection(nx, ny, self.hx, self.hy, point.kappa, deflection)
         self.near, self.spread = _near_coefficients(self.deflection.kernel)
         shape = (ny + 1, nx + 1)
         self.fields = Fields(
@@ -64,7 +65,7 @@ class Level:
             b=np.zeros(nx - 1 + relax.PAD),
         )
         self.rhs = np.zeros(shape)
-        self.film_rhs: Array | float = 0.0
+        self.film_shift: Array | float = 0.0
         self.c_t = 0.0
         self.r = np.zeros(shape)  # residual of the Reynolds equation, zero on the border
         self.marks = np.zeros(shape, dtype=np.uint8)
@@ -79,7 +80,7 @@ class Level:
         # In a contact long along rolling the same P deflects it more too (kernel over hx goes like 1/K(kappa));
         # that the value should rise like kappa itself is measured, not derived.
         switch = relax.SWITCH * max(1.0, 0.5 * self.hy / (point.kappa * self.hx)) * max(1.0, point.kappa)
-        self.mesh = reynolds.Mesh(
+        self.stencil = reynolds.Stencil(
             cx=self.hx**-2,
             cy=point.kappa**2 * self.hy**-2,
             inv_hx=1.0 / self.hx,
@@ -104,7 +105,7 @@ class Level:
 
     def update_film(self, u: float) -> None:
         """H from P and the approach u (eq. 3)."""
-        np.add(self.gap, self.film_rhs - u, out=self.fields.H)
+        np.add(self.gap, self.film_shift - u, out=self.fields.H)
         self.fields.H[...] += self.deflection(self.fields.P)
 
     def update(self, u: float) -> Array:
@@ -115,21 +116,38 @@ class Level:
     def update_residual(self) -> Array:
         """Flow and residual ``rhs - N(P, H)`` from P and H; returns ``self.r``."""
         f = self.fields
-        reynolds.update_flow(f.P, f.H, self.law, self.mesh, f.flow)
-        reynolds.residual(f.P, f.flow, self.mesh, self.c_t, self.rhs, self.r)
+        reynolds.update_flow(f.P, f.H, self.law, self.stencil, f.flow)
+        reynolds.residual(f.P, f.flow, self.stencil, self.c_t, self.rhs, self.r)
         return self.r
 
     def density(self) -> Array:
         """Density at the present P, over ambient density."""
         f = self.fields
-        reynolds.update_flow(f.P, f.H, self.law, self.mesh, f.flow)
+        reynolds.update_flow(f.P, f.H, self.law, self.stencil, f.flow)
         return f.flow.rho
 
     def transport(self, content: Array, history: Array) -> Array:
         """Discrete ``d(content)/dX + d(content)/dT``; `history` is the known part of the latter, as in `rhs`."""
         change = np.zeros_like(content)
-        reynolds.transport(content, self.mesh, self.c_t, history, change)
+        reynolds.transport(content, self.stencil, self.c_t, history, change)
         return change
+
+    def dry_residual(self) -> float:
+        """Mean |residual| of the dry Hertz pressure on this grid, the scale of all others; P and H written."""
+        self.set_dry_hertz()
+        self.update(1.0)
+        return self.residual_norm()
+
+    def central_film(self) -> float:
+        """Film at X = Y = 0, by quadratic interpolation where no node lies there."""
+        i = int(np.clip(np.searchsorted(self.X, 0.0) - 1, 1, self.nx - 2))
+        s = -self.X[i] / self.hx
+        left, centre, right = self.H[0, i - 1 : i + 2]
+        return float(centre + 0.5 * s * (right - left) + 0.5 * s * s * (right - 2.0 * centre + left))
+
+    def lowest_film(self) -> float:
+        """Smallest film, between the nodes too; not above that of the lowest node."""
+        return lowest_film(self.H)[0]
 
     def residual_norm(self) -> float:
         """Mean of |r| over the nodes of the whole domain with P > 0, from the last `update`."""
@@ -139,17 +157,21 @@ class Level:
 
     def relax(self) -> None:
         """One relaxation sweep from the state of the last `update`; P written, the rest left to the next one."""
-        f, mesh = self.fields, self.mesh
-        relax.relax_lines(f, self.rhs, self.law, mesh, self.c_t, self.near, self.spread)
+        f, numbers = self.fields, self.stencil
+        relax.relax_lines(f, self.rhs, self.law, numbers, self.c_t, self.near, self.spread)
         own = self.near[0, 0]
-        boundary.relax_boundary(f.P, f.H, f.flow, self.rhs, self.law, mesh, self.c_t, own, self.nodes, self.marks)
+        boundary.relax_boundary(
+            f.P, f.H, f.flow, self.rhs, self.law, numbers, self.c_t, own, self.nodes, self.marks
+        )
 
     def set_dry_hertz(self) -> None:
         """Dry Hertz pressure, the start of every solve."""
         self.fields.P[...] = np.sqrt(np.maximum(0.0, 1.0 - self.X**2 - self.Y[:, None] ** 2))
 
 
-def build_hierarchy(point: MoesPoint, domain: Domain, n: int, coarsest: int) -> list[Level]:
+def build_hierarchy(
+    point: MoesPoint, domain: Domain, n: int, coarsest: int, deflection: str = "fft"
+) -> list[Level]:
     """Levels coarse to fine, halving n while at least `coarsest` intervals are left."""
     halvings = 0
     while (n >> halvings) % 2 == 0 and (n >> (halvings + 1)) >= coarsest:
@@ -159,7 +181,7 @@ def build_hierarchy(point: MoesPoint, domain: Domain, n: int, coarsest: int) -> 
     # lines lie closer together than their nodes
     hy = hx * max(1.0, point.kappa)
     ny = max(4, round(domain.y_max / hy / 2**halvings)) * 2**halvings
-    return [Level(point, domain, n >> k, ny >> k) for k in range(halvings, -1, -1)]
+    return [Level(point, domain, n >> k, ny >> k, deflection) for k in range(halvings, -1, -1)]
 
 
 def _near_coefficients(kernel: Array) -> tuple[Array, Array]:

@@ -16,10 +16,8 @@ from ehlcontact.point import MoesPoint
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Array
-from ehlcontact.solver.linear_film import LinearFilm
-from ehlcontact.solver.linear_solve import solve_linear
+from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
 from ehlcontact.solver.multigrid import Multigrid
-from ehlcontact.solver.preconditioner import NearCorrection, Preconditioner
 
 Complex = NDArray[np.complex128]
 

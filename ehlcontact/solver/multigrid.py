@@ -2,7 +2,7 @@
 
 Venner and Lubrecht (2000), ch. 3 and 6, with three changes that remove the usual stall: the blend of both
 relaxations is smooth (`kernels.relax`), the cavitation boundary gets local passes (`kernels.boundary`), and
-the coarsest grid is solved by Newton together with u (`newton`) instead of being relaxed.
+the coarsest grid is solved by Newton together with u (`coarse`) instead of being relaxed.
 """
 
 from __future__ import annotations
@@ -47,11 +47,11 @@ class Multigrid:
     """
 
     def __init__(
-        self, point: MoesPoint, domain: Domain, n: int, coarsest: int | None = None, cautious: bool = False
+        self, point: MoesPoint, domain: Domain, n: int, *, deflection: str = "fft", cautious: bool = False
     ) -> None:
         self.point = point
         fewest = min(coarsest_intervals(point), max(32, n // 4))  # leaves some levels to a small grid
-        self.levels = build_hierarchy(point, domain, n, coarsest or fewest)
+        self.levels = build_hierarchy(point, domain, n, fewest, deflection)
         for level in self.levels:
             level.cautious = cautious
             level.set_point(point)
@@ -81,7 +81,7 @@ class Multigrid:
         for k in range(1, len(self.levels)):
             coarse, fine = self.levels[k - 1], self.levels[k]
             fine.rhs[...] = 0.0
-            fine.film_rhs = 0.0
+            fine.film_shift = 0.0
             _interpolate_solution(coarse, fine)
             cycles = CYCLES_PER_LEVEL if fine is not self.finest else 0
             steps = ceil(log(loads[k] / loads[k - 1]) / log(LARGEST_LOADING) - 1e-9)
@@ -120,9 +120,9 @@ class Multigrid:
         transfer.restrict_pressure(fine.P, coarse.P)
         start = coarse.P.copy()
         # Full approximation: right-hand sides for which the restricted solution has the restricted residual.
-        coarse.film_rhs = 0.0
+        coarse.film_shift = 0.0
         coarse.update_film(u)
-        coarse.film_rhs = fine.H[::2, ::2] - coarse.H
+        coarse.film_shift = fine.H[::2, ::2] - coarse.H
         coarse.H[...] = fine.H[::2, ::2]
         coarse.rhs[...] = 0.0
         defect = coarse.update_residual().copy()

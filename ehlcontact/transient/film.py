@@ -7,7 +7,6 @@ rule with beta = 1/4, gamma = 1/2, evaluated inside the multigrid cycle through 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isfinite
 
 import numpy as np
 
@@ -16,9 +15,9 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse import Factors
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Array, Level
+from ehlcontact.solver.iterate import Goal, Track, iterate
 from ehlcontact.solver.multigrid import Multigrid
-from ehlcontact.status import Status, classify
-from ehlcontact.steady import central_film, judge
+from ehlcontact.status import Status
 from ehlcontact.transient.surface import SurfaceStep
 
 STEP_CYCLES = 25
@@ -64,10 +63,12 @@ class TransientFilm:
     tol : float
         Residual at which a step counts as solved, relative to the central film at rest: the size of the
         transport term d(rho H)/dX.
+    deflection : {"fft", "mlmi", "direct"}
+        Engine, as in `solve_steady`.
     """
 
-    def __init__(self, point: MoesPoint, domain: Domain, n: int, tol: float) -> None:
-        self.multigrid = Multigrid(point, domain, n)
+    def __init__(self, point: MoesPoint, domain: Domain, n: int, tol: float, deflection: str = "fft") -> None:
+        self.multigrid = Multigrid(point, domain, n, deflection=deflection)
         self.tol = tol
         self.scale = 1.0
         self._past: tuple[tuple[float, Array], ...] = ()
@@ -92,10 +93,10 @@ class TransientFilm:
         if u is not None:
             mg.u = u
         mg.full_multigrid(balance)
-        self.level.film_rhs = surface
+        self.level.film_shift = surface
         self.level.update_film(mg.u)
         # full multigrid may still overlap in the centre
-        self.scale = max(central_film(self.level), SMALLEST_SCALE)
+        self.scale = max(self.level.central_film(), SMALLEST_SCALE)
         step = self._solve(balance, 2 * STEP_CYCLES)
         self._mass = self.level.fields.flow.mass.copy()
         self._mass_before = self._mass
@@ -122,7 +123,7 @@ class TransientFilm:
         ratio = dT / self._dT if self._dT > 0.0 else 0.0
         mg.set_time_coefficient((1.0 + 2.0 * ratio) / (1.0 + ratio) / dT)
         level.rhs[...] = _known(dT, ratio, self._mass, self._mass_before)
-        level.film_rhs = 0.0 if surface is None else surface.height
+        level.film_shift = 0.0 if surface is None else surface.height
         past = self._past
         P_now = level.P.copy()
         if past and ratio <= LARGEST_EXTRAPOLATION:
@@ -139,32 +140,17 @@ class TransientFilm:
         self._dT = dT
         return step
 
-    def _solve(self, balance: Balance, max_cycles: int) -> Step:
+    def _solve(self, balance: Balance, most: int) -> Step:
         """Cycle until the residual, the balance and the last changes of u and force are below tolerance."""
-        level, mg = self.level, self.multigrid
-        residuals: list[float] = []
-        status, settled, load_residual = None, False, 0.0
-        force = np.inf
+        mg, level = self.multigrid, self.level
         small = CHANGE_SHARE * self.tol
-        while status is None:
-            previous = mg.u, force
-            if residuals:
-                mg.cycle(balance)
-            else:
-                level.update(mg.u)
-            force = level.force()
-            settled = abs(mg.u - previous[0]) < small and abs(force - previous[1]) < small
-            residuals.append(level.residual_norm())
-            load_residual = balance.residual(mg.u, force)
-            if not isfinite(load_residual):
-                status = Status.NONFINITE
-                break
-            settled = settled and abs(load_residual) < 0.1 * small * max(1.0, balance.stiffness)
-            status = classify(residuals, self.scale, self.tol, settled, max_cycles)
-        status = judge(status, level)
-        if status is Status.OUT_OF_DOMAIN and balance.stiffness > 0.0 and force < NEGLIGIBLE_FORCE:
+        goal = Goal(self.scale, self.tol, most, 0.1 * small * max(1.0, balance.stiffness), small, small)
+        track = Track()
+        level.update(mg.u)
+        status = iterate(mg, balance, mg.cycle, goal, track)
+        if status is Status.OUT_OF_DOMAIN and balance.stiffness > 0.0 and level.force() < NEGLIGIBLE_FORCE:
             status = Status.CONVERGED  # bodies that come back after a separation squeeze a film beyond any domain
-        return Step(residuals[-1] / self.scale, load_residual, len(residuals) - 1, status)
+        return Step(track.residuals[-1] / self.scale, track.balance_residuals[-1], track.iterations, status)
 
     def save_state(self) -> FilmState:
         """Everything needed to come back here."""
@@ -176,7 +162,7 @@ class TransientFilm:
             mass_before=self._mass_before,
             u=self.u,
             dT=self._dT,
-            surface=self.level.film_rhs,
+            surface=self.level.film_shift,
             factors=self.multigrid.newton.factors,
         )
 
@@ -185,7 +171,7 @@ class TransientFilm:
         self.level.P[...] = state.P
         self._past, self._mass, self._mass_before = state.past, state.mass, state.mass_before
         self.multigrid.u, self._dT = state.u, state.dT
-        self.level.film_rhs = state.surface
+        self.level.film_shift = state.surface
         self.multigrid.newton.factors = state.factors
         self.level.update_film(state.u)
 

@@ -9,7 +9,6 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.domain import Domain, check_domain
 from ehlcontact.solver.resolution import moving_intervals
 from ehlcontact.status import Status
-from ehlcontact.steady import central_film, minimum_film
 from ehlcontact.transient.film import FilmState, Step, TransientFilm
 
 FEWEST_INTERVALS = 80
@@ -85,12 +84,12 @@ class FullContact:
     @property
     def h_central(self) -> float:
         """Film at the centre of the contact."""
-        return central_film(self._film.level)
+        return self._film.level.central_film()
 
     @property
     def h_min(self) -> float:
         """Smallest film."""
-        return minimum_film(self._film.level)
+        return self._film.level.lowest_film()
 
     def save_state(self) -> FilmState:
         """Everything needed to come back to the present."""

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.solver.grid import Level
-from ehlcontact.steady import central_film, minimum_film
 from ehlcontact.transient.film import Step, TransientFilm
 
 Array = NDArray[np.float64]
@@ -48,8 +47,8 @@ class Entry:
             motion,
             level.force(),
             load,
-            central_film(level),
-            minimum_film(level),
+            level.central_film(),
+            level.lowest_film(),
             level.H[0].copy(),
             level.P[0].copy(),
             step,

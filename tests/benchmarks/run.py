@@ -20,7 +20,6 @@ from ehlcontact import Domain, FreeVibration, MoesPoint, simulate, solve_steady
 from ehlcontact.impedance import impedance
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.multigrid import Multigrid
-from ehlcontact.steady import central_film
 from ehlcontact.transient.film import TransientFilm
 from reduced_models import ContactRecord, fit
 
@@ -76,12 +75,11 @@ def transient_step(n: int) -> tuple[float, dict[str, float]]:
     film = TransientFilm(point, Domain(), n, 3e-3)
     film.start_steady(LOAD)
     u, rate, acceleration = film.u, motion.initial_rate, 0.0
-    stiffness = 4.0 / (omega_n * dT) ** 2
 
     def step(tol: float, u: float, rate: float, acceleration: float) -> tuple[float, float]:
         film.tol = tol
         predictor = u + dT * rate + 0.25 * dT * dT * acceleration
-        balance = Balance(stiffness, 1.0, 1.0 + stiffness * predictor)
+        balance = Balance.newmark(omega_n, dT, 1.0, predictor)
         film.advance(dT, balance, predictor + 0.25 * dT * dT * acceleration)
         return film.u, film.level.force()
 
@@ -106,7 +104,7 @@ def transient_step(n: int) -> tuple[float, dict[str, float]]:
         film.restore_state(state)
         step(tol, u, rate, acceleration)
 
-    return median_time(work, 9), {"tol": tol, "error": error, "central film": central_film(film.level)}
+    return median_time(work, 9), {"tol": tol, "error": error, "central film": film.level.central_film()}
 
 
 def fitted_element() -> tuple[float, dict[str, float]]:

@@ -105,7 +105,7 @@ def test_a_steady_file_cannot_be_fitted(call, refused, point, tmp_path):
 
 @pytest.mark.parametrize("command", ["steady", "simulate"])
 def test_not_converged_is_saved_and_said(call, point, tmp_path, monkeypatch, command):
-    monkeypatch.setattr("ehlcontact.steady.touches_border", lambda level: True)
+    monkeypatch.setattr("ehlcontact.solver.iterate.touches_border", lambda level: True)
     motion = ["--free", "5"] if command == "simulate" else []
     result = call(command, *point, "--n", "16", *motion, "--save", tmp_path / "p.h5", "--json", "-")
     assert result.code == 1

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from ehlcontact import Domain, MoesPoint
+from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.coarse import CoarseNewton
 from ehlcontact.solver.grid import Level
 
 
@@ -40,3 +42,20 @@ def level(point):
 def make_level():
     """`rough_level`."""
     return rough_level
+
+
+def film_by_newton(point, nx=32, ny=16):
+    """A level whose film carries load 1 to rounding, by dense Newton steps alone, and its approach."""
+    level = Level(point, Domain(), nx, ny)
+    level.set_dry_hertz()
+    newton = CoarseNewton(level)
+    u = newton.solve(0.5, Balance.of_load(), 60, 1e-9)
+    u = newton.solve(u, Balance.of_load(), 20, 1e-13)
+    level.update(u)
+    return level, u
+
+
+@pytest.fixture(scope="session")
+def solve_by_newton():
+    """`film_by_newton`."""
+    return film_by_newton

@@ -4,11 +4,9 @@ import numpy as np
 import oracles
 import pytest
 
-from ehlcontact import Domain, MoesPoint
-from ehlcontact.solver.balance import Balance
+from ehlcontact import MoesPoint
 from ehlcontact.solver.kernels import boundary
 from ehlcontact.solver.kernels.reynolds import operator_at, residual
-from ehlcontact.solver.multigrid import Multigrid
 
 
 @pytest.mark.parametrize("kernel", [boundary.mark_boundary, boundary.mark_boundary.py_func], ids=["jit", "python"])
@@ -39,18 +37,23 @@ def test_marks(kernel):
 
 
 @pytest.fixture(scope="module")
-def solved():
-    mg = Multigrid(MoesPoint(20, 5, 0.5), Domain(), 32, coarsest=32)
-    mg.full_multigrid(Balance.of_load())
-    mg.u = mg.newton.solve(mg.u, Balance.of_load(), 20, 1e-13)
-    mg.finest.update_residual()
-    return mg.finest
+def solved(solve_by_newton):
+    return solve_by_newton(MoesPoint(20, 5, 0.5))[0]
 
 
 def passes(level, kernel):
     f = level.fields
     kernel(
-        f.P, f.H, f.flow, level.rhs, level.law, level.mesh, level.c_t, level.near[0, 0], level.nodes, level.marks
+        f.P,
+        f.H,
+        f.flow,
+        level.rhs,
+        level.law,
+        level.stencil,
+        level.c_t,
+        level.near[0, 0],
+        level.nodes,
+        level.marks,
     )
 
 
@@ -65,10 +68,10 @@ def test_flow_at_marked_nodes_is_up_to_date(level, kernel):
     marks[0, 1:4] = marks[3:6, 8:10] = marks[-2, -2] = boundary.MARKED
     marked = [(j, i) for j, i in np.argwhere(marks)]
     f.P[f.P > 0.0] *= 1.3
-    kernel(f.P, f.H, level.law, level.mesh, f.flow, marks)
-    got = [operator_at.py_func(j, i, f.P, f.flow, level.mesh, level.c_t) for j, i in marked]
+    kernel(f.P, f.H, level.law, level.stencil, f.flow, marks)
+    got = [operator_at.py_func(j, i, f.P, f.flow, level.stencil, level.c_t) for j, i in marked]
     level.update_residual()
-    expected = [operator_at.py_func(j, i, f.P, f.flow, level.mesh, level.c_t) for j, i in marked]
+    expected = [operator_at.py_func(j, i, f.P, f.flow, level.stencil, level.c_t) for j, i in marked]
     assert got == expected
 
 
@@ -89,7 +92,7 @@ def test_disturbed_boundary_is_restored(solved):
 
     def left():  # at frozen film, which is all these passes see
         r = np.zeros_like(P)
-        residual(f.P, f.flow, solved.mesh, 0.0, solved.rhs, r)
+        residual(f.P, f.flow, solved.stencil, 0.0, solved.rhs, r)
         return np.abs(r[tiny]).mean()
 
     solved.P[tiny] *= 1.5

@@ -1,16 +1,12 @@
-"""Deflection: coefficients, both ways of summing them, and Hertz's pressure."""
+"""FastFourier: coefficients, both ways of summing them, and Hertz's pressure."""
 
 import numpy as np
 import oracles
 import pytest
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact.solver.deflection.elastic import (
-    Deflection,
-    FastTransforms,
-    MatrixTransforms,
-    influence_coefficients,
-)
+from ehlcontact.solver.deflection.coefficients import influence_coefficients
+from ehlcontact.solver.deflection.fft import FastFourier, FastTransforms, MatrixTransforms
 from ehlcontact.solver.grid import Level
 
 
@@ -38,7 +34,7 @@ def test_deflection_is_the_direct_sum(nx, ny, kappa):
     P = np.random.default_rng(nx).uniform(size=(ny + 1, nx + 1))
     P[-1] = 0.0
     P[:, [0, -1]] = 0.0
-    got = Deflection(nx, ny, hx, hy, kappa)(P)
+    got = FastFourier(nx, ny, hx, hy, kappa)(P)
     expected = oracles.deflection(P, hx, hy, kappa)
     np.testing.assert_allclose(got, expected, rtol=1e-12, atol=1e-12 * expected.max())
 

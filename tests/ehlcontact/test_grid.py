@@ -11,7 +11,7 @@ from ehlcontact.solver.grid import Level, build_hierarchy
 
 
 def test_film_is_equation_3(level, point):
-    level.film_rhs = 0.25
+    level.film_shift = 0.25
     level.update_film(0.7)
     S = oracles.hertz_gap_share(point.kappa)
     W = oracles.deflection(level.P, level.hx, level.hy, point.kappa)

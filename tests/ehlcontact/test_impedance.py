@@ -29,7 +29,7 @@ def dense(contact, film, n):
     m, f = contact.nodes.size, level.fields
     matrices = []
     for c_t in (0.0, 1.0):
-        linearise(f.P, f.flow, level.mesh, c_t, 1.0, f.p_coef, f.h_coef)
+        linearise(f.P, f.flow, level.stencil, c_t, 1.0, f.p_coef, f.h_coef)
         J, number = np.empty((m, m + 1)), np.empty(f.P.size, dtype=np.int64)
         dense_jacobian(contact.nodes, f.p_coef, f.h_coef, level.deflection.kernel, number, J)
         matrices.append(J)

@@ -5,7 +5,7 @@ import oracles
 import pytest
 
 from ehlcontact import InputError, Lubricant, MoesPoint
-from ehlcontact.solver.kernels import laws
+from ehlcontact import lubricant as laws
 
 PRESSURES = [0.0, 1e-6, 0.01, 0.3, 1.0, 1.7]
 DENSITIES = ["dowson-higginson", "incompressible"]

@@ -13,11 +13,11 @@ KERNELS = [pytest.param(lin.linearise, id="jit"), pytest.param(lin.linearise.py_
 def operator(level, P, H, eps=None):
     """N at all interior nodes; with `eps` given, at that flow factor."""
     flow, out = reynolds.Flow(*(np.zeros_like(P) for _ in reynolds.Flow._fields)), np.zeros_like(P)
-    reynolds.update_flow(P, H, level.law, level.mesh, flow)
+    reynolds.update_flow(P, H, level.law, level.stencil, flow)
     if eps is not None:
         flow.along[:, :-1] = np.vectorize(oracles.flow_mean)(eps[:, :-1], eps[:, 1:])
         flow.across[:-1] = np.vectorize(oracles.flow_mean)(eps[:-1], eps[1:])
-    reynolds.residual(P, flow, level.mesh, level.c_t, np.zeros_like(P), out)
+    reynolds.residual(P, flow, level.stencil, level.c_t, np.zeros_like(P), out)
     return -out
 
 
@@ -50,7 +50,7 @@ def test_against_differences(level, kernel, flow_slope, what):
     f.P[...] += 0.05  # off zero, so that both differences exist
     level.update_residual()
     p_coef, h_coef = (np.full((6, *f.P.shape), np.nan) for _ in range(2))
-    kernel(f.P, f.flow, level.mesh, level.c_t, flow_slope, p_coef, h_coef)
+    kernel(f.P, f.flow, level.stencil, level.c_t, flow_slope, p_coef, h_coef)
     rng = np.random.default_rng(3)
     change = rng.normal(size=f.P.shape)
     none = np.zeros_like(change)
@@ -64,7 +64,7 @@ def test_against_differences(level, kernel, flow_slope, what):
 
 def test_first_line_has_no_second_upstream_neighbour(level):
     f = level.fields
-    lin.linearise(f.P, f.flow, level.mesh, level.c_t, 1.0, f.p_coef, f.h_coef)
+    lin.linearise(f.P, f.flow, level.stencil, level.c_t, 1.0, f.p_coef, f.h_coef)
     assert (f.p_coef[5, :-1, 1] == 0.0).all()
     assert (f.h_coef[5, :-1, 1] == 0.0).all()
 
@@ -79,7 +79,7 @@ def test_dense_jacobian(level, kernel):
     level.update_residual()
     P, size = f.P.copy(), f.P.size
     free = np.flatnonzero(P > 0.0)
-    lin.linearise(f.P, f.flow, level.mesh, level.c_t, 1.0, f.p_coef, f.h_coef)
+    lin.linearise(f.P, f.flow, level.stencil, level.c_t, 1.0, f.p_coef, f.h_coef)
     J = np.full((free.size + 1, free.size + 1), np.nan)
     kernel(free, f.p_coef, f.h_coef, level.deflection.kernel, np.empty(size, dtype=np.int64), J)
 

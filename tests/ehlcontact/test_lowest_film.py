@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import MoesPoint, PrescribedLoad, simulate
-from ehlcontact.solver.kernels.lowest import cubic_at
-from ehlcontact.solver.lowest_film import lowest_film
+from ehlcontact.solver.lowest_film import cubic_at, lowest_film
 
 LEAST = 0.08
 

@@ -6,7 +6,7 @@ import numpy as np
 import oracles
 import pytest
 
-from ehlcontact.solver.kernels import mean
+from ehlcontact.solver.kernels import reynolds as mean
 
 PAIRS = [(1.0, 1.0), (2.0, 3.0), (1e-12, 40.0), (1e-200, 1e-3), (5.0, 1e-300)]
 

@@ -5,11 +5,9 @@ import oracles
 import pytest
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid import Level
 from ehlcontact.solver.kernels import relax
 from ehlcontact.solver.kernels.linearise import linearise, neighbour
-from ehlcontact.solver.multigrid import Multigrid
 
 LOWER, UPPER, NEAR, SHARE = relax.BAND_LOWER, relax.BAND_UPPER, relax.NEAR, relax.SHARE
 
@@ -45,7 +43,7 @@ def test_distribution_weights(level, point, kernel, c_t):
     eps[...] = level.hx**2 * 10.0**exponent
     f.flow.along[:, :-1] = np.vectorize(oracles.flow_mean)(eps[:, :-1], eps[:, 1:])
     f.flow.across[:-1] = np.vectorize(oracles.flow_mean)(eps[:-1], eps[1:])
-    kernel(f.P, f.flow, level.mesh, c_t, theta)
+    kernel(f.P, f.flow, level.stencil, c_t, theta)
     inner = [(j, i) for j in range(level.ny) for i in range(1, level.nx)]
     expected = [
         oracles.distribution_weight(f.P, eps, j, i, level.hx, level.hy, point.kappa, c_t) for j, i in inner
@@ -125,13 +123,13 @@ def test_line_solves_its_linear_system(point, j):
     level.rhs[...] = 0.0
     level.c_t = 0.5
     level.update_residual()
-    relax.distribution_weights(f.P, f.flow, level.mesh, level.c_t, f.theta)
+    relax.distribution_weights(f.P, f.flow, level.stencil, level.c_t, f.theta)
     f.theta[:, [1, -2]] = 0.0  # the border takes no share
-    linearise(f.P, f.flow, level.mesh, level.c_t, relax.FLOW_SLOPE, f.p_coef, f.h_coef)
+    linearise(f.P, f.flow, level.stencil, level.c_t, relax.FLOW_SLOPE, f.p_coef, f.h_coef)
     # a small right-hand side, so that no change is limited
     level.rhs += 1e-3 * np.random.default_rng(8).normal(size=f.P.shape) - level.r
     level.update_residual()
-    relax.relax_line(j, f, level.rhs, level.mesh, level.c_t, level.near, level.spread)
+    relax.relax_line(j, f, level.rhs, level.stencil, level.c_t, level.near, level.spread)
     A = line_matrix(level, j)
     below = np.subtract.outer(np.arange(15), np.arange(15))
     A[(below > LOWER) | (-below > UPPER)] = 0.0
@@ -141,7 +139,7 @@ def test_line_solves_its_linear_system(point, j):
 
 
 def test_damping_cuts_distributed_changes_alone(level):
-    f, undamped = level.fields, level.mesh
+    f, undamped = level.fields, level.stencil
     f.theta[:, 1:-1] = np.random.default_rng(4).uniform(size=(level.ny + 1, level.nx - 1))
     w = []
     for mesh in (undamped, undamped._replace(damping=0.3)):
@@ -156,9 +154,9 @@ def test_dry_node_joins_only_if_its_residual_asks_for_pressure(level):
     f = level.fields
     level.rhs *= 30.0  # both signs of the residual
     level.update_residual()
-    linearise(f.P, f.flow, level.mesh, level.c_t, relax.FLOW_SLOPE, f.p_coef, f.h_coef)
+    linearise(f.P, f.flow, level.stencil, level.c_t, relax.FLOW_SLOPE, f.p_coef, f.h_coef)
     for j in range(level.ny):
-        relax.relax_line(j, f, level.rhs, level.mesh, level.c_t, level.near, level.spread)
+        relax.relax_line(j, f, level.rhs, level.stencil, level.c_t, level.near, level.spread)
     inner = (slice(0, -1), slice(1, -1))
     dry, pushed_down = (f.P == 0.0)[inner], (level.r >= 0.0)[inner]
     assert (dry & pushed_down).any()
@@ -167,39 +165,30 @@ def test_dry_node_joins_only_if_its_residual_asks_for_pressure(level):
     assert (f.w[inner][dry & ~pushed_down] != 0.0).all()
 
 
-def newton_solution(kappa):
-    """A film solved to rounding on one grid."""
-    mg = Multigrid(MoesPoint(20, 8, kappa), Domain(), 32, coarsest=32)
-    mg.full_multigrid(Balance.of_load())
-    mg.u = mg.newton.solve(mg.u, Balance.of_load(), 20, 1e-13)
-    return mg
-
-
 @pytest.mark.parametrize("kappa", [0.2, 1.0])
-def test_converged_film_is_a_fixed_point(kappa):
+def test_converged_film_is_a_fixed_point(solve_by_newton, kappa):
     """Relaxation must stand still on a solution: no term may differ between it and the residual."""
-    mg = newton_solution(kappa)
-    P = mg.finest.P.copy()
+    level, u = solve_by_newton(MoesPoint(20, 8, kappa))
+    P = level.P.copy()
     for _ in range(3):
-        mg.finest.update(mg.u)
-        mg.finest.relax()
-    assert np.abs(mg.finest.P - P).max() < 1e-9
+        level.update(u)
+        level.relax()
+    assert np.abs(level.P - P).max() < 1e-9
 
 
-def test_sweeps_smooth_a_rough_error():
+def test_sweeps_smooth_a_rough_error(solve_by_newton):
     """Three sweeps take a checkerboard error of 1 % out of a converged film by more than 10x."""
-    mg = newton_solution(0.5)
-    level = mg.finest
+    level, u = solve_by_newton(MoesPoint(20, 8, 0.5))
     P = level.P.copy()
     j, i = np.indices(P.shape)
     level.P[...] = P * (1.0 + 0.01 * (-1.0) ** (i + j))
-    level.update_film(mg.u)
+    level.update_film(u)
     level.update_residual()
     before = level.residual_norm()
     for _ in range(3):
-        level.update(mg.u)
+        level.update(u)
         level.relax()
-    level.update_film(mg.u)
+    level.update_film(u)
     level.update_residual()
     assert level.residual_norm() < 0.1 * before
     assert (level.P >= 0.0).all()

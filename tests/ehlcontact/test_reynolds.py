@@ -11,7 +11,7 @@ from ehlcontact.solver.kernels import reynolds
 def test_flow_factor_and_mass(level, point, kernel):
     level.H[2, 5] = -0.02  # overlapping bodies: eps floored, mass not
     flow = reynolds.Flow(*(np.full_like(level.P, np.nan) for _ in reynolds.Flow._fields))
-    kernel(level.P, level.H, level.law, level.mesh, flow)
+    kernel(level.P, level.H, level.law, level.stencil, flow)
     expected_eps, expected_mass = oracles.flow_and_mass(level.P, level.H, point)
     np.testing.assert_allclose(flow.eps, expected_eps, rtol=1e-11)
     np.testing.assert_allclose(flow.mass, expected_mass, rtol=1e-13)
@@ -30,7 +30,7 @@ def test_slopes_of_the_flow(level):
 
     def flow(dP, dH):
         trial = reynolds.Flow(*(np.zeros_like(f.P) for _ in reynolds.Flow._fields))
-        reynolds.update_flow(f.P + dP, f.H + dH, level.law, level.mesh, trial)
+        reynolds.update_flow(f.P + dP, f.H + dH, level.law, level.stencil, trial)
         return trial
 
     for slope, mass_slope, d in (
@@ -45,7 +45,7 @@ def test_slopes_of_the_flow(level):
 @pytest.mark.parametrize("kernel", [reynolds.residual, reynolds.residual.py_func], ids=["jit", "python"])
 def test_residual(level, point, kernel):
     f, out = level.fields, np.full_like(level.P, 7.0)
-    kernel(f.P, f.flow, level.mesh, level.c_t, level.rhs, out)
+    kernel(f.P, f.flow, level.stencil, level.c_t, level.rhs, out)
     N = oracles.operator(f.P, f.flow.eps, f.flow.mass, level.hx, level.hy, point.kappa, level.c_t)
     inner = (slice(0, -1), slice(1, -1))  # the symmetry line is interior
     np.testing.assert_allclose(out[inner], (level.rhs - N)[inner], rtol=1e-11, atol=1e-11)
@@ -56,11 +56,11 @@ def test_residual(level, point, kernel):
 def test_symmetry_line_sees_its_image(level):
     """What line 1 carries must reach line 0 from both sides."""
     f = level.fields
-    before = reynolds.operator_at(0, 6, f.P, f.flow, level.mesh, level.c_t)
+    before = reynolds.operator_at(0, 6, f.P, f.flow, level.stencil, level.c_t)
     f.P[1, 6] += 0.1
-    after = reynolds.operator_at(0, 6, f.P, f.flow, level.mesh, level.c_t)
+    after = reynolds.operator_at(0, 6, f.P, f.flow, level.stencil, level.c_t)
     coupling = oracles.flow_mean(f.flow.eps[0, 6], f.flow.eps[1, 6])
-    assert after - before == pytest.approx(0.2 * level.mesh.cy * coupling, rel=1e-10)
+    assert after - before == pytest.approx(0.2 * level.stencil.cy * coupling, rel=1e-10)
 
 
 def test_wedge_is_exact_for_cubics_beyond_the_first_line(level):
@@ -68,5 +68,5 @@ def test_wedge_is_exact_for_cubics_beyond_the_first_line(level):
     f.P[...] = 0.0
     f.flow.mass[...] = 0.3 + 0.2 * level.X + 0.1 * level.X**2 + 0.05 * level.X**3
     for i in range(2, level.nx):
-        N = reynolds.operator_at.py_func(3, i, f.P, f.flow, level.mesh, 0.0)
+        N = reynolds.operator_at.py_func(3, i, f.P, f.flow, level.stencil, 0.0)
         assert -N == pytest.approx(0.2 + 0.2 * level.X[i] + 0.15 * level.X[i] ** 2, abs=1e-12)

@@ -28,7 +28,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.solver.deflection.elastic import influence_coefficients, injected_coefficients
+from ehlcontact.solver.deflection.coefficients import influence_coefficients, injected_coefficients
 from ehlcontact.solver.kernels import mlmi as kernels
 
 Array = NDArray[np.float64]

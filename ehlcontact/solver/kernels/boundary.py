@@ -34,24 +34,24 @@ def mark_boundary(P, marks):
 
 
 @jit_node
-def total_flow(j, i, flow, mesh):
+def total_flow(j, i, flow, stencil):
     """Sum of the four couplings of one node."""
     face = j - 1 if j > 0 else 0
     along = flow.along[j, i - 1] + flow.along[j, i]
-    return mesh.cx * along + mesh.cy * (flow.across[face, i] + flow.across[j, i])
+    return stencil.cx * along + stencil.cy * (flow.across[face, i] + flow.across[j, i])
 
 
 @jit
-def update_marked(P, H, law, mesh, flow, marks):
+def update_marked(P, H, law, stencil, flow, marks):
     """Flow at marked nodes, their neighbours and the faces between; `marks` of the neighbours become UPDATED."""
     for j in range(P.shape[0] - 1):
         for i in range(1, P.shape[1] - 1):
             if marks[j, i] == MARKED:
-                update_node(j, i, P, H, law, mesh, flow)
+                update_node(j, i, P, H, law, stencil, flow)
                 for q in range(1, NEIGHBOURS):
                     jq, iq = neighbour(q, j, i)
                     if iq >= 0 and marks[jq, iq] == 0:
-                        update_node(jq, iq, P, H, law, mesh, flow)
+                        update_node(jq, iq, P, H, law, stencil, flow)
                         marks[jq, iq] = UPDATED
     for j in range(P.shape[0] - 1):
         for i in range(1, P.shape[1] - 1):
@@ -63,25 +63,25 @@ def update_marked(P, H, law, mesh, flow, marks):
 
 
 @jit
-def relax_boundary(P, H, flow, rhs, law, mesh, c_t, self_deflection, nodes, marks):
+def relax_boundary(P, H, flow, rhs, law, stencil, c_t, self_deflection, nodes, marks):
     """Relax P near the cavitation boundary at frozen film and flow.
 
     `P` and, there, `flow` are written; `nodes`, `marks` are work space.
     """
     width = P.shape[1]
     mark_boundary(P, marks)
-    update_marked(P, H, law, mesh, flow, marks)
-    transport = DOMINANCE * 1.5 * mesh.inv_hx + SQUEEZE_DOMINANCE * c_t
+    update_marked(P, H, law, stencil, flow, marks)
+    transport = DOMINANCE * 1.5 * stencil.inv_hx + SQUEEZE_DOMINANCE * c_t
     count = 0
     for j in range(P.shape[0] - 1):
         for i in range(1, width - 1):
-            if marks[j, i] == MARKED and total_flow(j, i, flow, mesh) > transport * self_deflection:
+            if marks[j, i] == MARKED and total_flow(j, i, flow, stencil) > transport * self_deflection:
                 nodes[count] = j * width + i
                 count += 1
     for sweep in range(PASSES):
         for s in range(count):
             node = nodes[s] if sweep % 2 == 0 else nodes[count - 1 - s]
             j, i = node // width, node % width
-            own = total_flow(j, i, flow, mesh) + (1.5 * mesh.inv_hx + c_t) * self_deflection
-            res = rhs[j, i] - operator_at(j, i, P, flow, mesh, c_t)
+            own = total_flow(j, i, flow, stencil) + (1.5 * stencil.inv_hx + c_t) * self_deflection
+            res = rhs[j, i] - operator_at(j, i, P, flow, stencil, c_t)
             P[j, i] = max(P[j, i] - res / own, 0.0)

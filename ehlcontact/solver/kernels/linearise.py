@@ -35,10 +35,10 @@ def _face(flow, jq, iq, coupling, mean, skew, drop):
 
 
 @jit_node
-def linearise_at(j, i, P, flow, mesh, c_t, share):
+def linearise_at(j, i, P, flow, stencil, c_t, share):
     """Derivatives at one interior node: six to P, then six to H; `share` is `flow_slope` of `linearise`."""
     js, face, side = (j - 1, j - 1, -1.0) if j > 0 else (1, 0, 1.0)  # the line below line 0 is its image
-    p, cx, cy = P[j, i], mesh.cx, mesh.cy
+    p, cx, cy = P[j, i], stencil.cx, stencil.cy
     along, skew, across, slant = flow.along, flow.along_skew, flow.across, flow.across_skew
     aw, dw, pw, hw = _face(flow, j, i - 1, cx, along[j, i - 1], -skew[j, i - 1], share * (P[j, i - 1] - p))
     ae, de, pe, he = _face(flow, j, i + 1, cx, along[j, i], skew[j, i], share * (P[j, i + 1] - p))
@@ -46,10 +46,10 @@ def linearise_at(j, i, P, flow, mesh, c_t, share):
     an, dn, pn, hn = _face(flow, j + 1, i, cy, across[j, i], slant[j, i], share * (P[j + 1, i] - p))
     # the wedge term of `reynolds.transport_at`
     if i > 1:
-        c0, c1, c2, c5 = 0.5 * mesh.inv_hx, -mesh.inv_hx, mesh.inv_hx / 3.0, mesh.inv_hx / 6.0
+        c0, c1, c2, c5 = 0.5 * stencil.inv_hx, -stencil.inv_hx, stencil.inv_hx / 3.0, stencil.inv_hx / 6.0
         pww, hww = -c5 * flow.mass_slope[j, i - 2], -c5 * flow.rho[j, i - 2]
     else:
-        c0, c1, c2 = 0.0, -0.5 * mesh.inv_hx, 0.5 * mesh.inv_hx
+        c0, c1, c2 = 0.0, -0.5 * stencil.inv_hx, 0.5 * stencil.inv_hx
         pww, hww = 0.0, 0.0
     c0 += c_t
     jumps = dw + de + ds + dn
@@ -63,7 +63,7 @@ def linearise_at(j, i, P, flow, mesh, c_t, share):
 
 
 @jit
-def linearise(P, flow, mesh, c_t, flow_slope, p_coef, h_coef):
+def linearise(P, flow, stencil, c_t, flow_slope, p_coef, h_coef):
     """Derivatives at all interior nodes; `p_coef` and `h_coef`, both (6, ny+1, nx+1), written.
 
     `flow_slope` is the share of the derivatives of the flow factor eps that is taken: 1 is Newton's
@@ -71,7 +71,7 @@ def linearise(P, flow, mesh, c_t, flow_slope, p_coef, h_coef):
     """
     for j in range(P.shape[0] - 1):
         for i in range(1, P.shape[1] - 1):
-            derivatives = linearise_at(j, i, P, flow, mesh, c_t, flow_slope)
+            derivatives = linearise_at(j, i, P, flow, stencil, c_t, flow_slope)
             for q in range(NEIGHBOURS):
                 p_coef[q, j, i] = derivatives[q]
                 h_coef[q, j, i] = derivatives[NEIGHBOURS + q]

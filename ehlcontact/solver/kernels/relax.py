@@ -30,18 +30,18 @@ LARGEST_CHANGE = 0.15  # of P in one sweep; far from the solution the linear mod
 
 
 @jit
-def distribution_weights(P, flow, mesh, c_t, theta):
+def distribution_weights(P, flow, stencil, c_t, theta):
     """Weight theta of the distributed change at every interior node; 0 where P = 0. `theta` written.
 
     The squeeze term, unlike the wedge term, does not vanish for smooth changes. Plain changes of P, whose
     smooth part deflects the film far beyond the near coefficients, are then safe only at larger eps.
     """
-    switch = mesh.switch * (1.0 + SQUEEZE * c_t / (1.5 * mesh.inv_hx))
+    switch = stencil.switch * (1.0 + SQUEEZE * c_t / (1.5 * stencil.inv_hx))
     for j in range(P.shape[0] - 1):
         face = j - 1 if j > 0 else 0
         for i in range(1, P.shape[1] - 1):
-            along = mesh.cx * max(flow.along[j, i - 1], flow.along[j, i])
-            across = mesh.cy * max(flow.across[face, i], flow.across[j, i])
+            along = stencil.cx * max(flow.along[j, i - 1], flow.along[j, i])
+            across = stencil.cy * max(flow.across[face, i], flow.across[j, i])
             ratio = max(along, across) / switch
             theta[j, i] = 1.0 / (1.0 + ratio * ratio * ratio * ratio) if P[j, i] > 0.0 else 0.0
 
@@ -71,14 +71,14 @@ def solve_band(band, b, m):
 
 
 @jit_node
-def assemble_at(j, i, P, flow, theta, mesh, c_t, near, spread, band):
+def assemble_at(j, i, P, flow, theta, stencil, c_t, near, spread, band):
     """Row of one node in the matrix of the distributed changes of line j; column ``i - 1`` of `band` written.
 
     A unit change at node k of the line raises P there by 1 and lowers its neighbours by SHARE theta_k, and
     deflects the film near it by ``near - theta_k spread``. So every entry is ``a - theta_k d``: `a` answers a
     plain change, `d` what a distributed one gives away.
     """
-    pc, pw, pe, ps, pn, pww, hc, hw, he, _, _, hww = linearise_at(j, i, P, flow, mesh, c_t, FLOW_SLOPE)
+    pc, pw, pe, ps, pn, pww, hc, hw, he, _, _, hww = linearise_at(j, i, P, flow, stencil, c_t, FLOW_SLOPE)
     n0, n1, n2 = near[0, 0], near[0, 1], near[0, 2]
     s0, s1, s2 = spread[0, 0], spread[0, 1], spread[0, 2]
     across = pn + (2.0 * ps if j == 1 else ps)  # line 1 gives to the symmetry line twice: itself and its image
@@ -101,7 +101,7 @@ def assemble_at(j, i, P, flow, theta, mesh, c_t, near, spread, band):
 
 
 @jit
-def relax_line(j, fields, rhs, mesh, c_t, near, spread):
+def relax_line(j, fields, rhs, stencil, c_t, near, spread):
     """Solve line j for its distributed changes; ``fields.w[j]`` written.
 
     ``near[dj, di]`` are the influence coefficients and ``spread[dj, di]`` their mean over the four neighbours.
@@ -110,16 +110,16 @@ def relax_line(j, fields, rhs, mesh, c_t, near, spread):
     P, flow, band, b = fields.P, fields.flow, fields.band, fields.b
     m = P.shape[1] - 2
     for r in range(m):
-        b[r] = rhs[j, r + 1] - operator_at(j, r + 1, P, flow, mesh, c_t)
+        b[r] = rhs[j, r + 1] - operator_at(j, r + 1, P, flow, stencil, c_t)
         if P[j, r + 1] > 0.0 or b[r] < 0.0:
-            assemble_at(j, r + 1, P, flow, fields.theta, mesh, c_t, near, spread, band)
+            assemble_at(j, r + 1, P, flow, fields.theta, stencil, c_t, near, spread, band)
         else:
             band[:, r] = 0.0
             band[BAND_LOWER, r] = 1.0
             b[r] = 0.0
     solve_band(band, b, m)
     for r in range(m):
-        change = (1.0 - mesh.damping * fields.theta[j, r + 1]) * b[r]
+        change = (1.0 - stencil.damping * fields.theta[j, r + 1]) * b[r]
         fields.w[j, r + 1] = min(max(change, -LARGEST_CHANGE), LARGEST_CHANGE)
 
 
@@ -157,7 +157,7 @@ def near_film(j, H, theta, w, near, spread):
 
 
 @jit
-def relax_lines(fields, rhs, law, mesh, c_t, near, spread):
+def relax_lines(fields, rhs, law, stencil, c_t, near, spread):
     """One sweep over all lines, from the flow of P and H; P, H (near field only) and flow of `fields` written.
 
     The flow is that of the state between the colours then.
@@ -166,11 +166,11 @@ def relax_lines(fields, rhs, law, mesh, c_t, near, spread):
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
     for colour in range(2):
         if colour == 0:
-            distribution_weights(P, flow, mesh, c_t, fields.theta)
+            distribution_weights(P, flow, stencil, c_t, fields.theta)
         else:
-            update_flow(P, H, law, mesh, flow)
+            update_flow(P, H, law, stencil, flow)
         for j in range(colour, ny, 2):
-            relax_line(j, fields, rhs, mesh, c_t, near, spread)
+            relax_line(j, fields, rhs, stencil, c_t, near, spread)
         for j in range(colour, ny, 2):
             apply_line(j, P, fields.theta, fields.w)
         for j in range(ny):

@@ -5,23 +5,23 @@ contiguous. Line j = 0 is the symmetry line; j = ny, i = 0 and i = nx carry P = 
 
     N(P, H) = d/dX(eps dP/dX) + kappa^2 d/dY(eps dP/dY) - d(rho H)/dX - c_t rho H,   eps = rho H^3/(eta lambda)
 
-has eps averaged to half nodes (`mean`), the wedge term third-order upstream-biased (two thirds central, one third
-second-order upstream; central on the first line), and ``c_t rho H`` as the implicit part of the squeeze term.
-After Venner and Lubrecht (2000), ch. 6, whose arithmetic mean and second-order upstream wedge leave an error of
-the film ten to thirty times larger on the same grid.
+has eps averaged to half nodes (`flow_mean`), the wedge term third-order upstream-biased (two thirds central, one
+third second-order upstream; central on the first line), and ``c_t rho H`` as the implicit part of the squeeze
+term. After Venner and Lubrecht (2000), ch. 6, whose arithmetic mean and second-order upstream wedge leave an error
+of the film ten to thirty times larger on the same grid.
 """
 
 import math
 from typing import Any, NamedTuple
 
 from ehlcontact.jit import jit, jit_node
-from ehlcontact.solver.kernels.laws import density, log_viscosity
-from ehlcontact.solver.kernels.mean import flow_mean
+from ehlcontact.lubricant import density, log_viscosity
 
 FILM_FLOOR = 1e-8  # where iterates overlap; keeps eps > 0 without touching any converged film
+TINY = 1e-290  # keeps 0/0 out where both flow factors underflow
 
 
-class Mesh(NamedTuple):
+class Stencil(NamedTuple):
     """Numbers of one grid that the kernels need."""
 
     cx: float  # 1/hx^2
@@ -35,7 +35,7 @@ class Mesh(NamedTuple):
 class Flow(NamedTuple):
     """What the equations take from P and H, with derivatives: arrays (ny + 1, nx + 1) at nodes or half nodes.
 
-    Half nodes carry the index of the node before them; the mean and skew of `mean.flow_mean` are kept there,
+    Half nodes carry the index of the node before them; the mean and skew of `flow_mean` are kept there,
     because roots and divisions are what an evaluation costs.
     """
 
@@ -52,12 +52,30 @@ class Flow(NamedTuple):
 
 
 @jit_node
-def update_node(j, i, P, H, law, mesh, flow):
+def flow_mean(a, b):
+    """Mean of two flow factors, which may differ by orders of magnitude, and its skew.
+
+    The derivatives to ln(a) and ln(b) are ``mean/2 +- skew``. Along the inlet ln(eps) is nearly straight, so the
+    value midway is the geometric mean; the arithmetic mean is too large by cosh(x), with 2x the log ratio, and is
+    what makes the classical scheme need fine grids. But with the geometric mean the flow down a steep flank, P
+    falling towards the outlet, stops answering to the upstream pressure (x > 1), and relaxation there never
+    settles. The mean used is ``g (1 + s^2/(2 + s))`` with the geometric mean g and ``s = cosh(x) - 1``: geometric
+    for neighbours that are alike (it differs by x^4/8), arithmetic for those far apart, and a flow that always
+    falls with the downstream pressure and rises with the upstream one.
+    """
+    g = math.sqrt(a * b) + TINY
+    s = 0.5 * (a + b) / g - 1.0
+    share = 1.0 / (2.0 + s)
+    return g * (1.0 + s * s * share), 0.25 * (a - b) * s * (4.0 + s) * share * share
+
+
+@jit_node
+def update_node(j, i, P, H, law, stencil, flow):
     """What `flow` holds at one node."""
     rho, rho_slope = density(P[j, i], law)
     thickness, thickness_slope = log_viscosity(P[j, i], law)
     h = max(H[j, i], FILM_FLOOR)
-    flow.eps[j, i] = rho * h * h * h * math.exp(-thickness) / mesh.lam
+    flow.eps[j, i] = rho * h * h * h * math.exp(-thickness) / stencil.lam
     flow.eps_slope[j, i] = rho_slope / rho - thickness_slope
     flow.film_slope[j, i] = 3.0 / h
     flow.mass[j, i] = rho * H[j, i]
@@ -78,12 +96,12 @@ def update_across(j, i, flow):
 
 
 @jit
-def update_flow(P, H, law, mesh, flow):
+def update_flow(P, H, law, stencil, flow):
     """All of `flow` from P and H."""
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
     for j in range(ny + 1):
         for i in range(nx + 1):
-            update_node(j, i, P, H, law, mesh, flow)
+            update_node(j, i, P, H, law, stencil, flow)
         for i in range(nx):
             update_along(j, i, flow)
         if j > 0:
@@ -92,36 +110,36 @@ def update_flow(P, H, law, mesh, flow):
 
 
 @jit_node
-def transport_at(j, i, mass, mesh, c_t):
+def transport_at(j, i, mass, stencil, c_t):
     """``d(mass)/dX + c_t mass`` at one interior node."""
     if i > 1:
         change = 2.0 * mass[j, i + 1] + 3.0 * mass[j, i] - 6.0 * mass[j, i - 1] + mass[j, i - 2]
     else:
         change = 3.0 * (mass[j, i + 1] - mass[j, i - 1])
-    return mesh.inv_hx / 6.0 * change + c_t * mass[j, i]
+    return stencil.inv_hx / 6.0 * change + c_t * mass[j, i]
 
 
 @jit_node
-def operator_at(j, i, P, flow, mesh, c_t):
+def operator_at(j, i, P, flow, stencil, c_t):
     """N(P, H) at one interior node."""
     below, face = (j - 1, j - 1) if j > 0 else (1, 0)  # the line below the symmetry line is its image
     p = P[j, i]
     along = flow.along[j, i] * (P[j, i + 1] - p) + flow.along[j, i - 1] * (P[j, i - 1] - p)
     across = flow.across[j, i] * (P[j + 1, i] - p) + flow.across[face, i] * (P[below, i] - p)
-    return mesh.cx * along + mesh.cy * across - transport_at(j, i, flow.mass, mesh, c_t)
+    return stencil.cx * along + stencil.cy * across - transport_at(j, i, flow.mass, stencil, c_t)
 
 
 @jit
-def residual(P, flow, mesh, c_t, rhs, out):
+def residual(P, flow, stencil, c_t, rhs, out):
     """``rhs - N(P, H)`` at all interior nodes; `out` written, its boundary left alone."""
     for j in range(P.shape[0] - 1):
         for i in range(1, P.shape[1] - 1):
-            out[j, i] = rhs[j, i] - operator_at(j, i, P, flow, mesh, c_t)
+            out[j, i] = rhs[j, i] - operator_at(j, i, P, flow, stencil, c_t)
 
 
 @jit
-def transport(mass, mesh, c_t, known, out):
+def transport(mass, stencil, c_t, known, out):
     """``d(mass)/dX + c_t mass + known`` at all interior nodes; `out` written, its boundary left alone."""
     for j in range(mass.shape[0] - 1):
         for i in range(1, mass.shape[1] - 1):
-            out[j, i] = known[j, i] + transport_at(j, i, mass, mesh, c_t)
+            out[j, i] = known[j, i] + transport_at(j, i, mass, stencil, c_t)

@@ -1,0 +1,125 @@
+"""The only driver loop: cycles or Newton steps until a film is solved, or will not be.
+
+Steady films, steps in time and Newton share it, so that NaN, a residual that no longer falls and a film that is
+none are judged once, here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from math import inf, isfinite
+from typing import NamedTuple
+
+from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.grid import Level
+from ehlcontact.solver.multigrid import Multigrid
+from ehlcontact.status import Status
+
+STAGNATION_CYCLES = 6  # the last so many are held against all before them,
+STAGNATION_FACTOR = 0.7  # and have to bring the least residual down to this share
+DIVERGENCE_FACTOR = 1e3  # times the scale: a residual that large does not come back
+BORDER_SLOPE = 0.1  # of the maximum per semi-axis, at inlet and sides
+BORDER_PRESSURE = 0.02  # of the maximum, beside the outlet; a film that ends outside the grid is not computed
+
+
+class Goal(NamedTuple):
+    """When an iteration ends."""
+
+    scale: float  # residual by which residuals are measured; fixed by the problem, not by the start
+    tol: float  # share of it to be reached
+    most: int  # iterations
+    balance: float  # largest residual of the balance,
+    approach: float  # and changes of u
+    force: float = inf  # and of the force in the last iteration
+
+
+@dataclass(slots=True)
+class Track:
+    """What an iteration leaves behind: entry 0 is the start."""
+
+    residuals: list[float] = field(default_factory=list)  # mean |residual| over P > 0
+    balance_residuals: list[float] = field(default_factory=list)
+    changes: list[float] = field(default_factory=list)  # of u, one per iteration
+
+    @property
+    def iterations(self) -> int:
+        """Number of cycles or steps."""
+        return len(self.residuals) - 1
+
+
+def iterate(
+    film: Multigrid,
+    balance: Balance,
+    advance: Callable[[Balance], None],
+    goal: Goal,
+    track: Track,
+    watch: Callable[[int, float], None] | None = None,
+) -> Status:
+    """Call `advance` until both residuals are below tolerance and approach and force have settled.
+
+    Parameters
+    ----------
+    film : Multigrid
+        Its finest level is up to date.
+    balance : Balance
+    advance : callable
+        `Multigrid.cycle`, or a Newton step.
+    goal : Goal
+    track : Track
+        Empty; filled as it goes, so that an interrupted caller still has it.
+    watch : callable, optional
+        Called with the number of the iteration and the residual after it, over the scale.
+    """
+    level = film.finest
+    change_of_u = change_of_force = inf
+    while True:
+        force = level.force()
+        track.residuals.append(level.residual_norm())
+        track.balance_residuals.append(balance.residual(film.u, force))
+        if watch is not None and track.changes:
+            watch(track.iterations, track.residuals[-1] / goal.scale)
+        settled = change_of_u < goal.approach and change_of_force <= goal.force
+        settled = settled and abs(track.balance_residuals[-1]) < goal.balance
+        if not isfinite(track.balance_residuals[-1]):  # a pressure of NaN has no residual
+            return Status.NONFINITE
+        if (status := classify(track.residuals, goal, settled)) is not None:
+            return judge(status, level)
+        u = film.u
+        advance(balance)
+        change_of_u, change_of_force = abs(film.u - u), abs(level.force() - force)
+        track.changes.append(change_of_u)
+
+
+def classify(residuals: Sequence[float], goal: Goal, settled: bool) -> Status | None:
+    """Status of an iteration with these residuals, or None to go on; `settled`: the other criteria hold."""
+    last, cycles = residuals[-1], len(residuals) - 1
+    if not isfinite(last):
+        return Status.NONFINITE
+    if last <= goal.tol * goal.scale and settled:
+        return Status.CONVERGED
+    if last > DIVERGENCE_FACTOR * goal.scale:
+        return Status.DIVERGED
+    if cycles >= goal.most:
+        return Status.MAX_CYCLES
+    if cycles > 2 * STAGNATION_CYCLES:
+        recent = min(residuals[-STAGNATION_CYCLES:])
+        if recent > STAGNATION_FACTOR * min(residuals[:-STAGNATION_CYCLES]):
+            return Status.STAGNATED
+    return None
+
+
+def judge(status: Status, level: Level) -> Status:
+    """Status of a solve whose residuals say `status`: converged only with a film, and within the domain."""
+    if status is Status.CONVERGED and not level.H.min() > 0.0:
+        return Status.UNRESOLVED
+    if status is Status.CONVERGED and touches_border(level):
+        return Status.OUT_OF_DOMAIN
+    return status
+
+
+def touches_border(level: Level) -> bool:
+    """Whether pressure reaches the border of the domain: at the outlet, or steeply at inlet or sides."""
+    P = level.P
+    steepness = max(P[:, 1].max() / level.hx, P[-2].max() / level.hy)
+    return bool(P[:, -2].max() > BORDER_PRESSURE * P.max() or steepness > BORDER_SLOPE * P.max())
