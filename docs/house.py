@@ -1,0 +1,214 @@
+"""The house in figures: lines, rooms, floors, circles, constants, long functions; and its picture.
+
+    python docs/house.py [CHECKOUT ...]               # a table, one column per checkout
+    python docs/house.py --draw docs/images/house.png # the rooms and who imports whom
+
+Everything is read from the imports and definitions of the code; nothing of it is run. A room is a file or a
+folder; one room stands a floor above the highest that it imports.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+PACKAGES = ("ehlcontact", "reduced_models", "fmu")
+LONG, MANY = 50, 8  # lines of a function without its docstring, arguments
+Graph = dict[str, set[str]]
+
+
+@cache
+def tree(path: Path) -> ast.Module:
+    """Syntax of a file."""
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@cache
+def modules(root: Path) -> dict[str, Path]:
+    """Files of the library by dotted name; a package by its own."""
+    found = {}
+    for package in PACKAGES:
+        for path in sorted((root / package).rglob("*.py")):
+            parts = path.relative_to(root).with_suffix("").parts
+            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return found
+
+
+@cache
+def imports(root: Path) -> Graph:
+    """Every file with the files it imports; names handed on by a package count as the package."""
+    known = modules(root)
+    graph: Graph = {name: set() for name in known}
+    for name, path in known.items():
+        for node in ast.walk(tree(path)):
+            if isinstance(node, ast.ImportFrom) and node.module and not node.level:
+                for alias in node.names:
+                    whole = f"{node.module}.{alias.name}"
+                    graph[name].add(whole if whole in known else node.module)
+            elif isinstance(node, ast.Import):
+                graph[name].update(alias.name for alias in node.names)
+        graph[name] = {other for other in graph[name] if other in known and other != name}
+    return graph
+
+
+def room_of(name: str, folder: str) -> str | None:
+    """Entry of `folder` that holds the module, None outside it; the folder's own ``__init__`` is no room."""
+    if not name.startswith(folder + "."):
+        return None
+    return name[len(folder) + 1 :].split(".", maxsplit=1)[0]
+
+
+def rooms(root: Path, folder: str) -> Graph:
+    """The entries of a folder and which of them each imports."""
+    graph: Graph = {}
+    for name, others in imports(root).items():
+        here = room_of(name, folder)
+        if here is None or here == "__main__":
+            continue
+        reached = {room_of(other, folder) for other in others} - {None, here}
+        graph.setdefault(here, set()).update(str(other) for other in reached)
+    return graph
+
+
+def circles(graph: Graph) -> list[set[str]]:
+    """Groups that import each other in a loop."""
+    reach = {name: _reached(graph, name) for name in graph}
+    loops = {
+        frozenset({other for other in reach[name] if name in reach[other]})
+        for name in graph
+        if name in reach[name]
+    }
+    return [set(loop) for loop in loops]
+
+
+def _reached(graph: Graph, start: str) -> set[str]:
+    seen: set[str] = set()
+    todo = list(graph[start])
+    while todo:
+        name = todo.pop()
+        if name not in seen:
+            seen.add(name)
+            todo += graph[name]
+    return seen
+
+
+def floors(graph: Graph) -> dict[str, int]:
+    """Floor of every room, from 1; rooms of a circle share one."""
+    loops = circles(graph)
+    group = {name: next((min(loop) for loop in loops if name in loop), name) for name in graph}
+
+    @cache
+    def floor(name: str) -> int:
+        members = [other for other in graph if group[other] == name]
+        below = {group[other] for member in members for other in graph[member]} - {name}
+        return 1 + max((floor(other) for other in below), default=0)
+
+    return {name: floor(group[name]) for name in graph}
+
+
+def functions(root: Path) -> Iterator[tuple[str, str, int, int]]:
+    """Module, name, lines of code without the docstring, and arguments of every function."""
+    for name, path in modules(root).items():
+        for node in ast.walk(tree(path)):
+            if isinstance(node, ast.FunctionDef):
+                body = node.body[1:] if ast.get_docstring(node) else node.body
+                lines = body[-1].end_lineno - body[0].lineno + 1 if body else 0  # type: ignore[operator]
+                a = node.args
+                arguments = [
+                    x.arg for x in (*a.posonlyargs, *a.args, *a.kwonlyargs) if x.arg not in ("self", "cls")
+                ]
+                yield name, node.name, lines, len(arguments)
+
+
+def constants(root: Path) -> Iterator[tuple[str, str]]:
+    """Module and name of every module-level number, or group of numbers, in capitals."""
+    for name, path in modules(root).items():
+        for node in tree(path).body:
+            targets = (
+                node.targets
+                if isinstance(node, ast.Assign)
+                else [node.target]
+                if isinstance(node, ast.AnnAssign)
+                else []
+            )
+            value = getattr(node, "value", None)
+            for target in targets:
+                for part in target.elts if isinstance(target, ast.Tuple) else [target]:
+                    if (
+                        isinstance(part, ast.Name)
+                        and part.id.isupper()
+                        and value is not None
+                        and _is_number(value)
+                    ):
+                        yield name, part.id
+
+
+def _is_number(node: ast.expr) -> bool:
+    numbers = [n for n in ast.walk(node) if isinstance(n, ast.Constant)]
+    return bool(numbers) and any(
+        isinstance(n.value, int | float) and not isinstance(n.value, bool) for n in numbers
+    )
+
+
+def figures(root: Path) -> dict[str, str]:
+    """The table of one checkout."""
+    known = modules(root)
+    lines = sum(len(path.read_text(encoding="utf-8").splitlines()) for path in known.values())
+    folders = [
+        path for package in PACKAGES for path in [root / package, *(root / package).rglob("*")] if path.is_dir()
+    ]
+    fullest = {
+        folder.relative_to(root).as_posix(): len([p for p in folder.iterdir() if p.name != "__pycache__"])
+        for folder in folders
+        if folder.name != "__pycache__"
+    }
+    busiest = max(fullest, key=lambda name: fullest[name])
+    files = imports(root)
+    table = {"library files (Python)": str(len(known)), "library lines (Python)": str(lines)}
+    for package in PACKAGES:
+        table[f"entries of {package}/"] = str(fullest[package])
+    table["most entries of a folder"] = f"{fullest[busiest]} ({busiest})"
+    for package in PACKAGES:
+        graph = {k: v for k, v in rooms(root, package).items() if k != "cli"}
+        graph = {k: {other for other in v if other in graph} for k, v in graph.items()}
+        table[f"floors, arrows of {package}/"] = f"{max(floors(graph).values())}, {sum(map(len, graph.values()))}"
+    loops = circles(without_faces(files, known))
+    for package in PACKAGES:
+        loops += [loop for loop in circles(rooms(root, package)) if len(loop) > 1]
+    named = sorted({", ".join(sorted(name.rsplit(".", 1)[-1] for name in loop)) for loop in loops})
+    table["circles of files or rooms"] = "; ".join([str(len(named)), *named])
+    table["constants (numbers in capitals)"] = str(len(set(constants(root))))
+    found = list(functions(root))
+    table[f"functions over {LONG} lines"] = str(sum(n > LONG for _, _, n, _ in found))
+    table[f"functions of more than {MANY} arguments"] = str(sum(n > MANY for _, _, _, n in found))
+    return table
+
+
+def without_faces(graph: Graph, known: dict[str, Path]) -> Graph:
+    """The graph without the packages' ``__init__``, which hand names on and so import all of their rooms."""
+    inner = {name for name, path in known.items() if path.stem != "__init__"}
+    return {name: others & inner for name, others in graph.items() if name in inner}
+
+
+def main() -> None:
+    """Print the table, or draw."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("checkouts", nargs="*", type=Path, default=[Path(__file__).parents[1]])
+    parser.add_argument("--list", action="store_true", help="name the long functions and those of many arguments")
+    arguments = parser.parse_args()
+    tables = [figures(root.resolve()) for root in arguments.checkouts]
+    print("| | " + " | ".join(str(root) for root in arguments.checkouts) + " |")
+    print("|---|" + "---|" * len(tables))
+    for key in tables[0]:
+        print(f"| {key} | " + " | ".join(table[key] for table in tables) + " |")
+    if arguments.list:
+        for module, name, lines, many in functions(arguments.checkouts[-1].resolve()):
+            if lines > LONG or many > MANY:
+                print(f"{module}.{name}: {lines} lines, {many} arguments")
+
+
+if __name__ == "__main__":
+    main()
