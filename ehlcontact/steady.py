@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 from math import isfinite
 from typing import NamedTuple
 
@@ -15,21 +15,24 @@ from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.domain import Domain, check_domain, check_intervals, default_domain
+from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Level
 from ehlcontact.solver.lowest_film import lowest_film
+from ehlcontact.solver.mesh import (
+    FAILED,
+    LARGEST_ATTEMPTS,
+    Purpose,
+    allows_newton,
+    default_domain,
+    mesh_for,
+    remedy,
+)
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
-from ehlcontact.solver.resolution import automatic_mesh, nodes, refined_mesh
 from ehlcontact.status import Status, classify
 
 LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7
-LARGEST_ATTEMPTS = 4  # of an automatic mesh
-LARGEST_NEWTON = 300_000  # nodes: sparse factors take minutes and gigabytes beyond
-FAILED = (Status.STAGNATED, Status.DIVERGED, Status.MAX_CYCLES, Status.NONFINITE)
-REFINED = (*FAILED, Status.UNRESOLVED)
-ROOM = 1.5  # growth of a domain that pressure fills
 BORDER_SLOPE = 0.1  # of the maximum per semi-axis, at inlet and sides
 BORDER_PRESSURE = 0.02  # of the maximum, beside the outlet; a film that ends outside the grid is not computed
 
@@ -110,17 +113,19 @@ def solve_steady(
         balance = Balance.of_approach(require_finite("approach", approach))
         if approach > 1.0 and domain is None:
             domain = default_domain(moes, approach**1.5)
-    attempts = _meshes(moes, n, domain)
-    mesh = next(attempts)
-    while mesh is not None:
+    mesh = mesh_for(moes, Purpose.FILM, n=n, domain=domain)
+    for _ in range(LARGEST_ATTEMPTS):
         for way in WAYS[method]:
-            if way is LAST_RESORT and nodes(*mesh, moes.kappa) > LARGEST_NEWTON:
+            if way is LAST_RESORT and not allows_newton(mesh, moes):
                 break
-            solved = _Solve(moes, *mesh, balance, tol, max_cycles, callback, way.cautious)
+            solved = _Solve(moes, mesh.n, mesh.domain, balance, tol, max_cycles, callback, way.cautious)
             status = solved.run(way.newton)
             if status not in FAILED:
                 break
-        mesh = attempts.send(status)
+        other = remedy(mesh, status, moes, n=n, domain=domain)
+        if other is None:
+            break
+        mesh = other
     result = solved.result(status, scales_of(point), time.perf_counter() - started)
     if throw and not status.ok and status is not Status.INTERRUPTED:
         raise ConvergenceError(f"steady solve {status}: {status.advice}", result)
@@ -204,30 +209,6 @@ class _Solve:
             seconds=seconds,
             version=__version__,
         )
-
-
-def _meshes(
-    point: MoesPoint, n: int | None, domain: Domain | None
-) -> Generator[tuple[int, Domain] | None, Status, None]:
-    """Meshes to try one after the other: yields (n, domain), takes the status it led to, ends with None.
-
-    With `n` given there is one. Otherwise a film that the mesh does not resolve gets a finer one, and with the
-    domain left open a pressure that reaches its border gets more room.
-    """
-    if n is not None:
-        yield check_intervals(n), check_domain(domain, point)
-        yield None
-        return
-    mesh, region = automatic_mesh(point, check_domain(domain, point) if domain is not None else None)
-    for _ in range(LARGEST_ATTEMPTS):
-        status = yield mesh, region
-        if status is Status.OUT_OF_DOMAIN and domain is None:
-            region = region.scaled(ROOM)
-        elif status in REFINED and (finer := refined_mesh(point, mesh, region, domain is None)) is not None:
-            mesh, region = finer
-        else:
-            break
-    yield None
 
 
 def dry_residual(level: Level) -> float:

@@ -7,10 +7,10 @@ import pytest
 
 from ehlcontact import MoesPoint
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.domain import check_domain
 from ehlcontact.solver.kernels import linearise as lin
 from ehlcontact.solver.linear_film import NEIGHBOUR_OFFSETS, LinearFilm, stencil_matrix
 from ehlcontact.solver.linear_solve import solve_linear
+from ehlcontact.solver.mesh import default_domain
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov, solve_newton
 from ehlcontact.solver.preconditioner import Preconditioner
@@ -26,7 +26,7 @@ FINEST = [pytest.param(*point, 256, marks=pytest.mark.slow) for point in POINTS]
 
 def hierarchy(M, L, kappa, n):
     point = MoesPoint(M, L, kappa)
-    multigrid = Multigrid(point, check_domain(None, point), n)
+    multigrid = Multigrid(point, default_domain(point), n)
     return multigrid, dry_residual(multigrid.finest)
 
 
@@ -195,7 +195,7 @@ def test_transient_steps_agree_and_share_factors(M, L, kappa):
     point, dT, omega_n = MoesPoint(M, L, kappa), 0.02, 5.13
     results = []
     for newton in (False, True):
-        film = TransientFilm(point, check_domain(None, point), 64, tol=1e-8)
+        film = TransientFilm(point, default_domain(point), 64, tol=1e-8)
         film.start_steady(LOAD)
         solver = NewtonKrylov(film.multigrid)
         if newton:
