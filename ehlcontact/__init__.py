@@ -6,8 +6,8 @@ module                  responsibility
 ``scaling``             inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
 ``lubricant``           `Lubricant`: Roelands, Barus, Dowson-Higginson
 ``hertz``               dry elliptic contact
-``domain``              computed region
-``resolution``          grid and region from the film to be expected
+``domain``              `Domain`, the computed region
+``mesh``                `mesh_for`: region and grid from the film to be expected, and what to try after a failure
 ``grid``                levels: work arrays, film, residual, relaxation
 ``elastic, mlmi``       deflection: direct sum, fast transforms, multilevel multi-integration
 ``newton``              semismooth Newton on the coarsest grid, closed by load or motion
@@ -48,6 +48,7 @@ from ehlcontact.origin import __version__
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint, Scales
 from ehlcontact.results import Instants, SimulationResult, SteadyResult
 from ehlcontact.solver.domain import Domain
+from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.storage import load, save
@@ -72,10 +73,12 @@ __all__ = [
     "Instants",
     "Interferogram",
     "Lubricant",
+    "Mesh",
     "MoesPoint",
     "OperatingPoint",
     "PrescribedApproach",
     "PrescribedLoad",
+    "Purpose",
     "RampLoad",
     "Scales",
     "SimulationResult",
@@ -91,6 +94,7 @@ __all__ = [
     "impedance",
     "interferogram",
     "load",
+    "mesh_for",
     "save",
     "simulate",
     "solve_steady",

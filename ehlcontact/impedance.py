@@ -24,17 +24,16 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.results import SteadyResult
-from ehlcontact.solver.domain import Domain, check_domain
+from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.linearised_contact import LinearisedContact
-from ehlcontact.solver.resolution import automatic_mesh, moving_intervals
+from ehlcontact.solver.mesh import Purpose, mesh_for, remedy
 from ehlcontact.status import Status
-from ehlcontact.steady import ROOM, solve_steady
+from ehlcontact.steady import solve_steady
 
 Array = NDArray[np.float64]
 
 TOLERANCE = 1e-5  # of the linear residuals; C is then within 3e-4 of the exact solve up to Omega = 30
 LARGEST_OMEGA = 200.0
-FEWEST_INTERVALS = 80
 NEAR_ZERO = 1e-4  # where C(0) is evaluated
 
 
@@ -110,9 +109,8 @@ def impedance(
     started = time.perf_counter()
     omega = _check_frequencies(omegas)
     moes = moes_point(point)
-    region = automatic_mesh(moes)[1] if domain is None else check_domain(domain, moes)
     with threadpool_limits(1, user_api="blas"):  # its threads wait for each other on matrices as small as these
-        steady = _steady(point, n, region, free=domain is None)
+        steady = _steady(point, n, domain)
         contact = LinearisedContact(moes, steady.domain, steady.n, steady.P, steady.approach)
         Z, residual = contact.respond(np.maximum(omega, NEAR_ZERO), TOLERANCE)
     return ImpedanceResult(
@@ -130,13 +128,13 @@ def impedance(
     )
 
 
-def _steady(point: Point, n: int | None, domain: Domain, free: bool) -> SteadyResult:
-    """The film to linearise; if `free`, on a wider domain where light load needs it."""
+def _steady(point: Point, n: int | None, domain: Domain | None) -> SteadyResult:
+    """The film to linearise; on a wider region where that is left open and light load needs it."""
     moes = moes_point(point)
-    intervals = moving_intervals(n, moes, domain, FEWEST_INTERVALS)
-    steady = solve_steady(point, n=intervals, domain=domain, throw=not free)
-    if free and steady.status is Status.OUT_OF_DOMAIN:
-        return _steady(point, n, domain.scaled(ROOM), free=False)
+    mesh = mesh_for(moes, Purpose.DAMPING, n=n, domain=domain)
+    steady = solve_steady(point, n=mesh.n, domain=mesh.domain, throw=False)
+    if (wider := remedy(mesh, steady.status, moes, Purpose.DAMPING, n=n, domain=domain)) is not None:
+        steady = solve_steady(point, n=wider.n, domain=wider.domain, throw=False)
     if steady.status is Status.INTERRUPTED:
         raise KeyboardInterrupt  # there is nothing to keep: no frequency has been looked at
     if not steady.status.ok:

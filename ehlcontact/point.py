@@ -16,10 +16,11 @@ The full table is in docs/notation.md.
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
-from math import pi, sqrt
+from math import cos, pi, sqrt
 
-from ehlcontact.checks import require_finite, require_nonnegative, require_positive
+from ehlcontact.checks import require_finite, require_integer, require_nonnegative, require_positive
 from ehlcontact.errors import InputError
+from ehlcontact.formulas import load_number, nvm_central_film
 from ehlcontact.hertz import HertzContact, ellipse_ratio, elliptic_integrals, hertz_contact, shape_factor
 from ehlcontact.lubricant import FluidLaw, Lubricant
 
@@ -85,6 +86,24 @@ class MoesPoint:
     def film_to_moes(self) -> float:
         """Factor from H to the Moes film (h/Rx) sqrt(E' Rx/(eta0 u_sum))."""
         return self.scaled_axis**2 / (2.0 * shape_factor(self.kappa))
+
+    @property
+    def load_number(self) -> float:
+        """Wijnant's load number N = sqrt(Rx/Ry) M: thick films below about 3, whatever kappa."""
+        return load_number(self.M, self.kappa)
+
+    @property
+    def expected_film(self) -> float:
+        """Published central film (Nijenbanning, Venner and Moes) in dry approaches."""
+        return nvm_central_film(self.M, self.L, self.kappa) / self.film_to_moes
+
+    @property
+    def inlet_width(self) -> float:
+        """Width of the zone where the pressure of the inlet rises to that of the dry contact, in semi-axes.
+
+        The gap beside a dry contact opens like x^(3/2), and the film to be carried in is the central one.
+        """
+        return self.expected_film ** (2.0 / 3.0)
 
     def to_dict(self) -> dict[str, float | str]:
         """All fields, for storage."""
@@ -242,8 +261,7 @@ class OperatingPoint:
         speed_rpm : float
             Speed of one race relative to the other [rev/min].
         load : float
-            Force on this ball [N]; of Z balls under a radial load Fr the most loaded
-            one carries about 4.37 Fr/Z.
+            Force on this ball [N]; `most_loaded_ball` has it for a radial load.
         """
         geometry = Geometry.ball_bearing(ball_diameter, pitch_diameter, conformity, race, **materials)
         omega = require_positive("speed_rpm", speed_rpm) * pi / 30.0
@@ -256,6 +274,24 @@ class OperatingPoint:
         """Omega_n of a mass [kg] on the contact: ``sqrt(8 f0 R E/(m u_sum^2 K))``, eq. 5 with u_m squared."""
         s = self.scales
         return sqrt(s.force * s.time**2 / (require_positive("mass", mass) * s.length))
+
+
+def most_loaded_ball(radial_load: float, balls: int) -> float:
+    """Load on the ball that stands under the radial load of a bearing, without clearance or contact angle [N].
+
+    Rigid rings that come closer by d in the load's direction compress the ball at angle psi by d cos(psi), so
+    with Hertz' law Q(psi) = Q_max cos(psi)^(3/2) over the loaded half, and F_r = Q_max sum cos(psi)^(5/2).
+    For 9 balls Q_max = 0.4872 F_r; Stribeck's 4.37/Z, the limit of many, is 0.4856. Harris, Rolling Bearing
+    Analysis, ch. 7.
+
+    Raises
+    ------
+    InputError
+        Load not positive, or fewer than 3 balls.
+    """
+    load = require_positive("radial_load", radial_load)
+    count = require_integer("balls", balls, "a whole number >= 3", 3)
+    return load / sum(max(cos(2.0 * pi * k / count), 0.0) ** 2.5 for k in range(count))
 
 
 Point = MoesPoint | OperatingPoint

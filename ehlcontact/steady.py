@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -15,20 +15,24 @@ from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
-from ehlcontact.solver.domain import Domain, check_domain, check_intervals, default_domain
+from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.iterate import Goal, Track, iterate
+from ehlcontact.solver.mesh import (
+    FAILED,
+    LARGEST_ATTEMPTS,
+    Mesh,
+    Purpose,
+    allows_newton,
+    default_domain,
+    mesh_for,
+    remedy,
+)
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
-from ehlcontact.solver.resolution import automatic_mesh, nodes, refined_mesh
 from ehlcontact.status import Status
 
 LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7
-LARGEST_ATTEMPTS = 4  # of an automatic mesh
-LARGEST_NEWTON = 300_000  # nodes: sparse factors take minutes and gigabytes beyond
-FAILED = (Status.STAGNATED, Status.DIVERGED, Status.MAX_CYCLES, Status.NONFINITE)
-REFINED = (*FAILED, Status.UNRESOLVED)
-ROOM = 1.5  # growth of a domain that pressure fills
 
 
 class Method(NamedTuple):
@@ -112,17 +116,19 @@ def solve_steady(
         balance = Balance.of_approach(require_finite("approach", approach))
         if approach > 1.0 and domain is None:
             domain = default_domain(moes, approach**1.5)
-    attempts = _meshes(moes, n, domain)
-    mesh = next(attempts)
-    while mesh is not None:
+    mesh = mesh_for(moes, Purpose.FILM, n=n, domain=domain)
+    for _ in range(LARGEST_ATTEMPTS):
         for way in METHODS[method]:
-            if way is LAST_RESORT and nodes(*mesh, moes.kappa) > LARGEST_NEWTON:
+            if way is LAST_RESORT and not allows_newton(mesh, moes):
                 break
             solved = _Attempt(moes, mesh, way, deflection)
             status = solved.run(balance, tol, max_cycles, callback)
             if status not in FAILED:
                 break
-        mesh = attempts.send(status)
+        other = remedy(mesh, status, moes, n=n, domain=domain)
+        if other is None:
+            break
+        mesh = other
     result = solved.result(status, scales_of(point), time.perf_counter() - started)
     if throw and not status.ok and status is not Status.INTERRUPTED:
         raise ConvergenceError(f"steady solve {status}: {status.advice}", result)
@@ -132,10 +138,9 @@ def solve_steady(
 class _Attempt:
     """One solve on one mesh, from full multigrid to a judged status."""
 
-    def __init__(self, point: MoesPoint, mesh: tuple[int, Domain], method: Method, deflection: str) -> None:
-        self.n, self.domain = mesh
-        self.method = method
-        self.multigrid = Multigrid(point, self.domain, self.n, deflection=deflection, cautious=method.cautious)
+    def __init__(self, point: MoesPoint, mesh: Mesh, method: Method, deflection: str) -> None:
+        self.mesh, self.method = mesh, method
+        self.multigrid = Multigrid(point, mesh.domain, mesh.n, deflection=deflection, cautious=method.cautious)
         self.scale = self.multigrid.finest.dry_residual()
         self.track = Track()
 
@@ -160,8 +165,8 @@ class _Attempt:
         return SteadyResult(
             point=mg.point,
             scales=scales,
-            domain=self.domain,
-            n=self.n,
+            domain=self.mesh.domain,
+            n=self.mesh.n,
             X=level.X.copy(),
             Y=level.Y.copy(),
             P=level.P.T.copy(),
@@ -178,27 +183,3 @@ class _Attempt:
             seconds=seconds,
             version=__version__,
         )
-
-
-def _meshes(
-    point: MoesPoint, n: int | None, domain: Domain | None
-) -> Generator[tuple[int, Domain] | None, Status, None]:
-    """Meshes to try one after the other: yields (n, domain), takes the status it led to, ends with None.
-
-    With `n` given there is one. Otherwise a film that the mesh does not resolve gets a finer one, and with the
-    domain left open a pressure that reaches its border gets more room.
-    """
-    if n is not None:
-        yield check_intervals(n), check_domain(domain, point)
-        yield None
-        return
-    mesh, region = automatic_mesh(point, check_domain(domain, point) if domain is not None else None)
-    for _ in range(LARGEST_ATTEMPTS):
-        status = yield mesh, region
-        if status is Status.OUT_OF_DOMAIN and domain is None:
-            region = region.scaled(ROOM)
-        elif status in REFINED and (finer := refined_mesh(point, mesh, region, domain is None)) is not None:
-            mesh, region = finer
-        else:
-            break
-    yield None

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ehlcontact.checks import require_finite, require_instance, require_integer
+from ehlcontact.checks import require_finite, require_integer
 from ehlcontact.errors import InputError
-from ehlcontact.hertz import radius_ratio
-from ehlcontact.point import MoesPoint
 
-LIGHT_LOAD = 3.0  # N below which the default region grows
+MOST_INTERVALS = 2048  # along X: a grid of two million nodes and more, which no solver here affords
+HELD_BY_MARGINS = 0.08  # growth of the Hertz ellipse (of a quarter more load) for which no region has to grow
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +40,7 @@ class Domain:
     def for_load(cls, largest_load: float = 1.0) -> Domain:
         """Return the default region, widened with the Hertz ellipse of the largest load to come (static 1)."""
         growth = max(largest_load, 1.0) ** (1.0 / 3.0) - 1.0
-        if growth < 0.08:  # a quarter more load: the margins hold it
+        if growth < HELD_BY_MARGINS:
             return cls()
         return cls(-4.5 - growth, 1.5 + 3.0 * growth, 3.0 + 2.0 * growth)
 
@@ -56,30 +55,8 @@ class Domain:
 
 def check_intervals(n: object) -> int:
     """Return `n`, intervals along X, or raise `InputError` unless a multiple of 16 from 16 to 2048."""
-    allowed = "a multiple of 16 between 16 and 2048"
+    allowed = f"a multiple of 16 between 16 and {MOST_INTERVALS}"
     intervals = require_integer("n", n, allowed, 16)
-    if intervals % 16 or intervals > 2048:
+    if intervals % 16 or intervals > MOST_INTERVALS:
         raise InputError("n", n, allowed)
     return intervals
-
-
-def default_domain(point: MoesPoint, largest_load: float = 1.0) -> Domain:
-    """Return the default region, widened for a load that will rise and for a light one.
-
-    Where the film holds the bodies apart by much of a dry approach, pressure reaches far beyond the Hertz
-    ellipse: below N = sqrt(Rx/Ry) M = 3, Wijnant's load number, inlet and sides grow with N^-0.6.
-    """
-    domain = Domain.for_load(largest_load)
-    N = radius_ratio(point.kappa) ** 0.5 * point.M
-    if N >= LIGHT_LOAD:
-        return domain
-    wider = min((LIGHT_LOAD / N) ** 0.6, 10.0)
-    return Domain(domain.x_in * wider, domain.x_out * wider**0.7, domain.y_max * wider)
-
-
-def check_domain(domain: Domain | None, point: MoesPoint, largest_load: float = 1.0) -> Domain:
-    """Return `domain`, or the default for the point and the largest load to come."""
-    if domain is None:
-        return default_domain(point, largest_load)
-    require_instance("domain", domain, Domain, "a Domain(x_in, x_out, y_max)")
-    return domain

@@ -19,24 +19,12 @@ from ehlcontact.solver.coarse import CoarseNewton
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Level, build_hierarchy
 from ehlcontact.solver.kernels import transfer
-from ehlcontact.solver.resolution import resolved_load, thin_sides
+from ehlcontact.solver.mesh import coarsest_intervals, resolved_load
 
 PRE_SWEEPS, POST_SWEEPS = 2, 1
 CYCLES_PER_LEVEL = 1  # of full multigrid, before the finest level
 LARGEST_LOADING = 4.0  # factor by which the load of a level rises at once
 CYCLES_AFTER_LOADING = 4  # on a level that carries more load than the one below
-
-
-def coarsest_intervals(point: MoesPoint) -> int:
-    """Intervals of the coarsest grid: 16; more at high load, to see the inlet, and for narrow ellipses.
-
-    With thin sides too few lines across the contact correct nothing: cycles diverge from 32 intervals.
-    """
-    if thin_sides(point):
-        return 64
-    if point.kappa > 2.0:
-        return 32
-    return 16 if point.M < 1000.0 else 24
 
 
 class Multigrid:
@@ -50,8 +38,7 @@ class Multigrid:
         self, point: MoesPoint, domain: Domain, n: int, *, deflection: str = "fft", cautious: bool = False
     ) -> None:
         self.point = point
-        fewest = min(coarsest_intervals(point), max(32, n // 4))  # leaves some levels to a small grid
-        self.levels = build_hierarchy(point, domain, n, fewest, deflection)
+        self.levels = build_hierarchy(point, domain, n, coarsest_intervals(point, n), deflection)
         for level in self.levels:
             level.cautious = cautious
             level.set_point(point)

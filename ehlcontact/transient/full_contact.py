@@ -6,12 +6,10 @@ from ehlcontact.checks import require_finite, require_positive
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import Point, moes_point
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.domain import Domain, check_domain
-from ehlcontact.solver.resolution import moving_intervals
+from ehlcontact.solver.domain import Domain
+from ehlcontact.solver.mesh import Purpose, mesh_for
 from ehlcontact.status import Status
 from ehlcontact.transient.film import FilmState, Step, TransientFilm
-
-FEWEST_INTERVALS = 80
 
 
 class FullContact:
@@ -50,8 +48,9 @@ class FullContact:
         tol: float = 3e-3,
     ) -> None:
         self.point = moes_point(point)
-        self.domain = check_domain(domain, self.point, require_positive("largest_load", largest_load))
-        self.n = moving_intervals(n, self.point, self.domain, FEWEST_INTERVALS)
+        load = require_positive("largest_load", largest_load)
+        mesh = mesh_for(self.point, Purpose.CONTACT, n=n, domain=domain, largest_load=load)
+        self.n, self.domain = mesh.n, mesh.domain
         self._film = TransientFilm(self.point, self.domain, self.n, require_positive("tol", tol))
         self._check(self._film.start_steady(Balance.of_load()))
         self.static_approach = self._film.u

@@ -14,8 +14,8 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.origin import __version__
 from ehlcontact.point import Point, moes_point, scales_of
 from ehlcontact.results import SimulationResult
-from ehlcontact.solver.domain import Domain, check_domain
-from ehlcontact.solver.resolution import moving_intervals
+from ehlcontact.solver.domain import Domain
+from ehlcontact.solver.mesh import Purpose, mesh_for
 from ehlcontact.status import Status
 from ehlcontact.transient.checkpoint import Checkpoint, Task, load_checkpoint, require_replaceable
 from ehlcontact.transient.film import TransientFilm
@@ -27,7 +27,6 @@ from ehlcontact.transient.surface import Surface, surface_height
 
 LARGEST_ERROR = 0.1
 FIRST_STEP = 0.25  # of the motion's own step: what is tried first under error control
-FEWEST_INTERVALS = 128
 MOST_STEPS = 1_000_000  # in fixed steps
 TOL_SHARE = 3.0  # tol over error: the last changes of force and approach are then a tenth of the error
 
@@ -167,8 +166,7 @@ def _task(
     """Checked arguments with their defaults, and the end of the run."""
     moes = moes_point(point)
     require_instance("motion", motion, Motion, "a motion such as FreeVibration or HarmonicLoad")
-    domain = check_domain(domain, moes, motion.largest_load)
-    n = moving_intervals(n, moes, domain, FEWEST_INTERVALS)
+    mesh = mesh_for(moes, Purpose.RUN, n=n, domain=domain, largest_load=motion.largest_load)
     end = motion.default_end if until is None else require_positive("until", until)
     tol = require_positive("tol", tol)
     default = motion.default_step
@@ -191,7 +189,7 @@ def _task(
     for T in snapshots:
         if not require_nonnegative("snapshots", T) <= end * (1.0 + 1e-9):
             raise InputError("snapshots", T, f"at most until = {end!r}")
-    return Task(moes, domain, n, motion, tol, dT, error, tuple(snapshots)), end
+    return Task(moes, mesh.domain, mesh.n, motion, tol, dT, error, tuple(snapshots)), end
 
 
 def _collect(run: Run, task: Task, point: Point, status: Status, seconds: float) -> SimulationResult:

@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
+from ehlcontact import Domain, Mesh, MoesPoint
 from ehlcontact.errors import InputError
-from ehlcontact.point import MoesPoint
-from ehlcontact.solver.resolution import CLOSE
 from reduced_models.atlas.box import BOX
 from reduced_models.atlas.solve import OMEGAS
 from reduced_models.atlas.surface import REFERENCE, coordinates, error_factor, left_out_errors, to_smooth
@@ -142,7 +141,7 @@ def _column(entries: Sequence[Entry], *names: str) -> _Floats:
 
 
 def _is_close(entry: Entry) -> bool:
-    return list(entry["domain"]) == list(CLOSE.as_tuple())
+    return Mesh(int(entry["n"]), Domain(*entry["domain"])).near
 
 
 def _mesh(entry: Entry) -> tuple[int, str]:

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from ehlcontact import __version__
-from ehlcontact.solver.resolution import inlet_width
 from reduced_models.atlas.assemble import assemble
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import OMEGAS, solve_point
@@ -62,7 +61,7 @@ def solve_samples(
     with WorkFile(work, settings(seed)) as file:
         # Thin films take longest and are begun first, so that no process ends up with them alone.
         jobs: list[Job] = [(name, point) for name, point in points.items() if name not in file.entries]
-        jobs.sort(key=lambda job: inlet_width(job[1]))
+        jobs.sort(key=lambda job: job[1].inlet_width)
         found: Iterable[tuple[str, dict[str, Any]]] = ()
         if jobs and scheduler is not None:
             found = on_cluster(solve, jobs, scheduler)

@@ -12,9 +12,8 @@ from dataclasses import replace
 import numpy as np
 from scipy.stats import qmc
 
-from ehlcontact.hertz import radius_ratio
+from ehlcontact.formulas import load_number
 from ehlcontact.point import MoesPoint
-from ehlcontact.solver.resolution import inlet_width
 from reduced_models.atlas.box import Box
 
 OVERSHOOT = 0.08  # share of the cube by which draws reach beyond it, to be moved onto its faces
@@ -48,11 +47,11 @@ def sample_points(draws: int, light_draws: int, seed: int, box: Box = SAMPLED) -
         cube = np.clip(drawn * (1.0 + 2.0 * OVERSHOOT) - OVERSHOOT, 0.0, 1.0)
         for i, (u, v, w) in enumerate(cube.tolist()):
             kappa = _between(box.kappa, w)
-            highest = LIGHT / radius_ratio(kappa) ** 0.5 if light else box.M[1]
+            highest = LIGHT / load_number(1.0, kappa) if light else box.M[1]
             M = _between((box.M[0], highest), u if light else u**WARP_M)
             point = MoesPoint(M, box.L[0] + (box.L[1] - box.L[0]) * v**WARP_L, kappa)
             excess = point.p_hertz / box.p_hertz
-            if excess > PRESSURE_OVERSHOOT or (i % 2 and inlet_width(point) < THIN):
+            if excess > PRESSURE_OVERSHOOT or (i % 2 and point.inlet_width < THIN):
                 continue
             if excess > 1.0:  # pressure grows like M^(1/3)
                 point = replace(point, M=point.M * excess**-3.0)

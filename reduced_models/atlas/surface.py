@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from scipy.interpolate import RBFInterpolator
 from scipy.spatial.distance import cdist
 
-from ehlcontact.formulas import nvm_central_film
 from ehlcontact.hertz import radius_ratio
 from ehlcontact.point import MoesPoint
 from reduced_models.atlas.table import AtlasTable
@@ -45,7 +44,7 @@ def coordinates(points: _Floats) -> _Floats:
 
 def expected_film(points: _Floats) -> _Floats:
     """Published central film in Hertz units, bounded where the film is thick; shape (n, 1)."""
-    film = [nvm_central_film(*row) / MoesPoint(*row).film_to_moes for row in points.tolist()]
+    film = [MoesPoint(*row).expected_film for row in points.tolist()]
     return np.array([[h / (THICK + h)] for h in film])
 
 

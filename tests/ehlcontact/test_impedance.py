@@ -5,12 +5,12 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import InputError, MoesPoint
+from ehlcontact import InputError, MoesPoint, Purpose, mesh_for
 from ehlcontact.impedance import impedance
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
 from ehlcontact.solver.linearised_contact import LinearisedContact
+from ehlcontact.solver.mesh import NEAR_DOMAIN
 from ehlcontact.solver.multigrid import Multigrid
-from ehlcontact.solver.resolution import CLOSE, automatic_mesh
 from ehlcontact.steady import solve_steady
 from ehlcontact.transient.full_contact import FullContact
 
@@ -130,7 +130,7 @@ def test_interrupted_start_gives_no_result(monkeypatch):
 
 def test_thin_film_on_the_region_of_its_steady_solve():
     point = MoesPoint(20000, 2, 0.2)
-    assert impedance(point, [1.0], n=256).domain == automatic_mesh(point)[1] == CLOSE
+    assert impedance(point, [1.0], n=256).domain == mesh_for(point, Purpose.FILM).domain == NEAR_DOMAIN
 
 
 def test_region_widens_at_light_load():

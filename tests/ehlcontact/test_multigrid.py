@@ -5,7 +5,8 @@ import pytest
 
 from ehlcontact import Domain, MoesPoint, solve_steady
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.multigrid import Multigrid, coarsest_intervals, initial_approach
+from ehlcontact.solver.mesh import coarsest_intervals
+from ehlcontact.solver.multigrid import Multigrid, initial_approach
 
 LOAD = Balance.of_load()
 
@@ -114,5 +115,5 @@ def test_initial_approach_is_bounded():
 
 
 def test_coarsest_grid_follows_the_load():
-    assert coarsest_intervals(MoesPoint(200, 10, 1.0)) == 16
-    assert coarsest_intervals(MoesPoint(2900, 19, 0.11)) > 16
+    assert coarsest_intervals(MoesPoint(200, 10, 1.0), 128) == 16
+    assert coarsest_intervals(MoesPoint(2900, 19, 0.11), 128) > 16

@@ -8,10 +8,10 @@ import pytest
 from ehlcontact import MoesPoint
 from ehlcontact.solver import newton as newton_module
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.domain import check_domain
 from ehlcontact.solver.iterate import Goal, Track, iterate
 from ehlcontact.solver.kernels import linearise as lin
 from ehlcontact.solver.linear import NEIGHBOUR_OFFSETS, LinearFilm, Preconditioner, solve_linear, stencil_matrix
+from ehlcontact.solver.mesh import default_domain
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.status import Status
@@ -25,7 +25,7 @@ FINEST = [pytest.param(*point, 256, marks=pytest.mark.slow) for point in POINTS]
 
 def hierarchy(M, L, kappa, n):
     point = MoesPoint(M, L, kappa)
-    multigrid = Multigrid(point, check_domain(None, point), n)
+    multigrid = Multigrid(point, default_domain(point), n)
     return multigrid, multigrid.finest.dry_residual()
 
 
@@ -206,7 +206,7 @@ def test_transient_steps_agree_and_share_factors(M, L, kappa, monkeypatch):
     point, dT, omega_n = MoesPoint(M, L, kappa), 0.02, 5.13
     results = []
     for by_newton in (False, True):
-        film = TransientFilm(point, check_domain(None, point), 64, tol=1e-8)
+        film = TransientFilm(point, default_domain(point), 64, tol=1e-8)
         film.start_steady(LOAD)
         solver = NewtonKrylov(film.multigrid)
         if by_newton:

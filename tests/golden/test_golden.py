@@ -10,10 +10,20 @@ from pathlib import Path
 
 import pytest
 
-_spec = importlib.util.spec_from_file_location("golden_regenerate", Path(__file__).with_name("regenerate.py"))
-golden = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(golden)
+
+def script(name):
+    """The script beside this file that makes what is recorded."""
+    spec = importlib.util.spec_from_file_location(f"golden_{name}", Path(__file__).with_name(f"{name}.py"))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+golden, meshes = script("regenerate"), script("meshes")
 EXPECTED = json.loads(golden.FILE.read_text())
+
+
+MESHES = json.loads(meshes.FILE.read_text())
 
 
 def test_every_case_is_recorded():
@@ -56,3 +66,25 @@ def test_fit(model):
 @pytest.mark.parametrize("name", golden.ATLAS)
 def test_atlas(name):
     alike(golden.answered(name), EXPECTED["atlas"][name], rel=1e-6)
+
+
+def test_meshes_are_recorded_for_all_points():
+    assert [row["point"] for row in MESHES] == meshes.points()
+
+
+def flat(value):
+    """The numbers and words in nested lists, in order."""
+    return [leaf for part in value for leaf in flat(part)] if isinstance(value, list) else [value]
+
+
+@pytest.mark.parametrize("row", MESHES, ids=lambda row: "M {} L {} kappa {}".format(*row["point"]))
+def test_mesh(row):
+    """`python tests/golden/meshes.py` where a rule was meant to change."""
+    got = meshes.decisions(*row["point"])
+    assert {"point", *got} == set(row)
+    for name, value in got.items():
+        found, expected = flat(value), flat(row[name])
+        assert [type(leaf) for leaf in found] == [type(leaf) for leaf in expected], name
+        for leaf, recorded in zip(found, expected, strict=True):
+            same = pytest.approx(recorded, rel=1e-9) if isinstance(recorded, float) else recorded
+            assert leaf == same, name

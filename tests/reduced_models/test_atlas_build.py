@@ -12,13 +12,13 @@ import atlas_stub
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, InputError, MoesPoint
-from ehlcontact.solver.resolution import inlet_width
+from ehlcontact import Domain, InputError, MoesPoint, Purpose, mesh_for
+from ehlcontact.solver.mesh import TABLE_MESHES
 from reduced_models.atlas.assemble import RATES, assemble, smooth_gains
 from reduced_models.atlas.box import BOX
 from reduced_models.atlas.build import build_atlas, solve_samples
 from reduced_models.atlas.sample import SAMPLED, sample_points
-from reduced_models.atlas.solve import CLOSE_MESHES, OMEGAS, mesh_of, solve_point
+from reduced_models.atlas.solve import OMEGAS, solve_point
 from reduced_models.atlas.table import AtlasTable
 from reduced_models.atlas.work import WorkFile
 from reduced_models.elements.film_response import DRY
@@ -63,12 +63,13 @@ def test_mesh_is_finer_for_thinner_films_and_ends():
     widths, steps = [], []
     for M in np.geomspace(20.0, 3e4, 40).tolist():
         point = MoesPoint(M, 2.0, 0.6)
-        mesh = mesh_of(point)
-        if mesh is not None:
-            widths.append(inlet_width(point))
-            steps.append((mesh.domain.x_out - mesh.domain.x_in) / mesh.n / widths[-1])
+        try:
+            mesh = mesh_for(point, Purpose.TABLE)
+        except InputError:
+            assert point.inlet_width < TABLE_MESHES[-1].least_inlet
         else:
-            assert inlet_width(point) < CLOSE_MESHES[-1][0]
+            widths.append(point.inlet_width)
+            steps.append(mesh.size(0.6) / widths[-1])
     assert len(widths) > 25 and max(steps) < 0.55
 
 

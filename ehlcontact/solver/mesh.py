@@ -1,0 +1,310 @@
+"""Which region and which grid a film needs, and what to try where they did not do: all rules and their numbers.
+
+The film to be expected decides. Beside a dry contact the gap opens like x^(3/2), so the pressure of the inlet
+rises to the dry one over about (Hc)^(2/3) semi-axes (`MoesPoint.inlet_width`): the mesh has to see that width.
+Mesh sizes below are in the longer semi-axis.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from math import exp, log
+from typing import NamedTuple
+
+from scipy.optimize import brentq
+
+from ehlcontact.checks import require_instance
+from ehlcontact.errors import InputError
+from ehlcontact.point import MoesPoint
+from ehlcontact.solver.domain import MOST_INTERVALS, Domain, check_intervals
+from ehlcontact.status import Status
+
+
+class Purpose(StrEnum):
+    """What a mesh is for."""
+
+    FILM = "film"  # a steady film: `solve_steady`
+    DAMPING = "damping"  # the film linearised: `impedance`
+    RUN = "run"  # a film through time: `simulate`
+    CONTACT = "contact"  # one inside a rotor: `FullContact`
+    TABLE = "table"  # the film linearised, a thousand times over: a point of the atlas,
+    TABLE_FILM = "table_film"  # its steady film where that deserves a finer mesh,
+    TABLE_NEAR = "table_near"  # and, at some points, the near region, to compare
+
+
+# Which region? --------------------------------------------------------------------------------------------------
+# Where the film holds the bodies apart by much of a dry approach, pressure reaches far beyond the Hertz ellipse:
+# below LIGHT_LOAD inlet and sides grow with a power of the load number, the outlet with a power of their growth.
+LIGHT_LOAD, LIGHT_GROWTH, LIGHT_OUTLET_GROWTH = 3.0, 0.6, 0.7
+MOST_LIGHT_GROWTH = 10.0
+NEAR_DOMAIN = Domain(-2.0, 1.35, 1.6)  # around a film so thin that oil further out makes no difference to it
+INLET_NEAR = 0.06  # inlet width below which that may be tried after a failure,
+INLET_NEAR_AT_ONCE = 0.03  # and below which it is chosen at once: cycles on more oil converge slowly
+# Along a contact that is long in the rolling direction, oil leaks out over the sides all the way: the film in the
+# side lobes falls to a tenth and less of the central film. A mesh that sees the inlet leaves it negative there.
+KAPPA_OF_SIDE_LOBES = 0.7  # above which side lobes are thinner than the film in the outlet
+NEAREST_DOMAIN = Domain(-1.5, 1.2, 1.25)  # around such a film where it is very thin: its mesh can be afforded
+
+# How fine? ------------------------------------------------------------------------------------------------------
+LARGEST_MESH = 0.12  # semi-axes: what the pressure itself asks for, however thick the film
+# The side lobes of long contacts: mesh over inlet width that keeps their film positive where it is very thin; and
+# those for which it is within some ten per cent, taken as long as the grid has no more nodes than AFFORDABLE_GRID.
+MESH_OF_THIN_SIDES = 0.4
+FINE_SIDES, FINE_THIN_SIDES, AFFORDABLE_GRID = 0.3, 0.17, 500_000
+DOUBLED = (128, 256, 512, 1024, 2048)  # intervals, for multigrid from the coarsest to each
+STEPPED = (80, 96, 128, 160, 192, 256, 320, 384, 512, 640, 768, 1024)  # closer, and all of many halvings
+
+
+class Fineness(NamedTuple):
+    """What a purpose asks for."""
+
+    share: float  # largest mesh over the width of the inlet
+    counts: tuple[int, ...]  # intervals to choose from
+    largest: int  # nodes
+
+
+# Measured against finer grids, damping is off by 12 to 16 % where the mesh is 0.6 of the inlet width, enough for a
+# steady film, and by 1 to 4 % where it is a third. Sparse factors, as the linearised film needs them, take half a
+# minute and 1.5 GB at 70 000 nodes.
+FINENESS = {
+    Purpose.FILM: Fineness(0.6, DOUBLED, 1_000_000),
+    Purpose.DAMPING: Fineness(1.0 / 3.0, STEPPED, 70_000),
+    Purpose.RUN: Fineness(1.0 / 3.0, STEPPED[2:], 70_000),
+    Purpose.CONTACT: Fineness(1.0 / 3.0, STEPPED, 70_000),
+}
+
+# What is tried after a failure? ---------------------------------------------------------------------------------
+FAILED = (Status.STAGNATED, Status.DIVERGED, Status.MAX_CYCLES, Status.NONFINITE)
+REFINED = (*FAILED, Status.UNRESOLVED)  # what a finer mesh may cure
+DOMAIN_GROWTH = 1.5  # of a region that pressure fills
+LARGEST_ATTEMPTS = 4  # meshes for one film, the first one included
+LARGEST_NEWTON = 300_000  # nodes for Newton as a last resort: sparse factors take minutes and gigabytes beyond
+
+# How is a film built up from coarse grids? ----------------------------------------------------------------------
+NEGATIVE_FILM = 0.8  # mesh over inlet width above which a film comes out negative: a level carries less load then,
+LOADING_MESH = 0.4  # as much as it resolves this well
+HIGH_LOAD = 1000.0  # M from which the coarsest grid has to see more of the inlet
+NARROW = 2.0  # kappa above which it needs more lines across rolling
+
+
+# What does a point of the atlas get? ----------------------------------------------------------------------------
+class TableMesh(NamedTuple):
+    """Mesh for inlets of at least this width."""
+
+    least_inlet: float
+    n: int
+    near: bool  # on NEAR_DOMAIN, otherwise on the default region
+
+
+# The mesh is about a third of the inlet width, half of it at most. Thinner films than the last are left out.
+TABLE_MESHES = (
+    TableMesh(0.13, 128, False),
+    TableMesh(0.09, 192, False),
+    TableMesh(0.05, 192, True),
+    TableMesh(0.025, 256, True),
+)
+TABLE_LIGHT_LOAD, TABLE_LIGHT_INTERVALS = 4.5, 64  # a load number below which few intervals resolve the thick film
+# Below TABLE_FILM_INLET the film by itself is solved once more: on more intervals, if possible with all the oil.
+TABLE_FILM_INLET = 0.13
+TABLE_FILM_MESHES = (
+    TableMesh(0.09, 256, False),
+    TableMesh(0.05, 384, False),
+    TableMesh(0.033, 512, False),
+    TableMesh(0.0, 512, True),
+)
+# Inlet widths at which both regions are solved, to learn what the oil further out adds.
+TABLE_BOTH_REGIONS, TABLE_NEAR_INTERVALS = (0.1, 0.16), 128
+
+
+@dataclass(frozen=True, slots=True)
+class Mesh:
+    """Intervals along X on a region."""
+
+    n: int
+    domain: Domain
+
+    def nodes(self, kappa: float) -> float:
+        """Nodes of the grid, about; infinite beyond `MOST_INTERVALS`."""
+        if self.n > MOST_INTERVALS:
+            return float("inf")
+        return self.n * self.n * self.domain.y_max / (self._length * max(1.0, kappa))
+
+    def size(self, kappa: float) -> float:
+        """Mesh size over the longer semi-axis."""
+        return self._length / self.n * max(1.0, kappa)
+
+    @property
+    def near(self) -> bool:
+        """Whether the region leaves out oil that does not matter to the film, but to approach and damping."""
+        return self.domain == NEAR_DOMAIN
+
+    @property
+    def _length(self) -> float:
+        return self.domain.x_out - self.domain.x_in
+
+
+def mesh_for(
+    point: MoesPoint,
+    purpose: Purpose,
+    *,
+    n: int | None = None,
+    domain: Domain | None = None,
+    largest_load: float = 1.0,
+) -> Mesh:
+    """Return the mesh that the film to be expected needs, or what of it the caller leaves open.
+
+    Parameters
+    ----------
+    point : MoesPoint
+    purpose : Purpose
+    n : int, optional
+        Intervals along X, a multiple of 16, where the caller wants these.
+    domain : Domain, optional
+        Likewise the region.
+    largest_load : float
+        That the contact will have to carry; the static load is 1.
+
+    Raises
+    ------
+    InputError
+        `n` or `domain` that cannot be; for a table, a film too thin for any mesh that is affordable there.
+    """
+    if n is not None:
+        n = check_intervals(n)
+    if domain is not None:
+        require_instance("domain", domain, Domain, "a Domain(x_in, x_out, y_max)")
+    if purpose not in FINENESS:
+        table = _table_mesh(point, purpose)
+        return Mesh(n or table.n, domain or table.domain)
+    if domain is None:
+        closes_in = purpose is Purpose.DAMPING or (purpose is Purpose.FILM and n is None)
+        domain = (closes_in and _thin_film_domain(point)) or default_domain(point, largest_load)
+    if n is None:
+        n = _intervals(point, domain, purpose)
+    return Mesh(n, domain)
+
+
+def remedy(
+    mesh: Mesh,
+    status: Status,
+    point: MoesPoint,
+    purpose: Purpose = Purpose.FILM,
+    *,
+    n: int | None = None,
+    domain: Domain | None = None,
+) -> Mesh | None:
+    """Return the mesh to try after a solve on `mesh` ended with `status`: wider, nearer or finer; None to give up.
+
+    `n` and `domain` are what the caller of `mesh_for` gave: what was asked for is not changed. A steady film with
+    a given `n` is judged on the mesh it was asked for.
+    """
+    if purpose is Purpose.FILM and n is not None:
+        return None
+    if status is Status.OUT_OF_DOMAIN:
+        if domain is not None:
+            return None
+        wider = mesh.domain.scaled(DOMAIN_GROWTH)
+        return Mesh(mesh.n, wider) if purpose is Purpose.FILM else mesh_for(point, purpose, n=n, domain=wider)
+    if purpose is not Purpose.FILM or status not in REFINED:
+        return None
+    if domain is None and mesh.domain not in {NEAR_DOMAIN, NEAREST_DOMAIN} and point.inlet_width < INLET_NEAR:
+        return Mesh(mesh.n, NEAR_DOMAIN)
+    finer = Mesh(2 * mesh.n, mesh.domain)
+    return finer if finer.nodes(point.kappa) <= FINENESS[Purpose.FILM].largest else None
+
+
+def default_domain(point: MoesPoint, largest_load: float = 1.0) -> Domain:
+    """Return the default region, widened for a load that will rise and for a light one."""
+    domain, N = Domain.for_load(largest_load), point.load_number
+    if N >= LIGHT_LOAD:
+        return domain
+    wider = min((LIGHT_LOAD / N) ** LIGHT_GROWTH, MOST_LIGHT_GROWTH)
+    return Domain(domain.x_in * wider, domain.x_out * wider**LIGHT_OUTLET_GROWTH, domain.y_max * wider)
+
+
+def thin_sides(point: MoesPoint) -> bool:
+    """Whether the side lobes, not the inlet, set the mesh."""
+    return point.kappa > KAPPA_OF_SIDE_LOBES and point.inlet_width < INLET_NEAR_AT_ONCE
+
+
+def allows_newton(mesh: Mesh, point: MoesPoint) -> bool:
+    """Whether the factors of Newton steps on this mesh are affordable."""
+    return mesh.nodes(point.kappa) <= LARGEST_NEWTON
+
+
+def coarsest_intervals(point: MoesPoint, n: int) -> int:
+    """Intervals of the coarsest grid below n: 16; more at high load, to see the inlet, and for narrow ellipses.
+
+    With thin sides too few lines across the contact correct nothing: cycles diverge from 32 intervals. A small
+    grid is left some levels.
+    """
+    if thin_sides(point):
+        fewest = 64
+    elif point.kappa > NARROW:
+        fewest = 32
+    else:
+        fewest = 16 if point.M < HIGH_LOAD else 24
+    return min(fewest, max(32, n // 4))
+
+
+def resolved_load(point: MoesPoint, mesh: float) -> float:
+    """Moes load, at most that of `point`, which a mesh size (in semi-axes) carries with a positive film."""
+
+    def excess(log_load: float) -> float:
+        return replace(point, M=exp(log_load)).inlet_width * LOADING_MESH - mesh
+
+    highest = log(point.M)
+    lowest = min(0.0, highest)
+    if mesh <= NEGATIVE_FILM * point.inlet_width or excess(highest) >= 0.0:
+        return point.M
+    if excess(lowest) <= 0.0:
+        return exp(lowest)
+    return exp(float(brentq(excess, lowest, highest, xtol=1e-3)))
+
+
+def _thin_film_domain(point: MoesPoint) -> Domain | None:
+    """Region around a film so thin that it is chosen at once."""
+    if thin_sides(point):
+        return NEAREST_DOMAIN
+    return NEAR_DOMAIN if point.inlet_width < INLET_NEAR_AT_ONCE else None
+
+
+def _intervals(point: MoesPoint, domain: Domain, purpose: Purpose) -> int:
+    """Intervals along X that `domain` needs."""
+    width, (share, counts, largest) = point.inlet_width, FINENESS[purpose]
+    if purpose is not Purpose.FILM:
+        return _first(point, domain, share * width, counts, largest)
+    sides = thin_sides(point)
+    needed = (MESH_OF_THIN_SIDES if sides else share) * width
+    if point.kappa > KAPPA_OF_SIDE_LOBES:  # the smallest film, in the side lobes, needs more than to be positive
+        n = _first(point, domain, (FINE_THIN_SIDES if sides else FINE_SIDES) * width, counts, AFFORDABLE_GRID)
+        if Mesh(n, domain).size(point.kappa) <= needed:
+            return n
+    return _first(point, domain, needed, counts, largest)
+
+
+def _first(point: MoesPoint, domain: Domain, wanted: float, counts: Sequence[int], largest: int) -> int:
+    """First of `counts` that meshes as finely as `wanted` and as pressure needs; the last of `largest` nodes."""
+    wanted = min(wanted, LARGEST_MESH)
+    affordable = [n for n in counts if Mesh(n, domain).nodes(point.kappa) <= largest] or counts[:1]
+    return next((n for n in affordable if Mesh(n, domain).size(point.kappa) <= wanted), affordable[-1])
+
+
+def _table_mesh(point: MoesPoint, purpose: Purpose) -> Mesh:
+    """Mesh of a point of the atlas; the one for its damping where the film, or both regions, need no other."""
+    width, default = point.inlet_width, default_domain(point)
+    light = point.load_number < TABLE_LIGHT_LOAD
+    if not light and width < TABLE_MESHES[-1].least_inlet:
+        allowed = f"at least {TABLE_MESHES[-1].least_inlet} semi-axes, for a mesh that a table can afford"
+        raise InputError("inlet width", f"{width:.3g}", allowed)
+    low, high = TABLE_BOTH_REGIONS
+    if purpose is Purpose.TABLE_NEAR and low <= width < high:
+        return Mesh(TABLE_NEAR_INTERVALS, NEAR_DOMAIN)
+    film = purpose is Purpose.TABLE_FILM and width < TABLE_FILM_INLET
+    if light and not film:
+        return Mesh(TABLE_LIGHT_INTERVALS, default)
+    choices = TABLE_FILM_MESHES if film else TABLE_MESHES
+    _, n, near = next(choice for choice in choices if width >= choice.least_inlet)
+    return Mesh(n, NEAR_DOMAIN if near else default)

@@ -1,0 +1,120 @@
+"""Regions and grids chosen from the film to be expected; `tests/golden/meshes.json` has what is chosen where."""
+
+import numpy as np
+import pytest
+
+from ehlcontact import Domain, InputError, Mesh, MoesPoint, Purpose, Status, impedance, mesh_for, solve_steady
+from ehlcontact.solver import mesh as m
+from ehlcontact.solver.domain import check_intervals
+
+BOX = [
+    (5, 0, 5.0),
+    (5, 25, 0.08),
+    (200, 10, 0.5),
+    (2900, 19, 0.11),
+    (1000, 5, 1.0),
+    (30000, 0, 0.08),
+    (500, 3, 2.0),
+]
+
+
+@pytest.mark.parametrize("counts", [m.DOUBLED, m.STEPPED])
+def test_all_counts_are_allowed_and_have_hierarchies(counts):
+    for n in counts:
+        check_intervals(n)
+        halved = n
+        while halved % 2 == 0 and halved >= 32:
+            halved //= 2
+        assert halved < 32, n
+
+
+@pytest.mark.parametrize(("M", "L", "kappa"), BOX)
+def test_steady_mesh_resolves_the_inlet_or_is_the_finest(M, L, kappa):
+    point, rule = MoesPoint(M, L, kappa), m.FINENESS[Purpose.FILM]
+    mesh = mesh_for(point, Purpose.FILM)
+    share = m.MESH_OF_THIN_SIDES if m.thin_sides(point) else rule.share
+    wanted = min(share * point.inlet_width, m.LARGEST_MESH)
+    finer = Mesh(2 * mesh.n, mesh.domain).nodes(kappa)
+    assert mesh.size(kappa) <= wanted or finer > rule.largest
+    assert mesh.nodes(kappa) <= rule.largest
+    if kappa <= m.KAPPA_OF_SIDE_LOBES:
+        assert mesh.n == 128 or 2.0 * mesh.size(kappa) > wanted  # no finer than needed
+    else:
+        fine = (m.FINE_THIN_SIDES if m.thin_sides(point) else m.FINE_SIDES) * point.inlet_width
+        assert mesh.size(kappa) <= fine or finer > m.AFFORDABLE_GRID
+
+
+def test_region_closes_in_on_thin_films():
+    assert mesh_for(MoesPoint(2900, 19, 0.11), Purpose.FILM).domain == Domain()
+    near = mesh_for(MoesPoint(30000, 0, 0.3), Purpose.FILM)
+    assert near.domain == m.NEAR_DOMAIN and near.near
+    assert not m.thin_sides(MoesPoint(200, 10, 3.0))
+    assert m.thin_sides(MoesPoint(7333, 2.6, 3.0))
+    assert mesh_for(MoesPoint(7333, 2.6, 3.0), Purpose.FILM).domain == m.NEAREST_DOMAIN
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("M", "L", "kappa"), [(1625, 6.82, 4.73), (3786, 5.9, 2.74), (12834, 3.2, 1.09)])
+def test_side_lobes_of_long_contacts(M, L, kappa):
+    """Films of 1e-4 dry approaches in the side lobes, long axis along rolling, unattended."""
+    result = solve_steady(MoesPoint(M, L, kappa))
+    assert result.status == "converged"
+    assert 0.0 < result.h_min < 0.3 * result.h_central
+
+
+@pytest.mark.parametrize("purpose", Purpose)
+@pytest.mark.parametrize(("M", "L", "kappa"), BOX)
+def test_what_is_given_is_kept(M, L, kappa, purpose):
+    domain, point = Domain(-3.0, 1.4, 2.0), MoesPoint(M, L, kappa)
+    if purpose not in m.FINENESS and point.inlet_width < 0.025:
+        point = MoesPoint(200, 10, 0.5)
+    assert mesh_for(point, purpose, domain=domain).domain == domain
+    assert mesh_for(point, purpose, n=48).n == 48
+    assert mesh_for(point, purpose, n=48, domain=domain) == Mesh(48, domain)
+
+
+@pytest.mark.parametrize("purpose", Purpose)
+def test_what_cannot_be_is_named(purpose):
+    with pytest.raises(InputError, match=r"^n = 50: must be a multiple of 16"):
+        mesh_for(MoesPoint(200, 10, 0.5), purpose, n=50)
+    with pytest.raises(InputError, match=r"^domain = 'tuple': must be a Domain"):
+        mesh_for(MoesPoint(200, 10, 0.5), purpose, domain=(-3.0, 1.4, 2.0))
+
+
+def test_meshes_of_moving_films_follow_the_inlet():
+    for purpose in (Purpose.DAMPING, Purpose.RUN, Purpose.CONTACT):
+        rule = m.FINENESS[purpose]
+        assert mesh_for(MoesPoint(200, 10, 0.5), purpose).n == rule.counts[0]
+        for M, L, kappa in BOX:
+            point = MoesPoint(M, L, kappa)
+            mesh = mesh_for(point, purpose, domain=Domain())
+            resolved = mesh.size(kappa) <= min(rule.share * point.inlet_width, m.LARGEST_MESH)
+            following = next((k for k in rule.counts if k > mesh.n), None)
+            assert resolved or following is None or Mesh(following, Domain()).nodes(kappa) > rule.largest
+
+
+def test_no_remedy_for_what_was_asked_for_or_is_done():
+    point, mesh = MoesPoint(200, 10, 0.5), Mesh(128, Domain())
+    for purpose in m.FINENESS:
+        assert m.remedy(mesh, Status.CONVERGED, point, purpose) is None
+        assert m.remedy(mesh, Status.INTERRUPTED, point, purpose) is None
+        assert m.remedy(mesh, Status.OUT_OF_DOMAIN, point, purpose, domain=Domain()) is None
+    for status in (*m.REFINED, Status.OUT_OF_DOMAIN):
+        assert m.remedy(mesh, status, point, n=128) is None
+        assert m.remedy(mesh, status, point) is not None
+    assert m.remedy(Mesh(2048, Domain()), Status.UNRESOLVED, point) is None
+
+
+def test_impedance_tells_the_grid_it_chose():
+    assert impedance(MoesPoint(200, 10, 0.5), [0.0]).n == 80
+    assert impedance(MoesPoint(200, 10, 0.5), [0.0], n=48).n == 48
+
+
+@pytest.mark.slow
+def test_damping_of_a_thin_film_within_a_few_per_cent():
+    """A deep groove at 1 kN on the chosen grid against one of half the mesh size."""
+    point, omega = MoesPoint(2900, 19, 0.11), [0.05, 0.25, 1.0, 3.14, 6.28]
+    chosen = impedance(point, omega)
+    finer = impedance(point, omega, n=2 * chosen.n)
+    assert np.abs(chosen.damping / finer.damping - 1.0).max() < 0.05
+    assert np.abs(chosen.stiffness / finer.stiffness - 1.0).max() < 0.005

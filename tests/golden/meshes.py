@@ -1,0 +1,95 @@
+"""Write meshes.json anew: the mesh chosen for every purpose at sixty points, and what follows a failure there.
+
+Run from the root of the checkout where a rule of `ehlcontact.solver.mesh` is meant to change:
+
+    python tests/golden/meshes.py
+"""
+
+import json
+from math import exp, log
+from pathlib import Path
+
+import numpy as np
+
+from ehlcontact import Domain, InputError, MoesPoint, Purpose, Status, mesh_for
+from ehlcontact.solver.mesh import Mesh, allows_newton, coarsest_intervals, default_domain, remedy, resolved_load
+
+FILE = Path(__file__).with_name("meshes.json")
+PICKED = [
+    *((200, 10, 0.5), (20, 10, 1.0), (5, 0, 5.0), (5, 25, 0.08), (2900, 19, 0.11), (1000, 5, 1.0)),
+    *((30000, 0, 0.08), (500, 3, 2.0), (30000, 0, 0.3), (7333, 2.6, 3.0), (12834, 3.2, 1.09), (7, 1, 0.08)),
+    *((20000, 2, 0.2), (58.07, 4.62, 1.0), (2, 1, 0.5), (0.5, 3, 1.0)),
+]
+GIVEN = Domain(-3.0, 1.4, 2.0)
+FINER = ("unresolved", "diverged", "nonfinite")
+WIDER = ("out_of_domain", "stagnated", "out_of_domain")
+
+
+def points():
+    """M and kappa even in their logarithm, L denser where it is small; some beyond the box of the atlas."""
+    draw, found = np.random.default_rng(9), list(PICKED)
+    for _ in range(44):
+        M, L = exp(draw.uniform(0.0, log(4e4))), 25.0 * draw.uniform() ** 1.5
+        found.append((round(M, 2), round(L, 2), round(exp(draw.uniform(log(0.05), log(5.0))), 3)))
+    return [[float(value) for value in point] for point in found]
+
+
+def plain(mesh):
+    """A mesh as JSON."""
+    return None if mesh is None else [mesh.n, *mesh.domain.as_tuple()]
+
+
+def chain(point, purpose, statuses, **given):
+    """Meshes tried one after the other when solves end like that."""
+    mesh = mesh_for(point, purpose, **given)
+    found = [plain(mesh)]
+    for status in statuses:
+        try:
+            mesh = remedy(mesh, Status(status), point, purpose, **given)
+        except InputError:
+            return [*found, "refused"]
+        found.append(plain(mesh))
+        if mesh is None:
+            break
+    return found
+
+
+def table(point, purpose):
+    """Mesh of a point of the atlas; None for too thin a film."""
+    try:
+        return plain(mesh_for(point, purpose))
+    except InputError:
+        return None
+
+
+def decisions(M, L, kappa):
+    """Every rule at one point."""
+    point, default = MoesPoint(M, L, kappa), default_domain(MoesPoint(M, L, kappa))
+    return {
+        "load number": point.load_number,
+        "inlet": point.inlet_width,
+        "expected film": point.expected_film,
+        "film refined": chain(point, Purpose.FILM, FINER),
+        "film widened": chain(point, Purpose.FILM, WIDER),
+        "film done": chain(point, Purpose.FILM, ["converged"]),
+        "film, region given": chain(point, Purpose.FILM, FINER, domain=GIVEN),
+        "film, n given": chain(point, Purpose.FILM, ["out_of_domain"], n=64),
+        "damping": chain(point, Purpose.DAMPING, ["out_of_domain"]),
+        "damping, n given": chain(point, Purpose.DAMPING, ["out_of_domain"], n=48),
+        "damping, region given": chain(point, Purpose.DAMPING, [], domain=GIVEN),
+        "run": plain(mesh_for(point, Purpose.RUN)),
+        "run to load 3": plain(mesh_for(point, Purpose.RUN, largest_load=3.0)),
+        "contact": plain(mesh_for(point, Purpose.CONTACT)),
+        "table": table(point, Purpose.TABLE),
+        "table film": table(point, Purpose.TABLE_FILM),
+        "table near": table(point, Purpose.TABLE_NEAR),
+        "coarsest": [coarsest_intervals(point, n) for n in (32, 128, 512)],
+        "resolved load": [resolved_load(point, mesh) for mesh in (0.2, 0.05)],
+        "newton": [allows_newton(Mesh(n, default), point) for n in (256, 1024, 2048)],
+    }
+
+
+if __name__ == "__main__":
+    rows = [json.dumps({"point": point, **decisions(*point)}) for point in points()]
+    FILE.write_text("[\n" + ",\n".join(rows) + "\n]\n")
+    print(f"wrote {FILE}")
