@@ -15,10 +15,11 @@ import numpy as np
 from ehlcontact.checks import require_instance
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Scales
-from ehlcontact.results import SimulationResult, SteadyResult
+from ehlcontact.results import SteadyResult
 from ehlcontact.solver.domain import Domain
 from ehlcontact.status import Status
 from ehlcontact.transient.motion import Motion, motion_from_dict
+from ehlcontact.transient.result import SimulationResult
 
 FORMAT = 1
 Result = SteadyResult | SimulationResult

@@ -13,7 +13,6 @@ from ehlcontact.checks import require_instance, require_nonnegative, require_pos
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.origin import __version__
 from ehlcontact.point import Point, moes_point, scales_of
-from ehlcontact.results import SimulationResult
 from ehlcontact.solver.domain import Domain, check_domain
 from ehlcontact.solver.resolution import moving_intervals
 from ehlcontact.status import Status
@@ -21,6 +20,7 @@ from ehlcontact.transient.checkpoint import Checkpoint, Task, load_checkpoint, r
 from ehlcontact.transient.film import TransientFilm
 from ehlcontact.transient.motion import Motion, PrescribedApproach
 from ehlcontact.transient.record import History
+from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.run import End, Run, march_controlled, march_fixed
 from ehlcontact.transient.step import StepControl
 from ehlcontact.transient.surface import Surface, surface_height
