@@ -52,7 +52,8 @@ from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.storage import load, save
 from ehlcontact.transient.full_contact import FullContact
-from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, PrescribedApproach, PrescribedLoad, RampLoad
+from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
+from ehlcontact.transient.prescribed import PrescribedApproach, PrescribedLoad
 from ehlcontact.transient.result import Instants, SimulationResult
 from ehlcontact.transient.simulate import simulate
 from ehlcontact.transient.surface import Dent, TransverseRidge, Waviness

@@ -18,7 +18,7 @@ from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.domain import Domain
 from ehlcontact.status import Status
-from ehlcontact.transient.motion import Motion, motion_from_dict
+from ehlcontact.transient.motion import Motion
 from ehlcontact.transient.result import SimulationResult
 
 FORMAT = 1
@@ -119,7 +119,7 @@ def _rebuild(name: str, value: Any) -> Any:
         case "domain":
             return Domain(**value)
         case "motion":
-            return motion_from_dict(value)
+            return Motion.from_dict(value)
         case "status":
             return Status(value)
     return value

@@ -25,8 +25,8 @@ from ehlcontact.solver.grid import Level
 from ehlcontact.status import Status
 from ehlcontact.storage import read_fields, write_fields
 from ehlcontact.transient.film import FilmState, Step
-from ehlcontact.transient.motion import Motion
-from ehlcontact.transient.record import Array, Entry, History, MotionState
+from ehlcontact.transient.motion import Motion, MotionState
+from ehlcontact.transient.record import Array, Entry, History
 from ehlcontact.transient.run import Run
 from ehlcontact.transient.step import StepControl
 from ehlcontact.transient.surface import Surface, surface_height

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin, freeze
 from ehlcontact.status import Status
-from ehlcontact.transient.motion import Motion, PrescribedApproach
+from ehlcontact.transient.motion import Motion
 
 Array = NDArray[np.float64]
 
@@ -99,15 +99,13 @@ class SimulationResult(Origin):
 
         approach = CubicHermiteSpline(self.T, self.approach, self.rate)
         force = smooth(self.force)
-        motion = self.motion
+        loads = [self.motion.applied(t, f) for t, f in zip(times.flat, force.flat, strict=True)]
         return Instants(
             T=times,
             approach=approach(times),
             rate=approach(times, 1),
             force=force,
-            load=force.copy()
-            if isinstance(motion, PrescribedApproach)
-            else np.array([motion.load(t) for t in times.flat]).reshape(times.shape),
+            load=np.array(loads).reshape(times.shape),
             h_central=smooth(self.h_central),
             h_min=smooth(self.h_min),
         )
