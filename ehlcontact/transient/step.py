@@ -99,7 +99,7 @@ def _state(entry: Entry) -> Array:
 
 
 def _size(change: Array, entry: Entry, motion: Motion) -> float:
-    """Largest of the changes that count: those the motion leaves free, and the film's mean weighted by pressure."""
+    """Largest change of what the motion leaves free and of the film, whose mean is weighted by pressure."""
     film = np.abs(change[2:])
     total = float(entry.pressure.sum())
     mean_film = float(np.vdot(entry.pressure, film)) / total if total > 0.0 else 0.0
