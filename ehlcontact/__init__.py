@@ -42,18 +42,20 @@ module                  responsibility
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.film import Film, FilmHistory, Interferogram, film_history, film_of, interferogram
 from ehlcontact.film_wave import FilmWave, WaveTrack, film_wave, track_wave
-from ehlcontact.impedance import ImpedanceResult, impedance
+from ehlcontact.impedance import impedance
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.origin import __version__
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint, Scales
-from ehlcontact.results import Instants, SimulationResult, SteadyResult
+from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.storage import load, save
 from ehlcontact.transient.full_contact import FullContact
-from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, PrescribedApproach, PrescribedLoad, RampLoad
+from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
+from ehlcontact.transient.prescribed import PrescribedApproach, PrescribedLoad
+from ehlcontact.transient.result import Instants, SimulationResult
 from ehlcontact.transient.simulate import simulate
 from ehlcontact.transient.surface import Dent, TransverseRidge, Waviness
 

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from ehlcontact.checks import require_finite, require_instance, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from ehlcontact.results import SimulationResult, SteadyResult
+from ehlcontact.results import SteadyResult
 from ehlcontact.solver.lowest_film import lowest_film
+from ehlcontact.transient.result import SimulationResult
 
 Array = NDArray[np.float64]
 

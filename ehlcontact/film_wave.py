@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_finite, require_instance
 from ehlcontact.errors import InputError
-from ehlcontact.results import SimulationResult
+from ehlcontact.transient.result import SimulationResult
 
 Array = NDArray[np.float64]
 

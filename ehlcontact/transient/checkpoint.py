@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact import hdf5
 from ehlcontact.errors import InputError
 from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint
@@ -23,10 +24,9 @@ from ehlcontact.solver.coarse import Factors
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Level
 from ehlcontact.status import Status
-from ehlcontact.storage import read_fields, write_fields
 from ehlcontact.transient.film import FilmState, Step
-from ehlcontact.transient.motion import Motion
-from ehlcontact.transient.record import Array, Entry, History, MotionState
+from ehlcontact.transient.motion import Motion, MotionState
+from ehlcontact.transient.record import Array, Entry, History
 from ehlcontact.transient.run import Run
 from ehlcontact.transient.step import StepControl
 from ehlcontact.transient.surface import Surface, surface_height
@@ -138,7 +138,7 @@ class Checkpoint:
         InputError
             The file cannot be written.
         """
-        return write_fields(self, path, "checkpoint")
+        return hdf5.write(self, path, "checkpoint")
 
     def history(self, wanted: Sequence[float]) -> History:
         """Record so far, with those of the `wanted` snapshots that are still to come."""
@@ -223,7 +223,7 @@ def load_checkpoint(path: str | os.PathLike[str]) -> Checkpoint:
     InputError
         No such file, not a checkpoint, truncated, or written by a newer version.
     """
-    checkpoint: Checkpoint = read_fields(
+    checkpoint: Checkpoint = hdf5.read(
         path, {Checkpoint.__name__: Checkpoint}, "restart", "checkpoint of `simulate`"
     )
     return checkpoint

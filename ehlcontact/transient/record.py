@@ -10,20 +10,11 @@ from numpy.typing import NDArray
 
 from ehlcontact.solver.grid import Level
 from ehlcontact.transient.film import Step, TransientFilm
+from ehlcontact.transient.motion import MotionState
 
 Array = NDArray[np.float64]
 
 SAME_TIME = 1e-9  # of a time: a step this near has reached it
-
-
-@dataclass(frozen=True, slots=True)
-class MotionState:
-    """Motion of the bodies at one time."""
-
-    T: float
-    u: float
-    rate: float
-    acceleration: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from ehlcontact.solver.balance import Balance
 from ehlcontact.status import Status
 from ehlcontact.transient.film import FilmState, TransientFilm
-from ehlcontact.transient.motion import FreeVibration, Motion, PrescribedApproach
-from ehlcontact.transient.record import Entry, History, MotionState
+from ehlcontact.transient.motion import Motion, MotionState
+from ehlcontact.transient.record import Entry, History
 from ehlcontact.transient.step import StepControl, difference, local_error, longest_step, next_time, shortest_step
 from ehlcontact.transient.surface import Surface, surface_height, surface_step
 
@@ -61,25 +61,13 @@ class Run:
         film, motion = self.film, self.motion
         G = surface_height(self.surface, film.level.X, film.level.Y, 0.0)
         step = film.start_steady(Balance.of_load(), surface=G)
-        static = self.static_approach = film.u
-        rate = 0.0
-        if isinstance(motion, PrescribedApproach):
-            rate = motion.rate(0.0)
-            if step.status.ok:
-                u = motion.approach(0.0)
-                step = film.start_steady(Balance.of_approach(u), u, G)
-        elif isinstance(motion, FreeVibration):
-            rate = motion.initial_rate
-            if step.status.ok and motion.offset != 0.0:
-                u = static + motion.offset
-                step = film.start_steady(Balance.of_approach(u), u, G)
-        elif step.status.ok and motion.load(0.0) != 1.0:
-            step = film.start_steady(Balance.of_load(motion.load(0.0)), static, G)
+        self.static_approach = film.u
+        held = motion.held(film.u)
+        if step.status.ok and held is not None:
+            step = film.start_steady(*held, G)
         force = film.level.force()
-        load = force if isinstance(motion, PrescribedApproach) else motion.load(0.0)
-        acceleration = motion.omega_n**2 * (load - force) if motion.omega_n else 0.0
-        self.state = MotionState(0.0, film.u, rate, acceleration)
-        self.keep(Entry.of(film, self.state, load, step))
+        self.state = motion.begin(film.u, force)
+        self.keep(Entry.of(film, self.state, motion.applied(0.0, force), step))
         return step.status
 
     def resume(self, state: FilmState, scale: float, static_approach: float) -> None:
@@ -92,31 +80,11 @@ class Run:
     def advance(self, T: float, dT: float) -> Entry:
         """Step of length `dT` to time `T`; film and motion move, nothing is recorded."""
         film, motion, now = self.film, self.motion, self.state
-        rate, acceleration = now.rate, now.acceleration
-        guess = now.u + dT * rate
-        if isinstance(motion, PrescribedApproach):
-            guess = motion.approach(T)
-            balance = Balance.of_approach(guess)
-        elif motion.omega_n:
-            # Newmark, beta = 1/4: u_new = predictor + dT^2/4 u''_new, put into eq. 5
-            predictor = guess + 0.25 * dT * dT * acceleration
-            stiffness = 4.0 / (motion.omega_n * dT) ** 2
-            balance = Balance(stiffness, 1.0, motion.load(T) + stiffness * predictor)
-            guess = predictor + 0.25 * dT * dT * acceleration
-        else:
-            balance = Balance.of_load(motion.load(T))
+        balance, guess = motion.balance(now, T, dT)
         feature = surface_step(self.surface, film.level.X, film.level.Y, T, dT, film.last_step)
         step = film.advance(dT, balance, guess, feature)
-        if motion.omega_n:
-            acceleration = 4.0 * (film.u - predictor) / (dT * dT)
-            rate += 0.5 * dT * (now.acceleration + acceleration)
-        elif isinstance(motion, PrescribedApproach):
-            rate = motion.rate(T)
-        else:
-            rate = (film.u - now.u) / dT
-        load = film.level.force() if isinstance(motion, PrescribedApproach) else motion.load(T)
-        self.state = MotionState(T, film.u, rate, acceleration)
-        return Entry.of(film, self.state, load, step)
+        self.state = motion.after(now, film.u, T, dT)
+        return Entry.of(film, self.state, motion.applied(T, film.level.force()), step)
 
     def keep(self, *entries: Entry) -> None:
         """Record the entries, the last of which is the present state."""

@@ -13,14 +13,14 @@ from ehlcontact.checks import require_instance, require_nonnegative, require_pos
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.origin import __version__
 from ehlcontact.point import Point, moes_point, scales_of
-from ehlcontact.results import SimulationResult
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.mesh import Purpose, mesh_for
 from ehlcontact.status import Status
 from ehlcontact.transient.checkpoint import Checkpoint, Task, load_checkpoint, require_replaceable
 from ehlcontact.transient.film import TransientFilm
-from ehlcontact.transient.motion import Motion, PrescribedApproach
+from ehlcontact.transient.motion import Motion
 from ehlcontact.transient.record import History
+from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.run import End, Run, march_controlled, march_fixed
 from ehlcontact.transient.step import StepControl
 from ehlcontact.transient.surface import Surface, surface_height
@@ -195,11 +195,9 @@ def _task(
 def _collect(run: Run, task: Task, point: Point, status: Status, seconds: float) -> SimulationResult:
     numbers, motion, level = run.history.columns(), task.motion, run.film.level
     T = numbers["T"]
-    if not motion.omega_n and T.size > 2:
-        # No motion equation gives these: second-order differences of the record.
-        if not isinstance(motion, PrescribedApproach):
-            numbers["rate"] = np.gradient(numbers["approach"], T, edge_order=2)
-        numbers["acceleration"] = np.gradient(numbers["rate"], T, edge_order=2)
+    if T.size > 2:
+        integrated = numbers["approach"], numbers["rate"], numbers["acceleration"]
+        numbers["rate"], numbers["acceleration"] = motion.slopes(T, *integrated)
     h_midplane, p_midplane = run.history.profiles()
     snapshot_T, snapshot_H, snapshot_P = run.history.snapshot_arrays((level.nx + 1, level.ny + 1))
     return SimulationResult(

@@ -9,7 +9,7 @@ from ehlcontact.cli.paper.cases import STATIC_LOADS, STATIC_OILS
 from ehlcontact.cli.paper.runs import Runs
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, RED, legend_above, new_figure
 from ehlcontact.formulas import wijnant_approach
-from ehlcontact.results import SimulationResult
+from ehlcontact.transient.result import SimulationResult
 
 VIEW = 1.5  # half-width of the maps in semi-axes
 

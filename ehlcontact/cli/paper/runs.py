@@ -12,10 +12,11 @@ from ehlcontact.cli.paper.cases import CASES, STATIC_LOADS, STATIC_OILS, Case
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint
-from ehlcontact.results import SimulationResult, SteadyResult
+from ehlcontact.results import SteadyResult
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.storage import load, save
+from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.simulate import simulate
 
 Kind = TypeVar("Kind", SimulationResult, SteadyResult)

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, RED, legend_above, new_figure
 from ehlcontact.point import Scales
-from ehlcontact.results import SimulationResult
+from ehlcontact.transient.result import SimulationResult
 from reduced_models import FitResult
 
 
