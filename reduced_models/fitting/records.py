@@ -9,6 +9,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact import Status
 from ehlcontact.checks import require_choice, require_finite, require_instance, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Scales
@@ -106,7 +107,7 @@ class ContactRecord:
             The run did not converge, or its histories cannot be used.
         """
         status = str(simulation.status)
-        if status != "converged" and not accept_unconverged:
+        if status != Status.CONVERGED and not accept_unconverged:
             raise InputError(
                 "simulation.status",
                 status,

@@ -3,22 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact import Status
 from reduced_models.rotor.jeffcott import JeffcottRotor
 
 _Floats = NDArray[np.float64]
-
-
-class RotorStatus(StrEnum):
-    """How a run ended."""
-
-    CONVERGED = "converged"
-    INTERRUPTED = "interrupted"
-    NOT_CONVERGED = "not converged"
+RotorStatus = Status  # its public name; a run ends as converged, interrupted or failed
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +27,7 @@ class RotorResult:
     rate: _Floats  # (N, C) [m/s]
     force: _Floats  # (N, C) on one contact of one bearing [N]
     iterations: NDArray[np.int64]  # (N,) evaluations of every contact in the step
-    status: RotorStatus
+    status: Status
     rotor: JeffcottRotor
 
     def __post_init__(self) -> None:

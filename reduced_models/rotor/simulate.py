@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
+from ehlcontact import Status
 from ehlcontact.checks import require_positive
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.elements.validity import frequency_of
 from reduced_models.rotor.contact import Contact
 from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
-from reduced_models.rotor.result import RotorResult, RotorStatus
+from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.stepper import RotorStepper
 
 
@@ -85,12 +86,12 @@ def simulate_rotor(
                 callback(step, steps)
     except KeyboardInterrupt:
         run.rewind()
-        return _checked(contacts, run.result(RotorStatus.INTERRUPTED))
+        return _checked(contacts, run.result(Status.INTERRUPTED))
     except ConvergenceError as error:
         run.rewind()
         message = f"rotor at t = {run.time:.6g} s: {error}"
-        raise ConvergenceError(message, run.result(RotorStatus.NOT_CONVERGED)) from error
-    return _checked(contacts, run.result(RotorStatus.CONVERGED))
+        raise ConvergenceError(message, run.result(Status.FAILED)) from error
+    return _checked(contacts, run.result(Status.CONVERGED))
 
 
 def _check_contacts(rotor: JeffcottRotor, contacts: Sequence[Contact]) -> None:

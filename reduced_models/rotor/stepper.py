@@ -8,11 +8,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact import Status
 from ehlcontact.errors import ConvergenceError
 from reduced_models.rotor.contact import Contact
 from reduced_models.rotor.contact_forces import ContactForces
 from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
-from reduced_models.rotor.result import RotorResult, RotorStatus
+from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.step import CondensedRotor, Motion, Pending
 
 _Floats = NDArray[np.float64]
@@ -83,7 +84,7 @@ class RotorStepper:
         if self._torn:
             self._contacts.rewind()
 
-    def result(self, status: RotorStatus) -> RotorResult:
+    def result(self, status: Status) -> RotorResult:
         """History so far."""
         end, size = self._done + 1, len(self._axes)
         both = {}
