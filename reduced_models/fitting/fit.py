@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any, Literal, overload
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_choice
 from ehlcontact.errors import InputError
-from reduced_models.elements.file import library_version
+from ehlcontact.origin import source_of
 from reduced_models.elements.memoryless import MemorylessContact
 from reduced_models.fitting.memory import MemoryFit, fit_memory
 from reduced_models.fitting.models import ESTIMATORS, Samples
@@ -158,7 +158,10 @@ def _least_squares(records: Records, model: str, window: Window | None) -> FitRe
         samples=int(samples.force.size),
         independent_samples=independent,
     )
-    quality, source = result.quality(), _source(samples.records)
+    source = source_of(
+        first.point, first.scales, samples.each("n"), samples.each("domain"), samples.each("motion")
+    )
+    quality = result.quality()
     return replace(result, element=replace(element, fit=quality, source=source))  # type: ignore[type-var]
 
 
@@ -223,19 +226,3 @@ def _require_one_contact(records: Sequence[ContactRecord]) -> None:
                     getattr(record, name),
                     f"as in records[0]: {getattr(first, name)!r}",
                 )
-
-
-def _source(records: Sequence[ContactRecord]) -> dict[str, Any]:
-    def plain(name: str) -> Any:
-        values = [getattr(record, name) for record in records]
-        return values[0] if all(value == values[0] for value in values) else values
-
-    point, scales = records[0].point, records[0].scales
-    return {
-        "point": None if point is None else point.to_dict(),
-        "scales": None if scales is None else asdict(scales),
-        "n": plain("n"),
-        "domain": plain("domain"),
-        "motion": plain("motion"),
-        "version": library_version(),
-    }

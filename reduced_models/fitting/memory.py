@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from scipy.optimize import least_squares
 
 from ehlcontact import Domain, ImpedanceResult, impedance
 from ehlcontact.errors import InputError
-from reduced_models.elements.file import library_version
+from ehlcontact.origin import source_of
 from reduced_models.elements.film_law import film_drive
 from reduced_models.elements.film_response import WEIGHT_C, WEIGHT_K, FilterRates, GainFit, fit_gains
 from reduced_models.elements.memory import FilmMemoryContact
@@ -111,7 +111,8 @@ def fit_memory(
         stiffness_error=gains.stiffness / target.stiffness - 1.0,
         validation=scores,
     )
-    return replace(result, element=replace(element, fit=result.quality(), source=_source(response, taken)))
+    source = _source(response, [record.motion for record in taken])
+    return replace(result, element=replace(element, fit=result.quality(), source=source))
 
 
 def impedance_of(records: Sequence[ContactRecord]) -> ImpedanceResult:
@@ -208,13 +209,7 @@ def _force_error(element: FilmMemoryContact, record: ContactRecord) -> _Floats:
     return force - record.force
 
 
-def _source(response: Response, records: Sequence[ContactRecord]) -> dict[str, Any]:
-    point, domain = getattr(response, "point", None), getattr(response, "domain", None)
-    return {
-        "point": None if point is None else point.to_dict(),
-        "scales": None if getattr(response, "scales", None) is None else asdict(response.scales),  # type: ignore[attr-defined]
-        "n": getattr(response, "n", None),
-        "domain": None if domain is None else list(domain.as_tuple()),
-        "motion": [record.motion for record in records],
-        "version": library_version(),
-    }
+def _source(response: Response, motions: list[Any]) -> dict[str, Any]:
+    """Of a response that may be anyone's: what it does not say is None."""
+    point, scales, n, domain = (getattr(response, name, None) for name in ("point", "scales", "n", "domain"))
+    return source_of(point, scales, n, None if domain is None else domain.as_tuple(), motions)

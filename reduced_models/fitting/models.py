@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,6 +54,11 @@ class Samples:
     def force(self) -> _Floats:
         """Force likewise."""
         return np.concatenate([cut.force for cut in self.cuts])
+
+    def each(self, name: str) -> Any:
+        """An attribute of the records: one value if they agree, else a list of all."""
+        values = [getattr(record, name) for record in self.records]
+        return values[0] if all(value == values[0] for value in values) else values
 
     def split(self, values: _Floats) -> list[_Floats]:
         """Values of all cuts as one array per cut."""

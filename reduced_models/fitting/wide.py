@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,8 +12,8 @@ from scipy.optimize import least_squares
 
 from ehlcontact import impedance, solve_steady
 from ehlcontact.errors import InputError
+from ehlcontact.origin import source_of
 from ehlcontact.point import Point, moes_point, scales_of
-from reduced_models.elements.file import library_version
 from reduced_models.elements.film_curve import increasing
 from reduced_models.elements.film_response import FilterRates, fit_gains
 from reduced_models.elements.memory import FilmMemoryContact
@@ -124,15 +124,8 @@ def wide_range_from_solves(
     moes, scales = moes_point(point), scales_of(point)
     steady = [solve_steady(replace(moes, M=moes.M * f), n=n) for f in at.tolist()]
     responses = [impedance(replace(moes, M=moes.M * f), omegas, n=n) for f in places.tolist()]
-    source = {
-        "point": moes.to_dict(),
-        "scales": None if scales is None else asdict(scales),
-        "n": n,
-        "domain": [list(s.domain.as_tuple()) for s in steady],
-        "motion": None,
-        "version": library_version(),
-    }
-    approach = [s.approach for s in steady]
+    approach, domains = [s.approach for s in steady], [list(s.domain.as_tuple()) for s in steady]
+    source = source_of(moes, scales, n, domains)
     return wide_range_contact(at, approach, places, responses, lags=lags, memory=memory, source=source)
 
 
