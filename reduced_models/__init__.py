@@ -55,12 +55,12 @@ from reduced_models.elements.kinds import PowerLawContact as PowerLawContact
 from reduced_models.elements.kinds import WideRangeContact as WideRangeContact
 from reduced_models.elements.kinds import load_element as load_element
 from reduced_models.elements.validity import OutsideValidityWarning as OutsideValidityWarning
-from reduced_models.fitting.fit import FitResult as FitResult
 from reduced_models.fitting.fit import fit as fit
-from reduced_models.fitting.memory import MemoryFit as MemoryFit
 from reduced_models.fitting.memory import fit_memory as fit_memory
 from reduced_models.fitting.records import ContactRecord as ContactRecord
 from reduced_models.fitting.result import ElementFit as ElementFit
+from reduced_models.fitting.result import FitResult as FitResult
+from reduced_models.fitting.result import MemoryFit as MemoryFit
 from reduced_models.fitting.sensitivity import Sensitivity as Sensitivity
 from reduced_models.fitting.sensitivity import SensitivityRow as SensitivityRow
 from reduced_models.fitting.sensitivity import sensitivity as sensitivity

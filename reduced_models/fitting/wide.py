@@ -18,7 +18,7 @@ from reduced_models.elements.film_curve import increasing
 from reduced_models.elements.film_response import FilterRates, fit_gains
 from reduced_models.elements.memory import FilmMemoryContact
 from reduced_models.elements.wide import WideRangeContact
-from reduced_models.fitting.memory import LIMITS, OMEGAS, STARTS, TRANSIT, Response
+from reduced_models.fitting.memory import LIMITS, OMEGAS, RATE_STARTS, SEARCH, TRANSIT_TIME, Response
 
 _Floats = NDArray[np.float64]
 
@@ -146,9 +146,7 @@ def _common_rates(responses: Sequence[Response], lags: int) -> FilterRates:
 
     lower, upper = np.log(np.array(LIMITS[:3])).T
     solutions = [
-        least_squares(
-            residuals, np.log([lags / TRANSIT, *start]), bounds=(lower, upper), diff_step=1e-3, max_nfev=30
-        )
-        for start in STARTS
+        least_squares(residuals, np.log([lags / TRANSIT_TIME, *start]), bounds=(lower, upper), **SEARCH)
+        for start in RATE_STARTS
     ]
     return rates(min(solutions, key=lambda solution: solution.cost).x)
