@@ -78,6 +78,6 @@ from reduced_models.rotor.jeffcott import JeffcottRotor as JeffcottRotor
 from reduced_models.rotor.jeffcott import RotorState as RotorState
 from reduced_models.rotor.oscillator import OscillatorResult as OscillatorResult
 from reduced_models.rotor.oscillator import simulate_oscillator as simulate_oscillator
-from reduced_models.rotor.result import RotorResult as RotorResult
-from reduced_models.rotor.result import RotorStatus as RotorStatus
+from reduced_models.rotor.simulate import RotorResult as RotorResult
+from reduced_models.rotor.simulate import RotorStatus as RotorStatus
 from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor
