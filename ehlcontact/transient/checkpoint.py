@@ -68,13 +68,10 @@ class Checkpoint:
         A surface is a function and cannot be stored: its heights at the time reached must be the same.
         """
 
-        def same(item: str, stored: Any, asked: Any) -> None:
-            if stored != asked:
-                raise InputError(
-                    "restart",
-                    str(path),
-                    f"a checkpoint of this run: its {item} is {_brief(stored)}, asked for is {_brief(asked)}",
-                )
+        def same(item: str, stored: Any, wanted: Any) -> None:
+            if stored != wanted:
+                what = f"its {item} is {_brief(stored)}, asked for is {_brief(wanted)}"
+                raise InputError("restart", str(path), f"a checkpoint of this run: {what}")
 
         same("version", self.version, __version__)
         ours, T = self.settings, self.record.T
