@@ -29,8 +29,7 @@ module                  responsibility
 ``linearised_contact``  impedance of many frequencies from a few solves
 ``impedance``           `impedance`: K and C over frequency from the linearised steady state
 ``full_contact``        `FullContact`: the whole film as a force element
-``film``                the film to look at: `film_of`, `interferogram`, `film_history`
-``film_wave``           `film_wave` and `track_wave`: what the surfaces carry through, and how fast
+``film``                the film to look at: `film_of`, `interferogram`, `film_history`, `film_wave`
 ``formulas``            published film and approach formulas, for comparison
 ``results, status``     frozen results, how a solve ended
 ``storage``             `save` and `load` (HDF5)
@@ -40,8 +39,18 @@ module                  responsibility
 """
 
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.film import Film, FilmHistory, Interferogram, film_history, film_of, interferogram
-from ehlcontact.film_wave import FilmWave, WaveTrack, film_wave, track_wave
+from ehlcontact.film import (
+    Film,
+    FilmHistory,
+    FilmWave,
+    Interferogram,
+    WaveTrack,
+    film_history,
+    film_of,
+    film_wave,
+    interferogram,
+    track_wave,
+)
 from ehlcontact.impedance import impedance
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.origin import __version__

@@ -139,7 +139,7 @@ class _Attempt:
 
     def __init__(self, point: MoesPoint, mesh: Mesh, method: Method, deflection: str) -> None:
         self.mesh, self.method = mesh, method
-        self.multigrid = Multigrid(point, mesh.domain, mesh.n, deflection=deflection, cautious=method.cautious)
+        self.multigrid = Multigrid(point, mesh, deflection=deflection, cautious=method.cautious)
         self.scale = self.multigrid.finest.dry_residual()
         self.track = Track()
 

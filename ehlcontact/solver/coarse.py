@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,12 +33,14 @@ BALANCE_WEIGHT = 3.0  # of the balance beside the rms residual of the nodes
 class Factors:
     """LU factors of a bordered Jacobian, and what it was made for."""
 
-    lu: Any
+    lu: tuple[Array, NDArray[np.int32]]  # of LAPACK
     free: Nodes
     equation: tuple[float, float, float]  # time coefficient, balance stiffness and weight
 
 
-def bordered_lu(level: Level, free: Nodes, derivatives: tuple[Array, Array], balance: Balance) -> Any:
+def bordered_lu(
+    level: Level, free: Nodes, derivatives: tuple[Array, Array], balance: Balance
+) -> tuple[Array, NDArray[np.int32]]:
     """LU factors of the dense Jacobian of `level` over the nodes `free`, (m,), bordered by u and its balance.
 
     `derivatives` are those to pressure and to film, (6, ny + 1, nx + 1) each, real or complex.

@@ -14,6 +14,7 @@ from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.kernels import boundary, relax, reynolds
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS
 from ehlcontact.solver.lowest_film import lowest_film
+from ehlcontact.solver.mesh import Mesh
 
 Array = NDArray[np.float64]
 
@@ -169,10 +170,9 @@ class Level:
         self.fields.P[...] = np.sqrt(np.maximum(0.0, 1.0 - self.X**2 - self.Y[:, None] ** 2))
 
 
-def build_hierarchy(
-    point: MoesPoint, domain: Domain, n: int, coarsest: int, deflection: str = "fft"
-) -> list[Level]:
-    """Levels coarse to fine, halving n while at least `coarsest` intervals are left."""
+def build_hierarchy(point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str = "fft") -> list[Level]:
+    """Levels coarse to fine, halving the mesh while at least `coarsest` intervals are left."""
+    n, domain = mesh.n, mesh.domain
     halvings = 0
     while (n >> halvings) % 2 == 0 and (n >> (halvings + 1)) >= coarsest:
         halvings += 1

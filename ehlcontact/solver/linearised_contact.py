@@ -17,6 +17,7 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Array
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 
 Complex = NDArray[np.complex128]
@@ -44,7 +45,7 @@ class LinearisedContact:
     """
 
     def __init__(self, point: MoesPoint, domain: Domain, n: int, P: Array, u: float) -> None:
-        self._multigrid = Multigrid(point, domain, n)
+        self._multigrid = Multigrid(point, Mesh(n, domain))
         level = self._level = self._multigrid.finest
         level.P[...] = P.T
         level.update(u)

@@ -16,10 +16,9 @@ from scipy.interpolate import RectBivariateSpline
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse import CoarseNewton
-from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Level, build_hierarchy
 from ehlcontact.solver.kernels import transfer
-from ehlcontact.solver.mesh import coarsest_intervals, resolved_load
+from ehlcontact.solver.mesh import Mesh, coarsest_intervals, resolved_load
 
 PRE_SWEEPS, POST_SWEEPS = 2, 1
 CYCLES_PER_LEVEL = 1  # of full multigrid, before the finest level
@@ -34,11 +33,9 @@ class Multigrid:
     changes it in other ways calls ``finest.update(u)``.
     """
 
-    def __init__(
-        self, point: MoesPoint, domain: Domain, n: int, *, deflection: str = "fft", cautious: bool = False
-    ) -> None:
+    def __init__(self, point: MoesPoint, mesh: Mesh, *, deflection: str = "fft", cautious: bool = False) -> None:
         self.point = point
-        self.levels = build_hierarchy(point, domain, n, coarsest_intervals(point, n), deflection)
+        self.levels = build_hierarchy(point, mesh, coarsest_intervals(point, mesh.n), deflection)
         for level in self.levels:
             level.cautious = cautious
             level.set_point(point)

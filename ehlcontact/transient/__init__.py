@@ -1,1 +1,21 @@
-"""Room."""
+"""One film through time.
+
+================ ==========================================================================================
+module           responsibility
+================ ==========================================================================================
+``motion``       what drives the bodies: `Motion`, Newmark's rule, free vibration, harmonic load, ramp
+``prescribed``   loads and approaches given by a table
+``surface``      what travels through: `Dent`, `TransverseRidge`, `Waviness`
+``film``         `TransientFilm`: one implicit step of the film
+``record``       what is recorded: an entry per step, whole fields at the wanted times
+``step``         error and length of a time step
+``settings``     what a run is asked for, checked and with its defaults
+``run``          film and motion advanced together, in fixed or in controlled steps
+``checkpoint``   a run's file to go on from
+``result``       `SimulationResult` and its `Instants`
+``simulate``     `simulate`: all of these, from a motion to a result
+``full_contact`` `FullContact`: the whole film as a force element
+================ ==========================================================================================
+
+From top to bottom each imports only what stands above it. The names above are public in `ehlcontact`.
+"""

@@ -13,9 +13,9 @@ import numpy as np
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse import Factors
-from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Array, Level
 from ehlcontact.solver.iterate import Goal, Track, iterate
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.transient.surface import SurfaceStep
@@ -57,9 +57,7 @@ class TransientFilm:
     Parameters
     ----------
     point : MoesPoint
-    domain : Domain
-    n : int
-        Intervals along X.
+    mesh : Mesh
     tol : float
         Residual at which a step counts as solved, relative to the central film at rest: the size of the
         transport term d(rho H)/dX.
@@ -67,8 +65,8 @@ class TransientFilm:
         Engine, as in `solve_steady`.
     """
 
-    def __init__(self, point: MoesPoint, domain: Domain, n: int, tol: float, deflection: str = "fft") -> None:
-        self.multigrid = Multigrid(point, domain, n, deflection=deflection)
+    def __init__(self, point: MoesPoint, mesh: Mesh, tol: float, deflection: str = "fft") -> None:
+        self.multigrid = Multigrid(point, mesh, deflection=deflection)
         self.tol = tol
         self.scale = 1.0
         self._past: tuple[tuple[float, Array], ...] = ()

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from ehlcontact.checks import require_finite, require_positive
+from ehlcontact.checks import require_choice, require_finite, require_positive
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import Point, moes_point
 from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.mesh import Purpose, mesh_for
 from ehlcontact.status import Status
@@ -29,6 +30,8 @@ class FullContact:
         Largest force to expect, in static loads.
     tol : float
         Residual at which a step counts as solved; see `simulate`.
+    deflection : {"fft", "mlmi", "direct"}
+        Engine of the elastic deflection, as in `solve_steady`.
 
     Raises
     ------
@@ -46,12 +49,14 @@ class FullContact:
         domain: Domain | None = None,
         largest_load: float = 1.0,
         tol: float = 3e-3,
+        deflection: str = "fft",
     ) -> None:
         self.point = moes_point(point)
         load = require_positive("largest_load", largest_load)
         mesh = mesh_for(self.point, Purpose.CONTACT, n=n, domain=domain, largest_load=load)
         self.n, self.domain = mesh.n, mesh.domain
-        self._film = TransientFilm(self.point, self.domain, self.n, require_positive("tol", tol))
+        require_choice("deflection", deflection, tuple(ENGINES))
+        self._film = TransientFilm(self.point, mesh, require_positive("tol", tol), deflection)
         self._check(self._film.start_steady(Balance.of_load()))
         self.static_approach = self._film.u
         self.force = self._film.level.force()

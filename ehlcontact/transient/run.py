@@ -10,6 +10,7 @@ from ehlcontact.status import Status
 from ehlcontact.transient.film import FilmState, TransientFilm
 from ehlcontact.transient.motion import Motion, MotionState
 from ehlcontact.transient.record import Entry, History
+from ehlcontact.transient.settings import TimeSteps
 from ehlcontact.transient.step import StepControl, difference, local_error, longest_step, next_time, shortest_step
 from ehlcontact.transient.surface import Surface, surface_height, surface_step
 
@@ -18,7 +19,7 @@ RESTART_CUT = 0.25  # of the step, where the motion turns a corner
 
 
 @dataclass(frozen=True, slots=True)
-class End:
+class RunEnd:
     """How a run ended, and what to say about the time step."""
 
     status: Status
@@ -26,7 +27,7 @@ class End:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Kept:
+class SavedRun:
     """Last sound state of a run; its motion is that of the last of its entries."""
 
     film: FilmState
@@ -54,7 +55,7 @@ class Run:
         self.static_approach = film.u
         self._watch = watch
         self.state: MotionState
-        self.kept: Kept
+        self.kept: SavedRun
 
     def start(self) -> Status:
         """Static state, then the state the motion starts from, with the acceleration that its force gives."""
@@ -96,7 +97,7 @@ class Run:
 
     def _mark(self) -> None:
         control = None if self.control is None else replace(self.control)
-        self.kept = Kept(self.film.save_state(), len(self.history.entries), control)
+        self.kept = SavedRun(self.film.save_state(), len(self.history.entries), control)
 
     def back(self) -> None:
         """Return to the last state kept."""
@@ -104,18 +105,28 @@ class Run:
         self.state = self.history.entries[self.kept.entries - 1].motion
 
 
-def march_fixed(run: Run, steps: int, dT: float) -> End:
+def march(run: Run, steps: TimeSteps) -> RunEnd:
+    """All steps until ``steps.until``; Ctrl-C ends them early."""
+    try:
+        if steps.error is None:
+            return march_fixed(run, round(steps.until / steps.dT), steps.dT)
+        return march_controlled(run, steps.until)
+    except KeyboardInterrupt:
+        return RunEnd(Status.INTERRUPTED)
+
+
+def march_fixed(run: Run, steps: int, dT: float) -> RunEnd:
     """All steps not yet recorded, of length `dT`; a step that fails is recorded and ends the run."""
     for k in range(run.kept.entries, steps + 1):
         entry = run.advance(k * dT, dT)
         run.keep(entry)
         if not entry.step.status.ok:
             residual, tol = entry.step.residual, run.film.tol
-            return End(entry.step.status, f"step {dT:.3g}, residual {residual:.3g} with tol {tol:g}")
-    return End(Status.CONVERGED)
+            return RunEnd(entry.step.status, f"step {dT:.3g}, residual {residual:.3g} with tol {tol:g}")
+    return RunEnd(Status.CONVERGED)
 
 
-def march_controlled(run: Run, until: float) -> End:
+def march_controlled(run: Run, until: float) -> RunEnd:
     """Steps whose local error stays below ``control.error``; corners, snapshots and the end are met.
 
     From rest, and from each corner, the past is not smooth: one step is compared with two of half the length,
@@ -149,7 +160,7 @@ def march_controlled(run: Run, until: float) -> End:
             continue
         if failed in HOPELESS:
             run.keep(*new)
-            return End(failed)
+            return RunEnd(failed)
         run.back()
         if failed is None:
             control.refused(dT, error, 3 if smooth else 2)
@@ -158,8 +169,10 @@ def march_controlled(run: Run, until: float) -> End:
             control.failed(dT)
             fault = f"ends {failed} under"
         if control.step < shortest:
-            return End(Status.STEP_TOO_SMALL, f"a step of {dT:.3g} {fault} the tolerated error {control.error:g}")
-    return End(Status.CONVERGED)
+            return RunEnd(
+                Status.STEP_TOO_SMALL, f"a step of {dT:.3g} {fault} the tolerated error {control.error:g}"
+            )
+    return RunEnd(Status.CONVERGED)
 
 
 def _start_pair(run: Run, T: float, dT: float) -> tuple[list[Entry], float]:

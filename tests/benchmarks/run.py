@@ -19,6 +19,7 @@ from scipy import fft
 from ehlcontact import Domain, FreeVibration, MoesPoint, impedance, simulate, solve_steady
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import make_deflection
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.transient.film import TransientFilm
 from reduced_models import ContactRecord, fit
@@ -54,7 +55,7 @@ def steady(n: int) -> tuple[float, dict[str, float]]:
     """Full multigrid and as many cycles as bring u within 1e-3 of its converged value on this grid."""
     point = MoesPoint(200, 10, 1)
     converged = solve_steady(point, n=n, tol=1e-6).approach
-    multigrid = Multigrid(point, Domain(), n)
+    multigrid = Multigrid(point, Mesh(n, Domain()))
     multigrid.full_multigrid(LOAD)
     cycles = 0
     while abs(multigrid.u - converged) > 1e-3:
@@ -62,7 +63,7 @@ def steady(n: int) -> tuple[float, dict[str, float]]:
         cycles += 1
 
     def work() -> None:
-        fresh = Multigrid(point, Domain(), n)
+        fresh = Multigrid(point, Mesh(n, Domain()))
         fresh.full_multigrid(LOAD)
         for _ in range(cycles):
             fresh.cycle(LOAD)
@@ -76,7 +77,7 @@ def transient_step(n: int) -> tuple[float, dict[str, float]]:
     omega_n = 5.13
     motion = FreeVibration(omega_n)
     dT = motion.default_step
-    film = TransientFilm(point, Domain(), n, 3e-3)
+    film = TransientFilm(point, Mesh(n, Domain()), 3e-3)
     film.start_steady(LOAD)
     u, rate, acceleration = film.u, motion.initial_rate, 0.0
 

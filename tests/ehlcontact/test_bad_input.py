@@ -45,6 +45,7 @@ def test_intervals_of_numpy():
         ("conformity", lambda: Geometry.ball_bearing(8e-3, 39e-3, "0.52")),
         ("M", lambda: MoesPoint(np.bool_(True), 10, 1.0)),
         ("T", lambda: PrescribedLoad(["a"] * 4, [1.0] * 4)),
+        ("values", lambda: PrescribedLoad([0.0, 1.0, 2.0, 3.0], ["a"] * 4)),
         ("tol", lambda: simulate(POINT, FreeVibration(5.0), tol="1e-3")),
         ("domain", lambda: solve_steady(POINT, domain=(-4.5, 1.5, 3.0))),
         ("motion", lambda: simulate(POINT, 1)),

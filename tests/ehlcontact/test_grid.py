@@ -8,6 +8,7 @@ import pytest
 
 from ehlcontact import Domain, MoesPoint
 from ehlcontact.solver.grid import Level, build_hierarchy
+from ehlcontact.solver.mesh import Mesh
 
 
 def test_film_is_equation_3(level, point):
@@ -41,7 +42,7 @@ def test_border_of_the_residual_stays_zero(level):
 @pytest.mark.parametrize("coarsest", [16, 32])
 def test_hierarchy(n, coarsest):
     domain = Domain(-5.0, 3.0, 4.0)
-    levels = build_hierarchy(MoesPoint(20, 5, 0.5), domain, n, coarsest)
+    levels = build_hierarchy(MoesPoint(20, 5, 0.5), Mesh(n, domain), coarsest)
     assert levels[-1].nx == n
     assert levels[0].nx < 2 * max(coarsest, 16) or levels[0].nx % 2
     for coarse, fine in itertools.pairwise(levels):

@@ -9,7 +9,7 @@ from ehlcontact import InputError, MoesPoint, Purpose, mesh_for
 from ehlcontact.impedance import impedance
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
 from ehlcontact.solver.linearised_contact import LinearisedContact
-from ehlcontact.solver.mesh import NEAR_DOMAIN
+from ehlcontact.solver.mesh import NEAR_DOMAIN, Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.steady import solve_steady
 from ehlcontact.transient.full_contact import FullContact
@@ -22,7 +22,7 @@ OMEGA = np.array([0.0, 0.25, pi, 4.0 * pi, 30.0])
 
 def dense(contact, film, n):
     """J and B of a linearised contact as matrices, by the kernel that the coarse grids use."""
-    level = Multigrid(POINT, film.domain, n).finest
+    level = Multigrid(POINT, Mesh(n, film.domain)).finest
     level.P[...] = film.P.T
     level.update_film(film.approach)
     level.update_residual()

@@ -6,6 +6,7 @@ import pytest
 from ehlcontact import Domain, MoesPoint, Status
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.iterate import Goal, Track, classify, iterate
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 
 NAN, INF = float("nan"), float("inf")
@@ -54,7 +55,7 @@ def test_scale_is_what_counts():
 @pytest.fixture
 def film():
     """Full multigrid of a circular contact, and its scale."""
-    multigrid = Multigrid(MoesPoint(20, 8, 1.0), Domain(), 32)
+    multigrid = Multigrid(MoesPoint(20, 8, 1.0), Mesh(32, Domain()))
     scale = multigrid.finest.dry_residual()
     multigrid.full_multigrid(LOAD)
     return multigrid, scale

@@ -5,7 +5,7 @@ import pytest
 
 from ehlcontact import Domain, MoesPoint, solve_steady
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.mesh import coarsest_intervals
+from ehlcontact.solver.mesh import Mesh, coarsest_intervals
 from ehlcontact.solver.multigrid import Multigrid, initial_approach
 
 LOAD = Balance.of_load()
@@ -22,7 +22,7 @@ def test_two_algorithms_one_discretisation(solve_by_newton, kappa):
     """Cycles over two grids end where Newton on the finest alone ends."""
     point = MoesPoint(20, 8, kappa)
     level, u = solve_by_newton(point)
-    cycles = Multigrid(point, Domain(), 32)
+    cycles = Multigrid(point, Mesh(32, Domain()))
     assert len(cycles.levels) == 2
     cycles.full_multigrid(LOAD)
     for _ in range(25):
@@ -33,7 +33,7 @@ def test_two_algorithms_one_discretisation(solve_by_newton, kappa):
 
 
 def test_solution_is_a_fixed_point_of_the_cycle():
-    mg = Multigrid(MoesPoint(20, 8, 0.5), Domain(), 64)
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()))
     mg.full_multigrid(LOAD)
     for _ in range(30):
         mg.cycle(LOAD)
@@ -46,7 +46,7 @@ def test_solution_is_a_fixed_point_of_the_cycle():
 
 @pytest.mark.parametrize("balance", [Balance.of_approach(0.7), Balance(3.0, 1.0, 3.2)], ids=["approach", "motion"])
 def test_other_balances_close_the_cycle(balance):
-    mg = Multigrid(MoesPoint(20, 8, 0.5), Domain(), 64)
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()))
     mg.full_multigrid(balance)
     for _ in range(20):
         mg.cycle(balance)

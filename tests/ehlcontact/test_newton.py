@@ -11,7 +11,7 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.iterate import Goal, Track, iterate
 from ehlcontact.solver.kernels import linearise as lin
 from ehlcontact.solver.linear import NEIGHBOUR_OFFSETS, LinearFilm, Preconditioner, solve_linear, stencil_matrix
-from ehlcontact.solver.mesh import default_domain
+from ehlcontact.solver.mesh import Mesh, default_domain
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.status import Status
@@ -25,7 +25,7 @@ FINEST = [pytest.param(*point, 256, marks=pytest.mark.slow) for point in POINTS]
 
 def hierarchy(M, L, kappa, n):
     point = MoesPoint(M, L, kappa)
-    multigrid = Multigrid(point, default_domain(point), n)
+    multigrid = Multigrid(point, Mesh(n, default_domain(point)))
     return multigrid, multigrid.finest.dry_residual()
 
 
@@ -206,7 +206,7 @@ def test_transient_steps_agree_and_share_factors(M, L, kappa, monkeypatch):
     point, dT, omega_n = MoesPoint(M, L, kappa), 0.02, 5.13
     results = []
     for by_newton in (False, True):
-        film = TransientFilm(point, default_domain(point), 64, tol=1e-8)
+        film = TransientFilm(point, Mesh(64, default_domain(point)), tol=1e-8)
         film.start_steady(LOAD)
         solver = NewtonKrylov(film.multigrid)
         if by_newton:

@@ -17,6 +17,7 @@ from ehlcontact import (
     solve_steady,
 )
 from ehlcontact.solver.grid import Level
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.transient.film import TransientFilm
 from ehlcontact.transient.record import History
 from ehlcontact.transient.run import Run
@@ -127,13 +128,15 @@ def test_uneven_time_steps_are_second_order(motion):
     for steps in (48, 96, 192, 384):
         s = np.linspace(0.0, 1.0, steps + 1)
         T = until * (s - 0.6 * np.sin(2.0 * pi * s) / (2.0 * pi))
-        run = Run(TransientFilm(POINT, Domain(), 32, 1e-6), motion, None, History(()), None, lambda run: None)
+        run = Run(
+            TransientFilm(POINT, Mesh(32, Domain()), 1e-6), motion, None, History(()), None, lambda run: None
+        )
         assert run.start().ok
         for before, after in pairwise(T):
             entry = run.advance(after, after - before)
             assert entry.step.status.ok
             run.keep(entry)
-        columns = run.history.columns()
+        columns = run.history.record(run.film.level).columns()
         names = ("approach", "rate", "force") if motion.omega_n else ("approach",)
         histories.append(np.array([columns[name][:: steps // 24] for name in names]))
     errors = np.abs(np.diff(histories, axis=0)).max(axis=-1)

@@ -17,7 +17,7 @@ from ehlcontact import (
     solve_steady,
 )
 from ehlcontact.solver.grid import build_hierarchy
-from ehlcontact.solver.mesh import coarsest_intervals
+from ehlcontact.solver.mesh import Mesh, coarsest_intervals
 
 POINT = MoesPoint(200, 10, 0.5)
 CASES = [(200, 10, 0.5), (20, 10, 1.0), (500, 15, 0.12)]
@@ -39,7 +39,7 @@ def test_complementarity(steady, case):
     """P >= 0 everywhere; where P = 0 no residual asks for pressure beyond the tolerance."""
     result = steady(*case, 128)
     assert (result.P >= 0.0).all()
-    level = build_hierarchy(result.point, result.domain, 128, coarsest_intervals(result.point, 128))[-1]
+    level = build_hierarchy(result.point, Mesh(128, result.domain), coarsest_intervals(result.point, 128))[-1]
     level.P[...] = result.P.T
     level.update_film(result.approach)
     np.testing.assert_allclose(level.H.T, result.H, atol=1e-12)

@@ -9,8 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, legend_above, new_figure
-from ehlcontact.film import film_history
-from ehlcontact.film_wave import film_wave
+from ehlcontact.film import film_history, film_wave
 from ehlcontact.transient.result import SimulationResult
 
 WITHIN = 1.1  # semi-axes of the film wave shown: beyond, the film follows the approach at once
