@@ -1,46 +1,13 @@
 """Contact elements reduced from transient EHL, and rotors that run on them.
 
-| module | is responsible for |
+| room | is responsible for |
 |---|---|
-| records | histories of approach, rate and force, simulated or measured |
-| least_squares | linear least squares by QR, singular columns by name |
-| power_fit | variable projection for the power law |
-| estimators | the models that `fit` knows |
-| uncertainty | intervals of coefficients where residuals hang together |
-| fit, fit_result | records to element: quality, validity, root and tangent |
-| sensitivity | which terms of the seven-term polynomial the records need |
-| element | the kinds of element, `load_element` |
-| element_base | what every element carries: validity box, quality, source, units, file |
-| element_file | the JSON file of an element |
-| validity | the warning for leaving the box |
-| memoryless | elements without memory: forces, tangents, python-control export |
-| ends | how springs and dampers go on outside the box |
-| viscous, viscous_law | `LinearContact`, `CubicContact`, and their law as compiled kernels |
-| polynomial, polynomial_law | `PolynomialContact`, likewise |
-| power, power_law | `PowerLawContact`, likewise |
-| film_law, film_curve, film_filters | a dry spring on a film that remembers: kernels, statics, impedance |
-| film_ode | the film law in continuous time |
-| film_contact | what the elements with a film memory have in common |
-| memory, memory_target, memory_fit | `FilmMemoryContact`, and its joint fit to impedance and records |
-| wide, wide_build | `WideRangeContact`, and its building from solves |
-| atlas | `Atlas`: answers with error bars and elements, from contacts solved beforehand |
-| atlas_box, atlas_table, atlas_surface | where it answers, what it holds, how that is interpolated |
-| atlas_element | elements from its answers |
-| atlas_build | building it: sample, workers, work file, table |
-| atlas_sample, atlas_solve | points of a build, and the solve of one |
-| atlas_work, atlas_workers | solved points on disk, and the processes or cluster that solve |
-| atlas_assemble | from solved points to the table |
-| contact | the protocol every contact obeys; `ScaledContact` shows a dimensionless one in SI |
-| oscillator | one mass on one element |
-| jeffcott | rotor parameters, contact mounts, linear matrices |
-| equilibrium | static equilibrium on contacts that know their statics |
-| time_integration | generalised-alpha step condensed onto the journal |
-| contact_forces | forces and slopes of all contacts in a step |
-| rotor_simulation | the transient run: checks, Ctrl-C, failure |
-| rotor_stepper | one step after the other, with the history so far |
-| rotor_result | histories and status of a run |
-| compare | full against reduced response |
+| elements | the elements: law, validity, units, file; `load_element` |
+| fitting | elements from data: `ContactRecord`, `fit`, `fit_memory`, `sensitivity` |
+| atlas | elements without a solve: `Atlas`, from contacts solved beforehand, with error bars |
+| rotor | what runs on elements and full films: `simulate_rotor`, `simulate_oscillator`, `compare` |
 
+To come: bearing (geometry, ball bearing, excitation) and adapters (to other programs' rotors and controllers).
 Symbols and units: `ehlcontact.point`.
 """
 

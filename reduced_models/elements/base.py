@@ -93,6 +93,21 @@ class ContactElement(ABC):
     def step_tangents(self, dt: float, approach: float, rate: float) -> tuple[float, float, float]:
         """What `advance` would return, and its derivatives dF/du and dF/du'; the state stays."""
 
+    @property
+    @abstractmethod
+    def state_count(self) -> int:
+        """Number of states in continuous time; none without memory."""
+
+    @abstractmethod
+    def state_rates(
+        self, states: NDArray[np.float64], approach: float, rate: float
+    ) -> tuple[float, NDArray[np.float64]]:
+        """Force and d(states)/dt in continuous time; the element's own state is not touched."""
+
+    @abstractmethod
+    def rate_under(self, states: NDArray[np.float64], approach: float, force: float) -> float:
+        """Rate at which the contact carries `force` > 0: the motion without inertia."""
+
     @abstractmethod
     def approach_at(self, force: float) -> float:
         """Static approach under `force` > 0."""

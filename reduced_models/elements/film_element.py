@@ -214,6 +214,10 @@ class FilmContact(ContactElement):
         f, length, time = self._units
         return float(film_rate(self.law, states, approach / length, force / f)) * length / time
 
+    def rate_under(self, states: _Floats, approach: float, force: float) -> float:
+        """As `rate_at`: the name that elements without memory have too."""
+        return self.rate_at(states, approach, force)
+
     def to_control(self, name: str = "contact") -> Any:
         """Nonlinear python-control system with inputs u, v, output F and the film's states (continuous time)."""
         import control

@@ -108,6 +108,19 @@ class MemorylessContact(ContactElement):
             raise InputError(f"damping at approach {approach:g}", damping, "> 0 for a motion without inertia")
         return (force - spring) / damping
 
+    @property
+    def state_count(self) -> int:
+        """No states."""
+        return 0
+
+    def state_rates(self, states: _Floats, approach: float, rate: float) -> tuple[float, _Floats]:
+        """Force, and the rates of no states."""
+        return self.force(float(approach), float(rate)), states
+
+    def rate_under(self, states: _Floats, approach: float, force: float) -> float:
+        """As `rate_at`, whatever the states."""
+        return self.rate_at(approach, force)
+
     def advance(self, dt: float, approach: float, rate: float) -> float:
         """Force at the end of a step; `dt` is ignored, for the element has no memory."""
         approach, rate = float(approach), float(rate)

@@ -37,7 +37,7 @@ WEIGHTS = {"damping": WEIGHT_C, "stiffness": WEIGHT_K, "force": FORCE_WEIGHT}  #
 TRANSIT_TIME = 1.6  # start: time in which the chain carries the film through
 RATE_STARTS = ((30.0, 60.0), (200.0, 80.0))  # of inlet and fast rate; the better of two minima is taken
 SQUEEZE_START = 0.25
-LIMITS = ((0.5, 200.0), (2.0, 300.0), (5.0, 1000.0), (0.0, 20.0))  # of lag, inlet and fast rate, squeeze
+SEARCH_LIMITS = ((0.5, 200.0), (2.0, 300.0), (5.0, 1000.0), (0.0, 20.0))  # of lag, inlet and fast rate, squeeze
 SEARCH: dict[str, Any] = {"diff_step": 1e-3, "max_nfev": 30}  # steps of differences on logs of rates; rounds
 SEARCH_TOLERANCE = 1e-4  # of the cost and of the logs, relative: a hundredth of a per cent of a rate
 
@@ -250,7 +250,7 @@ def _solve(target: Target, lags: int) -> tuple[FilmMemoryContact, GainFit]:
             rows.append(error / (FORCE_WEIGHT * np.std(record.force) * np.sqrt(len(record))))
         return np.concatenate(rows)
 
-    lower, upper = np.array(LIMITS).T.copy()
+    lower, upper = np.array(SEARCH_LIMITS).T.copy()
     lower[:3], upper[:3] = np.log(lower[:3]), np.log(upper[:3])
     tolerances = {"xtol": SEARCH_TOLERANCE, "ftol": SEARCH_TOLERANCE}
     solutions = []

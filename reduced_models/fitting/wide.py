@@ -11,17 +11,19 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import least_squares
 
 from ehlcontact import impedance, solve_steady
+from ehlcontact.checks import as_column
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
 from ehlcontact.point import Point, moes_point, scales_of
-from reduced_models.elements.film_curve import increasing
 from reduced_models.elements.film_response import FilterRates, fit_gains
 from reduced_models.elements.memory import FilmMemoryContact
 from reduced_models.elements.wide import WideRangeContact
-from reduced_models.fitting.memory import LIMITS, OMEGAS, RATE_STARTS, SEARCH, TRANSIT_TIME, Response
+from reduced_models.fitting.memory import OMEGAS, RATE_STARTS, SEARCH, SEARCH_LIMITS, TRANSIT_TIME, Response
 
 _Floats = NDArray[np.float64]
 
+# Loads, in units of the reference load, of the steady films that give the static curve, about evenly on the
+# logarithm; and of the impedances that give the gains.
 LOADS = (0.005, 0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.6, 1.0, 1.7, 3.0)
 MEMORY_LOADS = (0.03, 0.1, 0.3, 1.0, 2.0)
 
@@ -61,7 +63,10 @@ def wide_range_contact(
     InputError
         Tables that make no contact.
     """
-    at, places = increasing("loads", loads, 2), increasing("gain_loads", gain_loads)
+    at, places = (
+        as_column("loads", loads, least=2, increasing=True),
+        as_column("gain_loads", gain_loads, increasing=True),
+    )
     if len(responses) != places.size:
         raise InputError("number of responses", len(responses), f"one per load of gain_loads, {places.size}")
     u = np.asarray(approach, float) * at ** (2.0 / 3.0)
@@ -117,7 +122,10 @@ def wide_range_from_solves(
     ConvergenceError
         A solve did not converge.
     """
-    at, places = increasing("loads", loads, 2), increasing("memory_loads", memory_loads)
+    at, places = (
+        as_column("loads", loads, least=2, increasing=True),
+        as_column("memory_loads", memory_loads, increasing=True),
+    )
     for name, values in (("loads[0]", at), ("memory_loads[0]", places)):
         if values[0] <= 0.0:
             raise InputError(name, float(values[0]), "> 0")
@@ -144,7 +152,7 @@ def _common_rates(responses: Sequence[Response], lags: int) -> FilterRates:
         fits = [fit_gains(rates(p), r.omega, r.stiffness, r.damping, _static(r)) for r in responses]
         return np.concatenate([fit.residuals for fit in fits])
 
-    lower, upper = np.log(np.array(LIMITS[:3])).T
+    lower, upper = np.log(np.array(SEARCH_LIMITS[:3])).T
     solutions = [
         least_squares(residuals, np.log([lags / TRANSIT_TIME, *start]), bounds=(lower, upper), **SEARCH)
         for start in RATE_STARTS

@@ -20,7 +20,7 @@ BALANCED = 1e-12  # imbalance over the load that ends the iteration
 BALANCED_BY_ROUNDING = 1e-9  # imbalance over the load that is accepted where steps no longer help
 # Stiffness given to directions that have none, over that of the others: contacts on one side only leave one.
 REGULARISATION = 1e-6
-MOST_STEPS = 100
+MOST_STEPS = 100  # of which Newton needs a handful where contacts neither open nor close
 FIRST_STEP = 1e-9  # [m], along the load, from where all contacts may be open; the search doubles it
 LONGEST_STEP = 1.0  # no journal travels this far [m]; beyond it the contacts do not stand in the way
 

@@ -11,15 +11,15 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import solve_ivp
 
 from ehlcontact import Status
-from ehlcontact.checks import require_choice, require_finite, require_positive
+from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.elements.base import ContactElement
-from reduced_models.elements.film_element import FilmContact
-from reduced_models.elements.memoryless import MemorylessContact
 from reduced_models.elements.validity import frequency_of
 
+_Floats = NDArray[np.float64]
+
 METHODS = ("Radau", "BDF", "LSODA", "DOP853", "RK45", "RK23")
-_IMPLICIT = ("Radau", "BDF", "LSODA")
+_IMPLICIT = ("Radau", "BDF", "LSODA")  # of them, those that take a Jacobian
 
 Load = float | ArrayLike | Callable[[float], float]
 
@@ -28,11 +28,11 @@ Load = float | ArrayLike | Callable[[float], float]
 class OscillatorResult:
     """Histories at the times T, each of shape (N,), in the units of the element."""
 
-    T: NDArray[np.float64]
-    approach: NDArray[np.float64]
-    rate: NDArray[np.float64]
-    force: NDArray[np.float64]
-    load: NDArray[np.float64]
+    T: _Floats
+    approach: _Floats
+    rate: _Floats
+    force: _Floats
+    load: _Floats
     evaluations: int
     status: Status
 
@@ -80,7 +80,8 @@ def simulate_oscillator(
     """
     require_choice("method", method, METHODS)
     rtol = require_positive("rtol", rtol)
-    times = _times(T)
+    require_instance("element", element, ContactElement, "a contact element")
+    times = as_column("T", T, least=2, increasing=True)
     applied = _load(load, times)
     start = [require_finite("u0", u0)]
     size = max(abs(float(element.high)), abs(u0))
@@ -92,30 +93,18 @@ def simulate_oscillator(
         # Rate of an oscillation as large as the motion, on the secant stiffness.
         speed = np.sqrt(square * abs(float(element.spring(size))) / size) * size
         atol.append(rtol * speed)
-    options: dict[str, Any] = {}
-    if isinstance(element, FilmContact):
-        rates = _film(element, applied, square)
-        start += [0.0] * element.state_count
-        atol += [rtol] * element.state_count
-    elif isinstance(element, MemorylessContact):
-        if square is None:
-            element.rate_at(start[0], 1.0)  # needs a damper
-        rates, jacobian = (
-            _quasi_static(element, applied) if square is None else _inertial(element, applied, square)
-        )
-        options = {"jac": jacobian} if method in _IMPLICIT else {}
-    else:
-        raise InputError("element", type(element).__name__, "a contact element")
+    rates, jacobian = _quasi_static(element, applied) if square is None else _inertial(element, applied, square)
+    exact = element.state_count == 0 and method in _IMPLICIT
     solution = solve_ivp(
         rates,
         (times[0], times[-1]),
-        start,
+        start + [0.0] * element.state_count,
         method=method,
         t_eval=times,
         rtol=rtol,
-        atol=atol,
+        atol=atol + [rtol] * element.state_count,
         max_step=float(np.diff(times).max()),
-        **options,
+        **({"jac": jacobian} if exact else {}),
     )
     ended = solution.success and bool(np.all(np.isfinite(solution.y)))
     status = Status.CONVERGED if ended else Status.FAILED
@@ -128,35 +117,14 @@ def simulate_oscillator(
     return result
 
 
-def _film(element: FilmContact, applied: Callable[[float], float], square: float | None) -> Callable:
-    """Approach, rate where there is inertia, and the states of the film."""
+def _inertial(element: Any, applied: Callable[[float], float], square: float) -> tuple[Callable, Callable]:
+    """Rates of approach, rate and states; the Jacobian is that of an element without states."""
 
-    def inertial(time: float, y: NDArray[np.float64]) -> NDArray[np.float64]:
+    def rates(time: float, y: _Floats) -> _Floats:
         force, states = element.state_rates(y[2:], float(y[0]), float(y[1]))
-        return np.array([y[1], square * (applied(time) - force), *states])  # type: ignore[operator]
+        return np.array([y[1], square * (applied(time) - force), *states])
 
-    def quasi_static(time: float, y: NDArray[np.float64]) -> NDArray[np.float64]:
-        v = element.rate_at(y[1:], float(y[0]), _pressing(applied, time))
-        return np.array([v, *element.state_rates(y[1:], float(y[0]), v)[1]])
-
-    return quasi_static if square is None else inertial
-
-
-def _pressing(applied: Callable[[float], float], time: float) -> float:
-    f = applied(time)
-    if f <= 0.0:
-        raise InputError(f"load at T = {time:g}", f, "> 0 for a motion without inertia")
-    return f
-
-
-def _inertial(
-    element: MemorylessContact, applied: Callable[[float], float], square: float
-) -> tuple[Callable, Callable]:
-    def rates(time: float, y: NDArray[np.float64]) -> list[float]:
-        u, v = float(y[0]), float(y[1])
-        return [v, square * (applied(time) - float(element.force(u, v)))]
-
-    def jacobian(time: float, y: NDArray[np.float64]) -> list[list[float]]:
+    def jacobian(time: float, y: _Floats) -> list[list[float]]:
         u, v = float(y[0]), float(y[1])
         return [
             [0.0, 1.0],
@@ -166,39 +134,31 @@ def _inertial(
     return rates, jacobian
 
 
-def _quasi_static(element: MemorylessContact, applied: Callable[[float], float]) -> tuple[Callable, Callable]:
-    def rates(time: float, y: NDArray[np.float64]) -> list[float]:
-        return [element.rate_at(float(y[0]), _pressing(applied, time))]
+def _quasi_static(element: Any, applied: Callable[[float], float]) -> tuple[Callable, Callable]:
+    """Rates of approach and states; the Jacobian is that of an element without states."""
 
-    def jacobian(time: float, y: NDArray[np.float64]) -> list[list[float]]:
-        u = float(y[0])
-        v = rates(time, y)[0]
+    def rates(time: float, y: _Floats) -> _Floats:
+        u, f = float(y[0]), applied(time)
+        if f <= 0.0:
+            raise InputError(f"load at T = {time:g}", f, "> 0 for a motion without inertia")
+        v = element.rate_under(y[1:], u, f)
+        return np.array([v, *element.state_rates(y[1:], u, v)[1]])
+
+    def jacobian(time: float, y: _Floats) -> list[list[float]]:
+        u, v = float(y[0]), float(rates(time, y)[0])
         # On F(u, v) = load: dv/du = -F_u/F_v.
         return [[-element.stiffness(u, v) / element.damping(u, v)]]
 
     return rates, jacobian
 
 
-def _times(T: ArrayLike) -> NDArray[np.float64]:
-    times = np.array(T, dtype=np.float64)
-    if times.ndim != 1 or times.size < 2:
-        raise InputError("shape of T", times.shape, "one-dimensional with at least 2 times")
-    if not np.all(np.isfinite(times)) or np.any(np.diff(times) <= 0.0):
-        raise InputError("T", "not finite or not increasing", "finite and strictly increasing")
-    return times
-
-
-def _load(load: Load, times: NDArray[np.float64]) -> Callable[[float], float]:
+def _load(load: Load, times: _Floats) -> Callable[[float], float]:
     if callable(load):
         return lambda time: require_finite(f"load at T = {time:g}", load(time))
-    values = np.asarray(load, dtype=np.float64)
-    if not np.all(np.isfinite(values)):
-        raise InputError("load", "not finite", "finite")
-    if values.ndim == 0:
-        constant = float(values)
+    if np.ndim(load) == 0:
+        constant = float(as_column("load", np.atleast_1d(load))[0])
         return lambda time: constant
-    if values.shape != times.shape:
-        raise InputError("shape of load", values.shape, f"that of T, {times.shape}")
+    values = as_column("load", load, size=times.size)
     return lambda time: float(np.interp(time, times, values))
 
 
@@ -214,9 +174,6 @@ def _result(
     y = np.asarray(solution.y, dtype=np.float64).reshape(-1, T.size) if T.size else np.empty((2, 0))
     load = np.array([applied(time) for time in T])
     rate = y[1] if inertia else np.array([rates(time, y[:, i])[0] for i, time in enumerate(T)])
-    if isinstance(element, MemorylessContact):
-        force = np.asarray(element.force(y[0], rate), dtype=np.float64)
-    elif isinstance(element, FilmContact):
-        states = y[2 if inertia else 1 :].T
-        force = np.array([element.state_rates(*at)[0] for at in zip(states, y[0], rate, strict=True)])
+    states = y[2 if inertia else 1 :].T
+    force = np.array([element.state_rates(*at)[0] for at in zip(states, y[0], rate, strict=True)])
     return OscillatorResult(T, y[0], rate, force, load, int(solution.nfev), status)
