@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from ehlcontact import InputError, MoesPoint, Purpose, mesh_for
-from ehlcontact.impedance import impedance
+from ehlcontact.impedance import LinearisedContact, impedance
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
-from ehlcontact.solver.linearised_contact import LinearisedContact
 from ehlcontact.solver.mesh import NEAR_DOMAIN
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.steady import solve_steady
@@ -83,6 +82,11 @@ def test_fine_grid_is_within_reach(steady):
     Z, tight = (contact.respond(omega, tolerance)[0] for tolerance in (1e-5, 1e-7))
     np.testing.assert_allclose(Z.real, tight.real, rtol=1e-4)
     np.testing.assert_allclose(Z.imag, tight.imag, rtol=5e-4)
+
+
+def test_tells_the_film_that_was_linearised(steady):
+    film, result = steady(200, 10, 0.5, 48), impedance(POINT, [0.0], n=48)
+    assert (result.approach, result.h_central, result.h_min) == (film.approach, film.h_central, film.h_min)
 
 
 def test_static_stiffness_is_the_slope_of_the_load_curve():
