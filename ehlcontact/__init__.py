@@ -26,7 +26,6 @@ module                  responsibility
 ``checkpoint``          a run's file to go on from
 ``simulate``            `simulate`
 ``surface``             travelling features: `Dent`, `TransverseRidge`, `Waviness`
-``linearised_contact``  impedance of many frequencies from a few solves
 ``impedance``           `impedance`: K and C over frequency from the linearised steady state
 ``full_contact``        `FullContact`: the whole film as a force element
 ``film``                the film to look at: `film_of`, `interferogram`, `film_history`, `film_wave`

@@ -5,8 +5,10 @@ A harmonic approach ``u + du exp(i Omega T)`` makes a pressure ``P + dP exp(i Om
     (J + i Omega B) dP = -(j + i Omega b) du      on the nodes with P > 0,
 
 J and j being the derivatives of the steady Reynolds operator to P and u with full elasticity, B and b those of
-the squeeze term. The impedance is ``Z(Omega) = 3/(2 pi) iint dP / du = K + i Omega C``; `linearised_contact`
-solves for it.
+the squeeze term. The impedance is ``Z(Omega) = 3/(2 pi) iint dP / du = K + i Omega C``.
+
+A few frequencies are solved. In the space of the real and imaginary parts of their solutions every other one is a
+small least-squares problem, whose residual is the error measure: the frequency with the largest is solved next.
 """
 
 from __future__ import annotations
@@ -16,26 +18,41 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import linalg
 from threadpoolctl import threadpool_limits
 
+from ehlcontact.checks import require_choice
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, moes_point, scales_of
 from ehlcontact.results import ImpedanceResult, SteadyResult
+from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.linearised_contact import LinearisedContact
-from ehlcontact.solver.mesh import Purpose, mesh_for, remedy
+from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
+from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, remedy
+from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 TOLERANCE = 1e-5  # of the linear residuals; C is then within 3e-4 of the exact solve up to Omega = 30
 LARGEST_OMEGA = 200.0
 NEAR_ZERO = 1e-4  # where C(0) is evaluated
+PRESCRIBED = Balance.of_approach(0.0)
+KEEP_FACTORS = 5.0  # change of Omega for which the factors of short waves serve
+SOLVE_SHARE = 0.3  # of the tolerance, for the solves themselves
+SMALLEST_NEW_PART = 1e-10  # of a vector, outside the space so far
 
 
 def impedance(
-    point: Point, omegas: Sequence[float] | Array, *, n: int | None = None, domain: Domain | None = None
+    point: Point,
+    omegas: Sequence[float] | Array,
+    *,
+    n: int | None = None,
+    domain: Domain | None = None,
+    deflection: str = "fft",
 ) -> ImpedanceResult:
     """Linearise the converged steady contact and return K(Omega) and C(Omega).
 
@@ -48,20 +65,23 @@ def impedance(
         Intervals along X, a multiple of 16; by default as many as the inlet needs, 80 or more.
     domain : Domain, optional
         Computed region, by default that of `solve_steady`. C depends on it by about 1/extent^2.
+    deflection : {"fft", "mlmi", "direct"}
+        Engine of the elastic deflection, as in `solve_steady`.
 
     Raises
     ------
     InputError
-        `omegas` empty, not finite, negative or above 200; n not a multiple of 16.
+        `omegas` empty, not finite, negative or above 200; n not a multiple of 16; no such engine.
     ConvergenceError
         The steady state did not converge.
     """
     started = time.perf_counter()
     omega = _check_frequencies(omegas)
+    require_choice("deflection", deflection, tuple(ENGINES))
     moes = moes_point(point)
     with threadpool_limits(1, user_api="blas"):  # its threads wait for each other on matrices as small as these
-        steady = _steady(point, n, domain)
-        contact = LinearisedContact(moes, steady.domain, steady.n, steady.P, steady.approach)
+        steady = _steady(point, n, domain, deflection)
+        contact = LinearisedContact(steady, deflection)
         Z, residual = contact.respond(np.maximum(omega, NEAR_ZERO), TOLERANCE)
     return ImpedanceResult(
         point=moes,
@@ -73,17 +93,19 @@ def impedance(
         damping=Z.imag / np.maximum(omega, NEAR_ZERO),
         residual=residual,
         approach=steady.approach,
+        h_central=steady.h_central,
+        h_min=steady.h_min,
         seconds=time.perf_counter() - started,
     )
 
 
-def _steady(point: Point, n: int | None, domain: Domain | None) -> SteadyResult:
+def _steady(point: Point, n: int | None, domain: Domain | None, deflection: str) -> SteadyResult:
     """The film to linearise; on a wider region where that is left open and light load needs it."""
     moes = moes_point(point)
     mesh = mesh_for(moes, Purpose.DAMPING, n=n, domain=domain)
-    steady = solve_steady(point, n=mesh.n, domain=mesh.domain, throw=False)
+    steady = solve_steady(point, n=mesh.n, domain=mesh.domain, deflection=deflection, throw=False)
     if (wider := remedy(mesh, steady.status, moes, Purpose.DAMPING, n=n, domain=domain)) is not None:
-        steady = solve_steady(point, n=wider.n, domain=wider.domain, throw=False)
+        steady = solve_steady(point, n=wider.n, domain=wider.domain, deflection=deflection, throw=False)
     if steady.status is Status.INTERRUPTED:
         raise KeyboardInterrupt  # there is nothing to keep: no frequency has been looked at
     if not steady.status.ok:
@@ -102,3 +124,105 @@ def _check_frequencies(omegas: Sequence[float] | Array) -> Array:
     if bad.size:
         raise InputError("omegas", float(bad[0]), f"finite, >= 0 and <= {LARGEST_OMEGA:g}")
     return omega
+
+
+class LinearisedContact:
+    """Derivatives of the contact at its steady state.
+
+    Vectors hold the m nodes with P > 0. Sparse factors, for the short waves, serve a band of frequencies; dense
+    ones, for the long waves, are made at each.
+
+    Parameters
+    ----------
+    film : SteadyResult
+    deflection : {"fft", "mlmi", "direct"}
+        Engine by which it was solved.
+    """
+
+    def __init__(self, film: SteadyResult, deflection: str = "fft") -> None:
+        self._multigrid = Multigrid(film.point, Mesh(film.n, film.domain), deflection=deflection)
+        level = self._level = self._multigrid.finest
+        level.P[...] = film.P.T
+        level.update(film.approach)
+        self._free = level.P > 0.0
+        self.nodes = np.flatnonzero(self._free)
+        self.weights = level.force_weights.ravel()[self.nodes]
+        self._steady, self._unit = (LinearFilm(level, self._free, PRESCRIBED, c_t) for c_t in (0.0, 1.0))
+        self.j = self._steady.by_approach[self.nodes]
+        self.b = self._unit.by_approach[self.nodes] - self.j
+        self._row_scale = 1.0 / np.abs(self._steady.diagonal()[self.nodes])
+        self._near: list[tuple[float, NearCorrection]] = []
+
+    def products(self, dP: Array) -> tuple[Array, Array]:
+        """J dP and B dP."""
+        x = np.zeros(self._free.size)
+        x[self.nodes] = dP
+        film = self._steady.deflect(x)
+        steady, unit = (system.at_nodes(x, film)[self.nodes] for system in (self._steady, self._unit))
+        return steady, unit - steady
+
+    def solve(self, omega: float, start: Complex, tolerance: float) -> Complex:
+        """Complex solution dP for du = 1 at one frequency, improving on `start`, both (m,)."""
+        system = LinearFilm(self._level, self._free, PRESCRIBED, 1j * omega)
+        reach = [abs(omega - w) for w, _ in self._near]
+        if not reach or min(reach) > KEEP_FACTORS:
+            self._near.append((omega, NearCorrection(self._level, system)))
+            reach.append(0.0)
+        near = self._near[int(np.argmin(reach))][1]
+        preconditioner = Preconditioner(self._multigrid.levels, system, near)
+        x = np.zeros(self._free.size + 1, dtype=complex)
+        x[self.nodes], x[-1] = start, 1.0
+        b = -system(x)
+        b[-1] = 0.0
+        drop = tolerance * linalg.norm(self.j + 1j * omega * self.b) / linalg.norm(b)
+        return (x + solve_linear(system, preconditioner, b, drop).x)[self.nodes]
+
+    def respond(self, omega: Array, tolerance: float) -> tuple[Complex, Array]:
+        """Impedance at each frequency > 0, and the relative residual of its linear system, both (k,).
+
+        `tolerance` is for the residuals, their imaginary part counted relative to Omega below Omega = 1. Where
+        a solve fails to reach it, the residual returned tells.
+        """
+        basis: list[Array] = []
+        products: list[Array] = [self.j, self.b]
+        done: set[int] = set()
+        while True:
+            space = np.array(basis).reshape(len(basis), self.nodes.size)
+            # Every residual is a combination of these columns: their triangular factor stands for them.
+            columns = np.array(products).T * self._row_scale[:, None]
+            R = linalg.qr(columns, mode="r", overwrite_a=True, check_finite=False)[0][: columns.shape[1]]
+            solutions = [_least_squares(R, w) for w in omega]
+            error = np.array([e for _, _, e in solutions])
+            error[list(done)] = 0.0
+            worst = int(np.argmax(error))
+            if error[worst] < tolerance:
+                Z = np.array([(space @ self.weights) @ y for y, _, _ in solutions])
+                return Z, np.array([r for _, r, _ in solutions])
+            done.add(worst)
+            w = float(omega[worst])
+            dP = self.solve(w, solutions[worst][0] @ space, SOLVE_SHARE * tolerance * min(1.0, w))
+            for part in (dP.real, dP.imag):
+                x = part / linalg.norm(part)
+                for _ in range(2):  # the second time for rounding
+                    x = x - (space @ x) @ space
+                size = linalg.norm(x)
+                if size > SMALLEST_NEW_PART:
+                    basis.append(x / size)
+                    space = np.array(basis)
+                    products += self.products(basis[-1])
+
+
+def _least_squares(R: Array, w: float) -> tuple[Complex, float, float]:
+    """Coefficients of the best solution at one frequency, its relative residual, and that weighted for C.
+
+    The weight makes the imaginary part count relative to Omega: K comes from the real part, Omega C from the
+    other.
+    """
+    matrix, rhs = R[:, 2::2] + 1j * w * R[:, 3::2], -(R[:, 0] + 1j * w * R[:, 1])
+    y = np.zeros(0, dtype=complex)
+    if matrix.shape[1]:
+        y = linalg.lstsq(matrix, rhs, check_finite=False, lapack_driver="gelsy")[0]
+    r = rhs - matrix @ y
+    size = linalg.norm(rhs)
+    weighted = np.hypot(linalg.norm(r.real), linalg.norm(r.imag) / min(1.0, w))
+    return y, float(linalg.norm(r) / size), float(weighted / size)

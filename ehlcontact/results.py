@@ -85,6 +85,8 @@ class ImpedanceResult(Origin):
     damping: Array  # (k,) C(Omega) = Im Z/Omega, its limit at Omega = 0
     residual: Array  # (k,) relative residual of the linear system
     approach: float  # of the steady state / dry approach
+    h_central: float  # its film at X = Y = 0 / dry approach
+    h_min: float  # and its smallest
 
     @property
     def impedance(self) -> NDArray[np.complex128]:

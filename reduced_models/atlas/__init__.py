@@ -1,1 +1,14 @@
-"""Room."""
+"""The atlas: answers at once for any point of its box, from contacts solved beforehand.
+
+| module | is responsible for |
+|---|---|
+| atlas | `Atlas`: answers with error bars, and elements, at a point |
+| table | what it holds: box, points, answers, the numbers of its interpolation; the file |
+| surface | interpolation of the table, and its error bars |
+| elements | contact elements from answers under one or several loads |
+| build | `build_atlas`: sample, solve what is missing, put together; the numbers of a build |
+| sample | the points of a build |
+| solve | one of them solved |
+| work | the file of solved points, and the processes or the cluster that solve them |
+| tune | how the numbers of a build were found |
+"""

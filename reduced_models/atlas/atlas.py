@@ -15,10 +15,9 @@ from numpy.typing import NDArray
 from ehlcontact.checks import require_choice, require_finite
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Point, moes_point, scales_of
-from reduced_models.atlas.box import Box
 from reduced_models.atlas.elements import Loads, cubic_element, memory_element, passive_gains, wide_element
-from reduced_models.atlas.surface import REFERENCE, AtlasSurface
-from reduced_models.atlas.table import AtlasTable
+from reduced_models.atlas.surface import AtlasSurface
+from reduced_models.atlas.table import AtlasTable, Box
 from reduced_models.elements.film_response import DRY
 from reduced_models.elements.kinds import CubicContact, FilmMemoryContact, WideRangeContact
 
@@ -30,11 +29,6 @@ VIBRATION = 2.0 * math.pi  # frequency of the paper's vibrations, for the cubic
 # Loads of a wide-range element, as far as the box goes.
 LOADS = np.array([0.01, 0.03, 0.07, 0.15, 0.3, 0.6, 1.0, 1.7, 3.0])
 NEIGHBOURS = 1.2  # ratio below which a load is left out beside the end of the box
-# Another oil's alpha [1/Pa] and eta0 [Pa s] enter besides M, L and kappa through the Hertz pressure alone. Within
-# these ranges they are accepted: what ln of films, K and C change at most per unit of ln alpha and ln eta0 widens
-# the error bars (solved for at light, middle and heavy load; K changes the less the thinner the film).
-ALPHA, ETA0 = (1e-8, 4e-8), (0.002, 1.0)
-OIL = {"film": (0.17, 0.015), "stiffness": (0.12, 0.015), "damping": (0.18, 0.02)}
 
 
 @dataclass(frozen=True)
@@ -173,7 +167,8 @@ class Atlas:
         laws = self._table.metadata["viscosity"], self._table.metadata["density"]
         if (moes.viscosity, moes.density) != laws:
             raise InputError("viscosity and density", (moes.viscosity, moes.density), f"{laws}, as of the atlas")
-        for name, (low, high) in (("alpha", ALPHA), ("eta0", ETA0)):
+        for name in ("alpha", "eta0"):
+            low, high = getattr(self._table.oil, name)
             if not low <= getattr(moes, name) <= high:
                 raise InputError(
                     name, getattr(moes, name), f"between {low:g} and {high:g}, the range of the atlas"
@@ -192,11 +187,9 @@ class Atlas:
 
     def _oil_error(self, point: MoesPoint, approach: float) -> _Floats:
         """Error bars of the smooth variables for an oil whose alpha and eta0 are not those of the atlas."""
-        meta, k = self._table.metadata, self._table.omega.size
-        shift = abs(math.log(point.alpha / meta["alpha"])), abs(math.log(point.eta0 / meta["eta0"]))
-        film, K, C = (
-            OIL[name][0] * shift[0] + OIL[name][1] * shift[1] for name in ("film", "stiffness", "damping")
-        )
+        meta, oil, k = self._table.metadata, self._table.oil, self._table.omega.size
+        alpha, eta0 = abs(math.log(point.alpha / meta["alpha"])), abs(math.log(point.eta0 / meta["eta0"]))
+        film, K, C = (slope[0] * alpha + slope[1] * eta0 for slope in (oil.film, oil.stiffness, oil.damping))
         return np.concatenate([[film, film, film, C], np.full(k, K * min(1.0 - approach, 1.0)), np.full(k, C)])
 
     def _named(self, row: _Floats) -> dict[str, Any]:
@@ -214,7 +207,7 @@ class Atlas:
                 "approach": float(bars[0]),
                 "h_central": float(bars[1]),
                 "tangent": float(bars[4]),
-                "damping": float(bars[4 + k + REFERENCE]),
+                "damping": float(bars[4 + k + self._table.interpolation.reference]),
             },
         }
 

@@ -1,25 +1,47 @@
-"""Building the atlas: every sample point solved once, kept in a work file that survives a kill."""
+"""Building the atlas: sample points solved once, kept in a work file that survives a kill, and made a table.
+
+The numbers by which that is done stand here, go into the file of the atlas, and are read from there.
+"""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ehlcontact import __version__
-from reduced_models.atlas.assemble import assemble
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import nnls
+
+from ehlcontact import Domain, Mesh, MoesPoint, __version__
+from ehlcontact.errors import InputError
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import OMEGAS, solve_point
-from reduced_models.atlas.table import AtlasTable
-from reduced_models.atlas.work import WorkFile
-from reduced_models.atlas.workers import Job, Solve, on_cluster, on_processes
+from reduced_models.atlas.surface import coordinates, error_factor, left_out_errors, to_smooth
+from reduced_models.atlas.table import FIRST_INTERPOLATION, FIRST_OIL, AtlasTable, Box
+from reduced_models.atlas.work import Job, Solve, Solved, WorkFile, on_cluster, on_processes
+from reduced_models.elements.film_response import DRY, WEIGHT_C, WEIGHT_K, FilterRates
 
-DRAWS, LIGHT_DRAWS, SEED = 384, 256, 4
+_Floats = NDArray[np.float64]
+Entry = Mapping[str, Any]
 Progress = Callable[[int, int], None]
 
+DRAWS, LIGHT_DRAWS, SEED = 384, 256, 4
+BOX = Box(M=(5.0, 30000.0), L=(0.0, 25.0), kappa=(0.08, 1.0), p_hertz=3.5e9)
+INTERPOLATION, OIL = FIRST_INTERPOLATION, FIRST_OIL
+RATES = FilterRates(lags=14, lag_rate=5.3, inlet_rate=7.8, fast_rate=39.0)  # that fit all points best together
+HIGHEST = 32.0  # frequency up to which the film memory is fitted
+FLOOR = 0.05  # share of the low-frequency damping below which errors of C count absolutely
+RIDGE = 0.02  # keeps gains small and smooth over the points where data leave them open
+FEWEST = 20  # converged points of an atlas, and pairs from which the oil further out is learnt
 
-def solve_samples(
+
+def build_atlas(
+    output: Path,
     work: Path,
     draws: int = DRAWS,
     light_draws: int = LIGHT_DRAWS,
@@ -29,14 +51,16 @@ def solve_samples(
     scheduler: str | None = None,
     progress: Progress | None = None,
     solve: Solve = solve_point,
-) -> list[dict[str, Any]]:
-    """Solve the sample points that the work file does not hold yet, and return the entries of all.
+) -> AtlasTable:
+    """Solve what is missing, put the table together and write it.
 
-    Killed at any moment and called again it goes on; the entries come out the same. A work file may be carried on
-    with more draws.
+    Killed at any moment and called again it goes on, also with more draws. The file does not depend on who solved
+    the points, nor on how often the build was interrupted.
 
     Parameters
     ----------
+    output : Path
+        The atlas.
     work : Path
         Work file, made if it does not exist.
     draws, light_draws : int
@@ -55,53 +79,16 @@ def solve_samples(
     Raises
     ------
     InputError
-        A work file of other settings, or no scheduler at that address.
+        A work file of other settings, no scheduler at that address, or too few points that converged.
     """
     points = sample_points(draws, light_draws, seed)
+    if scheduler is None:
+        run = partial(on_processes, solve, processes=processes)
+    else:
+        run = partial(on_cluster, solve, scheduler=scheduler)
     with WorkFile(work, settings(seed)) as file:
-        # Thin films take longest and are begun first, so that no process ends up with them alone.
-        jobs: list[Job] = [(name, point) for name, point in points.items() if name not in file.entries]
-        jobs.sort(key=lambda job: job[1].inlet_width)
-        found: Iterable[tuple[str, dict[str, Any]]] = ()
-        if jobs and scheduler is not None:
-            found = on_cluster(solve, jobs, scheduler)
-        elif jobs:
-            found = on_processes(solve, jobs, processes)
-        done = len(points) - len(jobs)
-        for name, entry in found:
-            file.add(name, entry)
-            done += 1
-            if progress is not None:
-                progress(done, len(points))
-        return [file.entries[name] for name in points]
-
-
-def build_atlas(
-    output: Path,
-    work: Path,
-    draws: int = DRAWS,
-    light_draws: int = LIGHT_DRAWS,
-    *,
-    seed: int = SEED,
-    processes: int = 1,
-    scheduler: str | None = None,
-    progress: Progress | None = None,
-    solve: Solve = solve_point,
-) -> AtlasTable:
-    """Solve what is missing, put the table together and write it; arguments as for `solve_samples`.
-
-    The file does not depend on who solved the points, nor on how often the build was interrupted.
-    """
-    entries = solve_samples(
-        work,
-        draws,
-        light_draws,
-        seed=seed,
-        processes=processes,
-        scheduler=scheduler,
-        progress=progress,
-        solve=solve,
-    )
+        _solve_missing(file, points, run, progress)
+        entries = [file.entries[name] for name in points]
     made_by = {
         "command": f"ehlcontact atlas build --draws {draws} --light-draws {light_draws} --seed {seed}",
         "version": __version__,
@@ -116,3 +103,149 @@ def settings(seed: int) -> dict[str, Any]:
     """What the entries of a work file have in common, in the form JSON gives back."""
     found = {"seed": seed, "box": SAMPLED.to_dict(), "omega": list(OMEGAS), "version": __version__}
     return dict(json.loads(json.dumps(found)))
+
+
+def _solve_missing(
+    file: WorkFile,
+    points: Mapping[str, MoesPoint],
+    run: Callable[[Sequence[Job]], Solved],
+    progress: Progress | None,
+) -> None:
+    """Let `run` solve the points that the work file does not hold yet, and keep them there as they come."""
+    # Thin films take longest and are begun first, so that no process ends up with them alone.
+    jobs = [(name, point) for name, point in points.items() if name not in file.entries]
+    jobs.sort(key=lambda job: job[1].inlet_width)
+    found: Iterable[tuple[str, dict[str, Any]]] = run(jobs) if jobs else ()
+    for done, (name, entry) in enumerate(found, len(points) - len(jobs) + 1):
+        file.add(name, entry)
+        if progress is not None:
+            progress(done, len(points))
+
+
+def assemble(entries: Sequence[Entry], made_by: Mapping[str, Any]) -> AtlasTable:
+    """Table of the converged entries; `made_by` goes into its metadata.
+
+    Where the film is so thin that only the near domain was solved, what the oil further out adds to the damping
+    and takes from the approach is learnt from the points that were solved on both: it is the coefficient lambda of
+    the Reynolds equation times a smooth function of kappa and L, since there the gap is that of the dry contact.
+
+    Raises
+    ------
+    InputError
+        Too few converged.
+    """
+    good = [e for e in entries if e["status"] == "converged"]
+    if len(good) < FEWEST:
+        raise InputError("converged points", len(good), f"at least {FEWEST} (more draws)")
+    omega = np.array(OMEGAS)
+    points = _column(good, "M", "L", "kappa")
+    films = [e.get("film", e) for e in good]
+    approach, h_central, h_min = _column(films, "approach", "h_central", "h_min").T
+    K, C = (np.array([e[name] for e in good]) for name in ("stiffness", "damping"))
+    far = _FarOil([e for e in good if e.get("close") is not None])
+    near = np.array([_mesh(e).near for e in good])
+    if near.any():
+        C[near] += far.damping(points[near])
+        ends_near = np.array([_mesh(e).near for e in films])
+        approach[ends_near] += far.approach(points[ends_near])
+    x = coordinates(points, INTERPOLATION)
+    t = to_smooth(points, approach, h_central, h_min, K, C, INTERPOLATION)
+    errors = left_out_errors(x, t)
+    return AtlasTable(
+        points=points,
+        omega=omega,
+        approach=approach,
+        h_central=h_central,
+        h_min=h_min,
+        stiffness=K,
+        damping=C,
+        gains=np.array([smooth_gains(omega, k, c) for k, c in zip(K, C, strict=True)]),
+        left_out=errors,
+        factor=error_factor(x, errors, INTERPOLATION),
+        metadata={**_metadata(entries, good), **made_by},
+    )
+
+
+def _metadata(entries: Sequence[Entry], good: Sequence[Entry]) -> dict[str, Any]:
+    """All numbers by which the table was made, and of what."""
+    law = MoesPoint(good[0]["M"], good[0]["L"], good[0]["kappa"])
+    meshes = Counter((_mesh(e).n, "the near domain" if _mesh(e).near else "the default domain") for e in good)
+    near = next((list(e["domain"]) for e in good if _mesh(e).near), None)
+    return {
+        "box": BOX.to_dict(),
+        "rates": asdict(RATES),
+        "highest_omega": HIGHEST,
+        "gain_fit": {"floor": FLOOR, "ridge": RIDGE},
+        "interpolation": asdict(INTERPOLATION),
+        "oil": asdict(OIL),
+        "points": len(good),
+        "left_out": dict(Counter(str(e["status"]) for e in entries if e["status"] != "converged")),
+        "meshes": {f"{n} on {region}": count for (n, region), count in sorted(meshes.items())},
+        "near_domain": near,
+        "alpha": float(good[0]["alpha"]),
+        "eta0": float(good[0]["eta0"]),
+        "viscosity": law.viscosity,
+        "density": law.density,
+    }
+
+
+def smooth_gains(omega: _Floats, K: _Floats, C: _Floats, rates: FilterRates = RATES) -> _Floats:
+    """Gains >= 0 of the film memory over the low-frequency damping, by least squares on C and K."""
+    rows, target = gain_equations(omega, K, C, rates)
+    return np.asarray(nnls(rows, target, maxiter=1000)[0])
+
+
+def gain_equations(omega: _Floats, K: _Floats, C: _Floats, rates: FilterRates) -> tuple[_Floats, _Floats]:
+    """Rows and right-hand side of that: errors of C, then of K, then the gains themselves."""
+    used, low = omega <= HIGHEST, C[INTERPOLATION.reference]
+    basis = rates.basis(omega[used]) * DRY
+    size = np.maximum(np.abs(C[used]), FLOOR * low) * WEIGHT_C
+    rows = np.vstack(
+        [
+            basis.real / size[:, None],
+            -(omega[used][:, None] * basis.imag) / (WEIGHT_K * K[used])[:, None],
+            np.eye(basis.shape[1]) * (RIDGE / low),
+        ]
+    )
+    target = np.concatenate([C[used] / size, (K[used] - K[0]) / (WEIGHT_K * K[used]), np.zeros(basis.shape[1])])
+    return rows * low, target
+
+
+class _FarOil:
+    """What the default domain has more than the near one, over lambda: linear in ln kappa, its square, and L."""
+
+    def __init__(self, pairs: Sequence[Entry]) -> None:
+        self._damping: _Floats = np.zeros((4, len(OMEGAS)))
+        self._approach: _Floats = np.zeros(4)
+        if len(pairs) < FEWEST:
+            return
+        points = _column(pairs, "M", "L", "kappa")
+        lam = _lambda(points)
+        damping = np.array([np.subtract(e["damping"], e["close"]["damping"]) for e in pairs]) / lam[:, None]
+        approach = np.array([e["approach"] - e["close"]["approach"] for e in pairs]) / lam
+        basis = self._basis(points)
+        self._damping = np.asarray(np.linalg.lstsq(basis, damping)[0])
+        self._approach = np.asarray(np.linalg.lstsq(basis, approach)[0])
+
+    @staticmethod
+    def _basis(points: _Floats) -> _Floats:
+        _, L, kappa = points.T
+        return np.column_stack([np.ones_like(L), np.log(kappa), np.log(kappa) ** 2, L])
+
+    def damping(self, points: _Floats) -> _Floats:
+        return np.asarray(self._basis(points) @ self._damping * _lambda(points)[:, None])
+
+    def approach(self, points: _Floats) -> _Floats:
+        return np.asarray(self._basis(points) @ self._approach * _lambda(points))
+
+
+def _lambda(points: _Floats) -> _Floats:
+    return np.array([MoesPoint(*row).lam for row in points.tolist()])
+
+
+def _column(entries: Sequence[Entry], *names: str) -> _Floats:
+    return np.array([[e[name] for name in names] for e in entries])
+
+
+def _mesh(entry: Entry) -> Mesh:
+    return Mesh(int(entry["n"]), Domain(*entry["domain"]))

@@ -14,16 +14,14 @@ from scipy.stats import qmc
 
 from ehlcontact.formulas import load_number
 from ehlcontact.point import MoesPoint
-from reduced_models.atlas.box import Box
+from reduced_models.atlas.table import Box
 
 OVERSHOOT = 0.08  # share of the cube by which draws reach beyond it, to be moved onto its faces
 PRESSURE_OVERSHOOT = 1.15  # likewise beyond the largest Hertz pressure
-
-
 SAMPLED = Box(M=(4.5, 33000.0), L=(0.002, 26.0), kappa=(0.077, 1.06), p_hertz=3.7e9)
-WARP_M, WARP_L = 1.2, 1.5
-THIN = 0.09  # width of the inlet below which every second draw is left out: dear to solve, and changing slowly
-LIGHT = 15.0  # Wijnant's load number sqrt(Rx/Ry) M up to which the second set reaches
+WARP_M, WARP_L = 1.2, 1.5  # powers of the draw, even in ln M and in L at 1: denser at small M and L
+INLET_SPARSE = 0.09  # inlet width below which every second draw is left out: dear to solve, and changing slowly
+LIGHT = 15.0  # load number up to which the second set reaches
 
 
 def sample_points(draws: int, light_draws: int, seed: int, box: Box = SAMPLED) -> dict[str, MoesPoint]:
@@ -51,7 +49,7 @@ def sample_points(draws: int, light_draws: int, seed: int, box: Box = SAMPLED) -
             M = _between((box.M[0], highest), u if light else u**WARP_M)
             point = MoesPoint(M, box.L[0] + (box.L[1] - box.L[0]) * v**WARP_L, kappa)
             excess = point.p_hertz / box.p_hertz
-            if excess > PRESSURE_OVERSHOOT or (i % 2 and point.inlet_width < THIN):
+            if excess > PRESSURE_OVERSHOOT or (i % 2 and point.inlet_width < INLET_SPARSE):
                 continue
             if excess > 1.0:  # pressure grows like M^(1/3)
                 point = replace(point, M=point.M * excess**-3.0)

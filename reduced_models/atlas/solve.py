@@ -7,15 +7,10 @@ from contextlib import suppress
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ehlcontact import Mesh, MoesPoint, Purpose, __version__, mesh_for, solve_steady
+from ehlcontact import Mesh, MoesPoint, Purpose, __version__, impedance, mesh_for, solve_steady
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.impedance import NEAR_ZERO, TOLERANCE
-from ehlcontact.solver.linearised_contact import LinearisedContact
 from ehlcontact.status import Status
-
-_Floats = NDArray[np.float64]
 
 OMEGAS = (
     0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0, 2.5, np.pi, 4.0, 5.0, 2.0 * np.pi, 8.0, 10.0,
@@ -24,7 +19,10 @@ OMEGAS = (
 
 
 def solve_point(point: MoesPoint) -> dict[str, Any]:
-    """Everything that the atlas keeps of a point, ready for JSON; ``status`` says whether it converged."""
+    """Everything that the atlas keeps of a point, ready for JSON; ``status`` says whether it converged.
+
+    ``film`` is the steady film on a finer mesh and ``close`` the answers on the near region, where there are such.
+    """
     started = time.perf_counter()
     entry: dict[str, Any] = {"M": point.M, "L": point.L, "kappa": point.kappa, "alpha": point.alpha}
     entry |= {"eta0": point.eta0, "version": __version__, "status": str(Status.UNRESOLVED)}
@@ -35,7 +33,8 @@ def solve_point(point: MoesPoint) -> dict[str, Any]:
     try:
         entry |= respond(point, mesh)
         if of_film != mesh:
-            entry["film"] = film(point, of_film)[0]
+            found = solve_steady(point, n=of_film.n, domain=of_film.domain)
+            entry["film"] = _film(found, of_film)
         entry["status"] = str(Status.CONVERGED)
     except ConvergenceError as error:
         entry["status"] = "unknown" if error.result is None else str(error.result.status)
@@ -45,17 +44,13 @@ def solve_point(point: MoesPoint) -> dict[str, Any]:
     return entry | {"seconds": time.perf_counter() - started}
 
 
-def film(point: MoesPoint, mesh: Mesh) -> tuple[dict[str, Any], _Floats]:
-    """Steady film, and its pressure."""
-    steady = solve_steady(point, n=mesh.n, domain=mesh.domain)
-    found = {name: getattr(steady, name) for name in ("approach", "h_central", "h_min", "n")}
-    return found | {"domain": list(mesh.domain.as_tuple())}, steady.P
-
-
 def respond(point: MoesPoint, mesh: Mesh) -> dict[str, Any]:
     """Steady film and impedance at `OMEGAS`."""
-    found, P = film(point, mesh)
-    contact = LinearisedContact(point, mesh.domain, mesh.n, P, found["approach"])
-    omega = np.maximum(OMEGAS, NEAR_ZERO)
-    Z, _residual = contact.respond(omega, TOLERANCE)
-    return found | {"stiffness": Z.real.tolist(), "damping": (Z.imag / omega).tolist()}
+    found = impedance(point, OMEGAS, n=mesh.n, domain=mesh.domain)
+    return _film(found, mesh) | {"stiffness": found.stiffness.tolist(), "damping": found.damping.tolist()}
+
+
+def _film(found: Any, mesh: Mesh) -> dict[str, Any]:
+    """Approach and films of a result, and where it was solved."""
+    numbers = {name: getattr(found, name) for name in ("approach", "h_central", "h_min")}
+    return numbers | {"n": mesh.n, "domain": list(mesh.domain.as_tuple())}

@@ -1,23 +1,134 @@
-"""What the atlas holds: solved points, their answers and how well these interpolate; and its file."""
+"""What the atlas holds: solved points, their answers, the numbers by which it answers elsewhere; and its file."""
 
 from __future__ import annotations
 
 import json
 import zipfile
-from dataclasses import dataclass, fields
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.checks import require_choice
 from ehlcontact.errors import InputError
-from reduced_models.atlas.box import Box
+from ehlcontact.files import replacing
+from ehlcontact.point import MoesPoint
 from reduced_models.elements.film_response import FilterRates
 
 _Floats = NDArray[np.float64]
 
 SCHEMA, VERSION = "ehlcontact-atlas", 1
+KERNELS = {"cubic": 1}  # radial functions with the degree of the polynomial beside them
+
+
+@dataclass(frozen=True)
+class Box:
+    """Ranges of M, L and kappa, and the largest Hertz pressure [Pa]; closed."""
+
+    M: tuple[float, float]
+    L: tuple[float, float]
+    kappa: tuple[float, float]
+    p_hertz: float
+
+    def require_inside(self, point: MoesPoint) -> None:
+        """Raise `InputError` naming the axis and the box unless the point lies inside."""
+        for name in ("M", "L", "kappa"):
+            low, high = getattr(self, name)
+            value = getattr(point, name)
+            if not low <= value <= high:
+                raise InputError(name, value, f"between {low:g} and {high:g}, the box of the atlas ({self})")
+        if point.L > 0.0 and point.p_hertz > self.p_hertz:
+            allowed = f"at most {self.p_hertz / 1e9:g}e9 Pa, the limit of the atlas ({self})"
+            raise InputError("Hertz pressure", f"{point.p_hertz:.4g} Pa", allowed)
+
+    def __str__(self) -> str:
+        M, L, kappa = (f"{low:g}..{high:g}" for low, high in (self.M, self.L, self.kappa))
+        return f"M {M}, L {L}, kappa {kappa}, Hertz pressure up to {self.p_hertz / 1e9:g} GPa"
+
+    def to_dict(self) -> dict[str, Any]:
+        """All fields, for storage."""
+        return asdict(self)
+
+    @classmethod
+    def from_dict(cls, entries: Mapping[str, Any]) -> Self:
+        """The box of such fields."""
+        M, L, kappa = ((float(low), float(high)) for low, high in (entries[name] for name in ("M", "L", "kappa")))
+        return cls(M, L, kappa, float(entries["p_hertz"]))
+
+
+@dataclass(frozen=True)
+class Interpolation:
+    """How answers follow from the points: the error bars of an atlas hold for the numbers it was made with only.
+
+    Raises
+    ------
+    InputError
+        A kernel, or a degree, that this library does not know.
+    """
+
+    weights: tuple[float, ...]  # of the coordinates: ln N, L^(2/3), ln kappa, how far ln N is below `light_load`
+    light_load: float  # load number below which the default domain grew at the time of the build
+    thick: float  # film, in dry approaches, beyond which the published one no longer leads
+    asinh: float  # of the low-frequency damping: where asinh turns from ln to linear
+    reference: int  # index of the frequency of the low-frequency damping
+    nearest: int  # points whose errors make the error bar
+    covered: float  # share of points that the error bar covers when each is left out
+    kernel: str = "cubic"
+    degree: int = 1
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "weights", tuple(float(weight) for weight in self.weights))
+        require_choice("kernel of the atlas", self.kernel, tuple(KERNELS))
+        if self.degree != KERNELS[self.kernel]:
+            raise InputError("degree of the atlas", self.degree, f"{KERNELS[self.kernel]} beside {self.kernel!r}")
+
+
+@dataclass(frozen=True)
+class OtherOil:
+    """What is accepted of another oil, and what it may change.
+
+    Beside M, L and kappa, alpha and eta0 enter through the Hertz pressure alone. The error bars widen by what ln
+    of films, K and C change at most per unit of ln alpha and of ln eta0.
+    """
+
+    alpha: tuple[float, float]  # range [1/Pa]
+    eta0: tuple[float, float]  # range [Pa s]
+    film: tuple[float, float]
+    stiffness: tuple[float, float]  # K changes the less the thinner the film
+    damping: tuple[float, float]
+
+    def __post_init__(self) -> None:
+        for name, (first, second) in vars(self).items():
+            object.__setattr__(self, name, (float(first), float(second)))
+
+
+# Numbers of the files written before these were recorded: `load` adds them there, and a file read and saved again
+# has them beside the same arrays, as the shipped one has. `tune` tells how they compare with others.
+FIRST_INTERPOLATION = Interpolation(
+    weights=(0.4, 0.114, 0.22, 1.2),
+    light_load=3.0,
+    thick=0.1,
+    asinh=0.02,
+    reference=1,
+    nearest=10,
+    covered=0.98,
+)
+FIRST_OIL = OtherOil(
+    alpha=(1e-8, 4e-8), eta0=(0.002, 1.0), film=(0.17, 0.015), stiffness=(0.12, 0.015), damping=(0.18, 0.02)
+)
+FIRST = json.loads(
+    json.dumps(
+        {
+            "interpolation": asdict(FIRST_INTERPOLATION),
+            "oil": asdict(FIRST_OIL),
+            "gain_fit": {"floor": 0.05, "ridge": 0.02},
+            "near_domain": [-2.0, 1.35, 1.6],
+        }
+    )
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,9 +143,9 @@ class AtlasTable:
     stiffness: _Floats  # (n, k) K(Omega)
     damping: _Floats  # (n, k) C(Omega)
     gains: _Floats  # (n, 3 + lags) of the film memory, over the damping at the lowest frequency > 0
-    left_out: _Floats  # (n, 4 + 2 k) error at each point of an interpolation without it, see `atlas_surface`
+    left_out: _Floats  # (n, 4 + 2 k) error at each point of an interpolation without it, see `surface`
     factor: _Floats  # (4 + 2 k,) from the errors of the nearest points to the error bar
-    metadata: dict[str, Any]  # box, rates, command, version, sample, meshes, failures
+    metadata: dict[str, Any]  # box, rates, interpolation, oil; command, version, sample, meshes, failures
 
     @property
     def box(self) -> Box:
@@ -46,16 +157,23 @@ class AtlasTable:
         """Of the film memory, the same at all points."""
         return FilterRates(**self.metadata["rates"])
 
+    @property
+    def interpolation(self) -> Interpolation:
+        """Numbers by which it was made, and has to be read."""
+        return Interpolation(**self.metadata["interpolation"])
+
+    @property
+    def oil(self) -> OtherOil:
+        """Which other oils it answers for."""
+        return OtherOil(**self.metadata["oil"])
+
     def save(self, path: Path) -> None:
         """Write as compressed npz, single precision but for the points; the same table makes the same bytes."""
         arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "metadata"}
         small = {k: v if k in ("points", "omega") else v.astype(np.float32) for k, v in arrays.items()}
         header = json.dumps({"schema": SCHEMA, "schema_version": VERSION, **self.metadata}, sort_keys=True)
-        try:
-            with path.open("wb") as stream:
-                np.savez_compressed(stream, metadata=np.array(header), **small)
-        except OSError as error:
-            raise InputError("atlas", str(path), f"a file that can be written ({error.strerror})") from None
+        with replacing(path, "atlas") as temporary, temporary.open("wb") as stream:
+            np.savez_compressed(stream, metadata=np.array(header), **small)
 
     @classmethod
     def load(cls, path: Path) -> Self:
@@ -74,8 +192,10 @@ class AtlasTable:
                 if metadata.get("schema_version") != VERSION:
                     raise InputError("atlas", f"version {metadata.get('schema_version')}", f"of version {VERSION}")
                 arrays = {f.name: file[f.name].astype(float) for f in fields(cls) if f.name != "metadata"}
+            table = cls(**arrays, metadata={**FIRST, **metadata})
+            _ = table.box, table.rates, table.interpolation, table.oil  # whatever is damaged there is named here
         except OSError as error:
             raise InputError("atlas", str(path), f"a readable atlas ({error.strerror or error})") from None
-        except (ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        except (ValueError, TypeError, KeyError, EOFError, zipfile.BadZipFile) as error:
             raise InputError("atlas", str(path), f"a complete atlas file ({error})") from None
-        return cls(**arrays, metadata=metadata)
+        return table

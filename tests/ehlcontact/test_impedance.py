@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from ehlcontact import InputError, MoesPoint, Purpose, mesh_for
-from ehlcontact.impedance import impedance
+from ehlcontact.impedance import LinearisedContact, impedance
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
-from ehlcontact.solver.linearised_contact import LinearisedContact
 from ehlcontact.solver.mesh import NEAR_DOMAIN, Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.steady import solve_steady
@@ -40,7 +39,7 @@ def dense(contact, film, n):
 @pytest.mark.parametrize("n", [48, pytest.param(64, marks=pytest.mark.slow)])
 def test_equals_the_dense_complex_solve(steady, n):
     film = steady(200, 10, 0.5, n)
-    contact = LinearisedContact(POINT, film.domain, n, film.P, film.approach)
+    contact = LinearisedContact(film)
     J, B = dense(contact, film, n)
     np.testing.assert_allclose(contact.j, J[:, -1], atol=1e-12 * np.abs(J[:, -1]).max())
     np.testing.assert_allclose(contact.b, B[:, -1], atol=1e-12 * np.abs(J[:, -1]).max())
@@ -55,7 +54,7 @@ def test_equals_the_dense_complex_solve(steady, n):
 
 def test_products_are_those_of_the_dense_matrices(steady):
     film = steady(200, 10, 0.5, 48)
-    contact = LinearisedContact(POINT, film.domain, 48, film.P, film.approach)
+    contact = LinearisedContact(film)
     x = np.random.default_rng(5).normal(size=contact.nodes.size)
     for got, matrix in zip(contact.products(x), dense(contact, film, 48), strict=True):
         expected = matrix[:, :-1] @ x
@@ -65,7 +64,7 @@ def test_products_are_those_of_the_dense_matrices(steady):
 def test_many_frequencies_share_the_solves(steady, monkeypatch):
     """Forty frequencies between 0 and 30 need no more than fifteen solves: the space answers for the others."""
     film = steady(200, 10, 0.5, 48)
-    contact = LinearisedContact(POINT, film.domain, 48, film.P, film.approach)
+    contact = LinearisedContact(film)
     solved = []
     solve = contact.solve
     monkeypatch.setattr(contact, "solve", lambda w, *rest: solved.append(w) or solve(w, *rest))
@@ -78,11 +77,16 @@ def test_many_frequencies_share_the_solves(steady, monkeypatch):
 def test_fine_grid_is_within_reach(steady):
     """At n = 128 both tolerances agree: C is as accurate as said."""
     film = steady(200, 10, 0.5, 128)
-    contact = LinearisedContact(POINT, film.domain, 128, film.P, film.approach)
+    contact = LinearisedContact(film)
     omega = np.maximum(OMEGA, 1e-4)
     Z, tight = (contact.respond(omega, tolerance)[0] for tolerance in (1e-5, 1e-7))
     np.testing.assert_allclose(Z.real, tight.real, rtol=1e-4)
     np.testing.assert_allclose(Z.imag, tight.imag, rtol=5e-4)
+
+
+def test_tells_the_film_that_was_linearised(steady):
+    film, result = steady(200, 10, 0.5, 48), impedance(POINT, [0.0], n=48)
+    assert (result.approach, result.h_central, result.h_min) == (film.approach, film.h_central, film.h_min)
 
 
 def test_static_stiffness_is_the_slope_of_the_load_curve():

@@ -340,10 +340,11 @@ def main() -> None:
     target.write_text(json.dumps(found, indent=0) + "\n")
     for other in others:
         known = json.loads(other.read_text())
-        differing = [k for k in {**known, **found} if known.get(k, "absent") != found.get(k, "absent")]
+        differing = [k for k in known if known[k] != found.get(k, "absent")]
         for key in differing:
             print(f"{key}\n    {known.get(key, 'absent')}\n    {found.get(key, 'absent')}")
-        print(f"{len(found) - len(differing)} alike, {len(differing)} differ from {other}")
+        new = len(found.keys() - known.keys())
+        print(f"{len(known) - len(differing)} alike, {len(differing)} differ from {other}; {new} new")
         if differing:
             raise SystemExit(1)
 

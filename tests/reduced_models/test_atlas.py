@@ -18,12 +18,12 @@ from ehlcontact import (
     mesh_for,
 )
 from reduced_models import Atlas, load_element
-from reduced_models.atlas.assemble import assemble
 from reduced_models.atlas.atlas import MODELS, SHIPPED
-from reduced_models.atlas.box import BOX
+from reduced_models.atlas.build import BOX, INTERPOLATION, assemble
 from reduced_models.atlas.elements import LEAST_APPROACH
 from reduced_models.atlas.sample import sample_points
 from reduced_models.atlas.solve import OMEGAS, solve_point
+from reduced_models.atlas.table import FIRST
 
 CASE = MoesPoint(200.0, 10.0, 0.5)
 LIMITS = {"approach": 0.003, "tangent": 0.01, "film": 0.02, "damping": 0.05}  # relative errors
@@ -216,6 +216,43 @@ def test_what_is_shipped(shipped):
     assert meta["command"].startswith("ehlcontact atlas build --draws") and meta["version"] == __version__
     assert meta["points"] > 500 and sum(meta["meshes"].values()) == meta["points"]
     json.dumps(meta, allow_nan=False)
+
+
+def changed(path, target, **entries):
+    """The atlas file at `path` with other entries in its metadata; None leaves one out."""
+    arrays = dict(np.load(path))
+    header = json.loads(str(arrays["metadata"])) | entries
+    arrays["metadata"] = np.array(json.dumps({k: v for k, v in header.items() if v is not None}))
+    with target.open("wb") as stream:
+        np.savez(stream, **arrays)
+    return target
+
+
+def test_numbers_of_the_interpolation_travel_with_the_file(shipped, tmp_path):
+    """Files of the first library lack them and answer as they did; others answer by their own."""
+    header = json.loads(str(np.load(SHIPPED)["metadata"]))
+    assert set(FIRST) <= set(header) and header["interpolation"]["weights"] == list(INTERPOLATION.weights)
+    first = Atlas(changed(SHIPPED, tmp_path / "first.npz", **dict.fromkeys(FIRST)))
+    assert first.metadata == shipped.metadata
+    other = {**header["interpolation"], "weights": [0.4, 0.114, 0.22, 0.6]}
+    heavier = Atlas(changed(SHIPPED, tmp_path / "other.npz", interpolation=other))
+    narrow = Atlas(changed(SHIPPED, tmp_path / "oil.npz", oil={**header["oil"], "alpha": [2e-8, 3e-8]}))
+    for point in random_points(5, 3):
+        own, same, not_own = (atlas.at(point) for atlas in (shipped, first, heavier))
+        assert same.approach == own.approach and np.array_equal(same.error["damping"], own.error["damping"])
+        assert not_own.h_central != own.h_central
+    with pytest.raises(InputError, match="alpha = 1e-08: must be between 2e-08 and 3e-08"):
+        narrow.at(MoesPoint(200.0, 10.0, 0.5, alpha=1e-8))
+
+
+@pytest.mark.parametrize(
+    "entry", [{"kernel": "gaussian"}, {"degree": 2}, {"weights": "many"}, {"nearest": None}, {"colour": 3}]
+)
+def test_numbers_that_cannot_be_are_refused(tmp_path, entry):
+    header = json.loads(str(np.load(SHIPPED)["metadata"]))
+    new = {k: v for k, v in {**header["interpolation"], **entry}.items() if v is not None}
+    with pytest.raises(InputError, match=r"^atlas = .*a.npz.*complete atlas file"):
+        Atlas(changed(SHIPPED, tmp_path / "a.npz", interpolation=new))
 
 
 @pytest.mark.parametrize("point", [CASE, MoesPoint(12.0, 4.0, 0.3)])

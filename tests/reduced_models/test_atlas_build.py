@@ -14,9 +14,7 @@ import pytest
 
 from ehlcontact import Domain, InputError, MoesPoint, Purpose, mesh_for
 from ehlcontact.solver.mesh import TABLE_MESHES
-from reduced_models.atlas.assemble import RATES, assemble, smooth_gains
-from reduced_models.atlas.box import BOX
-from reduced_models.atlas.build import build_atlas, solve_samples
+from reduced_models.atlas.build import BOX, RATES, assemble, build_atlas, smooth_gains
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import OMEGAS, solve_point
 from reduced_models.atlas.table import AtlasTable
@@ -257,6 +255,8 @@ def _start(command, environment):
 
 def test_no_cluster_at_the_address(tmp_path, monkeypatch):
     pytest.importorskip("distributed")
-    monkeypatch.setattr("reduced_models.atlas.workers.CONNECT_SECONDS", 0.5)
+    monkeypatch.setattr("reduced_models.atlas.work.CONNECT_SECONDS", 0.5)
     with pytest.raises(InputError, match="--scheduler"):
-        solve_samples(tmp_path / "w.jsonl", 2, 2, scheduler="tcp://127.0.0.1:1", solve=atlas_stub.solve)
+        build_atlas(
+            tmp_path / "a.npz", tmp_path / "w.jsonl", 2, 2, scheduler="tcp://127.0.0.1:1", solve=atlas_stub.solve
+        )
