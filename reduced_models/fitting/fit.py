@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_choice
 from ehlcontact.errors import InputError
-from reduced_models.elements.file import library_version
-from reduced_models.elements.memoryless import MemorylessContact
+from ehlcontact.origin import __version__
+from reduced_models.elements.spring import MemorylessContact
 from reduced_models.fitting.memory import MemoryFit, fit_memory
 from reduced_models.fitting.models import ESTIMATORS, Samples
 from reduced_models.fitting.records import ContactRecord, as_records
@@ -159,7 +159,7 @@ def _least_squares(records: Records, model: str, window: Window | None) -> FitRe
         independent_samples=independent,
     )
     quality, source = result.quality(), _source(samples.records)
-    return replace(result, element=replace(element, fit=quality, source=source))  # type: ignore[type-var]
+    return replace(result, element=replace(element, fit=quality, source=source))
 
 
 def take_samples(
@@ -237,5 +237,5 @@ def _source(records: Sequence[ContactRecord]) -> dict[str, Any]:
         "n": plain("n"),
         "domain": plain("domain"),
         "motion": plain("motion"),
-        "version": library_version(),
+        "version": __version__,
     }

@@ -12,7 +12,7 @@ from scipy.optimize import least_squares
 
 from ehlcontact import Domain, ImpedanceResult, impedance
 from ehlcontact.errors import InputError
-from reduced_models.elements.file import library_version
+from ehlcontact.origin import __version__
 from reduced_models.elements.film_law import film_drive
 from reduced_models.elements.film_response import WEIGHT_C, WEIGHT_K, FilterRates, GainFit, fit_gains
 from reduced_models.elements.memory import FilmMemoryContact
@@ -216,5 +216,5 @@ def _source(response: Response, records: Sequence[ContactRecord]) -> dict[str, A
         "n": getattr(response, "n", None),
         "domain": None if domain is None else list(domain.as_tuple()),
         "motion": [record.motion for record in records],
-        "version": library_version(),
+        "version": __version__,
     }

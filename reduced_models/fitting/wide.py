@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import least_squares
 
 from ehlcontact import impedance, solve_steady
+from ehlcontact.checks import as_column
 from ehlcontact.errors import InputError
+from ehlcontact.origin import __version__
 from ehlcontact.point import Point, moes_point, scales_of
-from reduced_models.elements.file import library_version
-from reduced_models.elements.film_curve import increasing
 from reduced_models.elements.film_response import FilterRates, fit_gains
 from reduced_models.elements.memory import FilmMemoryContact
 from reduced_models.elements.wide import WideRangeContact
@@ -61,7 +61,10 @@ def wide_range_contact(
     InputError
         Tables that make no contact.
     """
-    at, places = increasing("loads", loads, 2), increasing("gain_loads", gain_loads)
+    at, places = (
+        as_column("loads", loads, least=2, increasing=True),
+        as_column("gain_loads", gain_loads, increasing=True),
+    )
     if len(responses) != places.size:
         raise InputError("number of responses", len(responses), f"one per load of gain_loads, {places.size}")
     u = np.asarray(approach, float) * at ** (2.0 / 3.0)
@@ -117,7 +120,10 @@ def wide_range_from_solves(
     ConvergenceError
         A solve did not converge.
     """
-    at, places = increasing("loads", loads, 2), increasing("memory_loads", memory_loads)
+    at, places = (
+        as_column("loads", loads, least=2, increasing=True),
+        as_column("memory_loads", memory_loads, increasing=True),
+    )
     for name, values in (("loads[0]", at), ("memory_loads[0]", places)):
         if values[0] <= 0.0:
             raise InputError(name, float(values[0]), "> 0")
@@ -130,7 +136,7 @@ def wide_range_from_solves(
         "n": n,
         "domain": [list(s.domain.as_tuple()) for s in steady],
         "motion": None,
-        "version": library_version(),
+        "version": __version__,
     }
     approach = [s.approach for s in steady]
     return wide_range_contact(at, approach, places, responses, lags=lags, memory=memory, source=source)

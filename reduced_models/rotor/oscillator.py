@@ -14,7 +14,7 @@ from ehlcontact.checks import require_choice, require_finite, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.film_element import FilmContact
-from reduced_models.elements.memoryless import MemorylessContact
+from reduced_models.elements.spring import MemorylessContact
 from reduced_models.elements.validity import frequency_of
 
 METHODS = ("Radau", "BDF", "LSODA", "DOP853", "RK45", "RK23")
