@@ -24,12 +24,13 @@ from reduced_models.elements.film_law import (
     DIRECT,
     FilmLaw,
     film_drive,
+    film_rate,
+    film_rates,
     film_rest,
     film_step,
     static,
     static_forces,
 )
-from reduced_models.elements.film_ode import film_rate, film_rates
 from reduced_models.elements.film_response import DRY, FilterRates
 
 _Floats = NDArray[np.float64]
