@@ -8,5 +8,7 @@ from typing import Any
 
 from numba import njit
 
-jit: Any = partial(njit, cache=True, error_model="numpy", fastmath={"contract", "nsz"})
+# Elements: no fused multiply-adds, for the same force must come out whatever a kernel was inlined into (and in C).
+jit_exact: Any = partial(njit, cache=True, error_model="numpy")
+jit: Any = partial(jit_exact, fastmath={"contract", "nsz"})
 jit_node: Any = partial(jit, forceinline=True)  # for one node: a call with a dozen arrays costs more than the work

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from xml.etree import ElementTree
 
+from ehlcontact import __version__
 from fmu.spec import UNITS, ModelSpec, Variable
-from reduced_models.elements.file import library_version
 
 LOG_CATEGORIES = {
     "logStatusError": "Calls that failed, always logged",
@@ -23,10 +23,10 @@ def model_description(spec: ModelSpec, guid: str) -> bytes:
         guid=guid,
         description=spec.description,
         author="ehlcontact",
-        version=library_version(),
+        version=__version__,
         copyright="Copyright (c) 2026, the ehlcontact developers",
         license="BSD-3-Clause",
-        generationTool=f"ehlcontact {library_version()}",
+        generationTool=f"ehlcontact {__version__}",
         variableNamingConvention="structured",
         numberOfEventIndicators="0",
     )

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from html import escape
 
+from ehlcontact import __version__
 from fmu.spec import ModelSpec, Variable
-from reduced_models.elements.file import library_version
 
 _PAGE = """<!DOCTYPE html>
 <html lang="en">
@@ -42,7 +42,7 @@ def documentation(spec: ModelSpec, readme: str, compiler: str) -> str:
         notes="".join(f"<tr><th>{escape(a)}</th><td>{escape(b)}</td></tr>" for a, b in spec.notes),
         variables="\n".join(_row(variable) for variable in spec.variables),
         readme=escape(readme),
-        version=escape(library_version()),
+        version=escape(__version__),
         compiler=escape(compiler),
     )
 

@@ -7,63 +7,76 @@ import os
 import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import require_choice, require_finite, require_instance, require_nonnegative
+from ehlcontact.checks import require_choice, require_finite, require_instance
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from reduced_models.elements.file import UNITS, band, numbers, read_document, write_document
-from reduced_models.elements.validity import MARGIN, OCTAVE, Band, OutsideValidityWarning, text_of
+from reduced_models.elements.file import UNITS, naming, numbers, read_document, write_document
+from reduced_models.elements.validity import Band, OutsideValidityWarning, Validity
 
 SAME_SCALES = 1e-6  # relative; more than a rounded file or another order of the same arithmetic makes
 _SCALED_BY = ("force", "length", "time")
 
 
-class ContactElement(ABC):
+@dataclass(frozen=True, kw_only=True)
+class _Common:
+    """Fields that all elements have, behind the coefficients and the approach of their own."""
+
+    rate: float | None = None
+    load_range: Band | None = None
+    omega_range: Band | None = None
+    units: str = "dimensionless"
+    fit: Mapping[str, Any] | None = field(default=None, repr=False, compare=False)
+    source: Mapping[str, Any] | None = field(default=None, repr=False, compare=False)
+
+
+class ContactElement(_Common, ABC):
     """Base of all elements, with or without memory.
 
-    A subclass is a frozen dataclass with its coefficients, named in ``parameter_names``, and the fields below.
+    A subclass is a frozen dataclass with its coefficients, named in ``parameter_names``, and `low` and `high`.
     Approach in units of the dry Hertz approach or m, rate in its time derivative, force in units of the static
     load or N: see ``units``.
 
-    The validity box holds what the data covered: approach [low, high], largest ``rate``, forces ``load_range``
-    and angular frequencies ``omega_range``. Force and tangents may be asked for anywhere; a simulation that
+    ``validity`` holds what the data covered. Force and tangents may be asked for anywhere; a simulation that
     leaves the box (`advance`, `simulate_oscillator`) warns, once per element.
+
+    Parameters
+    ----------
+    low, high : float
+        Interval of approach that the coefficients stand for.
+    rate : float, optional
+        Largest rate, in magnitude, that they stand for.
+    load_range, omega_range : (low, high), optional
+        Forces and angular frequencies that they stand for.
+    units : {"dimensionless", "SI"}
+    fit, source : mapping, optional
+        Quality of the fit and where the data came from, kept in the file.
     """
 
     kind: ClassVar[str]
-    parameter_names: ClassVar[tuple[str, ...]]
-    low: float
+    parameter_names: ClassVar[tuple[str, ...]]  # as in the constructor and in the file
+    low: float  # fields of the subclass, so that they follow its coefficients
     high: float
-    rate: float | None
-    load_range: Band | None
-    omega_range: Band | None
-    units: str
-    fit: Mapping[str, Any] | None
-    source: Mapping[str, Any] | None
-    _box: tuple[float, float, float]  # low, high and largest rate with the margin
+    validity: Validity
     _warned: bool
 
     def __post_init__(self) -> None:
         require_choice("units", self.units, UNITS)
-        for name in (*self.parameter_names, "low", "high"):
+        self._check_coefficients()
+        validity = Validity((self.low, self.high), self.rate, self.load_range, self.omega_range)
+        for name, value in {**validity.fields(), "validity": validity, "_warned": False}.items():
+            object.__setattr__(self, name, value)
+
+    def _check_coefficients(self) -> None:
+        """Put each into its plain form, or raise `InputError`."""
+        for name in self.parameter_names:
             object.__setattr__(self, name, require_finite(name, getattr(self, name)))
-        if self.low >= self.high:
-            raise InputError("low", self.low, f"below high = {self.high!r}")
-        if self.rate is not None:
-            object.__setattr__(self, "rate", require_nonnegative("rate", self.rate))
-        for name in ("load_range", "omega_range"):
-            if getattr(self, name) is not None:
-                object.__setattr__(self, name, _band(name, getattr(self, name)))
-        slack = MARGIN * (self.high - self.low)
-        fastest = math.inf if self.rate is None else (1.0 + MARGIN) * self.rate
-        object.__setattr__(self, "_box", (self.low - slack, self.high + slack, fastest))
-        object.__setattr__(self, "_warned", False)
 
     @abstractmethod
     def advance(self, dt: float, approach: float, rate: float) -> float:
@@ -114,7 +127,7 @@ class ContactElement(ABC):
 
     def copy(self) -> Self:
         """The same element with a state of its own, at rest."""
-        return replace(self)  # type: ignore[type-var]
+        return replace(self)
 
     @abstractmethod
     def _si_coefficients(self, scales: Scales) -> dict[str, Any]:
@@ -137,13 +150,7 @@ class ContactElement(ABC):
 
         The box is closed; a bound that is not known does not count.
         """
-        u, v = np.broadcast_arrays(np.asarray(approach, float), np.asarray(rate, float))
-        inside = (u >= self.low) & (u <= self.high)
-        if self.rate is not None:
-            inside &= np.abs(v) <= self.rate
-        if omega is not None and self.omega_range is not None:
-            inside &= self.omega_range[0] <= omega <= self.omega_range[1]
-        return inside if u.ndim else bool(inside)
+        return self.validity.covers(approach, rate, omega)
 
     def warn_outside(
         self,
@@ -153,10 +160,7 @@ class ContactElement(ABC):
         force: ArrayLike = (),
         stacklevel: int = 2,
     ) -> None:
-        """Warn, once per element, where a motion leaves the validity box.
-
-        Small excursions go unmentioned: a twentieth of the intervals of approach and load or of the largest
-        rate, an octave of frequency.
+        """Warn, once per element, where a motion leaves the validity box by more than `Validity.excess` overlooks.
 
         Parameters
         ----------
@@ -169,24 +173,7 @@ class ContactElement(ABC):
         """
         if self._warned:
             return
-        low, high, fastest = self._box
-        u, v = np.asarray(approach, float), np.abs(np.asarray(rate, float))
-        said = []
-        if u.size and (u.min() < low or u.max() > high):
-            worst = u.max() if u.max() - high > low - u.min() else u.min()
-            said.append(f"approach {float(worst):.4g} (fitted {text_of((self.low, self.high))})")
-        if v.size and v.max() > fastest:
-            said.append(f"rate {float(v.max()):.4g} (fitted up to {self.rate:.4g})")
-        f = np.asarray(force, float)
-        if f.size and self.load_range is not None:
-            least, most = self.load_range
-            slack = MARGIN * (most - least)
-            if f.min() < least - slack or f.max() > most + slack:
-                worst = f.max() if f.max() - most > least - f.min() else f.min()
-                said.append(f"force {float(worst):.4g} (fitted {text_of(self.load_range)})")
-        if omega is not None and self.omega_range is not None:
-            if not self.omega_range[0] / OCTAVE <= omega <= self.omega_range[1] * OCTAVE:
-                said.append(f"angular frequency {omega:.4g} (fitted {text_of(self.omega_range)})")
+        said = self.validity.excess(approach, rate, omega, force)
         if said:
             object.__setattr__(self, "_warned", True)
             message = f"{type(self).__name__} used outside its validity box: {', '.join(said)}"
@@ -209,24 +196,16 @@ class ContactElement(ABC):
         if self.units == "SI":
             raise InputError("units", self.units, "dimensionless, to be taken to SI")
         _require_own_scales(scales, self.source)
-        changes = self._si_coefficients(scales)
-        changes |= {"low": self.low * scales.length, "high": self.high * scales.length, "units": "SI"}
-        changes["rate"] = None if self.rate is None else self.rate * scales.rate
-        for name, unit in (("load_range", scales.force), ("omega_range", 1.0 / scales.time)):
-            bounds = getattr(self, name)
-            changes[name] = None if bounds is None else (bounds[0] * unit, bounds[1] * unit)
-        return replace(self, **changes)  # type: ignore[type-var]
+        changes = self._si_coefficients(scales) | self.validity.to_si(scales).fields()
+        return replace(self, **changes, units="SI")
 
     def to_dict(self) -> dict[str, Any]:
         """Content of the element file, header apart."""
-        valid: dict[str, Any] = {"low": self.low, "high": self.high, "rate": self.rate}
-        for key, bounds in (("load", self.load_range), ("omega", self.omega_range)):
-            valid[key] = None if bounds is None else list(bounds)
         return {
             "kind": self.kind,
             "units": self.units,
             "parameters": self.parameters,
-            "valid": valid,
+            "valid": self.validity.to_dict(),
             "fit": None if self.fit is None else dict(self.fit),
             "source": None if self.source is None else dict(self.source),
         }
@@ -263,16 +242,14 @@ class ContactElement(ABC):
         """
         if document["kind"] != cls.kind:
             raise InputError(name, f"kind {document['kind']!r}", f"of kind {cls.kind!r}")
-        values: dict[str, Any] = {**numbers(name, "parameters", document["parameters"], cls.parameter_names)}
-        valid = document["valid"]
-        values |= numbers(name, "valid", valid, ("low", "high"))
-        values |= {f"{key}_range": band(name, valid, key) for key in ("load", "omega")}
-        values["rate"] = None if valid.get("rate") is None else numbers(name, "valid", valid, ("rate",))["rate"]
-        values |= {key: document.get(key) for key in ("units", "fit", "source")}
-        try:
-            return cls(**values)
-        except InputError as error:
-            raise InputError(f"{name}: {error.field}", error.value, error.allowed) from None
+        with naming(name):
+            values = cls._read_coefficients(document) | Validity.from_dict(document["valid"]).fields()
+            return cls(**values, units=document["units"], fit=document.get("fit"), source=document.get("source"))
+
+    @classmethod
+    def _read_coefficients(cls, document: Mapping[str, Any]) -> dict[str, Any]:
+        """Coefficients of the class, as arguments of its constructor, from a document of `read_document`."""
+        return numbers("parameters", document["parameters"], cls.parameter_names)
 
 
 def _require_own_scales(scales: Scales, source: Mapping[str, Any] | None) -> None:
@@ -283,14 +260,3 @@ def _require_own_scales(scales: Scales, source: Mapping[str, Any] | None) -> Non
     given = {name: getattr(scales, name) for name in known}
     if any(not math.isclose(given[name], known[name], rel_tol=SAME_SCALES) for name in known):
         raise InputError("scales", given, f"those of the point the element was fitted at: {known}")
-
-
-def _band(name: str, value: Any) -> Band:
-    try:
-        low, high = value
-    except (TypeError, ValueError):
-        raise InputError(name, value, "a pair (low, high) of numbers") from None
-    low, high = require_finite(name, low), require_finite(name, high)
-    if low > high:
-        raise InputError(name, (low, high), "a pair with low <= high")
-    return low, high

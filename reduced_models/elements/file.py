@@ -1,29 +1,21 @@
-"""The JSON file of an element: header, checks on reading, atomic writing. Knows no element class."""
+"""The JSON file of an element: header, and checks on reading. Knows no element class."""
 
 from __future__ import annotations
 
 import json
 import math
 import os
-import tempfile
-from collections.abc import Mapping
-from importlib.metadata import PackageNotFoundError, version
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from ehlcontact.errors import InputError
+from ehlcontact.files import write_text
 
 SCHEMA = "ehlcontact-element"
 VERSION = 1
 UNITS = ("dimensionless", "SI")
-
-
-def library_version() -> str:
-    """Version of the installed distribution, or "unknown" in a bare checkout."""
-    try:
-        return version("ehlcontact")
-    except PackageNotFoundError:
-        return "unknown"
 
 
 def write_document(path: str | os.PathLike[str], document: Mapping[str, Any]) -> Path:
@@ -34,24 +26,8 @@ def write_document(path: str | os.PathLike[str], document: Mapping[str, Any]) ->
     InputError
         The folder cannot be written.
     """
-    target = Path(path)
     text = json.dumps({"schema": SCHEMA, "version": VERSION, **document}, indent=2, allow_nan=False) + "\n"
-    try:
-        handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".tmp")
-    except OSError as error:
-        raise InputError("path", str(target), f"in a folder that can be written ({error.strerror})") from None
-    temporary = Path(name)
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as stream:
-            stream.write(text)
-        # mkstemp makes private files; an element is meant to be shared like any other file.
-        temporary.chmod(0o666 & ~_umask())
-        os.replace(temporary, target)
-    except OSError as error:
-        raise InputError("path", str(target), f"a file that can be written ({error.strerror})") from None
-    finally:
-        temporary.unlink(missing_ok=True)
-    return target
+    return write_text(path, text)
 
 
 def read_document(path: str | os.PathLike[str]) -> dict[str, Any]:
@@ -89,7 +65,16 @@ def read_document(path: str | os.PathLike[str]) -> dict[str, Any]:
     return document
 
 
-def numbers(name: str, section: str, entries: Mapping[str, Any], required: tuple[str, ...]) -> dict[str, float]:
+@contextmanager
+def naming(name: str) -> Iterator[None]:
+    """Put the file's name before what an `InputError` of this block complains of."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(f"{name}: {error.field}", error.value, error.allowed) from None
+
+
+def numbers(section: str, entries: Mapping[str, Any], required: tuple[str, ...]) -> dict[str, float]:
     """Return the `required` entries of a section as floats.
 
     Raises
@@ -102,26 +87,9 @@ def numbers(name: str, section: str, entries: Mapping[str, Any], required: tuple
         value = entries.get(key)
         number = isinstance(value, int | float) and not isinstance(value, bool)
         if not number or not math.isfinite(value):  # type: ignore[arg-type]
-            raise InputError(f"{name}: {section}.{key}", value, "a finite number")
+            raise InputError(f"{section}.{key}", value, "a finite number")
         found[key] = float(value)  # type: ignore[arg-type]
     return found
-
-
-def band(name: str, section: Mapping[str, Any], key: str) -> tuple[float, float] | None:
-    """Return the optional pair [low, high] of the object ``valid`` as floats, None where it is absent or null.
-
-    Raises
-    ------
-    InputError
-        It is no pair of finite numbers.
-    """
-    value = section.get(key)
-    if value is None:
-        return None
-    if not isinstance(value, list) or len(value) != 2:
-        raise InputError(f"{name}: valid.{key}", value, "a pair of finite numbers, or null")
-    pair = numbers(name, f"valid.{key}", {"low": value[0], "high": value[1]}, ("low", "high"))
-    return pair["low"], pair["high"]
 
 
 class _NotANumberError(ValueError):
@@ -130,10 +98,3 @@ class _NotANumberError(ValueError):
 
 def _refuse_constant(text: str) -> float:
     raise _NotANumberError(f"{text} is not JSON")
-
-
-def _umask() -> int:
-    # The only portable way to read the mask is to set it.
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator
 
+from ehlcontact.checks import as_column, require_positive
 from ehlcontact.errors import InputError
 from reduced_models.elements.film_law import FilmLaw, films
 
@@ -20,22 +20,6 @@ LEAST_EXPONENT = 0.02  # of a film h_s = film F^-exponent, or the force would en
 RIGID_SLOPE = -2.0
 DECADE = math.log(10.0)
 CHECKS = 16  # points per interval at which the curve is checked to rise
-
-
-def increasing(name: str, values: ArrayLike, least: int = 1) -> _Floats:
-    """Return `values` as a one-dimensional, finite, strictly increasing array, or raise `InputError`."""
-    try:
-        array = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(name, type(values).__name__, "numbers") from None
-    if array.ndim != 1 or array.size < least:
-        raise InputError(f"shape of {name}", array.shape, f"one-dimensional with at least {least}")
-    if not np.all(np.isfinite(array)):
-        raise InputError(name, "NaN or infinity", "finite")
-    if np.any(np.diff(array) <= 0.0):
-        at = int(np.argmax(np.diff(array) <= 0.0))
-        raise InputError(f"{name}[{at + 1}]", float(array[at + 1]), f"above the one before, {float(array[at])!r}")
-    return array
 
 
 def curve_nodes(loads: ArrayLike, approach: ArrayLike) -> dict[str, _Floats]:
@@ -53,11 +37,9 @@ def curve_nodes(loads: ArrayLike, approach: ArrayLike) -> dict[str, _Floats]:
     InputError
         Tables that cannot be used; it names the entry.
     """
-    force, u = increasing("loads", loads, 2), increasing("approach", approach, 2)
-    if force[0] <= 0.0:
-        raise InputError("loads[0]", float(force[0]), "> 0")
-    if u.size != force.size:
-        raise InputError("length of approach", u.size, f"that of loads, {force.size}")
+    force = as_column("loads", loads, least=2, increasing=True)
+    require_positive("loads[0]", float(force[0]))
+    u = as_column("approach", approach, size=force.size, increasing=True)
     film = force ** (2.0 / 3.0) - u
     if np.any(film <= 0.0):
         at = int(np.argmin(film))
@@ -85,16 +67,3 @@ def require_rising(law: FilmLaw) -> None:
     if not np.all(du > 0.0):
         load = float(np.exp(x[np.argmin(du)]))
         raise InputError("approach", f"falling near load {load:.4g}", "rising with the load (more loads help)")
-
-
-def as_rows(name: str, values: ArrayLike | Sequence[Sequence[float]], rows: int) -> _Floats:
-    """Return `values` as a finite array of shape (rows, k), k >= 4, or raise `InputError`."""
-    try:
-        array = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(name, type(values).__name__, "rows of numbers, all of one length") from None
-    if array.ndim != 2 or array.shape[0] != rows or array.shape[1] < 4:
-        raise InputError(f"shape of {name}", array.shape, f"({rows}, 3 + number of lags)")
-    if not np.all(np.isfinite(array)):
-        raise InputError(name, "NaN or infinity", "finite")
-    return array

@@ -7,26 +7,30 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import asdict, fields
 from functools import cached_property
-from typing import Any, Self
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
 
-from ehlcontact.checks import require_finite, require_positive
+from ehlcontact.checks import require_finite, require_nonnegative, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from reduced_models.elements.base import ContactElement
-from reduced_models.elements.file import band, numbers
+from reduced_models.elements.file import numbers
+from reduced_models.elements.film_curve import require_rising
 from reduced_models.elements.film_law import (
     CHAIN,
+    DIRECT,
     FilmLaw,
     film_drive,
+    film_rate,
+    film_rates,
     film_rest,
     film_step,
     static,
     static_forces,
 )
-from reduced_models.elements.film_ode import film_rate, film_rates
 from reduced_models.elements.film_response import DRY, FilterRates
 
 _Floats = NDArray[np.float64]
@@ -41,11 +45,12 @@ class FilmContact(ContactElement):
     converts what goes in and out.
     """
 
+    tables: ClassVar[tuple[str, ...]]  # those of `parameter_names` that are no single numbers
     lag_rate: float
     inlet_rate: float
     fast_rate: float
     squeeze: float
-    scales: Scales | None
+    scales: Scales | None  # a field of the subclass
     law: FilmLaw
     _state: _Floats
     _next: _Floats
@@ -54,28 +59,41 @@ class FilmContact(ContactElement):
         super().__post_init__()
         if (self.scales is None) != (self.units == "dimensionless"):
             raise InputError("scales", self.scales, "given for an element in SI, and only there")
-        squeeze = require_finite("squeeze", self.squeeze)
-        if squeeze < 0.0:
-            raise InputError("squeeze", squeeze, ">= 0")
-        object.__setattr__(self, "squeeze", squeeze)
-        law = self._law()
+        law = FilmLaw(
+            **self._tables(),
+            lag_rate=self.lag_rate,
+            inlet_rate=self.inlet_rate,
+            fast_rate=self.fast_rate,
+            squeeze=self.squeeze,
+        )
+        require_rising(law)
         object.__setattr__(self, "law", law)
         if not self.rates.passive(law.gains):
             least = min(self.rates.least_dissipation(row) for row in law.gains)
             raise InputError("least dissipation of gains", least, ">= 0 at every frequency (passive)")
-        size = CHAIN + law.gains.shape[1] - 3
+        size = CHAIN + self.lags
         object.__setattr__(self, "_state", np.zeros(size))
         object.__setattr__(self, "_next", np.zeros(size))
         self.rest(self.approach_at(self._units[0]))
 
-    @abstractmethod
-    def _law(self) -> FilmLaw:
-        """The law of the coefficients, checked."""
+    def _check_coefficients(self) -> None:
+        for name in ("lag_rate", "inlet_rate", "fast_rate"):
+            object.__setattr__(self, name, require_positive(name, getattr(self, name)))
+        object.__setattr__(self, "squeeze", require_nonnegative("squeeze", self.squeeze))
 
     @property
+    def parameters(self) -> dict[str, Any]:
+        """Coefficients and tables by name, dimensionless."""
+        return {name: np.asarray(getattr(self, name)).tolist() for name in self.parameter_names}
+
     @abstractmethod
+    def _tables(self) -> dict[str, _Floats]:
+        """Static curve and gains over the load, as `FilmLaw` has them."""
+
+    @property
     def lags(self) -> int:
         """Number of lags that carry the film through the contact."""
+        return int(self.law.gains.shape[1]) - DIRECT
 
     @property
     def rates(self) -> FilterRates:
@@ -94,7 +112,7 @@ class FilmContact(ContactElement):
         approaches and rates, and every filter is integrated exactly.
         """
         u, v = float(approach), float(rate)
-        low, high, fastest = self._box
+        low, high, fastest = self.validity.reach
         if not (low <= u <= high and -fastest <= v <= fastest):
             self.warn_outside(u, v)
         f, length, time = self._units
@@ -175,8 +193,6 @@ class FilmContact(ContactElement):
             low, reach = low - reach, 2.0 * reach
         while self._static_x(high) < x:
             high, reach = high + reach, 2.0 * reach
-        from scipy.optimize import brentq
-
         return float(brentq(lambda u: self._static_x(u) - x, low, high, xtol=1e-15, rtol=1e-14)) * length
 
     def _static_x(self, u: float) -> float:
@@ -239,29 +255,19 @@ class FilmContact(ContactElement):
         return super().to_dict() | {"scales": None if self.scales is None else asdict(self.scales)}
 
     @classmethod
-    def from_document(cls, name: str, document: Mapping[str, Any]) -> Self:
-        """Build the element from a document of `read_document`; `name` is the file, for messages."""
-        if document["kind"] != cls.kind:
-            raise InputError(name, f"kind {document['kind']!r}", f"of kind {cls.kind!r}")
-        valid, scales = document["valid"], document.get("scales")
-        values: dict[str, Any] = cls._coefficients(name, document["parameters"])
-        values |= numbers(name, "valid", valid, ("low", "high"))
-        values |= {f"{key}_range": band(name, valid, key) for key in ("load", "omega")}
-        values["rate"] = None if valid.get("rate") is None else numbers(name, "valid", valid, ("rate",))["rate"]
+    def _read_coefficients(cls, document: Mapping[str, Any]) -> dict[str, Any]:
+        entries, scales = document["parameters"], document.get("scales")
+        scalars = tuple(name for name in cls.parameter_names if name not in cls.tables)
+        values: dict[str, Any] = {**numbers("parameters", entries, scalars)}
+        for name in cls.tables:
+            values[name] = entries.get(name)
+            if not isinstance(values[name], list):
+                raise InputError(f"parameters.{name}", values[name], "a list of numbers")
         if scales is not None:
             if not isinstance(scales, dict):
-                raise InputError(f"{name}: scales", scales, "an object or null")
-            values["scales"] = Scales(**numbers(name, "scales", scales, _SCALES))
-        values |= {key: document.get(key) for key in ("units", "fit", "source")}
-        try:
-            return cls(**values)
-        except InputError as error:
-            raise InputError(f"{name}: {error.field}", error.value, error.allowed) from None
-
-    @classmethod
-    @abstractmethod
-    def _coefficients(cls, name: str, entries: Mapping[str, Any]) -> dict[str, Any]:
-        """Constructor arguments from the object ``parameters`` of a file."""
+                raise InputError("scales", scales, "an object or null")
+            values["scales"] = Scales(**numbers("scales", scales, _SCALES))
+        return values
 
 
 def _step(dt: float) -> float:

@@ -14,7 +14,8 @@ to cross grows with the load. With i = du/d sigma:
 The chain carries the film made at the inlet through the contact, its gains weigh how much of it is felt at which
 age. phi is monotone and above -1/beta: opening cannot take away more film than there is. Between the ends of a
 step u is the cubic through both approaches and rates; for that every filter is advanced exactly, so a step of
-any length is stable and a long one ends on the static force plus damping.
+any length is stable and a long one ends on the static force plus damping. In continuous time (`film_rates`) the
+states are s, y and q_1 ...; all zero at rest.
 """
 
 from __future__ import annotations
@@ -23,8 +24,10 @@ from math import exp, log, sqrt
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from ehlcontact.jit import jit_exact
+from reduced_models.elements.jet import Jet, half, minus, over, plus, root, through, through3, times
 
 _Floats = NDArray[np.float64]
 
@@ -48,7 +51,7 @@ class FilmLaw(NamedTuple):
     squeeze: float  # beta
 
 
-@njit(cache=True)
+@jit_exact
 def _film(x, law):
     """Film h_s and dh_s/dx at x = ln F: Hermite between the nodes, straight beyond them."""
     n = law.x.size
@@ -69,7 +72,7 @@ def _film(x, law):
     return h, h * dy / w
 
 
-@njit(cache=True)
+@jit_exact
 def static(u, law):
     """Give ln F_s, g = F_s^(2/3) and dg/du at approach `u`, by safeguarded Newton steps in ln F_s."""
     n = law.x.size
@@ -109,7 +112,7 @@ def static(u, law):
     return x, g, 2.0 / 3.0 * g / (2.0 / 3.0 * g - _film(x, law)[1])
 
 
-@njit(cache=True)
+@jit_exact
 def _residence(mu, n, poisson, share):
     """Poisson weights of mean `mu`, and the share of what entered within mu that j lags have passed on."""
     poisson[0] = exp(-mu)
@@ -130,7 +133,7 @@ def _residence(mu, n, poisson, share):
             share[k] = share[k - 1] - poisson[k - 1]
 
 
-@njit(cache=True)
+@jit_exact
 def _moments(j, mu, poisson, share):
     """Response of j lags to inputs 1, t and t^2 of age t (1 at the start of the step), and d/d mu of each."""
     r1 = j * share[j + 1] / mu
@@ -140,17 +143,18 @@ def _moments(j, mu, poisson, share):
     return share[j], r1, r2, poisson[j - 1], d1, d2
 
 
-@njit(cache=True)
-def _one_lag(old, start, end, bump, mu, poisson, share):
-    """One lag after input start + (end - start) s + 6 bump s (1 - s), with slopes to mu, end and bump."""
+@jit_exact
+def _one_lag(old, start, end, bump, rate, span, poisson, share):
+    """Jet of one lag after input start + (end - start) s + 6 bump s (1 - s); end, bump and span are jets."""
+    mu = rate * span.x
     _residence(mu, 3, poisson, share)
     r0, r1, r2, d0, d1, d2 = _moments(1, mu, poisson, share)
-    value = old * poisson[0] + start * r1 + end * (r0 - r1) + 6.0 * bump * (r1 - r2)
-    slope = -old * poisson[0] + start * d1 + end * (d0 - d1) + 6.0 * bump * (d1 - d2)
-    return value, slope, r0 - r1, 6.0 * (r1 - r2)
+    value = old * poisson[0] + start * r1 + end.x * (r0 - r1) + 6.0 * bump.x * (r1 - r2)
+    slope = -old * poisson[0] + start * d1 + end.x * (d0 - d1) + 6.0 * bump.x * (d1 - d2)
+    return through3(value, slope * rate, span, r0 - r1, end, 6.0 * (r1 - r2), bump)
 
 
-@njit(cache=True)
+@jit_exact
 def squeezed(s, beta):
     """phi(s) and its derivative."""
     b = beta * s
@@ -158,94 +162,94 @@ def squeezed(s, beta):
     return s + b * s / d, 1.0 + b * (1.0 + d) / (d * d)
 
 
-@njit(cache=True)
+@jit_exact
+def _made(s, beta):
+    """Phi of a jet."""
+    x, slope = squeezed(s.x, beta)
+    return through(x, slope, s)
+
+
+@jit_exact
+def _passed_on(j, states, poisson):
+    """What lag `j` now has of what it and the lags before it held at the start; the same of those before alone."""
+    held, held_before = 0.0, 0.0
+    for i in range(j):
+        held += poisson[i] * states[CHAIN + j - 1 - i]
+        if i < j - 1:
+            held_before += poisson[i] * states[CHAIN + j - 2 - i]
+    return held, held_before
+
+
+@jit_exact
+def _between(x, law):
+    """Rows of gains on both sides of x = ln F, weight of the second, and its slope."""
+    rows = law.gain_x.size
+    if rows == 1 or x <= law.gain_x[0]:
+        return 0, min(1, rows - 1), 0.0, 0.0
+    if x >= law.gain_x[rows - 1]:
+        return rows - 2, rows - 1, 1.0, 0.0
+    row = np.searchsorted(law.gain_x, x) - 1
+    per_x = 1.0 / (law.gain_x[row + 1] - law.gain_x[row])
+    return row, row + 1, (x - law.gain_x[row]) * per_x, per_x
+
+
+@jit_exact
+def _weighed(k, q, law, between, x_u):
+    """Filter `k` times its gain at the load, whose ln F has the slope `x_u`."""
+    row, after, weight, per_x = between
+    below, above = law.gains[row, k], law.gains[after, k]
+    return times(Jet(below * (1.0 - weight) + above * weight, (above - below) * per_x * x_u, 0.0), q)
+
+
+@jit_exact
 def film_step(law, old, new, dt, u, v):
     """Advance the state `old` into `new`; returns F, dF/du and dF/dv at the end of the step."""
     lags = law.gains.shape[1] - DIRECT
-    x, g, g_u = static(u, law)
+    x, g_x, g_u = static(u, law)
+    g = Jet(g_x, g_u, 0.0)
     # own time and own rate at the end
-    theta = sqrt(g)
-    theta_u = 0.5 * g_u / theta
-    span = 0.5 * dt * (1.0 / old[THETA] + 1.0 / theta)
-    span_u = -0.5 * dt * theta_u / (theta * theta)
-    start, end, end_u, end_v = old[RATE], theta * v, theta_u * v, theta
+    theta = root(g)
+    start, end = old[RATE], times(theta, Jet(v, 0.0, 1.0))
+    span = Jet(0.5 * dt * (1.0 / old[THETA] + 1.0 / theta.x), -0.5 * dt * theta.u / (theta.x * theta.x), 0.0)
     # what the straight line between both rates misses of the change of approach
-    travel = u - old[APPROACH]
-    bump = travel / span - 0.5 * (start + end)
-    bump_u = (1.0 - travel / span * span_u) / span - 0.5 * end_u
-    bump_v = -0.5 * end_v
+    travel = Jet(u - old[APPROACH], 1.0, 0.0)
+    bump = minus(over(travel, span), half(start, end))
 
     poisson, share = np.empty(lags + 3), np.empty(lags + 3)
     p = law.inlet_rate
-    s, s_mu, s_end, s_bump = _one_lag(old[INLET], start, end, bump, p * span, poisson, share)
-    s_u = s_mu * p * span_u + s_end * end_u + s_bump * bump_u
-    s_v = s_end * end_v + s_bump * bump_v
-    y, y_mu, y_end, y_bump = _one_lag(old[FAST], start, end, bump, law.fast_rate * span, poisson, share)
-    y_u = y_mu * law.fast_rate * span_u + y_end * end_u + y_bump * bump_u
-    y_v = y_end * end_v + y_bump * bump_v
+    s = _one_lag(old[INLET], start, end, bump, p, span, poisson, share)
+    y = _one_lag(old[FAST], start, end, bump, law.fast_rate, span, poisson, share)
 
     # the film made: its ends, and a bump that keeps its mean, which the balance of the inlet lag gives
-    mean = (travel - (s - old[INLET]) / p) / span
-    mean_u = (1.0 - s_u / p - mean * span_u) / span
-    mean_v = -s_v / (p * span)
+    mean = (travel.x - (s.x - old[INLET]) / p) / span.x
+    entered = Jet(mean, (travel.u - s.u / p - mean * span.u) / span.x, -s.v / (p * span.x))
     f0 = squeezed(old[INLET], law.squeeze)[0]
-    f, f_s = squeezed(s, law.squeeze)
-    f_mean, f_mean_s = squeezed(mean, law.squeeze)
-    f_half, f_half_s = squeezed(0.5 * (old[INLET] + s), law.squeeze)
-    hump = f_mean - f_half
-    hump_u = f_mean_s * mean_u - 0.5 * f_half_s * s_u
-    hump_v = f_mean_s * mean_v - 0.5 * f_half_s * s_v
+    f, f_s = squeezed(s.x, law.squeeze)
+    hump = minus(_made(entered, law.squeeze), _made(half(old[INLET], s), law.squeeze))
 
-    # gains at the load
-    row, weight, per_x = 0, 0.0, 0.0
-    rows = law.gain_x.size
-    if rows > 1 and x > law.gain_x[0]:
-        if x >= law.gain_x[rows - 1]:
-            row, weight = rows - 2, 1.0
-        else:
-            row = np.searchsorted(law.gain_x, x) - 1
-            per_x = 1.0 / (law.gain_x[row + 1] - law.gain_x[row])
-            weight = (x - law.gain_x[row]) * per_x
-    after = min(row + 1, rows - 1)
-    x_u = 1.5 * g_u / g
-
-    m, m_u, m_v = 0.0, 0.0, 0.0
-    mu = law.lag_rate * span
-    mu_u = law.lag_rate * span_u
-    _residence(mu, lags + 2, poisson, share)
-    for k in range(DIRECT + lags):
-        if k == 0:
-            q, q_u, q_v = end, end_u, end_v
-        elif k == 1:
-            q, q_u, q_v = s, s_u, s_v
-        elif k == 2:
-            q, q_u, q_v = y, y_u, y_v
-        else:
-            j = k - DIRECT + 1
-            held, held_before = 0.0, 0.0
-            for i in range(j):
-                held += poisson[i] * old[CHAIN + j - 1 - i]
-                if i < j - 1:
-                    held_before += poisson[i] * old[CHAIN + j - 2 - i]
-            r0, r1, r2, d0, d1, d2 = _moments(j, mu, poisson, share)
-            q = held + f0 * r1 + f * (r0 - r1) + 6.0 * hump * (r1 - r2)
-            q_mu = held_before - held + f0 * d1 + f * (d0 - d1) + 6.0 * hump * (d1 - d2)
-            q_u = q_mu * mu_u + (r0 - r1) * f_s * s_u + 6.0 * (r1 - r2) * hump_u
-            q_v = (r0 - r1) * f_s * s_v + 6.0 * (r1 - r2) * hump_v
-            new[CHAIN + j - 1] = q
-        gain = law.gains[row, k] * (1.0 - weight) + law.gains[after, k] * weight
-        m += gain * q
-        m_u += gain * q_u + (law.gains[after, k] - law.gains[row, k]) * per_x * x_u * q
-        m_v += gain * q_v
-    new[THETA], new[RATE], new[APPROACH], new[INLET], new[FAST] = theta, end, u, s, y
-    w = g + m
-    if w <= 0.0:
+    between, x_u = _between(x, law), 1.5 * g.u / g.x
+    m = _weighed(0, end, law, between, x_u)
+    m = plus(m, _weighed(1, s, law, between, x_u))
+    m = plus(m, _weighed(2, y, law, between, x_u))
+    mu = through(law.lag_rate * span.x, law.lag_rate, span)
+    _residence(mu.x, lags + 2, poisson, share)
+    for j in range(1, lags + 1):
+        held, held_before = _passed_on(j, old, poisson)
+        r0, r1, r2, d0, d1, d2 = _moments(j, mu.x, poisson, share)
+        value = held + f0 * r1 + f * (r0 - r1) + 6.0 * hump.x * (r1 - r2)
+        slope = held_before - held + f0 * d1 + f * (d0 - d1) + 6.0 * hump.x * (d1 - d2)
+        q = through3(value, slope, mu, (r0 - r1) * f_s, s, 6.0 * (r1 - r2), hump)
+        m = plus(m, _weighed(DIRECT - 1 + j, q, law, between, x_u))
+        new[CHAIN + j - 1] = value
+    new[THETA], new[RATE], new[APPROACH], new[INLET], new[FAST] = theta.x, end.x, u, s.x, y.x
+    w = plus(g, m)
+    if w.x <= 0.0:
         return 0.0, 0.0, 0.0
-    root = sqrt(w)
-    return w * root, 1.5 * root * (g_u + m_u), 1.5 * root * m_v
+    w_root = sqrt(w.x)
+    return w.x * w_root, 1.5 * w_root * w.u, 1.5 * w_root * w.v
 
 
-@njit(cache=True)
+@jit_exact
 def film_rest(law, u, state):
     """Make `state` that of rest at approach `u`; returns the static force."""
     g = static(u, law)[1]
@@ -254,7 +258,7 @@ def film_rest(law, u, state):
     return g * sqrt(g)
 
 
-@njit(cache=True)
+@jit_exact
 def film_drive(law, T, u, v, force):
     """Force along a whole record that starts from rest at u[0], moving at v[0] from then on."""
     state = np.empty(CHAIN + law.gains.shape[1] - DIRECT)
@@ -266,14 +270,54 @@ def film_drive(law, T, u, v, force):
         state, other = other, state
 
 
-@njit(cache=True)
+@jit_exact
+def _gain(law, x, k):
+    """Gain k at x = ln F."""
+    if law.gain_x.size == 1:
+        return law.gains[0, k]
+    return np.interp(x, law.gain_x, np.ascontiguousarray(law.gains[:, k]))
+
+
+@jit_exact
+def _remembered(law, x, states):
+    """Film that the states add."""
+    film = 0.0
+    for k in range(states.size):
+        film += _gain(law, x, k + 1) * states[k]
+    return film
+
+
+@jit_exact
+def film_rates(law, states, u, v, rates):
+    """Force at approach `u` and rate `v`; fills the time derivatives of the states."""
+    x, g, _ = static(u, law)
+    theta = sqrt(g)
+    i = theta * v
+    rates[0] = law.inlet_rate * (i - states[0]) / theta
+    rates[1] = law.fast_rate * (i - states[1]) / theta
+    fed = squeezed(states[0], law.squeeze)[0]
+    for k in range(DIRECT - 1, states.size):
+        rates[k] = law.lag_rate * (fed - states[k]) / theta
+        fed = states[k]
+    w = g + _gain(law, x, 0) * i + _remembered(law, x, states)
+    return w * sqrt(w) if w > 0.0 else 0.0
+
+
+@jit_exact
+def film_rate(law, states, u, force):
+    """Rate at which the contact carries `force` > 0 at approach `u`."""
+    x, g, _ = static(u, law)
+    return (force ** (2.0 / 3.0) - g - _remembered(law, x, states)) / (_gain(law, x, 0) * sqrt(g))
+
+
+@jit_exact
 def static_forces(law, u, force):
     """Static force at every approach of the array `u`."""
     for i in range(u.size):
         force[i] = exp(1.5 * log(static(u[i], law)[1]))
 
 
-@njit(cache=True)
+@jit_exact
 def films(law, x, h, du):
     """Film h_s and slope du_s/dx at every x = ln F of an array."""
     for i in range(x.size):

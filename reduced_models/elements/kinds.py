@@ -8,9 +8,8 @@ from ehlcontact.errors import InputError
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.file import read_document
 from reduced_models.elements.memory import FilmMemoryContact
-from reduced_models.elements.polynomial import PolynomialContact
+from reduced_models.elements.polynomial import CubicContact, LinearContact, PolynomialContact
 from reduced_models.elements.power import PowerLawContact
-from reduced_models.elements.viscous import CubicContact, LinearContact
 from reduced_models.elements.wide import WideRangeContact
 
 __all__ = [

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ehlcontact.checks import require_finite, require_positive
+from ehlcontact.checks import as_column, require_finite, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from reduced_models.elements.file import numbers
-from reduced_models.elements.film_curve import LEAST_EXPONENT, as_rows, require_rising
+from reduced_models.elements.film_curve import LEAST_EXPONENT
 from reduced_models.elements.film_element import FilmContact
-from reduced_models.elements.film_law import DIRECT, FilmLaw
-from reduced_models.elements.validity import Band
+from reduced_models.elements.film_law import DIRECT
 
-_SCALARS = ("film", "exponent", "squeeze", "lag_rate", "inlet_rate", "fast_rate")
+_Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -41,7 +38,7 @@ class FilmMemoryContact(FilmContact):
     gains : sequence of float
         Viscous, inlet and fast gain, then one for every lag of the chain.
     low, high, rate, load_range, omega_range, units, fit, source
-        As for `LinearContact`.
+        As for `ContactElement`.
     scales : Scales, optional
         Of an element in SI.
 
@@ -60,58 +57,29 @@ class FilmMemoryContact(FilmContact):
     gains: tuple[float, ...]
     low: float
     high: float
-    rate: float | None = None
-    load_range: Band | None = None
-    omega_range: Band | None = None
-    units: str = "dimensionless"
-    scales: Scales | None = None
-    fit: Mapping[str, Any] | None = field(default=None, repr=False, compare=False)
-    source: Mapping[str, Any] | None = field(default=None, repr=False, compare=False)
-    law: FilmLaw = field(init=False, repr=False, compare=False)
+    scales: Scales | None = field(default=None, kw_only=True)
 
     kind = "memory"
-    parameter_names = ()
+    parameter_names = ("film", "exponent", "squeeze", "lag_rate", "inlet_rate", "fast_rate", "gains")
+    tables = ("gains",)
 
-    def __post_init__(self) -> None:
+    def _check_coefficients(self) -> None:
+        super()._check_coefficients()
         object.__setattr__(self, "film", require_positive("film", self.film))
         object.__setattr__(self, "exponent", require_finite("exponent", self.exponent))
         if self.exponent < LEAST_EXPONENT:
             raise InputError("exponent", self.exponent, f"at least {LEAST_EXPONENT}")
-        row = as_rows("gains", [self.gains], 1)[0]
-        object.__setattr__(self, "gains", tuple(row.tolist()))
-        super().__post_init__()
+        gains = as_column("gains", self.gains, least=DIRECT + 1)
+        object.__setattr__(self, "gains", tuple(gains.tolist()))
 
-    @property
-    def lags(self) -> int:
-        """Number of lags that carry the film through the contact."""
-        return len(self.gains) - DIRECT
-
-    @property
-    def parameters(self) -> dict[str, Any]:
-        """Coefficients by name, dimensionless."""
-        return {name: getattr(self, name) for name in _SCALARS} | {"gains": list(self.gains)}
-
-    def _law(self) -> FilmLaw:
+    def _tables(self) -> dict[str, _Floats]:
         x = np.array([-1.0, 1.0])  # a straight line: any two points
         y = math.log(self.film) - self.exponent * x
-        law = FilmLaw(
-            x=x,
-            y=y,
-            slope=np.full(2, -self.exponent),
-            u=np.exp(2.0 / 3.0 * x) - np.exp(y),
-            gain_x=np.zeros(1),
-            gains=np.array([self.gains]),
-            lag_rate=self.rates.lag_rate,
-            inlet_rate=self.rates.inlet_rate,
-            fast_rate=self.rates.fast_rate,
-            squeeze=self.squeeze,
-        )
-        require_rising(law)
-        return law
-
-    @classmethod
-    def _coefficients(cls, name: str, entries: Mapping[str, Any]) -> dict[str, Any]:
-        gains = entries.get("gains")
-        if not isinstance(gains, list):
-            raise InputError(f"{name}: parameters.gains", gains, "a list of numbers")
-        return {**numbers(name, "parameters", entries, _SCALARS), "gains": gains}
+        return {
+            "x": x,
+            "y": y,
+            "slope": np.full(2, -self.exponent),
+            "u": np.exp(2.0 / 3.0 * x) - np.exp(y),
+            "gain_x": np.zeros(1),
+            "gains": np.array([self.gains]),
+        }

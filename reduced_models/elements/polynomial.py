@@ -1,30 +1,130 @@
-"""The seven-term polynomial of Nonato and Cavalca (2010), eqs. 11 and 12."""
+"""Polynomials of Nonato and Cavalca (2010), eqs. 8, 11 and 12: linear, cubic, and all seven terms."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
+from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from ehlcontact.checks import require_positive
+from ehlcontact.checks import require_nonnegative, require_positive
+from ehlcontact.errors import InputError
+from ehlcontact.jit import jit_exact
 from ehlcontact.point import Scales
-from reduced_models.elements.memoryless import MemorylessContact
-from reduced_models.elements.polynomial_law import PolynomialLaw, contact, contact_values, damper, part_values
-from reduced_models.elements.validity import Band
+from reduced_models.elements.spring import MemorylessContact, damper, kernel_of
 
-_Floats = NDArray[np.float64]
+
+class PolynomialLaw(NamedTuple):
+    """Eq. 11 between the ends; see `reduced_models.elements.spring`."""
+
+    low: float
+    high: float
+    K1: float
+    C1: float
+    K2: float = 0.0
+    C2: float = 0.0
+    K3: float = 0.0
+    C3: float = 0.0
+    B4: float = 0.0
+    rate: float = math.inf
+    o_low: float = math.nan
+    A_low: float = math.nan
+    o_high: float = math.nan
+    A_high: float = math.nan
+
+
+@kernel_of(PolynomialLaw)
+@jit_exact
+def cubic(u, law):
+    """Cubic through the origin, and its derivative."""
+    return u * (law.K1 + u * (law.K2 + u * law.K3)), law.K1 + u * (2.0 * law.K2 + u * 3.0 * law.K3)
+
+
+class _PolynomialContact(MemorylessContact):
+    """What the three have in common: one law, in which coefficients that an element does not have are zero."""
+
+    def _law(self) -> PolynomialLaw:
+        return PolynomialLaw(self.low, self.high, **self.parameters)
+
+    def _approach_between(self, force: float) -> float:
+        law = self.law
+        return float(brentq(lambda u: cubic(u, law)[0] - force, law.low, law.high, xtol=1e-300, rtol=1e-14))
+
+
+class ViscousContact(_PolynomialContact):
+    """What `LinearContact` and `CubicContact` have in common: no damper but C1."""
+
+    C1: float
+
+    def _law(self) -> PolynomialLaw:
+        require_nonnegative("C1", self.C1)
+        return super()._law()
+
+    def _si_factors(self, scales: Scales) -> dict[str, float]:
+        return {f"K{i}": scales.force / scales.length**i for i in (1, 2, 3)} | {"C1": scales.damping}
 
 
 @dataclass(frozen=True)
-class PolynomialContact(MemorylessContact):
+class LinearContact(ViscousContact):
+    """Linear spring and viscous damper, F = K1 u + C1 u' on [low, high] (eq. 8).
+
+    Parameters
+    ----------
+    K1, C1 : float
+        Stiffness and damping; in SI N/m and N s/m.
+    low, high, rate, load_range, omega_range, units, fit, source
+        As for `ContactElement`.
+
+    Raises
+    ------
+    InputError
+        A value not finite, C1 < 0, low >= high, or a spring that does not push at both ends.
+    """
+
+    K1: float
+    C1: float
+    low: float
+    high: float
+
+    kind = "linear"
+    parameter_names = ("K1", "C1")
+
+
+@dataclass(frozen=True)
+class CubicContact(ViscousContact):
+    """Cubic spring and viscous damper, F = K1 u + K2 u^2 + K3 u^3 + C1 u' on [low, high] (eq. 11).
+
+    Parameters
+    ----------
+    K1, K2, K3, C1 : float
+        Coefficients; in SI N/m, N/m^2, N/m^3 and N s/m. Only the root and the tangent of the spring are
+        identifiable from a small vibration, not the single K.
+    low, high, rate, load_range, omega_range, units, fit, source
+        As for `ContactElement`.
+
+    Raises
+    ------
+    InputError
+        A value not finite, C1 < 0, low >= high, or a spring that does not push and stiffen at both ends.
+    """
+
+    K1: float
+    K2: float
+    K3: float
+    C1: float
+    low: float
+    high: float
+
+    kind = "cubic"
+    parameter_names = ("K1", "K2", "K3", "C1")
+
+
+@dataclass(frozen=True)
+class PolynomialContact(_PolynomialContact):
     """F = K1 u + C1 u' + K2 u^2 + C2 u'^2 + K3 u^3 + C3 u'^3 + B4 u u' on the box (eq. 11).
 
-    Outside the box see `polynomial_law`. Use the cubic element unless the seven terms are wanted:
+    Outside the box see `reduced_models.elements.spring`. Use the cubic element unless the seven terms are wanted:
     the three further dampers are hardly identifiable (`reduced_models.sensitivity`).
 
     Parameters
@@ -32,7 +132,7 @@ class PolynomialContact(MemorylessContact):
     K1, C1, K2, C2, K3, C3, B4 : float
         Coefficients, in the order of eq. 12.
     low, high, rate, load_range, omega_range, units, fit, source
-        As for `LinearContact`; without a `rate` the powers of the rate go on for ever.
+        As for `ContactElement`; without a `rate` the powers of the rate go on for ever.
 
     Raises
     ------
@@ -50,21 +150,9 @@ class PolynomialContact(MemorylessContact):
     B4: float
     low: float
     high: float
-    rate: float | None = None
-    load_range: Band | None = None
-    omega_range: Band | None = None
-    units: str = "dimensionless"
-    fit: Mapping[str, Any] | None = field(default=None, repr=False, compare=False)
-    source: Mapping[str, Any] | None = field(default=None, repr=False, compare=False)
-    law: PolynomialLaw = field(init=False, repr=False, compare=False)
 
     kind = "polynomial"
     parameter_names = ("K1", "C1", "K2", "C2", "K3", "C3", "B4")
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        fastest = math.inf if self.rate is None else require_positive("rate", self.rate)
-        object.__setattr__(self, "law", PolynomialLaw.build(self.parameters, self.low, self.high, fastest))
 
     def rate_at(self, approach: float, force: float) -> float:
         """Rate at which the contact carries `force` > 0 at this approach.
@@ -86,19 +174,27 @@ class PolynomialContact(MemorylessContact):
             width *= 2.0
         return float(brentq(excess, v - width, v + width, xtol=1e-300, rtol=1e-14))
 
-    def _at(self, approach: float, rate: float) -> tuple[float, float, float]:
-        return contact(approach, rate, self.law)
-
-    def _values(self, approach: ArrayLike, rate: ArrayLike) -> _Floats:
-        return contact_values(self.law, approach, rate)
-
-    def _springs(self, approach: ArrayLike) -> _Floats:
-        return part_values(self.law, approach)
-
-    def _static_approach(self, force: float) -> float:
-        return self.law.approach_at(force)
+    def _law(self) -> PolynomialLaw:
+        fastest = math.inf if self.rate is None else require_positive("rate", self.rate)
+        law = super()._law()._replace(rate=fastest)
+        _require_dissipation(law)
+        return law
 
     def _si_factors(self, scales: Scales) -> dict[str, float]:
         f, u, v = scales.force, scales.length, scales.rate
         springs = {f"K{i}": f / u**i for i in (1, 2, 3)}
         return springs | {f"C{i}": f / v**i for i in (1, 2, 3)} | {"B4": f / (u * v)}
+
+
+def _require_dissipation(law: PolynomialLaw) -> None:
+    """Raise `InputError` where a damper feeds energy into a cycle somewhere in the box or beyond it."""
+    # Even powers of the rate cancel over a cycle; what remains is linear in u and in u'^2: look at corners.
+    reach = 0.5 * (law.high - law.low)
+    cubed = law.C3 * law.rate**2 if law.C3 != 0.0 else 0.0
+    for u in (law.low - reach, law.high + reach):
+        for more in (0.0, cubed):
+            damping = law.C1 + law.B4 * u + more
+            if not damping >= 0.0:
+                raise InputError(
+                    f"cycle damping C1 + B4 u + C3 rate^2 at u = {u:.4g}", damping, ">= 0 (fit the cubic model)"
+                )

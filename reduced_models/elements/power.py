@@ -2,19 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
+from ehlcontact.checks import require_nonnegative, require_positive
+from ehlcontact.jit import jit_exact
 from ehlcontact.point import Scales
-from reduced_models.elements.memoryless import MemorylessContact
-from reduced_models.elements.power_law import PowerLaw, contact, contact_values, part_values
-from reduced_models.elements.validity import Band
+from reduced_models.elements.spring import MemorylessContact, kernel_of
 
-_Floats = NDArray[np.float64]
+
+class PowerLaw(NamedTuple):
+    """K (u + u0)^n + F0 between the ends, and C1 = C; see `reduced_models.elements.spring`."""
+
+    low: float
+    high: float
+    K: float
+    n: float
+    u0: float
+    F0: float
+    C1: float
+    C2: float = 0.0
+    C3: float = 0.0
+    B4: float = 0.0
+    rate: float = math.inf
+    o_low: float = math.nan
+    A_low: float = math.nan
+    o_high: float = math.nan
+    A_high: float = math.nan
+
+
+@kernel_of(PowerLaw)
+@jit_exact
+def power(u, law):
+    """Force of the power law and its derivative, where u + u0 > 0."""
+    reach = u + law.u0
+    part = law.K * reach**law.n
+    return part + law.F0, law.n * part / reach
 
 
 @dataclass(frozen=True)
@@ -37,7 +61,7 @@ class PowerLawContact(MemorylessContact):
     C : float
         Damping coefficient, >= 0.
     low, high, rate, load_range, omega_range, units, fit, source
-        As for `LinearContact`.
+        As for `ContactElement`.
 
     Raises
     ------
@@ -52,32 +76,19 @@ class PowerLawContact(MemorylessContact):
     C: float
     low: float
     high: float
-    rate: float | None = None
-    load_range: Band | None = None
-    omega_range: Band | None = None
-    units: str = "dimensionless"
-    fit: Mapping[str, Any] | None = field(default=None, repr=False, compare=False)
-    source: Mapping[str, Any] | None = field(default=None, repr=False, compare=False)
-    law: PowerLaw = field(init=False, repr=False, compare=False)
 
     kind = "power"
     parameter_names = ("K", "n", "u0", "F0", "C")
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        object.__setattr__(self, "law", PowerLaw.build(self.parameters, self.low, self.high))
+    def _law(self) -> PowerLaw:
+        for name in ("K", "n"):
+            require_positive(name, getattr(self, name))
+        require_nonnegative("C", self.C)
+        require_positive("low + u0", self.low + self.u0)
+        return PowerLaw(self.low, self.high, self.K, self.n, self.u0, self.F0, self.C)
 
-    def _at(self, approach: float, rate: float) -> tuple[float, float, float]:
-        return contact(approach, rate, self.law)
-
-    def _values(self, approach: ArrayLike, rate: ArrayLike) -> _Floats:
-        return contact_values(self.law, approach, rate)
-
-    def _springs(self, approach: ArrayLike) -> _Floats:
-        return part_values(self.law, approach)
-
-    def _static_approach(self, force: float) -> float:
-        return self.law.approach_at(force)
+    def _approach_between(self, force: float) -> float:
+        return float(((force - self.F0) / self.K) ** (1.0 / self.n)) - self.u0
 
     def _si_factors(self, scales: Scales) -> dict[str, float]:
         unit = scales.force / scales.length**self.n

@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
-MARGIN = 0.05  # share of the interval of approach, and of the largest rate, that goes unmentioned
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ehlcontact.checks import require_finite, require_nonnegative
+from ehlcontact.errors import InputError
+from ehlcontact.point import Scales
+from reduced_models.elements.file import numbers
+
+MARGIN = 0.05  # share of the intervals of approach and load, and of the largest rate, that goes unmentioned
 STILL = 1e-6  # spread of an approach over its size, below which its frequency means nothing
 OCTAVE = 2.0  # likewise of frequency: in the contact's own band damping changes by a fifth over an octave
 
@@ -14,6 +24,117 @@ Band = tuple[float, float]
 
 class OutsideValidityWarning(UserWarning):
     """An element was used where no data stands behind it; it is told once per element."""
+
+
+@dataclass(frozen=True)
+class Validity:
+    """What the data covered, a closed box; a bound that is None is not known and does not count.
+
+    Raises
+    ------
+    InputError
+        A bound that is no number or pair of numbers, low >= high, or a negative rate. Bounds are called as in the
+        constructor of an element.
+    """
+
+    approach: Band
+    rate: float | None = None  # largest, in magnitude
+    load: Band | None = None  # contact forces
+    omega: Band | None = None  # angular frequencies
+    # low, high and largest rate, all with the margin
+    reach: tuple[float, float, float] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        low, high = self.approach
+        low, high = require_finite("low", low), require_finite("high", high)
+        if low >= high:
+            raise InputError("low", low, f"below high = {high!r}")
+        rate = None if self.rate is None else require_nonnegative("rate", self.rate)
+        slack = MARGIN * (high - low)
+        fastest = math.inf if rate is None else (1.0 + MARGIN) * rate
+        checked = {
+            "approach": (low, high),
+            "rate": rate,
+            "load": _band("load_range", self.load),
+            "omega": _band("omega_range", self.omega),
+            "reach": (low - slack, high + slack, fastest),
+        }
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+
+    @classmethod
+    def of(cls, approach: ArrayLike, rate: ArrayLike | None, force: ArrayLike, omegas: ArrayLike) -> Validity:
+        """The box round all samples of a motion, whose rate may be unknown, and round its frequencies."""
+        u, f, w = (np.asarray(values, float) for values in (approach, force, omegas))
+        fastest = None if rate is None else float(np.abs(np.asarray(rate, float)).max())
+        return cls(_around(u), fastest, _around(f), _around(w))
+
+    def covers(
+        self, approach: ArrayLike, rate: ArrayLike = 0.0, omega: float | None = None
+    ) -> bool | NDArray[np.bool_]:
+        """Whether approach, rate and frequency lie in the box; scalars or arrays that broadcast."""
+        u, v = np.broadcast_arrays(np.asarray(approach, float), np.asarray(rate, float))
+        inside = (u >= self.approach[0]) & (u <= self.approach[1])
+        if self.rate is not None:
+            inside &= np.abs(v) <= self.rate
+        if omega is not None and self.omega is not None:
+            inside &= self.omega[0] <= omega <= self.omega[1]
+        return inside if u.ndim else bool(inside)
+
+    def excess(
+        self, approach: ArrayLike = (), rate: ArrayLike = (), omega: float | None = None, force: ArrayLike = ()
+    ) -> list[str]:
+        """What of a motion lies outside, in words; small excursions go unmentioned.
+
+        Those are a twentieth of the intervals of approach and load and of the largest rate, and an octave of
+        frequency.
+        """
+        said = []
+        worst = _outside(approach, self.approach)
+        if worst is not None:
+            said.append(f"approach {worst:.4g} (fitted {text_of(self.approach)})")
+        v = np.abs(np.asarray(rate, float))
+        if v.size and v.max() > self.reach[2]:
+            said.append(f"rate {float(v.max()):.4g} (fitted up to {self.rate:.4g})")
+        worst = None if self.load is None else _outside(force, self.load)
+        if self.load is not None and worst is not None:
+            said.append(f"force {worst:.4g} (fitted {text_of(self.load)})")
+        if omega is not None and self.omega is not None:
+            if not self.omega[0] / OCTAVE <= omega <= self.omega[1] * OCTAVE:
+                said.append(f"angular frequency {omega:.4g} (fitted {text_of(self.omega)})")
+        return said
+
+    def to_si(self, scales: Scales) -> Validity:
+        """The same box in m, m/s, N and rad/s."""
+        return Validity(
+            _scaled(self.approach, scales.length),
+            None if self.rate is None else self.rate * scales.rate,
+            None if self.load is None else _scaled(self.load, scales.force),
+            None if self.omega is None else _scaled(self.omega, 1.0 / scales.time),
+        )
+
+    def fields(self) -> dict[str, Any]:
+        """The box as arguments of an element."""
+        low, high = self.approach
+        return {"low": low, "high": high, "rate": self.rate, "load_range": self.load, "omega_range": self.omega}
+
+    def to_dict(self) -> dict[str, Any]:
+        """The box as the object ``valid`` of an element file."""
+        named = {key.removesuffix("_range"): value for key, value in self.fields().items()}
+        return {key: list(value) if isinstance(value, tuple) else value for key, value in named.items()}
+
+    @classmethod
+    def from_dict(cls, valid: Mapping[str, Any]) -> Validity:
+        """Read the object ``valid``; all but low and high may be absent or null.
+
+        Raises
+        ------
+        InputError
+            An entry that is missing, no number or no pair of numbers.
+        """
+        ends = numbers("valid", valid, ("low", "high"))
+        rate = None if valid.get("rate") is None else numbers("valid", valid, ("rate",))["rate"]
+        return cls((ends["low"], ends["high"]), rate, _read_band(valid, "load"), _read_band(valid, "omega"))
 
 
 def frequency_of(approach: NDArray[np.float64], rate: NDArray[np.float64]) -> float | None:
@@ -27,3 +148,46 @@ def frequency_of(approach: NDArray[np.float64], rate: NDArray[np.float64]) -> fl
 def text_of(band: Band) -> str:
     """The band in words."""
     return f"{band[0]:.4g} to {band[1]:.4g}"
+
+
+def _around(values: NDArray[np.float64]) -> Band:
+    return float(values.min()), float(values.max())
+
+
+def _outside(values: ArrayLike, band: Band) -> float | None:
+    """The value farthest outside `band`, None where all lie inside or within the margin."""
+    array = np.asarray(values, float)
+    if not array.size:
+        return None
+    (low, high), (least, most) = band, _around(array)
+    slack = MARGIN * (high - low)
+    if least < low - slack or most > high + slack:
+        return most if most - high > low - least else least
+    return None
+
+
+def _scaled(band: Band, unit: float) -> Band:
+    return band[0] * unit, band[1] * unit
+
+
+def _band(name: str, value: Any) -> Band | None:
+    if value is None:
+        return None
+    try:
+        low, high = value
+    except (TypeError, ValueError):
+        raise InputError(name, value, "a pair (low, high) of numbers") from None
+    low, high = require_finite(name, low), require_finite(name, high)
+    if low > high:
+        raise InputError(name, (low, high), "a pair with low <= high")
+    return low, high
+
+
+def _read_band(valid: Mapping[str, Any], key: str) -> Band | None:
+    value = valid.get(key)
+    if value is None:
+        return None
+    if not isinstance(value, list) or len(value) != 2:
+        raise InputError(f"valid.{key}", value, "a pair of finite numbers, or null")
+    pair = numbers(f"valid.{key}", {"low": value[0], "high": value[1]}, ("low", "high"))
+    return pair["low"], pair["high"]

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError
+from ehlcontact.checks import as_column, as_rows, require_positive
 from ehlcontact.point import Scales
-from reduced_models.elements.file import numbers
-from reduced_models.elements.film_curve import as_rows, curve_nodes, increasing, require_rising
+from reduced_models.elements.film_curve import curve_nodes
 from reduced_models.elements.film_element import FilmContact
-from reduced_models.elements.film_law import DIRECT, FilmLaw
-from reduced_models.elements.validity import Band
+from reduced_models.elements.film_law import DIRECT
 
-_SCALARS = ("squeeze", "lag_rate", "inlet_rate", "fast_rate")
-_TABLES = ("loads", "approach", "gain_loads", "gains")
+_Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -60,63 +56,29 @@ class WideRangeContact(FilmContact):
     fast_rate: float
     low: float | None = None  # type: ignore[assignment]
     high: float | None = None  # type: ignore[assignment]
-    rate: float | None = None
-    load_range: Band | None = None
-    omega_range: Band | None = None
-    units: str = "dimensionless"
-    scales: Scales | None = None
-    fit: Mapping[str, Any] | None = field(default=None, repr=False, compare=False)
-    source: Mapping[str, Any] | None = field(default=None, repr=False, compare=False)
-    law: FilmLaw = field(init=False, repr=False, compare=False)
+    scales: Scales | None = field(default=None, kw_only=True)
 
     kind = "wide"
-    parameter_names = ()
+    parameter_names = (
+        "loads", "approach", "gain_loads", "gains", "squeeze", "lag_rate", "inlet_rate", "fast_rate"
+    )  # fmt: skip
+    tables = ("loads", "approach", "gain_loads", "gains")
 
-    def __post_init__(self) -> None:
+    def _check_coefficients(self) -> None:
+        super()._check_coefficients()
         for name, least in (("loads", 2), ("approach", 2), ("gain_loads", 1)):
-            object.__setattr__(self, name, tuple(increasing(name, getattr(self, name), least).tolist()))
-        if self.gain_loads[0] <= 0.0:
-            raise InputError("gain_loads[0]", self.gain_loads[0], "> 0")
-        rows = as_rows("gains", self.gains, len(self.gain_loads))
+            column = as_column(name, getattr(self, name), least=least, increasing=True)
+            object.__setattr__(self, name, tuple(column.tolist()))
+        require_positive("gain_loads[0]", self.gain_loads[0])
+        rows = as_rows("gains", self.gains, len(self.gain_loads), DIRECT + 1)
         object.__setattr__(self, "gains", tuple(tuple(row) for row in rows.tolist()))
-        length = 1.0 if self.scales is None else self.scales.length
-        force = 1.0 if self.scales is None else self.scales.force
+        force, length = (1.0, 1.0) if self.scales is None else (self.scales.force, self.scales.length)
         for name, end in (("low", self.approach[0]), ("high", self.approach[-1])):
             if getattr(self, name) is None:
                 object.__setattr__(self, name, end * length)
         if self.load_range is None:
             object.__setattr__(self, "load_range", (self.loads[0] * force, self.loads[-1] * force))
-        super().__post_init__()
 
-    @property
-    def lags(self) -> int:
-        """Number of lags that carry the film through the contact."""
-        return len(self.gains[0]) - DIRECT
-
-    @property
-    def parameters(self) -> dict[str, Any]:
-        """Coefficients and tables by name, dimensionless."""
-        tables = {name: list(getattr(self, name)) for name in ("loads", "approach", "gain_loads")}
-        scalars = {name: getattr(self, name) for name in _SCALARS}
-        return tables | {"gains": [list(row) for row in self.gains]} | scalars
-
-    def _law(self) -> FilmLaw:
-        law = FilmLaw(
-            **curve_nodes(self.loads, self.approach),
-            gain_x=np.log(np.array(self.gain_loads)),
-            gains=np.array(self.gains),
-            lag_rate=self.rates.lag_rate,
-            inlet_rate=self.rates.inlet_rate,
-            fast_rate=self.rates.fast_rate,
-            squeeze=self.squeeze,
-        )
-        require_rising(law)
-        return law
-
-    @classmethod
-    def _coefficients(cls, name: str, entries: Mapping[str, Any]) -> dict[str, Any]:
-        tables = {key: entries.get(key) for key in _TABLES}
-        for key, table in tables.items():
-            if not isinstance(table, list):
-                raise InputError(f"{name}: parameters.{key}", table, "a list of numbers")
-        return {**numbers(name, "parameters", entries, _SCALARS), **tables}
+    def _tables(self) -> dict[str, _Floats]:
+        gains = {"gain_x": np.log(np.array(self.gain_loads)), "gains": np.array(self.gains)}
+        return curve_nodes(self.loads, self.approach) | gains

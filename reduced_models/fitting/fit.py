@@ -11,10 +11,11 @@ import numpy as np
 from ehlcontact.checks import require_choice
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
-from reduced_models.elements.memoryless import MemorylessContact
+from reduced_models.elements.spring import MemorylessContact
+from reduced_models.elements.validity import Validity
 from reduced_models.fitting.memory import fit_memory
 from reduced_models.fitting.models import ESTIMATORS, Estimate
-from reduced_models.fitting.records import ContactRecord, box_of
+from reduced_models.fitting.records import ContactRecord
 from reduced_models.fitting.result import ElementFit, FitResult, MemoryFit, rms_error, sum_error, valid_of
 from reduced_models.fitting.samples import Samples, Window
 from reduced_models.fitting.uncertainty import Uncertainty
@@ -107,7 +108,7 @@ def _least_squares(records: Records, model: str, window: Window | None) -> FitRe
         samples=int(samples.force.size),
         independent_samples=known.independent_samples,
     )
-    return replace(result, element=replace(element, fit=result.quality()))  # type: ignore[type-var]
+    return replace(result, element=replace(element, fit=result.quality()))
 
 
 def _element(samples: Samples, estimate: Estimate) -> MemorylessContact:
@@ -116,7 +117,7 @@ def _element(samples: Samples, estimate: Estimate) -> MemorylessContact:
     omegas = [cut.omega for cut in samples.cuts]
     return estimate.build(
         **estimate.parameters,
-        **box_of(samples.approach, samples.rate, samples.force, omegas),
+        **Validity.of(samples.approach, samples.rate, samples.force, omegas).fields(),
         units=first.units,
         source=source_of(
             first.point, first.scales, samples.each("n"), samples.each("domain"), samples.each("motion")

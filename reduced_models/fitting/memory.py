@@ -17,7 +17,8 @@ from reduced_models.elements.film_curve import LEAST_EXPONENT
 from reduced_models.elements.film_law import film_drive
 from reduced_models.elements.film_response import WEIGHT_C, WEIGHT_K, FilterRates, GainFit, fit_gains
 from reduced_models.elements.memory import FilmMemoryContact
-from reduced_models.fitting.records import ContactRecord, as_records, box_of
+from reduced_models.elements.validity import Validity
+from reduced_models.fitting.records import ContactRecord, as_records
 from reduced_models.fitting.result import MemoryFit, rms_error, sum_error, valid_of
 
 _Floats = NDArray[np.float64]
@@ -270,7 +271,7 @@ def _element(target: Target, rates: FilterRates, gains: GainFit, squeeze: float)
         inlet_rate=rates.inlet_rate,
         fast_rate=rates.fast_rate,
         gains=tuple(gains.gains.tolist()),
-        **box_of(*target.motion, target.omega.tolist()),
+        **Validity.of(*target.motion, target.omega).fields(),
     )
 
 

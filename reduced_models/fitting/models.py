@@ -8,10 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from reduced_models.elements.memoryless import MemorylessContact
-from reduced_models.elements.polynomial import PolynomialContact
+from reduced_models.elements.polynomial import CubicContact, LinearContact, PolynomialContact
 from reduced_models.elements.power import PowerLawContact
-from reduced_models.elements.viscous import CubicContact, LinearContact
+from reduced_models.elements.spring import MemorylessContact
 from reduced_models.fitting.least_squares import linear_fit
 from reduced_models.fitting.power import fit_power_law
 from reduced_models.fitting.samples import Samples

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Self
 
@@ -230,19 +230,3 @@ def as_records(records: object) -> tuple[ContactRecord, ...]:
             f"records[{i}]", record, ContactRecord, "a ContactRecord; ContactRecord.from_result(result) makes one"
         )
     return taken
-
-
-def box_of(
-    approach: NDArray[np.float64],
-    rate: NDArray[np.float64] | None,
-    force: NDArray[np.float64],
-    omegas: Sequence[float],
-) -> dict[str, Any]:
-    """Validity box of an element that stands for this motion, as the constructors of elements take it."""
-    return {
-        "low": float(approach.min()),
-        "high": float(approach.max()),
-        "rate": None if rate is None else float(np.abs(rate).max()),
-        "load_range": (float(force.min()), float(force.max())),
-        "omega_range": (min(omegas), max(omegas)),
-    }

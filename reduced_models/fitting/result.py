@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.memory import FilmMemoryContact
-from reduced_models.elements.memoryless import MemorylessContact
+from reduced_models.elements.spring import MemorylessContact
 
 _Floats = NDArray[np.float64]
 

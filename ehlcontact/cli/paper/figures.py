@@ -14,7 +14,7 @@ from ehlcontact.cli.paper import spring_figure as spring
 from ehlcontact.cli.paper.cases import FREE, HARMONIC
 from ehlcontact.cli.paper.data import paper_fits
 from ehlcontact.cli.paper.fits import Fits
-from reduced_models.elements.memoryless import MemorylessContact
+from reduced_models.elements.spring import MemorylessContact
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from reduced_models import (
     sensitivity,
     simulate_oscillator,
 )
-from reduced_models.elements.memoryless import MemorylessContact
+from reduced_models.elements.spring import MemorylessContact
 
 PAPER_METHOD, STIFF_METHOD = "RK23", "Radau"  # Bogacki and Shampine as in the paper, and a stiff integrator
 

@@ -13,7 +13,7 @@ from ehlcontact.cli.paper.cases import CASES
 from ehlcontact.cli.paper.fits import Fits
 from ehlcontact.cli.paper.runs import Runs
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, RED, legend_above, new_figure
-from reduced_models.elements.memoryless import MemorylessContact
+from reduced_models.elements.spring import MemorylessContact
 
 COLOURS = (BLUE, ORANGE, GREEN)
 Floats = NDArray[np.float64]
