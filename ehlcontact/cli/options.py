@@ -58,9 +58,14 @@ JsonTo = Annotated[
         rich_help_panel=_FILES,
     ),
 ]
+FigureTo = Annotated[
+    Path | None,
+    typer.Option("--figure", metavar="FILE", help="Draw the result as PNG, SVG or PDF.", rich_help_panel=_FILES),
+]
 
 ALPHA, ETA0, VISCOSITY, DENSITY = 2.2e-8, 0.04, "roelands", "dowson-higginson"
 HDF5 = (".h5", ".hdf5")
+PICTURES = (".png", ".svg", ".pdf")
 
 
 def region(domain: tuple[float, float, float] | None, n: int | None) -> Domain | None:

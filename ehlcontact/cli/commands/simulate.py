@@ -10,7 +10,6 @@ import typer
 from ehlcontact.checks import require_positive
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import FAILED, check_file, check_json, complain, progress, show_table, write_json
-from ehlcontact.cli.plots.file import FigureTo, check_figure, write_figure
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import MoesPoint
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, Motion, RampLoad
@@ -81,7 +80,7 @@ def simulate(
     n: o.ChosenIntervals = None,
     domain: o.Region = None,
     save: o.Save = None,
-    figure: FigureTo = None,
+    figure: o.FigureTo = None,
     json_to: o.JsonTo = None,
     checkpoint: Annotated[
         Path | None,
@@ -108,7 +107,7 @@ def simulate(
             require_positive(name, value)
     check_file("--save", save, o.HDF5)
     check_file("--checkpoint", checkpoint, o.HDF5)
-    check_figure(figure)
+    check_file("--figure", figure, o.PICTURES)
     check_json(json_to)
     failure = ""
     with progress("transient film") as update:
@@ -129,10 +128,11 @@ def simulate(
             result, failure = stopped.result, str(stopped)
     if save is not None:
         store(result, save)
-    if figure is not None:
-        from ehlcontact.cli.plots.motion_of_result import draw_simulation
+    if figure is not None and result.steps:  # stopped before the first step, there is nothing to draw
+        from ehlcontact.cli.plots.motion import simulation_figure
+        from ehlcontact.cli.plots.style import write_figure
 
-        write_figure(draw_simulation, result, figure)
+        write_figure(simulation_figure, result, figure)
     write_json(result.summary(), json_to)
     show_table(
         "transient film",

@@ -6,7 +6,6 @@ import typer
 
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import FAILED, check_file, check_json, complain, progress, show_table, write_json
-from ehlcontact.cli.plots.file import FigureTo, check_figure, write_figure
 from ehlcontact.point import MoesPoint
 
 
@@ -26,7 +25,7 @@ def steady(
     n: o.ChosenIntervals = None,
     domain: o.Region = None,
     save: o.Save = None,
-    figure: FigureTo = None,
+    figure: o.FigureTo = None,
     json_to: o.JsonTo = None,
 ) -> None:
     """Solve the steady film of a contact."""
@@ -36,7 +35,7 @@ def steady(
     point = MoesPoint(M, L, kappa, alpha, eta0, viscosity, density)
     region = o.region(domain, n)
     check_file("--save", save, o.HDF5)
-    check_figure(figure)
+    check_file("--figure", figure, o.PICTURES)
     check_json(json_to)
     with progress("steady film") as update:
         result = solve_steady(
@@ -49,9 +48,10 @@ def steady(
     if save is not None:
         store(result, save)
     if figure is not None:
-        from ehlcontact.cli.plots.film_of_result import draw_steady
+        from ehlcontact.cli.plots.film import steady_figure
+        from ehlcontact.cli.plots.style import write_figure
 
-        write_figure(draw_steady, result, figure)
+        write_figure(steady_figure, result, figure)
     write_json(result.summary(), json_to)
     show_table(
         "steady film",
