@@ -1,4 +1,4 @@
-"""How a solve ended, each way with advice."""
+"""How a solve or a run of a model ended, each way with advice."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from math import isfinite
 
 
 class Status(StrEnum):
-    """End of a solve; ``advice`` says what to do about it."""
+    """End of a solve, of a rotor's or oscillator's run, or of a stage; ``advice`` says what to do about it."""
 
     CONVERGED = "converged"
     STAGNATED = "stagnated"
@@ -19,6 +19,13 @@ class Status(StrEnum):
     UNRESOLVED = "unresolved"
     STEP_TOO_SMALL = "step_too_small"
     INTERRUPTED = "interrupted"
+    FAILED = "failed"
+    NOT_CONVERGED = "failed"  # what rotors called it: the name for `FAILED` in programs written before
+
+    @classmethod
+    def _missing_(cls, value: object) -> Status | None:
+        # Rotor runs saved before there was one vocabulary say it in these words.
+        return cls.FAILED if value == "not converged" else None
 
     @property
     def advice(self) -> str:
@@ -44,6 +51,7 @@ _ADVICE = {
     Status.STEP_TOO_SMALL: "However short the step, it does not meet its tolerance: allow a larger error, or "
     "smooth what jumps (a load, a surface).",
     Status.INTERRUPTED: "Stopped by the user; what was computed until then is kept.",
+    Status.FAILED: "It broke off; the message says why.",
 }
 
 STAGNATION_CYCLES = 6

@@ -55,12 +55,12 @@ from reduced_models.elements.kinds import PowerLawContact as PowerLawContact
 from reduced_models.elements.kinds import WideRangeContact as WideRangeContact
 from reduced_models.elements.kinds import load_element as load_element
 from reduced_models.elements.validity import OutsideValidityWarning as OutsideValidityWarning
-from reduced_models.fitting.fit import FitResult as FitResult
 from reduced_models.fitting.fit import fit as fit
-from reduced_models.fitting.memory import MemoryFit as MemoryFit
 from reduced_models.fitting.memory import fit_memory as fit_memory
 from reduced_models.fitting.records import ContactRecord as ContactRecord
 from reduced_models.fitting.result import ElementFit as ElementFit
+from reduced_models.fitting.result import FitResult as FitResult
+from reduced_models.fitting.result import MemoryFit as MemoryFit
 from reduced_models.fitting.sensitivity import Sensitivity as Sensitivity
 from reduced_models.fitting.sensitivity import SensitivityRow as SensitivityRow
 from reduced_models.fitting.sensitivity import sensitivity as sensitivity
@@ -78,6 +78,6 @@ from reduced_models.rotor.jeffcott import JeffcottRotor as JeffcottRotor
 from reduced_models.rotor.jeffcott import RotorState as RotorState
 from reduced_models.rotor.oscillator import OscillatorResult as OscillatorResult
 from reduced_models.rotor.oscillator import simulate_oscillator as simulate_oscillator
-from reduced_models.rotor.result import RotorResult as RotorResult
-from reduced_models.rotor.result import RotorStatus as RotorStatus
+from reduced_models.rotor.simulate import RotorResult as RotorResult
+from reduced_models.rotor.simulate import RotorStatus as RotorStatus
 from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor

@@ -2,63 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
-from typing import Any, Literal, overload
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Literal, overload
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ehlcontact.checks import require_choice
 from ehlcontact.errors import InputError
-from reduced_models.elements.file import library_version
+from ehlcontact.origin import source_of
 from reduced_models.elements.memoryless import MemorylessContact
-from reduced_models.fitting.memory import MemoryFit, fit_memory
-from reduced_models.fitting.models import ESTIMATORS, Samples
-from reduced_models.fitting.records import ContactRecord, as_records
-from reduced_models.fitting.result import ElementFit
-from reduced_models.fitting.uncertainty import half_widths, independent_samples
+from reduced_models.fitting.memory import fit_memory
+from reduced_models.fitting.models import ESTIMATORS, Estimate
+from reduced_models.fitting.records import ContactRecord, box_of
+from reduced_models.fitting.result import ElementFit, FitResult, MemoryFit, rms_error, sum_error, valid_of
+from reduced_models.fitting.samples import Samples, Window
+from reduced_models.fitting.uncertainty import Uncertainty
 
 MEMORY = "memory"
 MODELS = (*ESTIMATORS, MEMORY)
 
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class FitResult(ElementFit):
-    """A least-squares fit of a memoryless element.
-
-    Of a cubic, ``root`` and ``tangent`` are identifiable from a small vibration while K1, K2, K3 are not: see
-    their intervals.
-    """
-
-    element: MemorylessContact
-    parameters: Mapping[str, float]
-    rms: float
-    e_f: float
-    condition: float
-    std_errors: Mapping[str, float]  # square roots of the diagonal of covariance
-    intervals: Mapping[str, tuple[float, float]]  # 95 %, Student's; see `uncertainty`
-    covariance: NDArray[np.float64]  # in the order of parameters, enlarged for residuals that hang together
-    e_acc: float | None  # eq. 13 for u'' = Omega_n^2 (load - f_fit); None without inertia
-    window: tuple[tuple[float, float], ...]  # (start, end) in T, one per record
-    samples: int
-    independent_samples: float  # how many of them are worth something: `uncertainty`
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything but the element, ready for JSON."""
-        return super().to_dict() | {
-            "e_acc": self.e_acc,
-            "std_errors": dict(self.std_errors),
-            "intervals": {name: list(pair) for name, pair in self.intervals.items()},
-            "covariance": self.covariance.tolist(),
-            "window": [list(span) for span in self.window],
-            "samples": self.samples,
-            "independent_samples": self.independent_samples,
-        }
-
-
 Records = ContactRecord | Sequence[ContactRecord]
-Window = tuple[float, float]
 
 
 @overload
@@ -114,128 +78,55 @@ def fit(records: Records, model: str = "cubic", window: Window | None = None) ->
 
 
 def _least_squares(records: Records, model: str, window: Window | None) -> FitResult:
-    samples, spans = take_samples(records, window)
+    samples = Samples.of(records, window)
     estimate = ESTIMATORS[model](samples)
-    spread = float(np.std(samples.force))
-    if spread == 0.0:
+    if np.std(samples.force) == 0.0:
         raise InputError("force", float(samples.force[0]), "a history that varies")
-    for cut in samples.cuts:
-        cut.require_matching_rate()
-
-    residuals = samples.force - estimate.fitted
-    independent = independent_samples(samples.split(residuals))
-    covariance = estimate.covariance * (samples.force.size / independent)
-    errors = np.sqrt(np.diag(covariance))
-    estimate = estimate.without_negative_damping(samples, errors)
-    residuals = samples.force - estimate.fitted
-    values = np.array(list(estimate.parameters.values()))
-    widths = half_widths(errors, independent)
-    box = _validity(samples)
-    first = samples.records[0]
-    element = estimate.build(**estimate.parameters, **box, units=first.units)
-    root = tangent = None
-    if first.static_load is not None:
-        root = element.approach_at(first.static_load)
-        tangent = float(element.stiffness(root, 0.0))
-    names = tuple(estimate.parameters)
+    samples.require_matching_rates()
+    known = Uncertainty.of(
+        tuple(estimate.parameters), estimate.covariance, samples.split(samples.force - estimate.fitted)
+    )
+    estimate = estimate.without_negative_damping(samples, known.std_errors)
+    element = _element(samples, estimate)
+    root, tangent = _static(element, samples.records[0].static_load)
     result = FitResult(
         element=element,
         model=model,
         parameters=estimate.parameters,
-        std_errors=dict(zip(names, errors.tolist(), strict=True)),
-        intervals=dict(
-            zip(names, zip((values - widths).tolist(), (values + widths).tolist(), strict=True), strict=True)
-        ),
-        covariance=covariance,
-        rms=float(np.sqrt(np.mean(residuals**2))) / spread,
-        e_f=float(np.sum(residuals) / np.sum(samples.force)),
-        e_acc=acceleration_error(samples, estimate.fitted),
+        std_errors=known.std_errors,
+        intervals=known.intervals(estimate.parameters),
+        covariance=known.covariance,
+        rms=rms_error(samples.force, estimate.fitted),
+        e_f=sum_error(samples.force, estimate.fitted),
+        e_acc=samples.acceleration_error(estimate.fitted),
         root=root,
         tangent=tangent,
-        valid={key.removesuffix("_range"): value for key, value in box.items()},
+        valid=valid_of(element),
         condition=estimate.condition,
-        window=spans,
+        window=samples.windows,
         samples=int(samples.force.size),
-        independent_samples=independent,
+        independent_samples=known.independent_samples,
     )
-    quality, source = result.quality(), _source(samples.records)
-    return replace(result, element=replace(element, fit=quality, source=source))  # type: ignore[type-var]
+    return replace(result, element=replace(element, fit=result.quality()))  # type: ignore[type-var]
 
 
-def take_samples(
-    records: ContactRecord | Sequence[ContactRecord], window: tuple[float, float] | None
-) -> tuple[Samples, tuple[tuple[float, float], ...]]:
-    """Check that the records belong together, and cut each to its window; returns samples and windows.
-
-    Raises
-    ------
-    InputError
-        No record, something else, records of different contacts, a window that is no pair or holds too few
-        samples.
-    """
-    taken = as_records(records)
-    if not taken:
-        raise InputError("records", 0, "at least one record")
-    _require_one_contact(taken)
-    spans = tuple(record.default_window if window is None else _span(window) for record in taken)
-    cuts = [record.window(*span) for record, span in zip(taken, spans, strict=True)]
-    return Samples(taken, cuts), spans
-
-
-def acceleration_error(samples: Samples, fitted: NDArray[np.float64]) -> float | None:
-    """Eq. 13 for the acceleration that the motion equation (eq. 7) gives with the fitted force."""
-    true, modelled = 0.0, 0.0
-    for cut, force in zip(samples.cuts, samples.split(fitted), strict=True):
-        if cut.omega_n is None or cut.load is None or cut.acceleration is None:
-            return None
-        true += float(np.sum(cut.acceleration))
-        modelled += float(np.sum(cut.omega_n**2 * (cut.load - force)))
-    return (true - modelled) / true if true != 0.0 else None
-
-
-def _validity(samples: Samples) -> dict[str, Any]:
-    u, v, f = samples.approach, samples.rate, samples.force
+def _element(samples: Samples, estimate: Estimate) -> MemorylessContact:
+    """Element of the estimate, valid over the samples, that knows where they came from."""
+    first = samples.records[0]
     omegas = [cut.omega for cut in samples.cuts]
-    return {
-        "low": float(u.min()),
-        "high": float(u.max()),
-        "rate": float(np.abs(v).max()),
-        "load_range": (float(f.min()), float(f.max())),
-        "omega_range": (min(omegas), max(omegas)),
-    }
+    return estimate.build(
+        **estimate.parameters,
+        **box_of(samples.approach, samples.rate, samples.force, omegas),
+        units=first.units,
+        source=source_of(
+            first.point, first.scales, samples.each("n"), samples.each("domain"), samples.each("motion")
+        ),
+    )
 
 
-def _span(window: tuple[float, float]) -> tuple[float, float]:
-    try:
-        start, end = window
-        return float(start), float(end)
-    except (TypeError, ValueError):
-        raise InputError("window", window, "a pair (start, end) of numbers") from None
-
-
-def _require_one_contact(records: Sequence[ContactRecord]) -> None:
-    first = records[0]
-    for i, record in enumerate(records):
-        for name in ("units", "point", "scales", "static_load"):
-            if getattr(record, name) != getattr(first, name):
-                raise InputError(
-                    f"records[{i}].{name}",
-                    getattr(record, name),
-                    f"as in records[0]: {getattr(first, name)!r}",
-                )
-
-
-def _source(records: Sequence[ContactRecord]) -> dict[str, Any]:
-    def plain(name: str) -> Any:
-        values = [getattr(record, name) for record in records]
-        return values[0] if all(value == values[0] for value in values) else values
-
-    point, scales = records[0].point, records[0].scales
-    return {
-        "point": None if point is None else point.to_dict(),
-        "scales": None if scales is None else asdict(scales),
-        "n": plain("n"),
-        "domain": plain("domain"),
-        "motion": plain("motion"),
-        "version": library_version(),
-    }
+def _static(element: MemorylessContact, load: float | None) -> tuple[float | None, float | None]:
+    """Approach and tangent of the spring under the static load, where that is known."""
+    if load is None:
+        return None, None
+    root = element.approach_at(load)
+    return root, float(element.stiffness(root, 0.0))

@@ -11,9 +11,11 @@ from scipy.linalg import qr, solve_triangular
 
 from ehlcontact.errors import InputError
 
-# A direction that holds less than this share of its column is rounding, or the solver's own tolerance.
-SINGULAR = 1e-10
-SHARE = 1e-3  # of a column in another that counts, far above the rounding of what SINGULAR lets pass
+# Share of a column that must be its own: less is rounding, or the tolerance of the solver that made the record.
+OWN_SHARE = 1e-10
+# Share of one column in another that makes it a named part of a dependence: far above the rounding of what
+# `OWN_SHARE` lets pass.
+NAMED_SHARE = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,11 +46,11 @@ def linear_fit(columns: Mapping[str, NDArray[np.float64]], target: NDArray[np.fl
         raise InputError("samples", A.shape[0], f"more than the {A.shape[1]} parameters")
     norms = np.linalg.norm(A, axis=0)
     basis, R, pivots = qr(A / np.where(norms > 0.0, norms, 1.0), mode="economic", pivoting=True)
-    rank = int(np.count_nonzero(np.abs(np.diag(R)) >= SINGULAR))  # pivoting sorts the diagonal
+    rank = int(np.count_nonzero(np.abs(np.diag(R)) >= OWN_SHARE))  # pivoting sorts the diagonal
     if rank < len(names):
         # What the last columns are made of belongs to the dependence as much as they do.
         shares = np.abs(solve_triangular(R[:rank, :rank], R[:rank, rank:])).max(axis=1, initial=0.0)
-        singular = {*pivots[rank:].tolist(), *pivots[:rank][shares > SHARE].tolist()}
+        singular = {*pivots[rank:].tolist(), *pivots[:rank][shares > NAMED_SHARE].tolist()}
         raise InputError(
             "columns " + ", ".join(name for i, name in enumerate(names) if i in singular),
             "zero or dependent",

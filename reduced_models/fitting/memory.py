@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field, replace
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,45 +12,134 @@ from scipy.optimize import least_squares
 
 from ehlcontact import Domain, ImpedanceResult, impedance
 from ehlcontact.errors import InputError
-from reduced_models.elements.file import library_version
+from ehlcontact.origin import source_of
+from reduced_models.elements.film_curve import LEAST_EXPONENT
 from reduced_models.elements.film_law import film_drive
 from reduced_models.elements.film_response import WEIGHT_C, WEIGHT_K, FilterRates, GainFit, fit_gains
 from reduced_models.elements.memory import FilmMemoryContact
-from reduced_models.fitting.memory_target import FOLDS, Response, Target
-from reduced_models.fitting.records import ContactRecord, as_records
-from reduced_models.fitting.result import ElementFit
+from reduced_models.fitting.records import ContactRecord, as_records, box_of
+from reduced_models.fitting.result import MemoryFit, rms_error, sum_error, valid_of
 
 _Floats = NDArray[np.float64]
 
-OMEGAS = (0.0, *np.geomspace(0.03, 60.0, 24).tolist())  # that an impedance is solved at
-ORDERS = (4, 6, 8, 12, 16)  # numbers of lags to choose from
-TOLERATED = 1.05  # a shorter chain is taken if its cross-validation error is at most so much larger
+# Frequencies that an impedance is solved at: rest, and evenly on the logarithm from slow rotors to far above the
+# rate at which the film crosses the contact.
+OMEGAS = (0.0, *np.geomspace(0.03, 60.0, 24).tolist())
+LOWEST_OMEGA = 0.1  # a frequency up to here is needed: it gives the static tangent and the damping of rotors
+FEWEST_OMEGAS = 8  # frequencies needed: twice as many numbers, for the 10 unknowns of the shortest chain
+CHAIN_LENGTHS = (4, 6, 8, 12, 16)  # numbers of lags that cross-validation chooses from
+SHORTER_CHAIN = 1.05  # a shorter chain is taken if its cross-validation error is at most so much larger
+FOLDS = 3  # parts of the data, each of which cross-validation leaves out once
 FORCE_WEIGHT = 0.01  # RMS error of a record over its spread that counts like 5 % of C
-TRANSIT = 1.6  # start: time in which the chain carries the film through
-STARTS = ((30.0, 60.0), (200.0, 80.0))  # inlet and fast rate; the better of two minima is taken
-LIMITS = ((0.5, 200.0), (2.0, 300.0), (5.0, 1000.0), (0.0, 20.0))  # lag, inlet, fast rate, squeeze
-SMALL_MOTION = 0.1  # load range that an impedance alone stands for
+WEIGHTS = {"damping": WEIGHT_C, "stiffness": WEIGHT_K, "force": FORCE_WEIGHT}  # errors that count alike
+
+# Search for rates (per time of the contact) and squeeze term.
+TRANSIT_TIME = 1.6  # start: time in which the chain carries the film through
+RATE_STARTS = ((30.0, 60.0), (200.0, 80.0))  # of inlet and fast rate; the better of two minima is taken
+SQUEEZE_START = 0.25
+LIMITS = ((0.5, 200.0), (2.0, 300.0), (5.0, 1000.0), (0.0, 20.0))  # of lag, inlet and fast rate, squeeze
+SEARCH: dict[str, Any] = {"diff_step": 1e-3, "max_nfev": 30}  # steps of differences on logs of rates; rounds
+SEARCH_TOLERANCE = 1e-4  # of the cost and of the logs, relative: a hundredth of a per cent of a rate
+
+LOAD_RANGE_OF_IMPEDANCE = 0.1  # share of the load about 1 that an impedance alone, a small motion, stands for
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class MemoryFit(ElementFit):
-    """A film-memory element and how well it stands for the data; ``rms`` is of all samples together."""
+class Response(Protocol):
+    """What is asked of an impedance; `ehlcontact.impedance` returns one."""
 
-    element: FilmMemoryContact
-    record_rms: tuple[float, ...]  # RMS error of the force over its standard deviation, whole record, each
-    damping_error: _Floats  # relative error of C at every frequency
-    stiffness_error: _Floats
-    validation: dict[int, float] = field(default_factory=dict)  # cross-validation error by number of lags
+    @property
+    def omega(self) -> _Floats:
+        """Frequencies, shape (k,)."""
 
-    def to_dict(self) -> dict[str, Any]:
-        """Everything but the element, ready for JSON."""
-        return super().to_dict() | {
-            "record_rms": list(self.record_rms),
-            "damping_error_max": float(np.abs(self.damping_error).max()),
-            "stiffness_error_max": float(np.abs(self.stiffness_error).max()),
-            "validation": {str(lags): score for lags, score in self.validation.items()},
-            "weights": {"damping": WEIGHT_C, "stiffness": WEIGHT_K, "force": FORCE_WEIGHT},
-        }
+    @property
+    def stiffness(self) -> _Floats:
+        """K(Omega)."""
+
+    @property
+    def damping(self) -> _Floats:
+        """C(Omega)."""
+
+    @property
+    def approach(self) -> float:
+        """Static approach under load 1."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """Everything that one fit sees, as plain arrays in the order of frequency."""
+
+    omega: _Floats
+    stiffness: _Floats
+    damping: _Floats
+    approach: float
+    records: tuple[ContactRecord, ...] = ()
+
+    @classmethod
+    def of(cls, response: Response, records: Sequence[ContactRecord]) -> Target:
+        """Check and sort.
+
+        Raises
+        ------
+        InputError
+            Too few frequencies or none low enough, an approach beyond the dry one, SI records, or records that
+            are not of the contact of the impedance.
+        """
+        order = np.argsort(response.omega)
+        omega = np.asarray(response.omega, float)[order]
+        if omega.size < FEWEST_OMEGAS:
+            raise InputError("omega", omega.size, f"at least {FEWEST_OMEGAS} frequencies")
+        if omega[0] > LOWEST_OMEGA:
+            raise InputError("lowest omega", float(omega[0]), f"at most {LOWEST_OMEGA}")
+        if not response.approach < 1.0:
+            raise InputError("approach", response.approach, "below 1: there must be a film (refine the grid)")
+        for i, record in enumerate(records):
+            if record.units != "dimensionless":
+                raise InputError(f"records[{i}].units", record.units, "dimensionless")
+            for name in ("point", "n"):
+                ours, theirs = getattr(response, name, None), getattr(record, name)
+                if ours is not None and theirs is not None and ours != theirs:
+                    raise InputError(f"records[{i}].{name}", theirs, f"as of the impedance, {ours!r}")
+            record.require_matching_rate()
+        stiffness, damping = np.asarray(response.stiffness, float), np.asarray(response.damping, float)
+        return cls(omega, stiffness[order], damping[order], float(response.approach), tuple(records))
+
+    @property
+    def film(self) -> tuple[float, float]:
+        """Film at load 1 and its exponent, from approach and static tangent: 1/K_0 = 2/3 + exponent film."""
+        film = 1.0 - self.approach
+        return film, max((1.0 / float(self.stiffness[0]) - 2.0 / 3.0) / film, LEAST_EXPONENT)
+
+    @property
+    def static(self) -> float:
+        """Tangent of the element's static curve at load 1."""
+        film, exponent = self.film
+        return 1.0 / (2.0 / 3.0 + exponent * film)
+
+    @property
+    def motion(self) -> tuple[_Floats, _Floats | None, _Floats]:
+        """Approach, rate and force that were seen; of an impedance alone, the ends of a small static motion."""
+        if self.records:
+            u, v, f = (
+                np.concatenate([getattr(record, name) for record in self.records])
+                for name in ("approach", "rate", "force")
+            )
+            return u, v, f
+        film, exponent = self.film
+        loads = np.array([1.0 - LOAD_RANGE_OF_IMPEDANCE, 1.0 + LOAD_RANGE_OF_IMPEDANCE])
+        return loads ** (2.0 / 3.0) - film * loads**-exponent, None, loads
+
+    def part(self, fold: int, inside: bool) -> Target:
+        """The data of one fold, or all but those; the lowest frequency belongs to all."""
+        keep = (np.arange(self.omega.size) % FOLDS == fold) == inside
+        keep[0] = True
+        records = tuple(r for i, r in enumerate(self.records) if (i % FOLDS == fold) == inside)
+        return replace(
+            self,
+            omega=self.omega[keep],
+            stiffness=self.stiffness[keep],
+            damping=self.damping[keep],
+            records=records,
+        )
 
 
 def fit_memory(
@@ -83,35 +172,32 @@ def fit_memory(
     target = Target.of(response, taken)
     scores: dict[int, float] = {}
     if lags is None:
-        scores = {order: cross_validate(target, order) for order in ORDERS}
+        scores = {length: cross_validate(target, length) for length in CHAIN_LENGTHS}
         best = min(scores.values())
-        lags = min(order for order, score in scores.items() if score <= TOLERATED * best)
+        lags = min(length for length, score in scores.items() if score <= SHORTER_CHAIN * best)
     FilterRates(lags, 1.0, 1.0, 1.0)  # says what is wrong with the number of lags
     element, gains = _solve(target, lags)
-    errors = [_force_error(element, record) for record in taken]
-    spreads = [float(np.std(record.force)) for record in taken]
-    rms = e_f = None
-    if taken:
-        error, force = np.concatenate(errors), np.concatenate([record.force for record in taken])
-        rms, e_f = float(np.sqrt(np.mean(error**2)) / np.std(force)), float(-np.sum(error) / np.sum(force))
+    forces = [(record.force, _force(element, record)) for record in taken]
+    whole = [np.concatenate(parts) for parts in zip(*forces, strict=True)]
     root = element.approach_at(1.0)
-    box = {"low": element.low, "high": element.high, "rate": element.rate}
     result = MemoryFit(
         element=element,
         model=element.kind,
         parameters=element.parameters,
-        rms=rms,
-        e_f=e_f,
+        rms=rms_error(*whole) if taken else None,
+        e_f=sum_error(*whole) if taken else None,
         root=root,
         tangent=element.spring_tangent(root),
-        valid=box | {"load": element.load_range, "omega": element.omega_range},
+        valid=valid_of(element),
         condition=None,
-        record_rms=tuple(float(np.sqrt(np.mean(e**2))) / s for e, s in zip(errors, spreads, strict=True)),
+        record_rms=tuple(rms_error(*pair) for pair in forces),
         damping_error=gains.damping / target.damping - 1.0,
         stiffness_error=gains.stiffness / target.stiffness - 1.0,
         validation=scores,
+        weights=WEIGHTS,
     )
-    return replace(result, element=replace(element, fit=result.quality(), source=_source(response, taken)))
+    source = _source(response, [record.motion for record in taken])
+    return replace(result, element=replace(element, fit=result.quality(), source=source))
 
 
 def impedance_of(records: Sequence[ContactRecord]) -> ImpedanceResult:
@@ -142,7 +228,8 @@ def cross_validate(target: Target, lags: int) -> float:
         squares.append(np.mean((damping[w > 0.0] / WEIGHT_C) ** 2))
         squares.append(np.mean(((Z.real / left_out.stiffness - 1.0) / WEIGHT_K) ** 2))
         for record in left_out.records:
-            squares.append(np.mean((_force_error(element, record) / np.std(record.force) / FORCE_WEIGHT) ** 2))
+            error = _force(element, record) - record.force
+            squares.append(np.mean((error / np.std(record.force) / FORCE_WEIGHT) ** 2))
     return float(np.sqrt(np.mean(squares)))
 
 
@@ -159,37 +246,22 @@ def _solve(target: Target, lags: int) -> tuple[FilmMemoryContact, GainFit]:
         element, gains = parts(p)
         rows = [gains.residuals / np.sqrt(target.omega.size)]
         for record in target.records:
-            rows.append(
-                _force_error(element, record) / (FORCE_WEIGHT * np.std(record.force) * np.sqrt(len(record)))
-            )
+            error = _force(element, record) - record.force
+            rows.append(error / (FORCE_WEIGHT * np.std(record.force) * np.sqrt(len(record))))
         return np.concatenate(rows)
 
     lower, upper = np.array(LIMITS).T.copy()
     lower[:3], upper[:3] = np.log(lower[:3]), np.log(upper[:3])
+    tolerances = {"xtol": SEARCH_TOLERANCE, "ftol": SEARCH_TOLERANCE}
     solutions = []
-    for inlet, fast in STARTS:
-        start = np.array([np.log(lags / TRANSIT), np.log(inlet), np.log(fast), 0.25])
-        solutions.append(
-            least_squares(
-                residuals, start, bounds=(lower, upper), diff_step=1e-3, xtol=1e-4, ftol=1e-4, max_nfev=30
-            )
-        )
+    for inlet, fast in RATE_STARTS:
+        start = np.array([np.log(lags / TRANSIT_TIME), np.log(inlet), np.log(fast), SQUEEZE_START])
+        solutions.append(least_squares(residuals, start, bounds=(lower, upper), **tolerances, **SEARCH))
     return parts(min(solutions, key=lambda solution: solution.cost).x)
 
 
 def _element(target: Target, rates: FilterRates, gains: GainFit, squeeze: float) -> FilmMemoryContact:
     film, exponent = target.film
-    box: dict[str, Any] = {"omega_range": (float(target.omega[0]), float(target.omega[-1]))}
-    if target.records:
-        u, v, f = (
-            np.concatenate([getattr(r, name) for r in target.records]) for name in ("approach", "rate", "force")
-        )
-        box |= {"low": float(u.min()), "high": float(u.max()), "rate": float(np.abs(v).max())}
-        box["load_range"] = (float(f.min()), float(f.max()))
-    else:
-        loads = np.array([1.0 - SMALL_MOTION, 1.0 + SMALL_MOTION])
-        low, high = loads ** (2.0 / 3.0) - film * loads**-exponent
-        box |= {"low": float(low), "high": float(high), "load_range": (float(loads[0]), float(loads[1]))}
     return FilmMemoryContact(
         film=film,
         exponent=exponent,
@@ -198,23 +270,18 @@ def _element(target: Target, rates: FilterRates, gains: GainFit, squeeze: float)
         inlet_rate=rates.inlet_rate,
         fast_rate=rates.fast_rate,
         gains=tuple(gains.gains.tolist()),
-        **box,
+        **box_of(*target.motion, target.omega.tolist()),
     )
 
 
-def _force_error(element: FilmMemoryContact, record: ContactRecord) -> _Floats:
+def _force(element: FilmMemoryContact, record: ContactRecord) -> _Floats:
+    """Force of the element along the record."""
     force = np.empty(len(record))
     film_drive(element.law, record.T, record.approach, record.rate, force)
-    return force - record.force
+    return force
 
 
-def _source(response: Response, records: Sequence[ContactRecord]) -> dict[str, Any]:
-    point, domain = getattr(response, "point", None), getattr(response, "domain", None)
-    return {
-        "point": None if point is None else point.to_dict(),
-        "scales": None if getattr(response, "scales", None) is None else asdict(response.scales),  # type: ignore[attr-defined]
-        "n": getattr(response, "n", None),
-        "domain": None if domain is None else list(domain.as_tuple()),
-        "motion": [record.motion for record in records],
-        "version": library_version(),
-    }
+def _source(response: Response, motions: list[Any]) -> dict[str, Any]:
+    """Of a response that may be anyone's: what it does not say is None."""
+    point, scales, n, domain = (getattr(response, name, None) for name in ("point", "scales", "n", "domain"))
+    return source_of(point, scales, n, None if domain is None else domain.as_tuple(), motions)

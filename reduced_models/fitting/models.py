@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +14,12 @@ from reduced_models.elements.power import PowerLawContact
 from reduced_models.elements.viscous import CubicContact, LinearContact
 from reduced_models.fitting.least_squares import linear_fit
 from reduced_models.fitting.power import fit_power_law
-from reduced_models.fitting.records import ContactRecord
+from reduced_models.fitting.samples import Samples
 
 _Floats = NDArray[np.float64]
-NO_DAMPING = 1e-9  # largest force of a damper over the largest of the contact that may be rounding
+# Largest force of a damper, as a share of the largest of the contact, that is taken for the rounding of a record
+# without damping: far above that of its numbers (1e-16), far below any oil's.
+ROUNDING_FORCE = 1e-9
 
 # Columns of eq. 12: name, and what stands in it.
 COLUMNS: dict[str, tuple[str, Callable[[_Floats, _Floats], _Floats]]] = {
@@ -33,33 +34,6 @@ COLUMNS: dict[str, tuple[str, Callable[[_Floats, _Floats], _Floats]]] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Samples:
-    """What is fitted: the records, and of each the part inside its window."""
-
-    records: Sequence[ContactRecord]
-    cuts: Sequence[ContactRecord]
-
-    @cached_property
-    def approach(self) -> _Floats:
-        """Approach of all cuts, one after the other."""
-        return np.concatenate([cut.approach for cut in self.cuts])
-
-    @cached_property
-    def rate(self) -> _Floats:
-        """Rate likewise."""
-        return np.concatenate([cut.rate for cut in self.cuts])
-
-    @cached_property
-    def force(self) -> _Floats:
-        """Force likewise."""
-        return np.concatenate([cut.force for cut in self.cuts])
-
-    def split(self, values: _Floats) -> list[_Floats]:
-        """Values of all cuts as one array per cut."""
-        return np.split(values, np.cumsum([len(cut) for cut in self.cuts])[:-1])
-
-
-@dataclass(frozen=True, eq=False)
 class Estimate:
     """Coefficients by name; arrays in their order."""
 
@@ -70,14 +44,13 @@ class Estimate:
     build: Callable[..., MemorylessContact]  # called with parameters, validity box and units
     damping: str | None = None  # coefficient of u', where it is the whole damper
 
-    def without_negative_damping(self, samples: Samples, errors: _Floats) -> Estimate:
+    def without_negative_damping(self, samples: Samples, errors: Mapping[str, float]) -> Estimate:
         """Damping 0 where it is negative by rounding, or by no more than its standard error in `errors`."""
         if self.damping is None:
             return self
         damping = self.parameters[self.damping]
-        error = float(errors[list(self.parameters).index(self.damping)])
-        smallest = NO_DAMPING * float(np.abs(samples.force).max()) / float(np.abs(samples.rate).max())
-        if not -max(error, smallest) <= damping < 0.0:
+        smallest = ROUNDING_FORCE * float(np.abs(samples.force).max()) / float(np.abs(samples.rate).max())
+        if not -max(errors[self.damping], smallest) <= damping < 0.0:
             return self
         return replace(
             self,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq, least_squares, minimize_scalar
@@ -9,11 +11,13 @@ from scipy.optimize import brentq, least_squares, minimize_scalar
 from reduced_models.fitting.least_squares import linear_fit
 
 _Floats = NDArray[np.float64]
+
 EXPONENTS = (1.0, 8.0)  # bounds of n; at 1 the power law is a line and u0 and F0 say the same
-STARTS = (1.25, 1.5, 2.0, 3.0)
-CLOSEST = 0.995  # largest share of the reach u + u0 that the record may come down by
-HERTZ = 1.5
-FLAT = 1.01  # rms, relative to the best, that counts as fitting as well
+EXPONENT_STARTS = (1.25, 1.5, 2.0, 3.0)  # the best of the minima found from them is taken
+HERTZ_EXPONENT = 1.5  # of the dry contact, to which n tends where the record leaves it open
+AS_GOOD = 1.01  # rms, relative to the best, that counts as fitting as well
+LARGEST_DIP = 0.995  # share of the reach u + u0 that the record may come down by, or the law would end inside it
+SMALLEST_CURVATURE = 1e-4  # share of the largest one, below which the law is a line
 
 
 def fit_power_law(u: _Floats, v: _Floats, f: _Floats) -> tuple[dict[str, float], _Floats, _Floats, float]:
@@ -43,57 +47,10 @@ def fit_power_law(u: _Floats, v: _Floats, f: _Floats) -> tuple[dict[str, float],
     """
     # Refuses what no power law could tell apart: a record without curvature or without rate.
     linear_fit({"1": np.ones_like(u), "approach": u, "approach^2": u**2, "rate": v}, f)
-    centre, spread = float(np.mean(u)), float(np.std(u))
-    w = (u - centre) / spread
-    highest = CLOSEST / -float(w.min())
-
-    def columns(x: _Floats) -> _Floats:
-        n, q = x
-        return np.column_stack([((1.0 + q * w) ** n - 1.0) / (n * q), np.ones_like(w), v / np.abs(v).max()])
-
-    def residuals(x: _Floats) -> _Floats:
-        A = columns(x)
-        return A @ np.linalg.lstsq(A, f, rcond=None)[0] - f
-
-    curvatures = (1e-4 * highest, highest)
-    bounds = tuple(zip(EXPONENTS, curvatures, strict=True))
-    start = min(0.5 * highest, spread / abs(centre)) if centre != 0.0 else 0.5 * highest
-    tries = [
-        least_squares(residuals, (n, start), bounds=bounds, x_scale=(1.0, highest), xtol=1e-12, ftol=1e-14)
-        for n in STARTS
-    ]
-    best = min(tries, key=lambda tried: tried.cost)
-
-    def best_curvature(n: float) -> tuple[float, float]:
-        """Curvature that goes with the exponent, and the rms error."""
-
-        def rms(q: float) -> float:
-            return float(np.sqrt(np.mean(residuals(np.array([n, q])) ** 2)))
-
-        found = minimize_scalar(rms, bounds=curvatures, method="bounded", options={"xatol": 1e-10 * highest})
-        return float(found.x), float(found.fun)
-
-    n, q = (float(value) for value in best.x)
-    allowed = FLAT * float(np.sqrt(2.0 * best.cost / f.size))
-
-    def excess(exponent: float) -> float:
-        return best_curvature(exponent)[1] - allowed
-
-    if excess(HERTZ) <= 0.0:
-        n, q = HERTZ, best_curvature(HERTZ)[0]
-    elif excess(n) < 0.0:
-        n = float(brentq(excess, HERTZ, n, xtol=1e-6))
-        q = best_curvature(n)[0]
-    a, b, c = np.linalg.lstsq(columns(np.array([n, q])), f, rcond=None)[0]
-    u0 = spread / q - centre
-    K = float(a) / (n * q) * (q / spread) ** n
-    parameters = {
-        "K": K,
-        "n": n,
-        "u0": u0,
-        "F0": float(b) - float(a) / (n * q),
-        "C": float(c) / float(np.abs(v).max()),
-    }
+    record = _Projected.of(u, v, f)
+    best, rms = record.search()
+    parameters = record.parameters(*record.nearest_to_hertz(best, AS_GOOD * rms))
+    K, n, u0 = (parameters[name] for name in ("K", "n", "u0"))
     reach = u + u0
     part = reach**n
     fitted = K * part + parameters["F0"] + parameters["C"] * v
@@ -107,3 +64,90 @@ def fit_power_law(u: _Floats, v: _Floats, f: _Floats) -> tuple[dict[str, float],
     # At the solution the Gauss-Newton step is zero; its matrix holds the covariance and the condition.
     step = linear_fit(jacobian, f - fitted)
     return parameters, fitted, step.covariance, step.condition
+
+
+@dataclass(frozen=True, eq=False)
+class _Projected:
+    """A record as the search sees it: in n and q alone, with K, F0 and C projected out."""
+
+    w: _Floats  # approach from its centre, in its spread
+    v: _Floats  # rate over the fastest
+    f: _Floats
+    centre: float
+    spread: float
+    fastest: float
+
+    @classmethod
+    def of(cls, u: _Floats, v: _Floats, f: _Floats) -> _Projected:
+        centre, spread, fastest = float(np.mean(u)), float(np.std(u)), float(np.abs(v).max())
+        return cls((u - centre) / spread, v / fastest, f, centre, spread, fastest)
+
+    @property
+    def curvatures(self) -> tuple[float, float]:
+        """Bounds of q."""
+        highest = LARGEST_DIP / -float(self.w.min())
+        return SMALLEST_CURVATURE * highest, highest
+
+    def columns(self, x: _Floats) -> _Floats:
+        """What K, F0 and C, up to factors, are the coefficients of at (n, q)."""
+        n, q = x
+        return np.column_stack([((1.0 + q * self.w) ** n - 1.0) / (n * q), np.ones_like(self.w), self.v])
+
+    def residuals(self, x: _Floats) -> _Floats:
+        """Of the best coefficients at (n, q)."""
+        A = self.columns(x)
+        return np.asarray(A @ np.linalg.lstsq(A, self.f, rcond=None)[0] - self.f)
+
+    def search(self) -> tuple[_Floats, float]:
+        """Best (n, q) and its rms error."""
+        lowest, highest = self.curvatures
+        start = min(0.5 * highest, self.spread / abs(self.centre)) if self.centre != 0.0 else 0.5 * highest
+        tries = [
+            least_squares(
+                self.residuals,
+                (n, start),
+                bounds=tuple(zip(EXPONENTS, (lowest, highest), strict=True)),
+                x_scale=(1.0, highest),
+                xtol=1e-12,
+                ftol=1e-14,
+            )
+            for n in EXPONENT_STARTS
+        ]
+        best = min(tries, key=lambda tried: tried.cost)
+        return best.x, float(np.sqrt(2.0 * best.cost / self.f.size))
+
+    def best_curvature(self, n: float) -> tuple[float, float]:
+        """Curvature that goes with the exponent, and the rms error."""
+        lowest, highest = self.curvatures
+
+        def rms(q: float) -> float:
+            return float(np.sqrt(np.mean(self.residuals(np.array([n, q])) ** 2)))
+
+        options = {"xatol": 1e-10 * highest}
+        found = minimize_scalar(rms, bounds=(lowest, highest), method="bounded", options=options)
+        return float(found.x), float(found.fun)
+
+    def nearest_to_hertz(self, best: _Floats, allowed: float) -> tuple[float, float]:
+        """(n, q) nearest to Hertz's exponent whose rms error is at most `allowed`."""
+
+        def excess(exponent: float) -> float:
+            return self.best_curvature(exponent)[1] - allowed
+
+        n, q = (float(value) for value in best)
+        if excess(HERTZ_EXPONENT) <= 0.0:
+            return HERTZ_EXPONENT, self.best_curvature(HERTZ_EXPONENT)[0]
+        if excess(n) < 0.0:
+            n = float(brentq(excess, HERTZ_EXPONENT, n, xtol=1e-6))
+            return n, self.best_curvature(n)[0]
+        return n, q
+
+    def parameters(self, n: float, q: float) -> dict[str, float]:
+        """K, n, u0, F0 and C in the units of the record."""
+        a, b, c = np.linalg.lstsq(self.columns(np.array([n, q])), self.f, rcond=None)[0]
+        return {
+            "K": float(a) / (n * q) * (q / self.spread) ** n,
+            "n": n,
+            "u0": self.spread / q - self.centre,
+            "F0": float(b) - float(a) / (n * q),
+            "C": float(c) / self.fastest,
+        }

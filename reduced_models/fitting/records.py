@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from ehlcontact.checks import require_choice, require_finite, require_instance, require_positive
+from ehlcontact import Status
+from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Scales
 from reduced_models.elements.file import UNITS
 
-MIN_SAMPLES = 4
-MISMATCH = 0.1  # share of the motion; 8 samples per period of a true rate stay below it
+# Samples below which there is no history to speak of; a fit asks for more than its parameters itself.
+FEWEST_SAMPLES = 4
+# Largest distance of approach and integrated rate, as a share of the motion: 8 samples per period of a true rate
+# stay below it, a wrong sign, unit or delay does not.
+RATE_MISMATCH = 0.1
 _REQUIRED = ("T", "approach", "rate", "force")
 _HISTORIES = (*_REQUIRED, "load", "acceleration")
 
@@ -70,16 +74,11 @@ class ContactRecord:
 
     def __post_init__(self) -> None:
         require_choice("units", self.units, UNITS)
-        for name in _HISTORIES:
-            if name in _REQUIRED or getattr(self, name) is not None:
-                object.__setattr__(self, name, _history(name, getattr(self, name)))
+        object.__setattr__(self, "T", as_column("T", self.T, least=FEWEST_SAMPLES, increasing=True))
         for name in _HISTORIES[1:]:
             values = getattr(self, name)
-            if values is not None and values.size != self.T.size:
-                raise InputError(f"length of {name}", values.size, f"that of T, {self.T.size}")
-        if np.any(np.diff(self.T) <= 0.0):
-            at = int(np.argmax(np.diff(self.T) <= 0.0)) + 1
-            raise InputError(f"T[{at}]", float(self.T[at]), f"above T[{at - 1}] = {float(self.T[at - 1])!r}")
+            if name in _REQUIRED or values is not None:
+                object.__setattr__(self, name, as_column(name, values, size=self.T.size))
         if self.omega_n is not None:
             object.__setattr__(self, "omega_n", require_positive("omega_n", self.omega_n))
             if self.units == "SI":
@@ -106,7 +105,7 @@ class ContactRecord:
             The run did not converge, or its histories cannot be used.
         """
         status = str(simulation.status)
-        if status != "converged" and not accept_unconverged:
+        if status != Status.CONVERGED and not accept_unconverged:
             raise InputError(
                 "simulation.status",
                 status,
@@ -186,11 +185,11 @@ class ContactRecord:
         motion = max(float(np.std(self.approach)), float(np.std(moved)))
         still = motion <= 1e-12 * float(np.abs(self.approach).max())  # but for rounding
         share = 0.0 if still else float(np.std(error)) / motion
-        if share > MISMATCH:
+        if share > RATE_MISMATCH:
             raise InputError(
                 "rate",
                 f"{share:.0%} off the derivative of approach",
-                f"the time derivative of approach within {MISMATCH:.0%} (sign, units, delay, sampling?)",
+                f"the time derivative of approach within {RATE_MISMATCH:.0%} (sign, units, delay, sampling?)",
             )
 
     def window(self, start: float, end: float) -> Self:
@@ -205,9 +204,9 @@ class ContactRecord:
         if start >= end:
             raise InputError("start", start, f"below end = {end!r}")
         inside = (self.T >= start) & (self.T <= end)
-        if np.count_nonzero(inside) < MIN_SAMPLES:
+        if np.count_nonzero(inside) < FEWEST_SAMPLES:
             span = f"[{float(self.T[0])!r}, {float(self.T[-1])!r}]"
-            raise InputError("window", (start, end), f"one that holds {MIN_SAMPLES} samples of T in {span}")
+            raise InputError("window", (start, end), f"one that holds {FEWEST_SAMPLES} samples of T in {span}")
         cut = {name: getattr(self, name)[inside] for name in _HISTORIES if getattr(self, name) is not None}
         return replace(self, **cut)
 
@@ -233,19 +232,17 @@ def as_records(records: object) -> tuple[ContactRecord, ...]:
     return taken
 
 
-def _history(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    try:
-        array = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(name, type(values).__name__, "a one-dimensional array of numbers") from None
-    if values is None:
-        raise InputError(name, None, "given")
-    if array.ndim != 1:
-        raise InputError(f"shape of {name}", array.shape, "one-dimensional")
-    if array.size < MIN_SAMPLES:
-        raise InputError(f"length of {name}", array.size, f"at least {MIN_SAMPLES}")
-    if not np.all(np.isfinite(array)):
-        at = int(np.argmin(np.isfinite(array)))
-        raise InputError(f"{name}[{at}]", float(array[at]), "a finite number")
-    array.setflags(write=False)
-    return array
+def box_of(
+    approach: NDArray[np.float64],
+    rate: NDArray[np.float64] | None,
+    force: NDArray[np.float64],
+    omegas: Sequence[float],
+) -> dict[str, Any]:
+    """Validity box of an element that stands for this motion, as the constructors of elements take it."""
+    return {
+        "low": float(approach.min()),
+        "high": float(approach.max()),
+        "rate": None if rate is None else float(np.abs(rate).max()),
+        "load_range": (float(force.min()), float(force.max())),
+        "omega_range": (min(omegas), max(omegas)),
+    }

@@ -1,12 +1,19 @@
-"""What every fit gives, whatever the model."""
+"""What a fit gives, and the figures by which it is judged."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from reduced_models.elements.base import ContactElement
+from reduced_models.elements.memory import FilmMemoryContact
+from reduced_models.elements.memoryless import MemorylessContact
+
+_Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -39,3 +46,75 @@ class ElementFit:
     def quality(self) -> dict[str, Any]:
         """What the element keeps of `to_dict`: its coefficients and its box stand elsewhere in its file."""
         return {key: value for key, value in self.to_dict().items() if key not in ("parameters", "valid")}
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FitResult(ElementFit):
+    """A least-squares fit of a memoryless element.
+
+    Of a cubic, ``root`` and ``tangent`` are identifiable from a small vibration while K1, K2, K3 are not: see
+    their intervals.
+    """
+
+    element: MemorylessContact
+    parameters: Mapping[str, float]
+    rms: float
+    e_f: float
+    condition: float
+    std_errors: Mapping[str, float]  # square roots of the diagonal of covariance
+    intervals: Mapping[str, tuple[float, float]]  # 95 %, Student's; see `uncertainty`
+    covariance: _Floats  # in the order of parameters, enlarged for residuals that hang together
+    e_acc: float | None  # eq. 13 for u'' = Omega_n^2 (load - f_fit); None without inertia
+    window: tuple[tuple[float, float], ...]  # (start, end) in T, one per record
+    samples: int
+    independent_samples: float  # how many of them are worth something: `uncertainty`
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything but the element, ready for JSON."""
+        return super().to_dict() | {
+            "e_acc": self.e_acc,
+            "std_errors": dict(self.std_errors),
+            "intervals": {name: list(pair) for name, pair in self.intervals.items()},
+            "covariance": self.covariance.tolist(),
+            "window": [list(span) for span in self.window],
+            "samples": self.samples,
+            "independent_samples": self.independent_samples,
+        }
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MemoryFit(ElementFit):
+    """A film-memory element and how well it stands for the data; ``rms`` is of all samples together."""
+
+    element: FilmMemoryContact
+    record_rms: tuple[float, ...]  # RMS error of the force over its standard deviation, whole record, each
+    damping_error: _Floats  # relative error of C at every frequency
+    stiffness_error: _Floats
+    validation: dict[int, float] = field(default_factory=dict)  # cross-validation error by number of lags
+    weights: Mapping[str, float] = field(default_factory=dict)  # relative errors that counted alike
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything but the element, ready for JSON."""
+        return super().to_dict() | {
+            "record_rms": list(self.record_rms),
+            "damping_error_max": float(np.abs(self.damping_error).max()),
+            "stiffness_error_max": float(np.abs(self.stiffness_error).max()),
+            "validation": {str(lags): score for lags, score in self.validation.items()},
+            "weights": dict(self.weights),
+        }
+
+
+def rms_error(force: _Floats, fitted: _Floats) -> float:
+    """RMS of ``force - fitted`` over the standard deviation of the force."""
+    return float(np.sqrt(np.mean((force - fitted) ** 2)) / np.std(force))
+
+
+def sum_error(force: _Floats, fitted: _Floats) -> float:
+    """Eq. 13 for the force."""
+    return float(np.sum(force - fitted) / np.sum(force))
+
+
+def valid_of(element: ContactElement) -> dict[str, Any]:
+    """The validity box of an element as `ElementFit.valid` has it."""
+    box = {"low": element.low, "high": element.high, "rate": element.rate}
+    return box | {"load": element.load_range, "omega": element.omega_range}

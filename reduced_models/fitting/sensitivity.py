@@ -10,13 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reduced_models.elements.polynomial import PolynomialContact
-from reduced_models.fitting.fit import acceleration_error, take_samples
-from reduced_models.fitting.models import COLUMNS, Samples, linear_estimate
+from reduced_models.fitting.models import COLUMNS, linear_estimate
 from reduced_models.fitting.records import ContactRecord
+from reduced_models.fitting.result import rms_error, sum_error
+from reduced_models.fitting.samples import Samples, Window
 from reduced_models.fitting.uncertainty import autocorrelation, independent_samples
 
 TERMS = PolynomialContact.parameter_names
-CORRELATED = 0.5  # autocorrelation of neighbouring residuals above which AIC and BIC of all samples mislead
+# Autocorrelation of neighbouring residuals above which AIC and BIC of all samples mislead, and `warning` says so.
+CORRELATED_FROM = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +55,7 @@ class Sensitivity:
     @property
     def warning(self) -> str | None:
         """What to keep in mind of aic and bic, if anything."""
-        if self.lag_one <= CORRELATED:
+        if self.lag_one <= CORRELATED_FROM:
             return None
         return (
             f"residuals hang together (autocorrelation {self.lag_one:.2f}): AIC and BIC count "
@@ -72,9 +74,7 @@ class Sensitivity:
         }
 
 
-def sensitivity(
-    records: ContactRecord | Sequence[ContactRecord], window: tuple[float, float] | None = None
-) -> Sensitivity:
+def sensitivity(records: ContactRecord | Sequence[ContactRecord], window: Window | None = None) -> Sensitivity:
     """Fit eq. 11 in full, then seven times with one coefficient left out.
 
     As in the paper, the others are fitted again. The signed sums of its eq. 13 are near zero by construction
@@ -94,9 +94,8 @@ def sensitivity(
     InputError
         As `fit` does for the records; the polynomials need not make a contact.
     """
-    samples, _ = take_samples(records, window)
-    for cut in samples.cuts:
-        cut.require_matching_rate()
+    samples = Samples.of(records, window)
+    samples.require_matching_rates()
     full = linear_estimate(samples, TERMS, PolynomialContact)
     parts = samples.split(samples.force - full.fitted)
     independent = independent_samples(parts)
@@ -112,12 +111,12 @@ def sensitivity(
         rows.append(
             SensitivityRow(
                 removed=removed,
-                rms=_relative(samples, fitted),
-                e_f=float(np.sum(samples.force - fitted) / np.sum(samples.force)),
-                e_acc=acceleration_error(samples, fitted),
+                rms=rms_error(samples.force, fitted),
+                e_f=sum_error(samples.force, fitted),
+                e_acc=samples.acceleration_error(fitted),
                 aic=gain - 2.0 * fewer,
                 bic=gain - float(np.log(independent)) * fewer,
-                rms_without_refit=_relative(samples, struck),
+                rms_without_refit=rms_error(samples.force, struck),
             )
         )
     lag_one = float(np.mean([autocorrelation(part)[1] for part in parts]))
@@ -126,7 +125,3 @@ def sensitivity(
 
 def _term(samples: Samples, name: str, value: float) -> NDArray[np.float64]:
     return value * COLUMNS[name][1](samples.approach, samples.rate)
-
-
-def _relative(samples: Samples, fitted: NDArray[np.float64]) -> float:
-    return float(np.sqrt(np.mean((samples.force - fitted) ** 2)) / np.std(samples.force))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,13 +12,13 @@ from scipy.optimize import least_squares
 
 from ehlcontact import impedance, solve_steady
 from ehlcontact.errors import InputError
+from ehlcontact.origin import source_of
 from ehlcontact.point import Point, moes_point, scales_of
-from reduced_models.elements.file import library_version
 from reduced_models.elements.film_curve import increasing
 from reduced_models.elements.film_response import FilterRates, fit_gains
 from reduced_models.elements.memory import FilmMemoryContact
 from reduced_models.elements.wide import WideRangeContact
-from reduced_models.fitting.memory import LIMITS, OMEGAS, STARTS, TRANSIT, Response
+from reduced_models.fitting.memory import LIMITS, OMEGAS, RATE_STARTS, SEARCH, TRANSIT_TIME, Response
 
 _Floats = NDArray[np.float64]
 
@@ -124,15 +124,8 @@ def wide_range_from_solves(
     moes, scales = moes_point(point), scales_of(point)
     steady = [solve_steady(replace(moes, M=moes.M * f), n=n) for f in at.tolist()]
     responses = [impedance(replace(moes, M=moes.M * f), omegas, n=n) for f in places.tolist()]
-    source = {
-        "point": moes.to_dict(),
-        "scales": None if scales is None else asdict(scales),
-        "n": n,
-        "domain": [list(s.domain.as_tuple()) for s in steady],
-        "motion": None,
-        "version": library_version(),
-    }
-    approach = [s.approach for s in steady]
+    approach, domains = [s.approach for s in steady], [list(s.domain.as_tuple()) for s in steady]
+    source = source_of(moes, scales, n, domains)
     return wide_range_contact(at, approach, places, responses, lags=lags, memory=memory, source=source)
 
 
@@ -153,9 +146,7 @@ def _common_rates(responses: Sequence[Response], lags: int) -> FilterRates:
 
     lower, upper = np.log(np.array(LIMITS[:3])).T
     solutions = [
-        least_squares(
-            residuals, np.log([lags / TRANSIT, *start]), bounds=(lower, upper), diff_step=1e-3, max_nfev=30
-        )
-        for start in STARTS
+        least_squares(residuals, np.log([lags / TRANSIT_TIME, *start]), bounds=(lower, upper), **SEARCH)
+        for start in RATE_STARTS
     ]
     return rates(min(solutions, key=lambda solution: solution.cost).x)

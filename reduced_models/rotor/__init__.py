@@ -1,1 +1,12 @@
-"""Room."""
+"""A rotor, or a single mass, on contacts: full films or elements, in SI.
+
+| module | is responsible for |
+|---|---|
+| contact | the protocol every contact obeys; `ScaledContact` shows a dimensionless one in SI; all as one force |
+| jeffcott | `JeffcottRotor`: parameters, mounts, linear matrices, states at rest |
+| equilibrium | where contacts that know their statics carry a load |
+| step | one generalised-alpha step after the other, condensed onto the journal |
+| simulate | `simulate_rotor`: checks, Ctrl-C, failure; `RotorResult` |
+| oscillator | `simulate_oscillator`: one mass on one element |
+| compare | `compare`: full against reduced response |
+"""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_nonnegative
 from ehlcontact.errors import InputError
-from reduced_models.rotor.result import RotorResult
+from reduced_models.rotor.simulate import RotorResult
 
 _Floats = NDArray[np.float64]
 

@@ -19,13 +19,21 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import lstsq
 
-from ehlcontact.checks import require_choice, require_finite, require_nonnegative, require_positive
-from ehlcontact.errors import InputError
-from reduced_models.rotor.equilibrium import static_equilibrium
+from ehlcontact.checks import (
+    as_column,
+    require_choice,
+    require_finite,
+    require_integer,
+    require_nonnegative,
+    require_positive,
+)
+from ehlcontact.errors import ConvergenceError, InputError
+from reduced_models.rotor.equilibrium import StaticContacts, equilibrium
 
 _Floats = NDArray[np.float64]
 
-DOWN = -pi / 2.0
+DOWN = -pi / 2.0  # direction of gravity [rad]
+REACHED = 1e-9  # distance from wanted approaches, over the largest, that rounding may leave
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +78,7 @@ class RotorState:
 
     def __post_init__(self) -> None:
         for name in ("disc", "journal", "disc_velocity", "journal_velocity"):
-            object.__setattr__(self, name, _vector(name, getattr(self, name)))
+            object.__setattr__(self, name, as_column(name, getattr(self, name), size=2))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,10 +133,10 @@ class JeffcottRotor:
         for name in ("shaft_damping", "disc_damping", "unbalance", "speed_rpm"):
             require_nonnegative(name, getattr(self, name))
         for name in ("gravity", "load"):
-            object.__setattr__(self, name, tuple(_vector(name, getattr(self, name)).tolist()))
+            object.__setattr__(self, name, tuple(as_column(name, getattr(self, name), size=2).tolist()))
         require_choice("directions", self.directions, ("xy", "y"))
-        if not isinstance(self.bearings, int) or self.bearings < 1:
-            raise InputError("bearings", self.bearings, "a whole number >= 1")
+        bearings = require_integer("bearings", self.bearings, "a whole number >= 1", 1)
+        object.__setattr__(self, "bearings", bearings)
         object.__setattr__(self, "mounts", tuple(self.mounts))
         if not self.mounts or not all(isinstance(mount, ContactMount) for mount in self.mounts):
             raise InputError("mounts", self.mounts, "at least one ContactMount")
@@ -204,7 +212,7 @@ class JeffcottRotor:
 
     def approaches(self, journal: ArrayLike) -> _Floats:
         """Approach of every contact [m] with the journal at `journal`, shape (2,)."""
-        return self.normals @ _vector("journal", journal)[list(self.axes)] + self.offsets
+        return self.normals @ as_column("journal", journal, size=2)[list(self.axes)] + self.offsets
 
     def state_at(self, approaches: ArrayLike) -> RotorState:
         """State at rest with given approaches of the contacts [m], the shaft bent by the static load.
@@ -214,12 +222,10 @@ class JeffcottRotor:
         InputError
             Not one approach per contact, or approaches that no position of the journal gives.
         """
-        wanted = np.asarray(approaches, dtype=np.float64)
-        if wanted.shape != (len(self.mounts),) or not np.all(np.isfinite(wanted)):
-            raise InputError("approaches", approaches, f"{len(self.mounts)} finite numbers, one per contact")
+        wanted = as_column("approaches", approaches, size=len(self.mounts))
         position: _Floats = lstsq(self.normals, wanted - self.offsets)[0]
         miss = float(np.abs(self.normals @ position + self.offsets - wanted).max())
-        if miss > 1e-9 * float(np.abs(wanted).max()):
+        if miss > REACHED * float(np.abs(wanted).max()):
             raise InputError("approaches", approaches, f"reachable by one journal position (off by {miss:.3g} m)")
         return self.rest_state(position)
 
@@ -248,16 +254,22 @@ class JeffcottRotor:
         return forces
 
     def static_equilibrium(self, contacts: Sequence[Any]) -> RotorState:
-        """State at rest under the static load; see `reduced_models.rotor.equilibrium.static_equilibrium`."""
-        return static_equilibrium(self, contacts)
+        """State at rest under the static load, the contacts carrying it.
 
+        Parameters
+        ----------
+        contacts : sequence
+            One per mount, in SI, with `TangentContact`'s ``spring`` and ``spring_tangent``; their states stay.
 
-def _vector(name: str, values: ArrayLike) -> _Floats:
-    try:
-        array = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(name, values, "two finite numbers") from None
-    if array.shape != (2,) or not np.all(np.isfinite(array)):
-        raise InputError(name, values, "two finite numbers")
-    array.setflags(write=False)
-    return array
+        Raises
+        ------
+        InputError
+            Wrong number of contacts, a contact without static law, or no static load.
+        ConvergenceError
+            The contacts do not stand against the load; ``result`` is the last state.
+        """
+        carrying = StaticContacts(contacts, self.normals, self.offsets, self.bearings)
+        try:
+            return self.rest_state(equilibrium(carrying, self.static_load))
+        except ConvergenceError as error:
+            raise ConvergenceError(str(error), self.rest_state(error.result)) from None

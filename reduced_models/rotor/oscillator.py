@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import solve_ivp
 
+from ehlcontact import Status
 from ehlcontact.checks import require_choice, require_finite, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.elements.base import ContactElement
@@ -33,7 +34,7 @@ class OscillatorResult:
     force: NDArray[np.float64]
     load: NDArray[np.float64]
     evaluations: int
-    status: str
+    status: Status
 
 
 def simulate_oscillator(
@@ -116,8 +117,10 @@ def simulate_oscillator(
         max_step=float(np.diff(times).max()),
         **options,
     )
-    result = _result(element, solution, rates, applied, omega_n is not None)
-    if not solution.success or not np.all(np.isfinite(solution.y)):
+    ended = solution.success and bool(np.all(np.isfinite(solution.y)))
+    status = Status.CONVERGED if ended else Status.FAILED
+    result = _result(element, solution, rates, applied, omega_n is not None, status)
+    if not result.status.ok:
         reached = float(result.T[-1]) if result.T.size else float(times[0])
         raise ConvergenceError(f"oscillator broke off at T = {reached:g}: {solution.message}", result)
     omega = frequency_of(result.approach, result.rate)
@@ -200,7 +203,12 @@ def _load(load: Load, times: NDArray[np.float64]) -> Callable[[float], float]:
 
 
 def _result(
-    element: ContactElement, solution: Any, rates: Callable, applied: Callable[[float], float], inertia: bool
+    element: ContactElement,
+    solution: Any,
+    rates: Callable,
+    applied: Callable[[float], float],
+    inertia: bool,
+    status: Status,
 ) -> OscillatorResult:
     T = np.asarray(solution.t, dtype=np.float64)
     y = np.asarray(solution.y, dtype=np.float64).reshape(-1, T.size) if T.size else np.empty((2, 0))
@@ -211,5 +219,4 @@ def _result(
     elif isinstance(element, FilmContact):
         states = y[2 if inertia else 1 :].T
         force = np.array([element.state_rates(*at)[0] for at in zip(states, y[0], rate, strict=True)])
-    status = "converged" if solution.success else "failed"
     return OscillatorResult(T, y[0], rate, force, load, int(solution.nfev), status)

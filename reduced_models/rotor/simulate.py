@@ -4,14 +4,43 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
-from ehlcontact.checks import require_positive
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact import Status
+from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.elements.validity import frequency_of
 from reduced_models.rotor.contact import Contact
 from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
-from reduced_models.rotor.result import RotorResult, RotorStatus
-from reduced_models.rotor.stepper import RotorStepper
+from reduced_models.rotor.step import RotorStepper
+
+_Floats = NDArray[np.float64]
+RotorStatus = Status  # its public name; a run ends as converged, interrupted or failed
+
+
+@dataclass(frozen=True, eq=False)
+class RotorResult:
+    """Histories of a rotor run in SI; entry 0 is the start. N times, C contacts."""
+
+    t: _Floats  # (N,) [s]
+    disc: _Floats  # (N, 2) [m]
+    disc_velocity: _Floats  # (N, 2) [m/s]
+    journal: _Floats  # (N, 2) [m]
+    journal_velocity: _Floats  # (N, 2) [m/s]
+    approach: _Floats  # (N, C) [m]
+    rate: _Floats  # (N, C) [m/s]
+    force: _Floats  # (N, C) on one contact of one bearing [N]
+    iterations: NDArray[np.int64]  # (N,) evaluations of every contact in the step
+    status: Status
+    rotor: JeffcottRotor
+
+    def __post_init__(self) -> None:
+        for values in vars(self).values():
+            if isinstance(values, np.ndarray):
+                values.setflags(write=False)
 
 
 def simulate_rotor(
@@ -71,13 +100,21 @@ def simulate_rotor(
     tolerance = require_positive("tolerance", tolerance)
     if not 0.0 <= rho_inf <= 1.0:
         raise InputError("rho_inf", rho_inf, "between 0 and 1")
-    if not isinstance(max_iterations, int) or max_iterations < 1:
-        raise InputError("max_iterations", max_iterations, "a whole number >= 1")
+    max_iterations = require_integer("max_iterations", max_iterations, "a whole number >= 1", 1)
     _check_contacts(rotor, contacts)
     state = _start_state(rotor, contacts, start)
-    steps = max(1, math.ceil(until / dt - 1e-9))
-    run = RotorStepper(rotor, contacts, state, dt=dt, steps=steps, rho_inf=rho_inf)
-    run.limit(tolerance, max_iterations)
+    steps = max(1, math.ceil(until / dt - 1e-9))  # but for rounding of the quotient
+    run = RotorStepper(
+        rotor,
+        contacts,
+        state,
+        dt=dt,
+        steps=steps,
+        rho_inf=rho_inf,
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+    )
+    status = Status.CONVERGED
     try:
         for step in range(1, steps + 1):
             run.advance()
@@ -85,12 +122,14 @@ def simulate_rotor(
                 callback(step, steps)
     except KeyboardInterrupt:
         run.rewind()
-        return _checked(contacts, run.result(RotorStatus.INTERRUPTED))
+        status = Status.INTERRUPTED
     except ConvergenceError as error:
         run.rewind()
-        message = f"rotor at t = {run.time:.6g} s: {error}"
-        raise ConvergenceError(message, run.result(RotorStatus.NOT_CONVERGED)) from error
-    return _checked(contacts, run.result(RotorStatus.CONVERGED))
+        partial = RotorResult(**run.histories(), status=Status.FAILED, rotor=rotor)
+        raise ConvergenceError(f"rotor at t = {run.time:.6g} s: {error}", partial) from error
+    result = RotorResult(**run.histories(), status=status, rotor=rotor)
+    _warn_outside(contacts, result)
+    return result
 
 
 def _check_contacts(rotor: JeffcottRotor, contacts: Sequence[Contact]) -> None:
@@ -118,11 +157,10 @@ def _start_state(rotor: JeffcottRotor, contacts: Sequence[Contact], start: str |
     return state
 
 
-def _checked(contacts: Sequence[Contact], result: RotorResult) -> RotorResult:
+def _warn_outside(contacts: Sequence[Contact], result: RotorResult) -> None:
     """Let the elements warn where the run left their validity box."""
     for i, contact in enumerate(contacts):
         warn = getattr(contact, "warn_outside", None)
         if warn is not None:
             u, v, f = result.approach[:, i], result.rate[:, i], result.force[:, i]
             warn(u, v, frequency_of(u, v), f, stacklevel=4)
-    return result

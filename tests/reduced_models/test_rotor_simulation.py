@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
+from ehlcontact import Status
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import (
     JeffcottRotor,
@@ -220,7 +221,7 @@ def test_failure_inside_a_contact_keeps_the_history(rotor, contact):
     with pytest.raises(ConvergenceError, match=r"rotor at t = .* film diverged") as caught:
         simulate_rotor(rotor, [broken], dt=1e-5, until=1e-3, start=rotor.static_equilibrium([contact]))
     partial = caught.value.result
-    assert partial.status == "not converged" and 10 < partial.t.size <= 30
+    assert partial.status is Status.FAILED and 10 < partial.t.size <= 30
     assert broken.state == partial.iterations.sum() - (partial.iterations - 1).clip(0).sum()
 
 

@@ -1,0 +1,100 @@
+"""What a fit sees: records of one contact, each cut to its window, as one set of samples."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.checks import as_column
+from ehlcontact.errors import InputError
+from reduced_models.fitting.records import ContactRecord, as_records
+
+_Floats = NDArray[np.float64]
+Window = tuple[float, float]  # (start, end) in T
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Records of one contact, and of each the part inside its window."""
+
+    records: tuple[ContactRecord, ...]
+    windows: tuple[Window, ...]
+    cuts: tuple[ContactRecord, ...]
+
+    @classmethod
+    def of(cls, records: ContactRecord | Sequence[ContactRecord], window: Window | None) -> Self:
+        """Check that the records belong together, and cut each to `window`, or to its own default window.
+
+        Raises
+        ------
+        InputError
+            No record, something else, records of different contacts, a window that is no pair or holds too few
+            samples.
+        """
+        taken = as_records(records)
+        if not taken:
+            raise InputError("records", 0, "at least one record")
+        _require_one_contact(taken)
+        if window is None:
+            windows = tuple(record.default_window for record in taken)
+        else:
+            start, end = as_column("window", window, size=2).tolist()
+            windows = ((start, end),) * len(taken)
+        cuts = (record.window(*span) for record, span in zip(taken, windows, strict=True))
+        return cls(taken, windows, tuple(cuts))
+
+    @cached_property
+    def approach(self) -> _Floats:
+        """Approach of all cuts, one after the other."""
+        return np.concatenate([cut.approach for cut in self.cuts])
+
+    @cached_property
+    def rate(self) -> _Floats:
+        """Rate likewise."""
+        return np.concatenate([cut.rate for cut in self.cuts])
+
+    @cached_property
+    def force(self) -> _Floats:
+        """Force likewise."""
+        return np.concatenate([cut.force for cut in self.cuts])
+
+    def each(self, name: str) -> Any:
+        """An attribute of the records: one value if they agree, else a list of all."""
+        values = [getattr(record, name) for record in self.records]
+        return values[0] if all(value == values[0] for value in values) else values
+
+    def split(self, values: _Floats) -> list[_Floats]:
+        """Values of all cuts as one array per cut."""
+        return np.split(values, np.cumsum([len(cut) for cut in self.cuts])[:-1])
+
+    def require_matching_rates(self) -> None:
+        """Make sure that the rate of every cut is the derivative of its approach; raises InputError."""
+        for cut in self.cuts:
+            cut.require_matching_rate()
+
+    def acceleration_error(self, fitted: _Floats) -> float | None:
+        """Eq. 13 for the acceleration that the motion equation (eq. 7) gives with the fitted force."""
+        true, modelled = 0.0, 0.0
+        for cut, force in zip(self.cuts, self.split(fitted), strict=True):
+            if cut.omega_n is None or cut.load is None or cut.acceleration is None:
+                return None
+            true += float(np.sum(cut.acceleration))
+            modelled += float(np.sum(cut.omega_n**2 * (cut.load - force)))
+        return (true - modelled) / true if true != 0.0 else None
+
+
+def _require_one_contact(records: Sequence[ContactRecord]) -> None:
+    first = records[0]
+    for i, record in enumerate(records):
+        for name in ("units", "point", "scales", "static_load"):
+            if getattr(record, name) != getattr(first, name):
+                raise InputError(
+                    f"records[{i}].{name}",
+                    getattr(record, name),
+                    f"as in records[0]: {getattr(first, name)!r}",
+                )
