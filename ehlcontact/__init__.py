@@ -29,8 +29,7 @@ module                  responsibility
 ``linearised_contact``  impedance of many frequencies from a few solves
 ``impedance``           `impedance`: K and C over frequency from the linearised steady state
 ``full_contact``        `FullContact`: the whole film as a force element
-``film``                the film to look at: `film_of`, `interferogram`, `film_history`
-``film_wave``           `film_wave` and `track_wave`: what the surfaces carry through, and how fast
+``film``                the film to look at: `film_of`, `interferogram`, `film_history`, `film_wave`
 ``formulas``            published film and approach formulas, for comparison
 ``results, status``     frozen results, how a solve ended
 ``storage``             `save` and `load` (HDF5)
@@ -40,19 +39,31 @@ module                  responsibility
 """
 
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.film import Film, FilmHistory, Interferogram, film_history, film_of, interferogram
-from ehlcontact.film_wave import FilmWave, WaveTrack, film_wave, track_wave
-from ehlcontact.impedance import ImpedanceResult, impedance
+from ehlcontact.film import (
+    Film,
+    FilmHistory,
+    FilmWave,
+    Interferogram,
+    WaveTrack,
+    film_history,
+    film_of,
+    film_wave,
+    interferogram,
+    track_wave,
+)
+from ehlcontact.impedance import impedance
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.origin import __version__
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint, Scales
-from ehlcontact.results import Instants, SimulationResult, SteadyResult
+from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.domain import Domain
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.storage import load, save
 from ehlcontact.transient.full_contact import FullContact
-from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, PrescribedApproach, PrescribedLoad, RampLoad
+from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
+from ehlcontact.transient.prescribed import PrescribedApproach, PrescribedLoad
+from ehlcontact.transient.result import Instants, SimulationResult
 from ehlcontact.transient.simulate import simulate
 from ehlcontact.transient.surface import Dent, TransverseRidge, Waviness
 

@@ -13,17 +13,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.origin import __version__
-from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
-from ehlcontact.results import SteadyResult
+from ehlcontact.point import Point, moes_point, scales_of
+from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.domain import Domain, check_domain
 from ehlcontact.solver.linearised_contact import LinearisedContact
 from ehlcontact.solver.resolution import automatic_mesh, moving_intervals
@@ -36,53 +33,6 @@ TOLERANCE = 1e-5  # of the linear residuals; C is then within 3e-4 of the exact 
 LARGEST_OMEGA = 200.0
 FEWEST_INTERVALS = 80
 NEAR_ZERO = 1e-4  # where C(0) is evaluated
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class ImpedanceResult:
-    """Stiffness and damping of a contact over frequency; dimensionless, SI scales beside."""
-
-    point: MoesPoint
-    scales: Scales | None
-    domain: Domain
-    n: int
-    omega: Array  # (k,)
-    stiffness: Array  # (k,) K(Omega) = Re Z
-    damping: Array  # (k,) C(Omega) = Im Z/Omega, its limit at Omega = 0
-    residual: Array  # (k,) relative residual of the linear system
-    approach: float  # of the steady state
-    seconds: float
-    version: str
-
-    def __post_init__(self) -> None:
-        for name in ("omega", "stiffness", "damping", "residual"):
-            getattr(self, name).setflags(write=False)
-
-    @property
-    def impedance(self) -> NDArray[np.complex128]:
-        """Z(Omega) = K + i Omega C."""
-        return self.stiffness + 1j * self.omega * self.damping
-
-    def to_control(self) -> Any:
-        """``control.FrequencyResponseData`` from approach to force."""
-        import control
-
-        return control.frd(self.impedance, self.omega, inputs="u", outputs="F", name="contact")
-
-    def summary(self) -> dict[str, Any]:
-        """The JSON form of the command line."""
-        return {
-            "omega": self.omega.tolist(),
-            "stiffness": self.stiffness.tolist(),
-            "damping": self.damping.tolist(),
-            "approach": self.approach,
-            "residual": self.residual.tolist(),
-            "seconds": self.seconds,
-            "n": self.n,
-            "domain": list(self.domain.as_tuple()),
-            "point": self.point.to_dict(),
-            "version": self.version,
-        }
 
 
 def impedance(
@@ -126,7 +76,6 @@ def impedance(
         residual=residual,
         approach=steady.approach,
         seconds=time.perf_counter() - started,
-        version=__version__,
     )
 
 

@@ -6,8 +6,10 @@ Results are such origins (they inherit its fields); elements and the atlas keep 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from typing import Any
+
+import numpy as np
 
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.solver.domain import Domain
@@ -26,9 +28,20 @@ class Origin:
     seconds: float  # that it took
     version: str = __version__
 
+    def __post_init__(self) -> None:
+        freeze(self)
+
     def source(self, motion: Any = None) -> dict[str, Any]:
         """What an element made from this result keeps as its ``source``."""
         return source_of(self.point, self.scales, self.n, self.domain.as_tuple(), motion)
+
+
+def freeze(record: Any) -> None:
+    """Make the arrays of a dataclass read-only."""
+    for f in fields(record):
+        value = getattr(record, f.name)
+        if isinstance(value, np.ndarray):
+            value.setflags(write=False)
 
 
 def source_of(

@@ -1,55 +1,39 @@
-"""Frozen results of the solvers; arrays are read-only. Everything is dimensionless, with the SI scales beside."""
+"""Frozen results at rest: the steady film and its impedance; arrays are read-only.
+
+Everything is dimensionless, with the SI scales beside. What a run leaves is in `transient.result`.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError
-from ehlcontact.point import MoesPoint, Scales
-from ehlcontact.solver.domain import Domain
+from ehlcontact.origin import Origin
 from ehlcontact.status import Status
-from ehlcontact.transient.motion import Motion, PrescribedApproach
 
 Array = NDArray[np.float64]
 
 
-def _freeze(result: Any) -> None:
-    for f in fields(result):
-        value = getattr(result, f.name)
-        if isinstance(value, np.ndarray):
-            value.setflags(write=False)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class SteadyResult:
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SteadyResult(Origin):
     """Steady film of a contact under constant load, or at a prescribed approach."""
 
-    point: MoesPoint
-    scales: Scales | None  # None for a purely dimensionless point
-    domain: Domain
-    n: int  # intervals along X
-    X: Array  # (nx + 1,)
-    Y: Array  # (ny + 1,), Y >= 0; fields are even in Y
+    X: Array  # (nx + 1,) x/a
+    Y: Array  # (ny + 1,) y/b >= 0; fields are even in Y
     P: Array  # (nx + 1, ny + 1) pressure / p_hertz
     H: Array  # (nx + 1, ny + 1) film / dry approach
     approach: float  # mutual approach / dry approach
     force: float  # film force / static load
-    h_central: float  # film at X = Y = 0
-    h_min: float  # smallest film, between the nodes too
-    residuals: Array  # mean |residual| over P > 0: start after full multigrid, then each cycle
-    load_residuals: Array  # residual of the load (or approach) equation, likewise
-    approach_changes: Array  # change of the approach in each cycle
+    h_central: float  # film at X = Y = 0 / dry approach
+    h_min: float  # smallest film / dry approach, between the nodes too
+    residuals: Array  # (cycles + 1,) mean |residual| over P > 0: start after full multigrid, then each cycle
+    load_residuals: Array  # (cycles + 1,) residual of the load (or approach) equation, likewise
+    approach_changes: Array  # (cycles,) change of the approach in each cycle
     dry_residual: float  # mean |residual| of the dry Hertz start on this grid: the scale
     status: Status
-    seconds: float
-    version: str
-
-    def __post_init__(self) -> None:
-        _freeze(self)
 
     @property
     def residual(self) -> float:
@@ -92,127 +76,38 @@ class SteadyResult:
         }
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Instants:
-    """A simulation between its steps: continuous with continuous slopes, every array of the shape of T."""
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ImpedanceResult(Origin):
+    """Stiffness and damping of a contact over frequency."""
 
-    T: Array
-    approach: Array
-    rate: Array  # derivative of `approach`
-    force: Array
-    load: Array  # of the motion itself; the film force where the approach is prescribed
-    h_central: Array
-    h_min: Array
-
-    def __post_init__(self) -> None:
-        _freeze(self)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class SimulationResult:
-    """History of a transient contact; entry 0 is the initial state at T = 0."""
-
-    point: MoesPoint
-    scales: Scales | None
-    domain: Domain
-    n: int
-    motion: Motion
-    X: Array  # (nx + 1,)
-    Y: Array  # (ny + 1,)
-    T: Array  # (steps + 1,)
-    approach: Array
-    rate: Array  # d approach/dT
-    acceleration: Array
-    force: Array  # film force
-    load: Array  # applied load f_ext(T)
-    h_central: Array
-    h_min: Array
-    h_midplane: Array  # (steps + 1, nx + 1) film along Y = 0
-    p_midplane: Array  # (steps + 1, nx + 1) pressure along Y = 0
-    residuals: Array  # relative residual of each step's last cycle
-    load_residuals: Array
-    cycles: Array  # cycles of each step
-    snapshot_T: Array  # (k,)
-    snapshot_H: Array  # (k, nx + 1, ny + 1)
-    snapshot_P: Array  # (k, nx + 1, ny + 1)
-    static_approach: float  # of the steady state under load 1
-    status: Status
-    seconds: float
-    version: str
-
-    def __post_init__(self) -> None:
-        _freeze(self)
+    omega: Array  # (k,) dimensionless angular frequency
+    stiffness: Array  # (k,) K(Omega) = Re Z
+    damping: Array  # (k,) C(Omega) = Im Z/Omega, its limit at Omega = 0
+    residual: Array  # (k,) relative residual of the linear system
+    approach: float  # of the steady state / dry approach
 
     @property
-    def steps(self) -> int:
-        """Number of time steps done."""
-        return len(self.T) - 1
+    def impedance(self) -> NDArray[np.complex128]:
+        """Z(Omega) = K + i Omega C."""
+        return self.stiffness + 1j * self.omega * self.damping
 
-    def at(self, T: ArrayLike) -> Instants:
-        """Dense output: cubic Hermite polynomials between the steps.
+    def to_control(self) -> Any:
+        """``control.FrequencyResponseData`` from approach to force."""
+        import control
 
-        The approach takes its slopes from the recorded rate (fourth order where the bodies have inertia), force
-        and films from second-order differences of the record (third order).
-
-        Parameters
-        ----------
-        T : array_like
-            Times within the record, of any shape.
-
-        Raises
-        ------
-        InputError
-            A time that is not a number, or outside the record; a record of fewer than three times.
-        """
-        from scipy.interpolate import CubicHermiteSpline
-
-        try:
-            times = np.array(T, dtype=float)
-        except (TypeError, ValueError):
-            raise InputError("T", T, "numbers") from None
-        if self.T.size < 3:
-            raise InputError("steps", self.steps, "at least 2 to interpolate between")
-        outside = times[~((times >= self.T[0]) & (times <= self.T[-1]))]
-        if outside.size:
-            raise InputError("T", float(outside.flat[0]), f"between {self.T[0]:g} and {self.T[-1]:g}")
-
-        def smooth(values: Array) -> Array:
-            return CubicHermiteSpline(self.T, values, np.gradient(values, self.T, edge_order=2))(times)
-
-        approach = CubicHermiteSpline(self.T, self.approach, self.rate)
-        force = smooth(self.force)
-        motion = self.motion
-        return Instants(
-            T=times,
-            approach=approach(times),
-            rate=approach(times, 1),
-            force=force,
-            load=force.copy()
-            if isinstance(motion, PrescribedApproach)
-            else np.array([motion.load(t) for t in times.flat]).reshape(times.shape),
-            h_central=smooth(self.h_central),
-            h_min=smooth(self.h_min),
-        )
-
-    def dissipated(self, start: float = 0.0, end: float = np.inf) -> float:
-        """Work ``integral of force d(approach)`` over T in [start, end]: what the film took up."""
-        keep = (self.T >= start) & (self.T <= end)
-        return float(np.trapezoid(self.force[keep], self.approach[keep]))
+        return control.frd(self.impedance, self.omega, inputs="u", outputs="F", name="contact")
 
     def summary(self) -> dict[str, Any]:
         """The JSON form of the command line."""
-        arrays = ("T", "approach", "rate", "force", "load", "h_central", "h_min")
         return {
-            "status": str(self.status),
-            "advice": self.status.advice,
-            "steps": self.steps,
+            "omega": self.omega.tolist(),
+            "stiffness": self.stiffness.tolist(),
+            "damping": self.damping.tolist(),
+            "approach": self.approach,
+            "residual": self.residual.tolist(),
             "seconds": self.seconds,
-            **{name: getattr(self, name).tolist() for name in arrays},
-            "residual": float(self.residuals.max()),
-            "load_residual": float(np.abs(self.load_residuals).max()),
             "n": self.n,
             "domain": list(self.domain.as_tuple()),
-            "motion": self.motion.to_dict(),
             "point": self.point.to_dict(),
             "version": self.version,
         }

@@ -11,7 +11,6 @@ import numpy as np
 
 from ehlcontact.checks import require_choice, require_finite, require_integer, require_positive
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.balance import Balance
@@ -202,7 +201,6 @@ class _Solve:
             dry_residual=self.scale,
             status=status,
             seconds=seconds,
-            version=__version__,
         )
 
 

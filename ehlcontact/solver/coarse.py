@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +32,7 @@ CORRECTION_DROP = 1e-2  # of its residual, enough for one cycle
 class Factors:
     """LU factors of a bordered Jacobian, and what it was made for."""
 
-    lu: Any
+    lu: tuple[Array, NDArray[np.int32]]  # of LAPACK
     free: Nodes
     equation: tuple[float, float, float]  # time coefficient, balance stiffness and weight
 

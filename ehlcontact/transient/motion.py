@@ -1,32 +1,191 @@
 """What drives a transient contact: loads and motions as functions of dimensionless time T.
 
-A motion gives the load ``f_ext(T)`` (static load 1), whether the bodies have inertia (``omega_n``), and how
-the record starts. With inertia the approach obeys ``u''/Omega_n^2 + f = f_ext`` (eq. 5); without it the film
-carries the load at every instant (eq. 6); `PrescribedApproach` drives u itself. Its ``corners`` are the times at
-which its slope jumps: controlled time steps end there and begin anew.
+Three kinds: a driven approach (`prescribed.PrescribedApproach`), and bodies under a load, with inertia or without.
+With it the approach obeys ``u''/Omega_n^2 + f = f_ext`` (eq. 5), integrated by Newmark's rule; without it the film
+carries the load at every instant (eq. 6). A `Motion` says by which `Balance` a step is closed and how the bodies
+move once it is solved, so that nobody else asks which kind it is.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
 from math import pi, sin
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ehlcontact.checks import require_finite, require_positive
 from ehlcontact.errors import InputError
-from ehlcontact.transient.table import Tabulated, as_table
+from ehlcontact.solver.balance import Balance
+
+Array = NDArray[np.float64]
 
 SMALL_VIBRATION = 1.5**0.5  # dry angular frequency over Omega_n
 STEPS_PER_PERIOD = 80
-CORNER = 0.3  # jump of a table's slope, over its steepest, that counts as a corner; 1/20 period of a sine is 0.31
+
+_KINDS: dict[str, type[Motion]] = {}
 
 
 @dataclass(frozen=True, slots=True)
-class FreeVibration:
+class MotionState:
+    """Motion of the bodies at one time."""
+
+    T: float
+    u: float  # mutual approach / dry approach
+    rate: float  # du/dT
+    acceleration: float  # d2u/dT2; 0 where no equation of motion gives it
+
+
+class Start(NamedTuple):
+    """What holds the contact still until T = 0, in place of the static load."""
+
+    balance: Balance
+    u: float  # guess
+
+
+class Motion(ABC):
+    """What drives a contact: closes its steps, moves its bodies, and says how long and in what steps it runs."""
+
+    __slots__ = ()
+    kind: ClassVar[str]  # its name in files
+
+    def __init_subclass__(cls) -> None:
+        if "kind" in vars(cls):
+            _KINDS[cls.kind] = cls
+
+    @property
+    def corners(self) -> tuple[float, ...]:
+        """Times at which the slope jumps: controlled steps end there and begin anew."""
+        return ()
+
+    @property
+    @abstractmethod
+    def default_end(self) -> float:
+        """Time at which a run ends."""
+
+    @property
+    @abstractmethod
+    def default_step(self) -> float:
+        """Fixed step of a run."""
+
+    @property
+    @abstractmethod
+    def largest_load(self) -> float:
+        """Largest film force to expect, for the domain."""
+
+    @abstractmethod
+    def applied(self, T: float, force: float) -> float:
+        """Load on the bodies: the motion's own, or, where the approach is driven, the film `force` it takes."""
+
+    @abstractmethod
+    def held(self, static: float) -> Start | None:
+        """What holds the contact at rest before T = 0; None if that is load 1, with the approach `static`."""
+
+    @abstractmethod
+    def begin(self, u: float, force: float) -> MotionState:
+        """State at T = 0, of the film at rest with approach `u` and film force `force`."""
+
+    @abstractmethod
+    def balance(self, now: MotionState, T: float, dT: float) -> tuple[Balance, float]:
+        """Equation that closes the step of length `dT` from `now` to `T`, and a guess of the approach there."""
+
+    @abstractmethod
+    def after(self, now: MotionState, u: float, T: float, dT: float) -> MotionState:
+        """State at `T`, where the step from `now` led to the approach `u`."""
+
+    @abstractmethod
+    def slopes(self, T: Array, approach: Array, rate: Array, acceleration: Array) -> tuple[Array, Array]:
+        """Rate and acceleration of a record, shape (k,): as integrated, else second-order differences of it."""
+
+    @abstractmethod
+    def free(self, approach: float, force: float) -> tuple[float, ...]:
+        """Those of two errors that count: what is prescribed has none."""
+
+    @abstractmethod
+    def to_dict(self) -> dict[str, Any]:
+        """For storage."""
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> Motion:
+        """Rebuild a motion of any kind from `to_dict`.
+
+        Raises
+        ------
+        InputError
+            An unknown kind.
+        """
+        arguments = dict(data)
+        kind = arguments.pop("kind", None)
+        if kind not in _KINDS:
+            raise InputError("motion.kind", kind, "one of " + ", ".join(_KINDS))
+        return _KINDS[kind](**arguments)
+
+
+class UnderLoad(Motion):
+    """Bodies under the load ``f_ext(T)`` (static load 1), with inertia if they have an `omega_n`."""
+
+    __slots__ = ()
+    omega_n: float | None
+
+    @abstractmethod
+    def load(self, T: float) -> float:
+        """Applied load."""
+
+    @property
+    def initial_rate(self) -> float:
+        """Rate at T = 0."""
+        return 0.0
+
+    def applied(self, T: float, force: float) -> float:
+        """The load, whatever the film carries."""
+        return self.load(T)
+
+    def held(self, static: float) -> Start | None:
+        """The load at T = 0, where that is not 1."""
+        load = self.load(0.0)
+        return None if load == 1.0 else Start(Balance.of_load(load), static)
+
+    def begin(self, u: float, force: float) -> MotionState:
+        """At the initial rate, accelerated by what the film does not carry."""
+        acceleration = self.omega_n**2 * (self.load(0.0) - force) if self.omega_n else 0.0
+        return MotionState(0.0, u, self.initial_rate, acceleration)
+
+    def balance(self, now: MotionState, T: float, dT: float) -> tuple[Balance, float]:
+        """Newmark's rule, or the load itself."""
+        if not self.omega_n:
+            return Balance.of_load(self.load(T)), now.u + dT * now.rate
+        predictor = _predictor(now, dT)
+        guess = predictor + 0.25 * dT * dT * now.acceleration
+        return Balance.newmark(self.omega_n, dT, self.load(T), predictor), guess
+
+    def after(self, now: MotionState, u: float, T: float, dT: float) -> MotionState:
+        """Newmark's rule with gamma = 1/2; without inertia the mean rate of the step."""
+        if not self.omega_n:
+            return MotionState(T, u, (u - now.u) / dT, 0.0)
+        acceleration = 4.0 * (u - _predictor(now, dT)) / (dT * dT)
+        return MotionState(T, u, now.rate + 0.5 * dT * (now.acceleration + acceleration), acceleration)
+
+    def slopes(self, T: Array, approach: Array, rate: Array, acceleration: Array) -> tuple[Array, Array]:
+        """As integrated; without inertia no equation gives them."""
+        if self.omega_n:
+            return rate, acceleration
+        rate = np.gradient(approach, T, edge_order=2)
+        return rate, np.gradient(rate, T, edge_order=2)
+
+    def free(self, approach: float, force: float) -> tuple[float, ...]:
+        """Without inertia the force is the load."""
+        return (approach, force) if self.omega_n else (approach,)
+
+
+def _predictor(now: MotionState, dT: float) -> float:
+    """Approach `dT` ahead by Newmark's rule (beta = 1/4), but for the share of the new acceleration."""
+    return now.u + dT * now.rate + 0.25 * dT * dT * now.acceleration
+
+
+@dataclass(frozen=True, slots=True)
+class FreeVibration(UnderLoad):
     """Free vibration of a mass on the contact under constant load 1.
 
     The bodies are held at ``static approach + offset`` until the film is steady there, then let go at T = 0
@@ -48,7 +207,6 @@ class FreeVibration:
     offset: float = 0.0
     rate: float | None = None
     kind: ClassVar[str] = "free"
-    corners: ClassVar[tuple[float, ...]] = ()
 
     def __post_init__(self) -> None:
         require_positive("omega_n", self.omega_n)
@@ -91,20 +249,24 @@ class FreeVibration:
         """Rate at T = 0."""
         return self.rate or 0.0
 
+    def held(self, static: float) -> Start | None:
+        """The approach they are let go from."""
+        u = static + self.offset
+        return None if self.offset == 0.0 else Start(Balance.of_approach(u), u)
+
     def to_dict(self) -> dict[str, Any]:
         """For storage."""
         return {"kind": self.kind, "omega_n": self.omega_n, "offset": self.offset, "rate": self.rate}
 
 
 @dataclass(frozen=True, slots=True)
-class HarmonicLoad:
+class HarmonicLoad(UnderLoad):
     """Load ``1 + amplitude sin(omega T)``; quasi-static (eq. 6) unless omega_n gives the bodies inertia."""
 
     omega: float
     amplitude: float = 0.1
     omega_n: float | None = None
     kind: ClassVar[str] = "harmonic"
-    corners: ClassVar[tuple[float, ...]] = ()
 
     def __post_init__(self) -> None:
         require_positive("omega", self.omega)
@@ -143,7 +305,7 @@ class HarmonicLoad:
 
 
 @dataclass(frozen=True, slots=True)
-class RampLoad:
+class RampLoad(UnderLoad):
     """Load rising linearly from 1 to `ratio` within `duration`, then constant, on bodies with inertia."""
 
     ratio: float
@@ -182,104 +344,3 @@ class RampLoad:
     def to_dict(self) -> dict[str, Any]:
         """For storage."""
         return {"kind": self.kind, "ratio": self.ratio, "duration": self.duration, "omega_n": self.omega_n}
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class PrescribedLoad(Tabulated):
-    """Load given by a table (linear interpolation) on bodies with (`omega_n`) or without inertia."""
-
-    T: ArrayLike
-    values: ArrayLike
-    omega_n: float | None = None
-    kind: ClassVar[str] = "load"
-    _table: tuple[NDArray[np.float64], NDArray[np.float64]] = field(init=False, repr=False)
-
-    def __post_init__(self) -> None:
-        table = as_table("values", self.T, self.values)
-        if not (table[1] > 0.0).all():
-            raise InputError("values", float(table[1].min()), "loads > 0 (the contact must stay loaded)")
-        if self.omega_n is not None:
-            require_positive("omega_n", self.omega_n)
-        object.__setattr__(self, "_table", table)
-
-    @classmethod
-    def from_function(
-        cls, load: Callable[[float], float], until: float, steps: int = 1000, omega_n: float | None = None
-    ) -> PrescribedLoad:
-        """Sample a function of T on [0, until]."""
-        T = np.linspace(0.0, require_positive("until", until), steps + 1)
-        return cls(T, [load(t) for t in T], omega_n)
-
-    def load(self, T: float) -> float:
-        """Applied load."""
-        return float(np.interp(T, *self._table))
-
-    @property
-    def corners(self) -> tuple[float, ...]:
-        """Times of the table at which its slope jumps by more than `CORNER` of its steepest slope."""
-        T, values = self._table
-        slope = np.diff(values) / np.diff(T)
-        jump = np.abs(np.diff(slope)) > CORNER * np.abs(slope).max()
-        return tuple(T[1:-1][jump].tolist())
-
-    @property
-    def largest_load(self) -> float:
-        """Largest load of the table."""
-        return float(self._table[1].max())
-
-    def to_dict(self) -> dict[str, Any]:
-        """For storage."""
-        T, values = self._table
-        return {"kind": self.kind, "T": T.tolist(), "values": values.tolist(), "omega_n": self.omega_n}
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class PrescribedApproach(Tabulated):
-    """Approach u(T) given by a table (cubic spline, so that the rate is continuous)."""
-
-    T: ArrayLike
-    values: ArrayLike
-    kind: ClassVar[str] = "approach"
-    corners: ClassVar[tuple[float, ...]] = ()
-    omega_n: ClassVar[None] = None
-    _table: tuple[NDArray[np.float64], NDArray[np.float64]] = field(init=False, repr=False)
-    _spline: Any = field(init=False, repr=False)
-
-    def __post_init__(self) -> None:
-        from scipy.interpolate import CubicSpline
-
-        table = as_table("values", self.T, self.values)
-        object.__setattr__(self, "_table", table)
-        object.__setattr__(self, "_spline", CubicSpline(*table))
-
-    def approach(self, T: float) -> float:
-        """Prescribed approach."""
-        return float(self._spline(T))
-
-    def rate(self, T: float) -> float:
-        """Rate of the prescribed approach."""
-        return float(self._spline(T, 1))
-
-    @property
-    def largest_load(self) -> float:
-        """Dry Hertz load at the largest approach."""
-        return max(1.0, float(self._table[1].max())) ** 1.5
-
-    def to_dict(self) -> dict[str, Any]:
-        """For storage."""
-        T, values = self._table
-        return {"kind": self.kind, "T": T.tolist(), "values": values.tolist()}
-
-
-Motion = FreeVibration | HarmonicLoad | RampLoad | PrescribedLoad | PrescribedApproach
-
-_KINDS = {cls.kind: cls for cls in (FreeVibration, HarmonicLoad, RampLoad, PrescribedLoad, PrescribedApproach)}
-
-
-def motion_from_dict(data: dict[str, Any]) -> Motion:
-    """Rebuild a motion from `to_dict`."""
-    arguments = dict(data)
-    kind = arguments.pop("kind", None)
-    if kind not in _KINDS:
-        raise InputError("motion.kind", kind, "one of " + ", ".join(_KINDS))
-    return _KINDS[kind](**arguments)

@@ -9,22 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.solver.grid import Level
+from ehlcontact.status import Status
 from ehlcontact.steady import central_film, minimum_film
 from ehlcontact.transient.film import Step, TransientFilm
+from ehlcontact.transient.motion import MotionState
 
 Array = NDArray[np.float64]
 
 SAME_TIME = 1e-9  # of a time: a step this near has reached it
-
-
-@dataclass(frozen=True, slots=True)
-class MotionState:
-    """Motion of the bodies at one time."""
-
-    T: float
-    u: float
-    rate: float
-    acceleration: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,6 +47,14 @@ class Entry:
             step,
         )
 
+    @classmethod
+    def of_numbers(cls, numbers: Sequence[float], film: Array, pressure: Array) -> Entry:
+        """Entry of a step that was solved, from its `numbers` and profiles."""
+        T, u, rate, acceleration, force, load, h_central, h_min, residual, load_residual, cycles = numbers
+        step = Step(residual, load_residual, int(cycles), Status.CONVERGED)
+        motion = MotionState(T, u, rate, acceleration)
+        return cls(motion, force, load, h_central, h_min, film, pressure, step)
+
     def numbers(self) -> tuple[float, ...]:
         """All but the profiles, in the order of `COLUMNS`."""
         m, s = self.motion, self.step
@@ -77,6 +77,33 @@ COLUMNS = (
 )
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Record:
+    """A history as arrays: what a checkpoint keeps and a result is made of."""
+
+    numbers: Array  # (steps + 1, columns), see `COLUMNS`
+    film: Array  # (steps + 1, nx + 1) along Y = 0
+    pressure: Array  # (steps + 1, nx + 1) along Y = 0
+    snapshot_T: Array  # (k,)
+    snapshot_H: Array  # (k, nx + 1, ny + 1)
+    snapshot_P: Array  # (k, nx + 1, ny + 1)
+
+    @property
+    def T(self) -> float:
+        """Time reached."""
+        return float(self.numbers[-1, 0])
+
+    def columns(self) -> dict[str, Array]:
+        """Numbers by name, each of shape (steps + 1,)."""
+        return {name: column.copy() for name, column in zip(COLUMNS, self.numbers.T, strict=True)}
+
+    def entries(self) -> list[Entry]:
+        """The entries it was made of, each of which was solved."""
+        return [
+            Entry.of_numbers(*row) for row in zip(self.numbers.tolist(), self.film, self.pressure, strict=True)
+        ]
+
+
 class History:
     """The entries so far, and the snapshots taken and still wanted."""
 
@@ -85,24 +112,31 @@ class History:
         self.wanted = sorted(snapshots)
         self.snapshots: list[tuple[float, Array, Array]] = []  # T, H and P of shape (nx + 1, ny + 1)
 
+    @classmethod
+    def of(cls, record: Record, snapshots: Sequence[float]) -> History:
+        """Go on from a record, with those of the `snapshots` that are still to come."""
+        history = cls([T for T in snapshots if T > record.T])
+        history.entries = record.entries()
+        taken = zip(record.snapshot_T.tolist(), record.snapshot_H, record.snapshot_P, strict=True)
+        history.snapshots = list(taken)
+        return history
+
     def take_snapshot(self, T: float, level: Level) -> None:
         """Keep the whole fields for every wanted time that has come."""
         while self.wanted and T >= self.wanted[0] - SAME_TIME:
             self.wanted.pop(0)
             self.snapshots.append((T, level.H.T.copy(), level.P.T.copy()))
 
-    def columns(self) -> dict[str, Array]:
-        """Numbers of all entries by name, each of shape (steps + 1,)."""
-        table = np.array([entry.numbers() for entry in self.entries]).T
-        return {name: column.copy() for name, column in zip(COLUMNS, table, strict=True)}
-
-    def profiles(self) -> tuple[Array, Array]:
-        """Film and pressure along Y = 0, each (steps + 1, nx + 1)."""
-        return np.array([e.film for e in self.entries]), np.array([e.pressure for e in self.entries])
-
-    def snapshot_arrays(self, shape: tuple[int, int]) -> tuple[Array, Array, Array]:
-        """Times (k,) and fields H, P (k, nx + 1, ny + 1) of the snapshots."""
-        times = np.array([s[0] for s in self.snapshots])
-        if not self.snapshots:
-            return times, np.empty((0, *shape)), np.empty((0, *shape))
-        return times, np.array([s[1] for s in self.snapshots]), np.array([s[2] for s in self.snapshots])
+    def record(self, level: Level, entries: int | None = None) -> Record:
+        """All entries, or the first `entries`, with the snapshots until then; `level` gives their shape."""
+        rows = self.entries[:entries]
+        taken = [s for s in self.snapshots if s[0] <= rows[-1].motion.T]
+        shape = (len(taken), level.nx + 1, level.ny + 1)
+        return Record(
+            numbers=np.array([entry.numbers() for entry in rows]),
+            film=np.array([entry.film for entry in rows]),
+            pressure=np.array([entry.pressure for entry in rows]),
+            snapshot_T=np.array([T for T, _, _ in taken]),
+            snapshot_H=np.array([H for _, H, _ in taken]).reshape(shape),
+            snapshot_P=np.array([P for _, _, P in taken]).reshape(shape),
+        )

@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 from ehlcontact.solver.balance import Balance
 from ehlcontact.status import Status
 from ehlcontact.transient.film import FilmState, TransientFilm
-from ehlcontact.transient.motion import FreeVibration, Motion, PrescribedApproach
-from ehlcontact.transient.record import Entry, History, MotionState
+from ehlcontact.transient.motion import Motion, MotionState
+from ehlcontact.transient.record import Entry, History
+from ehlcontact.transient.settings import TimeSteps
 from ehlcontact.transient.step import StepControl, difference, local_error, longest_step, next_time, shortest_step
 from ehlcontact.transient.surface import Surface, surface_height, surface_step
 
@@ -18,7 +19,7 @@ RESTART_CUT = 0.25  # of the step, where the motion turns a corner
 
 
 @dataclass(frozen=True, slots=True)
-class End:
+class RunEnd:
     """How a run ended, and what to say about the time step."""
 
     status: Status
@@ -26,7 +27,7 @@ class End:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Kept:
+class SavedRun:
     """Last sound state of a run; its motion is that of the last of its entries."""
 
     film: FilmState
@@ -54,32 +55,20 @@ class Run:
         self.static_approach = film.u
         self._watch = watch
         self.state: MotionState
-        self.kept: Kept
+        self.kept: SavedRun
 
     def start(self) -> Status:
         """Static state, then the state the motion starts from, with the acceleration that its force gives."""
         film, motion = self.film, self.motion
         G = surface_height(self.surface, film.level.X, film.level.Y, 0.0)
         step = film.start_steady(Balance.of_load(), surface=G)
-        static = self.static_approach = film.u
-        rate = 0.0
-        if isinstance(motion, PrescribedApproach):
-            rate = motion.rate(0.0)
-            if step.status.ok:
-                u = motion.approach(0.0)
-                step = film.start_steady(Balance.of_approach(u), u, G)
-        elif isinstance(motion, FreeVibration):
-            rate = motion.initial_rate
-            if step.status.ok and motion.offset != 0.0:
-                u = static + motion.offset
-                step = film.start_steady(Balance.of_approach(u), u, G)
-        elif step.status.ok and motion.load(0.0) != 1.0:
-            step = film.start_steady(Balance.of_load(motion.load(0.0)), static, G)
+        self.static_approach = film.u
+        held = motion.held(film.u)
+        if step.status.ok and held is not None:
+            step = film.start_steady(*held, G)
         force = film.level.force()
-        load = force if isinstance(motion, PrescribedApproach) else motion.load(0.0)
-        acceleration = motion.omega_n**2 * (load - force) if motion.omega_n else 0.0
-        self.state = MotionState(0.0, film.u, rate, acceleration)
-        self.keep(Entry.of(film, self.state, load, step))
+        self.state = motion.begin(film.u, force)
+        self.keep(Entry.of(film, self.state, motion.applied(0.0, force), step))
         return step.status
 
     def resume(self, state: FilmState, scale: float, static_approach: float) -> None:
@@ -92,31 +81,11 @@ class Run:
     def advance(self, T: float, dT: float) -> Entry:
         """Step of length `dT` to time `T`; film and motion move, nothing is recorded."""
         film, motion, now = self.film, self.motion, self.state
-        rate, acceleration = now.rate, now.acceleration
-        guess = now.u + dT * rate
-        if isinstance(motion, PrescribedApproach):
-            guess = motion.approach(T)
-            balance = Balance.of_approach(guess)
-        elif motion.omega_n:
-            # Newmark, beta = 1/4: u_new = predictor + dT^2/4 u''_new, put into eq. 5
-            predictor = guess + 0.25 * dT * dT * acceleration
-            stiffness = 4.0 / (motion.omega_n * dT) ** 2
-            balance = Balance(stiffness, 1.0, motion.load(T) + stiffness * predictor)
-            guess = predictor + 0.25 * dT * dT * acceleration
-        else:
-            balance = Balance.of_load(motion.load(T))
+        balance, guess = motion.balance(now, T, dT)
         feature = surface_step(self.surface, film.level.X, film.level.Y, T, dT, film.last_step)
         step = film.advance(dT, balance, guess, feature)
-        if motion.omega_n:
-            acceleration = 4.0 * (film.u - predictor) / (dT * dT)
-            rate += 0.5 * dT * (now.acceleration + acceleration)
-        elif isinstance(motion, PrescribedApproach):
-            rate = motion.rate(T)
-        else:
-            rate = (film.u - now.u) / dT
-        load = film.level.force() if isinstance(motion, PrescribedApproach) else motion.load(T)
-        self.state = MotionState(T, film.u, rate, acceleration)
-        return Entry.of(film, self.state, load, step)
+        self.state = motion.after(now, film.u, T, dT)
+        return Entry.of(film, self.state, motion.applied(T, film.level.force()), step)
 
     def keep(self, *entries: Entry) -> None:
         """Record the entries, the last of which is the present state."""
@@ -128,7 +97,7 @@ class Run:
 
     def _mark(self) -> None:
         control = None if self.control is None else replace(self.control)
-        self.kept = Kept(self.film.save_state(), len(self.history.entries), control)
+        self.kept = SavedRun(self.film.save_state(), len(self.history.entries), control)
 
     def back(self) -> None:
         """Return to the last state kept."""
@@ -136,18 +105,28 @@ class Run:
         self.state = self.history.entries[self.kept.entries - 1].motion
 
 
-def march_fixed(run: Run, steps: int, dT: float) -> End:
+def march(run: Run, steps: TimeSteps) -> RunEnd:
+    """All steps until ``steps.until``; Ctrl-C ends them early."""
+    try:
+        if steps.error is None:
+            return march_fixed(run, round(steps.until / steps.dT), steps.dT)
+        return march_controlled(run, steps.until)
+    except KeyboardInterrupt:
+        return RunEnd(Status.INTERRUPTED)
+
+
+def march_fixed(run: Run, steps: int, dT: float) -> RunEnd:
     """All steps not yet recorded, of length `dT`; a step that fails is recorded and ends the run."""
     for k in range(run.kept.entries, steps + 1):
         entry = run.advance(k * dT, dT)
         run.keep(entry)
         if not entry.step.status.ok:
             residual, tol = entry.step.residual, run.film.tol
-            return End(entry.step.status, f"step {dT:.3g}, residual {residual:.3g} with tol {tol:g}")
-    return End(Status.CONVERGED)
+            return RunEnd(entry.step.status, f"step {dT:.3g}, residual {residual:.3g} with tol {tol:g}")
+    return RunEnd(Status.CONVERGED)
 
 
-def march_controlled(run: Run, until: float) -> End:
+def march_controlled(run: Run, until: float) -> RunEnd:
     """Steps whose local error stays below ``control.error``; corners, snapshots and the end are met.
 
     From rest, and from each corner, the past is not smooth: one step is compared with two of half the length,
@@ -181,7 +160,7 @@ def march_controlled(run: Run, until: float) -> End:
             continue
         if failed in HOPELESS:
             run.keep(*new)
-            return End(failed)
+            return RunEnd(failed)
         run.back()
         if failed is None:
             control.refused(dT, error, 3 if smooth else 2)
@@ -190,8 +169,10 @@ def march_controlled(run: Run, until: float) -> End:
             control.failed(dT)
             fault = f"ends {failed} under"
         if control.step < shortest:
-            return End(Status.STEP_TOO_SMALL, f"a step of {dT:.3g} {fault} the tolerated error {control.error:g}")
-    return End(Status.CONVERGED)
+            return RunEnd(
+                Status.STEP_TOO_SMALL, f"a step of {dT:.3g} {fault} the tolerated error {control.error:g}"
+            )
+    return RunEnd(Status.CONVERGED)
 
 
 def _start_pair(run: Run, T: float, dT: float) -> tuple[list[Entry], float]:

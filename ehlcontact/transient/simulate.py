@@ -4,32 +4,29 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterable, Sequence
-from math import ceil, inf
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from ehlcontact.checks import require_instance, require_nonnegative, require_positive
+from ehlcontact.checks import require_instance, require_nonnegative
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.origin import __version__
-from ehlcontact.point import Point, moes_point, scales_of
-from ehlcontact.results import SimulationResult
+from ehlcontact.point import Point, Scales, moes_point, scales_of
 from ehlcontact.solver.domain import Domain, check_domain
 from ehlcontact.solver.resolution import moving_intervals
 from ehlcontact.status import Status
-from ehlcontact.transient.checkpoint import Checkpoint, Task, load_checkpoint, require_replaceable
+from ehlcontact.transient.checkpoint import Keeper, load_checkpoint, require_replaceable
 from ehlcontact.transient.film import TransientFilm
-from ehlcontact.transient.motion import Motion, PrescribedApproach
+from ehlcontact.transient.motion import Motion
 from ehlcontact.transient.record import History
-from ehlcontact.transient.run import End, Run, march_controlled, march_fixed
+from ehlcontact.transient.result import SimulationResult
+from ehlcontact.transient.run import Run, RunEnd, march
+from ehlcontact.transient.settings import RunSettings, TimeSteps
 from ehlcontact.transient.step import StepControl
 from ehlcontact.transient.surface import Surface, surface_height
 
-LARGEST_ERROR = 0.1
-FIRST_STEP = 0.25  # of the motion's own step: what is tried first under error control
 FEWEST_INTERVALS = 128
-MOST_STEPS = 1_000_000  # in fixed steps
-TOL_SHARE = 3.0  # tol over error: the last changes of force and approach are then a tenth of the error
 
 
 def simulate(
@@ -100,132 +97,78 @@ def simulate(
         ``error.result`` holds the history so far.
     """
     started = time.perf_counter()
-    task, end_time = _task(point, motion, n, domain, until, dT, error, tol, snapshots)
-    require_nonnegative("checkpoint_every", checkpoint_every)
+    moes = moes_point(point)
+    require_instance("motion", motion, Motion, "a motion such as FreeVibration or HarmonicLoad")
+    domain = check_domain(domain, moes, motion.largest_load)
+    n = moving_intervals(n, moes, domain, FEWEST_INTERVALS)
+    steps = TimeSteps.of(motion, until, dT, error, tol)
+    settings = RunSettings.of(moes, domain, n, motion, steps, snapshots)
     if not (surface is None or callable(surface)):
         raise InputError("surface", surface, "a function of X, Y and T, or None")
+    require_nonnegative("checkpoint_every", checkpoint_every)
     if checkpoint is not None:
         require_replaceable(checkpoint, restart)
-    film = TransientFilm(task.point, task.domain, task.n, task.tol)
+    film = TransientFilm(moes, domain, n, steps.tol)
     earlier = None
     if restart is not None:
         earlier = load_checkpoint(restart)
-        earlier.check(task, end_time, surface, film.level, restart)
-    spent = earlier.seconds if earlier else 0.0
-    written = -inf
-
-    def seconds() -> float:
-        return spent + time.perf_counter() - started
-
-    def store(run: Run) -> None:
-        nonlocal written
-        if checkpoint is not None:
-            Checkpoint.of(run, task, seconds()).save(checkpoint)
-            written = time.perf_counter()
+        earlier.check(settings, surface, film.level, restart)
+        started -= earlier.seconds
+        steps = replace(steps, dT=earlier.settings.steps.dT)  # by rounding it may be another
+    keeper = Keeper(checkpoint, checkpoint_every, settings, started)
 
     def watch(run: Run) -> None:
-        if time.perf_counter() - written >= checkpoint_every:
-            store(run)
+        keeper.visit(run)
         if callback is not None and run.state.T > 0.0:
-            callback(run.state.T, end_time)
+            callback(run.state.T, steps.until)
 
-    if earlier:
-        run = Run(film, motion, surface, earlier.history(snapshots), earlier.step_control(), watch)
-        run.resume(earlier.film_state(), earlier.scale, earlier.static_approach)
-        end = End(Status.CONVERGED)
-    else:
-        control = None if error is None else StepControl(error, task.dT)
+    if earlier is None:
+        control = None if error is None else StepControl(error, steps.dT)
         run = Run(film, motion, surface, History(snapshots), control, watch)
-        end = End(run.start())
+        end = RunEnd(run.start())
+    else:
+        run = Run(film, motion, surface, History.of(earlier.record, snapshots), earlier.control, watch)
+        run.resume(earlier.film, earlier.scale, earlier.static_approach)
+        end = RunEnd(Status.CONVERGED)
     if end.status.ok:
-        try:
-            if error is None:
-                end = march_fixed(run, round(end_time / task.dT), earlier.dT if earlier else task.dT)
-            else:
-                end = march_controlled(run, end_time)
-        except KeyboardInterrupt:
-            end = End(Status.INTERRUPTED)
-        store(run)
-    result = _collect(run, task, point, end.status, seconds())
+        end = march(run, steps)
+        keeper.write(run)
+    result = _result(run, settings, scales_of(point), end.status, time.perf_counter() - started)
     if throw and not end.status.ok and end.status is not Status.INTERRUPTED:
         G = surface_height(surface, film.level.X, film.level.Y, float(result.T[-1]))
         raise ConvergenceError(_message(result, end, -float(np.min(G))), result)
     return result
 
 
-def _task(
-    point: Point,
-    motion: Motion,
-    n: int | None,
-    domain: Domain | None,
-    until: float | None,
-    dT: float | None,
-    error: float | None,
-    tol: float,
-    snapshots: Sequence[float],
-) -> tuple[Task, float]:
-    """Checked arguments with their defaults, and the end of the run."""
-    moes = moes_point(point)
-    require_instance("motion", motion, Motion, "a motion such as FreeVibration or HarmonicLoad")
-    domain = check_domain(domain, moes, motion.largest_load)
-    n = moving_intervals(n, moes, domain, FEWEST_INTERVALS)
-    end = motion.default_end if until is None else require_positive("until", until)
-    tol = require_positive("tol", tol)
-    default = motion.default_step
-    if error is not None:
-        if not require_positive("error", error) <= LARGEST_ERROR:
-            raise InputError("error", error, f"above 0 and at most {LARGEST_ERROR}")
-        tol = min(tol, TOL_SHARE * error)
-        default = min(FIRST_STEP * default, end)
-    dT = default if dT is None else require_positive("dT", dT)
-    if dT > end:
-        raise InputError("dT", dT, f"at most until = {end!r}")
-    if error is None:
-        if end / dT > MOST_STEPS:
-            raise InputError(
-                "dT", dT, f"at least until/{MOST_STEPS:,}".replace(",", " ") + f" = {end / MOST_STEPS:g}"
-            )
-        dT = end / ceil(end / dT - 1e-9)
-    if not isinstance(snapshots, Iterable):
-        raise InputError("snapshots", snapshots, "a list of times")
-    for T in snapshots:
-        if not require_nonnegative("snapshots", T) <= end * (1.0 + 1e-9):
-            raise InputError("snapshots", T, f"at most until = {end!r}")
-    return Task(moes, domain, n, motion, tol, dT, error, tuple(snapshots)), end
-
-
-def _collect(run: Run, task: Task, point: Point, status: Status, seconds: float) -> SimulationResult:
-    numbers, motion, level = run.history.columns(), task.motion, run.film.level
-    T = numbers["T"]
-    if not motion.omega_n and T.size > 2:
-        # No motion equation gives these: second-order differences of the record.
-        if not isinstance(motion, PrescribedApproach):
-            numbers["rate"] = np.gradient(numbers["approach"], T, edge_order=2)
-        numbers["acceleration"] = np.gradient(numbers["rate"], T, edge_order=2)
-    h_midplane, p_midplane = run.history.profiles()
-    snapshot_T, snapshot_H, snapshot_P = run.history.snapshot_arrays((level.nx + 1, level.ny + 1))
+def _result(
+    run: Run, settings: RunSettings, scales: Scales | None, status: Status, seconds: float
+) -> SimulationResult:
+    level, record = run.film.level, run.history.record(run.film.level)
+    numbers: dict[str, Any] = record.columns()
+    if numbers["T"].size > 2:
+        columns = (numbers[name] for name in ("T", "approach", "rate", "acceleration"))
+        numbers["rate"], numbers["acceleration"] = settings.motion.slopes(*columns)
     return SimulationResult(
-        point=task.point,
-        scales=scales_of(point),
-        domain=task.domain,
-        n=task.n,
-        motion=motion,
+        point=settings.point,
+        scales=scales,
+        domain=settings.domain,
+        n=settings.n,
+        motion=settings.motion,
         X=level.X.copy(),
         Y=level.Y.copy(),
         **numbers,
-        h_midplane=h_midplane,
-        p_midplane=p_midplane,
-        snapshot_T=snapshot_T,
-        snapshot_H=snapshot_H,
-        snapshot_P=snapshot_P,
+        h_midplane=record.film,
+        p_midplane=record.pressure,
+        snapshot_T=record.snapshot_T,
+        snapshot_H=record.snapshot_H,
+        snapshot_P=record.snapshot_P,
         static_approach=run.static_approach,
         status=status,
         seconds=seconds,
-        version=__version__,
     )
 
 
-def _message(result: SimulationResult, end: End, highest: float) -> str:
+def _message(result: SimulationResult, end: RunEnd, highest: float) -> str:
     """Status, time, what is known of step, force and the height of the surface, and advice."""
     notes = [end.note] if end.note else []
     if end.status is Status.OUT_OF_DOMAIN:

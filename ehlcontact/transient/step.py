@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ehlcontact.transient.motion import Motion, PrescribedApproach
+from ehlcontact.transient.motion import Motion
 from ehlcontact.transient.record import Array, Entry
 
 SAFETY = 0.85
@@ -99,13 +99,8 @@ def _state(entry: Entry) -> Array:
 
 
 def _size(change: Array, entry: Entry, motion: Motion) -> float:
-    """Largest of the changes of approach, force and film, the film's being its mean weighted by pressure.
-
-    What is prescribed has no error, so it does not count: the approach, or the force of bodies without inertia.
-    """
-    u, force, film = abs(change[0]), abs(change[1]), np.abs(change[2:])
+    """Largest change of what the motion leaves free and of the film, whose mean is weighted by pressure."""
+    film = np.abs(change[2:])
     total = float(entry.pressure.sum())
     mean_film = float(np.vdot(entry.pressure, film)) / total if total > 0.0 else 0.0
-    if isinstance(motion, PrescribedApproach):
-        return max(force, mean_film)
-    return max(u, mean_film) if not motion.omega_n else max(u, force, mean_film)
+    return max(*motion.free(abs(change[0]), abs(change[1])), mean_film)

@@ -237,6 +237,17 @@ def test_checkpoint_of_another_version(stopped, tmp_path):
         simulate(**stopped[1], restart=path)
 
 
+@pytest.mark.parametrize(
+    ("number", "words"), [(1, "of format 2 or newer; make it anew"), (3, "upgrade to read it")]
+)
+def test_checkpoint_of_another_layout(stopped, tmp_path, number, words):
+    path = shutil.copy(stopped[0], tmp_path / "c.h5")
+    with h5py.File(path, "a") as file:
+        file.attrs["format"] = number
+    with pytest.raises(InputError, match=rf"^restart = .*{words}"):
+        simulate(**stopped[1], restart=path)
+
+
 @pytest.mark.parametrize("part", [0.0, 0.02, 0.5, 0.9, 0.999])
 def test_truncated_checkpoint(stopped, tmp_path, part):
     data = stopped[0].read_bytes()

@@ -15,8 +15,7 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.film import Film, film_history, film_of, interferogram
-from ehlcontact.film_wave import FilmWave, film_wave, track_wave
+from ehlcontact.film import Film, FilmWave, film_history, film_of, film_wave, interferogram, track_wave
 
 STEEL_ON_GLASS = OperatingPoint(Geometry(12.7e-3, 20e-3, e2=8e10, nu2=0.2), Lubricant(0.1), 20.0, 0.5)
 

@@ -3,6 +3,7 @@
 import os
 from dataclasses import fields
 from math import pi
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -20,6 +21,7 @@ from ehlcontact import (
     PrescribedLoad,
     RampLoad,
     SimulationResult,
+    Status,
     SteadyResult,
     load,
     save,
@@ -28,6 +30,7 @@ from ehlcontact import (
 )
 
 POINT = MoesPoint(20, 5, 0.5)
+DATA = Path(__file__).parents[1] / "data"
 T = np.linspace(0.0, 0.2, 5)
 
 
@@ -92,6 +95,48 @@ def test_snapshots_survive(record, tmp_path):
 def test_unconverged_result_is_stored_with_its_status(tmp_path):
     result = solve_steady(POINT, n=32, max_cycles=1, throw=False)
     assert_same(result, load(save(result, tmp_path / "partial.h5")))
+
+
+def content(path):
+    """Form of every array and value of every attribute of a file."""
+    with h5py.File(path) as file:
+        arrays = {name: (data.shape, data.dtype, data.compression) for name, data in file.items()}
+        return arrays, {name: str(value) for name, value in file.attrs.items()}
+
+
+def test_steady_file_of_version_0_1_0(tmp_path):
+    """A file as it was written before results had an `Origin`, and the same layout today.
+
+    Made with ``save(solve_steady(OperatingPoint(Geometry(0.004, 0.01), Lubricant(0.08, 1.9e-8), 30.0, 1.3),
+    n=16, throw=False), "tests/data/steady.h5")``.
+    """
+    old = load(DATA / "steady.h5")
+    assert isinstance(old, SteadyResult)
+    assert old.point == OperatingPoint(Geometry(0.004, 0.01), Lubricant(0.08, 1.9e-8), 30.0, 1.3).moes
+    assert old.scales.force == 30.0
+    assert old.status is Status.UNRESOLVED
+    assert old.force == pytest.approx(1.0, abs=1e-6)
+    assert (old.n, old.version, old.P.shape) == (16, "0.1.0", (17, 9))
+    assert content(save(old, tmp_path / "again.h5")) == content(DATA / "steady.h5")
+    assert_same(old, load(tmp_path / "again.h5"))
+
+
+def test_simulation_file_of_version_0_1_0(tmp_path):
+    """A file as it was written before results had an `Origin`, and the same layout today.
+
+    Made with ``save(simulate(MoesPoint(20, 5, 0.5), PrescribedLoad([0.0, 0.1, 0.2, 0.3], [1.0, 1.1, 1.1, 1.0],
+    5.0), n=16, until=0.2, dT=0.05, snapshots=(0.1,)), "tests/data/simulation.h5")``.
+    """
+    old = load(DATA / "simulation.h5")
+    assert isinstance(old, SimulationResult)
+    assert (old.point, old.scales, old.domain.x_out) == (POINT, None, 1.5)
+    assert old.motion.to_dict() == PrescribedLoad([0.0, 0.1, 0.2, 0.3], [1.0, 1.1, 1.1, 1.0], 5.0).to_dict()
+    assert old.status is Status.CONVERGED
+    np.testing.assert_array_equal(old.T, [0.0, 0.05, 0.1, 0.15000000000000002, 0.2])
+    np.testing.assert_allclose(old.load, [1.0, 1.05, 1.1, 1.1, 1.1])
+    np.testing.assert_allclose(old.acceleration / 25.0 + old.force, old.load, atol=1e-4)
+    assert content(save(old, tmp_path / "again.h5")) == content(DATA / "simulation.h5")
+    assert_same(old, load(tmp_path / "again.h5"))
 
 
 @pytest.mark.parametrize("part", [0.0, 0.02, 0.5, 0.9, 0.999])

@@ -32,8 +32,8 @@ def fit(
     json_to: o.JsonTo = None,
 ) -> None:
     """Fit a contact element to one or several simulations of the same contact."""
-    from ehlcontact.results import SimulationResult
     from ehlcontact.storage import load
+    from ehlcontact.transient.result import SimulationResult
     from reduced_models import ContactRecord, FitResult
     from reduced_models import fit as fit_records
     from reduced_models.fitting.fit import MEMORY, MODELS

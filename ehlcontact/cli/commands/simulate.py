@@ -15,7 +15,7 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, Motion, RampLoad
 
 if TYPE_CHECKING:
-    from ehlcontact.results import SimulationResult
+    from ehlcontact.transient.result import SimulationResult
 
 _MOTION, _TIME = "Motion (exactly one of --free, --harmonic, --ramp)", "Time"
 _RESTART = "Restart"

@@ -12,12 +12,13 @@ from ehlcontact.cli.output import progress
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint
-from ehlcontact.results import SimulationResult, SteadyResult
+from ehlcontact.results import SteadyResult
 from ehlcontact.solver.domain import Domain
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.storage import load, save
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, Motion, RampLoad
+from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.simulate import simulate
 
 POINT = MoesPoint(200.0, 10.0, 0.5)

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from ehlcontact.cli.plots.maps import draw_ellipse, draw_map, refined
 from ehlcontact.cli.plots.style import new_figure
 from ehlcontact.film import Film, Interferogram, film_of, interferogram
-from ehlcontact.results import SimulationResult, SteadyResult
+from ehlcontact.results import SteadyResult
+from ehlcontact.transient.result import SimulationResult
 
 LIGHTS = (630e-9, 532e-9, 467e-9)  # m, red, green and blue
 REFRACTIVE_INDEX = 1.5  # of the oil

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, RED, new_figure
-from ehlcontact.impedance import ImpedanceResult
+from ehlcontact.results import ImpedanceResult
 from reduced_models import FitResult
 
 

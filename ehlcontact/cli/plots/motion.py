@@ -12,8 +12,8 @@ from scipy.interpolate import RectBivariateSpline
 
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, RED, legend_above, new_figure
 from ehlcontact.cli.plots.units import units_of
-from ehlcontact.film_wave import film_wave
-from ehlcontact.results import SimulationResult
+from ehlcontact.film import film_wave
+from ehlcontact.transient.result import SimulationResult
 from reduced_models import FitResult
 
 WITHIN = 1.1  # semi-axes of the film wave shown: beyond, the film follows the approach at once

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ehlcontact.cli.plots.motion import draw_film
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, RED, legend_above, new_figure
 from ehlcontact.formulas import wijnant_approach
-from ehlcontact.results import SimulationResult
+from ehlcontact.transient.result import SimulationResult
 from reduced_models import ContactRecord, FitResult, OscillatorResult
 
 COLOURS = (BLUE, ORANGE, GREEN)  # of the cases

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any, Literal
 
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.impedance import ImpedanceResult
 from ehlcontact.point import Scales
-from ehlcontact.results import SimulationResult
+from ehlcontact.results import ImpedanceResult
 from ehlcontact.transient.motion import HarmonicLoad
+from ehlcontact.transient.result import SimulationResult
 from reduced_models import ContactRecord, CubicContact, FitResult, MemoryFit, fit, fit_memory
 from reduced_models.fitting.memory import impedance_of
 

@@ -18,8 +18,9 @@ from ehlcontact.cli.study.reduction import RECORDS, Reduction, export_fmu, reduc
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import InputError
 from ehlcontact.origin import __version__
-from ehlcontact.results import SimulationResult, SteadyResult
+from ehlcontact.results import SteadyResult
 from ehlcontact.storage import load
+from ehlcontact.transient.result import SimulationResult
 
 LIBRARIES = ("numpy", "scipy", "numba", "fmpy", "h5py")
 

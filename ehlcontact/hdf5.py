@@ -1,0 +1,188 @@
+"""Any dataclass in an HDF5 file: written in one move, rebuilt from the annotations of its class.
+
+================================================ =========================================================
+value                                            stands as
+================================================ =========================================================
+array                                            dataset, its order in memory kept
+dataclass or sequence that holds arrays          group, its members by name or number
+class with ``to_dict`` and ``from_dict``         attribute, JSON of that dictionary
+number, text, None, enum; what holds only these  attribute, JSON
+================================================ =========================================================
+
+The file names the class and a format number, which its owner raises when the fields change their meaning.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import fields, is_dataclass
+from enum import Enum
+from pathlib import Path
+from types import NoneType, UnionType
+from typing import Any, Union, get_args, get_origin, get_type_hints
+
+import h5py
+import numpy as np
+
+from ehlcontact.errors import InputError
+from ehlcontact.files import replacing
+
+
+def write(record: Any, path: str | os.PathLike[str], field: str, number: int = 1) -> Path:
+    """Write a dataclass; an existing file is replaced in one move, or kept if anything fails.
+
+    Parameters
+    ----------
+    record : dataclass
+    path : path
+    field : str
+        What the file is called in messages.
+    number : int
+        Format number.
+
+    Raises
+    ------
+    InputError
+        The folder does not exist or cannot be written to.
+    """
+    with replacing(path, field) as temporary, h5py.File(temporary, "w") as file:
+        file.attrs["format"] = number
+        file.attrs["class"] = type(record).__name__
+        for name, value in _members(record):
+            _put(file, name, value)
+    return Path(path)
+
+
+def read(
+    path: str | os.PathLike[str],
+    classes: Mapping[str, type[Any]],
+    field: str,
+    what: str,
+    numbers: tuple[int, int] = (1, 1),
+) -> Any:
+    """Read what `write` wrote.
+
+    Parameters
+    ----------
+    path : path
+    classes : mapping
+        What may be read, by the name of its class.
+    field, what : str
+        What the file is called in messages, and what was wanted.
+    numbers : (int, int)
+        Oldest and newest format number that can be read.
+
+    Raises
+    ------
+    InputError
+        No such file, not HDF5, truncated, none of `classes`, of an older or a newer format.
+    """
+    source = Path(path)
+    if not source.is_file():
+        raise InputError(field, str(source), f"an existing HDF5 {what}")
+    try:
+        with h5py.File(source, "r") as file:
+            cls = classes.get(file.attrs.get("class", ""))
+            if cls is None:
+                raise InputError(field, str(source), f"a {what}")
+            number, (oldest, newest) = int(file.attrs["format"]), numbers
+            if number > newest:
+                raise InputError(field, str(source), f"of format {newest} or older; upgrade to read it")
+            if number < oldest:
+                raise InputError(field, str(source), f"a {what} of format {oldest} or newer; make it anew")
+            return _build(cls, lambda name, hint: _take(file, name, hint))
+    except InputError:
+        raise
+    except (OSError, KeyError, ValueError, TypeError):
+        raise InputError(field, str(source), f"a complete HDF5 {what}") from None
+
+
+def _members(value: Any) -> Iterator[tuple[str, Any]]:
+    """Members of a dataclass by name, of a sequence by number."""
+    if is_dataclass(value):
+        return ((f.name, getattr(value, f.name)) for f in fields(value))
+    return ((str(k), member) for k, member in enumerate(value))
+
+
+def _holds_arrays(value: Any) -> bool:
+    if isinstance(value, np.ndarray):
+        return True
+    if hasattr(value, "from_dict") or not (is_dataclass(value) or isinstance(value, list | tuple)):
+        return False
+    return any(_holds_arrays(member) for _, member in _members(value))
+
+
+def _put(group: h5py.Group, name: str, value: Any) -> None:
+    if isinstance(value, np.ndarray):
+        packing = "gzip" if value.ndim > 1 and value.size else None
+        data = group.create_dataset(name, data=value, compression=packing)
+        if value.flags.f_contiguous and not value.flags.c_contiguous:
+            data.attrs["order"] = "F"
+    elif _holds_arrays(value):
+        inner = group.create_group(name)
+        for key, member in _members(value):
+            _put(inner, key, member)
+    else:
+        group.attrs[name] = json.dumps(_plain(value))
+
+
+def _plain(value: Any) -> Any:
+    """`value`, which holds no arrays, as `json` takes it."""
+    if hasattr(value, "from_dict"):
+        return value.to_dict()
+    if is_dataclass(value):
+        return {name: _plain(member) for name, member in _members(value)}
+    return [_plain(member) for member in value] if isinstance(value, list | tuple) else value
+
+
+def _take(group: h5py.Group, name: str, hint: Any) -> Any:
+    if name not in group:
+        return _rebuild(hint, json.loads(group.attrs[name]))
+    item = group[name]
+    if isinstance(item, h5py.Dataset):
+        # LAPACK's factors, say, solve with another rounding when they come back in the other order
+        return np.asfortranarray(item[...]) if item.attrs.get("order") == "F" else item[...]
+    kind = _kind(hint)
+    if is_dataclass(kind):
+        return _build(kind, lambda key, inner: _take(item, key, inner))
+    hints = _member_hints(kind, len(item) + len(item.attrs))
+    return get_origin(kind)(_take(item, str(k), inner) for k, inner in enumerate(hints))
+
+
+def _rebuild(hint: Any, value: Any) -> Any:
+    """What `hint` announces, from its JSON."""
+    kind = _kind(hint)
+    if value is None or kind is Any:
+        return value
+    if hasattr(kind, "from_dict"):
+        return kind.from_dict(value)
+    if isinstance(kind, type) and is_dataclass(kind):
+        hints = get_type_hints(kind)
+        return kind(**{name: _rebuild(hints[name], value[name]) for name in value})
+    if get_origin(kind) in (list, tuple):
+        members = zip(_member_hints(kind, len(value)), value, strict=True)
+        return get_origin(kind)(_rebuild(inner, member) for inner, member in members)
+    return kind(value) if isinstance(kind, type) and issubclass(kind, Enum) else value
+
+
+def _build(cls: Any, take: Callable[[str, Any], Any]) -> Any:
+    """Dataclass `cls` of what `take` finds for each field's name and annotation."""
+    hints = get_type_hints(cls)
+    return cls(**{f.name: take(f.name, hints[f.name]) for f in fields(cls)})
+
+
+def _kind(hint: Any) -> Any:
+    """The first class of a union that is neither None nor an array; any other `hint` itself."""
+    if get_origin(hint) not in (Union, UnionType):
+        return hint
+    return next(kind for kind in get_args(hint) if kind is not NoneType and get_origin(kind) is not np.ndarray)
+
+
+def _member_hints(kind: Any, size: int) -> tuple[Any, ...]:
+    """Annotations of the `size` members of ``list[T]``, ``tuple[T, ...]`` or ``tuple[S, T]``."""
+    hints = get_args(kind)
+    if get_origin(kind) is list or hints[-1] is Ellipsis:
+        return hints[:1] * size
+    return hints

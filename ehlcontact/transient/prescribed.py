@@ -1,0 +1,158 @@
+"""Motions given by a table over time: a load on the bodies, or their approach itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ehlcontact.checks import as_column, require_positive
+from ehlcontact.errors import InputError
+from ehlcontact.solver.balance import Balance
+from ehlcontact.transient.motion import Array, Motion, MotionState, Start, UnderLoad
+
+CORNER = 0.3  # jump of a table's slope, over its steepest, that counts as a corner; 1/20 period of a sine is 0.31
+Table = tuple[Array, Array]  # times and values, shape (k,) each
+
+
+def _as_table(T: ArrayLike, values: ArrayLike) -> Table:
+    """Copies of both columns: four rows or more, with times that increase from 0."""
+    times = as_column("T", T, least=4, increasing=True)
+    if times[0] != 0.0:
+        raise InputError("T[0]", float(times[0]), "0, where the run begins")
+    return times, as_column("values", values, size=times.size)
+
+
+class Tabulated(Motion):
+    """Time span of a motion given by a table."""
+
+    __slots__ = ()
+    _table: Table
+
+    @property
+    def default_end(self) -> float:
+        """End of the table."""
+        return float(self._table[0][-1])
+
+    @property
+    def default_step(self) -> float:
+        """Mean spacing of the table."""
+        return self.default_end / (len(self._table[0]) - 1)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PrescribedLoad(Tabulated, UnderLoad):
+    """Load given by a table (linear interpolation) on bodies with (`omega_n`) or without inertia."""
+
+    T: ArrayLike
+    values: ArrayLike
+    omega_n: float | None = None
+    kind: ClassVar[str] = "load"
+    _table: Table = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        table = _as_table(self.T, self.values)
+        if not (table[1] > 0.0).all():
+            raise InputError("values", float(table[1].min()), "loads > 0 (the contact must stay loaded)")
+        if self.omega_n is not None:
+            require_positive("omega_n", self.omega_n)
+        object.__setattr__(self, "_table", table)
+
+    @classmethod
+    def from_function(
+        cls, load: Callable[[float], float], until: float, steps: int = 1000, omega_n: float | None = None
+    ) -> PrescribedLoad:
+        """Sample a function of T on [0, until]."""
+        T = np.linspace(0.0, require_positive("until", until), steps + 1)
+        return cls(T, [load(t) for t in T], omega_n)
+
+    def load(self, T: float) -> float:
+        """Applied load."""
+        return float(np.interp(T, *self._table))
+
+    @property
+    def corners(self) -> tuple[float, ...]:
+        """Times of the table at which its slope jumps by more than `CORNER` of its steepest slope."""
+        T, values = self._table
+        slope = np.diff(values) / np.diff(T)
+        jump = np.abs(np.diff(slope)) > CORNER * np.abs(slope).max()
+        return tuple(T[1:-1][jump].tolist())
+
+    @property
+    def largest_load(self) -> float:
+        """Largest load of the table."""
+        return float(self._table[1].max())
+
+    def to_dict(self) -> dict[str, Any]:
+        """For storage."""
+        T, values = self._table
+        return {"kind": self.kind, "T": T.tolist(), "values": values.tolist(), "omega_n": self.omega_n}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PrescribedApproach(Tabulated):
+    """Approach u(T) given by a table (cubic spline, so that the rate is continuous)."""
+
+    T: ArrayLike
+    values: ArrayLike
+    kind: ClassVar[str] = "approach"
+    _table: Table = field(init=False, repr=False)
+    _spline: Any = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        from scipy.interpolate import CubicSpline
+
+        table = _as_table(self.T, self.values)
+        object.__setattr__(self, "_table", table)
+        object.__setattr__(self, "_spline", CubicSpline(*table))
+
+    def approach(self, T: float) -> float:
+        """Prescribed approach."""
+        return float(self._spline(T))
+
+    def rate(self, T: float) -> float:
+        """Rate of the prescribed approach."""
+        return float(self._spline(T, 1))
+
+    def applied(self, T: float, force: float) -> float:
+        """The film force, which is what the drive has to bring up."""
+        return force
+
+    def held(self, static: float) -> Start:
+        """The approach at T = 0."""
+        u = self.approach(0.0)
+        return Start(Balance.of_approach(u), u)
+
+    def begin(self, u: float, force: float) -> MotionState:
+        """At the table's rate."""
+        return MotionState(0.0, u, self.rate(0.0), 0.0)
+
+    def balance(self, now: MotionState, T: float, dT: float) -> tuple[Balance, float]:
+        """The approach of the table."""
+        u = self.approach(T)
+        return Balance.of_approach(u), u
+
+    def after(self, now: MotionState, u: float, T: float, dT: float) -> MotionState:
+        """At the table's rate."""
+        return MotionState(T, u, self.rate(T), 0.0)
+
+    def slopes(self, T: Array, approach: Array, rate: Array, acceleration: Array) -> tuple[Array, Array]:
+        """The table's rate, and its differences."""
+        return rate, np.gradient(rate, T, edge_order=2)
+
+    def free(self, approach: float, force: float) -> tuple[float, ...]:
+        """The force alone."""
+        return (force,)
+
+    @property
+    def largest_load(self) -> float:
+        """Dry Hertz load at the largest approach."""
+        return max(1.0, float(self._table[1].max())) ** 1.5
+
+    def to_dict(self) -> dict[str, Any]:
+        """For storage."""
+        T, values = self._table
+        return {"kind": self.kind, "T": T.tolist(), "values": values.tolist()}

@@ -1,0 +1,87 @@
+"""What a run is asked for, checked and with its defaults: a restart must be asked for the same."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from math import ceil
+
+from ehlcontact.checks import require_nonnegative, require_positive
+from ehlcontact.errors import InputError
+from ehlcontact.point import MoesPoint
+from ehlcontact.solver.domain import Domain
+from ehlcontact.transient.motion import Motion
+
+LARGEST_ERROR = 0.1
+FIRST_STEP = 0.25  # of the motion's own step: what is tried first under error control
+MOST_STEPS = 1_000_000  # in fixed steps
+TOL_SHARE = 3.0  # tol over error: the last changes of force and approach are then a tenth of the error
+
+
+@dataclass(frozen=True, slots=True)
+class TimeSteps:
+    """How far a run goes, and in what steps."""
+
+    until: float  # end of time
+    dT: float  # fixed step, or the first one under error control
+    error: float | None  # tolerated local error per step; None in fixed steps
+    tol: float  # residual at which a step counts as solved, relative to the central film at rest
+
+    @classmethod
+    def of(
+        cls, motion: Motion, until: float | None, dT: float | None, error: float | None, tol: float
+    ) -> TimeSteps:
+        """Arguments of `simulate`; where they are None, what the motion needs.
+
+        Raises
+        ------
+        InputError
+            One outside its range.
+        """
+        until = motion.default_end if until is None else require_positive("until", until)
+        tol = require_positive("tol", tol)
+        default = motion.default_step
+        if error is not None:
+            if not require_positive("error", error) <= LARGEST_ERROR:
+                raise InputError("error", error, f"above 0 and at most {LARGEST_ERROR}")
+            tol = min(tol, TOL_SHARE * error)
+            default = min(FIRST_STEP * default, until)
+        dT = default if dT is None else require_positive("dT", dT)
+        if dT > until:
+            raise InputError("dT", dT, f"at most until = {until!r}")
+        if error is None:
+            if until / dT > MOST_STEPS:
+                most = f"{MOST_STEPS:,}".replace(",", " ")
+                raise InputError("dT", dT, f"at least until/{most} = {until / MOST_STEPS:g}")
+            dT = until / ceil(until / dT - 1e-9)
+        return cls(until, dT, error, tol)
+
+
+@dataclass(frozen=True, slots=True)
+class RunSettings:
+    """Contact, motion, steps and what is kept of them."""
+
+    point: MoesPoint
+    domain: Domain
+    n: int  # intervals along X
+    motion: Motion
+    steps: TimeSteps
+    snapshots: tuple[float, ...]  # times whose whole fields are kept
+
+    @classmethod
+    def of(
+        cls, point: MoesPoint, domain: Domain, n: int, motion: Motion, steps: TimeSteps, snapshots: Sequence[float]
+    ) -> RunSettings:
+        """The same, with the snapshots checked.
+
+        Raises
+        ------
+        InputError
+            One that is no time of the run.
+        """
+        if not isinstance(snapshots, Iterable):
+            raise InputError("snapshots", snapshots, "a list of times")
+        for T in snapshots:
+            if not require_nonnegative("snapshots", T) <= steps.until * (1.0 + 1e-9):
+                raise InputError("snapshots", T, f"at most until = {steps.until!r}")
+        return cls(point, domain, n, motion, steps, tuple(snapshots))
