@@ -16,9 +16,9 @@ The full table is in docs/notation.md.
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
-from math import pi, sqrt
+from math import cos, pi, sqrt
 
-from ehlcontact.checks import require_finite, require_nonnegative, require_positive
+from ehlcontact.checks import require_finite, require_integer, require_nonnegative, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import HertzContact, ellipse_ratio, elliptic_integrals, hertz_contact, shape_factor
 from ehlcontact.lubricant import FluidLaw, Lubricant
@@ -242,8 +242,7 @@ class OperatingPoint:
         speed_rpm : float
             Speed of one race relative to the other [rev/min].
         load : float
-            Force on this ball [N]; of Z balls under a radial load Fr the most loaded
-            one carries about 4.37 Fr/Z.
+            Force on this ball [N]; `most_loaded_ball` has it for a radial load.
         """
         geometry = Geometry.ball_bearing(ball_diameter, pitch_diameter, conformity, race, **materials)
         omega = require_positive("speed_rpm", speed_rpm) * pi / 30.0
@@ -256,6 +255,24 @@ class OperatingPoint:
         """Omega_n of a mass [kg] on the contact: ``sqrt(8 f0 R E/(m u_sum^2 K))``, eq. 5 with u_m squared."""
         s = self.scales
         return sqrt(s.force * s.time**2 / (require_positive("mass", mass) * s.length))
+
+
+def most_loaded_ball(radial_load: float, balls: int) -> float:
+    """Load on the ball that stands under the radial load of a bearing, without clearance or contact angle [N].
+
+    Rigid rings that come closer by d in the load's direction compress the ball at angle psi by d cos(psi), so
+    with Hertz' law Q(psi) = Q_max cos(psi)^(3/2) over the loaded half, and F_r = Q_max sum cos(psi)^(5/2).
+    For 9 balls Q_max = 0.4872 F_r; Stribeck's 4.37/Z, the limit of many, is 0.4856. Harris, Rolling Bearing
+    Analysis, ch. 7.
+
+    Raises
+    ------
+    InputError
+        Load not positive, or fewer than 3 balls.
+    """
+    load = require_positive("radial_load", radial_load)
+    count = require_integer("balls", balls, "a whole number >= 3", 3)
+    return load / sum(max(cos(2.0 * pi * k / count), 0.0) ** 2.5 for k in range(count))
 
 
 Point = MoesPoint | OperatingPoint

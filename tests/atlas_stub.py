@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact.formulas import nvm_central_film
 from reduced_models.atlas.build import SEED, settings
 from reduced_models.atlas.sample import sample_points
 from reduced_models.atlas.solve import OMEGAS
@@ -21,7 +21,7 @@ PAUSE = 0.05
 
 def solve(point: MoesPoint) -> dict[str, Any]:
     """Entry of a contact that is a dry spring on a film of the published thickness."""
-    film = nvm_central_film(point.M, max(point.L, 1e-3), point.kappa) / point.film_to_moes
+    film = replace(point, L=max(point.L, 1e-3)).expected_film
     omega = np.array(OMEGAS)
     entry = {"M": point.M, "L": point.L, "kappa": point.kappa, "alpha": point.alpha, "eta0": point.eta0}
     entry |= {"version": "stub", "n": 64, "domain": list(Domain().as_tuple()), "approach": 1.0 - 1.2 * film}

@@ -5,8 +5,6 @@ from pathlib import Path
 
 import pytest
 
-from ehlcontact import InputError
-from ehlcontact.cli.study.loads import STRIBECK, most_loaded_ball
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import load_study
 
@@ -17,14 +15,6 @@ SMALL = (EXAMPLES / "small_study.toml").read_text()
 @pytest.fixture
 def study():
     return load_study(EXAMPLES / "deep_groove_6205.toml")
-
-
-def test_most_loaded_ball():
-    assert most_loaded_ball(1000.0, 9) == pytest.approx(487.2, abs=0.1)
-    assert most_loaded_ball(1000.0, 100) == pytest.approx(1000.0 * STRIBECK / 100, rel=2e-3)
-    for load, balls in ((0.0, 9), (float("nan"), 9), (100.0, 2)):
-        with pytest.raises(InputError):
-            most_loaded_ball(load, balls)
 
 
 def test_viscosity_of_the_oil(study):

@@ -4,7 +4,6 @@
 module           responsibility
 ===============  =====================================================================================
 ``schema``       the study file: what may stand in it, and errors in one line
-``loads``        radial load of a bearing to the load of its most loaded ball
 ``stages``       the long computations, each a function of the study that leaves one file
 ``worker``       one stage in its own process
 ``runner``       stages side by side, with progress, resume and Ctrl-C

@@ -11,11 +11,10 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from ehlcontact.cli.study.loads import most_loaded_ball
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.origin import __version__
-from ehlcontact.point import OperatingPoint
+from ehlcontact.point import OperatingPoint, most_loaded_ball
 from ehlcontact.solver.domain import Domain
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
 

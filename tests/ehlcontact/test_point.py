@@ -7,8 +7,9 @@ import oracles
 import pytest
 
 from ehlcontact import Geometry, InputError, Lubricant, MoesPoint, OperatingPoint
+from ehlcontact.formulas import nvm_central_film
 from ehlcontact.hertz import elliptic_integrals, shape_factor
-from ehlcontact.point import moes_point, scales_of
+from ehlcontact.point import moes_point, most_loaded_ball, scales_of
 
 NAN, INF = float("nan"), float("inf")
 BAD_POSITIVE = [0.0, -1.0, NAN, INF, True, None, "two", [1.0, 2.0], 1j]
@@ -93,6 +94,26 @@ def test_scaled_axis_and_pressure_agree_with_si(operating_point):
     assert p.moes.alpha_bar == pytest.approx(p.lubricant.alpha * s.pressure, rel=1e-10)
     film = s.length / p.geometry.radius_x / U**0.5  # H = 1 in Moes' unit
     assert p.moes.film_to_moes == pytest.approx(film, rel=1e-10)
+
+
+def test_film_to_be_expected():
+    """What regions and grids follow: a sphere's load number is M, and the film is the published one."""
+    assert MoesPoint(200, 10, 1.0).load_number == 200.0
+    K, E = oracles.agm_integrals(0.1)
+    ratio = (K - E) / (E / 0.1**2 - K)
+    assert MoesPoint(200, 10, 0.1).load_number == pytest.approx(200.0 * ratio**0.5, rel=1e-9)
+    point = MoesPoint(200, 10, 0.5)
+    assert point.expected_film * point.film_to_moes == pytest.approx(nvm_central_film(200, 10, 0.5), rel=1e-14)
+    assert point.inlet_width**1.5 == pytest.approx(point.expected_film, rel=1e-12)
+
+
+def test_most_loaded_ball():
+    stribeck = 4.37  # the limit of many balls
+    assert most_loaded_ball(1000.0, 9) == pytest.approx(487.2, abs=0.1)
+    assert most_loaded_ball(1000.0, 100) == pytest.approx(1000.0 * stribeck / 100, rel=2e-3)
+    for load, balls in ((0.0, 9), (float("nan"), 9), (100.0, 2), (100.0, 9.0), (100.0, True)):
+        with pytest.raises(InputError):
+            most_loaded_ball(load, balls)
 
 
 def test_omega_n_is_equation_5_with_the_speed_squared(operating_point):
