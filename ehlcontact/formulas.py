@@ -1,10 +1,20 @@
-"""Published fits for film and approach: for checks and first guesses, never used inside the solver."""
+"""Published fits for film and approach.
+
+Regions and grids are chosen from them (`solver.mesh`, through the properties of a `MoesPoint`), the atlas
+interpolates what its contacts have over them, and tests compare; what a solver converges to on its grid does not
+depend on them. They take plain numbers: the inputs stand above this module.
+"""
 
 from __future__ import annotations
 
 from math import exp, log
 
 from ehlcontact.hertz import radius_ratio
+
+
+def load_number(M: float, kappa: float) -> float:
+    """N = sqrt(Rx/Ry) M, which tells thick films from thin ones at any kappa; Wijnant, thesis, Twente 1998."""
+    return radius_ratio(kappa) ** 0.5 * M
 
 
 def nvm_central_film(M: float, L: float, kappa: float) -> float:
@@ -29,6 +39,6 @@ def nvm_central_film(M: float, L: float, kappa: float) -> float:
 
 def wijnant_approach(M: float, L: float, kappa: float) -> float:
     """Approach over dry approach: ``1 - p N^q`` with N = sqrt(Rx/Ry) M; Wijnant, thesis, Twente 1998."""
-    N = radius_ratio(kappa) ** 0.5 * M
+    N = load_number(M, kappa)
     p = ((4.0 - 0.2 * L) ** 7 + (3.5 + 0.1 * L) ** 7) ** (1.0 / 7.0)
     return 1.0 - p * N ** -(0.6 + 0.6 * (L + 3.0) ** -0.5)

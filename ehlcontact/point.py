@@ -20,6 +20,7 @@ from math import cos, pi, sqrt
 
 from ehlcontact.checks import require_finite, require_integer, require_nonnegative, require_positive
 from ehlcontact.errors import InputError
+from ehlcontact.formulas import load_number, nvm_central_film
 from ehlcontact.hertz import HertzContact, ellipse_ratio, elliptic_integrals, hertz_contact, shape_factor
 from ehlcontact.lubricant import FluidLaw, Lubricant
 
@@ -85,6 +86,24 @@ class MoesPoint:
     def film_to_moes(self) -> float:
         """Factor from H to the Moes film (h/Rx) sqrt(E' Rx/(eta0 u_sum))."""
         return self.scaled_axis**2 / (2.0 * shape_factor(self.kappa))
+
+    @property
+    def load_number(self) -> float:
+        """Wijnant's load number N = sqrt(Rx/Ry) M: thick films below about 3, whatever kappa."""
+        return load_number(self.M, self.kappa)
+
+    @property
+    def expected_film(self) -> float:
+        """Published central film (Nijenbanning, Venner and Moes) in dry approaches."""
+        return nvm_central_film(self.M, self.L, self.kappa) / self.film_to_moes
+
+    @property
+    def inlet_width(self) -> float:
+        """Width of the zone where the pressure of the inlet rises to that of the dry contact, in semi-axes.
+
+        The gap beside a dry contact opens like x^(3/2), and the film to be carried in is the central one.
+        """
+        return self.expected_film ** (2.0 / 3.0)
 
     def to_dict(self) -> dict[str, float | str]:
         """All fields, for storage."""
