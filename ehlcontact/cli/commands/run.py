@@ -11,6 +11,7 @@ import typer
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import FAILED, check_folder, check_json, complain, say, write_json, write_text
 from ehlcontact.errors import InputError
+from ehlcontact.status import Status
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
@@ -58,7 +59,7 @@ def _compute(study: Study, copy: Path, folder: Path, jobs: int, json_to: str | N
     from ehlcontact.cli.study.runner import run_stages
 
     ledger = run_stages(study, copy, folder, jobs)
-    failed = {name: note for name, note in ledger.items() if note["status"] != "converged"}
+    failed = {name: note for name, note in ledger.items() if note["status"] != Status.CONVERGED}
     if failed:
         for name, note in failed.items():
             complain(f"{name}: {note['status']}: {note['message']}; what was reached is in {folder}")
