@@ -7,6 +7,7 @@ import uuid
 from pathlib import Path
 
 from ehlcontact.errors import InputError
+from ehlcontact.files import write_bytes
 from fmu import build
 from fmu.codegen import config_header
 from fmu.describe import model_description
@@ -58,8 +59,7 @@ def export_contact(
     spec = contact_spec(element, model_name)
     if not target.parent.is_dir():  # before compiling
         raise InputError("path", str(path), "in a folder that exists")
-    build.write_atomically(target, build.pack(fmu_files(spec)))
-    return target
+    return write_bytes(target, build.pack(fmu_files(spec)))
 
 
 def fmu_files(spec: ModelSpec) -> dict[str, bytes]:

@@ -4,40 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from matplotlib.figure import Figure
 
-from ehlcontact.cli.output import write_text
+from ehlcontact.cli.page import write_page
 from ehlcontact.cli.plots import film, motion, rotor
 from ehlcontact.cli.plots.fringes import three_lights
 from ehlcontact.cli.plots.impedance import impedance
-from ehlcontact.cli.plots.style import embedded, styled
 from ehlcontact.cli.study.reduction import MEMORY, RECORDS
 from ehlcontact.cli.study.results import Findings
 
 TITLES = RECORDS | {MEMORY: "all bands, with film memory"}
-TEMPLATE = "report.html.j2"
 
 
 def write_report(found: Findings, path: Path) -> Path:
-    """Draw the figures and write the page; no other file is needed to read it."""
-    environment = Environment(
-        loader=PackageLoader("ehlcontact.cli.study"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
+    """Draw the figures and write the page."""
+    return write_page(
+        path,
+        "report.html.j2",
+        drawings(found),
+        found=found,
+        op=found.operating_point,
+        scales=found.study.point.scales,
+        titles=TITLES,
     )
-    environment.filters["sig"] = significant
-    with styled():
-        images = {name: embedded(draw()) for name, draw in drawings(found).items()}
-    page = environment.get_template(TEMPLATE).render(
-        found=found, op=found.operating_point, scales=found.study.point.scales, titles=TITLES, images=images
-    )
-    write_text(path, page)
-    return path
 
 
 def drawings(found: Findings) -> dict[str, Callable[[], Figure]]:
@@ -60,8 +50,3 @@ def drawings(found: Findings) -> dict[str, Callable[[], Figure]]:
         "response": lambda: rotor.response(rotors.full, rotors.reduced),
         "spectrum": lambda: rotor.spectrum(rotors.full, reduced),
     }
-
-
-def significant(value: Any, digits: int = 4) -> str:
-    """The number with so many significant digits, a dash for none."""
-    return "-" if value is None else f"{value:.{digits}g}"
