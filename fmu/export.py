@@ -9,10 +9,8 @@ from pathlib import Path
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_bytes
 from fmu import build
-from fmu.codegen import config_header
-from fmu.describe import model_description
-from fmu.document import documentation
 from fmu.spec import Element, ModelSpec, contact_spec
+from fmu.texts import config_header, documentation, model_description
 
 _NAMESPACE = uuid.uuid5(uuid.NAMESPACE_URL, "https://pypi.org/project/ehlcontact/fmu")
 _FMI_HEADERS = ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h")
