@@ -1,17 +1,15 @@
 """Reduced contact elements as Functional Mock-up Units: FMI 2.0 co-simulation, compiled from C99.
 
-=============  =====================================================================================
-module         responsibility
-=============  =====================================================================================
-``export``     `export_contact`: element in, FMU file out
-``verify``     `verify`: the FMU against fmpy's rules and, state by state, against the Python element
-``spec``       `ModelSpec`, the only place where a variable's name, reference, unit and start are said
-``describe``   `ModelSpec` to ``modelDescription.xml``
-``codegen``    `ModelSpec` to ``config.h``
-``document``   `ModelSpec` to ``documentation/index.html``
-``build``      compiler, compilation, reproducible zip, atomic writing
-``csrc/``      the C sources: FMI glue for any model, and the contact element; equations in its README
-=============  =====================================================================================
+===========  =======================================================================================
+module       responsibility
+===========  =======================================================================================
+``spec``     `ModelSpec`, the only place where a variable's name, reference, unit and start are said
+``texts``    `ModelSpec` to ``modelDescription.xml``, ``config.h`` and ``documentation/index.html``
+``build``    compiler, compilation, reproducible zip
+``export``   `export_contact`: element in, FMU file out
+``verify``   `verify`: the FMU against fmpy's rules and, state by state, against the Python element
+``csrc/``    the C sources: FMI glue for any model, and the contact element; equations in its README
+===========  =======================================================================================
 
 The import name ``fmu`` is also that of the geoscience distribution fmu-tools (a namespace package there):
 the two cannot be installed into one environment.

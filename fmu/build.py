@@ -9,15 +9,11 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import uuid
 import zipfile
 from collections.abc import Mapping
-from contextlib import suppress
 from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
-
-from ehlcontact.errors import InputError
 
 COMPILER_VARIABLE = "EHLCONTACT_CC"
 CSRC = Path(__file__).parent / "csrc"
@@ -139,22 +135,3 @@ def pack(files: Mapping[str, bytes]) -> bytes:
             entry.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
             archive.writestr(entry, files[name])
     return stream.getvalue()
-
-
-def write_atomically(path: Path, content: bytes) -> None:
-    """Write a file so that a reader sees the old content or the new, never a part.
-
-    Raises
-    ------
-    InputError
-        The file cannot be written there.
-    """
-    temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex}.tmp")
-    try:
-        with temporary.open("xb") as stream:
-            stream.write(content)
-        os.replace(temporary, path)
-    except OSError as error:
-        with suppress(OSError):  # the folder itself may be unusable; the first error says why
-            temporary.unlink(missing_ok=True)
-        raise InputError("path", str(path), f"a file that can be written ({error.strerror})") from None

@@ -7,11 +7,10 @@ import uuid
 from pathlib import Path
 
 from ehlcontact.errors import InputError
+from ehlcontact.files import write_bytes
 from fmu import build
-from fmu.codegen import config_header
-from fmu.describe import model_description
-from fmu.document import documentation
 from fmu.spec import Element, ModelSpec, contact_spec
+from fmu.texts import config_header, documentation, model_description
 
 _NAMESPACE = uuid.uuid5(uuid.NAMESPACE_URL, "https://pypi.org/project/ehlcontact/fmu")
 _FMI_HEADERS = ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h")
@@ -58,8 +57,7 @@ def export_contact(
     spec = contact_spec(element, model_name)
     if not target.parent.is_dir():  # before compiling
         raise InputError("path", str(path), "in a folder that exists")
-    build.write_atomically(target, build.pack(fmu_files(spec)))
-    return target
+    return write_bytes(target, build.pack(fmu_files(spec)))
 
 
 def fmu_files(spec: ModelSpec) -> dict[str, bytes]:

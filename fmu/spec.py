@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ehlcontact.errors import InputError
-from reduced_models.elements.kinds import CubicContact, LinearContact
+from reduced_models import CubicContact, LinearContact
 
 Element = LinearContact | CubicContact
 

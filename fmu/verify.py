@@ -70,12 +70,7 @@ def verify(path: str | os.PathLike[str], element: Element) -> Verification:
     spec = contact_spec(element)
     approach, rate = state_grid(element)
     with opened(file) as (folder, description):
-        known = {variable.name: variable for variable in description.modelVariables}
-        if any(
-            variable.name not in known or known[variable.name].valueReference != variable.value_reference
-            for variable in spec.variables
-        ):
-            raise InputError("path", str(path), "an FMU of a contact element made by export_contact")
+        known = _known_variables(description, spec, file)
         findings = (*validate_fmu(str(file)), *_declarations(spec, known))
         slave = _instantiate(file, folder, description)
         try:
@@ -150,6 +145,15 @@ def opened(file: Path) -> Iterator[tuple[str, Any]]:
         yield folder, description
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+
+
+def _known_variables(description: Any, spec: ModelSpec, file: Path) -> dict[str, Any]:
+    """Variables of the FMU by name, once those of the element are sure to be among them."""
+    known = {variable.name: variable for variable in description.modelVariables}
+    for variable in spec.variables:
+        if variable.name not in known or known[variable.name].valueReference != variable.value_reference:
+            raise InputError("path", str(file), "an FMU of a contact element made by export_contact")
+    return known
 
 
 def _declarations(spec: ModelSpec, known: dict[str, Any]) -> tuple[str, ...]:

@@ -1,54 +1,58 @@
-"""Options that several subcommands share, and the inputs they stand for."""
+"""Options that several subcommands share, in groups, and the inputs they stand for."""
 
 from __future__ import annotations
 
+import functools
+import inspect
+from collections.abc import Callable, Iterator
+from dataclasses import MISSING, dataclass, fields, is_dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, get_type_hints
 
 import typer
 
+from ehlcontact.cli.output import check_file, check_json
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.domain import Domain, check_intervals
 
 _POINT, _GRID, _FILES = "Operating point", "Discretisation", "Results"
+HDF5 = (".h5", ".hdf5")
+PICTURES = (".png", ".svg", ".pdf")
 
-LoadM = Annotated[float, typer.Option("--M", help="Moes load parameter, > 0.", rich_help_panel=_POINT)]
-OilL = Annotated[float, typer.Option("--L", help="Moes lubricant parameter, >= 0.", rich_help_panel=_POINT)]
-Kappa = Annotated[float, typer.Option("--kappa", help="Ellipse ratio a/b, 0.01 to 100.", rich_help_panel=_POINT)]
-Alpha = Annotated[
-    float, typer.Option("--alpha", help="Pressure-viscosity coefficient, 1/Pa.", rich_help_panel=_POINT)
-]
-Eta0 = Annotated[float, typer.Option("--eta0", help="Ambient viscosity, Pa s.", rich_help_panel=_POINT)]
-Viscosity = Annotated[
-    str, typer.Option("--viscosity", help="roelands or barus.", rich_help_panel=_POINT, metavar="LAW")
-]
-Density = Annotated[
-    str,
-    typer.Option("--density", help="dowson-higginson or incompressible.", rich_help_panel=_POINT, metavar="LAW"),
-]
+
+def grouped(command: Callable[..., None]) -> Callable[..., None]:
+    """Let a command take groups of options: a parameter that is a dataclass becomes its fields for typer."""
+    parameters = inspect.signature(command, eval_str=True).parameters.values()
+    groups: dict[str, Any] = {p.name: p.annotation for p in parameters if is_dataclass(p.annotation)}
+    shown: list[inspect.Parameter] = []
+    for parameter in parameters:
+        group = groups.get(parameter.name)
+        shown += [parameter.replace(kind=parameter.KEYWORD_ONLY)] if group is None else _options(group)
+
+    @functools.wraps(command)
+    def called(**given: Any) -> None:
+        made = {
+            name: group(**{field.name: given.pop(field.name) for field in fields(group)})
+            for name, group in groups.items()
+        }
+        command(**made, **given)
+
+    called.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
+    called.__annotations__ = {parameter.name: parameter.annotation for parameter in shown}
+    return called
+
+
+def _options(group: Any) -> Iterator[inspect.Parameter]:
+    """The fields of a group as parameters of a command."""
+    kinds = get_type_hints(group, include_extras=True)
+    for field in fields(group):
+        default = inspect.Parameter.empty if field.default is MISSING else field.default
+        yield inspect.Parameter(
+            field.name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kinds[field.name]
+        )
+
+
 Intervals = Annotated[int, typer.Option("--n", help="Intervals along X, a multiple of 16.", rich_help_panel=_GRID)]
-ChosenIntervals = Annotated[
-    int | None,
-    typer.Option(
-        "--n",
-        show_default="what the film needs",
-        help="Intervals along X, a multiple of 16.",
-        rich_help_panel=_GRID,
-    ),
-]
-Region = Annotated[
-    tuple[float, float, float] | None,
-    typer.Option(
-        "--domain",
-        metavar="XA XB YMAX",
-        help="Computed region [[XA, XB] x [-YMAX, YMAX]] in Hertz semi-axes; -4.5 1.5 3 unless the load rises.",
-        rich_help_panel=_GRID,
-    ),
-]
-Save = Annotated[
-    Path | None,
-    typer.Option("--save", metavar="FILE", help="Save the result as HDF5.", rich_help_panel=_FILES),
-]
 JsonTo = Annotated[
     str | None,
     typer.Option(
@@ -59,15 +63,87 @@ JsonTo = Annotated[
     ),
 ]
 
-ALPHA, ETA0, VISCOSITY, DENSITY = 2.2e-8, 0.04, "roelands", "dowson-higginson"
-HDF5 = (".h5", ".hdf5")
+
+@dataclass(frozen=True, kw_only=True)
+class Contact:
+    """Which contact it is."""
+
+    M: Annotated[float, typer.Option("--M", help="Moes load parameter, > 0.", rich_help_panel=_POINT)]
+    L: Annotated[float, typer.Option("--L", help="Moes lubricant parameter, >= 0.", rich_help_panel=_POINT)]
+    kappa: Annotated[
+        float, typer.Option("--kappa", help="Ellipse ratio a/b, 0.01 to 100.", rich_help_panel=_POINT)
+    ]
+    alpha: Annotated[
+        float, typer.Option("--alpha", help="Pressure-viscosity coefficient, 1/Pa.", rich_help_panel=_POINT)
+    ] = 2.2e-8
+    eta0: Annotated[float, typer.Option("--eta0", help="Ambient viscosity, Pa s.", rich_help_panel=_POINT)] = 0.04
+    viscosity: Annotated[
+        str, typer.Option("--viscosity", help="roelands or barus.", rich_help_panel=_POINT, metavar="LAW")
+    ] = "roelands"
+    density: Annotated[
+        str,
+        typer.Option(
+            "--density", help="dowson-higginson or incompressible.", rich_help_panel=_POINT, metavar="LAW"
+        ),
+    ] = "dowson-higginson"
+
+    def point(self) -> MoesPoint:
+        """Check the options and make the operating point of them."""
+        return MoesPoint(self.M, self.L, self.kappa, self.alpha, self.eta0, self.viscosity, self.density)
 
 
-def region(domain: tuple[float, float, float] | None, n: int | None) -> Domain | None:
-    """Check `n`, where given, and return the domain, None where the default is wanted."""
-    if n is not None:
-        check_intervals(n)
-    return None if domain is None else Domain(*domain)
+@dataclass(frozen=True, kw_only=True)
+class Grid:
+    """Where and how finely the film is solved."""
+
+    n: Annotated[
+        int | None,
+        typer.Option(
+            "--n",
+            show_default="what the film needs",
+            help="Intervals along X, a multiple of 16.",
+            rich_help_panel=_GRID,
+        ),
+    ] = None
+    domain: Annotated[
+        tuple[float, float, float] | None,
+        typer.Option(
+            "--domain",
+            metavar="XA XB YMAX",
+            help="Computed region [[XA, XB] x [-YMAX, YMAX]] in Hertz semi-axes; "
+            "-4.5 1.5 3 unless the load rises.",
+            rich_help_panel=_GRID,
+        ),
+    ] = None
+
+    def chosen(self) -> dict[str, Any]:
+        """Check the options; ``n`` and ``domain`` for a solver, None where it shall choose."""
+        if self.n is not None:
+            check_intervals(self.n)
+        return {"n": self.n, "domain": None if self.domain is None else Domain(*self.domain)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Files:
+    """Where the result goes."""
+
+    save: Annotated[
+        Path | None,
+        typer.Option("--save", metavar="FILE", help="Save the result as HDF5.", rich_help_panel=_FILES),
+    ] = None
+    figure: Annotated[
+        Path | None,
+        typer.Option(
+            "--figure", metavar="FILE", help="Draw the result as PNG, SVG or PDF.", rich_help_panel=_FILES
+        ),
+    ] = None
+    json_to: JsonTo = None
+
+    def check(self) -> None:
+        """Make sure, before a long solve, that all of them can be written."""
+        check_file("--save", self.save, HDF5)
+        check_file("--figure", self.figure, PICTURES)
+        check_json(self.json_to)
 
 
 def point_rows(point: MoesPoint) -> list[tuple[str, str, str]]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -18,6 +17,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 from rich.table import Table
 
 from ehlcontact.errors import InputError
+from ehlcontact.files import write_text
 
 FAILED, USAGE = 1, 2
 INTERRUPTED_LINE = "interrupted: nothing was computed that could be kept"
@@ -98,25 +98,7 @@ def write_json(document: Mapping[str, Any], target: str | None) -> None:
     if target == STDOUT:
         typer.echo(text)
     else:
-        write_text(Path(target), text + "\n")
-
-
-def write_text(target: Path, text: str) -> None:
-    """Replace a text file in one move.
-
-    Raises
-    ------
-    InputError
-        The file cannot be written.
-    """
-    try:
-        handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".tmp")
-        with os.fdopen(handle, "w", encoding="utf-8") as stream:
-            stream.write(text)
-        Path(name).chmod(0o644)
-        os.replace(name, target)
-    except OSError as error:
-        raise InputError("file", str(target), f"a file that can be written ({error.strerror})") from None
+        write_text(target, text + "\n", "file")
 
 
 def show_table(title: str, rows: Iterable[tuple[str, str, str]], json_to: str | None) -> None:

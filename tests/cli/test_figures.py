@@ -23,10 +23,10 @@ def line(figure, name):
 
 @pytest.mark.parametrize(("point", "si"), [(IN_SI, True), (PLAIN, False)], ids=["SI", "dimensionless"])
 def test_steady_figure(point, si):
-    from ehlcontact.cli.plots.film_of_result import draw_steady
+    from ehlcontact.cli.plots.film import steady_figure
 
     result = solve_steady(point, n=32)
-    figure = draw_steady(result)
+    figure = steady_figure(result)
     seen = labels(figure)
     assert any("pressure [GPa]" in text for text in seen) == si
     assert any("fringes" in text for text in seen) == si  # only with scales
@@ -39,20 +39,22 @@ def test_steady_figure(point, si):
 
 @pytest.mark.parametrize(("point", "si"), [(IN_SI, True), (PLAIN, False)], ids=["SI", "dimensionless"])
 def test_simulation_figure(point, si):
-    from ehlcontact.cli.plots.motion_of_result import draw_simulation
+    from ehlcontact.cli.plots.motion import simulation_figure
 
     run = simulate(point, HarmonicLoad(3.0), n=32, until=1.0, dT=0.1)
-    figure = draw_simulation(run)
+    figure = simulation_figure(run)
     assert (
         {"approach [um]", "force [N]"} <= labels(figure) if si else {"approach u", "force f/f0"} <= labels(figure)
     )
     t, minimum = line(figure, "minimum")
     np.testing.assert_allclose(t, run.T * (run.scales.time * 1e3 if si else 1.0))
     np.testing.assert_allclose(minimum, run.h_min * (run.scales.length * 1e6 if si else 1.0))
-    (wave,) = [mesh for axes in figure.axes for mesh in axes.collections if axes.get_ylabel() == "place X = x/a"]
-    shown = np.asarray(wave.get_array())
-    assert shown.shape == (int((np.abs(run.X) <= 1.1).sum()), run.T.size)
-    np.testing.assert_allclose(shown[:, 0], 0.0)
+    (wave,) = [image for axes in figure.axes for image in axes.images if axes.get_ylabel() == "place X = x/a"]
+    assert wave.get_extent() == [0.0, run.T[-1], -1.1, 1.1]
+    shown, unit = np.asarray(wave.get_array()), run.scales.length * 1e6 if si else 1.0
+    np.testing.assert_allclose(shown[:, 0], 0.0, atol=1e-12 * unit)
+    centre = (run.h_midplane[-1] - run.h_midplane[0])[np.argmin(np.abs(run.X))]
+    np.testing.assert_allclose(shown[shown.shape[0] // 2, -1], centre * unit, rtol=1e-6)
 
 
 @pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf"])
@@ -80,9 +82,9 @@ def test_figure_that_cannot_be_written(refused, point, tmp_path):
 def test_drawing_leaves_matplotlib_alone(tmp_path):
     import matplotlib as mpl
 
-    from ehlcontact.cli.plots.file import write_figure
-    from ehlcontact.cli.plots.film_of_result import draw_steady
+    from ehlcontact.cli.plots.film import steady_figure
+    from ehlcontact.cli.plots.style import write_figure
 
     before = dict(mpl.rcParams)
-    write_figure(draw_steady, solve_steady(PLAIN, n=32), tmp_path / "film.png")
+    write_figure(steady_figure, solve_steady(PLAIN, n=32), tmp_path / "film.png")
     assert dict(mpl.rcParams) == before

@@ -7,10 +7,10 @@ import warnings
 import pytest
 
 from ehlcontact import InputError, Status, load
+from ehlcontact.cli.page import cell
 from ehlcontact.cli.paper import runs
 from ehlcontact.cli.paper.data import paper_fits, paper_sensitivity
 from ehlcontact.cli.paper.figures import FIGURES
-from ehlcontact.cli.paper.page import text_of
 from reduced_models import OutsideValidityWarning, load_element
 
 
@@ -137,7 +137,7 @@ def test_every_figure_with_results_is_listed():
     ("value", "text"), [(None, ""), ("x", "x"), (3, "3"), (0.870912, "0.87091"), (4.1e-8, "4.100e-08"), (0.0, "0")]
 )
 def test_cells(value, text):
-    assert text_of(value) == text
+    assert cell(value) == text
 
 
 def test_fit_and_export_of_the_new_models(call, refused, folder, tmp_path):

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from ehlcontact import load
+from ehlcontact import Status, load
 from reduced_models import load_element
 
 STUDY = """
@@ -148,6 +148,24 @@ def test_a_stage_that_fails(call, tmp_path):
     assert result.code == 1 and "Traceback" not in result.err
     notes = json.loads((tmp_path / "out" / "stages.json").read_text())
     failed = [name for name, note in notes.items() if note["status"] != "converged"]
+    assert {note["status"] for note in notes.values()} <= set(Status)
     assert failed and all(
         any(f"ehlcontact: {name}: " in line for line in result.err.splitlines()) for name in failed
     )
+
+
+def test_a_stage_whose_process_dies(monkeypatch, tmp_path):
+    """What it said last is its message."""
+    from ehlcontact.cli.study import runner, stages
+    from ehlcontact.cli.study.schema import load_study
+
+    file = tmp_path / "study.toml"
+    file.write_text(STUDY)
+    monkeypatch.setattr(runner, "STAGES", (stages.stage_named("steady"),))
+    dying = tmp_path / "python"
+    dying.write_text("#!/bin/sh\necho first >&2; echo out of memory >&2; exit 3\n")
+    dying.chmod(0o755)
+    monkeypatch.setattr(sys, "executable", str(dying))
+    note = runner.run_stages(load_study(file), file, tmp_path, 1)["steady"]
+    assert note["status"] == Status.FAILED and note["seconds"] == 0.0
+    assert note["message"] == "its process died: out of memory"

@@ -3,9 +3,12 @@
 from math import log10
 from pathlib import Path
 
+import h5py
+import numpy as np
 import pytest
 
-from ehlcontact.cli.study.rotor import build_rotor
+from ehlcontact import InputError, Status
+from ehlcontact.cli.study.rotor import build_rotor, load_rotor, save_rotor
 from ehlcontact.cli.study.schema import load_study
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -37,6 +40,24 @@ def test_operating_point_of_the_6205(study):
 def test_every_contact_carries_the_load_of_the_operating_point(study, arrangement):
     changed = study.model_copy(update={"rotor": study.rotor.model_copy(update={"arrangement": arrangement})})
     assert build_rotor(changed).static_forces() == pytest.approx(study.ball_load)
+
+
+def test_rotor_runs_of_earlier_versions_can_be_read(study, tmp_path):
+    """Their layout, and their word for a run that broke off."""
+    rotor, file = build_rotor(study), tmp_path / "rotor_full.h5"
+    with h5py.File(file, "w") as old:
+        old.attrs["class"], old.attrs["format"], old.attrs["status"] = "RotorResult", 1, "not converged"
+        for name in ("disc", "disc_velocity", "journal", "journal_velocity", "approach", "rate", "force"):
+            old[name] = np.arange(6.0).reshape(3, 2)
+        old["t"], old["iterations"] = np.arange(3.0), np.arange(3)
+    run = load_rotor(file, rotor)
+    assert run.status is Status.FAILED and run.rotor is rotor and run.force[2, 1] == 5.0
+    save_rotor(run, tmp_path / "again.h5")
+    again = load_rotor(tmp_path / "again.h5", rotor)
+    assert again.status is run.status and np.array_equal(again.iterations, run.iterations)
+    (tmp_path / "cut.h5").write_bytes(file.read_bytes()[:2000])
+    with pytest.raises(InputError, match=r"cut\.h5.*complete rotor run"):
+        load_rotor(tmp_path / "cut.h5", rotor)
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,6 @@ import typer
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import check_file, check_json, show_table, write_json
-from ehlcontact.point import MoesPoint
 from reduced_models.elements.validity import text_of
 
 
@@ -19,14 +18,9 @@ def register(app: typer.Typer) -> None:
     app.command("element")(element)
 
 
+@o.grouped
 def element(
-    M: o.LoadM,
-    L: o.OilL,
-    kappa: o.Kappa,
-    alpha: o.Alpha = o.ALPHA,
-    eta0: o.Eta0 = o.ETA0,
-    viscosity: o.Viscosity = o.VISCOSITY,
-    density: o.Density = o.DENSITY,
+    contact: o.Contact,
     model: Annotated[str, typer.Option("--model", help="wide, memory or cubic.")] = "wide",
     atlas: Annotated[
         Path | None,
@@ -39,7 +33,7 @@ def element(
     from reduced_models.atlas.atlas import MODELS, Atlas
 
     require_choice("--model", model, MODELS)
-    point = MoesPoint(M, L, kappa, alpha, eta0, viscosity, density)
+    point = contact.point()
     check_file("--save", save, (".json",))
     check_json(json_to)
     table = Atlas(atlas)

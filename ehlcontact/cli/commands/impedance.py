@@ -8,7 +8,6 @@ import typer
 
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import check_json, progress, show_table, write_json
-from ehlcontact.point import MoesPoint
 
 Omegas = Annotated[
     list[float],
@@ -21,27 +20,15 @@ def register(app: typer.Typer) -> None:
     app.command("impedance")(impedance)
 
 
-def impedance(
-    M: o.LoadM,
-    L: o.OilL,
-    kappa: o.Kappa,
-    omega: Omegas,
-    alpha: o.Alpha = o.ALPHA,
-    eta0: o.Eta0 = o.ETA0,
-    viscosity: o.Viscosity = o.VISCOSITY,
-    density: o.Density = o.DENSITY,
-    n: o.ChosenIntervals = None,
-    domain: o.Region = None,
-    json_to: o.JsonTo = None,
-) -> None:
+@o.grouped
+def impedance(contact: o.Contact, omega: Omegas, grid: o.Grid, json_to: o.JsonTo = None) -> None:
     """Linearise the steady film: stiffness K and damping C over frequency."""
     from ehlcontact.impedance import impedance as solve
 
-    point = MoesPoint(M, L, kappa, alpha, eta0, viscosity, density)
-    region = o.region(domain, n)
+    point, chosen = contact.point(), grid.chosen()
     check_json(json_to)
     with progress("linearised contact"):
-        result = solve(point, omega, n=n, domain=region)
+        result = solve(point, omega, **chosen)
     write_json(result.summary(), json_to)
     triples = zip(result.omega, result.stiffness, result.damping, strict=True)
     show_table(

@@ -42,7 +42,7 @@ def reproduce(
     """
     from ehlcontact.cli.paper.figures import ELEMENTS_OF, FIGURES
     from ehlcontact.cli.paper.fits import Fits
-    from ehlcontact.cli.paper.page import Reproduction, draw_figures, write_page
+    from ehlcontact.cli.paper.page import Reproduction, draw_figures, write_reproduction
     from ehlcontact.cli.paper.runs import compute
     from ehlcontact.cli.paper.tables import EXTRAPOLATED, TABLE_CASES, make_table
 
@@ -68,7 +68,7 @@ def reproduce(
     drawn, missing = draw_figures(figures, fits)
     numbers = {shown.number: shown.numbers(fits) for shown in drawn}
     found = Reproduction(fits, [make_table(number, fits) for number in tables], drawn, missing, numbers)
-    page = write_page(found, output / PAGE)
+    page = write_reproduction(found, output / PAGE)
     write_json(found.to_dict(), str(output / DOCUMENT))
     write_json(found.to_dict(), json_to)
     say(f"page: {page}", json_to)

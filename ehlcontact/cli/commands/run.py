@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, check_folder, check_json, complain, say, write_json, write_text
+from ehlcontact.cli.output import FAILED, check_folder, check_json, complain, say, write_json
 from ehlcontact.errors import InputError
+from ehlcontact.files import write_text
+from ehlcontact.status import Status
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
@@ -44,7 +46,7 @@ def run(
     prepare(folder)
     copy = folder / STUDY_COPY
     if not copy.exists() or not copy.samefile(study_file):
-        write_text(copy, study_file.read_text(encoding="utf-8"))
+        write_text(copy, study_file.read_text(encoding="utf-8"), "file")
 
     try:
         _compute(study, copy, folder, min(jobs, os.cpu_count() or 1), json_to)
@@ -58,7 +60,7 @@ def _compute(study: Study, copy: Path, folder: Path, jobs: int, json_to: str | N
     from ehlcontact.cli.study.runner import run_stages
 
     ledger = run_stages(study, copy, folder, jobs)
-    failed = {name: note for name, note in ledger.items() if note["status"] != "converged"}
+    failed = {name: note for name, note in ledger.items() if note["status"] != Status.CONVERGED}
     if failed:
         for name, note in failed.items():
             complain(f"{name}: {note['status']}: {note['message']}; what was reached is in {folder}")

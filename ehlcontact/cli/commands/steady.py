@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, check_file, check_json, complain, progress, show_table, write_json
-from ehlcontact.cli.plots.file import FigureTo, check_figure, write_figure
-from ehlcontact.point import MoesPoint
+from ehlcontact.cli.output import FAILED, complain, progress, show_table, write_json
+
+if TYPE_CHECKING:
+    from ehlcontact.results import SteadyResult
 
 
 def register(app: typer.Typer) -> None:
@@ -15,61 +18,46 @@ def register(app: typer.Typer) -> None:
     app.command("steady")(steady)
 
 
-def steady(
-    M: o.LoadM,
-    L: o.OilL,
-    kappa: o.Kappa,
-    alpha: o.Alpha = o.ALPHA,
-    eta0: o.Eta0 = o.ETA0,
-    viscosity: o.Viscosity = o.VISCOSITY,
-    density: o.Density = o.DENSITY,
-    n: o.ChosenIntervals = None,
-    domain: o.Region = None,
-    save: o.Save = None,
-    figure: FigureTo = None,
-    json_to: o.JsonTo = None,
-) -> None:
+@o.grouped
+def steady(contact: o.Contact, grid: o.Grid, files: o.Files) -> None:
     """Solve the steady film of a contact."""
     from ehlcontact.steady import solve_steady
-    from ehlcontact.storage import save as store
+    from ehlcontact.storage import save
 
-    point = MoesPoint(M, L, kappa, alpha, eta0, viscosity, density)
-    region = o.region(domain, n)
-    check_file("--save", save, o.HDF5)
-    check_figure(figure)
-    check_json(json_to)
+    point, chosen = contact.point(), grid.chosen()
+    files.check()
     with progress("steady film") as update:
         result = solve_steady(
             point,
-            n=n,
-            domain=region,
+            **chosen,
             throw=False,
             callback=lambda cycle, residual: update(cycle, None, f"cycle {cycle}, residual {residual:.1e}"),
         )
-    if save is not None:
-        store(result, save)
-    if figure is not None:
-        from ehlcontact.cli.plots.film_of_result import draw_steady
+    if files.save is not None:
+        save(result, files.save)
+    if files.figure is not None:
+        from ehlcontact.cli.plots.film import steady_figure
+        from ehlcontact.cli.plots.style import write_figure
 
-        write_figure(draw_steady, result, figure)
-    write_json(result.summary(), json_to)
-    show_table(
-        "steady film",
-        [
-            *o.point_rows(point),
-            ("approach", f"{result.approach:.5f}", "of the dry Hertz approach"),
-            ("central film", f"{result.h_central:.5f}", "of the dry Hertz approach"),
-            ("minimum film", f"{result.h_min:.5f}", "of the dry Hertz approach"),
-            ("maximum pressure", f"{result.p_max:.4f}", "of the Hertz pressure"),
-            ("residual", f"{result.residual:.1e}", "of the dry start's"),
-            ("load balance", f"{result.load_residual:.1e}", "of the load"),
-            ("cycles", f"{result.cycles}", f"n = {result.n} on {o.domain_text(result.domain)}"),
-            ("time", f"{result.seconds:.2f}", "s"),
-            ("status", str(result.status), ""),
-        ],
-        json_to,
-    )
+        write_figure(steady_figure, result, files.figure)
+    write_json(result.summary(), files.json_to)
+    show_table("steady film", _rows(result), files.json_to)
     if not result.status.ok:
-        kept = f"; partial result in {save}" if save else ""
+        kept = f"; partial result in {files.save}" if files.save else ""
         complain(f"{result.status}: {result.status.advice}{kept}")
         raise typer.Exit(FAILED)
+
+
+def _rows(result: SteadyResult) -> list[tuple[str, str, str]]:
+    return [
+        *o.point_rows(result.point),
+        ("approach", f"{result.approach:.5f}", "of the dry Hertz approach"),
+        ("central film", f"{result.h_central:.5f}", "of the dry Hertz approach"),
+        ("minimum film", f"{result.h_min:.5f}", "of the dry Hertz approach"),
+        ("maximum pressure", f"{result.p_max:.4f}", "of the Hertz pressure"),
+        ("residual", f"{result.residual:.1e}", "of the dry start's"),
+        ("load balance", f"{result.load_residual:.1e}", "of the load"),
+        ("cycles", f"{result.cycles}", f"n = {result.n} on {o.domain_text(result.domain)}"),
+        ("time", f"{result.seconds:.2f}", "s"),
+        ("status", str(result.status), ""),
+    ]

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from matplotlib.figure import Figure
 
-from ehlcontact.cli.paper import film_figures as film
-from ehlcontact.cli.paper import response_figures as response
-from ehlcontact.cli.paper import spring_figure as spring
-from ehlcontact.cli.paper.cases import FREE, HARMONIC
 from ehlcontact.cli.paper.data import paper_fits
 from ehlcontact.cli.paper.fits import Fits
-from reduced_models.elements.spring import MemorylessContact
+from ehlcontact.cli.paper.runs import CASES, FREE, HARMONIC, STATIC_LOADS, STATIC_OILS
+from ehlcontact.cli.plots import paper as plots
+from ehlcontact.cli.plots.fringes import snapshots
+from reduced_models import FitResult
+
+Draw = Callable[[Fits], Figure]
+Numbers = Callable[[Fits], dict[str, Any]]
+OUTSIDE = (0.5, 1.5, 2.5)  # approaches at which Fig. 16 is also told in numbers
 
 
 @dataclass(frozen=True)
@@ -24,40 +27,53 @@ class PaperFigure:
     number: int
     cases: tuple[str, ...]
     caption: str
-    draw: Callable[[Fits], Figure]
-    numbers: Callable[[Fits], dict[str, Any]] = lambda fits: {}
+    draw: Draw
+    numbers: Numbers = lambda fits: {}
 
 
-def _fringes(case: str) -> Callable[[Fits], Figure]:
-    def draw(fits: Fits) -> Figure:
-        run = fits.runs.of(case)
-        assert run is not None
-        return film.fringes(run)
-
-    return draw
+def _static(fits: Fits) -> Figure:
+    found = {point: result.approach for point, result in fits.runs.static.items()}
+    return plots.static_approach(found, STATIC_LOADS, STATIC_OILS)
 
 
-def _film(fits: Fits) -> Figure:
-    run = fits.runs.of("2")
-    assert run is not None
-    return film.minimum_and_central_film(run)
+def _fringes(case: str) -> Draw:
+    return lambda fits: snapshots(fits.runs.cases[case, fits.runs.n])
 
 
-def _integrated(*cases: str) -> Callable[[Fits], dict[str, Any]]:
+def _approaches(*cases: str) -> Draw:
+    return lambda fits: plots.approaches({CASES[case].title: fits.runs.cases[case, fits.runs.n] for case in cases})
+
+
+def _force(fits: Fits, case: str, model: str = "cubic", **what: bool) -> plots.Panel:
+    return plots.force(CASES[case].title, fits.record(case), fits.fit(case, model), **what)
+
+
+def _force_and_acceleration(case: str, model: str) -> Draw:
+    return lambda fits: plots.row(_force(fits, case, model), _force(fits, case, model, acceleration=True))
+
+
+def _forces(model: str, *cases: str) -> Draw:
+    return lambda fits: plots.row(*(_force(fits, case, model) for case in cases))
+
+
+def _reduced(fits: Fits, case: str) -> plots.Panel:
+    found = fits.fit(case)
+    reduced = None if found is None else fits.integrated(found.element, case)
+    return plots.approach(CASES[case].title, fits.record(case), reduced)
+
+
+def _reduced_approaches(*cases: str) -> Draw:
+    return lambda fits: plots.row(*(_reduced(fits, case) for case in cases))
+
+
+def _integrated(*cases: str) -> Numbers:
     """How far the cubic elements of the cases are from the full approach, and RK2(3) from Radau."""
-
-    def numbers(fits: Fits) -> dict[str, Any]:
-        found = {}
-        for case in cases:
-            fitted = fits.fit(case)
-            if fitted is not None:
-                found[f"case {case}"] = fits.difference(fitted.element, case)
-        return found
-
-    return numbers
+    return lambda fits: {
+        f"case {case}": fits.difference(found.element, case) for case, found in _cubics(fits, cases).items()
+    }
 
 
-def _rms(model: str, *cases: str) -> Callable[[Fits], dict[str, Any]]:
+def _rms(model: str, *cases: str) -> Numbers:
     def numbers(fits: Fits) -> dict[str, Any]:
         found = {case: fits.fit(case, model) for case in cases}
         return {f"case {case}: force rms": None if f is None else f.rms for case, f in found.items()}
@@ -65,25 +81,51 @@ def _rms(model: str, *cases: str) -> Callable[[Fits], dict[str, Any]]:
     return numbers
 
 
-def _swapped(motion: str, cases: tuple[str, ...], table: int) -> tuple[Callable[..., Figure], Callable[..., Any]]:
+def _cubics(fits: Fits, cases: Sequence[str]) -> dict[str, FitResult]:
+    """Our cubic fits of the cases, as far as there are any."""
+    return {case: found for case in cases if (found := fits.fit(case)) is not None}
+
+
+def _elements(fits: Fits, cases: Sequence[str], table: int) -> dict[str, dict[str, Any]]:
+    """The paper's and our elements of the cases."""
+    ours = {case: found.element for case, found in _cubics(fits, cases).items()}
+    return {"paper's": {case: paper_fits()[table, case].cubic for case in cases}, "our": ours}
+
+
+def _swapped(motion: str, cases: Sequence[str], table: int) -> tuple[Draw, Numbers]:
     """Elements of three cases under one motion: figure and numbers."""
 
-    def elements() -> dict[str, MemorylessContact]:
-        return {case: paper_fits()[table, case].cubic for case in cases}
+    def draw(fits: Fits) -> Figure:
+        runs = {
+            whose: {case: fits.integrated(element, motion) for case, element in elements.items()}
+            for whose, elements in _elements(fits, cases, table).items()
+        }
+        return plots.swapped(CASES[motion].title, fits.record(motion), runs)
 
     def numbers(fits: Fits) -> dict[str, Any]:
-        found: dict[str, Any] = {f"paper's element {c}": fits.difference(e, motion) for c, e in elements().items()}
-        for case in cases:
-            fitted = fits.fit(case)
-            if fitted is not None:
-                found[f"our element {case}"] = fits.difference(fitted.element, motion)
-        return found
+        return {
+            f"{whose} element {case}": fits.difference(element, motion)
+            for whose, elements in _elements(fits, cases, table).items()
+            for case, element in elements.items()
+        }
 
-    return lambda fits: response.one_motion(fits, motion, elements()), numbers
+    return draw, numbers
 
 
-_FIG17, _NUM17 = _swapped("4", HARMONIC, 5)
-_FIG18, _NUM18 = _swapped("3", FREE, 3)
+def _springs(fits: Fits) -> Figure:
+    paper = {case: paper_fits()[5, case].cubic.parameters for case in HARMONIC}
+    return plots.springs(paper, _cubics(fits, HARMONIC))
+
+
+def _spring_numbers(fits: Fits) -> dict[str, float]:
+    """Spring forces outside the fitted interval: polynomial and element."""
+    values: dict[str, float] = {}
+    for case, found in _cubics(fits, HARMONIC).items():
+        for u in OUTSIDE:
+            values[f"case {case}: polynomial at {u:g}"] = plots.polynomial(found.parameters, u)
+            values[f"case {case}: element at {u:g}"] = float(found.element.spring(u))
+    return values
+
 
 FIGURES = {
     figure.number: figure
@@ -92,7 +134,7 @@ FIGURES = {
             2,
             (),
             "Approach at rest over M: points are solves, lines Wijnant's formula, which the paper compares with.",
-            lambda fits: film.static_approach(fits.runs),
+            _static,
             lambda fits: {f"M = {M:g}, L = {L:g}": r.approach for (M, L), r in fits.runs.static.items()},
         ),
         PaperFigure(
@@ -102,9 +144,14 @@ FIGURES = {
             5,
             ("2", "3"),
             "Approach of the free vibrations with Omega_n = 5.13 and 2.56.",
-            lambda fits: response.approaches(fits.runs, ("2", "3")),
+            _approaches("2", "3"),
         ),
-        PaperFigure(6, ("2",), "Central and minimum film of the free vibration, Omega_n = 5.13.", _film),
+        PaperFigure(
+            6,
+            ("2",),
+            "Central and minimum film of the free vibration, Omega_n = 5.13.",
+            lambda fits: plots.film(fits.runs.cases["2", fits.runs.n]),
+        ),
         PaperFigure(
             7,
             ("2",),
@@ -115,14 +162,14 @@ FIGURES = {
             8,
             ("2",),
             "Linear element, case 2: force and acceleration miss the amplitude.",
-            lambda fits: response.forces(fits, ("2",), "linear", acceleration=True),
+            _force_and_acceleration("2", "linear"),
             _rms("linear", "2"),
         ),
         PaperFigure(
             9,
             ("2",),
             "Cubic element, case 2: force and acceleration.",
-            lambda fits: response.forces(fits, ("2",), "cubic", acceleration=True),
+            _force_and_acceleration("2", "cubic"),
             _rms("cubic", "2"),
         ),
         PaperFigure(
@@ -130,35 +177,24 @@ FIGURES = {
             ("2", "3"),
             "Approach of the cubic elements of cases 2 and 3, integrated by Bogacki-Shampine RK2(3) from the "
             "start of the fitted window.",
-            lambda fits: response.reduced_approaches(fits, ("2", "3")),
+            _reduced_approaches("2", "3"),
             _integrated("2", "3"),
         ),
-        PaperFigure(
-            11,
-            ("4", "5"),
-            "Approach under harmonic load, Omega = pi and 2 pi.",
-            lambda fits: response.approaches(fits.runs, ("4", "5")),
-        ),
+        PaperFigure(11, ("4", "5"), "Approach under harmonic load, Omega = pi and 2 pi.", _approaches("4", "5")),
         PaperFigure(12, ("5",), "Pseudo-interferograms under harmonic load, Omega = 2 pi.", _fringes("5")),
-        PaperFigure(
-            13,
-            ("5",),
-            "Linear element, case 5: force.",
-            lambda fits: response.forces(fits, ("5",), "linear"),
-            _rms("linear", "5"),
-        ),
+        PaperFigure(13, ("5",), "Linear element, case 5: force.", _forces("linear", "5"), _rms("linear", "5")),
         PaperFigure(
             14,
             ("4", "5"),
             "Cubic elements, cases 4 and 5: force.",
-            lambda fits: response.forces(fits, ("4", "5"), "cubic"),
+            _forces("cubic", "4", "5"),
             _rms("cubic", "4", "5"),
         ),
         PaperFigure(
             15,
             ("4", "5"),
             "Approach of the cubic elements of cases 4 and 5, integrated by RK2(3).",
-            lambda fits: response.reduced_approaches(fits, ("4", "5")),
+            _reduced_approaches("4", "5"),
             _integrated("4", "5"),
         ),
         PaperFigure(
@@ -166,20 +202,26 @@ FIGURES = {
             HARMONIC,
             "Stiffness polynomials of cases 4 to 6 continued outside the fitted interval: alike near force 1, "
             "apart and finally falling far from it. Our elements go on like a Hertz contact instead (dashed).",
-            lambda fits: spring.polynomials(fits, HARMONIC),
-            lambda fits: spring.spring_table(fits, HARMONIC),
+            _springs,
+            _spring_numbers,
         ),
         PaperFigure(
-            17, ("4",), "Elements of cases 4, 5 and 6 under the load of case 4 (Omega = pi).", _FIG17, _NUM17
+            17,
+            ("4",),
+            "Elements of cases 4, 5 and 6 under the load of case 4 (Omega = pi).",
+            *_swapped("4", HARMONIC, 5),
         ),
         PaperFigure(
-            18, ("3",), "Elements of cases 1, 2 and 3 on the mass of case 3 (Omega_n = 2.56).", _FIG18, _NUM18
+            18,
+            ("3",),
+            "Elements of cases 1, 2 and 3 on the mass of case 3 (Omega_n = 2.56).",
+            *_swapped("3", FREE, 3),
         ),
         PaperFigure(
             19,
             ("validation",),
             "Cubic element of the load ramp: force, and approach integrated by RK2(3).",
-            lambda fits: response.ramp(fits, "validation"),
+            lambda fits: plots.row(_force(fits, "validation"), _reduced(fits, "validation")),
             _integrated("validation"),
         ),
     )

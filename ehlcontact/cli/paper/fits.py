@@ -10,6 +10,7 @@ import numpy as np
 from ehlcontact.cli.paper.runs import Runs
 from ehlcontact.errors import InputError
 from reduced_models import (
+    ContactElement,
     ContactRecord,
     ElementFit,
     FitResult,
@@ -20,7 +21,6 @@ from reduced_models import (
     sensitivity,
     simulate_oscillator,
 )
-from reduced_models.elements.spring import MemorylessContact
 
 PAPER_METHOD, STIFF_METHOD = "RK23", "Radau"  # Bogacki and Shampine as in the paper, and a stiff integrator
 
@@ -32,10 +32,9 @@ class Fits:
     runs: Runs
     _fits: dict[tuple[str, str, int, bool], ElementFit | str] = field(default_factory=dict)
 
-    def record(self, case: str, n: int | None = None) -> ContactRecord | None:
-        """History of the case on the grid with `n` intervals (by default the finer), None if it failed."""
-        run = self.runs.cases.get((case, self.runs.n if n is None else n))
-        return None if run is None else ContactRecord.from_result(run)
+    def record(self, case: str, n: int | None = None) -> ContactRecord:
+        """History of a case that converged, on the grid with `n` intervals (by default the finer)."""
+        return ContactRecord.from_result(self.runs.cases[case, self.runs.n if n is None else n])
 
     def fit(self, case: str, model: str = "cubic", n: int | None = None, whole: bool = False) -> FitResult | None:
         """Fit of the last two thirds or of the whole record; None if there is no record or no contact."""
@@ -50,32 +49,29 @@ class Fits:
     def _fitted(self, case: str, model: str, n: int, whole: bool) -> ElementFit | str:
         key = (case, model, n, whole)
         if key not in self._fits:
-            record = self.record(case, n)
-            try:
-                if record is None:
-                    self._fits[key] = "no simulation"
-                else:
-                    span = (float(record.T[0]), float(record.T[-1])) if whole else None
-                    self._fits[key] = fit(record, model, span)
-            except InputError as error:
-                self._fits[key] = str(error)
+            self._fits[key] = self._refused_or_fitted(*key)
         return self._fits[key]
+
+    def _refused_or_fitted(self, case: str, model: str, n: int, whole: bool) -> ElementFit | str:
+        if (case, n) not in self.runs.cases:
+            return "no simulation"
+        record = self.record(case, n)
+        span = (float(record.T[0]), float(record.T[-1])) if whole else None
+        try:
+            return fit(record, model, span)
+        except InputError as error:
+            return str(error)
 
     def sensitivity(self, case: str) -> Sensitivity | None:
         """Table 2 of the case."""
-        record = self.record(case)
-        return None if record is None else sensitivity(record)
+        return sensitivity(self.record(case)) if (case, self.runs.n) in self.runs.cases else None
 
-    def integrated(
-        self, element: MemorylessContact, case: str, method: str = PAPER_METHOD
-    ) -> OscillatorResult | None:
+    def integrated(self, element: ContactElement, case: str, method: str = PAPER_METHOD) -> OscillatorResult:
         """The reduced model under the load of the case, from the start of its fitted window.
 
         Elements of other cases are integrated too, so leaving the validity box is expected and not told.
         """
         record = self.record(case)
-        if record is None:
-            return None
         cut = record.window(*record.default_window)
         assert cut.load is not None
         with warnings.catch_warnings():
@@ -91,15 +87,13 @@ class Fits:
                 rtol=1e-7,
             )
 
-    def difference(self, element: MemorylessContact, case: str) -> dict[str, float] | None:
+    def difference(self, element: ContactElement, case: str) -> dict[str, float]:
         """RMS difference of the integrated approach from the full one and between the integrators.
 
         Both relative to the standard deviation of the full approach.
         """
         record = self.record(case)
         reduced, stiff = (self.integrated(element, case, method) for method in (PAPER_METHOD, STIFF_METHOD))
-        if record is None or reduced is None or stiff is None:
-            return None
         full = record.window(*record.default_window).approach
         spread = float(np.std(full))
 

@@ -1,23 +1,19 @@
-"""One HTML page that holds the whole comparison, figures included, and its JSON twin."""
+"""What was reproduced: one HTML page with all tables and figures, and its JSON twin."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-
-from ehlcontact.cli.output import write_text
+from ehlcontact.cli.page import write_page
 from ehlcontact.cli.paper.data import CITATION
 from ehlcontact.cli.paper.figures import FIGURES, PaperFigure
 from ehlcontact.cli.paper.fits import Fits
-from ehlcontact.cli.paper.tables import Cell, Table
-from ehlcontact.cli.plots.style import embedded, styled
+from ehlcontact.cli.paper.tables import Table
 from ehlcontact.origin import __version__
-
-TEMPLATE = "reproduction.html.j2"
 
 
 @dataclass(frozen=True)
@@ -68,31 +64,15 @@ def draw_figures(numbers: Sequence[int], fits: Fits) -> tuple[list[PaperFigure],
     return drawn, missing
 
 
-def write_page(found: Reproduction, path: Path) -> Path:
-    """Draw the figures and write the page; no other file is needed to read it."""
-    environment = Environment(
-        loader=PackageLoader("ehlcontact.cli.paper"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
+def write_reproduction(found: Reproduction, path: Path) -> Path:
+    """Draw the figures and write the page."""
+    drawings = {figure.number: partial(figure.draw, found.fits) for figure in found.figures}
+    return write_page(
+        path,
+        "reproduction.html.j2",
+        drawings,
+        found=found,
+        citation=CITATION,
+        version=__version__,
+        levels=found.fits.runs.levels,
     )
-    environment.filters["cell"] = text_of
-    with styled():
-        images = {figure.number: embedded(figure.draw(found.fits)) for figure in found.figures}
-    page = environment.get_template(TEMPLATE).render(
-        found=found, images=images, citation=CITATION, version=__version__, levels=found.fits.runs.levels
-    )
-    write_text(path, page)
-    return path
-
-
-def text_of(value: Cell) -> str:
-    """A table cell in words: five significant digits, fewer for small errors."""
-    if value is None:
-        return ""
-    if isinstance(value, str):
-        return value
-    if isinstance(value, int):
-        return str(value)
-    return f"{value:.5g}" if abs(value) >= 1e-3 or value == 0.0 else f"{value:.3e}"

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ehlcontact.cli.paper.cases import CASES, FREE, HARMONIC, RAMP
 from ehlcontact.cli.paper.data import PaperFit, paper_fits, paper_sensitivity
 from ehlcontact.cli.paper.fits import Fits
+from ehlcontact.cli.paper.runs import CASES, FREE, HARMONIC, RAMP
 from reduced_models import FitResult
 
 Cell = float | str | None

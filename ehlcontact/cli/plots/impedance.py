@@ -2,36 +2,38 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
 
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, RED, new_figure
-from ehlcontact.cli.study.reduction import RECORDS, Reduction
+from ehlcontact.results import ImpedanceResult
+from reduced_models import FitResult
 
 
-def impedance(reduction: Reduction, rotor_omega: float) -> Figure:
-    """K and C of the film, of the film-memory element, and of the cubics at their frequency."""
+def impedance(
+    response: ImpedanceResult | None, memory: Any, cubics: Sequence[FitResult], rotor_omega: float
+) -> Figure:
+    """K and C of the film, of the film-memory element where there is one, and of cubics at their frequency."""
     figure = new_figure(3.6)
     panels = figure.subplots(1, 2)
-    response, found = reduction.impedance, reduction.memory
     if response is not None:
         w = response.omega[1:]
         for axes, values in zip(panels, (response.stiffness, response.damping), strict=True):
             axes.plot(w, values[1:], "o", color=BLUE, markersize=3.5, label="film")
-    if response is not None and not isinstance(found, str):
+    if response is not None and memory is not None:
         w = np.geomspace(0.5 * rotor_omega, float(response.omega[-1]), 300)
-        Z = found.element.impedance(w)
+        Z = memory.impedance(w)
         for axes, values in zip(panels, (Z.real, Z.imag / w), strict=True):
             axes.plot(w, values, color=GREEN, label="film memory, one element")
-    label = "cubic element of each record"
-    for record in RECORDS:
-        cubic = reduction.fits.get((record, "cubic"))
-        if cubic is not None and cubic.tangent is not None:
-            at = np.array(cubic.valid["omega"])
-            for axes, value in zip(panels, (cubic.tangent, cubic.parameters["C1"]), strict=True):
-                axes.plot(at.mean(), value, "s", color=RED, label=label)
-            label = "_"
-    for axes, label in zip(panels, ("stiffness K [-]", "damping C [-]"), strict=True):
+    found = [cubic for cubic in cubics if cubic.tangent is not None]
+    at = [float(np.mean(cubic.valid["omega"])) for cubic in found]
+    points = ([cubic.tangent for cubic in found], [cubic.parameters["C1"] for cubic in found])
+    for axes, known, label in zip(panels, points, ("stiffness K [-]", "damping C [-]"), strict=True):
+        if found:
+            axes.plot(at, known, "s", color=RED, label="cubic element of each record")
         axes.axvline(rotor_omega, color=GREY, linestyle=":")
         axes.annotate(" rotor", (rotor_omega, 0.5), xycoords=("data", "axes fraction"), color=GREY)
         axes.set(xscale="log", xlabel="frequency Omega [-]", ylabel=label)

@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from pathlib import Path
+from typing import Any, TypeVar
 
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
+from ehlcontact.files import replacing
+
 # Okabe and Ito's colours, which stay apart for colour-blind eyes.
 BLUE, ORANGE, GREEN, RED, PURPLE, GREY = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#7f7f7f"
 WIDTH = 9.0  # inches
-DPI = 110
+DPI, FILE_DPI = 110, 130  # of figures in pages, and of those in files of their own
+
+Result = TypeVar("Result")
 
 _STYLE: Any = {
     "font.family": "DejaVu Sans",
@@ -65,3 +70,17 @@ def embedded(figure: Figure) -> str:
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=DPI, facecolor="white", metadata={"Software": None})
     return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode("ascii")
+
+
+def write_figure(draw: Callable[[Result], Figure], result: Result, path: Path) -> None:
+    """Draw `result` in the house style and write it to `path`, in the format that its ending says.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written.
+    """
+    with styled():
+        figure = draw(result)
+        with replacing(path, "--figure") as temporary:
+            figure.savefig(temporary, format=path.suffix[1:].lower(), dpi=FILE_DPI, facecolor="white")

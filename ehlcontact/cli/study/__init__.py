@@ -1,6 +1,5 @@
 """The study behind ``ehlcontact run``: a bearing and its oil in, elements, FMU, rotor and report out.
 
-===============  =====================================================================================
 module           responsibility
 ===============  =====================================================================================
 ``schema``       the study file: what may stand in it, and errors in one line
@@ -14,4 +13,17 @@ module           responsibility
 ``figures``      what the report shows
 ``report``       ``report.html``
 ===============  =====================================================================================
+=======
+=============  =====================================================================================
+module         responsibility
+=============  =====================================================================================
+``schema``     the study file: what may stand in it, and errors in one line
+``stages``     the long computations, each a function of the study that leaves one file
+``worker``     one stage in its own process
+``runner``     stages side by side, with progress, resume and Ctrl-C
+``reduction``  fits, element files, FMU
+``rotor``      the rotor on full contacts and on elements: runs, their file, differences
+``results``    everything in numbers: ``results.json``
+``report``     ``report.html``
+=============  =====================================================================================
 """

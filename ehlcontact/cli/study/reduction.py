@@ -23,6 +23,7 @@ RECORDS = {
 MODELS: tuple[Literal["linear", "cubic"], ...] = ("linear", "cubic")
 MEMORY = "memory"  # the film-memory element, fitted to all records and the impedance together
 CHOSEN = ("rotor_band", "cubic")  # the element of the FMU and of the rotor: fitted at its load and frequency
+WRONG = ("harmonic", "cubic")  # fitted in the contact's own band, hundreds of times above the rotor's
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,12 @@ class Reduction:
             raise InputError("rotor_band fit", self.refused[CHOSEN], "a cubic element; raise rotor.fit_amplitude")
         return element
 
+    @property
+    def rotor_elements(self) -> dict[str, Any]:
+        """SI elements that the rotor is run on, by name: the chosen one, and two others where they were fitted."""
+        others = {MEMORY: self.memory_si, WRONG[0]: self.element_si(*WRONG)}
+        return {CHOSEN[0]: self.chosen} | {name: found for name, found in others.items() if found is not None}
+
 
 def reduce_records(simulations: Mapping[str, SimulationResult], scales: Scales) -> Reduction:
     """Fit every model to every record; a fit that makes no contact is kept as the reason why."""
@@ -86,7 +93,9 @@ def _window(simulation: SimulationResult) -> tuple[float, float] | None:
     """Last two thirds of a harmonic record, rounded to whole periods; otherwise left to `fit`.
 
     Over whole periods the misfit of the spring and the rate are orthogonal, so that the one does not leak into
-    the damping, which at rotor frequency is a thousandth of the force.
+    the damping, which at rotor frequency is a thousandth of the force. `ContactRecord.default_window` has the
+    same rule but for two things: this window is a hair longer, so that rounding of the times never drops its
+    first sample (as it does from the 6205's record in the contact's band), and at least a period.
     """
     motion = simulation.motion
     if not isinstance(motion, HarmonicLoad):

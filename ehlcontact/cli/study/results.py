@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from ehlcontact.cli.study.comparison import RotorComparison, compare_rotors
 from ehlcontact.cli.study.reduction import RECORDS, Reduction, export_fmu, reduce_records, save_elements
+from ehlcontact.cli.study.rotor import RotorComparison, compare_rotors
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import InputError
 from ehlcontact.origin import __version__
@@ -179,7 +179,7 @@ def evaluate(study: Study, folder: Path, ledger: Mapping[str, Mapping[str, Any]]
     reduction = reduce_records(histories, scales)
     save_elements(reduction, folder)
     exported = export_fmu(reduction.chosen, folder / "contact.fmu")
-    rotors = compare_rotors(study, reduction, folder)
+    rotors = compare_rotors(study, reduction.rotor_elements, folder)
     seconds = {name: float(note["seconds"]) for name, note in ledger.items()}
     seconds["elements, FMU, reduced rotors"] = time.perf_counter() - started
     return Findings(study, steady, histories, reduction, rotors, exported, seconds)

@@ -1,12 +1,11 @@
-"""The rotor of a study, its contacts, and the HDF5 file of a rotor run."""
+"""The rotor of a study on full contacts and on elements: its runs, their HDF5 file, and how they differ."""
 
 from __future__ import annotations
 
 import json
-import os
 import warnings
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
 from math import cos, radians
 from pathlib import Path
 from typing import Any
@@ -14,30 +13,25 @@ from typing import Any
 import h5py
 import numpy as np
 
+from ehlcontact.cli.study.reduction import CHOSEN
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import InputError
+from ehlcontact.files import replacing
+from ehlcontact.status import Status
 from ehlcontact.transient.full_contact import FullContact
 from reduced_models import (
+    Comparison,
     ContactElement,
     JeffcottRotor,
     OutsideValidityWarning,
     RotorResult,
-    RotorStatus,
     ScaledContact,
+    compare,
     simulate_rotor,
 )
 
-HISTORIES = (
-    "t",
-    "disc",
-    "disc_velocity",
-    "journal",
-    "journal_velocity",
-    "approach",
-    "rate",
-    "force",
-    "iterations",
-)
+HISTORIES = tuple(f.name for f in fields(RotorResult) if f.name not in ("status", "rotor"))
+FORMAT = 1  # of the file of a run
 TOLERANCE = 1e-5  # of the force balance: not below the noise of the full film
 
 
@@ -106,29 +100,14 @@ def run_reduced(study: Study, element: ContactElement, halvings: int, revolution
         )
 
 
-@dataclass(frozen=True)
-class _Header:
-    """How `load_rotor` knows its files."""
-
-    kind: str = "RotorResult"
-    format: int = 1
-
-
 def save_rotor(result: RotorResult, path: Path) -> None:
-    """Write a rotor run in one move."""
-    partial = path.with_name(f".{path.name}.tmp")
-    try:
-        with h5py.File(partial, "w") as file:
-            file.attrs["class"], file.attrs["format"] = _Header.kind, _Header.format
-            file.attrs["status"] = str(result.status)
-            file.attrs["static_load"] = json.dumps(result.rotor.static_load.tolist())
-            for name in HISTORIES:
-                file.create_dataset(name, data=getattr(result, name))
-        os.replace(partial, path)
-    except OSError as error:
-        raise InputError("file", str(path), f"a file that can be written ({error.strerror})") from None
-    finally:
-        partial.unlink(missing_ok=True)
+    """Write the histories of a rotor run in one move; what rotor it was stands in the study."""
+    with replacing(path, "file") as temporary, h5py.File(temporary, "w") as file:
+        file.attrs["class"], file.attrs["format"] = RotorResult.__name__, FORMAT
+        file.attrs["status"] = str(result.status)
+        file.attrs["static_load"] = json.dumps(result.rotor.static_load.tolist())
+        for name in HISTORIES:
+            file[name] = getattr(result, name)
 
 
 def load_rotor(path: Path, rotor: JeffcottRotor) -> RotorResult:
@@ -141,10 +120,58 @@ def load_rotor(path: Path, rotor: JeffcottRotor) -> RotorResult:
     """
     try:
         with h5py.File(path, "r") as file:
-            if file.attrs["class"] != _Header.kind or file.attrs["format"] != _Header.format:
+            if file.attrs["class"] != RotorResult.__name__ or file.attrs["format"] != FORMAT:
                 raise InputError("file", str(path), "a rotor run of this library")
             values = {name: np.asarray(file[name][...]) for name in HISTORIES}
-            status = RotorStatus(str(file.attrs["status"]))
+            status = Status(str(file.attrs["status"]))
     except (OSError, KeyError) as error:
         raise InputError("file", str(path), f"a complete rotor run of this library ({error})") from None
     return RotorResult(status=status, rotor=rotor, **values)
+
+
+@dataclass(frozen=True)
+class RotorComparison:
+    """The rotor on full contacts against the rotor on elements, and how much of it is the time step."""
+
+    full: RotorResult
+    full_half: RotorResult  # half the step, shorter
+    reduced: Mapping[str, RotorResult]  # by element; the chosen one is among them
+    whole: Mapping[str, Comparison]  # full against each reduced run, from the start
+    last: Mapping[str, Comparison]  # likewise, the last revolution
+    half: Comparison  # full against the chosen element, both with half the step
+    step_full: Comparison  # full with the step against full with half of it
+    step_reduced: Comparison  # the same for the chosen element: what the rotor's integrator contributes
+
+    def to_dict(self) -> dict[str, Any]:
+        """All numbers."""
+        pairs = {"whole": self.whole, "last_revolution": self.last}
+        return {
+            **{name: {key: c.to_dict() for key, c in group.items()} for name, group in pairs.items()},
+            "half_step": self.half.to_dict(),
+            "step_full": self.step_full.to_dict(),
+            "step_reduced": self.step_reduced.to_dict(),
+            "evaluations_per_step": {
+                "full": float(self.full.iterations[1:].mean()),
+                "full_half_step": float(self.full_half.iterations[1:].mean()),
+            },
+        }
+
+
+def compare_rotors(study: Study, elements: Mapping[str, ContactElement], folder: Path) -> RotorComparison:
+    """Run the rotor on SI elements, by name, and compare it with the stored runs on full contacts."""
+    rotor, chosen = build_rotor(study), CHOSEN[0]
+    full, full_half = (load_rotor(folder / f"{name}.h5", rotor) for name in ("rotor_full", "rotor_half_step"))
+    r = study.rotor
+    reduced = {name: run_reduced(study, element, 0, r.revolutions) for name, element in elements.items()}
+    reduced_half = run_reduced(study, elements[chosen], 1, r.check_revolutions)
+    before_last = float(full.t[-1]) - 60.0 / study.bearing.speed_rpm
+    return RotorComparison(
+        full=full,
+        full_half=full_half,
+        reduced=reduced,
+        whole={name: compare(full, run) for name, run in reduced.items()},
+        last={name: compare(full, run, discard=before_last) for name, run in reduced.items()},
+        half=compare(full_half, reduced_half),
+        step_full=compare(full, full_half),
+        step_reduced=compare(reduced[chosen], reduced_half),
+    )

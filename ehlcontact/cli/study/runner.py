@@ -24,6 +24,7 @@ from rich.progress import Progress
 from ehlcontact.cli.output import progress_bars, stderr_console, write_json
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import STAGES, Stage
+from ehlcontact.status import Status
 
 LEDGER = "stages.json"
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
@@ -74,7 +75,8 @@ class _Worker:
         said = self._errors.read().strip().splitlines()
         self._errors.close()
         if not self.last:
-            self.last = {"status": "died", "message": said[-1] if said else f"exit code {code}", "seconds": 0.0}
+            message = f"its process died: {said[-1] if said else f'exit code {code}'}"
+            self.last = {"status": Status.FAILED, "message": message, "seconds": 0.0}
         return self.last
 
 
@@ -91,7 +93,7 @@ def is_done(stage: Stage, study: Study, folder: Path, ledger: Mapping[str, Any])
     """Whether the stage's file is there, converged, and belongs to this study."""
     note = ledger.get(stage.name, {})
     same = note.get("fingerprint") == study.fingerprint(*stage.sections)
-    return same and note.get("status") == "converged" and stage.file(folder).is_file()
+    return same and note.get("status") == Status.CONVERGED and stage.file(folder).is_file()
 
 
 def run_stages(study: Study, study_file: Path, folder: Path, jobs: int) -> dict[str, dict[str, Any]]:
@@ -117,7 +119,7 @@ def run_stages(study: Study, study_file: Path, folder: Path, jobs: int) -> dict[
             ledger[worker.stage.name] = last | {"fingerprint": study.fingerprint(*worker.stage.sections)}
             write_json(ledger, str(folder / LEDGER))
             bars.remove_task(tasks[worker.stage.name])
-            ended = "done" if last["status"] == "converged" else last["status"]
+            ended = "done" if last["status"] == Status.CONVERGED else last["status"]
             console.print(f"{worker.stage.title}: {ended}, {last['seconds']:.1f} s", highlight=False)
 
         try:

@@ -5,27 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
+from ehlcontact.status import Status
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
 
 Update = Callable[[float, float], None]  # done, total
 STEADY_CYCLES = 40
 
 
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """How a stage ended: ``converged``, ``interrupted`` or a failure, with what to say about it."""
+class Outcome(NamedTuple):
+    """How a stage ended, with what to say about it."""
 
-    status: str
+    status: Status
     message: str = ""
-
-    @property
-    def ok(self) -> bool:
-        """Whether the stage's file can be relied on."""
-        return self.status == "converged"
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,21 +43,19 @@ class Stage:
 
     def run(self, study: Study, folder: Path, update: Update) -> Outcome:
         """Compute and save; a result that is not converged goes to the partial file."""
-        message = ""
         try:
             result = self.compute(study, update)
-            status = str(result.status)
-            message = getattr(result.status, "advice", "")
+            outcome = Outcome(result.status, result.status.advice)
         except ConvergenceError as error:
-            result, status, message = error.result, "not converged", str(error)
+            result, outcome = error.result, Outcome(Status.FAILED, str(error))
         except KeyboardInterrupt:
-            return Outcome("interrupted", "stopped before anything could be kept")
-        if status == "converged":
+            return Outcome(Status.INTERRUPTED, "stopped before anything could be kept")
+        if outcome.status.ok:
             self.store(result, self.file(folder))
             self.partial(folder).unlink(missing_ok=True)
         elif hasattr(result, "force"):  # not a single failed step, but a result
             self.store(result, self.partial(folder))
-        return Outcome(status, message)
+        return outcome
 
 
 def _store(result: Any, path: Path) -> None:

@@ -13,8 +13,9 @@ import time
 from pathlib import Path
 
 from ehlcontact.cli.study.schema import load_study
-from ehlcontact.cli.study.stages import stage_named
+from ehlcontact.cli.study.stages import Outcome, stage_named
 from ehlcontact.errors import InputError
+from ehlcontact.status import Status
 
 SPACING = 0.1  # seconds between progress lines
 
@@ -38,10 +39,9 @@ def work(study_file: Path, folder: Path, name: str) -> None:
 
     try:
         outcome = stage_named(name).run(load_study(study_file), folder, update)
-        status, message = outcome.status, outcome.message
     except InputError as error:
-        status, message = "bad input", str(error)
-    emit(status=status, message=message, seconds=time.perf_counter() - started)
+        outcome = Outcome(Status.FAILED, str(error))
+    emit(**outcome._asdict(), seconds=time.perf_counter() - started)
 
 
 if __name__ == "__main__":

@@ -6,9 +6,8 @@ import pytest
 from fmpy.validation import validate_fmu
 
 from ehlcontact.errors import InputError
-from fmu.codegen import c_double
-from fmu.document import documentation
 from fmu.spec import ModelSpec, Variable, contact_spec
+from fmu.texts import c_double, documentation
 
 UNITS_SI = {
     "approach": ("m", {"m": 1}),
