@@ -14,6 +14,7 @@ import ast
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 PACKAGES = ("ehlcontact", "reduced_models", "fmu")
 LONG, MANY = 50, 8  # lines of a function without its docstring, arguments
@@ -193,12 +194,82 @@ def without_faces(graph: Graph, known: dict[str, Path]) -> Graph:
     return {name: others & inner for name, others in graph.items() if name in inner}
 
 
+SHEETS = (
+    ("ehlcontact", "one contact's film"),
+    ("ehlcontact.solver", "the film at one instant"),
+    ("ehlcontact.transient", "the film through time"),
+    ("reduced_models", "elements that stand for it"),
+    ("reduced_models.elements", "one law, many kinds"),
+    ("ehlcontact.cli", "the command line, above all three"),
+)
+
+
+def draw(root: Path, path: Path) -> None:
+    """One sheet per folder: its rooms on their floors, their lines, and an arrow to what each stands on."""
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, sheets = plt.subplots(3, 2, figsize=(13, 15.5), layout="constrained")
+    for axes, (folder, title) in zip(sheets.ravel(), SHEETS, strict=True):
+        graph = rooms(root, folder)
+        if folder == "ehlcontact":
+            graph = {name: others - {"cli"} for name, others in graph.items() if name != "cli"}
+        _draw_sheet(axes, graph, sizes(root, folder))
+        axes.set_title(f"{folder}/ - {title}", loc="left", fontsize=11)
+    figure.savefig(path, dpi=90)
+    plt.close(figure)
+
+
+def sizes(root: Path, folder: str) -> dict[str, int]:
+    """Lines of every room."""
+    found: dict[str, int] = {}
+    for name, path in modules(root).items():
+        here = room_of(name, folder)
+        if here is not None:
+            found[here] = found.get(here, 0) + len(path.read_text(encoding="utf-8").splitlines())
+    return found
+
+
+def _draw_sheet(axes: Any, graph: Graph, lines: dict[str, int]) -> None:
+    levels = floors(graph)
+    place: dict[str, tuple[float, float]] = {}
+    for floor in sorted(set(levels.values())):
+        row = sorted(name for name in graph if levels[name] == floor)
+        # below the rooms that it serves, as far as the width of the sheet allows
+        for k, name in enumerate(row):
+            place[name] = ((k + 0.5 + 0.12 * (floor % 3 - 1)) / len(row), float(floor))
+    for name, others in graph.items():
+        # an arrow that a way over other rooms makes as well would only hide them
+        through = set().union(*(_reached(graph, other) for other in others))
+        for other in others - through:
+            axes.annotate(
+                "",
+                xy=place[other],
+                xytext=place[name],
+                arrowprops={"arrowstyle": "-|>", "color": "#9aa7b5", "lw": 0.7, "shrinkA": 11, "shrinkB": 13},
+            )
+    for name, (x, y) in place.items():
+        label = {"boxstyle": "round,pad=0.35", "fc": "#eef3f8", "ec": "#40566b", "lw": 0.9}
+        axes.text(x, y, f"{name}\n{lines[name]}", ha="center", va="center", fontsize=8.5, bbox=label)
+    axes.set(xlim=(-0.05, 1.05), ylim=(0.5, max(levels.values()) + 0.5), xticks=[])
+    axes.set_yticks(range(1, max(levels.values()) + 1))
+    axes.set_ylabel("floor")
+    axes.spines[:].set_visible(False)
+    axes.tick_params(length=0)
+
+
 def main() -> None:
     """Print the table, or draw."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("checkouts", nargs="*", type=Path, default=[Path(__file__).parents[1]])
+    parser.add_argument("--draw", type=Path, metavar="PNG", help="draw the last checkout instead")
     parser.add_argument("--list", action="store_true", help="name the long functions and those of many arguments")
     arguments = parser.parse_args()
+    if arguments.draw is not None:
+        draw(arguments.checkouts[-1].resolve(), arguments.draw)
+        return
     tables = [figures(root.resolve()) for root in arguments.checkouts]
     print("| | " + " | ".join(str(root) for root in arguments.checkouts) + " |")
     print("|---|" + "---|" * len(tables))
