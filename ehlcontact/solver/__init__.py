@@ -3,5 +3,5 @@
 | module | is responsible for |
 |---|---|
 | domain | `Domain`, the computed region |
-| mesh | `mesh_for` and `remedy`: which region and grid a film needs, what follows a failure, every number behind that |
+| mesh | `mesh_for`, `remedy`: which region and grid a film needs, what to try after a failure; all their numbers |
 """
