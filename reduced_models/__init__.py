@@ -23,13 +23,7 @@
 | film_contact | what the elements with a film memory have in common |
 | memory, memory_target, memory_fit | `FilmMemoryContact`, and its joint fit to impedance and records |
 | wide, wide_build | `WideRangeContact`, and its building from solves |
-| atlas | `Atlas`: answers with error bars and elements, from contacts solved beforehand |
-| atlas_box, atlas_table, atlas_surface | where it answers, what it holds, how that is interpolated |
-| atlas_element | elements from its answers |
-| atlas_build | building it: sample, workers, work file, table |
-| atlas_sample, atlas_solve | points of a build, and the solve of one |
-| atlas_work, atlas_workers | solved points on disk, and the processes or cluster that solve |
-| atlas_assemble | from solved points to the table |
+| atlas | `Atlas`: answers with error bars and elements, from contacts solved beforehand; its build |
 | contact | the protocol every contact obeys; `ScaledContact` shows a dimensionless one in SI |
 | oscillator | one mass on one element |
 | jeffcott | rotor parameters, contact mounts, linear matrices |
