@@ -149,11 +149,12 @@ def test_step_tangents_are_differences_of_the_force(asked):
 
 
 @pytest.mark.parametrize("omega", [0.05, math.pi, 30.0])
-@pytest.mark.parametrize(("centre", "amplitude"), [(0.87, 0.01), (0.87, 0.1), (0.8, 0.7), (0.2, 0.6)])
-@pytest.mark.parametrize("third", [0.0, 0.3])
+@pytest.mark.parametrize(
+    ("centre", "amplitude", "third"), [(0.87, 0.01, 0.0), (0.87, 0.1, 0.3), (0.8, 0.7, 0.0), (0.2, 0.6, 0.3)]
+)
 def test_no_closed_cycle_gives_energy(asked, omega, centre, amplitude, third):
     """The box, beyond both of its ends, and surfaces that part."""
-    steps, periods = 600, max(2, math.ceil(omega))
+    steps, periods = 400, max(2, math.ceil(0.6 * omega))
     phase = 2.0 * np.pi * np.arange(steps * periods + 1) / steps
     u = centre + amplitude * (np.sin(phase) + third * np.sin(3.0 * phase))
     v = omega * amplitude * (np.cos(phase) + 3.0 * third * np.cos(3.0 * phase))
