@@ -59,7 +59,7 @@ def test_kernels_have_one_decorator():
         for name in NAMES
         if name != "ehlcontact/jit.py" and "njit" in (ROOT / name).read_text(encoding="utf-8")
     ]
-    assert [name for name in stray if not name.startswith("reduced_models/")] == []
+    assert stray == []
 
 
 def relative(folder, pattern):

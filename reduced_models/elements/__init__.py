@@ -1,1 +1,25 @@
-"""Room."""
+"""Contact elements: force of one contact from its approach and rate, with or without a memory of the film.
+
+| module | is responsible for |
+|---|---|
+| base | what every element carries: validity box, quality, source, units, file |
+| validity | what the data covered, and the warning for leaving it |
+| file | the JSON file of an element |
+| spring | elements without memory: spring, Hertz ends, damper and clipping in one law |
+| polynomial | `LinearContact`, `CubicContact`, `PolynomialContact` |
+| power | `PowerLawContact` |
+| jet | numbers with their derivatives, for kernels |
+| film_law | a dry spring on a film that remembers: a step, and the equations in continuous time |
+| film_curve | its static curve from a table of loads |
+| film_response | its linear response: gains from an impedance, passivity |
+| film_element | elements with a film memory: state, steps, tangents, impedance |
+| memory | `FilmMemoryContact`: one load |
+| wide | `WideRangeContact`: every load |
+| kinds | the list of all kinds, and `load_element` |
+
+A new element is a frozen dataclass with its coefficients, ``low`` and ``high`` in a file of its own, entered in
+`kinds`; the contract tests then ask for an example of it. Without memory it derives from
+`spring.MemorylessContact`: a NamedTuple for its law and a kernel for its spring (`spring.kernel_of`); ends, damper
+and clipping follow. With another memory it derives from `base.ContactElement`, whose abstract methods say what
+rotors and oscillators need.
+"""

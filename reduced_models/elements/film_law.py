@@ -58,7 +58,7 @@ def _film(x, law):
     if x <= law.x[0]:
         h = exp(law.y[0] + law.slope[0] * (x - law.x[0]))
         return h, h * law.slope[0]
-    if x >= law.x[n - 1]:
+    if not x < law.x[n - 1]:  # or not a number
         h = exp(law.y[n - 1] + law.slope[n - 1] * (x - law.x[n - 1]))
         return h, h * law.slope[n - 1]
     k = np.searchsorted(law.x, x) - 1
@@ -84,7 +84,7 @@ def static(u, law):
             x += (log(-u) - law.y[0]) / law.slope[0]
             if x < NOTHING:
                 return NOTHING, exp(2.0 / 3.0 * NOTHING), 0.0
-    elif u >= law.u[n - 1]:
+    elif not u < law.u[n - 1]:  # or not a number
         low = law.x[n - 1]
         x = low
     else:
@@ -186,7 +186,7 @@ def _between(x, law):
     rows = law.gain_x.size
     if rows == 1 or x <= law.gain_x[0]:
         return 0, min(1, rows - 1), 0.0, 0.0
-    if x >= law.gain_x[rows - 1]:
+    if not x < law.gain_x[rows - 1]:
         return rows - 2, rows - 1, 1.0, 0.0
     row = np.searchsorted(law.gain_x, x) - 1
     per_x = 1.0 / (law.gain_x[row + 1] - law.gain_x[row])

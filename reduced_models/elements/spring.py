@@ -35,7 +35,7 @@ ADVICE = "(fit again over a wider range of approach, or with the linear model)"
 
 # A law is a NamedTuple: coefficients of the spring, and what all laws have: low, high, C1, C2, C3, B4, the largest
 # rate (inf where it is not known), and origins and factors of the ends, which `joined` finds. It is flat, for one
-# of NamedTuples takes twice as long to hand to a kernel [measured: 2.3 us instead of 1.2].
+# of NamedTuples takes twice as long to hand to a kernel [measured: 2.5 us instead of 1.5].
 Law = Any
 _KERNELS: dict[type, Callable] = {}
 

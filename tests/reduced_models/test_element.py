@@ -1,6 +1,4 @@
-"""The force law against a slow twin, its derivatives, its ends, and its units."""
-
-from dataclasses import asdict, replace
+"""The law of the linear and the cubic element against a slow twin, and its ends."""
 
 import numpy as np
 import pytest
@@ -8,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlcontact.errors import InputError
-from reduced_models import CubicContact, LinearContact
+from reduced_models import CubicContact
 
 U = np.concatenate([np.linspace(-2.0, 4.0, 241), [0.75, 1.0]])
 V = np.linspace(-60.0, 60.0, 7)
@@ -47,33 +45,7 @@ def test_force_is_the_slow_twin_inside_and_outside(element):
     )
     np.testing.assert_allclose(element.force(u, v), expected, rtol=1e-13, atol=1e-14)
     assert np.any(expected == 0.0) and np.any(u > element.high)
-
-
-def test_scalars_and_arrays_take_the_same_way(element):
-    for name in ("force", "stiffness", "damping"):
-        method = getattr(element, name)
-        array = method(U, 0.5)
-        assert isinstance(method(0.9, 0.5), float) and isinstance(method(1, 0), float)
-        np.testing.assert_array_equal(array, [method(float(u), 0.5) for u in U])
-    assert element.advance(0.01, 0.9, 0.5) == element.force(0.9, 0.5)
-    np.testing.assert_array_equal(element.spring(U), element.force(U, 0.0))
-    assert element.spring(0.9) == element.force(0.9, 0.0)
     assert element.damper(0.9) == element.C1
-
-
-def test_tangents_are_finite_differences_in_every_branch(element):
-    h = 1e-6
-    u, v = np.meshgrid(np.linspace(-0.49, 2.013, 53), V)
-    # A difference that straddles a kink (clipping) is no derivative.
-    smooth = np.minimum(element.force(u - h, v), element.force(u + h, v)) > 0.0
-    smooth &= element.force(u, v) > 1e-3
-    du = (element.force(u + h, v) - element.force(u - h, v)) / (2 * h)
-    dv = (element.force(u, v + h) - element.force(u, v - h)) / (2 * h)
-    np.testing.assert_allclose(element.stiffness(u, v)[smooth], du[smooth], rtol=2e-6, atol=1e-7)
-    np.testing.assert_allclose(element.damping(u, v)[smooth], dv[smooth], rtol=2e-6, atol=1e-7)
-    clipped = element.force(u, v) == 0.0
-    assert clipped.any()
-    assert not element.stiffness(u, v)[clipped].any() and not element.damping(u, v)[clipped].any()
 
 
 SPRING = st.tuples(st.floats(0.3, 1.2), st.floats(0.0, 1.0), st.floats(-0.05, 0.5))
@@ -94,52 +66,6 @@ def test_law_is_c1_monotone_and_never_pulls(spring, C1, low, width):
 
 def test_extension_above_grows_like_hertz(cubic):
     assert cubic.force(4e6, 0.0) / cubic.force(1e6, 0.0) == pytest.approx(8.0, rel=1e-5)
-
-
-@pytest.mark.parametrize("force", [1e-3, 0.4, 1.0, 1.02, 5.0])
-def test_approach_at_inverts_the_spring(cubic, force):
-    assert cubic.force(cubic.approach_at(force), 0.0) == pytest.approx(force, rel=1e-12)
-
-
-def test_si_element_is_the_same_law_in_other_units(element, scales):
-    si = element.to_si(scales)
-    u, v = np.meshgrid(U, V)
-    s = scales
-    np.testing.assert_allclose(si.force(u * s.length, v * s.rate), s.force * element.force(u, v), rtol=1e-12)
-    np.testing.assert_allclose(
-        si.stiffness(u * s.length, v * s.rate), s.stiffness * element.stiffness(u, v), rtol=1e-12, atol=1e-3
-    )
-    np.testing.assert_allclose(
-        si.damping(u * s.length, v * s.rate), s.damping * element.damping(u, v), rtol=1e-12, atol=1e-9
-    )
-    assert type(si) is type(element) and si.units == "SI"
-    with pytest.raises(InputError, match="dimensionless"):
-        si.to_si(scales)
-
-
-@pytest.mark.parametrize("name", ["cubic", "linear", "memory"])
-def test_si_refuses_the_scales_of_another_contact(name, request, scales, tmp_path):
-    fitted = replace(request.getfixturevalue(name), source={"scales": asdict(scales)})
-    read = type(fitted).load(fitted.save(tmp_path / "element.json"))
-    for element in (fitted, read):
-        for wrong in ("force", "length", "time"):
-            with pytest.raises(InputError, match=r"^scales = .*the element was fitted at"):
-                element.to_si(replace(scales, **{wrong: 1.00001 * getattr(scales, wrong)}))
-        assert element.to_si(replace(scales, force=(1.0 + 1e-9) * scales.force)).units == "SI"
-        with pytest.raises(InputError, match=r"^scales = 'int'"):
-            element.to_si(5)
-    # Nobody knows the scales of an element from a dimensionless point.
-    for source in (None, {"n": 64}, {"scales": None}):
-        assert replace(fitted, source=source).to_si(replace(scales, force=7.0)).units == "SI"
-
-
-def test_si_takes_the_rate_along(scales):
-    assert LinearContact(1.0, 0.0, 0.5, 1.0, rate=2.0).to_si(scales).rate == pytest.approx(2.0 * scales.rate)
-
-
-def test_validity_is_the_closed_interval(cubic):
-    assert cubic.is_valid(0.75) and cubic.is_valid(1.0) and not cubic.is_valid(1.0001)
-    np.testing.assert_array_equal(cubic.is_valid([0.7, 0.8]), [False, True])
 
 
 @pytest.mark.parametrize(

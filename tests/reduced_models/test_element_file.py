@@ -6,7 +6,7 @@ import os
 import pytest
 
 from ehlcontact.errors import InputError
-from reduced_models import CubicContact, LinearContact, fit, load_element
+from reduced_models import CubicContact, fit, load_element
 
 
 def test_round_trip_is_exact(tmp_path, record):
@@ -25,25 +25,10 @@ def test_round_trip_is_exact(tmp_path, record):
     assert set(document["source"]) == {"point", "scales", "n", "domain", "motion", "version"}
 
 
-@pytest.mark.parametrize("model", ["linear", "cubic", "polynomial", "power"])
-def test_every_kind_comes_back_from_its_file(tmp_path, record, scales, model):
-    element = fit(record, model).element
-    assert load_element(element.save(tmp_path / "e.json")) == element
-    si = element.to_si(scales)
-    back = load_element(si.save(tmp_path / "si.json"))
-    assert back == si and back.omega_range[0] == pytest.approx(element.omega_range[0] / scales.time)
-
-
 def test_a_file_without_the_newer_bounds_is_read(tmp_path, cubic):
     path = cubic.save(tmp_path / "old.json")
     _edit(path, valid={"low": 0.75, "high": 1.0, "rate": None})
     assert load_element(path) == cubic and load_element(path).load_range is None
-
-
-def test_si_and_linear_round_trip(tmp_path, linear, scales):
-    si = linear.to_si(scales)
-    assert load_element(si.save(str(tmp_path / "e.json"))) == si
-    assert LinearContact.load(tmp_path / "e.json").units == "SI"
 
 
 def test_saving_replaces_in_one_move_and_leaves_nothing_behind(tmp_path, linear, cubic, monkeypatch):

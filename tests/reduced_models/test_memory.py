@@ -104,37 +104,6 @@ def test_no_step_blows_up(memory):
     assert force == pytest.approx(memory.spring(0.87), rel=1e-6)
 
 
-def test_tangents_are_the_derivatives_of_a_step(memory):
-    rng = np.random.default_rng(1)
-    for _ in range(60):
-        memory.rest(rng.uniform(0.6, 1.1))
-        for _ in range(3):
-            memory.advance(10.0 ** rng.uniform(-2.0, 1.0), rng.uniform(0.6, 1.1), 0.5 * rng.normal())
-        dt, u, v, h = 10.0 ** rng.uniform(-3.0, 2.0), rng.uniform(0.6, 1.1), 0.5 * rng.normal(), 1e-6
-        before = memory.save_state()
-        F, stiffness, damping = memory.step_tangents(dt, u, v)
-        np.testing.assert_array_equal(memory.save_state(), before)
-        up, down = (memory.step_tangents(dt, u + s, v)[0] for s in (h, -h))
-        assert stiffness == pytest.approx((up - down) / (2.0 * h), rel=1e-5, abs=1e-6)
-        up, down = (memory.step_tangents(dt, u, v + s)[0] for s in (h, -h))
-        assert damping == pytest.approx((up - down) / (2.0 * h), rel=1e-5, abs=1e-6)
-        assert memory.advance(dt, u, v) == F
-
-
-def test_state_is_saved_and_restored(memory):
-    T, u, v = wave(pi, 40)
-    for i in range(1, 20):
-        memory.advance(T[1], u[i], v[i])
-    state = memory.save_state()
-    first = [memory.advance(T[1], u[i], v[i]) for i in range(20, 40)]
-    memory.restore_state(state)
-    assert [memory.advance(T[1], u[i], v[i]) for i in range(20, 40)] == first
-    other = memory.copy()
-    other.advance(0.1, 1.0, 0.0)
-    memory.restore_state(state)
-    assert memory.advance(T[1], u[20], v[20]) == first[0], "a copy has a state of its own"
-
-
 def test_impedance_is_that_of_a_small_motion(memory):
     for omega in (0.2, pi, 20.0):
         periods = max(2, math.ceil(3.0 * omega))

