@@ -1,17 +1,17 @@
-"""The command line `ehlcontact`: one module per subcommand, above all three packages.
+"""The command line `ehlcontact`, above all three packages; nothing imports it.
 
-=================  ===================================================================================
-module             responsibility
-=================  ===================================================================================
-``app``            the program: subcommands, errors to one line and an exit code
-``options``        operating-point options shared by the subcommands
-``output``         consoles, tables, JSON, progress, checks of where results go
-``steady`` ...     one subcommand each: ``steady``, ``simulate``, ``impedance``, ``fit``, ``element``, ``export``,
-                   ``run``, ``atlas``
-``figure_file``    ``--figure``: pictures of one result, drawn by ``figures_film`` and ``figures_transient``
-``study``          the study behind ``run``: schema, stages, report, figures
-``reproduce``      the paper's tables and figures beside ours
-=================  ===================================================================================
+=============  =======================================================================================
+room           responsibility
+=============  =======================================================================================
+``app``        the program: subcommands, errors to one line and an exit code
+``options``    options that subcommands share, in groups, and the inputs they stand for
+``output``     consoles, tables, JSON, progress, checks of where results go
+``page``       HTML pages that need no other file, from ``templates/``
+``commands/``  one subcommand each
+``plots/``     every picture
+``study/``     the study behind ``run``
+``paper/``     the paper's tables and figures behind ``reproduce``
+=============  =======================================================================================
 
 Exit codes: 0 success; 1 not converged or interrupted, with what was reached saved; 2 bad input.
 """

@@ -157,7 +157,7 @@ def test_a_warning_is_one_line_on_stderr(call, monkeypatch, tmp_path):
         warnings.warn("CubicContact used outside its validity box", OutsideValidityWarning, stacklevel=1)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("ehlcontact.cli.paper.runs.compute", warn)
+    monkeypatch.setattr("ehlcontact.cli.paper.page.compute", warn)
     with warnings.catch_warnings():
         warnings.simplefilter("default")
         result = call("reproduce", "--table", "3", "-o", tmp_path)

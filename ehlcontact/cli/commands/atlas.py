@@ -1,4 +1,4 @@
-"""``ehlcontact atlas``: what the atlas says about a point, and building one."""
+"""``ehlcontact atlas``: building the table of solved contacts that elements are taken from."""
 
 from __future__ import annotations
 
@@ -55,20 +55,13 @@ def build(
     kept = output.with_suffix(".jsonl") if work is None else work
     check_file("--work", kept)
     check_json(json_to)
-    for name, value, least in (("--draws", draws, 0), ("--light-draws", light_draws, 0), ("--seed", seed, 0)):
-        require_integer(name, value, f"a whole number >= {least}", least)
+    for name, value in (("--draws", draws), ("--light-draws", light_draws), ("--seed", seed)):
+        require_integer(name, value, "a whole number >= 0", 0)
     count = (os.cpu_count() or 1) if processes is None else processes
     require_integer("--processes", count, "a whole number > 0", 1)
     with progress("points") as update:
         table = build_atlas(
-            output,
-            kept,
-            draws,
-            light_draws,
-            seed=seed,
-            processes=count,
-            scheduler=scheduler,
-            progress=update,
+            output, kept, draws, light_draws, seed=seed, processes=count, scheduler=scheduler, progress=update
         )
     write_json({"output": str(output), "work": str(kept), **table.metadata}, json_to)
     left_out = sum(table.metadata["left_out"].values())

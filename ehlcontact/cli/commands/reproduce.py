@@ -40,11 +40,10 @@ def reproduce(
 
     Run it again to resume: simulations that are finished in the folder are kept.
     """
-    from ehlcontact.cli.paper.figures import ELEMENTS_OF, FIGURES
-    from ehlcontact.cli.paper.fits import Fits
-    from ehlcontact.cli.paper.page import Reproduction, draw_figures, write_reproduction
-    from ehlcontact.cli.paper.runs import compute
-    from ehlcontact.cli.paper.tables import EXTRAPOLATED, TABLE_CASES, make_table
+    from ehlcontact.cli.paper.figures import FIGURES
+    from ehlcontact.cli.paper.page import reproduce as make
+    from ehlcontact.cli.paper.page import write_reproduction
+    from ehlcontact.cli.paper.tables import TABLE_CASES
 
     everything = not table and not figure
     tables = _chosen("--table", table, tuple(TABLE_CASES), everything)
@@ -55,19 +54,11 @@ def reproduce(
     check_json(json_to)
     prepare(output)
 
-    coarse = {case for number in tables if number in EXTRAPOLATED for case in TABLE_CASES[number]}
-    wanted = {case for number in tables for case in TABLE_CASES[number]}
-    wanted |= {case for number in figures for case in (*FIGURES[number].cases, *ELEMENTS_OF.get(number, ()))}
     try:
-        runs = compute(output, n, sorted(wanted), sorted(coarse), 2 in figures)
+        found = make(tables, figures, output, n)
     except KeyboardInterrupt:
         complain(f"interrupted; finished simulations are in {output}, the same command resumes")
         raise typer.Exit(FAILED) from None
-
-    fits = Fits(runs)
-    drawn, missing = draw_figures(figures, fits)
-    numbers = {shown.number: shown.numbers(fits) for shown in drawn}
-    found = Reproduction(fits, [make_table(number, fits) for number in tables], drawn, missing, numbers)
     page = write_reproduction(found, output / PAGE)
     write_json(found.to_dict(), str(output / DOCUMENT))
     write_json(found.to_dict(), json_to)

@@ -10,9 +10,10 @@ from typing import Any
 
 from ehlcontact.cli.page import write_page
 from ehlcontact.cli.paper.data import CITATION
-from ehlcontact.cli.paper.figures import FIGURES, PaperFigure
+from ehlcontact.cli.paper.figures import ELEMENTS_OF, FIGURES, PaperFigure
 from ehlcontact.cli.paper.fits import Fits
-from ehlcontact.cli.paper.tables import Table
+from ehlcontact.cli.paper.runs import compute
+from ehlcontact.cli.paper.tables import EXTRAPOLATED, TABLE_CASES, Table, make_table
 from ehlcontact.origin import __version__
 
 
@@ -51,17 +52,26 @@ class Reproduction:
         }
 
 
-def draw_figures(numbers: Sequence[int], fits: Fits) -> tuple[list[PaperFigure], dict[int, str]]:
-    """The figures whose simulations are there, and why others are not."""
-    drawn, missing = [], {}
-    for number in numbers:
-        figure = FIGURES[number]
-        absent = [case for case in figure.cases if fits.runs.of(case) is None]
+def reproduce(tables: Sequence[int], figures: Sequence[int], folder: Path, n: int) -> Reproduction:
+    """Simulate what these tables and figures need and `folder` does not hold yet, and make them.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        After Ctrl-C; what was finished is in the folder.
+    """
+    wanted = {case for number in tables for case in TABLE_CASES[number]}
+    wanted |= {case for number in figures for case in (*FIGURES[number].cases, *ELEMENTS_OF.get(number, ()))}
+    coarse = {case for number in tables if number in EXTRAPOLATED for case in TABLE_CASES[number]}
+    fits = Fits(compute(folder, n, sorted(wanted), sorted(coarse), 2 in figures))
+    missing = {}
+    for number in figures:
+        absent = [case for case in FIGURES[number].cases if (case, n) not in fits.runs.cases]
         if absent:
             missing[number] = "no simulation of case " + ", ".join(absent)
-        else:
-            drawn.append(figure)
-    return drawn, missing
+    drawn = [FIGURES[number] for number in figures if number not in missing]
+    numbers = {figure.number: figure.numbers(fits) for figure in drawn}
+    return Reproduction(fits, [make_table(number, fits) for number in tables], drawn, missing, numbers)
 
 
 def write_reproduction(found: Reproduction, path: Path) -> Path:

@@ -89,10 +89,6 @@ class Runs:
         """Intervals of the coarser and of the finer grid; both give the extrapolated values."""
         return self.n // 2, self.n
 
-    def of(self, case: str) -> SimulationResult | None:
-        """The case on the finer grid, None if it failed."""
-        return self.cases.get((case, self.n))
-
 
 def compute(folder: Path, n: int, names: Iterable[str], coarse: Iterable[str], static: bool) -> Runs:
     """Compute what is not in the folder yet.

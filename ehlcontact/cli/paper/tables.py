@@ -77,41 +77,44 @@ def _linear_table(number: int, fits: Fits) -> Table:
 _KEYS = ("K1", "K2", "K3", "C1", "root", "tangent")
 
 
+_CUBIC = ("case", "source", *_KEYS, "K1 95 %", "C1 95 %", "e_f", "e_acc", "rms", "condition")
+
+
+def _cubic_rows(number: int, case: str, fits: Fits) -> list[tuple[Cell, ...]]:
+    """The paper's row of a case, ours on both grids, and what they come to."""
+    blank: tuple[Cell, ...] = (None,) * (len(_CUBIC) - 2)
+    paper = paper_fits()[number, case]
+    theirs = _of_paper(paper)
+    rows: list[tuple[Cell, ...]] = [
+        (CASES[case].title, "paper", *theirs, None, None, paper.e_f, paper.e_second, None, None)
+    ]
+    levels = [fits.fit(case, "cubic", n) for n in fits.runs.levels]
+    for n, found in zip(fits.runs.levels, levels, strict=True):
+        if found is None:
+            why = fits.runs.failed.get(f"case {case}, n = {n}", "no fit")
+            rows.append(("", f"n = {n}: {why}", *blank))
+            continue
+        quality = (_interval(found, "K1"), _interval(found, "C1"), found.e_f, found.e_acc, found.rms)
+        rows.append(("", f"ours, n = {n}", *_of_fit(found), *quality, found.condition))
+    best = extrapolated(levels)
+    if best is not None:
+        values = tuple(best.get(key) for key in _KEYS)
+        deviation = tuple(
+            None if key.startswith("K") or mine is None or his is None else f"{100 * (mine / his - 1):+.2f} %"
+            for key, mine, his in zip(_KEYS, values, theirs, strict=True)
+        )
+        rest = blank[len(_KEYS) :]
+        rows.append(("", "extrapolated", *values, *rest))
+        rows.append(("", "extrapolated against paper", *deviation, *rest))
+    return rows
+
+
 def _cubic_table(number: int, fits: Fits) -> Table:
-    columns = ("case", "source", *_KEYS, "K1 95 %", "C1 95 %", "e_f", "e_acc", "rms", "condition")
-    blank: tuple[Cell, ...] = (None,) * (len(columns) - 2 - len(_KEYS))
-    rows: list[tuple[Cell, ...]] = []
-    for case in TABLE_CASES[number]:
-        paper = paper_fits()[number, case]
-        theirs = _of_paper(paper)
-        rows.append((CASES[case].title, "paper", *theirs, None, None, paper.e_f, paper.e_second, *blank[4:]))
-        levels = [fits.fit(case, "cubic", n) for n in fits.runs.levels]
-        for n, found in zip(fits.runs.levels, levels, strict=True):
-            if found is None:
-                rows.append(
-                    (
-                        "",
-                        f"n = {n}: {fits.runs.failed.get(f'case {case}, n = {n}', 'no fit')}",
-                        *((None,) * (len(columns) - 2)),
-                    )
-                )
-                continue
-            quality = (_interval(found, "K1"), _interval(found, "C1"), found.e_f, found.e_acc, found.rms)
-            rows.append(("", f"ours, n = {n}", *_of_fit(found), *quality, found.condition))
-        best = extrapolated(levels)
-        if best is not None:
-            values = tuple(best.get(key) for key in _KEYS)
-            rows.append(("", "extrapolated", *values, *blank))
-            deviation = tuple(
-                None if key.startswith("K") or mine is None or his is None else f"{100 * (mine / his - 1):+.2f} %"
-                for key, mine, his in zip(_KEYS, values, theirs, strict=True)
-            )
-            rows.append(("", "extrapolated against paper", *deviation, *blank))
     return Table(
         number,
         "Cubic spring and damper, " + {3: "free vibration", 5: "harmonic load", 6: "load ramp"}[number],
-        columns,
-        tuple(rows),
+        _CUBIC,
+        tuple(row for case in TABLE_CASES[number] for row in _cubic_rows(number, case, fits)),
         (
             "Compare root (approach under the static load), tangent (stiffness there) and C1: the single K are "
             "not identifiable from so small a motion, as their intervals and the condition number say.",
