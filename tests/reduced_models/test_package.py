@@ -13,7 +13,10 @@ ROOMS = sorted(path.parent.name for path in FOLDER.glob("*/__init__.py"))
 # What `ehlcontact` shows, and its ground floor.
 ALLOWED = {
     "ehlcontact",
-    *(f"ehlcontact.{name}" for name in ("checks", "errors", "files", "jit", "origin", "point")),
+    *(
+        f"ehlcontact.{name}"
+        for name in ("checks", "errors", "files", "formulas", "hertz", "jit", "origin", "point")
+    ),
 }
 
 
@@ -40,13 +43,13 @@ def test_the_table_lists_every_room():
     assert {path.name for path in FOLDER.glob("*.py")} == {"__init__.py"}
 
 
-@pytest.mark.parametrize("room", ["fitting", "rotor"])
+@pytest.mark.parametrize("room", ROOMS)
 def test_every_room_opens_with_a_table_of_its_files(room):
     files = {path.stem for path in (FOLDER / room).glob("*.py")} - {"__init__"}
     assert files == listed(importlib.import_module(f"reduced_models.{room}")) - {"module"}
 
 
-@pytest.mark.parametrize("room", ["fitting", "rotor"])
+@pytest.mark.parametrize("room", ROOMS)
 def test_only_public_names_of_ehlcontact_are_used(room):
     for path in (FOLDER / room).glob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

@@ -22,7 +22,7 @@ from reduced_models.atlas.work import WorkFile
 from reduced_models.elements.film_response import DRY
 
 DRAWS, LIGHT = 24, 24
-TESTS = Path(__file__).parents[1]
+TESTS = Path(__file__).parents[2]
 BUILD = f"""
 import sys
 from pathlib import Path

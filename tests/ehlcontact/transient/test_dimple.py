@@ -12,7 +12,7 @@ import pytest
 
 from ehlcontact import solve_steady
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "dimple.py"
+EXAMPLE = Path(__file__).parents[3] / "examples" / "dimple.py"
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""FastFourier: coefficients, both ways of summing them, and Hertz's pressure."""
+"""Deflection: coefficients, both ways of summing them, and Hertz's pressure."""
 
 import numpy as np
 import oracles

@@ -14,7 +14,7 @@ from reduced_models import ContactRecord, fit_memory
 
 POINT = MoesPoint(200, 10, 0.5)
 OMEGAS = np.concatenate([[0.0], np.geomspace(0.03, 60.0, 24)])
-EXAMPLE = Path(__file__).parents[2] / "examples" / "one_element_for_all.py"
+EXAMPLE = Path(__file__).parents[3] / "examples" / "one_element_for_all.py"
 
 
 @pytest.fixture(scope="module")
