@@ -1,40 +1,28 @@
 """Transient elastohydrodynamic (EHL) rolling point contacts.
 
-======================= ==================================================================================
-module                  responsibility
-======================= ==================================================================================
-``scaling``             inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
-``lubricant``           `Lubricant`: Roelands, Barus, Dowson-Higginson
-``hertz``               dry elliptic contact
-``domain``              `Domain`, the computed region
-``mesh``                `mesh_for`: region and grid from the film to be expected, and what to try after a failure
-``grid``                levels: work arrays, film, residual, relaxation
-``elastic, mlmi``       deflection: direct sum, fast transforms, multilevel multi-integration
-``newton``              semismooth Newton on the coarsest grid, closed by load or motion
-``multigrid``           full-approximation-scheme cycle and full multigrid
-``linear_film``         the linearised film as an operator
-``preconditioner``      its two-grid preconditioner
-``linear_solve``        its flexible Krylov solution
-``newton_krylov``       semismooth Newton on the finest grid
-``lowest_film``         the smallest film between the nodes
-``steady``              `solve_steady`
-``motion, table``       what drives a transient contact
-``transient``           implicit film steps
-``history``             what a simulation records
-``step_control``        error and length of a time step
-``stepping``            film and motion advanced together
-``checkpoint``          a run's file to go on from
-``simulate``            `simulate`
-``surface``             travelling features: `Dent`, `TransverseRidge`, `Waviness`
-``impedance``           `impedance`: K and C over frequency from the linearised steady state
-``full_contact``        `FullContact`: the whole film as a force element
-``film``                the film to look at: `film_of`, `interferogram`, `film_history`, `film_wave`
-``formulas``            published film and approach formulas, for comparison
-``results, status``     frozen results, how a solve ended
-``storage``             `save` and `load` (HDF5)
-``errors``              `InputError`, `ConvergenceError`
-``cli``                 the command line; stands above all packages
-======================= ==================================================================================
+============== ===========================================================================================
+room           responsibility
+============== ===========================================================================================
+``point``      inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
+``lubricant``  `Lubricant`; the laws of viscosity and density
+``hertz``      dry elliptic contact
+``formulas``   published film and approach formulas: grids are chosen from them, results compared with them
+``solver/``    one film at one instant: mesh, equations, multigrid, Newton
+``steady``     `solve_steady`
+``impedance``  `impedance`: K and C over frequency from the linearised steady state
+``transient/`` one film through time: motions, surfaces, `simulate`, `FullContact`
+``results``    frozen results of one instant; those of a run are in ``transient/``
+``origin``     where numbers come from: what all results have in common; the version
+``film``       the film to look at: maps, mid-planes, fringes, what the surfaces carry through
+``storage``    `save` and `load`
+``hdf5``       any dataclass in an HDF5 file
+``files``      files that are replaced in one move
+``checks``     checks of inputs
+``errors``     `InputError`, `ConvergenceError`
+``status``     how a solve or a run ended, with advice
+``jit``        the numba decorators of the library
+``cli/``       the command line; stands above all packages
+============== ===========================================================================================
 """
 
 from ehlcontact.errors import ConvergenceError, InputError

@@ -1,7 +1,19 @@
-"""One film at one instant.
+"""One film at one instant: its mesh, its equations, and the ways to solve them.
 
-| module | is responsible for |
-|---|---|
-| domain | `Domain`, the computed region |
-| mesh | `mesh_for`, `remedy`: which region and grid a film needs, what to try after a failure; all their numbers |
+=============== ==========================================================================================
+room            responsibility
+=============== ==========================================================================================
+``mesh``        `mesh_for`, `remedy`: which region and grid a film needs, what to try after a failure
+``domain``      `Domain`: the computed region
+``grid``        `Level`: the arrays of one mesh and the equations on it; a hierarchy of them
+``deflection/`` the elastic deflection: fast transforms, multi-integration, direct sum
+``kernels/``    the equations node by node, compiled: Reynolds residual, derivatives, relaxation, transfer
+``lowest_film`` the smallest film between the nodes
+``balance``     `Balance`: the equation that closes a solve: load, approach, or Newmark's step of the motion
+``coarse``      Newton with dense elasticity, on the coarsest grid
+``multigrid``   full-approximation-scheme cycle and full multigrid
+``linear``      the linearised film: operator, preconditioner, Krylov solution
+``newton``      one Newton step on the finest grid
+``iterate``     the only driver loop: cycles or Newton steps until settled; how they ended
+=============== ==========================================================================================
 """

@@ -1,19 +1,5 @@
 """The study behind ``ehlcontact run``: a bearing and its oil in, elements, FMU, rotor and report out.
 
-module           responsibility
-===============  =====================================================================================
-``schema``       the study file: what may stand in it, and errors in one line
-``stages``       the long computations, each a function of the study that leaves one file
-``worker``       one stage in its own process
-``runner``       stages side by side, with progress, resume and Ctrl-C
-``rotor``        rotor, contacts and the file of a rotor run
-``reduction``    fits, element files, FMU
-``comparison``   full against reduced rotor
-``results``      everything in numbers: ``results.json``
-``figures``      what the report shows
-``report``       ``report.html``
-===============  =====================================================================================
-=======
 =============  =====================================================================================
 module         responsibility
 =============  =====================================================================================

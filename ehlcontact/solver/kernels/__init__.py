@@ -1,1 +1,15 @@
-"""Compiled kernels: numba and numpy only, plain arrays in, results written in place."""
+"""Compiled kernels: numba and numpy only, plain arrays in, results written in place.
+
+============= ============================================================================================
+module        responsibility
+============= ============================================================================================
+``reynolds``  the discrete Reynolds equation: flow factor and its mean, operator, residual
+``linearise`` its derivatives; the dense Jacobian
+``relax``     hybrid line relaxation
+``boundary``  passes along the cavitation boundary
+``transfer``  from grid to grid
+``mlmi``      the direct sum of the deflection, and one coarsening of multi-integration
+============= ============================================================================================
+
+The laws of the oil that they call stand in `ehlcontact.lubricant`.
+"""
