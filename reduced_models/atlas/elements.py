@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from reduced_models.elements.film_curve import LEAST_EXPONENT
 from reduced_models.elements.film_response import FilterRates
 from reduced_models.elements.kinds import CubicContact, FilmMemoryContact, WideRangeContact
+from reduced_models.elements.memory import film_and_exponent
 
 _Floats = NDArray[np.float64]
 
@@ -47,8 +47,7 @@ def passive_gains(rates: FilterRates, gains: _Floats) -> _Floats:
 
 def memory_element(at: Loads, scales: Scales | None) -> FilmMemoryContact:
     """Film memory about one load: its film and how that thins with the load follow from approach and tangent."""
-    film = 1.0 - float(at.approach[0])
-    exponent = max((1.0 / float(at.tangent[0]) - 2.0 / 3.0) / film, LEAST_EXPONENT)
+    film, exponent = film_and_exponent(float(at.approach[0]), float(at.tangent[0]))
     low, high = (load ** (2.0 / 3.0) - film * load**-exponent for load in LOAD_BAND)
     force, length, time = _units(scales)
     return FilmMemoryContact(

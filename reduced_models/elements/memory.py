@@ -18,6 +18,15 @@ from reduced_models.elements.film_law import DIRECT
 _Floats = NDArray[np.float64]
 
 
+def film_and_exponent(approach: float, tangent: float) -> tuple[float, float]:
+    """Static film at load 1 and how it thins with the load, from approach and static tangent K_0 there.
+
+    1/K_0 = 2/3 + exponent film, the derivative of u = F^(2/3) - film F^-exponent; but at least `LEAST_EXPONENT`.
+    """
+    film = 1.0 - approach
+    return film, max((1.0 / tangent - 2.0 / 3.0) / film, LEAST_EXPONENT)
+
+
 @dataclass(frozen=True)
 class FilmMemoryContact(FilmContact):
     """Contact about one load, with the damping of every frequency: a dry spring on a film that remembers.

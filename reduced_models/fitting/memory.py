@@ -13,10 +13,9 @@ from scipy.optimize import least_squares
 from ehlcontact import Domain, ImpedanceResult, impedance
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
-from reduced_models.elements.film_curve import LEAST_EXPONENT
 from reduced_models.elements.film_law import film_drive
 from reduced_models.elements.film_response import WEIGHT_C, WEIGHT_K, FilterRates, GainFit, fit_gains
-from reduced_models.elements.memory import FilmMemoryContact
+from reduced_models.elements.memory import FilmMemoryContact, film_and_exponent
 from reduced_models.elements.validity import Validity
 from reduced_models.fitting.records import ContactRecord, as_records
 from reduced_models.fitting.result import MemoryFit, rms_error, sum_error, valid_of
@@ -106,9 +105,8 @@ class Target:
 
     @property
     def film(self) -> tuple[float, float]:
-        """Film at load 1 and its exponent, from approach and static tangent: 1/K_0 = 2/3 + exponent film."""
-        film = 1.0 - self.approach
-        return film, max((1.0 / float(self.stiffness[0]) - 2.0 / 3.0) / film, LEAST_EXPONENT)
+        """Film at load 1 and its exponent."""
+        return film_and_exponent(self.approach, float(self.stiffness[0]))
 
     @property
     def static(self) -> float:
