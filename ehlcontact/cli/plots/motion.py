@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from scipy.interpolate import RectBivariateSpline
+from scipy.interpolate import PchipInterpolator
 
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, RED, legend_above, new_figure
 from ehlcontact.cli.plots.units import units_of
@@ -121,7 +121,8 @@ def _wave(axes: Axes, run: SimulationResult) -> None:
     unit = units_of(run.scales).film
     wave = film_wave(run)
     T, X = np.linspace(wave.T[0], wave.T[-1], POINTS[0]), np.linspace(-WITHIN, WITHIN, POINTS[1])
-    change = unit(RectBivariateSpline(wave.T, wave.X, wave.change, kx=min(3, run.steps))(T, X))
+    # shape-preserving: a spline would ring beside the constriction
+    change = unit(PchipInterpolator(wave.X, PchipInterpolator(wave.T, wave.change)(T), axis=1)(X))
     largest = float(np.percentile(np.abs(change[:, np.abs(X) < CARRIED]), 99.0)) or 1.0
     colours: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -largest, "vmax": largest, "interpolation": "bilinear"}
     extent = (T[0], T[-1], X[0], X[-1])
