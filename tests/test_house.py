@@ -1,6 +1,7 @@
 """Rules of the house that no linter knows: size of files, docstrings, silence, the wheel, light imports."""
 
 import ast
+import re
 import subprocess
 import sys
 import tomllib
@@ -13,7 +14,8 @@ ROOT = Path(__file__).parents[1]
 PACKAGES = ("ehlcontact", "reduced_models", "fmu")
 SOURCES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
 NAMES = [str(path.relative_to(ROOT)) for path in SOURCES]
-LONGEST = 400
+FOLDERS = sorted({str(Path(name).parent) for name in NAMES})
+LONGEST, MOST_ENTRIES = 400, 21
 
 
 def test_all_packages_were_found():
@@ -43,6 +45,22 @@ def test_everything_public_is_described(name):
     assert ast.get_docstring(tree), "module"
     missing = [what for what, node in public(tree) if not ast.get_docstring(node)]
     assert missing == []
+
+
+@pytest.mark.parametrize("folder", FOLDERS)
+def test_every_folder_opens_with_a_table_of_its_rooms(folder):
+    table = ast.get_docstring(ast.parse((ROOT / folder / "__init__.py").read_text(encoding="utf-8")))
+    rows = re.findall(r"^(?:\| ([\w/]+) \||``([\w/]+)`` )", table, flags=re.M)
+    listed = {(first or second).rstrip("/") for first, second in rows} - {"module", "room"}
+    entries = {path.stem for path in (ROOT / folder).glob("*.py")} - {"__init__", "__main__"}
+    entries |= {Path(inner).name for inner in FOLDERS if str(Path(inner).parent) == folder}
+    assert listed - {"csrc"} == entries
+
+
+@pytest.mark.parametrize("folder", FOLDERS)
+def test_folder_is_one_room(folder):
+    entries = [path.name for path in (ROOT / folder).iterdir() if path.name != "__pycache__"]
+    assert len(entries) <= MOST_ENTRIES
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if not name.startswith("ehlcontact/cli/")])

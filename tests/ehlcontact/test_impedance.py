@@ -86,7 +86,9 @@ def test_fine_grid_is_within_reach(steady):
 
 def test_tells_the_film_that_was_linearised(steady):
     film, result = steady(200, 10, 0.5, 48), impedance(POINT, [0.0], n=48)
-    assert (result.approach, result.h_central, result.h_min) == (film.approach, film.h_central, film.h_min)
+    told = result.approach, result.h_central, result.h_min
+    # to rounding: impedance keeps BLAS on one thread, and LU factors of several round differently
+    assert told == pytest.approx((film.approach, film.h_central, film.h_min), rel=1e-8)
 
 
 def test_static_stiffness_is_the_slope_of_the_load_curve():
