@@ -92,7 +92,7 @@ def hertz_contact(load: float, radius_x: float, radius_y: float, e_reduced: floa
     kappa = ellipse_ratio(radius_x, radius_y)
     K, E = elliptic_integrals(kappa)
     R = 1.0 / (1.0 / radius_x + 1.0 / radius_y)
-    # E belongs to 1 - kappa^2, so b^3 = 6 E R f/(pi kappa^2 ... ) takes this form for any kappa.
+    # b^3 = 6 E f R/(pi kappa^2 E') with E of 1 - kappa^2: in a it holds for kappa above 1 too.
     a = (6.0 * kappa * E * load * R / (pi * e_reduced)) ** (1.0 / 3.0)
     b = a / kappa
     return HertzContact(a, b, 1.5 * load / (pi * a * b), a * a * K / (2.0 * R * E), kappa)

@@ -91,7 +91,8 @@ def density(P, law):
     """Density at P = p/p_h over ambient density, Dowson-Higginson or 1, and its derivative."""
     if law.compressible:
         inverse = 1.0 / (law.d + P)
-        return (law.d + 1.34 * P) * inverse, 0.34 * law.d * inverse * inverse
+        # 0.34 = C2 - 1, written out because the difference would be rounded
+        return (law.d + DOWSON_HIGGINSON_C2 * P) * inverse, 0.34 * law.d * inverse * inverse
     return 1.0, 0.0
 
 

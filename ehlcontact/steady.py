@@ -32,6 +32,7 @@ from ehlcontact.status import Status
 
 LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7
+MAX_CYCLES = 80  # of V cycles: films of the box take up to 34
 
 
 class Method(NamedTuple):
@@ -56,7 +57,7 @@ def solve_steady(
     domain: Domain | None = None,
     approach: float | None = None,
     tol: float = 3e-5,
-    max_cycles: int = 80,
+    max_cycles: int = MAX_CYCLES,
     method: str = "automatic",
     deflection: str = "fft",
     throw: bool = True,

@@ -69,6 +69,21 @@ def check_folder(field: str, folder: Path, named: str | None = None) -> None:
         raise InputError(field, named or str(folder), allowed) from None
 
 
+def prepare_folder(folder: Path) -> None:
+    """Make the folder and be sure that it can be written to.
+
+    Raises
+    ------
+    InputError
+        It cannot.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError("--output", str(folder), f"a folder that can be written to ({error.strerror})") from None
+    check_folder("--output", folder)
+
+
 def check_json(path: str | None) -> None:
     """The same for the target of ``--json``."""
     if path not in (None, STDOUT):

@@ -9,14 +9,15 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg
 
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.grid import Array, Level
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
+from ehlcontact.solver.level import Array, Level
 
 Nodes = NDArray[np.intp]
 
@@ -36,6 +37,22 @@ class Factors:
     lu: tuple[Array, NDArray[np.int32]]  # of LAPACK
     free: Nodes
     equation: tuple[float, float, float]  # time coefficient, balance stiffness and weight
+
+
+def coefficients(level: Level, c_t: complex) -> tuple[Any, Any]:
+    """Derivatives to pressure and film at the level's P, H and eps, both (6, ny + 1, nx + 1).
+
+    They are linear in the time coefficient `c_t`, so an imaginary one, i times an angular frequency, is as good.
+    For a real one they are the level's work arrays.
+    """
+    if isinstance(c_t, complex):
+        steady = [field.copy() for field in coefficients(level, 0.0)]
+        unit = coefficients(level, 1.0)
+        p_coef, h_coef = (a + c_t * (b - a) for a, b in zip(steady, unit, strict=True))
+        return p_coef, h_coef
+    f = level.fields
+    linearise(f.P, f.flow, level.stencil, c_t, 1.0, f.p_coef, f.h_coef)
+    return f.p_coef, f.h_coef
 
 
 def bordered_lu(
@@ -121,9 +138,8 @@ class CoarseNewton:
 
     def _factorise(self, free: Nodes, balance: Balance) -> Factors:
         """LU factors of the Jacobian over the free nodes, bordered by u and its balance."""
-        level, f = self.level, self.level.fields
-        linearise(f.P, f.flow, level.stencil, level.c_t, 1.0, f.p_coef, f.h_coef)
-        lu = bordered_lu(level, free, (f.p_coef, f.h_coef), balance)
+        level = self.level
+        lu = bordered_lu(level, free, coefficients(level, level.c_t), balance)
         return Factors(lu, free, (level.c_t, balance.stiffness, balance.weight))
 
     def _direction(self, factors: Factors, free: Nodes, balance: Balance, u: float) -> tuple[Array, float, float]:

@@ -12,7 +12,7 @@ from math import inf, isfinite
 from typing import NamedTuple
 
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.grid import Level
+from ehlcontact.solver.level import Level
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 

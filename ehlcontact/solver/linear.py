@@ -29,10 +29,10 @@ from scipy import linalg, sparse
 from scipy.sparse.linalg import LinearOperator, gcrotmk, splu
 
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.coarse import BALANCE_WEIGHT, bordered_lu
-from ehlcontact.solver.grid import Array, Level
-from ehlcontact.solver.kernels.linearise import NEIGHBOURS, linearise, neighbour
+from ehlcontact.solver.coarse import BALANCE_WEIGHT, bordered_lu, coefficients
+from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
 from ehlcontact.solver.kernels.relax import SHARE
+from ehlcontact.solver.level import Array, Level
 
 Mask = NDArray[np.bool_]
 Offsets = Sequence[tuple[int, int]]
@@ -74,22 +74,6 @@ def stencil_matrix(offsets: Offsets, coefficients: Array, shape: tuple[int, int]
         values.append(np.broadcast_to(field, shape)[inside])
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
     return sparse.csr_matrix(entries, shape=(node.size, node.size))
-
-
-def coefficients(level: Level, c_t: complex) -> tuple[Any, Any]:
-    """Derivatives to pressure and film at the level's P, H and eps, both (6, ny + 1, nx + 1).
-
-    They are linear in the time coefficient `c_t`, so an imaginary one, i times an angular frequency, is as good.
-    For a real one they are the level's work arrays.
-    """
-    if isinstance(c_t, complex):
-        steady = [field.copy() for field in coefficients(level, 0.0)]
-        unit = coefficients(level, 1.0)
-        p_coef, h_coef = (a + c_t * (b - a) for a, b in zip(steady, unit, strict=True))
-        return p_coef, h_coef
-    f = level.fields
-    linearise(f.P, f.flow, level.stencil, c_t, 1.0, f.p_coef, f.h_coef)
-    return f.p_coef, f.h_coef
 
 
 class LinearFilm:

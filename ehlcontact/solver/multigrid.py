@@ -16,8 +16,8 @@ from scipy.interpolate import RectBivariateSpline
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse import CoarseNewton
-from ehlcontact.solver.grid import Level, build_hierarchy
 from ehlcontact.solver.kernels import transfer
+from ehlcontact.solver.level import Level, build_hierarchy
 from ehlcontact.solver.mesh import Mesh, coarsest_intervals, resolved_load
 
 PRE_SWEEPS, POST_SWEEPS = 2, 1

@@ -1,15 +1,13 @@
 """Semismooth Newton on the finest grid: the equations of the multigrid cycle, linearised all at once.
 
 Unknowns are the pressures of the free nodes and the approach u. Complementarity P >= 0 by the primal-dual
-active set of `coarse`; the linear systems by `linear`, with factors that are kept over steps and solves
-while they serve. One relaxation sweep follows every Newton step: it settles the cavitation boundary, where a
+active set of `coarse`; the linear systems by `linear`, with factors that are kept over steps while
+they serve. One relaxation sweep follows every Newton step: it settles the cavitation boundary, where a
 frozen active set would swing to and fro, and the steep flanks of the pressure, where the flow factor is far
 from linear.
 """
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,15 +18,6 @@ from ehlcontact.solver.multigrid import Multigrid
 
 FORCING = 0.02  # to which a Newton step reduces its linear residual
 WORN_OUT = 12  # Krylov iterations of one step after which the factors are renewed; fresh ones take 3 to 6
-LARGEST_CHANGE = 2.0  # of the time coefficient, beyond which they are renewed
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Prepared:
-    """A preconditioner and what it was made for."""
-
-    preconditioner: Preconditioner
-    c_t: float
 
 
 class NewtonKrylov:
@@ -39,7 +28,7 @@ class NewtonKrylov:
 
     def __init__(self, multigrid: Multigrid) -> None:
         self.multigrid = multigrid
-        self.prepared: Prepared | None = None
+        self._preconditioner: Preconditioner | None = None
 
     def step(self, balance: Balance) -> None:
         """One Newton step and one relaxation sweep; state of the multigrid written, as by `Multigrid.cycle`."""
@@ -50,12 +39,11 @@ class NewtonKrylov:
         b = system.right_hand_side(r, balance.residual(mg.u, level.force()))
         if not np.isfinite(b).all():
             return  # the driver finds the same residual, and reports it
-        prepared = self.prepared
-        if prepared is None or not _alike(prepared.c_t, level.c_t):
-            prepared = self.prepared = Prepared(Preconditioner(mg.levels, system), level.c_t)
-        solution = solve_linear(system, prepared.preconditioner, b, FORCING)
+        if self._preconditioner is None:
+            self._preconditioner = Preconditioner(mg.levels, system)
+        solution = solve_linear(system, self._preconditioner, b, FORCING)
         if solution.iterations > WORN_OUT:
-            self.prepared = None
+            self._preconditioner = None
         dP = solution.x[:-1].reshape(level.P.shape)
         damping = step_length(dP, float(solution.x[-1]), mg.u)
         level.P[...] = np.maximum(level.P + damping * dP, 0.0)
@@ -63,7 +51,3 @@ class NewtonKrylov:
         level.update(mg.u)
         level.relax()
         level.update(mg.u)
-
-
-def _alike(a: float, b: float) -> bool:
-    return max(a, b) <= LARGEST_CHANGE * min(a, b)

@@ -17,5 +17,5 @@ module           responsibility
 ``full_contact`` `FullContact`: the whole film as a force element
 ================ ==========================================================================================
 
-From top to bottom each imports only what stands above it. The names above are public in `ehlcontact`.
+From top to bottom each imports only what stands above it. What users need of it is public in `ehlcontact`.
 """

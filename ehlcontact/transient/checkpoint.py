@@ -21,7 +21,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.grid import Level
+from ehlcontact.solver.level import Level
 from ehlcontact.transient.film import FilmState
 from ehlcontact.transient.record import Array, Record
 from ehlcontact.transient.run import Run

@@ -13,8 +13,8 @@ import numpy as np
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse import Factors
-from ehlcontact.solver.grid import Array, Level
 from ehlcontact.solver.iterate import Goal, Track, iterate
+from ehlcontact.solver.level import Array, Level
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.solver.grid import Level
+from ehlcontact.solver.level import Level
 from ehlcontact.status import Status
 from ehlcontact.transient.film import Step, TransientFilm
 from ehlcontact.transient.motion import MotionState

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from math import ceil
 
@@ -76,7 +76,7 @@ class RunSettings:
         mesh: Mesh,
         motion: Motion,
         steps: TimeSteps,
-        snapshots: Sequence[float],
+        snapshots: Iterable[float],
         deflection: str = "fft",
     ) -> RunSettings:
         """The same, with snapshots and engine checked.
@@ -89,7 +89,8 @@ class RunSettings:
         require_choice("deflection", deflection, tuple(ENGINES))
         if not isinstance(snapshots, Iterable):
             raise InputError("snapshots", snapshots, "a list of times")
-        for T in snapshots:
+        times = tuple(snapshots)
+        for T in times:
             if not require_nonnegative("snapshots", T) <= steps.until * (1.0 + 1e-9):
                 raise InputError("snapshots", T, f"at most until = {steps.until!r}")
-        return cls(point, mesh, motion, steps, tuple(snapshots), deflection)
+        return cls(point, mesh, motion, steps, times, deflection)

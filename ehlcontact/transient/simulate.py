@@ -115,6 +115,7 @@ def simulate(
         earlier.check(settings, surface, film.level, restart)
         started -= earlier.seconds
         steps = replace(steps, dT=earlier.settings.steps.dT)  # by rounding it may be another
+        settings = replace(settings, steps=steps)
     keeper = Keeper(checkpoint, checkpoint_every, settings, started)
 
     def watch(run: Run) -> None:
@@ -124,10 +125,10 @@ def simulate(
 
     if earlier is None:
         control = None if error is None else StepControl(error, steps.dT)
-        run = Run(film, motion, surface, History(snapshots), control, watch)
+        run = Run(film, motion, surface, History(settings.snapshots), control, watch)
         end = RunEnd(run.start())
     else:
-        run = Run(film, motion, surface, History.of(earlier.record, snapshots), earlier.control, watch)
+        run = Run(film, motion, surface, History.of(earlier.record, settings.snapshots), earlier.control, watch)
         run.resume(earlier.film, earlier.scale, earlier.static_approach)
         end = RunEnd(Status.CONVERGED)
     if end.status.ok:

@@ -1,6 +1,7 @@
 """Building the atlas: sample points solved once, kept in a work file that survives a kill, and made a table.
 
-The numbers by which that is done stand here, go into the file of the atlas, and are read from there.
+The numbers by which that is done stand here and, those of the interpolation and of other oils, in `table`; they go
+into the file of the atlas and are read from there.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ class FilmMemoryContact(FilmContact):
     film : float
         Static film at the reference load, 1 minus the static approach; > 0.
     exponent : float
-        How it thins with the load; at least 0.02.
+        How it thins with the load; at least `film_curve.LEAST_EXPONENT`.
     squeeze : float
         beta of phi, >= 0: film that a vibrating inlet makes on average.
     lag_rate, inlet_rate, fast_rate : float

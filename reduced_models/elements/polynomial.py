@@ -162,7 +162,7 @@ class PolynomialContact(_PolynomialContact):
         Raises
         ------
         InputError
-            No damper acts there.
+            No damper acts there, or none of its rates makes up for the force.
         """
         v = super().rate_at(approach, force)
 
@@ -172,6 +172,8 @@ class PolynomialContact(_PolynomialContact):
         width = abs(v) if v != 0.0 else 1e-9
         while excess(v - width) * excess(v + width) > 0.0:
             width *= 2.0
+            if not math.isfinite(width):
+                raise InputError(f"force at approach {approach:g}", force, "one that some rate gives")
         return float(brentq(excess, v - width, v + width, xtol=1e-300, rtol=1e-14))
 
     def _law(self) -> PolynomialLaw:

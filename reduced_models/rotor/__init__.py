@@ -1,4 +1,4 @@
-"""A rotor, or a single mass, on contacts: full films or elements, in SI.
+"""A rotor on contacts, full films or elements, in SI; a single mass on one element, in its units.
 
 | module | is responsible for |
 |---|---|

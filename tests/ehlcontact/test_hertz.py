@@ -63,7 +63,7 @@ def test_against_the_oracle(ratio):
 
 @pytest.mark.literature
 def test_kappa_half():
-    """anchors: kappa = 0.5 has K = 2.15652, E = 1.21106, Rx/Ry = 0.35177, S = 0.4155."""
+    """By tables of elliptic integrals: kappa = 0.5 has K = 2.15652, E = 1.21106, Rx/Ry = 0.35177, S = 0.4155."""
     assert elliptic_integrals(0.5) == pytest.approx((2.15652, 1.21106), abs=6e-6)
     assert radius_ratio(0.5) == pytest.approx(0.35177, abs=6e-6)
     assert shape_factor(0.5) == pytest.approx(0.4155, abs=1e-4)

@@ -16,7 +16,7 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.solver.grid import Level
+from ehlcontact.solver.level import Level
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.transient.film import TransientFilm
 from ehlcontact.transient.record import History

@@ -25,7 +25,7 @@ def operating_point():
     ("kappa", "lam", "alpha_bar"), [(1.0, 0.009387, 21.31), (0.5, 0.015627, 15.4917)], ids=["circle", "half"]
 )
 def test_anchored_values(kappa, lam, alpha_bar):
-    """M = 200, L = 10: values re-derived independently (anchors/ehl.md section 1)."""
+    """M = 200, L = 10: values re-derived independently by hand."""
     point = MoesPoint(200, 10, kappa)
     assert point.lam == pytest.approx(lam, rel=2e-4)
     assert point.alpha_bar == pytest.approx(alpha_bar, rel=2e-4)
@@ -42,7 +42,7 @@ def test_circular_formulas(M, L):
 
 @pytest.mark.parametrize("kappa", [0.1, 0.5, 2.0])
 def test_published_elliptic_formulas(kappa):
-    """The long forms of anchors/ehl.md section 1, with Rx/Ry and elliptic integrals."""
+    """The long forms of the paper, with Rx/Ry and elliptic integrals."""
     M, L = 321.0, 7.0
     K, E = oracles.agm_integrals(kappa)
     ratio = (K - E) / (E / kappa**2 - K)

@@ -16,7 +16,7 @@ from ehlcontact import (
     Status,
     solve_steady,
 )
-from ehlcontact.solver.grid import build_hierarchy
+from ehlcontact.solver.level import build_hierarchy
 from ehlcontact.solver.mesh import Mesh, coarsest_intervals
 
 POINT = MoesPoint(200, 10, 0.5)

@@ -18,7 +18,7 @@ def register(app: typer.Typer) -> None:
 
 
 def export(
-    file: Annotated[Path, typer.Argument(metavar="ELEMENT.json", help="Element saved by `ehlcontact fit`.")],
+    file: Annotated[Path, typer.Argument(metavar="ELEMENT.json", help="Element saved by `fit` or `element`.")],
     output: Annotated[Path, typer.Option("--output", "-o", metavar="X.fmu", help="FMU to write.")],
     fmi: Annotated[int, typer.Option("--fmi", help="FMI version; 2 is built.")] = 2,
     name: Annotated[str | None, typer.Option("--name", help="Model name.")] = None,

@@ -8,8 +8,7 @@ from typing import Annotated
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.commands.run import prepare
-from ehlcontact.cli.output import FAILED, check_json, complain, say, write_json
+from ehlcontact.cli.output import FAILED, check_json, complain, prepare_folder, say, write_json
 from ehlcontact.errors import InputError
 from ehlcontact.solver.domain import check_intervals
 
@@ -52,7 +51,7 @@ def reproduce(
     if n % SMALLEST:
         raise InputError("n", n, "a multiple of 32 (half of it is computed too, to extrapolate)")
     check_json(json_to)
-    prepare(output)
+    prepare_folder(output)
 
     try:
         found = make(tables, figures, output, n)

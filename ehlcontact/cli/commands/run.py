@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, check_folder, check_json, complain, say, write_json
-from ehlcontact.errors import InputError
+from ehlcontact.cli.output import FAILED, check_json, complain, prepare_folder, say, write_json
 from ehlcontact.files import write_text
 from ehlcontact.status import Status
 
@@ -43,7 +42,7 @@ def run(
     study = load_study(study_file)
     folder = output if output is not None else Path("results") / study_file.stem
     check_json(json_to)
-    prepare(folder)
+    prepare_folder(folder)
     copy = folder / STUDY_COPY
     if not copy.exists() or not copy.samefile(study_file):
         write_text(copy, study_file.read_text(encoding="utf-8"), "file")
@@ -78,18 +77,3 @@ def _compute(study: Study, copy: Path, folder: Path, jobs: int, json_to: str | N
     if not found.fmu["passes"]:
         complain(f"contact.fmu: {found.fmu.get('error') or 'differs from the element'}; the rest is in {folder}")
         raise typer.Exit(FAILED)
-
-
-def prepare(folder: Path) -> None:
-    """Make the folder and be sure that it can be written to.
-
-    Raises
-    ------
-    InputError
-        It cannot.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError("--output", str(folder), f"a folder that can be written to ({error.strerror})") from None
-    check_folder("--output", folder)

@@ -121,7 +121,7 @@ class Findings:
                 f"every band."
             )
         wrong = self.reduction.fits.get(("harmonic", "cubic"))
-        if wrong is not None:
+        if wrong is not None and wrong.parameters["C1"] > 0.0:
             ratio = found.parameters["C1"] / wrong.parameters["C1"]
             lesson += (
                 f" Fitted at Omega = {s.harmonic.omega:.3g}, the contact's own band, the cubic has a damping "

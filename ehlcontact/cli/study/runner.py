@@ -58,7 +58,10 @@ class _Worker:
     def _read(self, events: queue.Queue) -> None:
         assert self.process.stdout is not None
         for line in self.process.stdout:
-            event = json.loads(line)
+            try:
+                event = json.loads(line)
+            except ValueError:  # a library said something there: not ours to read
+                continue
             if "status" in event:
                 self.last = event
             else:

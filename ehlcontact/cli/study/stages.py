@@ -13,7 +13,6 @@ from ehlcontact.status import Status
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
 
 Update = Callable[[float, float], None]  # done, total
-STEADY_CYCLES = 40
 
 
 class Outcome(NamedTuple):
@@ -71,15 +70,14 @@ def _store_rotor(result: Any, path: Path) -> None:
 
 
 def _steady(study: Study, update: Update) -> Any:
-    from ehlcontact.steady import solve_steady
+    from ehlcontact.steady import MAX_CYCLES, solve_steady
 
     return solve_steady(
         study.point,
         n=study.solver.n,
         domain=study.domain,
-        max_cycles=STEADY_CYCLES,
         throw=False,
-        callback=lambda cycle, residual: update(cycle, STEADY_CYCLES),
+        callback=lambda cycle, residual: update(cycle, MAX_CYCLES),
     )
 
 

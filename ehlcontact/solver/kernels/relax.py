@@ -25,7 +25,7 @@ SWITCH = 3.0  # eps/hx^2 at which theta = 1/2 in steady flow (Venner and Lubrech
 CAUTIOUS_SWITCH, CAUTIOUS_DAMPING = 5.0, 0.3  # where eps/hx^2 is near the switch all over the contact, as in very
 # thin films of isoviscous oil: factor of the switch, and share by which distributed changes are cut
 SQUEEZE = 10.0  # how much more the squeeze term raises it than the wedge term
-FLOW_SLOPE = 0.75  # share of the derivatives of eps; see below
+FLOW_SLOPE = 0.75  # share of the derivatives of eps; see above
 LARGEST_CHANGE = 0.15  # of P in one sweep; far from the solution the linear model overshoots
 
 

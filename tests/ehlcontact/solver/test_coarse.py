@@ -6,7 +6,7 @@ import pytest
 from ehlcontact import Domain, MoesPoint
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse import CoarseNewton
-from ehlcontact.solver.grid import Level
+from ehlcontact.solver.level import Level
 from ehlcontact.solver.multigrid import initial_approach
 
 

@@ -7,7 +7,7 @@ import pytest
 from ehlcontact import Domain, MoesPoint
 from ehlcontact.solver.deflection.coefficients import influence_coefficients
 from ehlcontact.solver.deflection.fft import FastFourier, FastTransforms, MatrixTransforms
-from ehlcontact.solver.grid import Level
+from ehlcontact.solver.level import Level
 
 
 @pytest.mark.parametrize("kappa", [0.08, 0.5, 1.0, 3.0])

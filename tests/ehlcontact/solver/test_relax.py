@@ -5,9 +5,9 @@ import oracles
 import pytest
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact.solver.grid import Level
 from ehlcontact.solver.kernels import relax
 from ehlcontact.solver.kernels.linearise import linearise, neighbour
+from ehlcontact.solver.level import Level
 
 LOWER, UPPER, NEAR, SHARE = relax.BAND_LOWER, relax.BAND_UPPER, relax.NEAR, relax.SHARE
 

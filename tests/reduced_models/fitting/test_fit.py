@@ -11,7 +11,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
 from reduced_models import ContactRecord, CubicContact, fit
 
-# Nonato and Cavalca (2010): coefficients, and the root and tangent that design.md computes from them.
+# Nonato and Cavalca (2010): coefficients, and the root and tangent that follow from them.
 TABLES = [
     ((1.552, -1.414, 1.093, 0.011), 0.8702, 1.574),
     ((0.806, 0.346, 0.054, 0.013), 0.8709, 1.532),

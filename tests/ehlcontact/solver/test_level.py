@@ -7,7 +7,7 @@ import oracles
 import pytest
 
 from ehlcontact import Domain, MoesPoint
-from ehlcontact.solver.grid import Level, build_hierarchy
+from ehlcontact.solver.level import Level, build_hierarchy
 from ehlcontact.solver.mesh import Mesh
 
 
