@@ -82,7 +82,8 @@ def simulate(
         Seconds between checkpoints.
     restart : path, optional
         Checkpoint to go on from. The other arguments must be those of its run (`until` may be later, if the step
-        still divides it); the record then equals that of an uninterrupted run bit for bit.
+        still divides it); the record then equals that of an uninterrupted run bit for bit, where BLAS has one
+        thread (with more, LU factors round differently from run to run).
 
     Returns
     -------
