@@ -4,7 +4,7 @@
 room           responsibility
 ============== ===========================================================================================
 ``point``      inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
-``lubricant``  `Lubricant`; the laws of viscosity and density
+``lubricant/`` `Lubricant`, from its numbers or its grade; the laws of viscosity and density
 ``hertz``      dry elliptic contact
 ``formulas``   published film and approach formulas: grids are chosen from them, results compared with them
 ``solver/``    one film at one instant: mesh, equations, multigrid, Newton
