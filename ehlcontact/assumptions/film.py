@@ -30,8 +30,8 @@ def isothermal(contact: Contact, slope: float, conductivity: float) -> Assumptio
         value, other = gupta_heating(load, s.pressure / modulus), wilson_heating(load)
         details |= {"thermal_load": load, "wilson": other}
         verdict = (
-            f"shear heats the inlet, which takes {_percent(1.0 - value)} off the film "
-            f"({_percent(1.0 - other)} by Wilson and Sheu)"
+            f"shear heats the inlet, which takes {_percent(1.0 - value)} off the film, "
+            f"{_percent(1.0 - other)} by Wilson and Sheu"
         )
     return Assumption(
         name="isothermal",
@@ -63,8 +63,8 @@ def newtonian(contact: Contact) -> Assumption:
         details |= {"stress": stress, "slide_roll_limit": sliding}
         thinned = f"a slide-roll ratio above {sliding:.2g}" if sliding < LARGEST_SLIDE_ROLL else "no sliding"
         verdict = (
-            f"rolling shears the inlet by {stress * 1e-6:.2g} MPa; {thinned} would thin the film "
-            "(traction, not computed here, is another matter)"
+            f"rolling shears the inlet by {stress * 1e-6:.2g} MPa; {thinned} would thin the film; "
+            "traction, not computed here, is another matter"
         )
     return Assumption(
         name="newtonian",

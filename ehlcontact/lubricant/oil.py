@@ -39,6 +39,7 @@ ALPHA_SCATTER = 0.20
 
 # -d ln(eta)/dT over ln(nu + 0.7), 1/K: within 15 % of ASTM D341 for VG 22 to 220 at 40 to 80 C
 TYPICAL_SLOPE = 0.0112
+LEAST_SLOPE = 0.01  # 1/K, where that formula ends: of liquids thinner than any oil, water has 0.02 and hexane 0.01
 TYPICAL_DENSITY = 860.0  # kg/m3, of a warm mineral oil: only to tell nu from eta0 in that slope
 
 
@@ -98,7 +99,7 @@ def viscosity_at_100(nu_40: float, index: float) -> float:
 
 def typical_temperature_slope(eta0: float) -> float:
     """-d ln(eta)/dT [1/K] of a mineral oil of which only the viscosity [Pa s] is known; within some 15 %."""
-    return TYPICAL_SLOPE * log(eta0 / TYPICAL_DENSITY * 1e6 + WALTHER_SHIFT)
+    return max(TYPICAL_SLOPE * log(eta0 / TYPICAL_DENSITY * 1e6 + WALTHER_SHIFT), LEAST_SLOPE)
 
 
 @dataclass(frozen=True, slots=True)
