@@ -1,30 +1,32 @@
 """Transient elastohydrodynamic (EHL) rolling point contacts.
 
-============== ===========================================================================================
-room           responsibility
-============== ===========================================================================================
-``point``      inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
-``lubricant``  `Lubricant`; the laws of viscosity and density
-``hertz``      dry elliptic contact
-``formulas``   published film and approach formulas: grids are chosen from them, results compared with them
-``solver/``    one film at one instant: mesh, equations, multigrid, Newton
-``steady``     `solve_steady`
-``impedance``  `impedance`: K and C over frequency from the linearised steady state
-``transient/`` one film through time: motions, surfaces, `simulate`, `FullContact`
-``results``    frozen results of one instant; those of a run are in ``transient/``
-``origin``     where numbers come from: what all results have in common; the version
-``film``       the film to look at: maps, mid-planes, fringes, what the surfaces carry through
-``storage``    `save` and `load`
-``hdf5``       any dataclass in an HDF5 file
-``files``      files that are replaced in one move
-``checks``     checks of inputs
-``errors``     `InputError`, `ConvergenceError`
-``status``     how a solve or a run ended, with advice
-``jit``        the numba decorators of the library
-``cli/``       the command line; stands above all packages
-============== ===========================================================================================
+================ ===========================================================================================
+room             responsibility
+================ ===========================================================================================
+``point``        inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
+``lubricant/``   `Lubricant`, from its numbers or its grade; the laws of viscosity and density
+``hertz``        dry elliptic contact
+``formulas``     published film and approach formulas: grids are chosen from them, results compared with them
+``solver/``      one film at one instant: mesh, equations, multigrid, Newton
+``steady``       `solve_steady`
+``impedance``    `impedance`: K and C over frequency from the linearised steady state
+``transient/``   one film through time: motions, surfaces, `simulate`, `FullContact`
+``assumptions/`` what every solve assumes, and the numbers that tell when it matters
+``results``      frozen results of one instant; those of a run are in ``transient/``
+``origin``       where numbers come from: what all results have in common; the version
+``film``         the film to look at: maps, mid-planes, fringes, what the surfaces carry through
+``storage``      `save` and `load`
+``hdf5``         any dataclass in an HDF5 file
+``files``        files that are replaced in one move
+``checks``       checks of inputs
+``errors``       `InputError`, `ConvergenceError`
+``status``       how a solve or a run ended, with advice
+``jit``          the numba decorators of the library
+``cli/``         the command line; stands above all packages
+================ ===========================================================================================
 """
 
+from ehlcontact.assumptions import Assumption, Assumptions, assumptions
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.film import (
     Film,
@@ -56,6 +58,8 @@ from ehlcontact.transient.simulate import simulate
 from ehlcontact.transient.surface import Dent, TransverseRidge, Waviness
 
 __all__ = [
+    "Assumption",
+    "Assumptions",
     "ConvergenceError",
     "Dent",
     "Domain",
@@ -86,6 +90,7 @@ __all__ = [
     "WaveTrack",
     "Waviness",
     "__version__",
+    "assumptions",
     "film_history",
     "film_of",
     "film_wave",

@@ -1,8 +1,8 @@
-"""Published fits for film and approach.
+"""Published fits for film and approach, and for what takes from a film.
 
 Regions and grids are chosen from them (`solver.mesh`, through the properties of a `MoesPoint`), the atlas
-interpolates what its contacts have over them, and tests compare; what a solver converges to on its grid does not
-depend on them. They take plain numbers: the inputs stand above this module.
+interpolates what its contacts have over them, `assumptions` judges by them, and tests compare; what a solver
+converges to on its grid does not depend on them. They take plain numbers: the inputs stand above this module.
 """
 
 from __future__ import annotations
@@ -42,3 +42,56 @@ def wijnant_approach(M: float, L: float, kappa: float) -> float:
     N = load_number(M, kappa)
     p = ((4.0 - 0.2 * L) ** 7 + (3.5 + 0.1 * L) ** 7) ** (1.0 / 7.0)
     return 1.0 - p * N ** -(0.6 + 0.6 * (L + 3.0) ** -0.5)
+
+
+def hamrock_dowson_minimum(U: float, G: float, W: float, kappa: float) -> float:
+    """Smallest film over Rx, with the *mean* speed: U = eta0 u_mean/(E' Rx), G = alpha E', W = f/(E' Rx^2).
+
+    Hamrock and Dowson, J. Lubrication Technology 99 (1977) 264-276, for kappa from 1/8 to 1.
+    """
+    return float(3.63 * U**0.68 * G**0.49 * W**-0.073 * (1.0 - exp(-0.68 / kappa)))
+
+
+def gupta_heating(thermal_load: float, pressure: float) -> float:
+    """Film in pure rolling over the isothermal one: what the shear of the inlet heats.
+
+    Gupta, Cheng, Zhu, Forster and Schrand, Tribology Transactions 35 (1992) 269-274, after Zhu and Cheng; as
+    written in Schwarz, Schaefer and Sauer, Lubricants 11 (2023) 369, eqs. 12-14. Greenwood and Kauzlarich,
+    J. Lubrication Technology 95 (1973) 417-426, had found the effect.
+
+    Parameters
+    ----------
+    thermal_load : float
+        ``-d eta0/dT u_mean^2/k``, with the conductivity k of the oil.
+    pressure : float
+        Hertz pressure over E'.
+    """
+    factor = (1.0 - 13.2 * pressure * thermal_load**0.42) / (1.0 + 0.213 * thermal_load**0.64)
+    return float(max(factor, 0.0))
+
+
+def wilson_heating(thermal_load: float) -> float:
+    """The same without pressure: ``1/(1 + 0.1 L^0.64)`` with L of the *sum* of the speeds, four times ours.
+
+    Wilson and Sheu, J. Lubrication Technology 105 (1983) 187-188, in pure rolling.
+    """
+    return float(1.0 / (1.0 + 0.1 * (4.0 * thermal_load) ** 0.64))
+
+
+def flooding_distance(film: float) -> float:
+    """Distance m* of the oil's edge from the centre, in semi-axes a, from which on the film is fully flooded.
+
+    ``1 + 3.06 ((Rx/a)^2 h_c/Rx)^0.58``: Hamrock and Dowson, J. Lubrication Technology 99 (1977) 15-23, whose edge
+    takes 3 % of the central film.
+
+    Parameters
+    ----------
+    film : float
+        Flooded central film as ``h_c Rx/a^2``.
+    """
+    return float(1.0 + 3.06 * film**0.58)
+
+
+def starved_film(distance: float, flooded: float) -> float:
+    """Central film over the flooded one, with oil from `distance` on, short of m* = `flooded`; the same paper."""
+    return float(((distance - 1.0) / (flooded - 1.0)) ** 0.29) if distance < flooded else 1.0

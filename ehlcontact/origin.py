@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from ehlcontact.assumptions import assumptions
+from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.solver.domain import Domain
 
@@ -51,8 +53,12 @@ def source_of(
     domain: Any,
     motion: Any = None,
 ) -> dict[str, Any]:
-    """Provenance of an element, ready for JSON; `n`, `domain`, `motion` may be lists where there are several."""
-    return {
+    """Provenance of an element, ready for JSON; `n`, `domain`, `motion` may be lists where there are several.
+
+    Of a contact that is known, ``assumptions`` says how far what was assumed holds: with the film to be expected,
+    a typical mineral oil, and no roughness.
+    """
+    found = {
         "point": None if point is None else point.to_dict(),
         "scales": None if scales is None else asdict(scales),
         "n": n,
@@ -60,3 +66,15 @@ def source_of(
         "motion": dict(motion) if isinstance(motion, Mapping) else motion,
         "version": __version__,
     }
+    if point is not None:
+        found["assumptions"] = assumptions(point, scales=scales, domain=_region(domain)).short()
+    return found
+
+
+def _region(domain: Any) -> Domain | None:
+    """The region of `source_of`; the one with the shortest inlet where there are several."""
+    regions = [domain] if isinstance(domain, tuple) else domain
+    try:
+        return max((Domain(*r) for r in regions or ()), key=lambda region: region.x_in, default=None)
+    except (InputError, TypeError):  # of a record from elsewhere
+        return None

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.assumptions import assumptions
 from ehlcontact.checks import require_choice, require_finite
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Point, moes_point, scales_of
@@ -119,6 +120,7 @@ class Atlas:
         values, slopes, shapes = self._surface.at(rows)
         reference = int(np.argmin(np.abs(loads - 1.0)))
         source = self._source(moes, rows[reference], values[reference], slopes[reference])
+        source["assumptions"] = assumptions(point).short()
         k = self._table.omega.size
         if model == "cubic":
             w = self._frequency(omega)

@@ -1,5 +1,6 @@
 """``ehlcontact run`` from study to report on the coarsest settings, resume, Ctrl-C and failure."""
 
+import html
 import json
 import os
 import re
@@ -9,9 +10,12 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from ehlcontact import Status, load
+from ehlcontact import Status, assumptions, load
+from ehlcontact.cli.study.rotor import build_rotor, load_rotor
+from ehlcontact.cli.study.schema import load_study
 from reduced_models import load_element
 
 STUDY = """
@@ -25,6 +29,9 @@ speed_rpm = 3000.0
 [oil]
 eta0 = 0.02
 alpha = 1e-8
+[surface]
+rq_ball_um = 0.02
+rq_race_um = 0.15
 [solver]
 n = 32
 n_transient = 32
@@ -84,6 +91,25 @@ def test_report_is_self_contained(finished):
     assert page.count("data:image/png;base64,") == 11
     assert not re.search(r'(src|href)="(?!data:)', page) and "http" not in re.sub(r'base64,[^"]*', "", page)
     assert "Traceback" not in page and "nan" not in re.sub(r'base64,[^"]*', "", page).lower().split()
+
+
+def test_what_is_assumed_is_told(finished):
+    """In the results from the stored film and rotor run, in the element files, and in the page."""
+    study_file, folder = finished
+    study, film = load_study(study_file), load(folder / "steady.h5")
+    rotor = load_rotor(folder / "rotor_full.h5", build_rotor(study))
+    found = json.loads((folder / "results.json").read_text())["assumptions"]
+    rows = {row["name"]: row for row in found["table"]}
+    shaken = np.hypot(*rotor.journal_velocity.T).max()
+    assert rows["constant speed"]["value"] == pytest.approx(2.0 * shaken / study.point.u_sum)
+    ratio = film.h_min * film.scales.length / np.hypot(0.02e-6, 0.15e-6)
+    assert rows["smooth"]["value"] == pytest.approx(ratio) and ratio < 3.0
+    assert found["out_of_range"] == ["smooth"] and "smooth" in found["headline"] and found["not_judged"] == []
+    expected = assumptions(study.point, film=film, roughness=study.roughness).short()
+    for name in ("rotor_band_cubic", "rotor_band_cubic_si", "memory_si"):
+        assert load_element(folder / "elements" / f"{name}.json").source["assumptions"] == expected
+    page = html.unescape((folder / "report.html").read_text())
+    assert found["headline"] in page and all(row["verdict"] in page for row in found["table"])
 
 
 def test_second_run_keeps_what_is_finished(finished, call):

@@ -1,5 +1,7 @@
 """The study file: the examples, errors in one line, and the numbers that follow from a bearing."""
 
+import hashlib
+import json
 from math import log10
 from pathlib import Path
 
@@ -7,11 +9,12 @@ import h5py
 import numpy as np
 import pytest
 
-from ehlcontact import InputError, Status
+from ehlcontact import InputError, Lubricant, Status, __version__
 from ehlcontact.cli.study.rotor import build_rotor, load_rotor, save_rotor
 from ehlcontact.cli.study.schema import load_study
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
+GRADE = "iso_vg = 68\ntemperature = 50.0\nviscosity_index = 95"
 SMALL = (EXAMPLES / "small_study.toml").read_text()
 
 
@@ -27,6 +30,37 @@ def test_viscosity_of_the_oil(study):
     nu = 10**10 ** (w[0] - slope * log10(323.15 / 313.15)) - 0.7
     assert nu == pytest.approx(42.9, abs=0.05)
     assert study.oil.eta0 == pytest.approx(nu * 1e-6 * 875.0 * (1.0 - 0.00065 * 35.0), rel=2e-3)
+
+
+def test_oil_by_its_grade(tmp_path):
+    """The grade in place of eta0 and alpha is the library's oil."""
+    file = tmp_path / "grade.toml"
+    file.write_text(SMALL.replace("eta0 = 0.0367\nalpha = 2.0e-8", GRADE))
+    study = load_study(file)
+    assert study.lubricant == Lubricant.iso_vg(68, temperature=50.0, viscosity_index=95.0)
+    assert study.lubricant.alpha_scatter == 0.2 and study.point.lubricant == study.lubricant
+    file.write_text(
+        SMALL.replace("eta0 = 0.0367\nalpha = 2.0e-8", "iso_vg = 100\ntemperature = 70\ndensity_15 = 888")
+    )
+    assert load_study(file).lubricant == Lubricant.iso_vg(100, temperature=70.0, density_15=888.0)
+
+
+def test_fingerprint_of_earlier_versions_holds(study):
+    """What is new in the study file changes nothing where it is not used: finished stages are kept."""
+    oil = {"name": study.oil.name, "eta0": 0.0367, "alpha": 2e-8}
+    oil |= {"viscosity": "roelands", "density": "dowson-higginson"}
+    dump = study.model_dump()
+    content = {"bearing": dump["bearing"], "oil": oil, "solver": dump["solver"]}
+    text = json.dumps([__version__, content], sort_keys=True)
+    assert study.fingerprint("solver") == hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def test_roughness_in_micrometres(tmp_path, study):
+    assert study.roughness is None
+    file = tmp_path / "rough.toml"
+    file.write_text(SMALL + "\n[surface]\nrq_ball_um = 0.02\nrq_race_um = 0.1\n")
+    assert load_study(file).roughness == (pytest.approx(2e-8), pytest.approx(1e-7))
+    assert load_study(file).fingerprint("rotor") == load_study(EXAMPLES / "small_study.toml").fingerprint("rotor")
 
 
 def test_operating_point_of_the_6205(study):
@@ -78,6 +112,23 @@ def test_rotor_runs_of_earlier_versions_can_be_read(study, tmp_path):
         ("n = 64", "n = 64\ngrid = 3", ("solver.grid", "3", "n_transient")),
         ("n = 64", "n = 64\ndomain = [-1, 2, 3]", ("x_in", "-1", "-1.2")),
         ("[solver]", "[solvers]", ("solvers", "bearing")),
+        ("alpha = 2.0e-8", "", ("oil.alpha", "given", "iso_vg")),
+        ("alpha = 2.0e-8", GRADE, ("oil.iso_vg", "68", "left out", "numbers or by its grade")),
+        ("eta0 = 0.0367\nalpha = 2.0e-8", GRADE + "\nalpha = 2e-8", ("oil.iso_vg", "left out")),
+        ("eta0 = 0.0367\nalpha = 2.0e-8", "iso_vg = 68", ("oil.temperature", "given")),
+        ("eta0 = 0.0367\nalpha = 2.0e-8", "temperature = 50.0", ("oil.iso_vg", "given")),
+        ("eta0 = 0.0367\nalpha = 2.0e-8", "", ("oil.eta0", "given", "iso_vg")),
+        ("eta0 = 0.0367\nalpha = 2.0e-8", GRADE.replace("68", "67"), ("oil.iso_vg", "67", "one of 10, 15")),
+        ("eta0 = 0.0367\nalpha = 2.0e-8", GRADE.replace("50", "323"), ("oil.temperature", "323", "given in K?")),
+        (
+            "eta0 = 0.0367\nalpha = 2.0e-8",
+            GRADE.replace("95", "150"),
+            ("oil.viscosity_index", "150", "80 and 120"),
+        ),
+        ("eta0 = 0.0367\nalpha = 2.0e-8", GRADE + "\ndensity_15 = 0.87", ("oil.density_15", "g/cm3?")),
+        ("[solver]", "[surface]\nrq_ball_um = 0.02\n[solver]", ("surface.rq_race_um", "given")),
+        ("[solver]", "[surface]\nrq_ball_um = 2e-8\n[solver]", ("surface.rq_ball_um", "2e-08", "0.001")),
+        ("[solver]", "[surface]\nrq = 0.1\n[solver]", ("surface.rq", "0.1", "rq_ball_um")),
         ('arrangement = "vertical"', 'arrangement = "ring"', ("rotor.arrangement", "ring", "vee")),
         ("[bearing]", "[bearing", ("complete TOML",)),
     ],

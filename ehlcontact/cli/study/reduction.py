@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -67,8 +67,13 @@ class Reduction:
         return {CHOSEN[0]: self.chosen} | {name: found for name, found in others.items() if found is not None}
 
 
-def reduce_records(simulations: Mapping[str, SimulationResult], scales: Scales) -> Reduction:
-    """Fit every model to every record; a fit that makes no contact is kept as the reason why."""
+def reduce_records(
+    simulations: Mapping[str, SimulationResult], scales: Scales, assumed: Mapping[str, Any]
+) -> Reduction:
+    """Fit every model to every record; a fit that makes no contact is kept as the reason why.
+
+    Elements carry `assumed`, which knows the study's oil, film and roughness, as the records do not.
+    """
     fits: dict[tuple[str, str], FitResult] = {}
     refused: dict[tuple[str, str], str] = {}
     records = {name: ContactRecord.from_result(simulation) for name, simulation in simulations.items()}
@@ -76,17 +81,23 @@ def reduce_records(simulations: Mapping[str, SimulationResult], scales: Scales) 
         data = records[record]
         for model in MODELS:
             try:
-                fits[record, model] = fit(data, model, _window(simulation))
+                fits[record, model] = _assuming(fit(data, model, _window(simulation)), assumed)
             except InputError as error:
                 refused[record, model] = str(error)
     response: ImpedanceResult | None = None
     memory: MemoryFit | str
     try:
         response = impedance_of(list(records.values()))
-        memory = fit_memory(response, list(records.values()))
+        memory = _assuming(fit_memory(response, list(records.values())), assumed)
     except (InputError, ConvergenceError) as error:
         memory = str(error)
     return Reduction(fits, refused, memory, response, scales)
+
+
+def _assuming(found: Any, assumed: Mapping[str, Any]) -> Any:
+    """The fit with an element that keeps what was assumed."""
+    source = dict(found.element.source or {}) | {"assumptions": dict(assumed)}
+    return replace(found, element=replace(found.element, source=source))
 
 
 def _window(simulation: SimulationResult) -> tuple[float, float] | None:

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.cli.study.reduction import RECORDS, Reduction, export_fmu, reduce_records, save_elements
 from ehlcontact.cli.study.rotor import RotorComparison, compare_rotors
 from ehlcontact.cli.study.schema import Study
@@ -61,6 +62,17 @@ class Findings:
             "h_min_um": self.steady.h_min * scales.length * 1e6,
             "rotor_omega": self.study.rotor_omega,
         }
+
+    @property
+    def assumptions(self) -> Assumptions:
+        """What was assumed, and how far it holds; vibration is that of the journal on full contacts."""
+        velocity = np.linalg.norm(self.rotors.full.journal_velocity, axis=1)
+        return assumptions(
+            self.study.point,
+            film=self.steady,
+            roughness=self.study.roughness,
+            vibration=float(velocity.max()),
+        )
 
     @property
     def cycle_work(self) -> dict[str, float]:
@@ -145,6 +157,7 @@ class Findings:
             "title": self.study.title,
             "answer": self.answer,
             "operating_point": self.operating_point,
+            "assumptions": self.assumptions.to_dict(),
             "steady": self.steady.summary(),
             "simulations": {
                 name: {key: getattr(run, key) for key in keys}
@@ -176,7 +189,8 @@ def evaluate(study: Study, folder: Path, ledger: Mapping[str, Mapping[str, Any]]
         raise InputError("file", str(folder / "steady.h5"), "a steady film")
     histories = {name: run for name, run in simulations.items() if isinstance(run, SimulationResult)}
     scales = study.point.scales
-    reduction = reduce_records(histories, scales)
+    assumed = assumptions(study.point, film=steady, roughness=study.roughness).short()
+    reduction = reduce_records(histories, scales, assumed)
     save_elements(reduction, folder)
     exported = export_fmu(reduction.chosen, folder / "contact.fmu")
     rotors = compare_rotors(study, reduction.rotor_elements, folder)

@@ -24,6 +24,7 @@ Finite = Annotated[float, Field(allow_inf_nan=False)]
 Grid = Annotated[int, Field(ge=16, le=2048, multiple_of=16, strict=True)]
 Steps = Annotated[int, Field(ge=20, le=2000, strict=True)]
 Amplitude = Annotated[float, Field(gt=0.0, lt=1.0, allow_inf_nan=False)]
+Roughness = Annotated[float, Field(ge=1e-3, le=100.0, allow_inf_nan=False)]  # um: below, it was given in m
 Periods = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
 
 
@@ -47,13 +48,53 @@ class Bearing(_Section):
 
 
 class Oil(_Section):
-    """Oil at the temperature of the inlet."""
+    """Oil at the temperature of the inlet: its numbers, or its grade and that temperature."""
 
     name: str = "oil"
-    eta0: Positive  # Pa s
-    alpha: Positive  # 1/Pa
+    eta0: Positive | None = None  # Pa s
+    alpha: Positive | None = None  # 1/Pa
+    iso_vg: Annotated[int, Field(strict=True)] | None = None
+    temperature: Finite | None = None  # C
+    viscosity_index: Finite | None = None
+    density_15: Finite | None = None  # kg/m3 at 15 C
     viscosity: Literal["roelands", "barus"] = "roelands"
     density: Literal["dowson-higginson", "incompressible"] = "dowson-higginson"
+
+    @property
+    def lubricant(self) -> Lubricant:
+        """The oil as the solvers take it.
+
+        Raises
+        ------
+        InputError
+            Given in no way, in part, or in both ways; or an oil that the library refuses.
+        """
+        numbers, grade = ("eta0", "alpha"), ("iso_vg", "temperature", "viscosity_index", "density_15")
+        given = [name for name in (*numbers, *grade) if getattr(self, name) is not None]
+        by_grade = any(name in grade for name in given)
+        if by_grade and any(name in numbers for name in given):
+            extra = next(name for name in given if name in grade)
+            allowed = "left out where eta0 or alpha are given: the oil is given by its numbers or by its grade"
+            raise InputError(f"oil.{extra}", getattr(self, extra), allowed)
+        missing = [name for name in (grade[:2] if by_grade else numbers) if name not in given]
+        if missing:
+            ways = "given: eta0 and alpha, or iso_vg and temperature in their place"
+            raise InputError(f"oil.{missing[0]}", None, ways)
+        laws = {"viscosity": self.viscosity, "density": self.density}
+        if not by_grade:
+            return Lubricant(self.eta0, self.alpha, **laws)  # type: ignore[arg-type]
+        try:
+            details = {name: getattr(self, name) for name in given if name != "iso_vg"}
+            return Lubricant.iso_vg(self.iso_vg, **details, **laws)  # type: ignore[arg-type]
+        except InputError as error:
+            raise InputError(f"oil.{error.field}", error.value, error.allowed) from None
+
+
+class Surface(_Section):
+    """Roughness of ball and race, for the lambda ratio alone: films are solved between smooth surfaces."""
+
+    rq_ball_um: Roughness | None = None
+    rq_race_um: Roughness | None = None
 
 
 class Solver(_Section):
@@ -106,6 +147,7 @@ class Study(_Section):
     title: str = "contact study"
     bearing: Bearing
     oil: Oil
+    surface: Surface = Surface()
     solver: Solver = Solver()
     free: Free = Free()
     harmonic: Harmonic = Harmonic()
@@ -119,7 +161,23 @@ class Study(_Section):
     @property
     def lubricant(self) -> Lubricant:
         """The oil as the solvers take it."""
-        return Lubricant(self.oil.eta0, self.oil.alpha, self.oil.viscosity, self.oil.density)
+        return self.oil.lubricant
+
+    @property
+    def roughness(self) -> tuple[float, float] | None:
+        """Rq of ball and race [m], None where not given.
+
+        Raises
+        ------
+        InputError
+            Only one of them is given.
+        """
+        found = {"rq_ball_um": self.surface.rq_ball_um, "rq_race_um": self.surface.rq_race_um}
+        given = {name: value * 1e-6 for name, value in found.items() if value is not None}
+        if len(given) == 1:
+            missing = next(name for name in found if name not in given)
+            raise InputError(f"surface.{missing}", None, f"given, as {next(iter(given))} is")
+        return (given["rq_ball_um"], given["rq_race_um"]) if given else None
 
     @property
     def domain(self) -> Domain:
@@ -164,7 +222,8 @@ class Study(_Section):
 
     def fingerprint(self, *sections: str) -> str:
         """Hash of the bearing, the oil, the version and further sections: what a stage's result depends on."""
-        content = {name: self.model_dump()[name] for name in ("bearing", "oil", *sections)}
+        dump = self.model_dump(exclude_none=True)  # so that an entry more in the schema changes nothing
+        content = {name: dump[name] for name in ("bearing", "oil", *sections)}
         text = json.dumps([__version__, content], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
@@ -189,7 +248,7 @@ def load_study(path: Path) -> Study:
     except ValidationError as error:
         raise _first_error(path, error) from None
     try:
-        for name in ("domain", "point", "free_motion", "harmonic_motion", "rotor_motion"):
+        for name in ("domain", "point", "roughness", "free_motion", "harmonic_motion", "rotor_motion"):
             getattr(study, name)  # made here once, so that what the library refuses is refused now
     except InputError as error:
         raise InputError(f"{path}: {error.field}", error.value, error.allowed) from None

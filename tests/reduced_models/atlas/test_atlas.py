@@ -190,6 +190,7 @@ def test_operating_points_get_elements_in_si(shipped, model):
         assert getattr(element, name) == pytest.approx(getattr(expected, name), rel=1e-12)
     u = expected.low + 0.6 * (expected.high - expected.low)
     assert element.spring(u) == pytest.approx(expected.spring(u), rel=1e-12)
+    assert 0.0 < element.source["assumptions"]["isothermal"]["value"] < 1.0
 
 
 @pytest.mark.parametrize("model", MODELS)
@@ -198,6 +199,8 @@ def test_elements_say_where_they_come_from(shipped, tmp_path, model):
     assert read.source["atlas"] == shipped.metadata["version"]
     assert read.source["point"]["M"] == CASE.M and 0.0 < read.source["error"]["approach"] < 0.01
     assert read.load_range is not None and read.omega_range is not None
+    assert read.source["assumptions"]["elastic"]["holds"] is True
+    assert read.source["assumptions"]["isothermal"]["holds"] is None  # without dimensions
 
 
 def test_cubic_of_another_frequency(shipped):

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from ehlcontact import Domain, assumptions
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
 from reduced_models import ContactRecord, CubicContact, fit
@@ -143,6 +144,18 @@ def test_source_says_where_the_data_came_from(record):
     source = fit(described).element.source
     assert source["point"] == point.to_dict() and source["n"] == 64 and source["motion"] == {"kind": "free"}
     assert fit([described, replace(described, n=128)]).element.source["n"] == [64, 128]
+
+
+def test_source_says_what_was_assumed(record):
+    point = MoesPoint(200.0, 10.0, 0.5)
+    described = replace(record, point=point, domain=(-4.5, 1.5, 3.0))
+    short = assumptions(point, domain=Domain()).short()
+    assert fit(described).element.source["assumptions"] == short
+    shorter = replace(described, domain=(-1.5, 1.5, 3.0))  # of several regions, the one with the least oil
+    assert not fit([described, shorter]).element.source["assumptions"]["fully flooded"]["holds"]
+    elsewhere = replace(described, domain=(1.0, 2.0, 3.0))
+    assert fit(elsewhere).element.source["assumptions"]["fully flooded"]["holds"] is None
+    assert "assumptions" not in fit(replace(described, point=None)).element.source
 
 
 def test_measured_record_in_si(record, scales):

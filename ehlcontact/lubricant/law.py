@@ -1,4 +1,4 @@
-"""The oil: inputs, and the laws of viscosity and density, dimensionless and compiled for the solver's kernels.
+"""`Lubricant`, and the laws of viscosity and density, dimensionless and compiled for the solver's kernels.
 
 Roelands (1966) with p0 = 1.96e8 Pa, Barus (1893), and Dowson-Higginson (1966) density, each as written in
 Venner and Lubrecht (2000), ch. 1. A new law is entered here: its name, its numbers in `FluidLaw`, and its branch
@@ -8,12 +8,13 @@ in `density` or `log_viscosity`.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from ehlcontact.checks import require_choice, require_nonnegative, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_node
+from ehlcontact.lubricant.oil import ALPHA_SCATTER, GOLD_PRESSURE, GRADE_SCATTER, MineralOil
 
 VISCOSITY_LAWS = ("roelands", "barus")
 DENSITY_LAWS = ("dowson-higginson", "incompressible")
@@ -42,16 +43,20 @@ class FluidLaw(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Lubricant:
-    """Oil at inlet temperature.
+    """Oil at inlet temperature; `iso_vg` makes one from its grade.
 
     Parameters
     ----------
     eta0 : float
         Dynamic viscosity at ambient pressure [Pa s].
     alpha : float
-        Pressure-viscosity coefficient [1/Pa]; 0 is isoviscous.
+        Pressure-viscosity coefficient, d ln(eta)/dp at ambient pressure [1/Pa]; 0 is isoviscous.
     viscosity : {"roelands", "barus"}
     density : {"dowson-higginson", "incompressible"}
+    eta0_scatter, alpha_scatter : float, optional
+        How far, relative, the oil itself may be from `eta0` and `alpha`. Only kept: nothing is computed from them.
+    temperature_slope : float, optional
+        -d ln(eta0)/dT [1/K], for what the heating of the inlet does; solves are isothermal.
 
     Raises
     ------
@@ -63,14 +68,68 @@ class Lubricant:
     alpha: float = 2.2e-8
     viscosity: str = "roelands"
     density: str = "dowson-higginson"
+    eta0_scatter: float | None = field(default=None, kw_only=True)
+    alpha_scatter: float | None = field(default=None, kw_only=True)
+    temperature_slope: float | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "eta0", require_positive("eta0", self.eta0))
         object.__setattr__(self, "alpha", require_nonnegative("alpha", self.alpha))
         require_choice("viscosity", self.viscosity, VISCOSITY_LAWS)
         require_choice("density", self.density, DENSITY_LAWS)
+        for name in ("eta0_scatter", "alpha_scatter", "temperature_slope"):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, require_nonnegative(name, getattr(self, name)))
         if self.viscosity == "roelands" and math.log(self.eta0) + ROELANDS_LOG <= 0.0:
             raise InputError("eta0", self.eta0, "> 6.31e-5 Pa s for Roelands' law")
+
+    @classmethod
+    def iso_vg(
+        cls,
+        grade: int,
+        *,
+        temperature: float,
+        viscosity_index: float = 95.0,
+        density_15: float = 875.0,
+        viscosity: str = "roelands",
+        density: str = "dowson-higginson",
+    ) -> Lubricant:
+        """Mineral oil of an ISO viscosity grade.
+
+        eta0 follows from ASTM D2270, D341 and D1250; `alpha` from the correlation of Gold et al. (2001), such that
+        the law passes through its viscosity at 200 MPa. Both stand beside their scatter: ISO 3448 allows a grade
+        10 % of viscosity, and `alpha` of mineral oils is known to some 20 %. Who has a measured value takes that:
+        ``replace(oil, alpha=2.1e-8, alpha_scatter=0.03)``. See `MineralOil` and docs/assumptions.md.
+
+        Parameters
+        ----------
+        grade : int
+            10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460 or 680: mm2/s at 40 C.
+        temperature : float
+            Of the inlet, in degrees Celsius; 20 to 120.
+        viscosity_index : float
+            80 to 120; 95 is common.
+        density_15 : float
+            Density at 15 C [kg/m3], 800 to 950.
+        viscosity : {"roelands", "barus"}
+        density : {"dowson-higginson", "incompressible"}
+
+        Raises
+        ------
+        InputError
+            A value outside its range, or an unknown law.
+        """
+        require_choice("viscosity", viscosity, VISCOSITY_LAWS)
+        oil = MineralOil(grade, temperature, viscosity_index, density_15)
+        return cls(
+            oil.eta0,
+            alpha_through(oil.alpha_secant, oil.eta0, viscosity),
+            viscosity,
+            density,
+            eta0_scatter=GRADE_SCATTER,
+            alpha_scatter=ALPHA_SCATTER,
+            temperature_slope=oil.temperature_slope,
+        )
 
     def law(self, p_hertz: float, alpha_bar: float) -> FluidLaw:
         """Laws in units of the Hertz pressure; `alpha_bar` = alpha p_h, both given for isoviscous oil."""
@@ -84,6 +143,18 @@ class Lubricant:
             compressible=self.density == "dowson-higginson",
             d=DOWSON_HIGGINSON_C1 / p_hertz,
         )
+
+
+def alpha_through(secant: float, eta0: float, viscosity: str) -> float:
+    """`alpha` [1/Pa] with which a law reaches ``ln(eta/eta0) = secant p`` at p = 200 MPa.
+
+    Roelands' law is curved: its slope at ambient pressure lies some 15 % above that secant.
+    """
+    if viscosity == "barus":
+        return secant
+    q = math.log(eta0) + ROELANDS_LOG
+    z = math.log1p(secant * GOLD_PRESSURE / q) / math.log1p(GOLD_PRESSURE / ROELANDS_P0)
+    return z * q / ROELANDS_P0
 
 
 @jit_node

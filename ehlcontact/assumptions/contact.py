@@ -1,0 +1,65 @@
+"""A point with its film, and in SI as far as it is known: what the judgements are made of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import Protocol
+
+from ehlcontact.formulas import hamrock_dowson_minimum
+from ehlcontact.hertz import elliptic_integrals, radius_ratio
+from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
+from ehlcontact.solver.domain import Domain
+
+NO_SI = "not judged: a dimensionless point has no speed and no size; an OperatingPoint has"
+
+
+class SolvedFilm(Protocol):
+    """What a `SteadyResult` says about the film; dry approaches."""
+
+    @property
+    def h_central(self) -> float:
+        """Film at the centre."""
+
+    @property
+    def h_min(self) -> float:
+        """Smallest film."""
+
+    @property
+    def domain(self) -> Domain:
+        """Computed region."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """A point with its film, and in SI as far as the scales tell."""
+
+    moes: MoesPoint
+    scales: Scales | None
+    central: float  # film in dry approaches
+    smallest: float | None  # likewise, None where no formula has it
+
+    @classmethod
+    def of(cls, point: Point, film: SolvedFilm | None, scales: Scales | None) -> Contact:
+        """Take the solved film, or the one to be expected."""
+        moes = moes_point(point)
+        bare = cls(moes, scales_of(point) or scales, moes.expected_film, None)
+        if film is not None:
+            return cls(moes, bare.scales, float(film.h_central), float(film.h_min))
+        return cls(moes, bare.scales, bare.central, bare.expected_smallest() if bare.scales else None)
+
+    def expected_smallest(self) -> float:
+        """Smallest film of Hamrock and Dowson in dry approaches."""
+        s, rx, modulus, u = self.require_si()
+        oil = self.moes
+        U, W = oil.eta0 * u / (modulus * rx), s.force / (modulus * rx * rx)
+        return hamrock_dowson_minimum(U, oil.alpha * modulus, W, oil.kappa) * rx / s.length
+
+    def require_si(self) -> tuple[Scales, float, float, float]:
+        """Scales, Rx [m], E' [Pa] and mean speed [m/s], from Hertz' formulas backwards."""
+        s = self.scales
+        assert s is not None
+        K, E = elliptic_integrals(self.moes.kappa)
+        modulus = 3.0 * s.force * K / (pi * s.b * s.length)
+        radius = s.a * s.a * K / (2.0 * E * s.length)
+        return s, radius * (1.0 + radius_ratio(self.moes.kappa)), modulus, s.a / s.time

@@ -1,0 +1,93 @@
+"""`assumptions`: the table of a point."""
+
+from __future__ import annotations
+
+from math import hypot
+
+from ehlcontact.assumptions.bodies import constant_speed, elastic, one_direction
+from ehlcontact.assumptions.contact import Contact, SolvedFilm
+from ehlcontact.assumptions.film import fully_flooded, isothermal, newtonian, smooth
+from ehlcontact.assumptions.table import Assumptions
+from ehlcontact.checks import require_instance, require_nonnegative, require_positive
+from ehlcontact.errors import InputError
+from ehlcontact.lubricant.oil import typical_temperature_slope
+from ehlcontact.point import OperatingPoint, Point, Scales
+from ehlcontact.solver.domain import Domain
+
+CONDUCTIVITY = 0.134  # W/(m K), measured of FVA 3 (Schwarz et al. 2023, table A1); mineral oils 0.12 to 0.15
+ROUGHEST = 1e-4  # m: no rolling surface, but a slip of unit
+
+
+def assumptions(
+    point: Point,
+    *,
+    film: SolvedFilm | None = None,
+    domain: Domain | None = None,
+    roughness: tuple[float, float] | None = None,
+    vibration: float | None = None,
+    temperature_slope: float | None = None,
+    conductivity: float = CONDUCTIVITY,
+    scales: Scales | None = None,
+) -> Assumptions:
+    """Judge what a solve at this point assumes.
+
+    Without a solved film the central one of Nijenbanning, Venner and Moes and the smallest one of Hamrock and
+    Dowson are taken. A dimensionless point says nothing about heat, roughness or stresses: those are not judged.
+
+    Parameters
+    ----------
+    point : OperatingPoint or MoesPoint
+    film : SteadyResult, optional
+        The solved film; its region counts as the flooded one.
+    domain : Domain, optional
+        Region computed elsewhere, in place of that of `film`.
+    roughness : (float, float), optional
+        Rq of both surfaces [m].
+    vibration : float, optional
+        Largest speed that vibration adds along the surfaces [m/s].
+    temperature_slope : float, optional
+        -d ln(eta0)/dT [1/K]; that of the oil, and where it has none that of a typical mineral oil.
+    conductivity : float
+        Of the oil [W/(m K)].
+    scales : Scales, optional
+        Of a MoesPoint, where they are known: results keep both.
+
+    Raises
+    ------
+    InputError
+        An argument outside its range.
+    """
+    contact = Contact.of(point, film, scales)
+    if film is not None and domain is None:
+        domain = film.domain
+    if domain is not None:
+        require_instance("domain", domain, Domain, "a Domain(x_in, x_out, y_max)")
+    if temperature_slope is None and isinstance(point, OperatingPoint):
+        temperature_slope = point.lubricant.temperature_slope
+    if temperature_slope is None:
+        temperature_slope = typical_temperature_slope(contact.moes.eta0)
+    slope = require_positive("temperature_slope", temperature_slope)
+    k = require_positive("conductivity", conductivity)
+    shaken = None if vibration is None else require_nonnegative("vibration", vibration)
+    return Assumptions(
+        (
+            isothermal(contact, slope, k),
+            newtonian(contact),
+            smooth(contact, _composite(roughness)),
+            fully_flooded(contact, domain),
+            constant_speed(contact, shaken),
+            one_direction(contact, shaken),
+            elastic(contact),
+        )
+    )
+
+
+def _composite(roughness: tuple[float, float] | None) -> float | None:
+    if roughness is None:
+        return None
+    if not isinstance(roughness, tuple | list) or len(roughness) != 2:
+        raise InputError("roughness", roughness, "a pair: Rq of both surfaces in m")
+    for value in roughness:
+        if require_positive("roughness", value) > ROUGHEST:
+            raise InputError("roughness", value, f"above 0 and at most {ROUGHEST:g} m (given in um?)")
+    return hypot(*roughness)

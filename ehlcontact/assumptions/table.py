@@ -1,0 +1,81 @@
+"""One assumption with its number, and the table of all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from ehlcontact.errors import InputError
+
+
+@dataclass(frozen=True, slots=True)
+class Assumption:
+    """One assumption with its number."""
+
+    name: str
+    number: str  # what is computed
+    value: float | None  # None where an input is missing
+    limit: float
+    at_least: bool  # whether the value has to be at least the limit, or at most
+    unit: str
+    verdict: str  # one line; the headline has it up to the first semicolon
+    scatter: str  # how sure the number is
+    source: str
+    details: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def holds(self) -> bool | None:
+        """Whether the value is inside its limit; None where there is no value."""
+        if self.value is None:
+            return None
+        return self.value >= self.limit if self.at_least else self.value <= self.limit
+
+    def to_dict(self) -> dict[str, Any]:
+        """All of it, ready for JSON."""
+        return asdict(self) | {"details": dict(self.details), "holds": self.holds}
+
+
+@dataclass(frozen=True, slots=True)
+class Assumptions:
+    """All assumptions of a contact, by name: ``found["isothermal"].value``."""
+
+    table: tuple[Assumption, ...]
+
+    def __iter__(self) -> Iterator[Assumption]:
+        return iter(self.table)
+
+    def __getitem__(self, name: str) -> Assumption:
+        for found in self.table:
+            if found.name == name:
+                return found
+        raise InputError("assumption", name, "one of " + ", ".join(a.name for a in self.table))
+
+    @property
+    def out_of_range(self) -> tuple[Assumption, ...]:
+        """Those that do not hold."""
+        return tuple(a for a in self.table if a.holds is False)
+
+    @property
+    def not_judged(self) -> tuple[Assumption, ...]:
+        """Those for which an input is missing."""
+        return tuple(a for a in self.table if a.holds is None)
+
+    @property
+    def headline(self) -> str:
+        """What does not hold, in one sentence; empty where nothing is out of range."""
+        broken = [f"{a.name} ({a.verdict.split(';')[0]})" for a in self.out_of_range]
+        return f"Outside what is assumed: {'; '.join(broken)}." if broken else ""
+
+    def to_dict(self) -> dict[str, Any]:
+        """The whole table, ready for JSON."""
+        return {
+            "headline": self.headline,
+            "out_of_range": [a.name for a in self.out_of_range],
+            "not_judged": [a.name for a in self.not_judged],
+            "table": [a.to_dict() for a in self.table],
+        }
+
+    def short(self) -> dict[str, dict[str, float | bool | None]]:
+        """Value, limit and whether it holds by name: what an element file keeps."""
+        return {a.name: {"value": a.value, "limit": a.limit, "holds": a.holds} for a in self.table}

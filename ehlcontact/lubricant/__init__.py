@@ -1,0 +1,29 @@
+"""The oil: what it is, and its laws as the solver's kernels need them.
+
+======= =======================================================================================
+module  responsibility
+======= =======================================================================================
+``law`` `Lubricant`; the laws of viscosity and density, dimensionless and compiled
+``oil`` mineral oils by grade and temperature: viscosity, density, how both change, and how sure
+======= =======================================================================================
+"""
+
+from ehlcontact.lubricant.law import (
+    DENSITY_LAWS,
+    VISCOSITY_LAWS,
+    FluidLaw,
+    Lubricant,
+    density,
+    log_viscosity,
+)
+from ehlcontact.lubricant.oil import MineralOil
+
+__all__ = [
+    "DENSITY_LAWS",
+    "VISCOSITY_LAWS",
+    "FluidLaw",
+    "Lubricant",
+    "MineralOil",
+    "density",
+    "log_viscosity",
+]
