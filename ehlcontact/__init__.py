@@ -4,6 +4,7 @@
 room           responsibility
 ============== ===========================================================================================
 ``point``      inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
+``box``        what the solvers are made for, and the slip of unit that a number outside betrays
 ``lubricant``  `Lubricant`; the laws of viscosity and density
 ``hertz``      dry elliptic contact
 ``formulas``   published film and approach formulas: grids are chosen from them, results compared with them
