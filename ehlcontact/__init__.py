@@ -4,6 +4,7 @@
 room             responsibility
 ================ ===========================================================================================
 ``point``        inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
+``box``          what the solvers are made for, and the slip of unit that a number outside betrays
 ``lubricant/``   `Lubricant`, from its numbers or its grade; the laws of viscosity and density
 ``hertz``        dry elliptic contact
 ``formulas``     published film and approach formulas: grids are chosen from them, results compared with them
@@ -16,8 +17,7 @@ room             responsibility
 ``origin``       where numbers come from: what all results have in common; the version
 ``film``         the film to look at: maps, mid-planes, fringes, what the surfaces carry through
 ``storage``      `save` and `load`
-``hdf5``         any dataclass in an HDF5 file
-``files``        files that are replaced in one move
+``files/``       files that are replaced in one move; any dataclass in an HDF5 file
 ``checks``       checks of inputs
 ``errors``       `InputError`, `ConvergenceError`
 ``status``       how a solve or a run ended, with advice

@@ -23,7 +23,7 @@ from threadpoolctl import threadpool_limits
 
 from ehlcontact.checks import require_choice
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.point import Point, moes_point, scales_of
+from ehlcontact.point import Point, moes_point, require_solvable, scales_of
 from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
@@ -78,7 +78,7 @@ def impedance(
     started = time.perf_counter()
     omega = _check_frequencies(omegas)
     require_choice("deflection", deflection, tuple(ENGINES))
-    moes = moes_point(point)
+    moes = require_solvable(point)
     with threadpool_limits(1, user_api="blas"):  # its threads wait for each other on matrices as small as these
         steady = _steady(point, n, domain, deflection)
         contact = LinearisedContact(steady, deflection)

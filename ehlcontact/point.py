@@ -15,14 +15,15 @@ The full table is in docs/notation.md.
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
-from math import cos, pi, sqrt
+from dataclasses import asdict, dataclass, field, replace
+from math import cos, inf, pi, sqrt
 
+from ehlcontact.box import INPUTS, Given, require_in_box
 from ehlcontact.checks import require_finite, require_integer, require_nonnegative, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.formulas import load_number, nvm_central_film
 from ehlcontact.hertz import HertzContact, ellipse_ratio, elliptic_integrals, hertz_contact, shape_factor
-from ehlcontact.lubricant import FluidLaw, Lubricant
+from ehlcontact.lubricant import FluidLaw, Lubricant, log_viscosity
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,6 +133,7 @@ class Geometry:
     def __post_init__(self) -> None:
         for name in ("radius_x", "radius_y", "e1", "e2"):
             object.__setattr__(self, name, require_positive(name, getattr(self, name)))
+            INPUTS[name].require(name, getattr(self, name))
         for name in ("nu1", "nu2"):
             if not 0.0 <= require_nonnegative(name, getattr(self, name)) <= 0.5:
                 raise InputError(name, getattr(self, name), "between 0 and 0.5")
@@ -151,14 +153,19 @@ class Geometry:
         Raises
         ------
         InputError
-            A diameter not positive, pitch not above ball diameter, conformity not above 0.5, unknown race.
+            A diameter that no bearing has, pitch not above ball diameter, conformity not above 0.5, unknown race.
         """
         D = require_positive("ball_diameter", ball_diameter)
         dm = require_positive("pitch_diameter", pitch_diameter)
+        INPUTS["ball_diameter"].require("ball_diameter", D)
+        INPUTS["pitch_diameter"].require("pitch_diameter", dm)
         if dm <= D:
             raise InputError("pitch_diameter", dm, f"above ball_diameter = {D!r}")
         if not 0.5 < require_positive("conformity", conformity) <= 10.0:
-            raise InputError("conformity", conformity, "above 0.5 (a tighter groove pinches the ball) and <= 10")
+            guess = INPUTS["conformity"].slip(conformity)
+            allowed = "above 0.5 (a tighter groove pinches the ball) and <= 10"
+            raise InputError("conformity", conformity, f"{allowed} ({guess})" if guess else allowed)
+        INPUTS["conformity"].require("conformity", conformity)
         if race not in ("inner", "outer"):
             raise InputError("race", race, "one of inner, outer")
         along = 2.0 / D + 2.0 / (dm - D) if race == "inner" else 2.0 / D - 2.0 / (dm + D)
@@ -211,7 +218,8 @@ class OperatingPoint:
     Raises
     ------
     InputError
-        Load or u_sum not finite and > 0, or an isoviscous oil (alpha = 0): give a `MoesPoint` with L = 0.
+        An input that is no rolling contact's, with a guess at the unit it was given in; an isoviscous oil
+        (alpha = 0): give a `MoesPoint` with L = 0.
     """
 
     geometry: Geometry
@@ -226,6 +234,8 @@ class OperatingPoint:
         object.__setattr__(self, "u_sum", require_positive("u_sum", self.u_sum))
         geometry, oil = self.geometry, self.lubricant
         require_positive("alpha", oil.alpha)
+        for name, value in {"eta0": oil.eta0, "alpha": oil.alpha, "load": self.load, "u_sum": self.u_sum}.items():
+            INPUTS[name].require(name, value)
         e, rx = geometry.e_reduced, geometry.radius_x
         U = oil.eta0 * self.u_sum / (e * rx)
         hertz: HertzContact = hertz_contact(self.load, rx, geometry.radius_y, e)
@@ -264,7 +274,8 @@ class OperatingPoint:
             Force on this ball [N]; `most_loaded_ball` has it for a radial load.
         """
         geometry = Geometry.ball_bearing(ball_diameter, pitch_diameter, conformity, race, **materials)
-        omega = require_positive("speed_rpm", speed_rpm) * pi / 30.0
+        INPUTS["speed_rpm"].require("speed_rpm", require_positive("speed_rpm", speed_rpm))
+        omega = speed_rpm * pi / 30.0
         gamma = ball_diameter / pitch_diameter
         # Both surfaces roll at omega dm (1 - gamma^2)/4 seen from the contact, on either race.
         u_sum = omega * pitch_diameter * (1.0 - gamma * gamma) / 2.0
@@ -304,6 +315,52 @@ def moes_point(point: Point) -> MoesPoint:
     if isinstance(point, OperatingPoint):
         return point.moes
     raise InputError("point", type(point).__name__, "a MoesPoint or an OperatingPoint")
+
+
+def require_solvable(point: Point, largest_load: float = 1.0, given: Given | None = None) -> MoesPoint:
+    """Return the dimensionless point, or raise `InputError` where it lies outside what the solvers are made for.
+
+    Parameters
+    ----------
+    point : MoesPoint or OperatingPoint
+    largest_load : float
+        That the contact will have to carry; the static load is 1.
+    given : mapping, optional
+        What a user gave in place of the point's own inputs: the message guesses at a slip of unit in them.
+
+    Raises
+    ------
+    InputError
+        An input that is no rolling contact's; M, L, kappa or a pressure outside `ehlcontact.box`.
+    """
+    moes = moes_point(point)
+    if isinstance(point, OperatingPoint):
+        inputs = _si_inputs(point) if given is None else given
+    else:
+        inputs = {name: (getattr(moes, name), INPUTS[name]) for name in ("alpha", "eta0")}
+        for name, (value, quantity) in inputs.items():
+            quantity.require(name, value)
+    require_in_box(_box_numbers(moes), inputs)
+    if largest_load > 1.0:
+        require_in_box(_box_numbers(replace(moes, M=moes.M * largest_load)), inputs, " under the largest load")
+    return moes
+
+
+def _si_inputs(point: OperatingPoint) -> Given:
+    """What an operating point was made of."""
+    body, oil = point.geometry, point.lubricant
+    values = {name: getattr(body, name) for name in ("radius_x", "radius_y", "e1", "e2")}
+    values |= {"eta0": oil.eta0, "alpha": oil.alpha, "load": point.load, "u_sum": point.u_sum}
+    return {name: (value, INPUTS[name]) for name, value in values.items()}
+
+
+def _box_numbers(moes: MoesPoint) -> dict[str, float]:
+    """What `require_in_box` looks at."""
+    try:
+        exponent = float(log_viscosity.py_func(1.0, moes.law)[0])
+    except OverflowError:
+        exponent = inf
+    return {"M": moes.M, "L": moes.L, "kappa": moes.kappa, "p_hertz": moes.p_hertz, "log_viscosity": exponent}
 
 
 def scales_of(point: Point) -> Scales | None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ehlcontact.checks import require_choice, require_finite, require_integer, require_positive
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
+from ehlcontact.point import MoesPoint, Point, Scales, require_solvable, scales_of
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
@@ -33,6 +33,7 @@ from ehlcontact.status import Status
 LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7
 MAX_CYCLES = 80  # of V cycles: films of the box take up to 34
+LARGEST_APPROACH = 1e9  # beyond all that is solved, and its power still a number
 
 
 class Method(NamedTuple):
@@ -105,7 +106,7 @@ def solve_steady(
         Not converged; ``error.result`` holds the partial result.
     """
     started = time.perf_counter()
-    moes = moes_point(point)
+    moes = require_solvable(point)
     require_integer("max_cycles", max_cycles, "a whole number > 0", 1)
     require_positive("tol", tol)
     require_choice("method", method, tuple(METHODS))
@@ -114,8 +115,10 @@ def solve_steady(
         balance = Balance.of_load()
     else:
         balance = Balance.of_approach(require_finite("approach", approach))
-        if approach > 1.0 and domain is None:
-            domain = default_domain(moes, approach**1.5)
+        load = min(max(approach, 1.0), LARGEST_APPROACH) ** 1.5  # of a dry contact
+        require_solvable(point, load)
+        if load > 1.0 and domain is None:
+            domain = default_domain(moes, load)
     mesh = mesh_for(moes, Purpose.FILM, n=n, domain=domain)
     for _ in range(LARGEST_ATTEMPTS):
         for way in METHODS[method]:

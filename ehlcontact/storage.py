@@ -6,8 +6,8 @@ import os
 from pathlib import Path
 from typing import Any
 
-from ehlcontact import hdf5
 from ehlcontact.checks import require_instance
+from ehlcontact.files import hdf5
 from ehlcontact.results import SteadyResult
 from ehlcontact.transient.result import SimulationResult
 

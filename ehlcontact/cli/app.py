@@ -9,7 +9,18 @@ from typing import Annotated
 
 import typer
 
-from ehlcontact.cli.commands import atlas, element, export, fit, impedance, reproduce, run, simulate, steady
+from ehlcontact.cli.commands import (
+    atlas,
+    element,
+    export,
+    fit,
+    impedance,
+    reproduce,
+    run,
+    simulate,
+    steady,
+    validate,
+)
 from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain, one_line
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.origin import __version__
@@ -45,7 +56,7 @@ def _program(
     """Transient elastohydrodynamic rolling contacts, reduced to elements for rotordynamics."""
 
 
-for module in (steady, simulate, impedance, fit, element, export, run, reproduce, atlas):
+for module in (steady, simulate, impedance, fit, element, export, validate, run, reproduce, atlas):
     module.register(app)
 
 

@@ -12,7 +12,7 @@ from typing import Annotated, Any, get_type_hints
 import typer
 
 from ehlcontact.cli.output import check_file, check_json
-from ehlcontact.point import MoesPoint
+from ehlcontact.point import MoesPoint, require_solvable
 from ehlcontact.solver.domain import Domain, check_intervals
 
 _POINT, _GRID, _FILES = "Operating point", "Discretisation", "Results"
@@ -90,6 +90,10 @@ class Contact:
     def point(self) -> MoesPoint:
         """Check the options and make the operating point of them."""
         return MoesPoint(self.M, self.L, self.kappa, self.alpha, self.eta0, self.viscosity, self.density)
+
+    def solvable(self) -> MoesPoint:
+        """The same, for a solver: also refused is what no solver is made for."""
+        return require_solvable(self.point())
 
 
 @dataclass(frozen=True, kw_only=True)

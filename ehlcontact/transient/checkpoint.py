@@ -16,8 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from ehlcontact import hdf5
 from ehlcontact.errors import InputError
+from ehlcontact.files import hdf5
 from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.domain import Domain

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ehlcontact.checks import require_choice, require_finite, require_positive
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.point import Point, moes_point
+from ehlcontact.point import Point, require_solvable
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
@@ -51,8 +51,8 @@ class FullContact:
         tol: float = 3e-3,
         deflection: str = "fft",
     ) -> None:
-        self.point = moes_point(point)
         load = require_positive("largest_load", largest_load)
+        self.point = require_solvable(point, load)
         mesh = mesh_for(self.point, Purpose.CONTACT, n=n, domain=domain, largest_load=load)
         self.n, self.domain = mesh.n, mesh.domain
         require_choice("deflection", deflection, tuple(ENGINES))

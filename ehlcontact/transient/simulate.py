@@ -12,7 +12,7 @@ import numpy as np
 
 from ehlcontact.checks import require_instance, require_nonnegative
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.point import Point, Scales, moes_point, scales_of
+from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.mesh import Purpose, mesh_for
 from ehlcontact.status import Status
@@ -99,8 +99,8 @@ def simulate(
         ``error.result`` holds the history so far.
     """
     started = time.perf_counter()
-    moes = moes_point(point)
     require_instance("motion", motion, Motion, "a motion such as FreeVibration or HarmonicLoad")
+    moes = require_solvable(point, motion.largest_load)
     mesh = mesh_for(moes, Purpose.RUN, n=n, domain=domain, largest_load=motion.largest_load)
     steps = TimeSteps.of(motion, until, dT, error, tol)
     settings = RunSettings.of(moes, mesh, motion, steps, snapshots, deflection)

@@ -14,7 +14,7 @@ from ehlcontact import impedance, solve_steady
 from ehlcontact.checks import as_column
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
-from ehlcontact.point import Point, moes_point, scales_of
+from ehlcontact.point import Point, moes_point, require_solvable, scales_of
 from reduced_models.elements.film_response import FilterRates, fit_gains
 from reduced_models.elements.memory import FilmMemoryContact
 from reduced_models.elements.wide import WideRangeContact
@@ -118,7 +118,7 @@ def wide_range_from_solves(
     Raises
     ------
     InputError
-        Loads that are not increasing and > 0, or tables that make no contact.
+        Loads that are not increasing and > 0, or that the solvers are not made for; tables that make no contact.
     ConvergenceError
         A solve did not converge.
     """
@@ -130,6 +130,8 @@ def wide_range_from_solves(
         if values[0] <= 0.0:
             raise InputError(name, float(values[0]), "> 0")
     moes, scales = moes_point(point), scales_of(point)
+    for f in sorted({*at.tolist(), *places.tolist()}):  # all of them before the first solve
+        require_solvable(replace(moes, M=moes.M * f))
     steady = [solve_steady(replace(moes, M=moes.M * f), n=n) for f in at.tolist()]
     responses = [impedance(replace(moes, M=moes.M * f), omegas, n=n) for f in places.tolist()]
     approach, domains = [s.approach for s in steady], [list(s.domain.as_tuple()) for s in steady]

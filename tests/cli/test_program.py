@@ -7,7 +7,9 @@ import pytest
 
 import ehlcontact
 
-SUBCOMMANDS = ("steady", "simulate", "impedance", "fit", "element", "export", "run", "reproduce", "atlas")
+SUBCOMMANDS = (
+    "steady", "simulate", "impedance", "fit", "element", "export", "validate", "run", "reproduce", "atlas"
+)  # fmt: skip
 
 
 def test_help_lists_the_subcommands(call):

@@ -7,6 +7,7 @@ import re
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -164,6 +165,88 @@ def test_ctrl_c_and_resume(tmp_path):
     notes = json.loads(ledger.read_text())
     assert notes["free"]["status"] == "interrupted" and notes["steady"]["status"] == "converged"
     assert load(tmp_path / "out" / "free.partial.h5").steps > 10
+
+
+def children(pid):
+    """Processes that a process has started and that still run."""
+    found = subprocess.run(
+        ["ps", "-o", "pid=,stat=", "--ppid", str(pid)], capture_output=True, text=True, check=False
+    )
+    rows = (line.split() for line in found.stdout.splitlines())
+    return [int(child) for child, state in rows if not state.startswith("Z")]
+
+
+def is_running(pid):
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def test_a_run_that_is_told_to_end_leaves_no_workers(tmp_path):
+    """`kill`, or `timeout`: as after Ctrl-C, although the workers have sessions of their own."""
+    study = tmp_path / "long.toml"
+    study.write_text(
+        STUDY.replace("[free]\nsteps_per_period = 20", "[free]\nsteps_per_period = 2000\nperiods = 100")
+    )
+    command = [sys.executable, "-m", "ehlcontact.cli", "run", str(study), "-o", str(tmp_path / "out")]
+    environment = os.environ | {"PYTHONPATH": str(PACKAGE_ROOT)}
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment)
+    deadline = time.monotonic() + 50.0
+    while len(workers := children(process.pid)) < 2 and time.monotonic() < deadline:
+        assert process.poll() is None, process.stderr.read()
+        time.sleep(0.05)
+    process.terminate()
+    _, err = process.communicate(timeout=40)
+    assert process.returncode == 1 and "resumes" in err.splitlines()[-1] and "Traceback" not in err
+    assert workers and not any(is_running(worker) for worker in workers)
+
+
+def test_a_second_ctrl_c_waits_for_no_worker(monkeypatch, tmp_path):
+    """One that does not listen is killed then, and after an error of ours all are."""
+    from ehlcontact.cli.study import runner, stages
+    from ehlcontact.cli.study.schema import load_study
+
+    file = tmp_path / "study.toml"
+    file.write_text(STUDY)
+    monkeypatch.setattr(runner, "STAGES", (stages.stage_named("steady"), stages.stage_named("free")))
+    deaf = tmp_path / "python"
+    deaf.write_text(f"#!/bin/sh\ntrap '' INT\necho $$ >> {tmp_path}/pids\nexec sleep 100\n")
+    deaf.chmod(0o755)
+    monkeypatch.setattr(sys, "executable", str(deaf))
+
+    def press_twice():
+        while not (tmp_path / "pids").exists() or len((tmp_path / "pids").read_text().split()) < 2:
+            time.sleep(0.05)
+        for _ in range(2):
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(0.5)
+
+    # a shell's background job passes on that it ignores Ctrl-C
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    started = time.monotonic()
+    fingers = threading.Thread(target=press_twice)
+    fingers.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            runner.run_stages(load_study(file), file, tmp_path, 2)
+        fingers.join()
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert time.monotonic() - started < runner.PATIENCE / 2.0
+    assert not any(is_running(int(pid)) for pid in (tmp_path / "pids").read_text().split())
+    assert json.loads((tmp_path / "stages.json").read_text())["steady"]["status"] == Status.FAILED
+
+    def broken(*_):
+        raise ValueError("ours")
+
+    monkeypatch.setattr("queue.Queue.get", broken)
+    (tmp_path / "pids").unlink()
+    with pytest.raises(ValueError, match="ours"):
+        runner.run_stages(load_study(file), file, tmp_path, 2)
+    time.sleep(0.2)
+    pids = (tmp_path / "pids").read_text().split() if (tmp_path / "pids").exists() else []
+    assert not any(is_running(int(pid)) for pid in pids)
 
 
 def test_a_stage_that_fails(call, tmp_path):

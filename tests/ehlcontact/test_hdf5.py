@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from ehlcontact import InputError, hdf5
+from ehlcontact import InputError
+from ehlcontact.files import hdf5
 
 Array = NDArray[np.float64]
 

@@ -25,7 +25,7 @@ def impedance(contact: o.Contact, omega: Omegas, grid: o.Grid, json_to: o.JsonTo
     """Linearise the steady film: stiffness K and damping C over frequency."""
     from ehlcontact.impedance import impedance as solve
 
-    point, chosen = contact.point(), grid.chosen()
+    point, chosen = contact.solvable(), grid.chosen()
     check_json(json_to)
     with progress("linearised contact"):
         result = solve(point, omega, **chosen)

@@ -156,7 +156,7 @@ def simulate(
     from ehlcontact.storage import save
     from ehlcontact.transient.simulate import simulate as integrate
 
-    arguments = (contact.point(), motion.chosen())
+    arguments = (contact.solvable(), motion.chosen())
     chosen = grid.chosen() | time.chosen()
     check_file("--checkpoint", restart.checkpoint, o.HDF5)
     files.check()

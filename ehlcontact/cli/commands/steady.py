@@ -24,7 +24,7 @@ def steady(contact: o.Contact, grid: o.Grid, files: o.Files) -> None:
     from ehlcontact.steady import solve_steady
     from ehlcontact.storage import save
 
-    point, chosen = contact.point(), grid.chosen()
+    point, chosen = contact.solvable(), grid.chosen()
     files.check()
     with progress("steady film") as update:
         result = solve_steady(

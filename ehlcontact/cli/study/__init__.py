@@ -4,6 +4,8 @@
 module         responsibility
 =============  =====================================================================================
 ``schema``     the study file: what may stand in it, and errors in one line
+``slips``      those errors, and guesses at what was meant
+``forecast``   what a study will do, and its cost, without doing it
 ``stages``     the long computations, each a function of the study that leaves one file
 ``worker``     one stage in its own process
 ``runner``     stages side by side, with progress, resume and Ctrl-C

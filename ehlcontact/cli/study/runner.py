@@ -15,7 +15,9 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Mapping
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -102,8 +104,8 @@ def is_done(stage: Stage, study: Study, folder: Path, ledger: Mapping[str, Any])
 def run_stages(study: Study, study_file: Path, folder: Path, jobs: int) -> dict[str, dict[str, Any]]:
     """Run what is not done yet; returns the ledger, which is on disk after every stage.
 
-    A stage that fails does not stop the others. Ctrl-C lets the workers save their partial results, and then
-    raises `KeyboardInterrupt`.
+    A stage that fails does not stop the others. Ctrl-C, or the signal of a `kill`, lets the workers save their
+    partial results, and then raises `KeyboardInterrupt`. However this ends, no worker stays behind.
     """
     ledger = read_ledger(folder)
     todo = [stage for stage in STAGES if not is_done(stage, study, folder, ledger)]
@@ -113,7 +115,7 @@ def run_stages(study: Study, study_file: Path, folder: Path, jobs: int) -> dict[
     events: queue.Queue = queue.Queue()
     running: list[_Worker] = []
     console = stderr_console()
-    with progress_bars(console) as bars:
+    with progress_bars(console) as bars, _ended_like_ctrl_c():
         tasks = {stage.name: bars.add_task(stage.title, total=None, note="waiting", start=False) for stage in todo}
 
         def end(worker: _Worker) -> None:
@@ -142,15 +144,38 @@ def run_stages(study: Study, study_file: Path, folder: Path, jobs: int) -> dict[
             for worker in list(running):
                 end(worker)
             raise
+        finally:  # after a second Ctrl-C, or an error of our own
+            for worker in running:
+                worker.process.kill()
+                worker.finish()
     return ledger
 
 
 def _interrupt(running: list[_Worker], bars: Progress) -> None:
+    """Let the workers save what they have; a second Ctrl-C, like the end of our patience, kills them."""
     for worker in running:
         worker.process.send_signal(signal.SIGINT)
     bars.stop()
-    for worker in running:
-        try:
-            worker.process.wait(PATIENCE)
-        except subprocess.TimeoutExpired:
+    deadline = time.monotonic() + PATIENCE
+    try:
+        for worker in running:
+            worker.process.wait(max(0.0, deadline - time.monotonic()))
+    except (subprocess.TimeoutExpired, KeyboardInterrupt):
+        for worker in running:
             worker.process.kill()
+
+
+@contextmanager
+def _ended_like_ctrl_c() -> Iterator[None]:
+    """Let `kill`, `timeout` and the end of a session do as Ctrl-C does: workers have sessions of their own."""
+
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    asked = [signal.SIGTERM, signal.SIGHUP] if threading.current_thread() is threading.main_thread() else []
+    before = {number: signal.signal(number, interrupt) for number in asked}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

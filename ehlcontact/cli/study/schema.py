@@ -7,14 +7,15 @@ import json
 import tomllib
 from math import pi
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from ehlcontact.cli.study.slips import first_error, inputs_of
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.origin import __version__
-from ehlcontact.point import OperatingPoint, most_loaded_ball
+from ehlcontact.point import OperatingPoint, most_loaded_ball, require_solvable
 from ehlcontact.solver.domain import Domain
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
 
@@ -29,7 +30,8 @@ Periods = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
 
 
 class _Section(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    # strict: in a study `true` is no length of 1 mm, and "7.94" no number. A whole number is a number still.
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
 class Bearing(_Section):
@@ -102,7 +104,7 @@ class Solver(_Section):
 
     n: Grid = 128  # of the steady film
     n_transient: Grid = 128  # of every transient film
-    domain: tuple[Finite, Finite, Finite] = (-4.5, 1.5, 3.0)
+    domain: Annotated[tuple[Finite, Finite, Finite], Field(strict=False)] = (-4.5, 1.5, 3.0)  # TOML has lists
 
 
 class Free(_Section):
@@ -220,6 +222,11 @@ class Study(_Section):
         """Harmonic load at the rotor's speed."""
         return HarmonicLoad(self.rotor_omega, self.rotor.fit_amplitude)
 
+    @property
+    def largest_load(self) -> float:
+        """Largest load of the motions, in static loads."""
+        return max(m.largest_load for m in (self.free_motion, self.harmonic_motion, self.rotor_motion))
+
     def fingerprint(self, *sections: str) -> str:
         """Hash of the bearing, the oil, the version and further sections: what a stage's result depends on."""
         dump = self.model_dump(exclude_none=True)  # so that an entry more in the schema changes nothing
@@ -234,43 +241,26 @@ def load_study(path: Path) -> Study:
     Raises
     ------
     InputError
-        No such file, not TOML, an unknown, missing or impossible entry; the line names file, field, value and
-        allowed range.
+        No such file, not TOML, an unknown, missing or impossible entry, or a contact that the solvers are not made
+        for; the line names file, field, value, allowed range and, where there is one, a likely slip.
     """
     try:
         document = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise InputError("study", str(path), f"a readable TOML file ({error.strerror})") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, a number of 5000 digits, nested too deep
         raise InputError("study", str(path), f"complete TOML ({error})") from None
     try:
         study = Study.model_validate(document)
     except ValidationError as error:
-        raise _first_error(path, error) from None
+        raise first_error(path, error, Study) from None
+    given = inputs_of(study)
     try:
+        for name, (value, quantity) in given.items():
+            quantity.require(name, value)
         for name in ("domain", "point", "roughness", "free_motion", "harmonic_motion", "rotor_motion"):
             getattr(study, name)  # made here once, so that what the library refuses is refused now
+        require_solvable(study.point, study.largest_load, given)
     except InputError as error:
         raise InputError(f"{path}: {error.field}", error.value, error.allowed) from None
     return study
-
-
-def _first_error(path: Path, error: ValidationError) -> InputError:
-    first = error.errors()[0]
-    field = ".".join(str(part) for part in first["loc"]) or "study"
-    value = first["input"]
-    match first["type"]:
-        case "extra_forbidden":
-            section = _section(first["loc"][:-1])
-            return InputError(f"{path}: {field}", value, "left out; known here: " + ", ".join(section))
-        case "missing":
-            return InputError(f"{path}: {field}", None, "given")
-    allowed = first["msg"].removeprefix("Input should be ").removeprefix("Value error, ")
-    return InputError(f"{path}: {field}", value, allowed)
-
-
-def _section(loc: tuple[int | str, ...]) -> list[str]:
-    model: Any = Study
-    for part in loc:
-        model = model.model_fields[str(part)].annotation
-    return list(model.model_fields)

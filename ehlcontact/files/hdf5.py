@@ -27,7 +27,7 @@ import h5py
 import numpy as np
 
 from ehlcontact.errors import InputError
-from ehlcontact.files import replacing
+from ehlcontact.files.replacement import replacing
 
 
 def write(record: Any, path: str | os.PathLike[str], field: str, number: int = 1) -> Path:

@@ -1,0 +1,117 @@
+"""What the solvers are made for: the gate before any solve, and the slip of unit that a value outside betrays.
+
+Solves far outside do not fail at once: they refine, turn to Newton, and end after minutes. And a number that far
+off is hardly ever meant: it is a viscosity in mPa s, or a diameter in mm. So every solve begins with
+`point.require_solvable`, and a study before any of its computations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import pi
+from typing import NamedTuple
+
+from ehlcontact.errors import InputError
+
+MADE_FOR = "what the solvers are made for"
+
+
+class Quantity(NamedTuple):
+    """What a number with a unit can be, what it usually is, and the units it may have been given in instead."""
+
+    unit: str
+    limits: tuple[float, float]  # beyond them it is no rolling contact
+    usual: tuple[float, float]  # where a corrected value has to lie to be suggested
+    others: Mapping[str, float] = {}  # other unit: its size in `unit`
+
+    def slip(self, value: float) -> str:
+        """The unit that an unusual value betrays, and what it is then; empty if none makes it usual."""
+        low, high = self.usual
+        if low <= value <= high:
+            return ""
+        for other, size in self.others.items():
+            if low <= value * size <= high:
+                return f"in {other}? then {value * size:.4g} {self.unit}".rstrip()
+        return ""
+
+    def in_unit(self, unit: str) -> Quantity:
+        """The same, for a user who gives it in another unit, one of `others`."""
+        size = self.others[unit]
+        others = {other: its / size for other, its in self.others.items() if other != unit}
+        limits, usual = ((ends[0] / size, ends[1] / size) for ends in (self.limits, self.usual))
+        return Quantity(unit, limits, usual, {self.unit: 1.0 / size, **others})
+
+    def require(self, field: str, value: float) -> None:
+        """Raise `InputError` with the guess if `value` lies outside the limits."""
+        low, high = self.limits
+        if not low <= value <= high:
+            guess = self.slip(value)
+            allowed = f"between {low:g} and {high:g} {self.unit}".rstrip() + (f" ({guess})" if guess else "")
+            raise InputError(field, value, allowed)
+
+
+# Lengths: from the balls of a watch to the pitch circle of a wind turbine's main bearing. Moduli: from soft rubber
+# to diamond. Viscosities: from hot refrigerant to polybutene; pressure-viscosity coefficients: from water up.
+# m2/s is the kinematic viscosity of data sheets, times the density of an oil.
+INPUTS: Mapping[str, Quantity] = {
+    "radius_x": Quantity("m", (1e-5, 1.0), (2e-4, 0.1), {"mm": 1e-3, "inches": 0.0254}),
+    "radius_y": Quantity("m", (1e-5, 1e3), (2e-4, 10.0), {"mm": 1e-3, "inches": 0.0254}),
+    "ball_diameter": Quantity("m", (1e-4, 0.5), (5e-4, 0.15), {"mm": 1e-3, "inches": 0.0254}),
+    "pitch_diameter": Quantity("m", (5e-4, 10.0), (2e-3, 5.0), {"mm": 1e-3, "inches": 0.0254}),
+    "conformity": Quantity("", (0.501, 10.0), (0.503, 0.8), {"%": 0.01}),
+    "speed_rpm": Quantity("rev/min", (1e-3, 1e6), (30.0, 2e5), {"rad/s": 30.0 / pi, "rev/s": 60.0}),
+    "e1": Quantity("Pa", (1e6, 2e12), (1e9, 1.3e12), {"GPa": 1e9, "MPa": 1e6}),
+    "e2": Quantity("Pa", (1e6, 2e12), (1e9, 1.3e12), {"GPa": 1e9, "MPa": 1e6}),
+    "load": Quantity("N", (1e-6, 1e8), (0.1, 1e6), {"kN": 1e3}),
+    "u_sum": Quantity("m/s", (1e-6, 1e3), (1e-2, 200.0), {"mm/s": 1e-3}),
+    "eta0": Quantity("Pa s", (1e-4, 20.0), (1e-3, 2.0), {"mPa s": 1e-3, "m2/s": 870.0}),
+    "alpha": Quantity("1/Pa", (1e-10, 1e-6), (5e-9, 5e-8), {"1/GPa": 1e-9, "1/MPa": 1e-6}),
+}
+
+
+class Limits(NamedTuple):
+    """Of the dimensionless numbers, both ends included."""
+
+    M: tuple[float, float]
+    L: tuple[float, float]
+    kappa: tuple[float, float]
+    p_hertz: float  # Pa, at most
+    log_viscosity: float  # ln(eta/eta0) at the Hertz pressure, at most
+
+
+MEASURED = Limits((5.0, 30000.0), (0.0, 25.0), (0.08, 5.0), 3.5e9, 80.0)  # docs/solver.md
+LIMITS = Limits((0.1, 60000.0), (0.0, 40.0), (0.04, 8.0), 5e9, 120.0)
+
+Given = Mapping[str, tuple[float, Quantity]]  # a user's inputs, by the user's name for each
+
+
+def require_in_box(numbers: Mapping[str, float], given: Given, when: str = "") -> None:
+    """Raise `InputError` for the first number outside `LIMITS`, with the slips that the inputs betray.
+
+    Parameters
+    ----------
+    numbers : mapping
+        ``M``, ``L``, ``kappa``, ``p_hertz`` [Pa] and ``log_viscosity``.
+    given : mapping
+        What they were made of.
+    when : str
+        Added to the name of the number: under which load, for one.
+    """
+    slips = [f"{name} = {value:g} {guess}" for name, (value, q) in given.items() if (guess := q.slip(value))]
+    pressure = numbers["p_hertz"] * 1e-9
+    here = ", ".join(f"{name} = {numbers[name]:.4g}" for name in ("M", "L", "kappa"))
+    note = f", {MADE_FOR} ({'; '.join(slips) or f'{here}, {pressure:.3g} GPa'})"
+    for name in ("M", "L", "kappa"):
+        low, high = getattr(LIMITS, name)
+        if not low <= numbers[name] <= high:
+            raise InputError(name + when, _short(numbers[name]), f"between {low:g} and {high:g}{note}")
+    if not numbers["p_hertz"] <= LIMITS.p_hertz:
+        allowed = f"at most {LIMITS.p_hertz * 1e-9:g}{note}"
+        raise InputError(f"Hertz pressure{when} in GPa", _short(pressure), allowed)
+    if not numbers["log_viscosity"] <= LIMITS.log_viscosity:
+        field, allowed = f"ln(eta/eta0) at the Hertz pressure{when}", f"at most {LIMITS.log_viscosity:g}{note}"
+        raise InputError(field, _short(numbers["log_viscosity"]), allowed)
+
+
+def _short(value: float) -> float:
+    return float(f"{value:.4g}")

@@ -1,0 +1,207 @@
+"""What a study will do, and about how long it takes, from its file alone: nothing is solved here."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from math import ceil
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy import fft
+
+from ehlcontact.box import MEASURED
+from ehlcontact.cli.study.rotor import build_rotor
+from ehlcontact.cli.study.runner import is_done, read_ledger
+from ehlcontact.cli.study.schema import Study
+from ehlcontact.cli.study.stages import STAGES, Stage
+from ehlcontact.solver.mesh import FINENESS, LARGEST_MESH, Mesh, Purpose, default_domain, mesh_for
+
+# Cost of a stage: convolutions ("conv", docs/solver.md) per thousand nodes and step of one contact, the geometric
+# mean of the two studies in examples/, whose own costs are up to a factor 1.5 on either side. What a step costs
+# depends on how far it goes: hardly a cycle in a free vibration, three at the rotor's frequency.
+COST = {"free": 0.35, "harmonic": 0.76, "rotor_band": 1.05, "rotor_full": 1.05, "rotor_half_step": 0.71}
+STEADY_COST = 8.0  # likewise per thousand nodes, of a whole steady solve
+CONV = 4.2e-3  # seconds of one when those studies were run
+REST = 10.0 / CONV  # fits, impedance, FMU, reduced rotors and report, of either study
+REFERENCE_RUNS = 15  # convolutions timed, of which the fastest counts
+# What too coarse a mesh does, measured against finer grids: the 6205 at n = 64, and solver/mesh.py.
+FILM_TOO_THIN = "it comes out a fifth too thin, or negative"
+DAMPING_OFF = "damping is 12 to 16 % off at 0.6 of that, a few at a third"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What one stage will do."""
+
+    stage: Stage
+    mesh: Mesh
+    contacts: int
+    steps: int  # 0: one steady film
+    step: float | None  # dimensionless time
+    seconds: float | None  # estimated; None where nothing is known
+    kept: bool  # finished in the folder already
+
+    def to_dict(self, kappa: float) -> dict[str, Any]:
+        """All of it in numbers."""
+        return {
+            "name": self.stage.name,
+            "title": self.stage.title,
+            "n": self.mesh.n,
+            "nodes": round(self.mesh.nodes(kappa)),
+            "contacts": self.contacts,
+            "steps": self.steps,
+            "step": self.step,
+            "seconds": self.seconds,
+            "kept": self.kept,
+        }
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """What a study will do."""
+
+    study: Study
+    folder: Path
+    jobs: int
+    conv: float  # seconds of one convolution here and now
+    plans: tuple[Plan, ...]
+    warnings: tuple[str, ...]
+
+    @property
+    def seconds(self) -> float:
+        """Estimate of the whole: stages side by side, longest first as the runner takes them, then the rest."""
+        loads = [0.0] * self.jobs
+        for plan in self.plans:
+            if not plan.kept:
+                loads[int(np.argmin(loads))] += plan.seconds or 0.0
+        return max(loads) + REST * self.conv
+
+    @property
+    def operating_point(self) -> dict[str, Any]:
+        """Contact of the most loaded ball, and its units in SI."""
+        point, study = self.study.point, self.study
+        m, s = point.moes, point.scales
+        return {
+            "M": m.M,
+            "L": m.L,
+            "kappa": m.kappa,
+            "p_hertz": s.pressure,
+            "ball_load": study.ball_load,
+            "u_sum": point.u_sum,
+            "a": s.a,
+            "b": s.b,
+            "length": s.length,
+            "time": s.time,
+            "h_central_expected": m.expected_film * s.length,
+            "inlet_width": m.inlet_width,
+            "rotor_omega": study.rotor_omega,
+        }
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, in SI units."""
+        kappa = self.study.point.moes.kappa
+        return {
+            "title": self.study.title,
+            "operating_point": self.operating_point,
+            "domain": self.study.domain.as_tuple(),
+            "folder": str(self.folder),
+            "stages": [plan.to_dict(kappa) for plan in self.plans],
+            "jobs": self.jobs,
+            "seconds": self.seconds,
+            "warnings": list(self.warnings),
+        }
+
+
+def forecast(study: Study, folder: Path, jobs: int) -> Forecast:
+    """Look at a study and at what its folder holds.
+
+    Parameters
+    ----------
+    study : Study
+    folder : Path
+        Of its results; it need not exist.
+    jobs : int
+        Computations side by side.
+    """
+    conv, ledger = convolution_seconds(), read_ledger(folder)
+    kappa = study.point.moes.kappa
+    plans = []
+    for stage in STAGES:
+        mesh, contacts, steps, step = _work(stage.name, study)
+        cost = STEADY_COST if not steps else steps * contacts * COST.get(stage.name, np.nan)
+        seconds = cost * conv * mesh.nodes(kappa) * 1e-3
+        estimate = float(seconds) if np.isfinite(seconds) else None
+        plans.append(Plan(stage, mesh, contacts, steps, step, estimate, is_done(stage, study, folder, ledger)))
+    return Forecast(study, folder, jobs, conv, tuple(plans), tuple(_warnings(study)))
+
+
+def convolution_seconds() -> float:
+    """Seconds of the reference convolution on this machine, as in tests/benchmarks/run.py but from fewer runs."""
+    field, kernel = np.ones((257, 257)), np.ones((512, 257), dtype=complex)
+    times = []
+    for _ in range(REFERENCE_RUNS):
+        start = time.perf_counter()
+        fft.irfft2(fft.rfft2(field, (512, 512), workers=1) * kernel, (512, 512), workers=1)
+        times.append(time.perf_counter() - start)
+    return min(times)
+
+
+def _work(name: str, study: Study) -> tuple[Mesh, int, int, float | None]:
+    """Mesh, contacts, steps and their length; no steps for a steady film."""
+    free, harmonic, r = study.free, study.harmonic, study.rotor
+    mesh, contacts = Mesh(study.solver.n_transient, study.domain), 1
+    match name:
+        case "free":
+            periods, each, period = free.periods, free.steps_per_period, study.free_motion.period
+        case "harmonic":
+            periods, each, period = harmonic.periods, harmonic.steps_per_period, study.harmonic_motion.period
+        case "rotor_band":
+            periods, each, period = r.fit_periods, r.fit_steps_per_period, study.rotor_motion.period
+        case "rotor_full" | "rotor_half_step":
+            halvings, contacts = int(name == "rotor_half_step"), len(build_rotor(study).mounts)
+            periods = r.check_revolutions if halvings else r.revolutions
+            each, period = r.steps_per_revolution * 2**halvings, study.rotor_motion.period
+        case _:
+            return Mesh(study.solver.n, study.domain), 1, 0, None
+    return mesh, contacts, ceil(periods * each - 1e-9), period / each
+
+
+def _warnings(study: Study) -> list[str]:
+    """What will run, but not well."""
+    return [*_coarse(study), *_outside(study)]
+
+
+def _coarse(study: Study) -> list[str]:
+    """Grids that do not see the inlet, and a region too small."""
+    point, domain, found = study.point.moes, study.domain, []
+    for key, n, purpose, why in (
+        ("n", study.solver.n, Purpose.FILM, FILM_TOO_THIN),
+        ("n_transient", study.solver.n_transient, Purpose.RUN, DAMPING_OFF),
+    ):
+        size = Mesh(n, domain).size(point.kappa)
+        wanted = min(FINENESS[purpose].share * point.inlet_width, LARGEST_MESH)
+        if size > wanted * (1.0 + 1e-9):
+            better = mesh_for(point, purpose, domain=domain).n
+            found.append(
+                f"solver.{key} = {n}: a mesh of {size:.2g} semi-axes is too coarse for the inlet of this film, "
+                f"{point.inlet_width:.2g} wide ({why}); {key} = {better}"
+            )
+    wide = default_domain(point, study.largest_load)
+    if wide.x_in < domain.x_in or wide.y_max > domain.y_max or wide.x_out > domain.x_out:
+        bounds = ", ".join(f"{x:.3g}" for x in wide.as_tuple())
+        found.append(f"solver.domain = {list(domain.as_tuple())}: this load wants [{bounds}] or more")
+    return found
+
+
+def _outside(study: Study) -> list[str]:
+    """Numbers beyond those that the solver was measured at."""
+    m, found = study.point.moes, []
+    for name in ("M", "L", "kappa"):
+        low, high = getattr(MEASURED, name)
+        if not low <= getattr(m, name) <= high:
+            found.append(f"{name} = {getattr(m, name):.4g}: the solver is measured between {low:g} and {high:g}")
+    if m.p_hertz > MEASURED.p_hertz:
+        found.append(f"Hertz pressure {m.p_hertz * 1e-9:.2f} GPa: the solver is measured up to 3.5 GPa")
+    return found

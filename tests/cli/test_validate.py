@@ -1,0 +1,123 @@
+"""``ehlcontact validate``: what a study will do, without doing it."""
+
+import json
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from ehlcontact import Purpose, mesh_for
+from ehlcontact.cli.study.forecast import forecast
+from ehlcontact.cli.study.schema import load_study
+from ehlcontact.cli.study.stages import STAGES
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SMALL = EXAMPLES / "small_study.toml"
+# Seconds of the stages of both examples, run with two side by side; one convolution took 4.2 ms then.
+MEASURED = {
+    "small_study": dict(
+        steady=0.055, rotor_full=0.48, free=0.41, harmonic=0.46, rotor_band=0.50, rotor_half_step=0.34
+    ),
+    "deep_groove_6205": dict(
+        steady=0.30, rotor_full=19.1, free=1.71, harmonic=7.15, rotor_band=4.26, rotor_half_step=8.24
+    ),
+}
+
+
+@pytest.fixture
+def plan(call, tmp_path):
+    """The document for a study file, or for changes to the small one."""
+
+    def run(file=SMALL, **changes):
+        if changes:
+            text = file.read_text()
+            for old, new in changes.values():
+                assert old in text
+                text = text.replace(old, new, 1)
+            file = tmp_path / "changed.toml"
+            file.write_text(text)
+        result = call("validate", file, "-o", tmp_path / "none", "--json", "-")
+        assert result.code == 0 and result.err == ""
+        return json.loads(result.out)
+
+    return run
+
+
+def test_operating_point_and_meshes(plan):
+    found = plan(EXAMPLES / "deep_groove_6205.toml")
+    point = found["operating_point"]
+    assert point["M"] == pytest.approx(2975.0, rel=1e-3) and point["kappa"] == pytest.approx(0.107, rel=1e-2)
+    assert point["p_hertz"] == pytest.approx(2.01e9, rel=1e-2) and point["ball_load"] == pytest.approx(
+        487.2, rel=1e-3
+    )
+    assert found["domain"] == [-4.5, 1.5, 3.0] and found["warnings"] == []
+    stages = {stage["name"]: stage for stage in found["stages"]}
+    assert list(stages) == [stage.name for stage in STAGES]
+    assert stages["steady"]["steps"] == 0 and stages["steady"]["nodes"] == 8192
+    assert stages["free"]["steps"] == 200 and stages["harmonic"]["steps"] == 240
+    assert stages["rotor_full"]["steps"] == 180 and stages["rotor_full"]["contacts"] == 2
+    assert stages["rotor_half_step"]["step"] == pytest.approx(stages["rotor_full"]["step"] / 2.0)
+    assert stages["rotor_full"]["step"] == pytest.approx(8.8, abs=0.05)  # as the example says
+    assert not any(stage["kept"] for stage in found["stages"])
+
+
+@pytest.mark.parametrize("name", MEASURED)
+def test_estimates_are_good_to_a_factor_of_two(monkeypatch, tmp_path, name):
+    monkeypatch.setattr("ehlcontact.cli.study.forecast.convolution_seconds", lambda: 4.2e-3)
+    found = forecast(load_study(EXAMPLES / f"{name}.toml"), tmp_path, 2)
+    for plan in found.plans:
+        assert plan.seconds is not None, f"{plan.stage.name} has no cost in forecast.py"
+        assert 0.5 < plan.seconds / MEASURED[name][plan.stage.name] < 2.0, plan.stage.name
+    assert found.seconds > max(plan.seconds for plan in found.plans)
+
+
+def test_nothing_is_solved(call, monkeypatch, tmp_path):
+    for name in ("ehlcontact.steady.solve_steady", "ehlcontact.transient.simulate.simulate"):
+        monkeypatch.setattr(name, None)
+    monkeypatch.setattr(subprocess, "Popen", None)
+    result = call("validate", SMALL, "-o", tmp_path / "none")
+    assert result.code == 0 and result.err == "" and not (tmp_path / "none").exists()
+    assert "rotor on full contacts" in result.out and "factor of two" in result.out
+
+
+def test_what_is_finished_is_kept(call, tmp_path):
+    """As the runner judges: the file, and in the ledger a fingerprint of this study."""
+    study, folder = load_study(SMALL), tmp_path / "out"
+    folder.mkdir()
+    steady = next(stage for stage in STAGES if stage.name == "steady")
+    steady.file(folder).write_bytes(b"")
+    note = {
+        "status": "converged",
+        "message": "",
+        "seconds": 1.0,
+        "fingerprint": study.fingerprint(*steady.sections),
+    }
+    (folder / "stages.json").write_text(json.dumps({"steady": note}))
+    found = forecast(study, folder, 2)
+    assert [plan.stage.name for plan in found.plans if plan.kept] == ["steady"]
+    assert "kept" in call("validate", SMALL, "-o", folder).out
+    whole = forecast(study, tmp_path / "none", 1)
+    assert not any(plan.kept for plan in whole.plans)
+
+
+def test_grids_too_coarse_for_the_inlet_are_told(plan):
+    """The film that the example file itself warns of: n = 64 at 1000 N."""
+    found = plan(load=("radial_load = 70.0", "radial_load = 1000.0"))
+    texts = found["warnings"]
+    assert [text.split(" = ")[0] for text in texts] == ["solver.n", "solver.n_transient"]
+    wanted = mesh_for(load_study(EXAMPLES / "deep_groove_6205.toml").point.moes, Purpose.RUN).n
+    assert all(f"= {wanted}" in text and "too coarse" in text for text in texts)
+
+
+def test_regions_and_numbers_beyond_are_told(plan):
+    light = plan(load=("radial_load = 70.0", "radial_load = 2.0"))["warnings"]
+    assert any(text.startswith("solver.domain = ") and "wants" in text for text in light)
+    thick = plan(eta0=("eta0 = 0.0367", "eta0 = 0.2"), load=("radial_load = 70.0", "radial_load = 1000.0"))[
+        "warnings"
+    ]
+    assert any("L = " in text and "measured between 0 and 25" in text for text in thick)
+
+
+def test_bad_json_target(refused, tmp_path):
+    refused(("--json", "exists"), "validate", SMALL, "--json", tmp_path / "none" / "x.json")
+    refused(("study", "none.toml"), "validate", tmp_path / "none.toml")
