@@ -13,8 +13,6 @@ from ehlcontact.errors import InputError
 if TYPE_CHECKING:
     from pydantic import BaseModel, ValidationError
 
-    from ehlcontact.cli.study.schema import Study
-
 # Entries whose values set the operating point, in the units of the file.
 QUANTITIES = {
     "bearing.ball_diameter_mm": INPUTS["ball_diameter"].in_unit("mm"),
@@ -37,8 +35,8 @@ PLAIN_WORDS = {
 }
 
 
-def inputs_of(study: Study) -> Given:
-    """Entries that set the operating point; an oil given by its grade has no eta0 and no alpha of its own."""
+def inputs_of(study: BaseModel) -> Given:
+    """Entries of a study that set the operating point; an oil given by its grade has no eta0 of its own."""
     entries = {
         name: (getattr(getattr(study, section), key), quantity)
         for name, quantity in QUANTITIES.items()
