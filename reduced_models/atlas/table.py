@@ -6,6 +6,7 @@ import json
 import zipfile
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
+from io import BytesIO
 from pathlib import Path
 from typing import Any, Self
 
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_choice
 from ehlcontact.errors import InputError
-from ehlcontact.files import replacing
+from ehlcontact.files import write_bytes
 from ehlcontact.point import MoesPoint
 from reduced_models.elements.film_response import FilterRates
 
@@ -173,8 +174,9 @@ class AtlasTable:
         arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "metadata"}
         small = {k: v if k in ("points", "omega") else v.astype(np.float32) for k, v in arrays.items()}
         header = json.dumps({"schema": SCHEMA, "schema_version": VERSION, **self.metadata}, sort_keys=True)
-        with replacing(path, "atlas") as temporary, temporary.open("wb") as stream:
-            np.savez_compressed(stream, metadata=np.array(header), **small)
+        stream = BytesIO()
+        np.savez_compressed(stream, metadata=np.array(header), **small)
+        write_bytes(path, stream.getvalue(), "atlas")
 
     @classmethod
     def load(cls, path: Path) -> Self:
