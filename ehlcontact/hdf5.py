@@ -31,11 +31,6 @@ import numpy as np
 from ehlcontact.errors import InputError
 from ehlcontact.files import is_file, parse_json, write_bytes
 
-# What h5py, numpy and classes raise on files that are damaged, or not what they say they are.
-SPOILT = (
-    *(OSError, KeyError, ValueError, TypeError, AttributeError, IndexError),
-    *(RuntimeError, ArithmeticError, MemoryError),
-)
 # Of HDF5 itself: the first that has checksums on all its structure; read by HDF5 1.10 (2016) and newer.
 LAYOUT = ("v110", "v110")
 NUMBERS = "bfiu"  # kinds of dtype: all that is ever stored
@@ -122,7 +117,7 @@ def read(
                 return _build(cls, lambda name, hint: _take(file, name, hint))
     except InputError as error:  # of a member that its own class refuses
         raise InputError(f"{source}: {error.field}", error.value, error.allowed) from None
-    except SPOILT:
+    except Exception:  # whatever h5py, numpy and classes raise on what is damaged, or not what it says it is
         raise InputError(field, str(source), f"a complete HDF5 {what}") from None
     if number is None:
         raise InputError(field, str(source), f"a {what}")

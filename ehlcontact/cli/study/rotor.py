@@ -123,7 +123,7 @@ def load_rotor(path: Path, rotor: JeffcottRotor) -> RotorResult:
             ours = hdf5.text_of(file, "class") == RotorResult.__name__ and file.attrs["format"] == FORMAT
             values = {name: hdf5.take(file[name]) for name in HISTORIES if ours}
             status = Status(hdf5.text_of(file, "status"))
-    except hdf5.SPOILT as error:
+    except Exception as error:  # whatever h5py and numpy raise on what is damaged
         raise InputError("file", str(path), f"a complete rotor run of this library ({error})") from None
     if not ours:
         raise InputError("file", str(path), "a rotor run of this library")

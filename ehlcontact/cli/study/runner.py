@@ -24,6 +24,7 @@ from rich.progress import Progress
 from ehlcontact.cli.output import progress_bars, stderr_console, write_json
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import STAGES, Stage
+from ehlcontact.files import parse_json, read_text
 from ehlcontact.status import Status
 
 LEDGER = "stages.json"
@@ -83,7 +84,7 @@ class _Worker:
 def read_ledger(folder: Path) -> dict[str, dict[str, Any]]:
     """What earlier runs finished here; nothing if there was none or its notes are unreadable."""
     try:
-        ledger = json.loads((folder / LEDGER).read_text(encoding="utf-8"))
+        ledger = parse_json(read_text(folder / LEDGER))
     except (OSError, ValueError):
         return {}
     return ledger if isinstance(ledger, dict) else {}
