@@ -16,7 +16,8 @@ room           responsibility
 ``film``       the film to look at: maps, mid-planes, fringes, what the surfaces carry through
 ``storage``    `save` and `load`
 ``hdf5``       any dataclass in an HDF5 file
-``files``      files that are replaced in one move
+``files``      files that are replaced in one move; texts of any origin
+``process``    processes that end with their parent, and on Ctrl-C
 ``checks``     checks of inputs
 ``errors``     `InputError`, `ConvergenceError`
 ``status``     how a solve or a run ended, with advice
@@ -25,6 +26,7 @@ room           responsibility
 ============== ===========================================================================================
 """
 
+from ehlcontact import process as process  # first: it guards the imports of the command line against Ctrl-C
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.film import (
     Film,

@@ -10,7 +10,8 @@ import typer
 
 from ehlcontact.checks import require_integer
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import check_file, check_json, progress, show_table, write_json
+from ehlcontact.cli.output import check_file, check_json, show_table, write_json
+from ehlcontact.cli.progress import progress
 
 NPZ = (".npz",)
 

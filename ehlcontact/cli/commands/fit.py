@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,7 +10,7 @@ import typer
 
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import check_file, check_json, show_table, write_json
+from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
@@ -53,12 +54,10 @@ def fit(
         except InputError as error:
             raise InputError(f"{file}: {error.field}", error.value, error.allowed) from None
     fitted = fit_records(records, model, window)
-    if save is not None:
-        fitted.element.save(save)
-    write_json(fitted.to_dict(), json_to)
     rows = _coefficients(fitted) if isinstance(fitted, FitResult) else _memory(fitted)
     valid = fitted.valid
-    show_table(
+    table = partial(
+        show_table,
         f"{model} element",
         [
             *rows,
@@ -70,6 +69,8 @@ def fit(
         ],
         json_to,
     )
+    kept = [] if save is None else [partial(fitted.element.save, save)]
+    deliver(*kept, lambda: write_json(fitted.to_dict(), json_to), table)
 
 
 def _coefficients(fitted: FitResult) -> list[tuple[str, str, str]]:

@@ -11,7 +11,7 @@ import typer
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import FAILED, check_folder, check_json, complain, say, write_json
 from ehlcontact.errors import InputError
-from ehlcontact.files import write_text
+from ehlcontact.files import read_text, write_text
 from ehlcontact.status import Status
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def run(
     prepare(folder)
     copy = folder / STUDY_COPY
     if not copy.exists() or not copy.samefile(study_file):
-        write_text(copy, study_file.read_text(encoding="utf-8"), "file")
+        write_text(copy, read_text(study_file), "file")
 
     try:
         _compute(study, copy, folder, min(jobs, os.cpu_count() or 1), json_to)

@@ -8,7 +8,7 @@ from math import pi
 from pathlib import Path
 from typing import TypeVar
 
-from ehlcontact.cli.output import progress
+from ehlcontact.cli.progress import progress
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint

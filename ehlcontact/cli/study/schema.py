@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ehlcontact.errors import InputError
+from ehlcontact.files import read_text
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.origin import __version__
 from ehlcontact.point import OperatingPoint, most_loaded_ball
@@ -179,11 +180,12 @@ def load_study(path: Path) -> Study:
         allowed range.
     """
     try:
-        document = tomllib.loads(path.read_text(encoding="utf-8"))
+        document = tomllib.loads(read_text(path))
     except OSError as error:
         raise InputError("study", str(path), f"a readable TOML file ({error.strerror})") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError("study", str(path), f"complete TOML ({error})") from None
+    except (ValueError, RecursionError) as error:
+        reason = "nested too deeply" if isinstance(error, RecursionError) else str(error)
+        raise InputError("study", str(path), f"complete TOML ({reason})") from None
     try:
         study = Study.model_validate(document)
     except ValidationError as error:

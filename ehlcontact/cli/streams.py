@@ -1,0 +1,81 @@
+"""stdout and stderr that may be full, closed, or of few characters: told in one line, never run into."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from typing import Any, TextIO
+
+
+class StdoutError(Exception):
+    """stdout took no more; the message says why."""
+
+    def __init__(self, error: OSError) -> None:
+        self.closed = isinstance(error, BrokenPipeError)
+        super().__init__(error.strerror or str(error))
+
+
+class _Watched:
+    """A stream whose failures are `StdoutError`: libraries for command lines take others for their own matter."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+    def write(self, text: str) -> int:
+        """Write; a character that the encoding does not know is written as its number."""
+        try:
+            return self._stream.write(text)
+        except UnicodeEncodeError:
+            encoding = self._stream.encoding
+            return self._stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
+        except OSError as error:
+            raise self._failure(error) from None
+
+    def flush(self) -> None:
+        """Write what is still held back."""
+        try:
+            self._stream.flush()
+        except OSError as error:
+            raise self._failure(error) from None
+
+    def _failure(self, error: OSError) -> StdoutError:
+        discard(self._stream)
+        return StdoutError(error)
+
+
+@contextmanager
+def watched_stdout() -> Iterator[None]:
+    """Within the block stdout raises `StdoutError`, also for what it still holds back at the end."""
+    stream = sys.stdout
+    if stream is None:  # closed before we were started: nobody wants to know
+        yield
+        return
+    sys.stdout = _Watched(stream)
+    try:
+        yield
+        sys.stdout.flush()
+    finally:
+        sys.stdout = stream
+
+
+def to_stderr(line: str) -> None:
+    """Write a line on stderr if anybody listens."""
+    if sys.stderr is not None:
+        try:
+            sys.stderr.write(line + "\n")
+            sys.stderr.flush()
+        except OSError:
+            discard(sys.stderr)
+
+
+def discard(stream: TextIO) -> None:
+    """Let what the stream still holds go nowhere: Python would try once more when it ends, and fail."""
+    with suppress(OSError, ValueError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, stream.fileno())
+        os.close(nowhere)
