@@ -40,6 +40,9 @@ def stdin_closed() -> None:
 @contextmanager
 def interrupts_held() -> Iterator[None]:
     """Keep Ctrl-C from processes started within the block: it is for their parent, who ends them."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield

@@ -11,7 +11,7 @@ from typing import Annotated, Any, get_type_hints
 
 import typer
 
-from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json
+from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.domain import Domain, check_intervals
 
@@ -155,21 +155,20 @@ class Files:
             One of the files could not be written.
         """
 
-        def save() -> None:
+        def save(path: Path) -> None:
             from ehlcontact.storage import save as store
 
-            if self.save is not None:
-                store(result, self.save)
+            store(result, path)
 
-        def figure() -> None:
-            if self.figure is not None and draw is not None:
+        def figure(path: Path) -> None:
+            if draw is not None:
                 from ehlcontact.cli.plots.style import write_figure
 
-                write_figure(draw, result, self.figure)
+                write_figure(draw, result, path)
 
         deliver(
-            save,
-            figure,
+            lambda: write_to("--save", self.save, save),
+            lambda: write_to("--figure", self.figure, figure),
             lambda: write_json(result.summary(), self.json_to),
             lambda: show_table(title, rows, self.json_to),
         )

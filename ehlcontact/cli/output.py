@@ -100,7 +100,7 @@ def plain(value: Any) -> Any:
     return value
 
 
-def write_json(document: Mapping[str, Any], target: str | None) -> None:
+def write_json(document: Mapping[str, Any], target: str | None, field: str = "--json") -> None:
     """Write to a file in one move, or to stdout for ``-``; nothing for None."""
     if target is None:
         return
@@ -108,7 +108,22 @@ def write_json(document: Mapping[str, Any], target: str | None) -> None:
     if target == STDOUT:
         typer.echo(text)
     else:
-        write_text(target, text + "\n", "file")
+        write_text(target, text + "\n", field)
+
+
+def write_to(option: str, path: Path | None, write: Callable[[Path], object]) -> None:
+    """Write to the path of an option, if there is one.
+
+    Raises
+    ------
+    InputError
+        It cannot be written; it names the option.
+    """
+    if path is not None:
+        try:
+            write(path)
+        except InputError as error:
+            raise InputError(option, error.value, error.allowed) from None
 
 
 def deliver(*steps: Callable[[], object]) -> None:

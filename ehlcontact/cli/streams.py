@@ -22,6 +22,7 @@ class _Watched:
 
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
+        self.failure: StdoutError | None = None
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._stream, name)
@@ -45,7 +46,8 @@ class _Watched:
 
     def _failure(self, error: OSError) -> StdoutError:
         discard(self._stream)
-        return StdoutError(error)
+        self.failure = self.failure or StdoutError(error)
+        return self.failure
 
 
 @contextmanager
@@ -55,10 +57,13 @@ def watched_stdout() -> Iterator[None]:
     if stream is None:  # closed before we were started: nobody wants to know
         yield
         return
-    sys.stdout = _Watched(stream)
+    watched = _Watched(stream)
+    sys.stdout = watched
     try:
         yield
-        sys.stdout.flush()
+        watched.flush()
+        if watched.failure:  # swallowed by a library that only tried what kind of stream it is
+            raise watched.failure
     finally:
         sys.stdout = stream
 

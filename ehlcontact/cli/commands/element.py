@@ -10,7 +10,7 @@ import typer
 
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json
+from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
 from reduced_models.elements.validity import text_of
 
 
@@ -63,5 +63,5 @@ def element(
         ],
         json_to,
     )
-    kept = [] if save is None else [partial(made.save, save)]
-    deliver(*kept, lambda: write_json(made.to_dict(), json_to), shown)
+    kept = partial(write_to, "--save", save, made.save)
+    deliver(kept, lambda: write_json(made.to_dict(), json_to), shown)

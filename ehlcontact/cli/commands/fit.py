@@ -10,7 +10,7 @@ import typer
 
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json
+from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
@@ -69,8 +69,8 @@ def fit(
         ],
         json_to,
     )
-    kept = [] if save is None else [partial(fitted.element.save, save)]
-    deliver(*kept, lambda: write_json(fitted.to_dict(), json_to), table)
+    kept = partial(write_to, "--save", save, fitted.element.save)
+    deliver(kept, lambda: write_json(fitted.to_dict(), json_to), table)
 
 
 def _coefficients(fitted: FitResult) -> list[tuple[str, str, str]]:

@@ -71,7 +71,7 @@ def _compute(study: Study, copy: Path, folder: Path, jobs: int, json_to: str | N
     from ehlcontact.cli.study.results import evaluate
 
     found = evaluate(study, folder, ledger)
-    write_json(found.to_dict(), str(folder / "results.json"))
+    write_json(found.to_dict(), str(folder / "results.json"), "file")
     write_json(found.to_dict(), json_to)
     report = write_report(found, folder / "report.html")
     say(f"{found.answer}\nreport: {report}", json_to)

@@ -13,6 +13,7 @@ from ehlcontact.cli import options as o
 from ehlcontact.cli.output import FAILED, check_file, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.transient.checkpoint import CheckpointError
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, Motion, RampLoad
 
 if TYPE_CHECKING:
@@ -160,7 +161,7 @@ def simulate(
     chosen = grid.chosen() | time.chosen()
     check_file("--checkpoint", restart.checkpoint, o.HDF5)
     files.check()
-    failure = ""
+    failure, unkept = "", None
     with progress("transient film") as update:
         try:
             result = integrate(
@@ -168,8 +169,12 @@ def simulate(
             )
         except ConvergenceError as stopped:
             result, failure = stopped.result, str(stopped)
+        except CheckpointError as error:
+            result, unkept = error.result, error
     # stopped before the first step, there is nothing to draw
     files.deliver(result, "transient film", _rows(result), _draw if result.steps else None)
+    if unkept is not None:
+        raise unkept
     if not result.status.ok:
         message = failure or f"simulation {result.status} at T = {result.T[-1]:.6g}: {result.status.advice}"
         kept = [f"partial result in {files.save}"] if files.save else []

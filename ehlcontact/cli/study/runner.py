@@ -164,7 +164,7 @@ def run_stages(study: Study, study_file: Path, folder: Path, jobs: int) -> dict[
             ledger[stage.name] = last | {"fingerprint": study.fingerprint(*stage.sections)}
             if done:
                 ledger[stage.name]["sha256"] = checksum(stage.file(folder))
-            write_json(ledger, str(folder / LEDGER))
+            write_json(ledger, str(folder / LEDGER), "file")
 
         try:
             while todo or running:
