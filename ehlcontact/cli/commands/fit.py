@@ -38,6 +38,7 @@ def fit(
     from reduced_models import ContactRecord, FitResult
     from reduced_models import fit as fit_records
     from reduced_models.fitting.fit import MEMORY, MODELS
+    from reduced_models.fitting.records import repeated
 
     require_choice("--model", model, MODELS)
     if model == MEMORY and window is not None:
@@ -53,6 +54,10 @@ def fit(
             records.append(ContactRecord.from_result(result))
         except InputError as error:
             raise InputError(f"{file}: {error.field}", error.value, error.allowed) from None
+    again = repeated(records)
+    if again is not None:
+        first, second = (str(files[k]) for k in again)
+        raise InputError("file", second, f"given once: it holds the record of {first}")
     fitted = fit_records(records, model, window)
     rows = _coefficients(fitted) if isinstance(fitted, FitResult) else _memory(fitted)
     valid = fitted.valid

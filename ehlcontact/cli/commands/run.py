@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, check_folder, check_json, complain, say, write_json
+from ehlcontact.cli.output import FAILED, USAGE, check_folder, check_json, complain, say, write_json
 from ehlcontact.errors import InputError
 from ehlcontact.files import read_text, write_text
 from ehlcontact.status import Status
@@ -48,8 +48,13 @@ def run(
     if not copy.exists() or not copy.samefile(study_file):
         write_text(copy, read_text(study_file), "file")
 
+    from ehlcontact.cli.study.runner import StorageError
+
     try:
         _compute(study, copy, folder, min(jobs, os.cpu_count() or 1), json_to)
+    except StorageError as error:
+        complain(f"{error}; what was computed before is in {folder}, the same command resumes")
+        raise typer.Exit(USAGE) from None
     except KeyboardInterrupt:
         complain(f"interrupted; what was computed is in {folder}, the same command resumes")
         raise typer.Exit(FAILED) from None

@@ -35,6 +35,10 @@ ROOT = Path(__file__).parents[3]  # holds the package, also in a checkout that i
 PATIENCE = 30.0  # seconds that an interrupted worker has for saving
 
 
+class StorageError(Exception):
+    """The result of a stage could not be written; the message says which, where and why."""
+
+
 class _Worker:
     """One process and the thread that reads its events into the common queue."""
 
@@ -143,8 +147,15 @@ def _to_do(study: Study, folder: Path, ledger: Mapping[str, Mapping[str, Any]]) 
 def run_stages(study: Study, study_file: Path, folder: Path, jobs: int) -> dict[str, dict[str, Any]]:
     """Run what is not done yet; returns the ledger, which is on disk after every stage.
 
-    A stage that fails does not stop the others. Ctrl-C, or a ledger that cannot be written, lets the workers save
+    A stage that fails does not stop the others. Ctrl-C, and a file that cannot be written, lets the workers save
     their partial results, and is raised then.
+
+    Raises
+    ------
+    StorageError
+        There is no room for the result of a stage.
+    InputError
+        Nor for the ledger.
     """
     ledger = read_ledger(folder)
     todo = _to_do(study, folder, ledger)
@@ -165,6 +176,8 @@ def run_stages(study: Study, study_file: Path, folder: Path, jobs: int) -> dict[
             if done:
                 ledger[stage.name]["sha256"] = checksum(stage.file(folder))
             write_json(ledger, str(folder / LEDGER), "file")
+            if not last.get("stored", True):
+                raise StorageError(last["message"])
 
         try:
             while todo or running:
@@ -180,7 +193,7 @@ def run_stages(study: Study, study_file: Path, folder: Path, jobs: int) -> dict[
         except BaseException:
             _interrupt(running)
             for worker in list(running):
-                with suppress(InputError):  # the first error says why
+                with suppress(InputError, StorageError):  # the first error says why
                     end(worker)
             raise
     return ledger

@@ -21,6 +21,7 @@ class Outcome(NamedTuple):
 
     status: Status
     message: str = ""
+    stored: bool = True  # unless there was no room for it: then there is none for others
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,11 +52,14 @@ class Stage:
             result, outcome = error.result, Outcome(Status.FAILED, str(error))
         except KeyboardInterrupt:
             return Outcome(Status.INTERRUPTED, "stopped before anything could be kept")
-        if outcome.status.ok:
-            self.store(result, self.file(folder))
-            self.partial(folder).unlink(missing_ok=True)
-        elif hasattr(result, "force"):  # not a single failed step, but a result
-            self.store(result, self.partial(folder))
+        try:
+            if outcome.status.ok:
+                self.store(result, self.file(folder))
+                self.partial(folder).unlink(missing_ok=True)
+            elif hasattr(result, "force"):  # not a single failed step, but a result
+                self.store(result, self.partial(folder))
+        except InputError as error:
+            return Outcome(Status.FAILED, str(error), stored=False)
         return outcome
 
 
