@@ -82,7 +82,7 @@ class Checkpoint:
                 raise InputError("restart", str(path), f"a checkpoint of this run: {what}")
 
         same("version", self.version, __version__)
-        ours, T = self.settings, self.record.T
+        ours = self.settings
         for name in ("point", "deflection"):
             same(name, getattr(ours, name), getattr(asked, name))
         for name in ("n", "domain"):
@@ -96,12 +96,13 @@ class Checkpoint:
             wanted = TimeSteps.of(asked.motion, ours.steps.until, min(dT, ours.steps.until), None, asked.steps.tol)
             if abs(ours.steps.dT - wanted.dT) > SAME * ours.steps.dT:
                 same("dT", ours.steps.dT, dT)
+        if not self._fits(level):
+            raise InputError("restart", str(path), "a complete checkpoint of `simulate`: its arrays do not fit")
+        T = self.record.T
         if any(t <= T and t not in ours.snapshots for t in asked.snapshots):
             same("snapshots", list(ours.snapshots), list(asked.snapshots))
         if asked.steps.until < T * (1.0 - SAME):
             raise InputError("until", asked.steps.until, f"at least {T!r}, which the checkpoint has reached")
-        if not self._fits(level):
-            raise InputError("restart", str(path), "a complete checkpoint of `simulate`: its arrays do not fit")
         known, height = np.asarray(self.film.surface), np.asarray(surface_height(surface, level.X, level.Y, T))
         if height.shape != known.shape or not np.array_equal(height, known):
             same("surface", _heights(known, T), _heights(height, T))

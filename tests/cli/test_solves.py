@@ -164,6 +164,17 @@ def test_interrupted_simulation_goes_on_from_its_checkpoint(call, refused, point
     )
 
 
+def test_a_finished_run_goes_on_to_a_later_end(call, point, tmp_path):
+    """The steps that its own defaults would give for that end are others."""
+    run = ["simulate", *point, "--n", "32", "--free", "5", "--json", "-", "--checkpoint", tmp_path / "c.h5"]
+    first = json.loads(call(*run, "--until", "0.2").out)
+    result = call(*run, "--until", "0.33", "--restart", tmp_path / "c.h5")
+    assert result.code == 0 and result.err == ""
+    longer = json.loads(result.out)
+    assert longer["T"][: len(first["T"])] == first["T"] and 0.33 <= longer["T"][-1] < 0.33 + first["T"][1]
+    assert np.ptp(np.diff(longer["T"])) < 1e-12
+
+
 def test_step_that_cannot_meet_its_error_is_said(call, point, tmp_path, monkeypatch):
     monkeypatch.setattr("ehlcontact.transient.run.local_error", lambda before, entry, motion: 1.0)
     result = call("simulate", *point, "--n", "16", "--free", "5", "--error", "1e-3", "--save", tmp_path / "p.h5")
