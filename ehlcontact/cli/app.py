@@ -69,6 +69,9 @@ def execute(arguments: Sequence[str] | None = None) -> int:
             return FAILED
         complain(str(InputError("stdout", str(error), "able to take the output")))
         return USAGE
+    except OSError as error:  # no room for temporary files, no more processes: no fault of the input, nor of ours
+        complain(f"the system refuses: {error}")
+        return FAILED
     except MemoryError as error:
         complain(f"out of memory{f': {error}' if str(error) else ''}")
         return FAILED

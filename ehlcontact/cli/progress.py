@@ -95,7 +95,8 @@ class Task:
         if self.begun is None or silent < SPACING:
             return False
         moved = self.share is not None and self.share - self.told_share >= SHARE
-        return moved or not self.lines or silent >= SILENCE
+        unheard = not self.lines and now - self.begun >= SPACING
+        return moved or unheard or silent >= SILENCE
 
     def line(self, now: float) -> str:
         """What to say now."""

@@ -28,12 +28,9 @@ class _Watched:
         return getattr(self._stream, name)
 
     def write(self, text: str) -> int:
-        """Write; a character that the encoding does not know is written as its number."""
+        """Write what the encoding knows."""
         try:
-            return self._stream.write(text)
-        except UnicodeEncodeError:
-            encoding = self._stream.encoding
-            return self._stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
+            return self._stream.write(known(text, self._stream))
         except OSError as error:
             raise self._failure(error) from None
 
@@ -72,10 +69,16 @@ def to_stderr(line: str) -> None:
     """Write a line on stderr if anybody listens."""
     if sys.stderr is not None:
         try:
-            sys.stderr.write(line + "\n")
+            sys.stderr.write(known(line, sys.stderr) + "\n")
             sys.stderr.flush()
         except OSError:
             discard(sys.stderr)
+
+
+def known(text: str, stream: TextIO) -> str:
+    """The text with the numbers of the characters that the stream's encoding does not know."""
+    encoding = stream.encoding or "utf-8"
+    return text.encode(encoding, "backslashreplace").decode(encoding)
 
 
 def discard(stream: TextIO) -> None:

@@ -112,10 +112,21 @@ def test_ctrl_c_in_a_subcommand(call, point, monkeypatch):
     assert result.err == "ehlcontact: interrupted: nothing was computed that could be kept\n"
 
 
-def test_out_of_memory_is_one_line(call, point, monkeypatch):
+@pytest.mark.parametrize(
+    ("error", "line"),
+    [
+        (MemoryError("Unable to allocate 8 TiB"), "out of memory: Unable to allocate 8 TiB"),
+        (
+            OSError(24, "Too many open files", "/tmp/x"),
+            "the system refuses: [Errno 24] Too many open files: '/tmp/x'",
+        ),
+    ],
+    ids=["memory", "files"],
+)
+def test_what_the_system_refuses_is_one_line(call, point, monkeypatch, error, line):
     def stop(*_, **__):
-        raise MemoryError("Unable to allocate 8 TiB")
+        raise error
 
     monkeypatch.setattr(import_module("ehlcontact.impedance"), "impedance", stop)
     result = call("impedance", *point, "--omega", "1")
-    assert (result.code, result.err) == (1, "ehlcontact: out of memory: Unable to allocate 8 TiB\n")
+    assert (result.code, result.err) == (1, f"ehlcontact: {line}\n")
