@@ -4,7 +4,6 @@
 room             responsibility
 ================ ===========================================================================================
 ``point``        inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
-``box``          what the solvers are made for, and the slip of unit that a number outside betrays
 ``lubricant/``   `Lubricant`, from its numbers or its grade; the laws of viscosity and density
 ``hertz``        dry elliptic contact
 ``formulas``     published film and approach formulas: grids are chosen from them, results compared with them
@@ -17,8 +16,9 @@ room             responsibility
 ``origin``       where numbers come from: what all results have in common; the version
 ``film``         the film to look at: maps, mid-planes, fringes, what the surfaces carry through
 ``storage``      `save` and `load`
-``files/``       files that are replaced in one move; any dataclass in an HDF5 file
-``checks``       checks of inputs
+``files/``       files that are replaced in one move; texts of any origin; any dataclass in an HDF5 file
+``process``      processes that end with their parent, and on Ctrl-C
+``checks/``      checks of inputs, and the box that the solvers are made for
 ``errors``       `InputError`, `ConvergenceError`
 ``status``       how a solve or a run ended, with advice
 ``jit``          the numba decorators of the library
@@ -26,6 +26,7 @@ room             responsibility
 ================ ===========================================================================================
 """
 
+from ehlcontact import process as process  # first: it guards the imports of the command line against Ctrl-C
 from ehlcontact.assumptions import Assumption, Assumptions, assumptions
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.film import (

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+LONGEST_VALUE = 300  # characters of a value in a message: a whole file given as one is no help
+
 
 class InputError(ValueError):
     """An input outside its allowed range.
@@ -13,7 +15,10 @@ class InputError(ValueError):
 
     def __init__(self, field: str, value: object, allowed: str) -> None:
         self.field, self.value, self.allowed = field, value, allowed
-        super().__init__(f"{field} = {value!r}: must be {allowed}")
+        shown = repr(value)
+        if len(shown) > LONGEST_VALUE:
+            shown = f"{shown[: LONGEST_VALUE // 2]} ... {shown[-LONGEST_VALUE // 2 :]}"
+        super().__init__(" ".join(f"{field} = {shown}: must be {allowed}".split()))
 
 
 class ConvergenceError(RuntimeError):

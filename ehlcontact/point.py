@@ -18,8 +18,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field, replace
 from math import cos, inf, pi, sqrt
 
-from ehlcontact.box import INPUTS, Given, require_in_box
 from ehlcontact.checks import require_finite, require_integer, require_nonnegative, require_positive
+from ehlcontact.checks.box import INPUTS, Given, require_in_box
 from ehlcontact.errors import InputError
 from ehlcontact.formulas import load_number, nvm_central_film
 from ehlcontact.hertz import HertzContact, ellipse_ratio, elliptic_integrals, hertz_contact, shape_factor
@@ -331,7 +331,7 @@ def require_solvable(point: Point, largest_load: float = 1.0, given: Given | Non
     Raises
     ------
     InputError
-        An input that is no rolling contact's; M, L, kappa or a pressure outside `ehlcontact.box`.
+        An input that is no rolling contact's; M, L, kappa or a pressure outside `ehlcontact.checks.box`.
     """
     moes = moes_point(point)
     if isinstance(point, OperatingPoint):

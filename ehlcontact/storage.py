@@ -7,12 +7,15 @@ from pathlib import Path
 from typing import Any
 
 from ehlcontact.checks import require_instance
+from ehlcontact.errors import InputError
 from ehlcontact.files import hdf5
 from ehlcontact.results import SteadyResult
+from ehlcontact.transient.record import COLUMNS
 from ehlcontact.transient.result import SimulationResult
 
 Result = SteadyResult | SimulationResult
 _CLASSES: dict[str, type[Any]] = {cls.__name__: cls for cls in (SteadyResult, SimulationResult)}
+WHAT = "result of this library (steady or simulation)"
 
 
 def save(result: Result, path: str | os.PathLike[str]) -> Path:
@@ -35,5 +38,21 @@ def load(path: str | os.PathLike[str]) -> Result:
     InputError
         No such file, not HDF5, truncated, not one of ours, or written by a newer version.
     """
-    result: Result = hdf5.read(path, _CLASSES, "file", "result of this library (steady or simulation)")
+    result: Result = hdf5.read(path, _CLASSES, "file", WHAT)
+    for names, shape in _shapes(result):
+        for name in names:
+            if getattr(result, name).shape != shape:
+                found = f"{name} has the shape {getattr(result, name).shape}, not {shape}"
+                raise InputError("file", str(path), f"a complete HDF5 {WHAT}: its {found}")
     return result
+
+
+def _shapes(result: Result) -> list[tuple[tuple[str, ...], tuple[int, ...]]]:
+    """Arrays of a result and the shape that the others ask of them."""
+    nx, ny = result.n + 1, result.Y.size
+    if isinstance(result, SteadyResult):
+        cycles = max(result.residuals.size, 1)
+        return [(("X",), (nx,)), (("P", "H"), (nx, ny)), (("residuals", "load_residuals"), (cycles,))]
+    steps, kept = max(result.T.size, 1), result.snapshot_T.size
+    midplanes = ("h_midplane", "p_midplane"), (steps, nx)
+    return [(("X",), (nx,)), (COLUMNS, (steps,)), midplanes, (("snapshot_H", "snapshot_P"), (kept, nx, ny))]

@@ -5,7 +5,9 @@ room           responsibility
 =============  =======================================================================================
 ``app``        the program: subcommands, errors to one line and an exit code
 ``options``    options that subcommands share, in groups, and the inputs they stand for
-``output``     consoles, tables, JSON, progress, checks of where results go
+``output``     tables, JSON, complaints, checks of where results go
+``streams``    stdout and stderr that may be full, closed, or of few characters
+``progress``   how far a computation is: bars on a terminal, now and then a line elsewhere
 ``page``       HTML pages that need no other file, from ``templates/``
 ``commands/``  one subcommand each
 ``plots/``     every picture
@@ -13,14 +15,18 @@ room           responsibility
 ``paper/``     the paper's tables and figures behind ``reproduce``
 =============  =======================================================================================
 
-Exit codes: 0 success; 1 not converged or interrupted, with what was reached saved; 2 bad input.
+Exit codes: 0 success; 1 not converged or interrupted, with what was reached saved; 2 bad input, or no room for
+the output.
 """
 
 from __future__ import annotations
 
+import signal
 import sys
 from collections.abc import Sequence
 from typing import NoReturn
+
+from ehlcontact.process import TOO_EARLY, end_guard
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
@@ -28,7 +34,11 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     try:
         from ehlcontact.cli.app import execute
 
-        raise SystemExit(execute(arguments))
-    except KeyboardInterrupt:  # while the program was still being imported
-        sys.stderr.write("ehlcontact: interrupted before anything was computed\n")
-        raise SystemExit(1) from None
+        end_guard()
+        code = execute(arguments)
+        if arguments is None:  # all is said and done: what is left, the end of Python, is no longer interrupted
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
+    except KeyboardInterrupt:  # between one guard and the next
+        sys.stderr.write(TOO_EARLY)
+        code = 1
+    raise SystemExit(code)

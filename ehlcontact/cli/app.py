@@ -22,6 +22,7 @@ from ehlcontact.cli.commands import (
     validate,
 )
 from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain, one_line
+from ehlcontact.cli.streams import StdoutError, watched_stdout
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.origin import __version__
 
@@ -62,29 +63,50 @@ for module in (steady, simulate, impedance, fit, element, export, validate, run,
 
 def execute(arguments: Sequence[str] | None = None) -> int:
     """Run one command line; returns the exit code, and says on stderr in one line what was wrong."""
-    command = typer.main.get_command(app)
+    given = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        with warnings.catch_warnings():
+        with watched_stdout(), warnings.catch_warnings():
             warnings.showwarning = lambda message, *_: complain(f"warning: {message}")
-            code = command.main(
-                None if arguments is None else list(arguments), prog_name="ehlcontact", standalone_mode=False
-            )
-        return code if isinstance(code, int) else 0
+            return _invoke(given)
     except InputError as error:
         complain(str(error))
         return USAGE
     except ConvergenceError as error:
         complain(str(error))
         return FAILED
+    except StdoutError as error:
+        if error.closed:
+            complain("stdout was closed before everything was written to it")
+            return FAILED
+        complain(str(InputError("stdout", str(error), "able to take the output")))
+        return USAGE
+    except OSError as error:  # no room for temporary files, no more processes: no fault of the input, nor of ours
+        complain(f"the system refuses: {error}")
+        return FAILED
+    except MemoryError as error:
+        complain(f"out of memory{f': {error}' if str(error) else ''}")
+        return FAILED
     except (KeyboardInterrupt, typer.Abort):
         complain(INTERRUPTED_LINE)
         return FAILED
     except UsageFailure as error:
-        if type(error).__name__ == "NoArgsIsHelpError":
-            typer.echo(str(error))
-        else:
-            complain(_usage_line(error, sys.argv[1:] if arguments is None else arguments))
+        complain(_usage_line(error, given))
         return USAGE
+
+
+def _invoke(given: list[str]) -> int:
+    """The command itself: not by its `main`, which has its own ways with Ctrl-C and a closed stdout."""
+    try:
+        with typer.main.get_command(app).make_context("ehlcontact", given) as context:
+            context.command.invoke(context)
+    except typer.Exit as end:
+        return end.exit_code
+    except UsageFailure as error:
+        if type(error).__name__ != "NoArgsIsHelpError":
+            raise
+        typer.echo(str(error))
+        return USAGE
+    return 0
 
 
 def _usage_line(error: Exception, arguments: Sequence[str]) -> str:

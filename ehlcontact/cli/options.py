@@ -11,11 +11,12 @@ from typing import Annotated, Any, get_type_hints
 
 import typer
 
-from ehlcontact.cli.output import check_file, check_json
+from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.point import MoesPoint, require_solvable
 from ehlcontact.solver.domain import Domain, check_intervals
 
 _POINT, _GRID, _FILES = "Operating point", "Discretisation", "Results"
+Drawing = Callable[[Any], Any]  # a result to its figure
 HDF5 = (".h5", ".hdf5")
 PICTURES = (".png", ".svg", ".pdf")
 
@@ -148,6 +149,33 @@ class Files:
         check_file("--save", self.save, HDF5)
         check_file("--figure", self.figure, PICTURES)
         check_json(self.json_to)
+
+    def deliver(self, result: Any, title: str, rows: list[tuple[str, str, str]], draw: Drawing | None) -> None:
+        """Save, draw (if there is anything), write and show the result, each whatever becomes of the others.
+
+        Raises
+        ------
+        InputError
+            One of the files could not be written.
+        """
+
+        def save(path: Path) -> None:
+            from ehlcontact.storage import save as store
+
+            store(result, path)
+
+        def figure(path: Path) -> None:
+            if draw is not None:
+                from ehlcontact.cli.plots.style import write_figure
+
+                write_figure(draw, result, path)
+
+        deliver(
+            lambda: write_to("--save", self.save, save),
+            lambda: write_to("--figure", self.figure, figure),
+            lambda: write_json(result.summary(), self.json_to),
+            lambda: show_table(title, rows, self.json_to),
+        )
 
 
 def point_rows(point: MoesPoint) -> list[tuple[str, str, str]]:

@@ -1,21 +1,21 @@
-"""Consoles, tables, JSON and progress; and the checks that nothing computed will be lost."""
+"""Tables, JSON and complaints; and the checks that nothing computed will be lost."""
 
 from __future__ import annotations
 
 import json
 import math
+import sys
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
+from ehlcontact.cli.streams import StdoutError, to_stderr
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_text
 
@@ -31,7 +31,7 @@ def one_line(text: str) -> str:
 
 def complain(text: str) -> None:
     """Say one line on stderr."""
-    typer.echo(f"ehlcontact: {one_line(text)}", err=True)
+    to_stderr(f"ehlcontact: {one_line(text)}")
 
 
 def say(text: str, json_to: str | None = None) -> None:
@@ -52,10 +52,18 @@ def check_file(field: str, path: Path | None, suffixes: tuple[str, ...] = ()) ->
         return
     if suffixes and path.suffix.lower() not in suffixes:
         raise InputError(field, str(path), "a file name ending in " + " or ".join(suffixes))
-    if path.is_dir():
-        raise InputError(field, str(path), "a file, not a folder")
-    if not path.parent.is_dir():
-        raise InputError(field, str(path), "in a folder that exists")
+    try:
+        if path.is_dir():
+            raise InputError(field, str(path), "a file, not a folder")
+        if not path.parent.is_dir():
+            raise InputError(field, str(path), "in a folder that exists")
+        if path.exists() and not path.is_file():  # a device, which is written to and not replaced
+            return
+        path.lstat()  # whether there can be a file of that name
+    except FileNotFoundError:
+        pass
+    except OSError as error:
+        raise InputError(field, str(path), f"a file that can be written ({error.strerror})") from None
     check_folder(field, path.parent, str(path))
 
 
@@ -86,6 +94,8 @@ def prepare_folder(folder: Path) -> None:
 
 def check_json(path: str | None) -> None:
     """The same for the target of ``--json``."""
+    if path == STDOUT and sys.stdout is None:
+        raise InputError("--json", path, "used with a stdout that is not closed")
     if path not in (None, STDOUT):
         check_file("--json", Path(str(path)))
 
@@ -105,7 +115,7 @@ def plain(value: Any) -> Any:
     return value
 
 
-def write_json(document: Mapping[str, Any], target: str | None) -> None:
+def write_json(document: Mapping[str, Any], target: str | None, field: str = "--json") -> None:
     """Write to a file in one move, or to stdout for ``-``; nothing for None."""
     if target is None:
         return
@@ -113,7 +123,40 @@ def write_json(document: Mapping[str, Any], target: str | None) -> None:
     if target == STDOUT:
         typer.echo(text)
     else:
-        write_text(target, text + "\n", "file")
+        write_text(target, text + "\n", field)
+
+
+def write_to(option: str, path: Path | None, write: Callable[[Path], object]) -> None:
+    """Write to the path of an option, if there is one.
+
+    Raises
+    ------
+    InputError
+        It cannot be written; it names the option.
+    """
+    if path is not None:
+        try:
+            write(path)
+        except InputError as error:
+            raise InputError(option, error.value, error.allowed) from None
+
+
+def deliver(*steps: Callable[[], object]) -> None:
+    """Hand a result over, step by step: one that fails does not keep it from the others.
+
+    Raises
+    ------
+    InputError, StdoutError
+        Of the first step that failed.
+    """
+    failed: list[InputError | StdoutError] = []
+    for step in steps:
+        try:
+            step()
+        except (InputError, StdoutError) as error:
+            failed.append(error)
+    if failed:
+        raise failed[0]
 
 
 def show_table(title: str, rows: Iterable[tuple[str, str, str]], json_to: str | None) -> None:
@@ -127,34 +170,3 @@ def show_table(title: str, rows: Iterable[tuple[str, str, str]], json_to: str | 
     for row in rows:
         table.add_row(*row)
     Console().print(table)
-
-
-def stderr_console() -> Console:
-    """Console for progress."""
-    return Console(stderr=True)
-
-
-def progress_bars(console: Console) -> Progress:
-    """Bars with the time left, silent where stderr is not a terminal."""
-    return Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        TaskProgressColumn(),
-        TimeRemainingColumn(),
-        TextColumn("{task.fields[note]}"),
-        console=console,
-        disable=not console.is_terminal,
-        transient=True,
-    )
-
-
-@contextmanager
-def progress(description: str) -> Iterator[Any]:
-    """A bar on stderr; yields ``update(done, total, note="")``."""
-    with progress_bars(stderr_console()) as bars:
-        task = bars.add_task(description, total=None, note="")
-
-        def update(done: float, total: float | None, note: str = "") -> None:
-            bars.update(task, completed=done, total=total, note=note)
-
-        yield update

@@ -1,13 +1,13 @@
-"""Files that are never half written, and any dataclass in an HDF5 file.
+"""Files that are never half written, texts of any origin, and any dataclass in an HDF5 file.
 
-=============== ===================================================================
+=============== ===============================================================================================
 room            responsibility
-=============== ===================================================================
-``replacement`` a new file takes the old one's place in one move
+=============== ===============================================================================================
+``replacement`` a new file takes the old one's place in one move; texts and JSON of any origin are read or told
 ``hdf5``        any dataclass as an HDF5 file and back
-=============== ===================================================================
+=============== ===============================================================================================
 """
 
-from ehlcontact.files.replacement import replacing, write_bytes, write_text
+from ehlcontact.files.replacement import is_file, parse_json, read_text, replacing, write_bytes, write_text
 
-__all__ = ["replacing", "write_bytes", "write_text"]
+__all__ = ["is_file", "parse_json", "read_text", "replacing", "write_bytes", "write_text"]

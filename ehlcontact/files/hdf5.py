@@ -1,4 +1,4 @@
-"""Any dataclass in an HDF5 file: written in one move, rebuilt from the annotations of its class.
+"""Any dataclass in an HDF5 file: made in memory, written in one move, rebuilt from the annotations of its class.
 
 ================================================ =========================================================
 value                                            stands as
@@ -16,7 +16,9 @@ from __future__ import annotations
 
 import json
 import os
+import uuid
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from pathlib import Path
@@ -27,7 +29,31 @@ import h5py
 import numpy as np
 
 from ehlcontact.errors import InputError
-from ehlcontact.files.replacement import replacing
+from ehlcontact.files.replacement import is_file, parse_json, write_bytes
+
+# Of HDF5 itself: the first that has checksums on all its structure; read by HDF5 1.10 (2016) and newer.
+LAYOUT = ("v110", "v110")
+NUMBERS = "bfiu"  # kinds of dtype: all that is ever stored
+PLAIN: dict[Any, Any] = {float: (float, int), int: int, str: str}  # what JSON may hold for an annotation
+
+
+@contextmanager
+def making(path: str | os.PathLike[str], field: str) -> Iterator[h5py.File]:
+    """Give an empty HDF5 file in memory; its image is written to `path` in one move if nothing was raised.
+
+    In memory, because HDF5 cannot close what it cannot flush: on a full disk the process ends in a segmentation
+    fault, whatever was caught. It costs the size of the file, twice for a moment.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written.
+    """
+    with h5py.File(uuid.uuid4().hex, "w", driver="core", backing_store=False, libver=LAYOUT) as file:
+        yield file
+        file.flush()
+        image = file.id.get_file_image()
+    write_bytes(path, image, field)
 
 
 def write(record: Any, path: str | os.PathLike[str], field: str, number: int = 1) -> Path:
@@ -47,9 +73,9 @@ def write(record: Any, path: str | os.PathLike[str], field: str, number: int = 1
     InputError
         The folder does not exist or cannot be written to.
     """
-    with replacing(path, field) as temporary, h5py.File(temporary, "w") as file:
+    with making(path, field) as file:
         file.attrs["format"] = number
-        file.attrs["class"] = type(record).__name__
+        set_text(file, "class", type(record).__name__)
         for name, value in _members(record):
             _put(file, name, value)
     return Path(path)
@@ -80,23 +106,62 @@ def read(
         No such file, not HDF5, truncated, none of `classes`, of an older or a newer format.
     """
     source = Path(path)
-    if not source.is_file():
+    if not is_file(source):
         raise InputError(field, str(source), f"an existing HDF5 {what}")
     try:
         with h5py.File(source, "r") as file:
-            cls = classes.get(file.attrs.get("class", ""))
-            if cls is None:
-                raise InputError(field, str(source), f"a {what}")
-            number, (oldest, newest) = int(file.attrs["format"]), numbers
-            if number > newest:
-                raise InputError(field, str(source), f"of format {newest} or older; upgrade to read it")
-            if number < oldest:
-                raise InputError(field, str(source), f"a {what} of format {oldest} or newer; make it anew")
-            return _build(cls, lambda name, hint: _take(file, name, hint))
-    except InputError:
-        raise
-    except (OSError, KeyError, ValueError, TypeError):
+            cls = classes.get(text_of(file, "class") if "class" in file.attrs else "")
+            number = None if cls is None else int(file.attrs["format"])
+            oldest, newest = numbers
+            if number is not None and oldest <= number <= newest:
+                return _build(cls, lambda name, hint: _take(file, name, hint))
+    except InputError as error:  # of a member that its own class refuses
+        raise InputError(f"{source}: {error.field}", error.value, error.allowed) from None
+    except Exception:  # whatever h5py, numpy and classes raise on what is damaged, or not what it says it is
         raise InputError(field, str(source), f"a complete HDF5 {what}") from None
+    if number is None:
+        raise InputError(field, str(source), f"a {what}")
+    if number > newest:
+        raise InputError(field, str(source), f"of format {newest} or older; upgrade to read it")
+    raise InputError(field, str(source), f"a {what} of format {oldest} or newer; make it anew")
+
+
+def put(group: h5py.Group, name: str, value: np.ndarray) -> None:
+    """Store an array."""
+    filled = value.ndim > 0 and value.size > 0  # there is something to pack
+    # with a checksum, so that a damaged number is told and not read
+    data = group.create_dataset(
+        name, data=value, compression="gzip" if filled and value.ndim > 1 else None, fletcher32=filled
+    )
+    if value.flags.f_contiguous and not value.flags.c_contiguous:
+        set_text(data, "order", "F")
+
+
+def take(data: h5py.Dataset) -> np.ndarray:
+    """Return an array that `put` wrote.
+
+    Raises
+    ------
+    ValueError
+        Not of numbers, or only promised: of any size, with nothing behind it.
+    """
+    if data.dtype.kind not in NUMBERS or (data.size and not data.id.get_storage_size()):
+        raise ValueError(f"{data.name} holds no numbers")
+    # LAPACK's factors, say, solve with another rounding when they come back in the other order
+    in_columns = "order" in data.attrs and text_of(data, "order") == "F"
+    return np.asfortranarray(data[...]) if in_columns else data[...]
+
+
+def set_text(group: h5py.Group, name: str, text: str) -> None:
+    """Set an attribute, of fixed length: others lie in HDF5's global heap, the one part without a checksum."""
+    content = text.encode("utf-8")
+    group.attrs.create(name, content, dtype=h5py.string_dtype("utf-8", len(content)))
+
+
+def text_of(group: h5py.Group, name: str) -> str:
+    """Text of an attribute, of fixed length or not."""
+    text = group.attrs[name]
+    return text.decode("utf-8") if isinstance(text, bytes) else str(text)
 
 
 def _members(value: Any) -> Iterator[tuple[str, Any]]:
@@ -116,16 +181,13 @@ def _holds_arrays(value: Any) -> bool:
 
 def _put(group: h5py.Group, name: str, value: Any) -> None:
     if isinstance(value, np.ndarray):
-        packing = "gzip" if value.ndim > 1 and value.size else None
-        data = group.create_dataset(name, data=value, compression=packing)
-        if value.flags.f_contiguous and not value.flags.c_contiguous:
-            data.attrs["order"] = "F"
+        put(group, name, value)
     elif _holds_arrays(value):
         inner = group.create_group(name)
         for key, member in _members(value):
             _put(inner, key, member)
     else:
-        group.attrs[name] = json.dumps(_plain(value))
+        set_text(group, name, json.dumps(_plain(value)))
 
 
 def _plain(value: Any) -> Any:
@@ -139,11 +201,12 @@ def _plain(value: Any) -> Any:
 
 def _take(group: h5py.Group, name: str, hint: Any) -> Any:
     if name not in group:
-        return _rebuild(hint, json.loads(group.attrs[name]))
+        return _rebuild(hint, parse_json(text_of(group, name), nan=True))
     item = group[name]
     if isinstance(item, h5py.Dataset):
-        # LAPACK's factors, say, solve with another rounding when they come back in the other order
-        return np.asfortranarray(item[...]) if item.attrs.get("order") == "F" else item[...]
+        if not _allows_array(hint):
+            raise TypeError(f"{name} is no array")
+        return take(item)
     kind = _kind(hint)
     if is_dataclass(kind):
         return _build(kind, lambda key, inner: _take(item, key, inner))
@@ -164,7 +227,16 @@ def _rebuild(hint: Any, value: Any) -> Any:
     if get_origin(kind) in (list, tuple):
         members = zip(_member_hints(kind, len(value)), value, strict=True)
         return get_origin(kind)(_rebuild(inner, member) for inner, member in members)
-    return kind(value) if isinstance(kind, type) and issubclass(kind, Enum) else value
+    if isinstance(kind, type) and issubclass(kind, Enum):
+        return kind(value)
+    if get_origin(kind) is np.ndarray or (kind in PLAIN and not isinstance(value, PLAIN[kind])):
+        raise TypeError(f"{value!r} is no {kind}")
+    return value
+
+
+def _allows_array(hint: Any) -> bool:
+    kinds = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+    return any(kind is Any or get_origin(kind) is np.ndarray for kind in kinds)
 
 
 def _build(cls: Any, take: Callable[[str, Any], Any]) -> Any:

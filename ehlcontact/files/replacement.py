@@ -1,19 +1,35 @@
-"""Files that are never half written: a reader sees the old content or the new, whatever happens in between."""
+"""Files that are never half written: a reader sees the old content or the new, whatever happens in between.
+
+And texts of any origin, read without surprises: too large, too deep, or no text at all is told, not run into.
+"""
 
 from __future__ import annotations
 
+import json
 import os
+import re
+import stat
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 from ehlcontact.errors import InputError
+
+LARGEST_TEXT = 2**28  # bytes of a JSON or TOML file: a hundred times the largest of ours; /dev/zero has no end
+DEEPEST = 50  # levels of nested JSON: ours have six, and Python writes and compares some hundred at most
+LONGEST_INTEGER = 300  # digits: what is longer is no float any more
+_LONE_SURROGATE = re.compile("[\ud800-\udfff]")
 
 
 @contextmanager
 def replacing(path: str | os.PathLike[str], field: str = "path") -> Iterator[Path]:
     """Give a new, empty file beside `path` to write to; it takes the place of `path` if nothing was raised.
+
+    It is on the disk before it takes that place: some file systems tell only then that there is no room (NFS,
+    quotas), and without it a power cut can leave an empty file under the name of the good one. A link is followed;
+    what is no file to replace (``/dev/stdout``, a pipe) is written to as it is.
 
     Parameters
     ----------
@@ -27,28 +43,34 @@ def replacing(path: str | os.PathLike[str], field: str = "path") -> Iterator[Pat
     InputError
         The folder cannot be written to, or the file cannot: an `OSError` within the block is turned into it.
     """
-    target = Path(path)
-    # not tempfile: it makes files that only their owner may read; the name is short, so that a long one still fits
-    temporary = target.with_name(f".{uuid.uuid4().hex[:12]}.tmp")
     try:
-        temporary.touch(exist_ok=False)
+        target = Path(os.path.realpath(path))
+        in_place = _is_device(target)
+        # not tempfile: it makes files that only their owner may read; the name is short, so that a long one fits
+        temporary = target if in_place else target.with_name(f".{uuid.uuid4().hex[:12]}.tmp")
+        if not in_place:
+            temporary.touch(exist_ok=False)
     except OSError as error:
-        raise InputError(field, str(target), f"in a folder that can be written to ({error.strerror})") from None
+        raise InputError(field, str(path), f"in a folder that can be written to ({error.strerror})") from None
+    except (TypeError, ValueError) as error:  # no path at all, or one with a zero byte
+        raise InputError(field, path, f"the path of a file ({error})") from None
     try:
         yield temporary
-        os.replace(temporary, target)
+        if not in_place:
+            with temporary.open("rb+") as stream:
+                os.fsync(stream.fileno())
+            os.replace(temporary, target)
     except OSError as error:
-        raise InputError(field, str(target), f"a file that can be written ({error.strerror or error})") from None
+        raise InputError(field, str(path), f"a file that can be written ({error.strerror or error})") from None
     finally:
-        with suppress(OSError):  # the folder itself may be gone; the first error says why
-            temporary.unlink(missing_ok=True)
+        if not in_place:
+            with suppress(OSError):  # the folder itself may be gone; the first error says why
+                temporary.unlink(missing_ok=True)
 
 
 def write_text(path: str | os.PathLike[str], text: str, field: str = "path") -> Path:
     """Write a text file as UTF-8 by `replacing`."""
-    with replacing(path, field) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-    return Path(path)
+    return write_bytes(path, text.encode("utf-8"), field)
 
 
 def write_bytes(path: str | os.PathLike[str], content: bytes, field: str = "path") -> Path:
@@ -56,3 +78,83 @@ def write_bytes(path: str | os.PathLike[str], content: bytes, field: str = "path
     with replacing(path, field) as temporary:
         temporary.write_bytes(content)
     return Path(path)
+
+
+def is_file(path: str | os.PathLike[str]) -> bool:
+    """Whether there is a regular file; False, too, where one may not look or no name is that long."""
+    try:
+        return Path(path).is_file()
+    except OSError:
+        return False
+
+
+def read_text(path: str | os.PathLike[str]) -> str:
+    """Return the whole of a UTF-8 file.
+
+    Raises
+    ------
+    OSError
+        There is none, or it cannot be read.
+    ValueError
+        Not UTF-8, or larger than any file of ours.
+    """
+    with Path(path).open("rb") as stream:
+        content = stream.read(LARGEST_TEXT + 1)
+    if len(content) > LARGEST_TEXT:
+        raise ValueError(f"more than {LARGEST_TEXT >> 20} MiB")
+    return content.decode("utf-8")
+
+
+def parse_json(text: str | bytes, nan: bool = False) -> Any:
+    """Return what JSON text says, fit to be used and written again.
+
+    Parameters
+    ----------
+    text : str or bytes
+    nan : bool
+        Whether NaN and Infinity, which Python writes but JSON does not know, are accepted.
+
+    Raises
+    ------
+    ValueError
+        Not JSON, or nested deeper, or with longer integers or other characters than any that is meant.
+    """
+    refuse = None if nan else _refuse_constant
+    try:
+        document = json.loads(text, parse_int=_integer, parse_constant=refuse)
+    except RecursionError:
+        raise ValueError("nested too deeply") from None
+    level = [document]
+    for _ in range(DEEPEST):
+        level = [member for value in level for member in _members(value)]
+        if not level:
+            break
+    else:
+        raise ValueError("nested too deeply")
+    if _LONE_SURROGATE.search(json.dumps(document, ensure_ascii=False)):
+        raise ValueError("half a character (a lone surrogate)")
+    return document
+
+
+def _is_device(target: Path) -> bool:
+    try:
+        mode = target.stat().st_mode
+    except OSError:
+        return False
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
+
+
+def _members(value: Any) -> list[Any]:
+    if isinstance(value, dict):
+        return list(value.values())
+    return value if isinstance(value, list) else []
+
+
+def _integer(digits: str) -> int:
+    if len(digits) > LONGEST_INTEGER:
+        raise ValueError(f"a whole number of {len(digits)} digits")
+    return int(digits)
+
+
+def _refuse_constant(text: str) -> float:
+    raise ValueError(f"{text} is not JSON")

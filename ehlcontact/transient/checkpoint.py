@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import os
 import time
+import warnings
 from dataclasses import dataclass
-from math import inf
+from math import inf, isfinite
 from pathlib import Path
 from reprlib import repr as shortened
 from typing import Any
@@ -23,12 +24,13 @@ from ehlcontact.point import MoesPoint
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.level import Level
 from ehlcontact.transient.film import FilmState
-from ehlcontact.transient.record import Array, Record
+from ehlcontact.transient.record import COLUMNS, Array, Record
 from ehlcontact.transient.run import Run
-from ehlcontact.transient.settings import RunSettings
+from ehlcontact.transient.settings import RunSettings, TimeSteps
 from ehlcontact.transient.step import StepControl
 from ehlcontact.transient.surface import Surface, surface_height
 
+SAME = 1e-12  # of a time or a step: they differ by rounding only
 FORMAT = 2  # of the file: 1 had all fields side by side
 
 
@@ -61,11 +63,17 @@ class Checkpoint:
         )
 
     def check(
-        self, asked: RunSettings, surface: Surface | None, level: Level, path: str | os.PathLike[str]
+        self,
+        asked: RunSettings,
+        dT: float | None,
+        surface: Surface | None,
+        level: Level,
+        path: str | os.PathLike[str],
     ) -> None:
         """Raise `InputError` naming the first item that is not as `asked` for.
 
-        A surface is a function and cannot be stored: its heights at the time reached must be the same.
+        A surface is a function and cannot be stored: its heights at the time reached must be the same. The step
+        depends on the end: `dT`, the argument, must give the stored step with the end that was asked for first.
         """
 
         def same(item: str, stored: Any, wanted: Any) -> None:
@@ -74,7 +82,7 @@ class Checkpoint:
                 raise InputError("restart", str(path), f"a checkpoint of this run: {what}")
 
         same("version", self.version, __version__)
-        ours, T = self.settings, self.record.T
+        ours = self.settings
         for name in ("point", "deflection"):
             same(name, getattr(ours, name), getattr(asked, name))
         for name in ("n", "domain"):
@@ -84,28 +92,79 @@ class Checkpoint:
         theirs = asked.motion.to_dict()
         for key, value in ours.motion.to_dict().items():
             same(f"motion.{key}", value, theirs.get(key))
-        if ours.steps.error is None and abs(ours.steps.dT - asked.steps.dT) > 1e-12 * ours.steps.dT:
-            same("dT", ours.steps.dT, asked.steps.dT)
+        if ours.steps.error is None and dT is not None:
+            wanted = TimeSteps.of(asked.motion, ours.steps.until, min(dT, ours.steps.until), None, asked.steps.tol)
+            if abs(ours.steps.dT - wanted.dT) > SAME * ours.steps.dT:
+                same("dT", ours.steps.dT, dT)
+        if not self._fits(level):
+            raise InputError("restart", str(path), "a complete checkpoint of `simulate`: its arrays do not fit")
+        T = self.record.T
         if any(t <= T and t not in ours.snapshots for t in asked.snapshots):
             same("snapshots", list(ours.snapshots), list(asked.snapshots))
-        if asked.steps.until < T:
+        if asked.steps.until < T * (1.0 - SAME):
             raise InputError("until", asked.steps.until, f"at least {T!r}, which the checkpoint has reached")
         known, height = np.asarray(self.film.surface), np.asarray(surface_height(surface, level.X, level.Y, T))
         if height.shape != known.shape or not np.array_equal(height, known):
             same("surface", _heights(known, T), _heights(height, T))
 
+    def _fits(self, level: Level) -> bool:
+        """Whether all arrays have the shapes of each other and of the grid, and the state is one of numbers."""
+        record, film, nx, field = self.record, self.film, level.nx + 1, level.P.shape
+        steps, kept = record.numbers.shape[0], record.snapshot_T.size
+        shapes: list[tuple[np.ndarray, tuple[int, ...]]] = [
+            (record.numbers, (steps, len(COLUMNS))),
+            *((profile, (steps, nx)) for profile in (record.film, record.pressure)),
+            *((snapshots, (kept, nx, level.ny + 1)) for snapshots in (record.snapshot_H, record.snapshot_P)),
+            *((array, field) for array in (film.P, film.mass, film.mass_before, *(P for _, P in film.past))),
+        ]
+        sound = steps > 0 and all(array.shape == shape and np.isfinite(array).all() for array, shape in shapes)
+        if film.factors is not None:
+            unknowns = film.factors.free.size + 1
+            sound &= film.factors.lu[0].shape == (unknowns, unknowns)
+            sound &= film.factors.lu[1].shape == (unknowns,)
+        controlled = (self.control is not None) == (self.settings.steps.error is not None)
+        return sound and controlled and all(isfinite(x) for x in (self.scale, self.static_approach, film.u))
+
+
+class CheckpointError(InputError):
+    """A run came to its end, but its last checkpoint could not be written; ``result`` holds the run."""
+
+    def __init__(self, error: InputError, result: Any) -> None:
+        super().__init__(error.field, error.value, error.allowed)
+        self.result = result
+
 
 class Keeper:
-    """Writes the checkpoints of a run that began at `started`, if `path` says where."""
+    """Writes the checkpoints of a run that began at `started`, if `path` says where.
+
+    One that cannot be written is tried again when the next is due, and at the end: a run goes on without. Only the
+    first ends it, before anything is lost.
+    """
 
     def __init__(self, path: str | os.PathLike[str] | None, every: float, settings: RunSettings, started: float):
         self.path, self.every, self.settings, self.started = path, every, settings, started
-        self._written = -inf
+        self._tried = -inf
+        self._failed = False
 
     def visit(self, run: Run) -> None:
-        """Write if the last one is old enough."""
-        if time.perf_counter() - self._written >= self.every:
+        """Write if the last one is old enough.
+
+        Raises
+        ------
+        InputError
+            The first one cannot be written.
+        """
+        if time.perf_counter() - self._tried < self.every:
+            return
+        first = self._tried == -inf
+        try:
             self.write(run)
+        except InputError as error:
+            if first:
+                raise
+            if not self._failed:
+                warnings.warn(f"{error}; the run goes on, the last checkpoint stays", RuntimeWarning, stacklevel=2)
+            self._failed = True
 
     def write(self, run: Run) -> None:
         """Replace the file in one move.
@@ -116,9 +175,10 @@ class Keeper:
             It cannot be written.
         """
         if self.path is not None:
-            checkpoint = Checkpoint.of(run, self.settings, time.perf_counter() - self.started)
+            self._tried = time.perf_counter()
+            checkpoint = Checkpoint.of(run, self.settings, self._tried - self.started)
             hdf5.write(checkpoint, self.path, "checkpoint", FORMAT)
-            self._written = time.perf_counter()
+            self._failed = False
 
 
 def load_checkpoint(path: str | os.PathLike[str]) -> Checkpoint:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil
+from typing import Self
 
 from ehlcontact.checks import require_choice, require_nonnegative, require_positive
 from ehlcontact.errors import InputError
@@ -16,6 +17,7 @@ from ehlcontact.transient.motion import Motion
 LARGEST_ERROR = 0.1
 FIRST_STEP = 0.25  # of the motion's own step: what is tried first under error control
 MOST_STEPS = 1_000_000  # in fixed steps
+ROUNDING = 1e-9  # of a step: an end this much later is met all the same
 TOL_SHARE = 3.0  # tol over error: the last changes of force and approach are then a tenth of the error
 
 
@@ -54,8 +56,16 @@ class TimeSteps:
             if until / dT > MOST_STEPS:
                 most = f"{MOST_STEPS:,}".replace(",", " ")
                 raise InputError("dT", dT, f"at least until/{most} = {until / MOST_STEPS:g}")
-            dT = until / ceil(until / dT - 1e-9)
+            dT = until / ceil(until / dT - ROUNDING)
         return cls(until, dT, error, tol)
+
+    def going_on(self, stored: TimeSteps) -> Self:
+        """The same in the fixed step of a checkpoint, to the first of its times that is not before `until`."""
+        if self.error is not None:
+            return self
+        steps = ceil(self.until / stored.dT - ROUNDING)
+        met = abs(steps * stored.dT - self.until) <= ROUNDING * stored.dT
+        return replace(self, dT=stored.dT, until=self.until if met else steps * stored.dT)
 
 
 @dataclass(frozen=True, slots=True)

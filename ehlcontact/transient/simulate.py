@@ -16,7 +16,7 @@ from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.mesh import Purpose, mesh_for
 from ehlcontact.status import Status
-from ehlcontact.transient.checkpoint import Keeper, load_checkpoint, require_replaceable
+from ehlcontact.transient.checkpoint import CheckpointError, Keeper, load_checkpoint, require_replaceable
 from ehlcontact.transient.film import TransientFilm
 from ehlcontact.transient.motion import Motion
 from ehlcontact.transient.record import History
@@ -81,9 +81,10 @@ def simulate(
     checkpoint_every : float
         Seconds between checkpoints.
     restart : path, optional
-        Checkpoint to go on from. The other arguments must be those of its run (`until` may be later, if the step
-        still divides it); the record then equals that of an uninterrupted run bit for bit, where BLAS has one
-        thread (with more, LU factors round differently from run to run).
+        Checkpoint to go on from. The other arguments must be those of its run; the record then equals that of an
+        uninterrupted run bit for bit, where BLAS has one thread (with more, LU factors round differently from run
+        to run). `until` may be later: the stored step goes on, and ends at or, where it does not divide `until`,
+        within a step after it.
 
     Returns
     -------
@@ -93,7 +94,8 @@ def simulate(
     Raises
     ------
     InputError
-        An argument outside its range; a checkpoint that cannot be written, or is not one of this run.
+        An argument outside its range; a checkpoint that cannot be written, or is not one of this run. Only the
+        first checkpoint ends the run; of the last, ``error.result`` holds the run all the same.
     ConvergenceError
         A step did not converge, or did not meet `error` however short (status ``step_too_small``);
         ``error.result`` holds the history so far.
@@ -113,10 +115,10 @@ def simulate(
     earlier = None
     if restart is not None:
         earlier = load_checkpoint(restart)
-        earlier.check(settings, surface, film.level, restart)
+        earlier.check(settings, dT, surface, film.level, restart)
         started -= earlier.seconds
-        steps = replace(steps, dT=earlier.settings.steps.dT)  # by rounding it may be another
-        settings = replace(settings, steps=steps)
+        steps = steps.going_on(earlier.settings.steps)
+        settings = replace(settings, steps=earlier.settings.steps)  # the step follows from the end first asked for
     keeper = Keeper(checkpoint, checkpoint_every, settings, started)
 
     def watch(run: Run) -> None:
@@ -132,13 +134,21 @@ def simulate(
         run = Run(film, motion, surface, History.of(earlier.record, settings.snapshots), earlier.control, watch)
         run.resume(earlier.film, earlier.scale, earlier.static_approach)
         end = RunEnd(Status.CONVERGED)
+    unkept = None
     if end.status.ok:
         end = march(run, steps)
-        keeper.write(run)
+        try:
+            keeper.write(run)
+        except InputError as lost:
+            unkept = lost
+        except KeyboardInterrupt:  # a second one; the file is what it was
+            end = RunEnd(Status.INTERRUPTED)
     result = _result(run, settings, scales_of(point), end.status, time.perf_counter() - started)
     if throw and not end.status.ok and end.status is not Status.INTERRUPTED:
         G = surface_height(surface, film.level.X, film.level.Y, float(result.T[-1]))
         raise ConvergenceError(_message(result, end, -float(np.min(G))), result)
+    if unkept is not None:
+        raise CheckpointError(unkept, result)
     return result
 
 

@@ -96,7 +96,12 @@ def build_atlas(
         "version": __version__,
         "sampled": SAMPLED.to_dict(),
     }
-    table = assemble(entries, made_by)
+    try:
+        table = assemble(entries, made_by)
+    except InputError:
+        raise
+    except (KeyError, TypeError, ValueError, IndexError) as error:
+        raise InputError("work file", str(work), f"one with complete entries ({error!r})") from None
     table.save(output)
     return table
 

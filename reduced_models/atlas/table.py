@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-import zipfile
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
+from io import BytesIO
 from pathlib import Path
 from typing import Any, Self
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_choice
 from ehlcontact.errors import InputError
-from ehlcontact.files import replacing
+from ehlcontact.files import parse_json, write_bytes
 from ehlcontact.point import MoesPoint
 from reduced_models.elements.film_response import FilterRates
 
@@ -168,13 +168,35 @@ class AtlasTable:
         """Which other oils it answers for."""
         return OtherOil(**self.metadata["oil"])
 
+    def require_complete(self) -> None:
+        """Raise `ValueError`, or what else damaged metadata lead to, unless everything is there and fits.
+
+        Raises
+        ------
+        ValueError
+            An array of another shape, or with numbers that are not finite.
+        """
+        n, k = self.approach.size, self.omega.size
+        gains = 3 + self.rates.lags
+        shapes = {"points": (n, 3), "omega": (k,), "left_out": (n, 4 + 2 * k), "factor": (4 + 2 * k,)}
+        shapes |= dict.fromkeys(("approach", "h_central", "h_min"), (n,)) | {"gains": (n, gains)}
+        shapes |= dict.fromkeys(("stiffness", "damping"), (n, k))
+        for name, shape in shapes.items():
+            array = getattr(self, name)
+            if array.shape != shape or not np.isfinite(array).all():
+                raise ValueError(f"{name} of shape {array.shape} in place of finite numbers of shape {shape}")
+        _ = self.box, self.oil, float(self.metadata["highest_omega"]), str(self.metadata["version"])
+        if not 0 <= self.interpolation.reference < k:
+            raise ValueError(f"reference {self.interpolation.reference} is no frequency of {k}")
+
     def save(self, path: Path) -> None:
         """Write as compressed npz, single precision but for the points; the same table makes the same bytes."""
         arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "metadata"}
         small = {k: v if k in ("points", "omega") else v.astype(np.float32) for k, v in arrays.items()}
         header = json.dumps({"schema": SCHEMA, "schema_version": VERSION, **self.metadata}, sort_keys=True)
-        with replacing(path, "atlas") as temporary, temporary.open("wb") as stream:
-            np.savez_compressed(stream, metadata=np.array(header), **small)
+        stream = BytesIO()
+        np.savez_compressed(stream, metadata=np.array(header), **small)
+        write_bytes(path, stream.getvalue(), "atlas")
 
     @classmethod
     def load(cls, path: Path) -> Self:
@@ -187,16 +209,17 @@ class AtlasTable:
         """
         try:
             with path.open("rb") as stream, np.load(stream) as file:
-                metadata = json.loads(str(file["metadata"]))
-                if metadata.get("schema") != SCHEMA:
-                    raise InputError("atlas", str(path), f"a file with schema {SCHEMA!r}")
-                if metadata.get("schema_version") != VERSION:
-                    raise InputError("atlas", f"version {metadata.get('schema_version')}", f"of version {VERSION}")
-                arrays = {f.name: file[f.name].astype(float) for f in fields(cls) if f.name != "metadata"}
-            table = cls(**arrays, metadata={**FIRST, **metadata})
-            _ = table.box, table.rates, table.interpolation, table.oil  # whatever is damaged there is named here
+                metadata = parse_json(str(file["metadata"]))
+                if metadata["schema"] != SCHEMA:
+                    raise ValueError(f"not of schema {SCHEMA!r}")
+                version = metadata["schema_version"]
+                if version == VERSION:
+                    arrays = {f.name: file[f.name].astype(float) for f in fields(cls) if f.name != "metadata"}
+                    table = cls(**arrays, metadata={**FIRST, **metadata})
+                    table.require_complete()
+                    return table
         except OSError as error:
             raise InputError("atlas", str(path), f"a readable atlas ({error.strerror or error})") from None
-        except (ValueError, TypeError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        except Exception as error:  # whatever zip files, numpy and classes raise on what is damaged, or no atlas
             raise InputError("atlas", str(path), f"a complete atlas file ({error})") from None
-        return table
+        raise InputError("atlas", f"version {version}", f"of version {VERSION}")

@@ -5,16 +5,18 @@ from __future__ import annotations
 import json
 import multiprocessing
 import os
-import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.files import parse_json
 from ehlcontact.point import MoesPoint
+from ehlcontact.process import end_when, interrupts_held
 
 Job = tuple[str, MoesPoint]
 Entry = dict[str, Any]
@@ -47,26 +49,36 @@ class WorkFile:
     def __init__(self, path: Path, settings: Mapping[str, Any]) -> None:
         self.path, self.entries = path, dict[str, Entry]()
         header = {"schema": SCHEMA, **settings}
+        with self._refusing():
+            self._stream = path.open("a+b", buffering=0)  # nothing is left behind that is written later
         try:
-            self._stream = path.open("a+b")
-        except OSError as error:
-            raise InputError("work file", str(path), f"a file that can be written ({error.strerror})") from None
-        try:
-            self._read(header)
+            with self._refusing():
+                self._read(header)
         except InputError:
             self._stream.close()
             raise
 
+    @contextmanager
+    def _refusing(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            reason = f"a file that can be written ({error.strerror}); what it holds stays"
+            raise InputError("work file", str(self.path), reason) from None
+
     def _read(self, header: dict[str, Any]) -> None:
         self._stream.seek(0)
-        *whole, torn = self._stream.read().split(b"\n")
+        *whole, torn = self._stream.readall().split(b"\n")
         try:
-            lines = [json.loads(line) for line in whole]
+            lines = [parse_json(line) for line in whole]
             found = lines[0] if lines else None
-            if found is not None and (not isinstance(found, dict) or found.get("schema") != SCHEMA):
+            begun = found is not None or _line(header).startswith(torn)  # a file of others ends without a line
+            if not begun or (found is not None and (not isinstance(found, dict) or found.get("schema") != SCHEMA)):
                 raise ValueError("no header")
-            self.entries = {str(line["point"]): line for line in lines[1:]}
-        except (ValueError, KeyError, TypeError, IndexError) as error:
+            self.entries = {line["point"]: line for line in lines[1:]}
+            if not all(isinstance(name, str) for name in self.entries):
+                raise ValueError("an entry without a point")
+        except (ValueError, KeyError, TypeError) as error:
             raise InputError("work file", str(self.path), f"a work file of an atlas build ({error})") from None
         if found is not None and found != header:
             differing = sorted(k for k in {*found, *header} if found.get(k) != header.get(k))
@@ -84,9 +96,16 @@ class WorkFile:
             self._write(self.entries[name])
 
     def _write(self, line: Mapping[str, Any]) -> None:
-        self._stream.write(json.dumps(line, allow_nan=False).encode() + b"\n")
-        self._stream.flush()
-        os.fsync(self._stream.fileno())
+        size = self._stream.seek(0, os.SEEK_END)
+        with self._refusing():
+            try:
+                rest = _line(line)
+                while rest:  # a disk that becomes full takes part of it
+                    rest = rest[self._stream.write(rest) :]
+                os.fsync(self._stream.fileno())
+            except OSError:
+                self._stream.truncate(size)  # no torn line before the next one
+                raise
 
     def __enter__(self) -> Self:
         return self
@@ -95,10 +114,15 @@ class WorkFile:
         self._stream.close()
 
 
+def _line(entry: Mapping[str, Any]) -> bytes:
+    return json.dumps(entry, allow_nan=False).encode() + b"\n"
+
+
 def on_processes(solve: Solve, jobs: Sequence[Job], processes: int) -> Solved:
     """Solve on so many processes of this machine; yields name and entry as they come.
 
-    A process that dies takes its points along: they are tried again by new ones, up to three times in all.
+    A process that dies takes its points along: they are tried again by new ones, up to three times in all. All end
+    with their parent, and at once where nobody asks for their answers any more (Ctrl-C, a full disk).
 
     Raises
     ------
@@ -108,32 +132,34 @@ def on_processes(solve: Solve, jobs: Sequence[Job], processes: int) -> Solved:
     left = dict(jobs)
     for attempt in range(ATTEMPTS):
         context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(processes, context, initializer=_follow_parent) as pool:
-            futures: dict[Future[Entry], str] = {pool.submit(solve, point): name for name, point in left.items()}
-            try:
-                for future in as_completed(futures):
-                    entry = future.result()
-                    del left[futures[future]]
-                    yield futures[future], entry
-                return
-            except BrokenProcessPool:
-                if attempt == ATTEMPTS - 1:
-                    message = f"processes died {ATTEMPTS} times (out of memory?); what was solved is kept"
-                    raise ConvergenceError(message, None) from None
-            finally:
-                pool.shutdown(wait=True, cancel_futures=True)
+        others = set(multiprocessing.active_children())
+        pool = ProcessPoolExecutor(processes, context, initializer=_follow_parent)
+        try:
+            with interrupts_held():
+                futures: dict[Future[Entry], str] = {
+                    pool.submit(solve, point): name for name, point in left.items()
+                }
+            for future in as_completed(futures):
+                entry = future.result()
+                del left[futures[future]]
+                yield futures[future], entry
+            return
+        except BrokenProcessPool:
+            if attempt == ATTEMPTS - 1:
+                message = f"processes died {ATTEMPTS} times (out of memory?); what was solved is kept"
+                raise ConvergenceError(message, None) from None
+        finally:
+            if left:
+                for process in set(multiprocessing.active_children()) - others:
+                    process.kill()
+            pool.shutdown(wait=True, cancel_futures=True)
 
 
 def _follow_parent() -> None:
-    """End this process when its parent ends, however that was: a killed build leaves nothing behind."""
+    """End with the parent, however that was: a killed build leaves nothing behind."""
     parent = multiprocessing.parent_process()
     if parent is not None:
-
-        def watch() -> None:
-            parent.join()
-            os._exit(1)
-
-        threading.Thread(target=watch, daemon=True).start()
+        end_when(parent.join)
 
 
 def on_cluster(solve: Solve, jobs: Sequence[Job], scheduler: str) -> Solved:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlcontact.errors import InputError
-from ehlcontact.files import write_text
+from ehlcontact.files import parse_json, read_text, write_text
 
 SCHEMA = "ehlcontact-element"
 VERSION = 1
@@ -40,10 +40,11 @@ def read_document(path: str | os.PathLike[str]) -> dict[str, Any]:
     """
     name = str(path)
     try:
-        document = json.loads(Path(path).read_text(encoding="utf-8"), parse_constant=_refuse_constant)
-    except OSError as error:
-        raise InputError(name, error.strerror, "a readable element file") from None
-    except (UnicodeDecodeError, json.JSONDecodeError, _NotANumberError) as error:
+        document = parse_json(read_text(path))
+    except (OSError, TypeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise InputError(name, reason, "a readable element file") from None
+    except ValueError as error:
         raise InputError(name, f"{error}", "complete JSON with finite numbers") from None
     if not isinstance(document, dict) or document.get("schema") != SCHEMA:
         found = document.get("schema") if isinstance(document, dict) else type(document).__name__
@@ -90,11 +91,3 @@ def numbers(section: str, entries: Mapping[str, Any], required: tuple[str, ...])
             raise InputError(f"{section}.{key}", value, "a finite number")
         found[key] = float(value)  # type: ignore[arg-type]
     return found
-
-
-class _NotANumberError(ValueError):
-    """JSON text held NaN or Infinity, which Python reads but JSON does not allow."""
-
-
-def _refuse_constant(text: str) -> float:
-    raise _NotANumberError(f"{text} is not JSON")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self
 
@@ -217,7 +217,8 @@ def as_records(records: object) -> tuple[ContactRecord, ...]:
     Raises
     ------
     InputError
-        Something else, or something else among them.
+        Something else, or something else among them; one of them twice, which would count twice and make the
+        intervals of a fit narrower than its data.
     """
     if isinstance(records, ContactRecord):
         return (records,)
@@ -229,4 +230,17 @@ def as_records(records: object) -> tuple[ContactRecord, ...]:
         require_instance(
             f"records[{i}]", record, ContactRecord, "a ContactRecord; ContactRecord.from_result(result) makes one"
         )
+    again = repeated(taken)
+    if again is not None:
+        first, second = again
+        raise InputError(f"records[{second}]", f"the record of records[{first}]", "another one: each counts once")
     return taken
+
+
+def repeated(records: Sequence[ContactRecord]) -> tuple[int, int] | None:
+    """Numbers of the first record that is there twice: with the same times, approach, rate and force."""
+    for second, record in enumerate(records):
+        for first, earlier in enumerate(records[:second]):
+            if all(np.array_equal(getattr(record, name), getattr(earlier, name)) for name in _REQUIRED):
+                return first, second
+    return None

@@ -41,3 +41,9 @@ def refused(call):
             assert word in lines[0], (word, lines[0])
 
     return run
+
+
+@pytest.fixture(autouse=True)
+def quiet(monkeypatch):
+    """No lines of progress, which a first compilation would bring about; their own tests call them."""
+    monkeypatch.setattr("ehlcontact.cli.progress.Lines.tell", lambda self, now: None)

@@ -4,6 +4,7 @@ import html
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -122,6 +123,85 @@ def test_second_run_keeps_what_is_finished(finished, call):
     assert json.loads(result.out)["status"] == "converged"
     assert {file: file.stat().st_mtime_ns for file in folder.glob("*.h5")} == before
     assert (folder / "report.html").stat().st_mtime_ns > report
+
+
+@pytest.mark.parametrize("damage", ["cut", "byte", "text", "another", "old ledger"])
+def test_a_damaged_file_is_made_again(finished, tmp_path, capsys, monkeypatch, damage):
+    """One line says so; the rest is kept. Without a checksum, of earlier versions, reading it has to tell."""
+    from ehlcontact.cli.study import runner
+    from ehlcontact.cli.study.schema import load_study
+    from ehlcontact.cli.study.stages import STAGES
+
+    study, folder = load_study(finished[0]), shutil.copytree(finished[1], tmp_path / "out")
+    monkeypatch.setattr(runner, "STAGES", tuple(stage for stage in STAGES if stage.name in ("steady", "free")))
+    file, before = folder / "steady.h5", (folder / "steady.h5").read_bytes()
+    if damage in ("cut", "old ledger"):
+        file.write_bytes(before[: len(before) // 2])
+    elif damage == "byte":
+        file.write_bytes(before[:-100] + bytes([before[-100] ^ 1]) + before[-99:])
+    elif damage == "text":
+        file.write_text("not HDF5")
+    else:
+        shutil.copy(folder / "free.h5", file)
+    if damage in ("another", "old ledger"):
+        notes = json.loads((folder / "stages.json").read_text())
+        del notes["steady"]["sha256"], notes["free"]["sha256"]
+        (folder / "stages.json").write_text(json.dumps(notes))
+    kept = (folder / "free.h5").stat().st_mtime_ns
+    ledger = runner.run_stages(study, finished[0], folder, 1)
+    told = capsys.readouterr().err.splitlines()
+    assert told[0] == f"ehlcontact: {file} is damaged: it is made again" and len(told) == 2
+    assert ledger["steady"]["status"] == "converged" and (folder / "free.h5").stat().st_mtime_ns == kept
+    assert load(file).approach == load(finished[1] / "steady.h5").approach
+    assert runner.run_stages(study, finished[0], folder, 1) == ledger
+
+
+@pytest.mark.parametrize(
+    "text", ["", "{", "[]", "5", '{"steady": 5}', '{"steady": {"status": []}}', '{"sofa": {}}', "[" * 99999]
+)
+def test_a_ledger_that_cannot_be_read_is_none(text, tmp_path):
+    from ehlcontact.cli.study.runner import read_ledger
+
+    (tmp_path / "stages.json").write_text(text)
+    assert read_ledger(tmp_path) == {}
+
+
+def test_no_worker_outlives_a_run_that_is_killed(tmp_path):
+    """Killed so that it can tell nobody, with a worker at a long computation."""
+    study = tmp_path / "long.toml"
+    study.write_text(STUDY.replace("revolutions = 1", "revolutions = 100"))
+    command = [
+        sys.executable,
+        "-m",
+        "ehlcontact.cli",
+        "run",
+        str(study),
+        "-o",
+        str(tmp_path / "out"),
+        "--jobs",
+        "1",
+    ]
+    environment = os.environ | {"PYTHONPATH": str(PACKAGE_ROOT)}
+    process = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, env=environment)
+    children, deadline = Path(f"/proc/{process.pid}/task/{process.pid}/children"), time.monotonic() + 50.0
+    if not children.parent.exists():
+        pytest.skip("no /proc here")
+    while not (pids := children.read_text().split()):
+        assert time.monotonic() < deadline and process.poll() is None
+        time.sleep(0.05)
+    time.sleep(1.0)
+    process.kill()
+    process.wait()
+    while any(_runs(pid) for pid in pids):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
+def _runs(pid):
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
 
 
 def test_only_what_changed_is_computed_again(finished, tmp_path):

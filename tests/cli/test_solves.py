@@ -1,6 +1,7 @@
 """Solves from the command line: JSON keys, files, failures, and from a simulation to an FMU."""
 
 import json
+import shutil
 import zipfile
 
 import numpy as np
@@ -46,7 +47,7 @@ def test_impedance(call, refused, point):
     refused(["n", "16"], "impedance", *point, "--n", "100", "--omega", "1")
 
 
-def test_from_simulation_to_fmu(call, point, tmp_path):
+def test_from_simulation_to_fmu(call, refused, point, tmp_path):
     record, element, target = tmp_path / "r.h5", tmp_path / "element.json", tmp_path / "x.fmu"
     result = call(
         "simulate",
@@ -75,8 +76,11 @@ def test_from_simulation_to_fmu(call, point, tmp_path):
     assert set(FIT_KEYS) <= set(document) and set(document["parameters"]) == {"K1", "K2", "K3", "C1"}
     assert load_element(element).parameters == document["parameters"]
 
-    result = call("fit", record, record, "--window", "2", "4")
+    result = call("fit", record, "--window", "2", "4")
     assert result.code == 0 and "tangent" in result.out
+    copy = shutil.copy(record, tmp_path / "copy.h5")
+    refused(("file", "r.h5", "given once"), "fit", record, record)
+    refused(("file", "copy.h5", "given once", "record of", "r.h5"), "fit", record, copy)
 
     result = call("export", element, "-o", target, "--json", "-")
     assert result.code == 0, result.err
@@ -158,6 +162,17 @@ def test_interrupted_simulation_goes_on_from_its_checkpoint(call, refused, point
     refused(
         ("restart", "motion.omega", "3.0", "2.0"), *(o if o != "3" else "2" for o in run), "--restart", checkpoint
     )
+
+
+def test_a_finished_run_goes_on_to_a_later_end(call, point, tmp_path):
+    """The steps that its own defaults would give for that end are others."""
+    run = ["simulate", *point, "--n", "32", "--free", "5", "--json", "-", "--checkpoint", tmp_path / "c.h5"]
+    first = json.loads(call(*run, "--until", "0.2").out)
+    result = call(*run, "--until", "0.33", "--restart", tmp_path / "c.h5")
+    assert result.code == 0 and result.err == ""
+    longer = json.loads(result.out)
+    assert longer["T"][: len(first["T"])] == first["T"] and 0.33 <= longer["T"][-1] < 0.33 + first["T"][1]
+    assert np.ptp(np.diff(longer["T"])) < 1e-12
 
 
 def test_step_that_cannot_meet_its_error_is_said(call, point, tmp_path, monkeypatch):

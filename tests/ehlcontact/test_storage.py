@@ -23,6 +23,7 @@ from ehlcontact import (
     SimulationResult,
     Status,
     SteadyResult,
+    hdf5,
     load,
     save,
     simulate,
@@ -101,7 +102,7 @@ def content(path):
     """Form of every array and value of every attribute of a file."""
     with h5py.File(path) as file:
         arrays = {name: (data.shape, data.dtype, data.compression) for name, data in file.items()}
-        return arrays, {name: str(value) for name, value in file.attrs.items()}
+        return arrays, {name: hdf5.text_of(file, name) for name in file.attrs}
 
 
 def test_steady_file_of_version_0_1_0(tmp_path):
@@ -246,7 +247,7 @@ def test_failed_write_keeps_the_old_file_and_leaves_no_rest(steady_si, tmp_path,
     def full_disk(*args, **kwargs):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(h5py.Group, "create_dataset", full_disk)
+    monkeypatch.setattr(os, "fsync", full_disk)
     with pytest.raises(InputError, match="No space left"):
         save(steady_si, path)
     assert path.read_bytes() == before

@@ -10,7 +10,8 @@ import typer
 
 from ehlcontact.checks import require_integer
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import check_file, check_json, progress, show_table, write_json
+from ehlcontact.cli.output import FAILED, check_file, check_json, complain, deliver, show_table, write_json
+from ehlcontact.cli.progress import progress
 
 NPZ = (".npz",)
 
@@ -59,18 +60,19 @@ def build(
         require_integer(name, value, "a whole number >= 0", 0)
     count = (os.cpu_count() or 1) if processes is None else processes
     require_integer("--processes", count, "a whole number > 0", 1)
-    with progress("points") as update:
-        table = build_atlas(
-            output, kept, draws, light_draws, seed=seed, processes=count, scheduler=scheduler, progress=update
-        )
-    write_json({"output": str(output), "work": str(kept), **table.metadata}, json_to)
+    try:
+        with progress("points") as update:
+            table = build_atlas(
+                output, kept, draws, light_draws, seed=seed, processes=count, scheduler=scheduler, progress=update
+            )
+    except KeyboardInterrupt:
+        complain(f"interrupted; points that were solved are in {kept}, the same command goes on")
+        raise typer.Exit(FAILED) from None
     left_out = sum(table.metadata["left_out"].values())
-    show_table(
-        "atlas",
-        [
-            ("points", str(table.metadata["points"]), f"{left_out} left out: not converged or too thin a film"),
-            ("file", f"{output.stat().st_size / 1e6:.2f} MB", str(output)),
-            ("box", "", str(table.box)),
-        ],
-        json_to,
-    )
+    rows = [
+        ("points", str(table.metadata["points"]), f"{left_out} left out: not converged or too thin a film"),
+        ("file", f"{output.stat().st_size / 1e6:.2f} MB", str(output)),
+        ("box", "", str(table.box)),
+    ]
+    document = {"output": str(output), "work": str(kept), **table.metadata}
+    deliver(lambda: write_json(document, json_to), lambda: show_table("atlas", rows, json_to))

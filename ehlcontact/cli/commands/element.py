@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -9,7 +10,7 @@ import typer
 
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import check_file, check_json, show_table, write_json
+from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
 from reduced_models.elements.validity import text_of
 
 
@@ -38,16 +39,14 @@ def element(
     check_json(json_to)
     table = Atlas(atlas)
     answer, made = table.at(point), table.element(point, model)
-    if save is not None:
-        made.save(save)
-    write_json(made.to_dict(), json_to)
     error = answer.error
     at = [
         (f"C at Omega = {w:.3g}", f"{c:.5f}", f"+- {bar:.1g}")
         for w, c, bar in zip(answer.omega, answer.damping, error["damping"], strict=True)
         if w in (0.05, 1.0) or abs(w - 6.2832) < 1e-3
     ]
-    show_table(
+    shown = partial(
+        show_table,
         f"{model} element from the atlas, version {table.metadata['version']}",
         [
             *o.point_rows(point),
@@ -64,3 +63,5 @@ def element(
         ],
         json_to,
     )
+    kept = partial(write_to, "--save", save, made.save)
+    deliver(kept, lambda: write_json(made.to_dict(), json_to), shown)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,7 +10,7 @@ import typer
 
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import check_file, check_json, show_table, write_json
+from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
@@ -37,6 +38,7 @@ def fit(
     from reduced_models import ContactRecord, FitResult
     from reduced_models import fit as fit_records
     from reduced_models.fitting.fit import MEMORY, MODELS
+    from reduced_models.fitting.records import repeated
 
     require_choice("--model", model, MODELS)
     if model == MEMORY and window is not None:
@@ -52,13 +54,15 @@ def fit(
             records.append(ContactRecord.from_result(result))
         except InputError as error:
             raise InputError(f"{file}: {error.field}", error.value, error.allowed) from None
+    again = repeated(records)
+    if again is not None:
+        first, second = (str(files[k]) for k in again)
+        raise InputError("file", second, f"given once: it holds the record of {first}")
     fitted = fit_records(records, model, window)
-    if save is not None:
-        fitted.element.save(save)
-    write_json(fitted.to_dict(), json_to)
     rows = _coefficients(fitted) if isinstance(fitted, FitResult) else _memory(fitted)
     valid = fitted.valid
-    show_table(
+    table = partial(
+        show_table,
         f"{model} element",
         [
             *rows,
@@ -70,6 +74,8 @@ def fit(
         ],
         json_to,
     )
+    kept = partial(write_to, "--save", save, fitted.element.save)
+    deliver(kept, lambda: write_json(fitted.to_dict(), json_to), table)
 
 
 def _coefficients(fitted: FitResult) -> list[tuple[str, str, str]]:

@@ -7,7 +7,8 @@ from typing import Annotated
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import check_json, progress, show_table, write_json
+from ehlcontact.cli.output import check_json, show_table, write_json
+from ehlcontact.cli.progress import progress
 
 Omegas = Annotated[
     list[float],

@@ -59,7 +59,7 @@ def reproduce(
         complain(f"interrupted; finished simulations are in {output}, the same command resumes")
         raise typer.Exit(FAILED) from None
     page = write_reproduction(found, output / PAGE)
-    write_json(found.to_dict(), str(output / DOCUMENT))
+    write_json(found.to_dict(), str(output / DOCUMENT), "file")
     write_json(found.to_dict(), json_to)
     say(f"page: {page}", json_to)
     for name, why in found.failed.items():

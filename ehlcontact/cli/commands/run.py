@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, check_json, complain, prepare_folder, say, write_json
-from ehlcontact.files import write_text
+from ehlcontact.cli.output import FAILED, USAGE, check_json, complain, prepare_folder, say, write_json
+from ehlcontact.files import read_text, write_text
 from ehlcontact.status import Status
 
 if TYPE_CHECKING:
@@ -45,10 +45,15 @@ def run(
     prepare_folder(folder)
     copy = folder / STUDY_COPY
     if not copy.exists() or not copy.samefile(study_file):
-        write_text(copy, study_file.read_text(encoding="utf-8"), "file")
+        write_text(copy, read_text(study_file), "file")
+
+    from ehlcontact.cli.study.runner import StorageError
 
     try:
         _compute(study, copy, folder, min(jobs, os.cpu_count() or 1), json_to)
+    except StorageError as error:
+        complain(f"{error}; what was computed before is in {folder}, the same command resumes")
+        raise typer.Exit(USAGE) from None
     except KeyboardInterrupt:
         complain(f"interrupted; what was computed is in {folder}, the same command resumes")
         raise typer.Exit(FAILED) from None
@@ -70,7 +75,7 @@ def _compute(study: Study, copy: Path, folder: Path, jobs: int, json_to: str | N
     from ehlcontact.cli.study.results import evaluate
 
     found = evaluate(study, folder, ledger)
-    write_json(found.to_dict(), str(folder / "results.json"))
+    write_json(found.to_dict(), str(folder / "results.json"), "file")
     write_json(found.to_dict(), json_to)
     report = write_report(found, folder / "report.html")
     say(f"{found.answer}\nreport: {report}", json_to)

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ehlcontact.checks import require_positive
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, check_file, complain, progress, show_table, write_json
+from ehlcontact.cli.output import FAILED, check_file, complain
+from ehlcontact.cli.progress import progress
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.transient.checkpoint import CheckpointError
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, Motion, RampLoad
 
 if TYPE_CHECKING:
@@ -153,14 +155,13 @@ def simulate(
     restart: RestartOptions,
 ) -> None:
     """Simulate the transient contact under a motion; Ctrl-C keeps what was computed."""
-    from ehlcontact.storage import save
     from ehlcontact.transient.simulate import simulate as integrate
 
     arguments = (contact.solvable(), motion.chosen())
     chosen = grid.chosen() | time.chosen()
     check_file("--checkpoint", restart.checkpoint, o.HDF5)
     files.check()
-    failure = ""
+    failure, unkept = "", None
     with progress("transient film") as update:
         try:
             result = integrate(
@@ -168,21 +169,24 @@ def simulate(
             )
         except ConvergenceError as stopped:
             result, failure = stopped.result, str(stopped)
-    if files.save is not None:
-        save(result, files.save)
-    if files.figure is not None and result.steps:  # stopped before the first step, there is nothing to draw
-        from ehlcontact.cli.plots.motion import simulation_figure
-        from ehlcontact.cli.plots.style import write_figure
-
-        write_figure(simulation_figure, result, files.figure)
-    write_json(result.summary(), files.json_to)
-    show_table("transient film", _rows(result), files.json_to)
+        except CheckpointError as error:
+            result, unkept = error.result, error
+    # stopped before the first step, there is nothing to draw
+    files.deliver(result, "transient film", _rows(result), _draw if result.steps else None)
+    if unkept is not None:
+        raise unkept
     if not result.status.ok:
         message = failure or f"simulation {result.status} at T = {result.T[-1]:.6g}: {result.status.advice}"
         kept = [f"partial result in {files.save}"] if files.save else []
         kept += [f"go on with --restart {restart.checkpoint}"] if restart.checkpoint else []
         complain("; ".join([message, *kept]))
         raise typer.Exit(FAILED)
+
+
+def _draw(result: SimulationResult) -> Any:
+    from ehlcontact.cli.plots.motion import simulation_figure
+
+    return simulation_figure(result)
 
 
 def _rows(result: SimulationResult) -> list[tuple[str, str, str]]:

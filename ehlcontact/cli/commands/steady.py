@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, complain, progress, show_table, write_json
+from ehlcontact.cli.output import FAILED, complain
+from ehlcontact.cli.progress import progress
 
 if TYPE_CHECKING:
     from ehlcontact.results import SteadyResult
@@ -22,7 +23,6 @@ def register(app: typer.Typer) -> None:
 def steady(contact: o.Contact, grid: o.Grid, files: o.Files) -> None:
     """Solve the steady film of a contact."""
     from ehlcontact.steady import solve_steady
-    from ehlcontact.storage import save
 
     point, chosen = contact.solvable(), grid.chosen()
     files.check()
@@ -33,19 +33,17 @@ def steady(contact: o.Contact, grid: o.Grid, files: o.Files) -> None:
             throw=False,
             callback=lambda cycle, residual: update(cycle, None, f"cycle {cycle}, residual {residual:.1e}"),
         )
-    if files.save is not None:
-        save(result, files.save)
-    if files.figure is not None:
-        from ehlcontact.cli.plots.film import steady_figure
-        from ehlcontact.cli.plots.style import write_figure
-
-        write_figure(steady_figure, result, files.figure)
-    write_json(result.summary(), files.json_to)
-    show_table("steady film", _rows(result), files.json_to)
+    files.deliver(result, "steady film", _rows(result), _draw)
     if not result.status.ok:
         kept = f"; partial result in {files.save}" if files.save else ""
         complain(f"{result.status}: {result.status.advice}{kept}")
         raise typer.Exit(FAILED)
+
+
+def _draw(result: SteadyResult) -> Any:
+    from ehlcontact.cli.plots.film import steady_figure
+
+    return steady_figure(result)
 
 
 def _rows(result: SteadyResult) -> list[tuple[str, str, str]]:

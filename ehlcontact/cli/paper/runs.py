@@ -8,7 +8,8 @@ from math import pi
 from pathlib import Path
 from typing import TypeVar
 
-from ehlcontact.cli.output import progress
+from ehlcontact.cli.output import complain
+from ehlcontact.cli.progress import progress
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint
@@ -179,9 +180,14 @@ def _solved(folder: Path, point: MoesPoint, n: int, label: str, runs: Runs) -> S
 
 
 def _stored(path: Path, kind: type[Kind]) -> Kind | None:
-    """What a file holds; None if there is none, or one that cannot be used."""
+    """What a file holds; None if there is none, or one that cannot be used, which is said."""
+    if not path.is_file():
+        return None
     try:
         found = load(path)
+        if isinstance(found, kind):
+            return found
     except InputError:
-        return None
-    return found if isinstance(found, kind) else None
+        pass
+    complain(f"{path} is damaged: it is made again")
+    return None

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from ehlcontact.files import replacing
+from ehlcontact.files import write_bytes
 
 # Okabe and Ito's colours, which stay apart for colour-blind eyes.
 BLUE, ORANGE, GREEN, RED, PURPLE, GREY = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#7f7f7f"
@@ -67,9 +67,8 @@ def legend_above(axes: Any, **options: Any) -> None:
 
 def embedded(figure: Figure) -> str:
     """The figure as a ``data:`` address for an image in a page that needs no other file."""
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=DPI, facecolor="white", metadata={"Software": None})
-    return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode("ascii")
+    image = _image(figure, "png", DPI, metadata={"Software": None})
+    return "data:image/png;base64," + base64.b64encode(image).decode("ascii")
 
 
 def write_figure(draw: Callable[[Result], Figure], result: Result, path: Path) -> None:
@@ -82,5 +81,12 @@ def write_figure(draw: Callable[[Result], Figure], result: Result, path: Path) -
     """
     with styled():
         figure = draw(result)
-        with replacing(path, "--figure") as temporary:
-            figure.savefig(temporary, format=path.suffix[1:].lower(), dpi=FILE_DPI, facecolor="white")
+        image = _image(figure, path.suffix[1:].lower(), FILE_DPI)
+    write_bytes(path, image, "--figure")
+
+
+def _image(figure: Figure, kind: str, dpi: int, **options: Any) -> bytes:
+    """The figure as the content of a file."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format=kind, dpi=dpi, facecolor="white", **options)
+    return buffer.getvalue()

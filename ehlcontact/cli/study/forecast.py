@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy import fft
 
-from ehlcontact.box import MEASURED
+from ehlcontact.checks.box import MEASURED
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.runner import is_done, read_ledger
 from ehlcontact.cli.study.schema import Study

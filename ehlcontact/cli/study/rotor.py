@@ -11,12 +11,11 @@ from pathlib import Path
 from typing import Any
 
 import h5py
-import numpy as np
 
 from ehlcontact.cli.study.reduction import CHOSEN
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import InputError
-from ehlcontact.files import replacing
+from ehlcontact.files import hdf5
 from ehlcontact.status import Status
 from ehlcontact.transient.full_contact import FullContact
 from reduced_models import (
@@ -102,12 +101,13 @@ def run_reduced(study: Study, element: ContactElement, halvings: int, revolution
 
 def save_rotor(result: RotorResult, path: Path) -> None:
     """Write the histories of a rotor run in one move; what rotor it was stands in the study."""
-    with replacing(path, "file") as temporary, h5py.File(temporary, "w") as file:
-        file.attrs["class"], file.attrs["format"] = RotorResult.__name__, FORMAT
-        file.attrs["status"] = str(result.status)
-        file.attrs["static_load"] = json.dumps(result.rotor.static_load.tolist())
+    with hdf5.making(path, "file") as file:
+        file.attrs["format"] = FORMAT
+        hdf5.set_text(file, "class", RotorResult.__name__)
+        hdf5.set_text(file, "status", str(result.status))
+        hdf5.set_text(file, "static_load", json.dumps(result.rotor.static_load.tolist()))
         for name in HISTORIES:
-            file[name] = getattr(result, name)
+            hdf5.put(file, name, getattr(result, name))
 
 
 def load_rotor(path: Path, rotor: JeffcottRotor) -> RotorResult:
@@ -120,12 +120,13 @@ def load_rotor(path: Path, rotor: JeffcottRotor) -> RotorResult:
     """
     try:
         with h5py.File(path, "r") as file:
-            if file.attrs["class"] != RotorResult.__name__ or file.attrs["format"] != FORMAT:
-                raise InputError("file", str(path), "a rotor run of this library")
-            values = {name: np.asarray(file[name][...]) for name in HISTORIES}
-            status = Status(str(file.attrs["status"]))
-    except (OSError, KeyError) as error:
+            ours = hdf5.text_of(file, "class") == RotorResult.__name__ and file.attrs["format"] == FORMAT
+            values = {name: hdf5.take(file[name]) for name in HISTORIES if ours}
+            status = Status(hdf5.text_of(file, "status"))
+    except Exception as error:  # whatever h5py and numpy raise on what is damaged
         raise InputError("file", str(path), f"a complete rotor run of this library ({error})") from None
+    if not ours:
+        raise InputError("file", str(path), "a rotor run of this library")
     return RotorResult(status=status, rotor=rotor, **values)
 
 

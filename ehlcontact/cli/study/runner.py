@@ -2,11 +2,12 @@
 
 Separate processes use the cores better than threaded linear algebra on matrices this small: each worker gets
 one BLAS thread. What is finished is noted in ``stages.json`` with the fingerprint of the study sections it
-depends on, and skipped the next time.
+depends on and a checksum of its file, and skipped the next time.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import queue
@@ -17,21 +18,26 @@ import tempfile
 import threading
 import time
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from rich.progress import Progress
-
-from ehlcontact.cli.output import progress_bars, stderr_console, write_json
+from ehlcontact.cli.output import complain, write_json
+from ehlcontact.cli.progress import progressing
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import STAGES, Stage
+from ehlcontact.errors import InputError
+from ehlcontact.files import parse_json, read_text
 from ehlcontact.status import Status
 
 LEDGER = "stages.json"
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 ROOT = Path(__file__).parents[3]  # holds the package, also in a checkout that is not installed
 PATIENCE = 30.0  # seconds that an interrupted worker has for saving
+
+
+class StorageError(Exception):
+    """The result of a stage could not be written; the message says which, where and why."""
 
 
 class _Worker:
@@ -49,7 +55,7 @@ class _Worker:
             command,
             stdout=subprocess.PIPE,
             stderr=self._errors,
-            stdin=subprocess.DEVNULL,
+            stdin=subprocess.PIPE,  # nothing comes through it: it closes when we end, and the worker ends, too
             env=environment,
             text=True,
             start_new_session=True,
@@ -73,7 +79,8 @@ class _Worker:
     def finish(self) -> dict[str, Any]:
         """Reap the process; its last event, or what it said on stderr if it died without one."""
         self._thread.join()
-        assert self.process.stdout is not None
+        assert self.process.stdout is not None and self.process.stdin is not None
+        self.process.stdin.close()
         self.process.stdout.close()
         code = self.process.wait()
         self._errors.seek(0)
@@ -86,12 +93,20 @@ class _Worker:
 
 
 def read_ledger(folder: Path) -> dict[str, dict[str, Any]]:
-    """What earlier runs finished here; nothing if there was none or its notes are unreadable."""
+    """What earlier runs finished here; nothing where there was none or its notes are unreadable."""
     try:
-        ledger = json.loads((folder / LEDGER).read_text(encoding="utf-8"))
+        found = parse_json(read_text(folder / LEDGER))
     except (OSError, ValueError):
         return {}
-    return ledger if isinstance(ledger, dict) else {}
+    notes = found if isinstance(found, dict) else {}
+    return {stage.name: notes[stage.name] for stage in STAGES if _is_note(notes.get(stage.name))}
+
+
+def _is_note(note: Any) -> bool:
+    texts, seconds = ("status", "message", "fingerprint"), (int, float)
+    if not isinstance(note, dict) or not isinstance(note.get("seconds"), seconds):
+        return False
+    return all(isinstance(note.get(key), str) for key in texts)
 
 
 def is_done(stage: Stage, study: Study, folder: Path, ledger: Mapping[str, Any]) -> bool:
@@ -101,48 +116,90 @@ def is_done(stage: Stage, study: Study, folder: Path, ledger: Mapping[str, Any])
     return same and note.get("status") == Status.CONVERGED and stage.file(folder).is_file()
 
 
+def is_sound(stage: Stage, study: Study, folder: Path, note: Mapping[str, Any]) -> bool:
+    """Whether the file of a stage that is done is what was written: by its checksum, where one was noted."""
+    if "sha256" in note:
+        return bool(note["sha256"] == checksum(stage.file(folder)))
+    try:
+        stage.load(study, stage.file(folder))
+    except InputError:
+        return False
+    return True
+
+
+def checksum(path: Path) -> str | None:
+    """SHA-256 of a file, None where it cannot be read."""
+    try:
+        with path.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError:
+        return None
+
+
+def _to_do(study: Study, folder: Path, ledger: Mapping[str, Mapping[str, Any]]) -> list[Stage]:
+    """Stages whose file is not there, belongs to another study, or is damaged, which is said."""
+    todo = []
+    for stage in STAGES:
+        if not is_done(stage, study, folder, ledger):
+            todo.append(stage)
+        elif not is_sound(stage, study, folder, ledger[stage.name]):
+            complain(f"{stage.file(folder)} is damaged: it is made again")
+            todo.append(stage)
+    return todo
+
+
 def run_stages(study: Study, study_file: Path, folder: Path, jobs: int) -> dict[str, dict[str, Any]]:
     """Run what is not done yet; returns the ledger, which is on disk after every stage.
 
-    A stage that fails does not stop the others. Ctrl-C, or the signal of a `kill`, lets the workers save their
-    partial results, and then raises `KeyboardInterrupt`. However this ends, no worker stays behind.
+    A stage that fails does not stop the others. Ctrl-C, the signal of a `kill`, and a file that cannot be written
+    let the workers save their partial results, and are raised then, the signal as `KeyboardInterrupt`. However
+    this ends, no worker stays behind.
+
+    Raises
+    ------
+    StorageError
+        There is no room for the result of a stage.
+    InputError
+        Nor for the ledger.
     """
     ledger = read_ledger(folder)
-    todo = [stage for stage in STAGES if not is_done(stage, study, folder, ledger)]
-    for stage in STAGES:
-        if stage in todo:
-            ledger.pop(stage.name, None)
+    todo = _to_do(study, folder, ledger)
+    for stage in todo:
+        ledger.pop(stage.name, None)
     events: queue.Queue = queue.Queue()
     running: list[_Worker] = []
-    console = stderr_console()
-    with progress_bars(console) as bars, _ended_like_ctrl_c():
-        tasks = {stage.name: bars.add_task(stage.title, total=None, note="waiting", start=False) for stage in todo}
+    with progressing() as shown, _ended_like_ctrl_c():
+        tasks = {stage.name: shown.add(stage.title, started=False) for stage in todo}
 
         def end(worker: _Worker) -> None:
             last = worker.finish()
             running.remove(worker)
-            ledger[worker.stage.name] = last | {"fingerprint": study.fingerprint(*worker.stage.sections)}
-            write_json(ledger, str(folder / LEDGER))
-            bars.remove_task(tasks[worker.stage.name])
-            ended = "done" if last["status"] == Status.CONVERGED else last["status"]
-            console.print(f"{worker.stage.title}: {ended}, {last['seconds']:.1f} s", highlight=False)
+            stage, done = worker.stage, last["status"] == Status.CONVERGED
+            ended = "done" if done else last["status"]
+            shown.end(tasks[stage.name], f"{stage.title}: {ended}, {last['seconds']:.1f} s")
+            ledger[stage.name] = last | {"fingerprint": study.fingerprint(*stage.sections)}
+            if done:
+                ledger[stage.name]["sha256"] = checksum(stage.file(folder))
+            write_json(ledger, str(folder / LEDGER), "file")
+            if not last.get("stored", True):
+                raise StorageError(last["message"])
 
         try:
             while todo or running:
                 while todo and len(running) < jobs:
                     stage = todo.pop(0)
                     running.append(_Worker(stage, study_file, folder, events))
-                    bars.start_task(tasks[stage.name])
-                    bars.update(tasks[stage.name], note="")
+                    shown.start(tasks[stage.name])
                 worker, event = events.get()
                 if event is None:
                     end(worker)
                 else:
-                    bars.update(tasks[worker.stage.name], completed=event["done"], total=event["total"])
-        except KeyboardInterrupt:
-            _interrupt(running, bars)
+                    shown.update(tasks[worker.stage.name], event["done"], event["total"])
+        except BaseException:
+            _interrupt(running)
             for worker in list(running):
-                end(worker)
+                with suppress(InputError, StorageError):  # the first error says why
+                    end(worker)
             raise
         finally:  # after a second Ctrl-C, or an error of our own
             for worker in running:
@@ -151,11 +208,10 @@ def run_stages(study: Study, study_file: Path, folder: Path, jobs: int) -> dict[
     return ledger
 
 
-def _interrupt(running: list[_Worker], bars: Progress) -> None:
+def _interrupt(running: list[_Worker]) -> None:
     """Let the workers save what they have; a second Ctrl-C, like the end of our patience, kills them."""
     for worker in running:
         worker.process.send_signal(signal.SIGINT)
-    bars.stop()
     deadline = time.monotonic() + PATIENCE
     try:
         for worker in running:

@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ehlcontact.cli.study.slips import first_error, inputs_of
 from ehlcontact.errors import InputError
+from ehlcontact.files import read_text
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.origin import __version__
 from ehlcontact.point import OperatingPoint, most_loaded_ball, require_solvable
@@ -245,11 +246,12 @@ def load_study(path: Path) -> Study:
         for; the line names file, field, value, allowed range and, where there is one, a likely slip.
     """
     try:
-        document = tomllib.loads(path.read_text(encoding="utf-8"))
+        document = tomllib.loads(read_text(path))
     except OSError as error:
         raise InputError("study", str(path), f"a readable TOML file ({error.strerror})") from None
-    except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, a number of 5000 digits, nested too deep
-        raise InputError("study", str(path), f"complete TOML ({error})") from None
+    except (ValueError, RecursionError) as error:
+        reason = "nested too deeply" if isinstance(error, RecursionError) else str(error)
+        raise InputError("study", str(path), f"complete TOML ({reason})") from None
     try:
         study = Study.model_validate(document)
     except ValidationError as error:

@@ -7,7 +7,7 @@ from pathlib import Path
 from reprlib import repr as shortened
 from typing import TYPE_CHECKING, Any
 
-from ehlcontact.box import INPUTS, Given
+from ehlcontact.checks.box import INPUTS, Given
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ehlcontact.cli.study.schema import Study
-from ehlcontact.errors import ConvergenceError
+from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
 
@@ -20,6 +20,7 @@ class Outcome(NamedTuple):
 
     status: Status
     message: str = ""
+    stored: bool = True  # unless there was no room for it: then there is none for others
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +32,7 @@ class Stage:
     sections: tuple[str, ...]
     compute: Callable[[Study, Update], Any]
     store: Callable[[Any, Path], None]
+    load: Callable[[Study, Path], Any]  # raises `InputError` for a file that `store` did not write
 
     def file(self, folder: Path) -> Path:
         """Where the converged result stands."""
@@ -49,11 +51,14 @@ class Stage:
             result, outcome = error.result, Outcome(Status.FAILED, str(error))
         except KeyboardInterrupt:
             return Outcome(Status.INTERRUPTED, "stopped before anything could be kept")
-        if outcome.status.ok:
-            self.store(result, self.file(folder))
-            self.partial(folder).unlink(missing_ok=True)
-        elif hasattr(result, "force"):  # not a single failed step, but a result
-            self.store(result, self.partial(folder))
+        try:
+            if outcome.status.ok:
+                self.store(result, self.file(folder))
+                self.partial(folder).unlink(missing_ok=True)
+            elif hasattr(result, "force"):  # not a single failed step, but a result
+                self.store(result, self.partial(folder))
+        except InputError as error:
+            return Outcome(Status.FAILED, str(error), stored=False)
         return outcome
 
 
@@ -63,10 +68,28 @@ def _store(result: Any, path: Path) -> None:
     save(result, path)
 
 
+def _load(kind: str) -> Callable[[Study, Path], Any]:
+    def load(study: Study, path: Path) -> Any:
+        from ehlcontact.storage import load as read
+
+        result = read(path)
+        if type(result).__name__ != kind:
+            raise InputError("file", str(path), f"a {kind}")
+        return result
+
+    return load
+
+
 def _store_rotor(result: Any, path: Path) -> None:
     from ehlcontact.cli.study.rotor import save_rotor
 
     save_rotor(result, path)
+
+
+def _load_rotor(study: Study, path: Path) -> Any:
+    from ehlcontact.cli.study.rotor import build_rotor, load_rotor
+
+    return load_rotor(path, build_rotor(study))
 
 
 def _steady(study: Study, update: Update) -> Any:
@@ -124,13 +147,16 @@ def _rotor_half_step(study: Study, update: Update) -> Any:
     return run_full(study, 1, study.rotor.check_revolutions, update)
 
 
+_STEADY, _RUN = (_store, _load("SteadyResult")), (_store, _load("SimulationResult"))
+_ROTOR = (_store_rotor, _load_rotor)
+
 STAGES = (  # the longest first
-    Stage("rotor_full", "rotor on full contacts", ("solver", "rotor"), _rotor_full, _store_rotor),
-    Stage("steady", "steady film", ("solver",), _steady, _store),
-    Stage("free", "free vibration", ("solver", "free"), _free, _store),
-    Stage("harmonic", "harmonic load, contact band", ("solver", "harmonic"), _harmonic, _store),
-    Stage("rotor_band", "harmonic load, rotor band", ("solver", "rotor"), _rotor_band, _store),
-    Stage("rotor_half_step", "rotor again, half the step", ("solver", "rotor"), _rotor_half_step, _store_rotor),
+    Stage("rotor_full", "rotor on full contacts", ("solver", "rotor"), _rotor_full, *_ROTOR),
+    Stage("steady", "steady film", ("solver",), _steady, *_STEADY),
+    Stage("free", "free vibration", ("solver", "free"), _free, *_RUN),
+    Stage("harmonic", "harmonic load, contact band", ("solver", "harmonic"), _harmonic, *_RUN),
+    Stage("rotor_band", "harmonic load, rotor band", ("solver", "rotor"), _rotor_band, *_RUN),
+    Stage("rotor_half_step", "rotor again, half the step", ("solver", "rotor"), _rotor_half_step, *_ROTOR),
 )
 
 

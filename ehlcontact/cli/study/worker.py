@@ -15,6 +15,7 @@ from pathlib import Path
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import Outcome, stage_named
 from ehlcontact.errors import InputError
+from ehlcontact.process import end_when, stdin_closed
 from ehlcontact.status import Status
 
 SPACING = 0.1  # seconds between progress lines
@@ -22,6 +23,7 @@ SPACING = 0.1  # seconds between progress lines
 
 def work(study_file: Path, folder: Path, name: str) -> None:
     """Run the stage and report on stdout."""
+    end_when(stdin_closed)  # the runner holds the other end, and is gone then
     # A parent in the background may have left the signal ignored.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     started, last = time.perf_counter(), 0.0

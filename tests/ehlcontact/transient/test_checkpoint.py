@@ -4,7 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import h5py
 import numpy as np
@@ -28,6 +28,8 @@ from ehlcontact import (
     save,
     simulate,
 )
+from ehlcontact.files import hdf5
+from ehlcontact.transient.checkpoint import load_checkpoint
 from ehlcontact.transient.film import TransientFilm
 
 POINT = MoesPoint(200, 10, 0.5)
@@ -183,6 +185,86 @@ def test_a_finished_run_can_be_extended(tmp_path):
     simulate(POINT, motion, n=N, until=0.4, dT=0.05, checkpoint=tmp_path / "c.h5")
     longer = simulate(POINT, motion, n=N, until=0.8, dT=0.05, restart=tmp_path / "c.h5")
     assert_same_bits(simulate(POINT, motion, n=N, until=0.8, dT=0.05), longer)
+
+
+@pytest.mark.parametrize("motion", [HarmonicLoad(3.0), FreeVibration(5.13)], ids=lambda m: m.kind)
+@pytest.mark.parametrize("dT", [None, 0.03])
+def test_a_later_end_keeps_the_stored_step(motion, dT, tmp_path):
+    """Whatever the default, or the shortening, would be for that end; also the second time."""
+    options = dict(n=N, dT=dT)
+    first = simulate(POINT, motion, until=0.2, **options, checkpoint=tmp_path / "c.h5")
+    step = float(first.T[1])
+    for until in (0.2, 0.37, 0.4, 0.55):
+        longer = simulate(
+            POINT, motion, until=until, **options, restart=tmp_path / "c.h5", checkpoint=tmp_path / "c.h5"
+        )
+        np.testing.assert_allclose(np.diff(longer.T), step, rtol=1e-9)
+        assert until - 1e-12 <= longer.T[-1] < until + step
+        assert np.array_equal(longer.force[: first.T.size], first.force)
+    whole = simulate(POINT, motion, n=N, until=longer.T[-1], dT=step)
+    assert_same_bits(replace(longer, T=whole.T), whole)
+    with pytest.raises(InputError, match=r"its dT is 0\.0"):
+        simulate(POINT, motion, until=0.6, n=N, dT=0.011, restart=tmp_path / "c.h5")
+
+
+@pytest.mark.parametrize("until", [0.3, 0.7, 1.1])
+def test_a_finished_run_can_be_asked_for_again(until, tmp_path):
+    """Its end is met but for rounding: three steps of 0.1 are more than 0.3."""
+    options = dict(n=N, until=until, dT=0.1)
+    whole = simulate(POINT, HarmonicLoad(3.0), **options, checkpoint=tmp_path / "c.h5")
+    assert_same_bits(whole, simulate(POINT, HarmonicLoad(3.0), **options, restart=tmp_path / "c.h5"))
+
+
+def test_a_controlled_run_can_be_extended(tmp_path):
+    options = dict(n=N, error=1e-3)
+    simulate(POINT, HarmonicLoad(3.0), until=0.4, **options, checkpoint=tmp_path / "c.h5")
+    longer = simulate(POINT, HarmonicLoad(3.0), until=0.8, **options, restart=tmp_path / "c.h5")
+    assert longer.T[-1] == 0.8
+
+
+def test_a_checkpoint_that_cannot_be_written_later_is_told_and_the_run_goes_on(tmp_path, monkeypatch):
+    """Only the first ends a run, before anything is lost; the last one raises with the run."""
+    path, write, fails = tmp_path / "c.h5", hdf5.write, set()
+
+    def counted(record, *given):
+        if record.record.T > 0.1 and record.record.T < max(fails):
+            raise InputError("checkpoint", str(path), "a file that can be written (No space left on device)")
+        return write(record, *given)
+
+    monkeypatch.setattr(hdf5, "write", counted)
+    options = dict(n=N, until=0.4, dT=0.1, checkpoint=path, checkpoint_every=0.0)
+    fails.add(0.35)
+    with pytest.warns(RuntimeWarning, match="No space left.*the run goes on") as told:
+        result = simulate(POINT, HarmonicLoad(3.0), **options)
+    assert len(told) == 1 and result.status.ok and load_checkpoint(path).record.T == result.T[-1]
+    path.unlink()
+    fails.add(9.0)
+    with pytest.warns(RuntimeWarning), pytest.raises(InputError, match=r"^checkpoint = .*No space left") as caught:
+        simulate(POINT, HarmonicLoad(3.0), **options)
+    assert np.array_equal(caught.value.result.force, result.force)
+    assert load_checkpoint(path).record.T == 0.1
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("record/film", lambda old: old[:, :-1]),
+        ("record/numbers", lambda old: old[:0]),
+        ("record/numbers", lambda old: np.full_like(old, np.nan)),
+        ("record/snapshot_T", lambda old: np.zeros(3)),
+        ("film/P", lambda old: old[:1]),
+        ("film/mass", lambda old: old * np.inf),
+        ("film/factors/lu/0", lambda old: old[:-1]),
+    ],
+)
+def test_arrays_that_do_not_fit(stopped, tmp_path, name, change):
+    path = shutil.copy(stopped[0], tmp_path / "c.h5")
+    with h5py.File(path, "a") as file, np.errstate(invalid="ignore"):
+        new = change(file[name][...])
+        del file[name]
+        file[name] = new
+    with pytest.raises(InputError, match=r"^restart = .*checkpoint of `simulate`"):
+        simulate(**stopped[1], restart=path)
 
 
 @pytest.fixture(scope="module")

@@ -109,8 +109,22 @@ def test_several_records_are_fitted_sample_by_sample(record):
     assert both.samples == f.size and both.window == ((0.5, 2.5), (0.5, 2.5))
 
 
+def shorter(record):
+    """The record without its last sample: another one."""
+    return record.window(float(record.T[0]), float(record.T[-2]))
+
+
+@pytest.mark.parametrize("model", ["cubic", "memory"])
+def test_a_record_counts_once(record, model):
+    """Twice the same data would make the intervals of the fit narrower than it is known."""
+    again = replace(record, T=record.T.copy(), n=64)
+    for records in ([record, record], [shorter(record), record, again]):
+        with pytest.raises(InputError, match=r"^records.* = .the record of records.*: must be another one"):
+            fit(records, model)
+
+
 def test_records_of_different_contacts_are_refused(record):
-    a, b = (replace(record, point=MoesPoint(M, 10.0, 0.5)) for M in (200.0, 300.0))
+    a, b = (replace(r, point=MoesPoint(M, 10.0, 0.5)) for r, M in ((record, 200.0), (shorter(record), 300.0)))
     with pytest.raises(InputError, match=r"records\[1\]\.point"):
         fit([a, b])
     with pytest.raises(InputError, match=r"records\[1\]"):
@@ -143,7 +157,7 @@ def test_source_says_where_the_data_came_from(record):
     described = replace(record, point=point, n=64, domain=(-4.5, 1.5, 3.0), motion={"kind": "free"})
     source = fit(described).element.source
     assert source["point"] == point.to_dict() and source["n"] == 64 and source["motion"] == {"kind": "free"}
-    assert fit([described, replace(described, n=128)]).element.source["n"] == [64, 128]
+    assert fit([described, replace(shorter(described), n=128)]).element.source["n"] == [64, 128]
 
 
 def test_source_says_what_was_assumed(record):
@@ -260,7 +274,7 @@ def test_noisy_rate_with_an_offset_is_accepted(record):
 
 
 def test_validity_box_is_what_the_records_covered(record):
-    result = fit([record, replace(record, motion={"kind": "harmonic", "omega": 9.0})], window=(1.0, 3.0))
+    result = fit([record, replace(shorter(record), motion={"kind": "harmonic", "omega": 9.0})], window=(1.0, 3.0))
     cut, element = record.window(1.0, 3.0), result.element
     assert (element.low, element.high) == (cut.approach.min(), cut.approach.max())
     assert element.rate == np.abs(cut.rate).max()

@@ -1,0 +1,31 @@
+"""Checks of inputs: plain ones, and what the solvers are made for.
+
+========== ====================================================================================================
+room       responsibility
+========== ====================================================================================================
+``inputs`` each returns what it was given, in its plain form, or raises one line that names it
+``box``    what the solvers are made for, and the slip of unit that a number outside betrays
+========== ====================================================================================================
+"""
+
+from ehlcontact.checks.inputs import (
+    as_column,
+    as_rows,
+    require_choice,
+    require_finite,
+    require_instance,
+    require_integer,
+    require_nonnegative,
+    require_positive,
+)
+
+__all__ = [
+    "as_column",
+    "as_rows",
+    "require_choice",
+    "require_finite",
+    "require_instance",
+    "require_integer",
+    "require_nonnegative",
+    "require_positive",
+]

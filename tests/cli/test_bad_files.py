@@ -1,0 +1,393 @@
+"""Files of every kind that are damaged, foreign or absurd: one line, exit 2, soon, and nothing else changes."""
+
+import io
+import json
+import os
+import time
+import zipfile
+from pathlib import Path
+
+import atlas_stub
+import h5py
+import numpy as np
+import pytest
+
+from ehlcontact import HarmonicLoad, MoesPoint, save, simulate, solve_steady
+from ehlcontact.cli.study.runner import read_ledger
+from reduced_models import CubicContact
+from reduced_models.atlas.atlas import SHIPPED
+
+POINT = ("--M", "20", "--L", "5", "--kappa", "0.5")
+RUN = {"n": 32, "until": 0.2, "dT": 0.05}
+STUDY = (Path(__file__).parents[2] / "examples" / "small_study.toml").read_text()
+DEEP = '{"a":' * 100_000 + "1" + "}" * 100_000
+SECONDS = 2.0  # of the processor, for any of them
+
+COMMANDS = {  # what reads a kind of file: arguments for its name and for a folder of results
+    "result": lambda file, out: ("fit", file, "--save", out / "kept.json"),
+    "checkpoint": lambda file, out: (
+        *("simulate", *POINT, "--n", "32", "--harmonic", "3", "--until", "0.2", "--dt", "0.05"),
+        *("--restart", file, "--save", out / "kept.h5"),
+    ),
+    "element": lambda file, out: ("export", file, "-o", out / "kept.fmu"),
+    "study": lambda file, out: ("run", file, "-o", out / "new"),
+    "atlas": lambda file, out: ("element", *POINT, "--atlas", file, "--save", out / "kept.json"),
+    "work": lambda file, out: (
+        *("atlas", "build", "-o", out / "kept.npz", "--work", file, "--draws", "12", "--light-draws", "12"),
+    ),
+}
+SUFFIX = {
+    "result": ".h5",
+    "checkpoint": ".h5",
+    "element": ".json",
+    "study": ".toml",
+    "atlas": ".npz",
+    "work": ".jsonl",
+}
+
+
+@pytest.fixture(scope="module")
+def good(tmp_path_factory):
+    """Content of a sound file of every kind, and of a steady film."""
+    folder, point = tmp_path_factory.mktemp("good"), MoesPoint(20, 5, 0.5)
+    save(simulate(point, HarmonicLoad(3.0), **RUN, checkpoint=folder / "checkpoint"), folder / "result")
+    save(solve_steady(point, n=16, throw=False), folder / "steady")
+    CubicContact(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0).save(folder / "element")
+    (folder / "study").write_text(STUDY)
+    (folder / "atlas").write_bytes(SHIPPED.read_bytes())
+    atlas_stub.prefill(folder / "work", 12, 12)
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def content(kind, data):
+    """The same bytes, whatever the good file."""
+    return lambda good: data if isinstance(data, bytes) else data.encode()
+
+
+def cut(share):
+    return lambda good: good[: int(share * len(good))]
+
+
+def of(kind):
+    """The sound file of another kind."""
+    return kind
+
+
+def hdf5(edit):
+    """An HDF5 file edited by ``edit(file)``."""
+
+    def made(good):
+        stream = io.BytesIO(good)
+        with h5py.File(stream, "a") as file:
+            edit(file)
+        return stream.getvalue()
+
+    return made
+
+
+def array(name, change):
+    def edit(file):
+        new = change(file[name][...])
+        del file[name]
+        file[name] = new
+
+    return hdf5(edit)
+
+
+def attribute(name, value):
+    return hdf5(lambda file: file.attrs.__setitem__(name, value))
+
+
+def foreign(edit):
+    """A new HDF5 file."""
+
+    def made(good):
+        stream = io.BytesIO()
+        with h5py.File(stream, "w") as file:
+            edit(file)
+        return stream.getvalue()
+
+    return made
+
+
+def promised(file):
+    """An array of 8 TB, of which nothing is there."""
+    del file["T"]
+    file.create_dataset("T", shape=(10**12,), dtype=float)
+
+
+def flipped(at):
+    def made(good):
+        data = bytearray(good)
+        data[int(at * len(data))] ^= 0xFF
+        return bytes(data)
+
+    return made
+
+
+def element(**changes):
+    def made(good):
+        document = json.loads(good)
+        for key, value in changes.items():
+            document[key] = value if not isinstance(value, dict) else document[key] | value
+        return json.dumps(document).encode()
+
+    return made
+
+
+def study(old, new):
+    assert old in STUDY
+    return lambda good: STUDY.replace(old, new, 1).encode()
+
+
+def atlas(**changes):
+    """The shipped atlas with other arrays, or with an array left out."""
+
+    def made(good):
+        arrays = dict(np.load(io.BytesIO(good)))
+        for name, change in changes.items():
+            if change is None:
+                del arrays[name]
+            else:
+                arrays[name] = change(arrays[name])
+        stream = io.BytesIO()
+        np.savez(stream, **arrays)
+        return stream.getvalue()
+
+    return made
+
+
+def header(change):
+    return lambda array: np.array(change(json.loads(str(array))))
+
+
+def line(number, change):
+    """A work file with one line changed."""
+
+    def made(good):
+        lines = good.decode().splitlines()
+        lines[number] = change(lines[number])
+        return "\n".join([*lines, ""]).encode()
+
+    return made
+
+
+def zipped(good):
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w") as file:
+        file.writestr("a.txt", "text")
+    return stream.getvalue()
+
+
+def stored(value, **options):
+    stream = io.BytesIO()
+    np.save(stream, value, **options)
+    return stream.getvalue()
+
+
+ANY = {  # of any kind; a study may not be empty, an empty work file is a new one
+    "binary": lambda good: bytes(range(256)) * 8,
+    "utf-16": lambda good: "[a]\nb = 1\n".encode("utf-16"),
+    "a picture": lambda good: b"\x89PNG\r\n\x1a\n" + bytes(100),
+    "half": cut(0.5),
+    "text": lambda good: b"T,u\n0,1\n",
+}
+HDF5 = {
+    "empty": cut(0.0),
+    "only begun": cut(0.02),
+    "nearly whole": cut(0.999),
+    "signature": lambda good: good[:8],
+    "byte in the structure": flipped(0.005),
+    "byte in the middle": flipped(0.5),
+    "foreign": foreign(lambda file: file.__setitem__("P", np.zeros(3))),
+    "class of others": foreign(lambda file: file.attrs.update({"class": "Sofa", "format": 1})),
+    "class that is an array": foreign(lambda file: file.attrs.__setitem__("class", np.zeros(3))),
+    "newer": attribute("format", 99),
+    "format in words": attribute("format", "one"),
+    "no format": hdf5(lambda file: file.attrs.__delitem__("format")),
+    "version that is no text": attribute("version", 3.0),
+    "deep": attribute("version", DEEP),
+}
+BAD = {
+    "result": HDF5
+    | {
+        "a steady film": of("steady"),
+        "a checkpoint": of("checkpoint"),
+        "an atlas": of("atlas"),
+        "no fields": foreign(lambda file: file.attrs.update({"class": "SimulationResult", "format": 1})),
+        "times in words": array("T", lambda old: np.array([b"a"] * old.size)),
+        "times in rows": array("T", lambda old: old[None, :]),
+        "times that are no numbers": array("T", lambda old: old * np.nan),
+        "times that fall": array("T", lambda old: old[::-1]),
+        "too few forces": array("force", lambda old: old[:-1]),
+        "no force": hdf5(lambda file: file.__delitem__("force")),
+        "a group for an array": hdf5(lambda file: (file.__delitem__("force"), file.create_group("force"))),
+        "a number for an array": hdf5(lambda file: (file.__delitem__("T"), file.attrs.__setitem__("T", "1.0"))),
+        "an array for a number": hdf5(lambda file: (file.attrs.__delitem__("n"), file.__setitem__("n", [1.0]))),
+        "a link to itself": hdf5(lambda f: (f.__delitem__("T"), f.__setitem__("T", h5py.SoftLink("/T")))),
+        "a link into nowhere": hdf5(
+            lambda f: (f.__delitem__("T"), f.__setitem__("T", h5py.ExternalLink("x", "T")))
+        ),
+        "an array without end": hdf5(promised),
+        "unknown status": attribute("status", '"sleepy"'),
+        "not converged": attribute("status", '"stagnated"'),
+        "impossible point": attribute("point", '{"M": -1, "L": 5, "kappa": 0.5}'),
+        "half a point": attribute("point", '{"M": 20}'),
+        "unknown motion": attribute("motion", '{"kind": "waltz"}'),
+        "domain in words": attribute("domain", '"wide"'),
+        "another n": attribute("n", "48"),
+        "n in words": attribute("n", '"many"'),
+    },
+    "checkpoint": HDF5
+    | {
+        "a result": of("result"),
+        "older": attribute("format", 1),
+        "another version": attribute("version", '"0.0.1"'),
+        "no settings": hdf5(lambda file: file.attrs.__delitem__("settings")),
+        "settings in words": attribute("settings", '"none"'),
+        "too few films": array("record/film", lambda old: old[:-1]),
+        "no entries": array("record/numbers", lambda old: old[:0]),
+        "another grid": array("film/P", lambda old: old[:-1, :-1]),
+        "no numbers": array("film/mass", lambda old: old * np.nan),
+        "no film": hdf5(lambda file: file.__delitem__("film")),
+        "scale in words": attribute("scale", '"large"'),
+    },
+    "element": {
+        "empty": cut(0.0),
+        "null": content("element", "null"),
+        "a list": content("element", "[1, 2]"),
+        "a number": content("element", "5"),
+        "deep": content("element", DEEP),
+        "deep lists": content("element", "[" * 100_000),
+        "deep parameters": lambda good: good.replace(b'"K1": 1.0', b'"K1": ' + DEEP.encode()),
+        "nan": content("element", '{"schema": NaN}'),
+        "5000 digits": lambda good: good.replace(b'"K1": 1.0', b'"K1": ' + b"9" * 5000),
+        "400 digits": lambda good: good.replace(b'"K1": 1.0', b'"K1": ' + b"9" * 400),
+        "too large a number": lambda good: good.replace(b'"K1": 1.0', b'"K1": 1e999'),
+        "half a character": lambda good: good.replace(b'"cubic"', rb'"\ud800"'),
+        "half a character in its source": lambda good: good.replace(
+            b'"source": null', rb'"source": {"a": "\udfff"}'
+        ),
+        "byte order mark": lambda good: b"\xef\xbb\xbf" + good,
+        "another schema": element(schema="soup"),
+        "newer": element(version=99),
+        "version in words": element(version="1"),
+        "kind of others": element(kind="spline"),
+        "a long kind": element(kind="x" * 100_000),
+        "units of others": element(units="mm"),
+        "parameters in a list": element(parameters=[1, 2]),
+        "parameter in words": element(parameters={"K1": "one"}),
+        "parameter that is true": element(parameters={"K1": True}),
+        "no contact": element(parameters={"C1": -1.0}),
+        "no range": element(valid={"low": None}),
+        "a range that falls": element(valid={"low": 2.0}),
+        "source in words": element(source="here"),
+    },
+    "study": {
+        "empty": cut(0.0),
+        "deep": content("study", "a = " + "[" * 100_000),
+        "5000 digits": study("balls = 9", "balls = " + "9" * 5000),
+        "half a character": study('race = "inner"', 'race = "\\ud800"'),
+        "zero byte": study('race = "inner"', 'race = "\0"'),
+        "twice": study("balls = 9", "balls = 9\nballs = 9"),
+        "a date": study("balls = 9", "balls = 2026-01-01"),
+        "a list": study("balls = 9", "balls = [9]"),
+        "JSON": content("study", '{"bearing": {}}'),
+    },
+    "atlas": {
+        "empty": cut(0.0),
+        "nearly whole": cut(0.999),
+        "a zip file": zipped,
+        "one array": lambda good: stored(np.zeros(3)),
+        "a pickled object": lambda good: stored(np.array([{}], dtype=object), allow_pickle=True),
+        "HDF5": of("result"),
+        "byte in the middle": flipped(0.5),
+        "another schema": atlas(metadata=header(lambda old: json.dumps(old | {"schema": "soup"}))),
+        "newer": atlas(metadata=header(lambda old: json.dumps(old | {"schema_version": 9}))),
+        "no schema": atlas(metadata=header(lambda old: "[]")),
+        "deep": atlas(metadata=header(lambda old: DEEP)),
+        "no box": atlas(metadata=header(lambda old: json.dumps(old | {"box": 5}))),
+        "no metadata": atlas(metadata=None),
+        "no damping": atlas(damping=None),
+        "too few points": atlas(points=lambda old: old[:-1]),
+        "no numbers": atlas(damping=lambda old: old * np.nan),
+        "words": atlas(damping=lambda old: old.astype(str).astype("U8")[:, :2]),
+    },
+    "work": {
+        "text without an end": content("work", "my notes"),
+        "JSON without an end": content("work", '{"schema": "ehlcontact-element"}'),
+        "header of others": line(0, lambda old: '{"schema": "soup"}'),
+        "header that is a list": line(0, lambda old: "[]"),
+        "another seed": line(0, lambda old: old.replace('"seed": 4', '"seed": 5')),
+        "another version": line(0, lambda old: json.dumps(json.loads(old) | {"version": "0.0.1"})),
+        "a spoilt line": line(5, lambda old: old[:-9]),
+        "a list for a line": line(5, lambda old: "[1]"),
+        "a deep line": line(5, lambda old: DEEP),
+        "a point without a name": line(5, lambda old: json.dumps(json.loads(old) | {"point": None})),
+        "a point without an answer": line(
+            5, lambda old: '{"point": ' + json.dumps(json.loads(old)["point"]) + "}"
+        ),
+        "an answer in words": line(5, lambda old: json.dumps(json.loads(old) | {"stiffness": "soft"})),
+        "a status of others": line(5, lambda old: json.dumps(json.loads(old) | {"status": ["converged"]})),
+        "HDF5": of("result"),
+    },
+}
+for kind, table in BAD.items():
+    table |= {
+        name: made for name, made in ANY.items() if (kind, name) not in {("work", "half"), ("study", "half")}
+    }
+CASES = [(kind, name) for kind, table in BAD.items() for name in table]
+
+
+def test_there_are_many():
+    assert len(CASES) >= 100
+
+
+@pytest.mark.parametrize(("kind", "name"), CASES)
+def test_bad_file(kind, name, good, refused, tmp_path):
+    made = BAD[kind][name]
+    data = good[made] if isinstance(made, str) else made(good[kind])
+    assert data != good[kind]
+    file = tmp_path / f"bad{SUFFIX[kind]}"
+    file.write_bytes(data)
+    assert_refused(kind, file, refused, tmp_path)
+    assert file.read_bytes() == data
+
+
+@pytest.mark.parametrize("kind", COMMANDS)
+@pytest.mark.parametrize("name", ["missing", "a folder", "too long", "below a file", "not text"])
+def test_no_file(kind, name, refused, tmp_path):
+    if kind == "work" and name in ("missing", "not text"):
+        pytest.skip("a new work file")
+    suffix = SUFFIX[kind]
+    (tmp_path / "file").write_text("")
+    (tmp_path / f"folder{suffix}").mkdir()
+    file = {
+        "missing": tmp_path / f"none{suffix}",
+        "a folder": tmp_path / f"folder{suffix}",
+        "too long": tmp_path / ("x" * 300 + suffix),
+        "below a file": tmp_path / "file" / f"x{suffix}",
+        "not text": Path(os.fsdecode(os.fsencode(tmp_path) + b"/\xff" + suffix.encode())),
+    }[name]
+    assert_refused(kind, file, refused, tmp_path)
+
+
+def assert_refused(kind, file, refused, tmp_path):
+    """One line, exit 2, soon; files that would have been replaced are as they were, and no others are there."""
+    out = tmp_path / "out"
+    out.mkdir()
+    for suffix in (".json", ".h5", ".fmu", ".npz"):
+        (out / f"kept{suffix}").write_text("kept")
+    before = sorted(tmp_path.rglob("*"))
+    started = time.process_time()
+    refused(("must be",), *COMMANDS[kind](file, out))
+    assert time.process_time() - started < SECONDS
+    assert sorted(tmp_path.rglob("*")) == before
+    assert {path.read_text() for path in out.iterdir()} == {"kept"}
+
+
+def test_a_bad_ledger_is_no_ledger(tmp_path):
+    """Of the folder of a study; its stages are made again."""
+    for text in ("", "{", "[]", DEEP, '{"steady": {"status": "converged"}}', '{"steady": 3}', "\ud83d"):
+        (tmp_path / "stages.json").write_bytes(text.encode("utf-8", "surrogatepass"))
+        assert read_ledger(tmp_path) == {}

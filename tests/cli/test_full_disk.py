@@ -1,0 +1,119 @@
+"""A disk that is full: one line, exit 2, nothing lost; on a real one of 16 kB where the tests run as root."""
+
+import json
+import os
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ehlcontact import InputError, load
+from ehlcontact.cli.study.rotor import FORMAT, HISTORIES
+from ehlcontact.cli.study.schema import load_study
+from ehlcontact.cli.study.stages import stage_named
+from ehlcontact.files import hdf5
+from ehlcontact.transient.checkpoint import load_checkpoint
+
+ROOT = Path(__file__).parents[2]
+SMALL = ROOT / "examples" / "small_study.toml"
+WIDE = ("element", "--M", "2900", "--L", "19", "--kappa", "0.11")
+
+
+def program(*arguments):
+    """The program in a process of its own: how it ends is the point."""
+    command = [sys.executable, "-m", "ehlcontact.cli", *map(str, arguments)]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    return subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+
+
+@pytest.mark.parametrize("option", ["--save", "--checkpoint", "--figure"])
+def test_results_on_a_disk_of_16_kb(full_disk, point, option):
+    motion = ["--free", "5", "--until", "0.2", "--dt", "0.1"] if option == "--checkpoint" else []
+    name = "f.png" if option == "--figure" else "r.h5"
+    command = "simulate" if motion else "steady"
+    found = program(command, *point, "--n", "64", *motion, option, full_disk / name)
+    assert found.returncode == 2
+    (line,) = found.stderr.splitlines()
+    assert line.startswith(f"ehlcontact: {option.removeprefix('--') if motion else option} = ")
+    assert "No space left on device" in line
+    assert ("converged" in found.stdout) == (option != "--checkpoint")  # the table is there all the same
+    assert not (full_disk / name).exists()
+
+
+def test_a_study_on_a_disk_of_16_kb(full_disk):
+    """The stages run in other processes, and none is left behind."""
+    found = program("run", SMALL, "-o", full_disk / "out", "--jobs", "1")
+    assert found.returncode == 2 and found.stdout == ""
+    (line,) = [line for line in found.stderr.splitlines() if not line.endswith(" s")]  # but for the stages' ends
+    assert line.startswith("ehlcontact: ") and "No space left on device" in line and "resumes" in line
+
+
+def test_what_else_is_written_does_not_cost_the_rest(call, no_room, tmp_path):
+    """A file that cannot be written does not keep the JSON and the table back."""
+    path = tmp_path / "e.json"
+    path.write_text("old")
+    no_room()
+    result = call(*WIDE, "--save", path, "--json", "-")
+    assert result.code == 2 and json.loads(result.out)["kind"] == "wide"
+    assert result.err.startswith(f"ehlcontact: --save = '{path}'") and len(result.err.splitlines()) == 1
+    result = call(*WIDE, "--json", tmp_path / "e2.json")
+    assert result.code == 2 and "static tangent" in result.out and "--json" in result.err
+    assert path.read_text() == "old" and [p.name for p in tmp_path.iterdir()] == ["e.json"]
+
+
+def test_fmu_atlas_and_report(call, refused, no_room, tmp_path):
+    assert call(*WIDE[:1], "--model", "cubic", *WIDE[1:], "--save", tmp_path / "e.json").code == 0
+    assert call("export", tmp_path / "e.json", "-o", tmp_path / "x.fmu").code == 0
+    before = (tmp_path / "x.fmu").read_bytes()
+    no_room()
+    refused(("x.fmu", "No space left"), "export", tmp_path / "e.json", "-o", tmp_path / "x.fmu")
+    assert (tmp_path / "x.fmu").read_bytes() == before and zipfile.is_zipfile(tmp_path / "x.fmu")
+    work = tmp_path / "w.jsonl"
+    refused(("work file", "No space left", "stays"), "atlas", "build", "-o", tmp_path / "a.npz", "--work", work)
+    assert work.read_bytes() == b""  # no torn line
+
+
+@pytest.fixture
+def study_folder(tmp_path):
+    """A study and a folder with a rotor run, as a stage leaves it."""
+    stage = stage_named("rotor_full")
+    with hdf5.making(stage.file(tmp_path), "file") as file:
+        file.attrs["format"] = FORMAT
+        hdf5.set_text(file, "class", "RotorResult")
+        hdf5.set_text(file, "status", "converged")
+        for name in HISTORIES:
+            hdf5.put(
+                file, name, np.arange(6.0).reshape(3, 2) if name not in ("t", "iterations") else np.arange(3.0)
+            )
+    return load_study(SMALL), tmp_path
+
+
+def test_rotor_runs(study_folder, no_room):
+    study, folder = study_folder
+    stage = stage_named("rotor_full")
+    run = stage.load(study, stage.file(folder))
+    before = stage.file(folder).read_bytes()
+    no_room()
+    with pytest.raises(InputError, match="No space left"):
+        stage.store(run, stage.file(folder))
+    assert stage.file(folder).read_bytes() == before
+
+
+def test_the_last_checkpoint_is_told_and_the_run_kept(call, point, tmp_path, monkeypatch):
+    """The disk fills up during the run: it goes on, and what it found is saved elsewhere."""
+    write, saved, path = hdf5.write, tmp_path / "r.h5", tmp_path / "c.h5"
+
+    def once(record, target, *given):
+        if Path(target) == path and path.exists():
+            raise InputError("checkpoint", str(path), "a file that can be written (No space left on device)")
+        return write(record, target, *given)
+
+    monkeypatch.setattr(hdf5, "write", once)
+    options = ("--n", "16", "--free", "5", "--until", "0.3", "--dt", "0.1", "--save", saved)
+    result = call("simulate", *point, *options, "--checkpoint", path)
+    assert result.code == 2 and "converged" in result.out
+    assert result.err.startswith("ehlcontact: checkpoint = ") and len(result.err.splitlines()) == 1
+    assert load(saved).steps == 3 and load_checkpoint(path).record.T == 0.0

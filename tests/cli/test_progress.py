@@ -1,0 +1,117 @@
+"""Progress where stderr is no terminal: now and then a line, with the time left."""
+
+import pytest
+
+from ehlcontact.cli import progress
+from ehlcontact.cli.progress import Lines, Task, duration
+
+TELL = Lines.tell  # before the fixture of this folder takes it away
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    """``clock(seconds)`` moves the time on, and has the lines told that are due."""
+
+    class Clock:
+        now = 1000.0
+
+        def __call__(self, lines, seconds):
+            self.now += seconds
+            TELL(lines, self.now)
+
+    clock = Clock()
+    monkeypatch.setattr(progress.time, "monotonic", lambda: clock.now)
+    monkeypatch.setattr(Lines, "last", clock.now)
+    return clock
+
+
+def test_what_is_done_soon_needs_no_line(clock, capsys):
+    lines = Lines()
+    task = lines.add("film")
+    for k in range(9):
+        lines.update(task, k, 10)
+        clock(lines, 1.0)
+    lines.end(task)
+    assert capsys.readouterr() == ("", "")
+
+
+def test_a_line_every_ten_seconds_and_ten_per_cent(clock, capsys):
+    lines = Lines()
+    task = lines.add("film")
+    for k in range(1, 201):  # 50 s for the one half, 500 s for the other
+        lines.update(task, k, 200)
+        clock(lines, 0.5 if k <= 100 else 5.0)
+    said = capsys.readouterr()
+    told = said.err.splitlines()
+    assert said.out == ""
+    assert told[0] == "film: 10 %, about 95 s left"
+    assert len(told) == 13
+
+
+def test_a_run_that_goes_on_from_a_file_is_judged_by_what_it_does_now(clock, capsys):
+    lines = Lines()
+    task = lines.add("film")
+    lines.update(task, 80, 100)
+    clock(lines, 10.0)
+    lines.update(task, 91, 100)
+    clock(lines, 1.0)
+    assert capsys.readouterr().err.splitlines() == ["film: 80 %"]
+    clock(lines, 9.0)
+    assert capsys.readouterr().err == "film: 91 %, about 16 s left\n"
+
+
+def test_where_the_end_is_not_known_the_silence_is_broken_all_the_same(clock, capsys):
+    lines = Lines()
+    task = lines.add("steady film")
+    for second in range(200):
+        lines.update(task, second, None, f"cycle {second}")
+        clock(lines, 1.0)
+    told = capsys.readouterr().err.splitlines()
+    assert told == [
+        f"steady film: {t}, cycle {k}"
+        for t, k in (("10 s so far", 9), ("70 s so far", 69), ("2 min so far", 129), ("3 min so far", 189))
+    ]
+
+
+def test_many_short_tasks_are_as_silent_as_a_long_one(clock, capsys):
+    for k in range(40):
+        lines = Lines()
+        task = lines.add(f"case {k}")
+        lines.update(task, 0, 10)
+        clock(lines, 3.0)
+        lines.update(task, 9, 10)
+        clock(lines, 0.5)
+        lines.end(task)
+    told = capsys.readouterr().err.splitlines()
+    assert 10 <= len(told) <= 14 and all(line.startswith("case ") for line in told)
+
+
+def test_waiting_tasks_say_nothing_and_ended_ones_their_last_line(clock, capsys):
+    lines = Lines()
+    waiting, running = lines.add("later", started=False), lines.add("now")
+    clock(lines, 10.0)
+    lines.end(running, "now: done, 10.0 s")
+    clock(lines, 100.0)
+    assert capsys.readouterr().err.splitlines() == ["now: 10 s so far", "now: done, 10.0 s"]
+    lines.start(waiting)
+    clock(lines, 100.0)
+    assert "later: 2 min so far" in capsys.readouterr().err
+
+
+def test_the_thread_speaks_by_itself_and_ends(monkeypatch, capsys):
+    monkeypatch.setattr(Lines, "tell", TELL)
+    monkeypatch.setattr(progress, "SPACING", 0.0)
+    monkeypatch.setattr(progress, "TICK", 0.01)
+    with progress.progress("film") as update:
+        update(1, 4)
+        thread = next(t for t in progress.threading.enumerate() if "_watch" in t.name)
+        while not (said := capsys.readouterr().err):
+            pass
+    assert said.startswith("film: ") and not thread.is_alive()
+
+
+def test_durations():
+    assert [duration(t) for t in (0.2, 25.4, 99.0, 100.0, 3500.0, 4200.0)] == [
+        *("0 s", "25 s", "99 s", "2 min", "58 min", "1 h 10 min"),
+    ]
+    assert not Task("waits").due(1e9)

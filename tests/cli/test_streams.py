@@ -1,0 +1,132 @@
+"""stdout that is full or closed, Ctrl-C while the program is imported: one line and the right exit code."""
+
+import io
+import os
+import subprocess
+import sys
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+from ehlcontact.cli.streams import StdoutError, watched_stdout
+
+ROOT = Path(__file__).parents[2]
+ELEMENT = ("element", "--M", "2900", "--L", "19", "--kappa", "0.11")
+FULL = "ehlcontact: stdout = 'No space left on device': must be able to take the output\n"
+CLOSED = "ehlcontact: stdout was closed before everything was written to it\n"
+
+
+def program(*arguments, path=(), **options):
+    command = [sys.executable, "-m", "ehlcontact.cli", *map(str, arguments)]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, (*path, ROOT)))}
+    environment.pop("PYTHONUNBUFFERED", None)
+    environment |= options.pop("env", {})
+    return subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False, env=environment, **options)
+
+
+@pytest.mark.parametrize("arguments", [ELEMENT, (*ELEMENT, "--json", "-"), ("--help",), ("--version",)], ids=len)
+@pytest.mark.parametrize("unbuffered", [{}, {"PYTHONUNBUFFERED": "1"}], ids=["", "unbuffered"])
+def test_full(arguments, unbuffered):
+    with open("/dev/full", "w") as full:
+        found = program(*arguments, stdout=full, env=unbuffered)
+    assert (found.returncode, found.stderr) == (2, FULL)
+
+
+@pytest.mark.parametrize("arguments", [ELEMENT, (*ELEMENT, "--json", "-"), ("--help",)], ids=len)
+def test_closed(arguments, tmp_path):
+    reader, writer = os.pipe()
+    os.close(reader)
+    save = () if arguments == ("--help",) else ("--save", tmp_path / "e.json")
+    found = program(*arguments, *save, stdout=writer)
+    os.close(writer)
+    assert (found.returncode, found.stderr) == (1, CLOSED)
+    assert not save or (tmp_path / "e.json").exists()  # what was asked for beside it
+
+
+def test_stderr_full_or_closed():
+    with open("/dev/full", "w") as full:
+        command = [sys.executable, "-m", "ehlcontact.cli", "steady", "--M", "-1", "--L", "5", "--kappa", "1"]
+        assert subprocess.run(command, stderr=full, stdout=full, check=False).returncode == 2
+    shell = f"{sys.executable} -m ehlcontact.cli {' '.join(ELEMENT)}"
+    silent = subprocess.run(f"{shell} --json - >&- 2>&-", shell=True, check=False)
+    assert silent.returncode == 2  # nobody could have got the result
+    told = subprocess.run(f"{shell} --json - >&-", shell=True, check=False, stderr=subprocess.PIPE, text=True)
+    assert told.stderr == "ehlcontact: --json = '-': must be used with a stdout that is not closed\n"
+
+
+class Narrow(io.StringIO):
+    encoding = "ascii"
+
+    def write(self, text):
+        text.encode(self.encoding)
+        return super().write(text)
+
+
+def test_characters_that_the_terminal_does_not_know(monkeypatch):
+    stream = Narrow()
+    monkeypatch.setattr(sys, "stdout", stream)
+    with watched_stdout():
+        sys.stdout.write("µ \udcff")
+    assert stream.getvalue() == r"\xb5 \udcff" and sys.stdout is stream
+
+
+def test_a_failure_that_a_library_swallows_is_told_at_the_end(monkeypatch):
+    class Full(io.StringIO):
+        def write(self, text):
+            raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(sys, "stdout", Full())
+    with pytest.raises(StdoutError, match="No space left"), watched_stdout():
+        try:
+            sys.stdout.write("")
+        except Exception:
+            pass
+
+
+@pytest.mark.parametrize("module", ["numba", "scipy", "h5py", "typer"])
+def test_ctrl_c_while_it_is_imported(module, tmp_path):
+    """A module that is imported on the way is interrupted, and swallows what that raises."""
+    interrupting = (
+        "import os, signal\ntry:\n    os.kill(os.getpid(), signal.SIGINT)\n    for _ in range(9): pass\n"
+    )
+    (tmp_path / f"{module}.py").write_text(f"{interrupting}except BaseException:\n    pass\n")
+    found = program(*ELEMENT, path=(tmp_path,), stdout=subprocess.PIPE)
+    assert (found.returncode, found.stdout) == (1, "")
+    assert found.stderr == "ehlcontact: interrupted before anything was computed\n"
+
+
+def test_programs_of_others_keep_their_own_ways_with_ctrl_c():
+    code = "import signal, ehlcontact\nprint(signal.getsignal(signal.SIGINT) is signal.default_int_handler)"
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert found.stdout.strip() == "True"
+
+
+def test_ctrl_c_in_a_subcommand(call, point, monkeypatch):
+    def stop(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(import_module("ehlcontact.impedance"), "impedance", stop)
+    result = call("impedance", *point, "--omega", "1")
+    assert result.code == 1 and result.out == ""
+    assert result.err == "ehlcontact: interrupted: nothing was computed that could be kept\n"
+
+
+@pytest.mark.parametrize(
+    ("error", "line"),
+    [
+        (MemoryError("Unable to allocate 8 TiB"), "out of memory: Unable to allocate 8 TiB"),
+        (
+            OSError(24, "Too many open files", "/tmp/x"),
+            "the system refuses: [Errno 24] Too many open files: '/tmp/x'",
+        ),
+    ],
+    ids=["memory", "files"],
+)
+def test_what_the_system_refuses_is_one_line(call, point, monkeypatch, error, line):
+    def stop(*_, **__):
+        raise error
+
+    monkeypatch.setattr(import_module("ehlcontact.impedance"), "impedance", stop)
+    result = call("impedance", *point, "--omega", "1")
+    assert (result.code, result.err) == (1, f"ehlcontact: {line}\n")

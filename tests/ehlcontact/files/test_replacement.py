@@ -1,0 +1,150 @@
+"""Files replaced in one move, whatever happens; texts of any origin."""
+
+import json
+import os
+import stat
+
+import h5py
+import numpy as np
+import pytest
+
+from ehlcontact import HarmonicLoad, InputError, MoesPoint, files, save, simulate
+from ehlcontact.files import hdf5
+
+POINT = MoesPoint(20, 5, 0.5)
+
+
+def names(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_content_is_on_the_disk_before_it_takes_the_place(tmp_path, monkeypatch):
+    path, order = tmp_path / "a.txt", []
+    real = {"fsync": os.fsync, "replace": os.replace}
+    for name, done in real.items():
+        monkeypatch.setattr(os, name, lambda *given, name=name, done=done: (order.append(name), done(*given)))
+    files.write_text(path, "µ")
+    assert order == ["fsync", "replace"] and path.read_bytes() == b"\xc2\xb5"
+
+
+def test_a_full_disk_keeps_the_old_file(tmp_path, no_room):
+    path = files.write_bytes(tmp_path / "a.bin", b"old")
+    no_room()
+    with pytest.raises(
+        InputError, match=r"^save = '.*a\.bin': must be a file that can be written \(No space left"
+    ):
+        files.write_bytes(path, b"new", "save")
+    assert path.read_bytes() == b"old" and names(tmp_path) == ["a.bin"]
+
+
+def test_a_link_is_followed(tmp_path):
+    (tmp_path / "real.txt").write_text("old")
+    (tmp_path / "link.txt").symlink_to("real.txt")
+    files.write_text(tmp_path / "link.txt", "new")
+    assert (tmp_path / "link.txt").is_symlink() and (tmp_path / "real.txt").read_text() == "new"
+
+
+def test_what_is_no_file_is_written_to_and_stays(tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    files.write_text(pipe, "through")
+    assert os.read(reader, 100) == b"through" and stat.S_ISFIFO(pipe.stat().st_mode)
+    os.close(reader)
+    with pytest.raises(InputError, match="No space left"):
+        files.write_text("/dev/full", "x")
+    assert stat.S_ISCHR(os.stat("/dev/full").st_mode) and names(tmp_path) == ["pipe"]
+
+
+@pytest.mark.parametrize("path", [None, 5, b"bytes.txt", "zero\0byte", "x" * 300, "none/a.txt", ""])
+def test_no_path_for_a_file(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError) as caught:
+        files.write_text(path, "x")
+    assert "\n" not in str(caught.value) and names(tmp_path) == []
+
+
+def test_hdf5_on_a_disk_of_16_kb(full_disk):
+    """Written there by HDF5 itself, it took the process down when it ended."""
+    with pytest.raises(InputError, match="No space left"), hdf5.making(full_disk / "r.h5", "save") as file:
+        file["x"] = np.zeros(100_000)
+    with hdf5.making(full_disk / "small.h5", "save") as file:
+        file["x"] = np.zeros(10)
+    assert names(full_disk) == ["kept.txt", "small.h5"]
+
+
+def test_results_and_checkpoints_on_a_disk_of_16_kb(full_disk):
+    options = dict(n=64, until=0.2, dT=0.1)
+    with pytest.raises(InputError, match=r"^checkpoint = .*No space left"):
+        simulate(POINT, HarmonicLoad(3.0), **options, checkpoint=full_disk / "c.h5")
+    result = simulate(POINT, HarmonicLoad(3.0), **options)
+    with pytest.raises(InputError, match=r"^save = .*No space left"):
+        save(result, full_disk / "r.h5")
+    assert names(full_disk) == ["kept.txt"]
+
+
+def test_hdf5_that_is_not_finished_is_not_written(tmp_path):
+    path = tmp_path / "r.h5"
+    path.write_text("old")
+    with pytest.raises(KeyboardInterrupt), hdf5.making(path, "save") as file:
+        file["x"] = np.zeros(3)
+        raise KeyboardInterrupt
+    assert path.read_text() == "old" and names(tmp_path) == ["r.h5"]
+
+
+def test_a_damaged_byte_is_told_or_does_not_matter(tmp_path):
+    """Structure and arrays have checksums: HDF5 is never led astray, and no number is read that was not stored."""
+    path, x, told = tmp_path / "r.h5", np.arange(200.0), 0
+    with hdf5.making(path, "save") as file:
+        hdf5.put(file, "x", x)
+        hdf5.put(file, "y", x.reshape(2, 100))
+        hdf5.set_text(file, "t", "text" * 20)
+    whole = path.read_bytes()
+    for at in range(0, len(whole), 11):
+        content = bytearray(whole)
+        content[at] ^= 0x55
+        path.write_bytes(content)
+        try:
+            with h5py.File(path) as file:
+                found = hdf5.take(file["x"]), hdf5.take(file["y"]).ravel(), hdf5.text_of(file, "t")
+        except Exception:
+            told += 1
+        else:
+            assert np.array_equal(found[0], x) and np.array_equal(found[1], x) and found[2] == "text" * 20
+    assert told > 100
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[" * 100_000, "nested too deeply"),
+        ('{"a":' * 100_000 + "1" + "}" * 100_000, "nested too deeply"),
+        ("[" * 60 + "]" * 60, "nested too deeply"),
+        ("9" * 5000, "a whole number of 5000 digits"),
+        ("[-" + "9" * 400 + "]", "a whole number of 401 digits"),
+        (r'{"a": "\ud800"}', "half a character"),
+        (r'{"\udfff": 1}', "half a character"),
+        ("NaN", "NaN is not JSON"),
+        ("[-Infinity]", "-Infinity is not JSON"),
+        ("{", "Expecting"),
+        ("", "Expecting"),
+        (b"\xff\xfe\x00", "utf"),
+    ],
+    ids=lambda value: value[:12] if isinstance(value, str) else "bytes",
+)
+def test_json_that_is_not_meant(text, words):
+    with pytest.raises(ValueError, match=words) as caught:
+        files.parse_json(text)
+    assert "\n" not in str(caught.value) and len(str(caught.value)) < 200
+
+
+def test_json_that_is_meant():
+    text = json.dumps({"a": [1, 2.5, None, "\U0001f600 µ"], "b": {"c": [[[]]]}, "n": -(10**298)})
+    assert files.parse_json(text) == json.loads(text)
+    assert str(files.parse_json("[NaN, Infinity]", nan=True)) == "[nan, inf]"
+
+
+def test_a_text_without_end(tmp_path, monkeypatch):
+    monkeypatch.setattr(files.replacement, "LARGEST_TEXT", 2**20)
+    with pytest.raises(ValueError, match="more than 1 MiB"):
+        files.read_text("/dev/zero")
