@@ -23,6 +23,8 @@ LOOKS: dict[str, dict[str, Any]] = {
     "undamped": {"color": PURPLE, "linestyle": ":"},
     "dry": {"color": GREY, "linestyle": "-."},
 }
+MARKERS = {"full": "o", "rotor_band": "x", "dry": "s"}
+DRAWN = ("full", "rotor_band", "dry")  # where all would be too many
 HARMONICS = 12.0  # of the speed, that a spectrum shows
 DEEPEST = 1e-5  # of its largest line, the smallest that it shows
 
@@ -47,7 +49,7 @@ def orbit(runs: Mapping[str, RotorResult], how: Settling, names: Names) -> Figur
     full = runs["full"]
     planar = len(full.rotor.axes) == 2
     for axes, body in zip(figure.subplots(1, 2), ("disc", "journal"), strict=True):
-        for name in ("full", "rotor_band", "dry"):
+        for name in DRAWN:
             if name in runs:
                 _path(axes, runs[name], how, body, planar, {**LOOKS[name], "label": names[name]})
         axes.set(title=body, xlabel=f"x [{MICRO}]" if planar else f"displacement y [{MICRO}]")
@@ -104,7 +106,7 @@ def response(runs: Mapping[str, RotorResult], how: Settling, names: Names) -> Fi
         panels[0].annotate("not settled", (0.5 * until, 0.05), color=GREY, **where)
     legend_above(panels[0])
     handles, labels = panels[1].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+    figure.legend(handles, labels, loc="outside lower center", ncols=3)
     panels[-1].set(xlabel="time [ms]", xlim=(t[0], t[-1]))
     figure.align_ylabels()
     return figure
@@ -120,12 +122,13 @@ def spectrum(runs: Mapping[str, RotorResult], how: Settling, names: Names) -> Fi
     speed = runs["full"].rotor.speed_rpm / 60.0
     for axes, (label, signal) in zip(figure.subplots(1, 2), pairs, strict=True):
         highest = 0.0
-        for name in ("full", "rotor_band", "dry"):
+        for name in DRAWN:
             if name not in runs:
                 continue
             frequency, amplitude = lines(settled_part(runs[name], how)[0], signal)
             seen = frequency <= HARMONICS * speed
-            axes.semilogy(frequency[seen], amplitude[seen], "o", markersize=4, **LOOKS[name], label=names[name])
+            look = {"color": LOOKS[name]["color"], "marker": MARKERS[name], "fillstyle": "none", "markersize": 6}
+            axes.semilogy(frequency[seen], amplitude[seen], linestyle="none", **look, label=names[name])
             highest = max(highest, float(amplitude[seen].max()))
         axes.axvline(speed, color=GREY, linestyle=":")
         axes.annotate(" 1x", (speed, 0.97), xycoords=("data", "axes fraction"), va="top", color=GREY)

@@ -24,7 +24,7 @@ class Resonance:
     """Highest point of one direction."""
 
     hz: float
-    amplitude: float  # of the disc [m]
+    amplitude: float  # of the disc, over the eccentricity of the unbalance
 
     def to_dict(self) -> dict[str, float]:
         """Both numbers."""
@@ -36,7 +36,7 @@ class Bode:
     """Disc displacement by direction, "x" or "y", and contact: the unbalance turns at `hz`, the film does not."""
 
     hz: NDArray[np.float64]
-    curves: Mapping[str, Mapping[str, NDArray[np.complex128]]]  # [m]
+    curves: Mapping[str, Mapping[str, NDArray[np.complex128]]]  # over the eccentricity, unbalance/disc mass
     peaks: Mapping[str, Mapping[str, Resonance]]
 
     def to_dict(self) -> dict[str, Any]:
@@ -53,11 +53,12 @@ def bode(rotors: Mapping[str, LinearRotor]) -> Bode:
     modes = [mode for by_direction in slowest.values() for mode in by_direction.values()]
     hz = _frequencies(modes)
     rotor = next(iter(rotors.values())).rotor
+    eccentricity = rotor.unbalance / rotor.disc_mass
     directions = ["xy"[axis] for axis in rotor.axes]
     curves: dict[str, dict[str, NDArray[np.complex128]]] = {direction: {} for direction in directions}
     peaks: dict[str, dict[str, Resonance]] = {direction: {} for direction in directions}
     for name, linear in rotors.items():
-        amplitudes = linear.unbalance_response(2.0 * pi * hz)
+        amplitudes = linear.unbalance_response(2.0 * pi * hz) / eccentricity
         for column, direction in enumerate(directions):
             curve = amplitudes[:, column]
             curves[direction][name] = curve

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from ehlcontact.cli.study.differences import Events
-from ehlcontact.cli.study.reduction import CHOSEN, CONTACTS, DRY, FULL, MEMORY, UNDAMPED
+from ehlcontact.cli.study.reduction import CHOSEN, CONTACTS, DRY, FULL, MEMORY, UNDAMPED, WRONG
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.results import Findings
@@ -59,13 +59,13 @@ def decay(found: Findings) -> str:
     d = found.rotors.decay
     own = d.decrements[FULL]
     rest = [
-        f"{CONTACTS[name]}s give {d.decrements[name].decrement:.3g} ({off(d.off(name))})"
-        for name in (CHOSEN[0], MEMORY, UNDAMPED, DRY)
+        f"the {CONTACTS[name]} gives {d.decrements[name].decrement:.3g} ({off(d.off(name))})"
+        for name in (CHOSEN[0], MEMORY, WRONG[0], UNDAMPED, DRY)
         if name in d.decrements
     ]
     text = (
         f"Kicked, the rotor vibrates up and down at {own.hz:.4g} Hz with a logarithmic decrement of "
-        f"{own.decrement:.3g} on full films; {', '.join(rest)}."
+        f"{own.decrement:.3g} on the full film; {', '.join(rest)}."
     )
     nearest = d.nearest_without
     if nearest is None:
@@ -85,21 +85,21 @@ def unbalance(found: Findings) -> str:
     """How far elements and baselines are from the full film under unbalance."""
     u = found.rotors.unbalance
     said = [
-        f"{CONTACTS[name]}s by {percent(c.displacement)} and {percent(c.force)}"
+        f"the {CONTACTS[name]} by {percent(c.displacement_vibration)} and {percent(c.force_vibration)}"
         for name, c in u.best.items()
         if name in (CHOSEN[0], MEMORY, DRY)
     ]
     part = "settled" if u.settled else "not settled"
     return (
-        f"Under its unbalance ({part}) displacements and contact forces differ from those on full films, rms over "
-        f"standard deviation, at most: {'; '.join(said)}."
+        f"Under its unbalance ({part}) vibrations and contact forces, about their mean, differ from those on the "
+        f"full film, rms over standard deviation of the signal, by at most: {'; '.join(said)}."
     )
 
 
 def unsettled(found: Findings) -> str:
     """Runs that had not settled at their end."""
     said = [
-        f"{CONTACTS[name]}s ({percent(s.last_change)})"
+        f"{CONTACTS[name]} ({percent(s.last_change)})"
         for name, s in found.rotors.unbalance.settling.items()
         if not s.settled
     ]
@@ -118,7 +118,7 @@ def step_check(found: Findings) -> str:
         said.append(f"the run with unbalance by {percent(u.step_share)} of the standard deviation of a signal")
     if d.step_share > STEP_TOLD:
         said.append(f"the decrement by {percent(d.step_share)} of it")
-    return f"THE STEP IS LONG: half of it changes {' and '.join(said)}, on full films." if said else ""
+    return f"THE STEP IS LONG: half of it changes {' and '.join(said)}, on the full film." if said else ""
 
 
 def happenings(found: Findings) -> str:
@@ -133,7 +133,7 @@ def happenings(found: Findings) -> str:
             lost = max(contacts, key=lambda c: (c.lift_offs, c.lost_share))
             if lost.lost_share > 0.0:
                 said.append(
-                    f"{when} {CONTACTS[name]}s lose contact (of one contact: {lost.lift_offs} lift-offs, "
+                    f"{when} the {CONTACTS[name]} loses contact (of one contact: {lost.lift_offs} lift-offs, "
                     f"{lost.impacts} impacts, {percent(lost.lost_share)} of the time without contact)"
                 )
             for quantity in ("approach", "rate", "load", "omega") if name in (CHOSEN[0], MEMORY) else ():

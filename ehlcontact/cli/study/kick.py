@@ -9,7 +9,7 @@ from math import pi
 import numpy as np
 
 from ehlcontact.cli.study.response import bounce, film_response, linear_rotor
-from ehlcontact.cli.study.rotor import TOLERANCE, build_rotor, full_contacts, rest_of
+from ehlcontact.cli.study.rotor import EXACT, TOLERANCE, build_rotor, full_contacts, rest_of
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.results import ImpedanceResult
 from reduced_models import (
@@ -60,7 +60,7 @@ def run_decay_reduced(
     start = kicked(study, rest, mode, response)
     with warnings.catch_warnings():  # told of the whole run by `contact_events`
         warnings.simplefilter("ignore", OutsideValidityWarning)
-        return _run(study, rotor, elements, start, mode, halvings, None)
+        return _run(study, rotor, elements, start, mode, halvings)
 
 
 def kicked(study: Study, rest: RotorState, mode: RotorMode, response: ImpedanceResult) -> RotorState:
@@ -88,7 +88,7 @@ def _run(
     start: RotorState,
     mode: RotorMode,
     halvings: int,
-    callback: Callable[[int, int], None] | None,
+    callback: Callable[[int, int], None] | None = None,
 ) -> RotorResult:
     return simulate_rotor(
         rotor,
@@ -96,6 +96,6 @@ def _run(
         dt=decay_step(study, mode, halvings),
         until=study.rotor.decay_periods * 2.0 * pi / mode.omega,
         start=start,
-        tolerance=TOLERANCE,
+        tolerance=EXACT if callback is None else TOLERANCE,
         callback=callback,
     )

@@ -39,7 +39,7 @@ CONTACTS = {
     CHOSEN[0]: "cubic of the rotor's band",
     MEMORY: "film memory",
     WRONG[0]: "cubic of the contact's band",
-    UNDAMPED: "cubic without its damper",
+    UNDAMPED: "cubic without damper",
     DRY: "dry Hertz contact",
 }
 

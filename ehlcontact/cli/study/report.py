@@ -15,6 +15,7 @@ from ehlcontact.cli.study.headline import percent
 from ehlcontact.cli.study.reduction import CONTACTS, FULL, MEMORY, RECORDS
 from ehlcontact.cli.study.results import Findings
 from reduced_models.rotor.events import LOST
+from reduced_models.rotor.settled import MOST_REVOLUTIONS
 
 TITLES = RECORDS | {MEMORY: "all bands, with film memory"}
 
@@ -32,6 +33,7 @@ def write_report(found: Findings, path: Path) -> Path:
         names=CONTACTS,
         percent=percent,
         lost=LOST,
+        most_revolutions=MOST_REVOLUTIONS,
     )
 
 
