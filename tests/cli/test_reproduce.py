@@ -134,7 +134,7 @@ def test_every_figure_with_results_is_listed():
 
 
 @pytest.mark.parametrize(
-    ("value", "text"), [(None, ""), ("x", "x"), (3, "3"), (0.870912, "0.87091"), (4.1e-8, "4.100e-08"), (0.0, "0")]
+    ("value", "text"), [(None, ""), ("x", "x"), (3, "3"), (0.870912, "0.87091"), (4.1e-8, "4.1e-8"), (0.0, "0")]
 )
 def test_cells(value, text):
     assert cell(value) == text
