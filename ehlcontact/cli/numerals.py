@@ -7,6 +7,7 @@ exponent from 1e-3 to 1e5. JSON never comes here: it has all digits.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import SupportsFloat, TextIO
 
 PLAIN = 1e-3, 1e5  # from the first to below the second a number is written without exponent
@@ -19,6 +20,7 @@ SPELLED = str.maketrans(
         "η": "eta",
         "α": "alpha",
         "κ": "kappa",
+        "π": " pi",
         "δ": "delta",
         "±": "+-",
         "≤": "<=",
@@ -63,6 +65,15 @@ def numeral(value: SupportsFloat | None, digits: int = 4) -> str:
 def percent(share: SupportsFloat | None, digits: int = 3) -> str:
     """A share in per cent; of what stands beside it."""
     return "-" if share is None else f"{numeral(100.0 * float(share), digits)} %"
+
+
+def between(values: Iterable[float], digits: int = 3, unit: str = "") -> str:
+    """Smallest to largest of some numbers in words, one where they are alike; a dash where there are none."""
+    found = sorted(values)
+    if not found:
+        return "-"
+    low, high = numeral(found[0], digits), numeral(found[-1], digits)
+    return f"{low if low == high else f'{low} to {high}'}{unit and ' '}{unit}"
 
 
 def spelled(text: str, stream: TextIO | None) -> str:
