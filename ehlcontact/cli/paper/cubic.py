@@ -16,7 +16,6 @@ _COMPARED = ("C1", "root", "tangent")
 _KEYS = ("K1", "K2", "K3", *_COMPARED)
 _REST = ("K1 95 %", "C1 95 %", SIGNED, EQUATION_13, ACCELERATION, "rms / std of force", "condition")
 _COLUMNS = ("case", "source", *_KEYS, *_REST)
-_TITLES = {3: "free vibration", 5: "harmonic load", 6: "load ramp"}
 
 
 def cubic_table(number: int, fits: Fits) -> Table:
@@ -27,7 +26,13 @@ def cubic_table(number: int, fits: Fits) -> Table:
     notes = [*_printed(number), *_identified(number, fits), _extrapolation(fits, limits)]
     if number == 6:
         notes += _ramp(fits)
-    return Table(number, f"Cubic spring and damper, {_TITLES[number]}", _COLUMNS, rows, tuple(notes))
+    return Table(
+        number,
+        "Cubic spring and damper, " + {3: "free vibration", 5: "harmonic load", 6: "load ramp"}[number],
+        _COLUMNS,
+        rows,
+        tuple(notes),
+    )
 
 
 def _rows(number: int, case: str, fits: Fits, limits: dict[str, Limit]) -> list[tuple[Cell, ...]]:

@@ -47,8 +47,8 @@ FIGURES = {
             4,
             ("validation",),
             f"Pseudo-interferograms of the load ramp, {FRINGES}.",
-            "its fringes are pictures only. Its text gives the film at rest in micrometres, for scales that it "
-            "does not state: only ratios compare.",
+            "its fringes are pictures only, and not shown. Its text gives the film at rest in micrometres, for "
+            "scales that it does not state: only ratios compare.",
             d.fringes("validation"),
             d.films_at_rest,
         ),

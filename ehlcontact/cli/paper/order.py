@@ -47,5 +47,5 @@ def limit(values: Sequence[float | None]) -> Limit:
         return Limit(None, None, "none")
     order = math.log2(first / second)
     if not SEEN[0] <= order <= SEEN[1]:
-        return Limit(order, None, numeral(order, 2))
-    return Limit(order, fine + second / (2.0**ORDER - 1.0), numeral(order, 2))
+        return Limit(order, None, numeral(order, 3))
+    return Limit(order, fine + second / (2.0**ORDER - 1.0), numeral(order, 3))
