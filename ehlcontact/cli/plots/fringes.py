@@ -48,12 +48,12 @@ def three_lights(result: SteadyResult) -> Figure:
         brightness(interferogram(film, light, REFRACTIVE_INDEX, np.pi), film.h / COHERENCE) for light in LIGHTS
     ]
     kappa = moes_point(result.point).kappa
-    figure = new_figure(3.2)
+    figure = new_figure(3.5)
     axes = figure.subplots()
     draw_map(axes, film, np.stack(channels, axis=-1), kappa, upwards=True)
     draw_ellipse(axes, film, "white", upwards=True)
-    light = f"pseudo-interferogram: red, green and blue light, oil of index {REFRACTIVE_INDEX}"
-    axes.set_title("\n".join(filter(None, (light, scale_note(film, kappa, upwards=True)))))
+    axes.set_title(f"pseudo-interferogram: red, green and blue light, oil of index {REFRACTIVE_INDEX}")
+    figure.suptitle(scale_note(film, kappa, upwards=True), fontsize=10, color=GREY)
     return figure
 
 
