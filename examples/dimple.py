@@ -182,9 +182,9 @@ def main() -> None:
     print(f"smooth: central film {central:.1f} nm, minimum film {least:.1f} nm (Mourier et al.: 212 and 119 nm)")
     runs = []
     for name, kind, surface in (
-        ("0.175 µm deep", "simulation", dent(SHALLOW)),
-        ("7 µm deep", "experiment", dent(DEEP)),
-        ("7 µm deep, no rim", "experiment", without_rim(dent(DEEP))),
+        ("0.175 um deep", "simulation", dent(SHALLOW)),
+        ("7 um deep", "experiment", dent(DEEP)),
+        ("7 um deep, no rim", "experiment", without_rim(dent(DEEP))),
     ):
         theirs = published(kind)
         run = roll(surface, [dimple_centre(curve) for curve in theirs])
