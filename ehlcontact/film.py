@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ehlcontact.checks import require_finite, require_instance, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from ehlcontact.results import SteadyResult
+from ehlcontact.results import SteadyResult, require_scales
 from ehlcontact.solver.lowest_film import lowest_film
 from ehlcontact.transient.result import SimulationResult
 
@@ -28,13 +28,6 @@ STATIONS = 25  # places at which a travelling wave is timed
 OVERSAMPLING = 4  # of its records, for delays finer than the time step
 FEWEST_STEPS = 4  # in the time a wave takes from start to end
 SLOWEST = 4.0  # times slower than the surfaces: the slowest wave that is found
-
-
-def require_scales(scales: Scales | None) -> Scales:
-    """Return `scales`, or raise `InputError` where a purely dimensionless point has none."""
-    if scales is None:
-        raise InputError("scales", None, "those of a result made from an OperatingPoint: SI values need units")
-    return scales
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -83,8 +83,8 @@ def force(title: str, record: ContactRecord, found: FitResult | None, *, acceler
             axes.axvspan(record.T[0], found.window[0][0], color="#f2f2f2", zorder=0)
             fitted = np.asarray(found.element.force(record.approach, record.rate))
             if acceleration:
-                assert record.omega_n is not None and record.load is not None
-                fitted = record.omega_n**2 * (record.load - fitted)
+                assert record.Omega_n is not None and record.load is not None
+                fitted = record.Omega_n**2 * (record.load - fitted)
             _dots(axes, record.T, fitted, f"{found.model} element")
         legend_above(axes)
         axes.set_title(title, pad=24.0)

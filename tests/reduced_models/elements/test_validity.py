@@ -43,9 +43,9 @@ def test_control_block_warns(boxed):
 def test_oscillation_at_another_frequency_is_told():
     element = LinearContact(1.0, 0.01, 0.5, 1.5, omega_range=(3.0, 3.0))
     T = np.linspace(0.0, 3.0, 301)
-    simulate_oscillator(element, T, omega_n=4.0, u0=1.1)
+    simulate_oscillator(element, T, Omega_n=4.0, u0=1.1)
     with pytest.warns(OutsideValidityWarning, match=r"angular frequency .* \(fitted 3 to 3\)"):
-        simulate_oscillator(element, T, omega_n=20.0, u0=1.1)
+        simulate_oscillator(element, T, Omega_n=20.0, u0=1.1)
 
 
 def test_warned_elements_are_still_equal_hashable_and_pickled(boxed):
