@@ -23,12 +23,12 @@ from ehlcontact import (
     SimulationResult,
     Status,
     SteadyResult,
-    hdf5,
     load,
     save,
     simulate,
     solve_steady,
 )
+from ehlcontact.files import hdf5
 
 POINT = MoesPoint(20, 5, 0.5)
 DATA = Path(__file__).parents[1] / "data"
