@@ -27,7 +27,20 @@ Load = float | ArrayLike | Callable[[float], float]
 
 @dataclass(frozen=True, eq=False)
 class OscillatorResult:
-    """Histories at the times T, each of shape (N,), in the units of the element."""
+    """Histories in the units of the element, dimensionless or SI.
+
+    Attributes
+    ----------
+    T : ndarray, shape (N,)
+        Times, in 2a/u_sum or s.
+    approach, rate : ndarray, shape (N,)
+        Over the dry approach or in m, and the derivative to T.
+    force, load : ndarray, shape (N,)
+        Of the contact, and applied; over the static load or in N.
+    evaluations : int
+        Of the equations of motion.
+    status : Status
+    """
 
     T: _Floats
     approach: _Floats

@@ -39,7 +39,7 @@ def test_intervals_of_numpy():
 @pytest.mark.parametrize(
     ("field", "call"),
     [
-        ("omega", lambda: HarmonicLoad("3.14")),
+        ("Omega", lambda: HarmonicLoad("3.14")),
         ("Omega_n", lambda: FreeVibration("5")),
         ("nu1", lambda: Geometry(1.0, 1.0, nu1="0.3")),
         ("conformity", lambda: Geometry.ball_bearing(8e-3, 39e-3, "0.52")),

@@ -240,6 +240,13 @@ class Study(_Section):
     def fingerprint(self, *sections: str) -> str:
         """Hash of the bearing, the oil, the version and further sections: what a stage's result depends on."""
         dump = self.model_dump(exclude_none=True)  # so that an entry more in the schema changes nothing
+        # however it was given, and under its name of old: so that a finished study stays finished
+        for section, name, given, value in (
+            ("free", "omega_n", "Omega_n", self.free_motion.Omega_n),
+            ("harmonic", "omega", "Omega", self.harmonic_motion.Omega),
+        ):
+            kept = {key: entry for key, entry in dump[section].items() if key not in (given, "hz")}
+            dump[section] = kept | {name: value}
         content = {name: dump[name] for name in ("bearing", "oil", *sections)}
         text = json.dumps([__version__, content], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:16]

@@ -131,8 +131,8 @@ def test_load_that_rises_forty_fold():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("Omega_n", [None, 5.13])
-def test_load_that_rises_sixty_fold(omega_n):
-    record = simulate(POINT, several_fold(0.05, 3.0, omega_n), n=128, error=1e-3)
+def test_load_that_rises_sixty_fold(Omega_n):
+    record = simulate(POINT, several_fold(0.05, 3.0, Omega_n), n=128, error=1e-3)
     assert record.status is Status.CONVERGED
     assert record.force.max() >= 3.0 - 1e-3
     assert (record.h_min > 0.0).all()

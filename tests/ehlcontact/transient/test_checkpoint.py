@@ -329,7 +329,7 @@ def test_checkpoint_of_another_version(stopped, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("number", "words"), [(1, "of format 2 or newer; make it anew"), (3, "upgrade to read it")]
+    ("number", "words"), [(1, "of format 2 or newer; make it anew"), (4, "upgrade to read it")]
 )
 def test_checkpoint_of_another_layout(stopped, tmp_path, number, words):
     path = shutil.copy(stopped[0], tmp_path / "c.h5")

@@ -66,14 +66,14 @@ def test_prescribed_approach():
     ("make", "field"),
     [
         (lambda v: FreeVibration(v), "Omega_n"),
-        (lambda v: HarmonicLoad(v), "omega"),
+        (lambda v: HarmonicLoad(v), "Omega"),
         (lambda v: HarmonicLoad(1.0, amplitude=v), "amplitude"),
         (lambda v: RampLoad(v, 1.0, 2.0), "ratio"),
         (lambda v: RampLoad(2.0, v, 2.0), "duration"),
         (lambda v: RampLoad(2.0, 1.0, v), "Omega_n"),
         (lambda v: PrescribedLoad.from_function(lambda t: 1.0, v), "until"),
     ],
-    ids=["free", "harmonic", "amplitude", "ratio", "duration", "ramp omega_n", "until"],
+    ids=["free", "harmonic", "amplitude", "ratio", "duration", "ramp Omega_n", "until"],
 )
 def test_bad_number_is_named(make, field, value):
     with pytest.raises(InputError, match=f"^{field} = .*: must be "):

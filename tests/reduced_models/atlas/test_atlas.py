@@ -204,6 +204,41 @@ def test_elements_say_where_they_come_from(shipped, tmp_path, model):
     assert read.source["assumptions"]["isothermal"]["holds"] is None  # without dimensions
 
 
+def test_answers_in_si_have_their_error_bars_in_si(shipped):
+    oil = Lubricant(0.037, 2e-8)
+    point = OperatingPoint(Geometry(0.0016, 0.05), oil, 60.0, 5.0)
+    answer, s = shipped.at(point), point.scales
+    si = answer.si
+    np.testing.assert_allclose(si.hz, answer.Omega / (2.0 * math.pi * s.time))
+    np.testing.assert_allclose(si.damping, answer.damping * s.force / s.length * s.time)
+    for name, unit in (("approach", s.length), ("h_min", s.length), ("stiffness", s.force / s.length)):
+        np.testing.assert_allclose(getattr(si, name), np.asarray(getattr(answer, name)) * unit)
+        np.testing.assert_allclose(si.error[name], np.asarray(answer.error[name]) * unit)
+    assert set(si.error) == set(answer.error) and answer.to_dict()["si"]["force"] == 60.0
+    with pytest.raises(InputError, match=r"^scales = None"):
+        _ = shipped.at(point.moes).si
+
+
+def test_a_cubic_is_asked_for_its_frequency(shipped):
+    """No default: its damper is right at one frequency only; and in SI by any of its names."""
+    point = OperatingPoint(Geometry(0.0016, 0.05), Lubricant(0.037, 2e-8), 60.0, 5.0)
+    with pytest.raises(
+        InputError, match=r"^frequency = None: must be given once, as Omega \(dimensionless\), omega"
+    ):
+        shipped.element(point, "cubic")
+    slow, same = shipped.element(point, "cubic", hz=50.0), shipped.element(point, "cubic", rpm=3000.0)
+    assert slow.C1 == pytest.approx(same.C1, rel=1e-12)
+    answer = shipped.at(point).si
+    assert pytest.approx(np.interp(50.0, answer.hz, answer.damping), rel=1e-6) == slow.C1
+    for model in ("wide", "memory"):
+        with pytest.raises(
+            InputError, match=rf"^hz = 50: must be left out with model '{model}', which serves every"
+        ):
+            shipped.element(point, model, hz=50)
+    with pytest.raises(InputError, match="^hz = 50: must be left out: a dimensionless contact"):
+        shipped.element(CASE, "cubic", hz=50)
+
+
 def test_cubic_of_another_frequency(shipped):
     slow = shipped.element(CASE, "cubic", Omega=0.05)
     assert slow.C1 > 4.0 * shipped.element(CASE, "cubic", **AT["cubic"]).C1

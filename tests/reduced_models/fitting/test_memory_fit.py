@@ -74,9 +74,9 @@ def test_bad_data_for_the_fit(coarse):
     with pytest.raises(InputError, match="at least 8 frequencies"):
         fit_memory(impedance(POINT, Omega=[0.0, 1.0], n=32))
     few = SimpleNamespace(
-        **(vars(plain) | {key: getattr(plain, key)[9:] for key in ("omega", "stiffness", "damping")})
+        **(vars(plain) | {key: getattr(plain, key)[9:] for key in ("Omega", "stiffness", "damping")})
     )
-    with pytest.raises(InputError, match="lowest omega"):
+    with pytest.raises(InputError, match="lowest Omega"):
         fit_memory(few)
     with pytest.raises(InputError, match="approach"):
         fit_memory(SimpleNamespace(**(vars(plain) | {"approach": 1.0})))

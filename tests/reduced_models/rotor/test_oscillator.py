@@ -83,9 +83,15 @@ def test_si_motion_is_the_scaled_one(cubic, scales):
     s = scales
     r = simulate_oscillator(cubic, T, Omega_n=5.13, u0=0.95)
     mass = s.force * s.time**2 / (s.length * 5.13**2)
-    si = simulate_oscillator(cubic.to_si(s), T * s.time, Omega_n=mass**-0.5, load=s.force, u0=0.95 * s.length)
+    si = simulate_oscillator(cubic.to_si(s), T * s.time, mass=mass, load=s.force, u0=0.95 * s.length)
     np.testing.assert_allclose(si.approach / s.length, r.approach, atol=1e-7)
     np.testing.assert_allclose(si.force / s.force, r.force, atol=1e-6)
+    with pytest.raises(InputError, match=r"^Omega_n = 5.0: must be left out with an element in SI: give its mass"):
+        simulate_oscillator(cubic.to_si(s), T, Omega_n=5.0, u0=1e-6)
+    with pytest.raises(InputError, match=r"^mass = 5.0: must be left out with a dimensionless element: give Om"):
+        simulate_oscillator(cubic, T, mass=5.0, u0=0.9)
+    with pytest.raises(InputError, match=r"^omega_n = 5.0: must be given as Omega_n"):
+        simulate_oscillator(cubic, T, omega_n=5.0, u0=0.9)
 
 
 def test_mass_that_leaves_the_contact_flies_and_comes_back(cubic):
