@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,6 +73,9 @@ class FilmMemoryContact(FilmContact):
     kind = "memory"
     parameter_names = ("film", "exponent", "squeeze", "lag_rate", "inlet_rate", "fast_rate", "gains")
     tables = ("gains",)
+    beyond: ClassVar[Mapping[str, str]] = {
+        "motion": "it is for motion about one load: a WideRangeContact (model 'wide') is made for every load"
+    }
 
     def _check_coefficients(self) -> None:
         super()._check_coefficients()

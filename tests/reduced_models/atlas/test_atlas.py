@@ -235,7 +235,7 @@ def test_a_cubic_is_asked_for_its_frequency(shipped):
             InputError, match=rf"^hz = 50: must be left out with model '{model}', which serves every"
         ):
             shipped.element(point, model, hz=50)
-    with pytest.raises(InputError, match="^hz = 50: must be left out: a dimensionless contact"):
+    with pytest.raises(InputError, match=r"^hz = 50: must be left out: a dimensionless contact"):
         shipped.element(CASE, "cubic", hz=50)
 
 
