@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -12,7 +12,7 @@ from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.errors import InputError
-from reduced_models.elements.validity import text_of
+from reduced_models.elements.validity import MARGIN, frequency_text, text_of
 
 
 def register(app: typer.Typer) -> None:
@@ -67,6 +67,7 @@ def element(
             ("minimum film", f"{answer.h_min:.5f}", f"+- {error['h_min']:.1g}"),
             ("static tangent", f"{answer.stiffness[0]:.4f}", f"+- {error['stiffness'][0]:.1g}"),
             *at,
+            *_damper(made),
             (
                 "valid",
                 f"{made.low:.4f} .. {made.high:.4f}",
@@ -77,3 +78,10 @@ def element(
     )
     kept = partial(write_to, "--save", save, made.save)
     deliver(kept, lambda: write_json(made.to_dict(), json_to), shown)
+
+
+def _damper(made: Any) -> list[tuple[str, str, str]]:
+    """The one damping of a cubic, and the band it is for."""
+    if not hasattr(made, "C1"):
+        return []
+    return [("damper C1", f"{made.C1:.5f}", f"within {MARGIN:.0%} for {frequency_text(made.omega_range, made.units)}")]
