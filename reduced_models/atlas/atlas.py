@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import replace
+from dataclasses import asdict, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Unpack
@@ -18,7 +18,14 @@ from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from reduced_models.atlas.answer import AtlasAnswer
-from reduced_models.atlas.elements import Loads, cubic_element, memory_element, passive_gains, wide_element
+from reduced_models.atlas.elements import (
+    Loads,
+    cubic_element,
+    damper_band,
+    memory_element,
+    passive_gains,
+    wide_element,
+)
 from reduced_models.atlas.surface import AtlasSurface
 from reduced_models.atlas.table import AtlasTable, Box
 from reduced_models.elements.film_response import DRY
@@ -118,13 +125,14 @@ class Atlas:
         values, slopes, shapes = self._surface.at(rows)
         reference = int(np.argmin(np.abs(loads - 1.0)))
         source = self._source(moes, rows[reference], values[reference], slopes[reference])
+        source["scales"] = None if scales is None else asdict(scales)
         source["assumptions"] = assumptions(point).short()
         k = self._table.omega.size
         if w is not None:
-            K, C = (
-                float(np.interp(w, self._table.omega, part)) for part in (values[0, 4 : 4 + k], values[0, 4 + k :])
-            )
-            cubic = cubic_element(float(values[0, 0]), K, max(C, 0.0), w, source)
+            parts = values[0, 4 : 4 + k], values[0, 4 + k :]
+            K, C = (float(np.interp(w, self._table.omega, part)) for part in parts)
+            band = damper_band(self._table.omega, parts[1], w)
+            cubic = cubic_element(float(values[0, 0]), K, max(C, 0.0), band, source)
             return cubic if scales is None else cubic.to_si(scales)
         gains = np.maximum(shapes * values[:, 3:4], 0.0)
         at = Loads(
