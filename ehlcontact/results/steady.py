@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SteadyResult(Origin):
-    """Steady film of a contact under constant load, or at a prescribed approach; dimensionless, in SI as ``si``.
+    """Steady film of a contact under constant load, or at a prescribed approach, dimensionless; ``si`` is in SI.
 
     Attributes
     ----------
