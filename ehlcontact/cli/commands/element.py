@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -13,7 +13,7 @@ from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.errors import InputError
-from reduced_models.elements.validity import text_of
+from reduced_models.elements.validity import MARGIN, frequency_text, text_of
 
 
 def register(app: typer.Typer) -> None:
@@ -72,6 +72,7 @@ def element(
                 f"± {numeral(error['stiffness'][0], 1)} dimensionless, as C: time in 2a/u_sum",
             ),
             *at,
+            *_damper(made),
             (
                 "valid approach",
                 f"{made.low:.4f} .. {made.high:.4f}",
@@ -82,3 +83,12 @@ def element(
     )
     kept = partial(write_to, "--save", save, made.save)
     deliver(kept, lambda: write_json(made.to_dict(), json_to), shown)
+
+
+def _damper(made: Any) -> list[tuple[str, str, str]]:
+    """The one damping of a cubic, and the band it is for."""
+    if not hasattr(made, "C1"):
+        return []
+    return [
+        ("damper C1", f"{made.C1:.5f}", f"within {MARGIN:.0%} for {frequency_text(made.omega_range, made.units)}")
+    ]
