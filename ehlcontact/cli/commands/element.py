@@ -10,7 +10,7 @@ import typer
 
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
+from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, show_table, write_json, write_to
 from reduced_models.elements.validity import text_of
 
 
@@ -37,6 +37,7 @@ def element(
     point = contact.point()
     check_file("--save", save, (".json",))
     check_json(json_to)
+    check_apart({"--save": save, "--json": json_to}, (atlas,))
     table = Atlas(atlas)
     answer, made = table.at(point), table.element(point, model)
     error = answer.error

@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import STDOUT, check_json, say, show_table, write_json
+from ehlcontact.cli.output import STDOUT, check_apart, check_json, check_place, say, show_table, write_json
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.forecast import Forecast
@@ -37,7 +37,9 @@ def validate(
 
     study = load_study(study_file)
     check_json(json_to)
+    check_apart({"--json": json_to}, (study_file,))
     folder = output if output is not None else Path("results") / study_file.stem
+    check_place(folder)
     found = forecast(study, folder, min(jobs, os.cpu_count() or 1))
     write_json(found.to_dict(), json_to)
     _show(found, json_to)
