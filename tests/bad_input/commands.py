@@ -182,7 +182,7 @@ COMMANDS = [
     (("reproduce", "--table", "7"), ("--table = 7", "1, 2, 3, 4, 5, 6")),
     (("reproduce", "--table", "three"), ("--table = 'three'", "whole number", "1 to 6")),
     (("reproduce", "--figure", "3"), ("--figure = 3", "2, 4, 5")),
-    (("reproduce", "--n", "48"), ("--n = 48", "multiple of 32")),
+    (("reproduce", "--n", "48.5"), ("--n = '48.5'", "whole number")),
     (("reproduce", "--n", "0"), ("--n = 0", "between 16 and 2048")),
     (("reproduce", "-o", RECORD), ("--output = 'record.h5'", "folder")),
     # atlas build

@@ -36,7 +36,7 @@ def impedance(
             axes.plot(at, known, "s", color=RED, label="cubic element of each record")
         axes.axvline(rotor_omega, color=GREY, linestyle=":")
         axes.annotate(" rotor", (rotor_omega, 0.5), xycoords=("data", "axes fraction"), color=GREY)
-        axes.set(xscale="log", xlabel="frequency Omega [-]", ylabel=label)
+        axes.set(xscale="log", xlabel="frequency Ω = ω 2a/u_sum", ylabel=label)
     panels[1].set_yscale("log")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure
