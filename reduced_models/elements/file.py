@@ -50,7 +50,7 @@ def read_document(path: str | os.PathLike[str]) -> dict[str, Any]:
         raise InputError("file", name, f"an element file: complete JSON with finite numbers ({error})") from None
     if not isinstance(document, dict) or document.get("schema") != SCHEMA:
         found = document.get("schema") if isinstance(document, dict) else type(document).__name__
-        raise InputError(f"{name}: schema", found, f"{SCHEMA!r}: is it an element file?")
+        raise InputError(f"{name}: schema", found, f"the schema {SCHEMA!r} of an element file")
     found = document.get("version")
     if not isinstance(found, int) or isinstance(found, bool) or not 1 <= found <= VERSION:
         raise InputError(f"{name}: version", found, f"between 1 and {VERSION} (a newer library wrote it?)")

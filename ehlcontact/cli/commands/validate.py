@@ -79,7 +79,9 @@ def _show(found: Forecast, json_to: str | None) -> None:
     _show_stages(found)
     for warning in found.warnings:
         say(f"warning: {warning}")
-    say(f"whole study: about {_time(found.seconds)}, {found.jobs} side by side; good to a factor of two")
+    together = f"about {_time(found.seconds)}, {found.jobs} side by side"
+    idle = "on cores with nothing else to do, where an earlier run has compiled the solver"
+    say(f"whole study: {together}; good to a factor of two {idle}")
 
 
 def _show_stages(found: Forecast) -> None:
