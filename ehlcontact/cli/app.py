@@ -102,7 +102,7 @@ def _invoke(given: list[str]) -> int:
         with root.make_context("ehlcontact", list(given)) as context:
             context.command.invoke(context)
     except InputError as error:
-        raise by_option(error, command_of(root, given)[0]) from None
+        raise by_option(error, command_of(root, given)[0], given) from None
     except typer.Exit as end:
         return end.exit_code
     except UsageFailure as error:

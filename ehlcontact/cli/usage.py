@@ -33,12 +33,12 @@ def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
     command, name = command_of(root, arguments)
     kind, parameter = type(error).__name__, getattr(error, "param", None)
     if kind == "MissingParameter" and parameter is not None:
-        return str(InputError(_title(parameter), None, f"given{_about(parameter)}"))
+        return str(InputError(_title(parameter, ()), None, f"given{_about(parameter)}"))
     if kind == "BadOptionUsage":
         parameter = next((p for p in command.params if getattr(error, "option_name", "") in p.opts), None)
         if parameter is not None:
             few = "one value" if parameter.nargs == 1 else f"{parameter.nargs} values"
-            found = InputError(_title(parameter), None, f"followed by {few}{_about(parameter)}")
+            found = InputError(_title(parameter, arguments), None, f"followed by {few}{_about(parameter)}")
             return str(found).replace(" = None", "", 1)
     if kind == "NoSuchOption" and name:
         options = (option.opts[0] for option in command.params if option.opts[0].startswith("--"))
@@ -64,12 +64,12 @@ def command_of(root: Any, arguments: Sequence[str]) -> tuple[Any, str]:
     return command, " ".join(names)
 
 
-def by_option(error: InputError, command: Any) -> InputError:
-    """The error with the option in place of the library's name for what it sets."""
+def by_option(error: InputError, command: Any, arguments: Sequence[str]) -> InputError:
+    """The error with the option, as it was typed, in place of the library's name for what it sets."""
     for parameter in command.params:
         option = parameter.opts[0]
         if option.startswith("--") and error.field in (parameter.name, option[2:]):
-            return InputError(option, error.value, error.allowed)
+            return InputError(_title(parameter, arguments), error.value, error.allowed)
     return error
 
 
@@ -90,11 +90,16 @@ def _bad_value(error: Exception, parameter: Any, arguments: Sequence[str], messa
     if low is not None and high is not None:
         allowed = f"a whole number between {low} and {high}"
     shown = values[0] if len(values) == 1 else ", ".join(values)
-    return str(InputError(_title(parameter), shown, f"{PLAIN_WORDS.get(allowed, allowed)}{_about(parameter)}"))
+    typed = next(
+        option for option in parameter.opts if any(word.partition("=")[0] == option for word in arguments)
+    )
+    return str(InputError(typed, shown, f"{PLAIN_WORDS.get(allowed, allowed)}{_about(parameter)}"))
 
 
-def _title(parameter: Any) -> str:
-    option = str(parameter.opts[0])
+def _title(parameter: Any, arguments: Sequence[str]) -> str:
+    """An option as it was typed, where it has several names; the name that stands for an argument."""
+    typed = {word.partition("=")[0] for word in arguments}
+    option = str(next((name for name in parameter.opts if name in typed), parameter.opts[0]))
     return option if option.startswith("-") else str(parameter.metavar or option)
 
 

@@ -12,7 +12,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.mesh import Mesh
-from ehlcontact.transient.motion import Motion
+from ehlcontact.transient.bodies import Motion
 
 LARGEST_ERROR = 0.1
 SMALLEST_ERROR = 1e-8  # the tolerance that goes with it comes near rounding: no step would be small enough

@@ -20,12 +20,12 @@ def impedance(
     figure = new_figure(3.6)
     panels = figure.subplots(1, 2)
     if response is not None:
-        w = response.omega[1:]
+        w = response.Omega[1:]
         for axes, values in zip(panels, (response.stiffness, response.damping), strict=True):
             axes.plot(w, values[1:], "o", color=BLUE, markersize=3.5, label="film")
     if response is not None and memory is not None:
-        w = np.geomspace(0.5 * rotor_omega, float(response.omega[-1]), 300)
-        Z = memory.impedance(w)
+        w = np.geomspace(0.5 * rotor_omega, float(response.Omega[-1]), 300)
+        Z = memory.impedance(Omega=w)
         for axes, values in zip(panels, (Z.real, Z.imag / w), strict=True):
             axes.plot(w, values, color=GREEN, label="film memory, one element")
     found = [cubic for cubic in cubics if cubic.tangent is not None]

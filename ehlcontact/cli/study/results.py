@@ -136,8 +136,8 @@ class Findings:
         if wrong is not None and wrong.parameters["C1"] > 0.0:
             ratio = found.parameters["C1"] / wrong.parameters["C1"]
             lesson += (
-                f" Fitted at Omega = {s.harmonic.omega:.3g}, the contact's own band, the cubic has a damping "
-                f"{ratio:.1f} times smaller: an element is good for the band it was fitted in."
+                f" Fitted at Omega = {s.harmonic_motion.Omega:.3g}, the contact's own band, the cubic has a "
+                f"damping {ratio:.1f} times smaller: an element is good for the band it was fitted in."
             )
         return (
             f"The most loaded ball of this {s.bearing.name} presses {point['load']:.0f} N on the {s.bearing.race} "
