@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.assumptions import assumptions
 from ehlcontact.checks import require_choice
+from ehlcontact.checks.box import INPUTS
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
@@ -177,15 +178,15 @@ class Atlas:
     def _inside(self, point: Point) -> MoesPoint:
         moes = moes_point(point)
         self.box.require_inside(moes)
-        laws = self._table.metadata["viscosity"], self._table.metadata["density"]
-        if (moes.viscosity, moes.density) != laws:
-            raise InputError("viscosity and density", (moes.viscosity, moes.density), f"{laws}, as of the atlas")
+        for name in ("viscosity", "density"):
+            if getattr(moes, name) != self._table.metadata[name]:
+                raise InputError(name, getattr(moes, name), f"{self._table.metadata[name]}, the law of the atlas")
         for name in ("alpha", "eta0"):
             low, high = getattr(self._table.oil, name)
             if not low <= getattr(moes, name) <= high:
-                raise InputError(
-                    name, getattr(moes, name), f"between {low:g} and {high:g}, the range of the atlas"
-                )
+                guess = INPUTS[name].slip(getattr(moes, name))
+                allowed = f"between {low:g} and {high:g} {INPUTS[name].unit}, the range of the atlas"
+                raise InputError(name, getattr(moes, name), f"{allowed} ({guess})" if guess else allowed)
         return moes
 
     def _loads(self, point: MoesPoint) -> _Floats:

@@ -11,7 +11,7 @@ import typer
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
+from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.errors import InputError
 from reduced_models.elements.validity import MARGIN, frequency_text, text_of
 
@@ -50,6 +50,7 @@ def element(
     point = contact.point()
     check_file("--save", save, (".json",))
     check_json(json_to)
+    check_apart({"--save": save, "--json": json_to}, (atlas,))
     table = Atlas(atlas)
     answer, made = table.at(point), table.element(point, model, Omega=Omega)
     error = answer.error
