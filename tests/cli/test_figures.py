@@ -57,6 +57,27 @@ def test_simulation_figure(point, si):
     np.testing.assert_allclose(shown[shown.shape[0] // 2, -1], centre * unit, rtol=1e-6)
 
 
+def test_loops_show_the_element_that_was_fitted():
+    """In its window, in SI: its force along the record, and below, the damper's part alone."""
+    from ehlcontact.cli.plots.motion import loops
+    from reduced_models import ContactRecord, fit
+
+    run = simulate(IN_SI, HarmonicLoad(3.0), n=32, until=4.0, dT=0.05)
+    found = fit(ContactRecord.from_result(run), "cubic", (2.0, 4.0))
+    figure = loops({"harmonic": run}, {"harmonic": found}, {"harmonic": "a title"})
+    assert "a title" in labels(figure)
+    k, inside = found.parameters, run.T >= 2.0
+    u, damper = run.approach[inside], k["C1"] * run.rate[inside]
+    spring = k["K1"] * u + k["K2"] * u**2 + k["K3"] * u**3
+    place, force = line(figure, "cubic element")
+    np.testing.assert_allclose(place, u * run.scales.length * 1e6)
+    np.testing.assert_allclose(force, (spring + damper) * run.scales.force)
+    np.testing.assert_allclose(line(figure, "film")[1], run.force[inside] * run.scales.force)
+    film, element = (np.asarray(drawn.get_ydata()) for drawn in figure.axes[1].get_lines()[:2])
+    np.testing.assert_allclose(film, (run.force[inside] - spring) * run.scales.force, atol=1e-12)
+    np.testing.assert_allclose(element, damper * run.scales.force, atol=1e-12)
+
+
 @pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf"])
 def test_steady_command_draws(call, point, tmp_path, suffix):
     target = tmp_path / f"film{suffix}"
