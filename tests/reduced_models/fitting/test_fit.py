@@ -165,9 +165,8 @@ def test_source_says_what_was_assumed(record):
     described = replace(record, point=point, domain=(-4.5, 1.5, 3.0))
     short = assumptions(point, domain=Domain()).short()
     assert fit(described).element.source["assumptions"] == short
-    shorter = replace(
-        described, domain=(-1.5, 1.5, 3.0), force=1.0001 * described.force
-    )  # of several regions, the one with the least oil
+    # of several regions, the one with the least oil
+    shorter = replace(described, force=described.force * 1.001, domain=(-1.5, 1.5, 3.0))
     assert not fit([described, shorter]).element.source["assumptions"]["fully flooded"]["holds"]
     elsewhere = replace(described, domain=(1.0, 2.0, 3.0))
     assert fit(elsewhere).element.source["assumptions"]["fully flooded"]["holds"] is None
