@@ -5,7 +5,7 @@
 | elements | the elements: law, validity, units, file; `load_element` |
 | fitting | elements from data: `ContactRecord`, `fit`, `fit_memory`, `sensitivity` |
 | atlas | elements without a solve: `Atlas`, from contacts solved beforehand, with error bars |
-| rotor | what runs on elements and full films: `simulate_rotor`, `simulate_oscillator`, `compare` |
+| rotor | what runs on elements and full films: `simulate_rotor`, `LinearRotor`, `log_decrement`, `compare` |
 
 To come: bearing (geometry, ball bearing, excitation) and adapters (to other programs' rotors and controllers).
 Symbols and units: `ehlcontact.point`.
@@ -33,6 +33,9 @@ from reduced_models.fitting.sensitivity import SensitivityRow as SensitivityRow
 from reduced_models.fitting.sensitivity import sensitivity as sensitivity
 from reduced_models.fitting.wide import wide_range_contact as wide_range_contact
 from reduced_models.fitting.wide import wide_range_from_solves as wide_range_from_solves
+from reduced_models.rotor.baselines import dry_contact as dry_contact
+from reduced_models.rotor.baselines import local_contact as local_contact
+from reduced_models.rotor.baselines import without_damper as without_damper
 from reduced_models.rotor.compare import Comparison as Comparison
 from reduced_models.rotor.compare import SignalDifference as SignalDifference
 from reduced_models.rotor.compare import compare as compare
@@ -40,11 +43,22 @@ from reduced_models.rotor.contact import Contact as Contact
 from reduced_models.rotor.contact import ScaledContact as ScaledContact
 from reduced_models.rotor.contact import TangentContact as TangentContact
 from reduced_models.rotor.contact import has_tangents as has_tangents
+from reduced_models.rotor.decay import Decrement as Decrement
+from reduced_models.rotor.decay import log_decrement as log_decrement
+from reduced_models.rotor.events import ContactEvents as ContactEvents
+from reduced_models.rotor.events import contact_events as contact_events
 from reduced_models.rotor.jeffcott import ContactMount as ContactMount
 from reduced_models.rotor.jeffcott import JeffcottRotor as JeffcottRotor
 from reduced_models.rotor.jeffcott import RotorState as RotorState
+from reduced_models.rotor.linear import LinearRotor as LinearRotor
+from reduced_models.rotor.linear import RotorMode as RotorMode
+from reduced_models.rotor.linear import film_impedance as film_impedance
+from reduced_models.rotor.linear import impedance_about as impedance_about
 from reduced_models.rotor.oscillator import OscillatorResult as OscillatorResult
 from reduced_models.rotor.oscillator import simulate_oscillator as simulate_oscillator
+from reduced_models.rotor.settled import Settling as Settling
+from reduced_models.rotor.settled import run_until_settled as run_until_settled
+from reduced_models.rotor.settled import settling as settling
 from reduced_models.rotor.simulate import RotorResult as RotorResult
 from reduced_models.rotor.simulate import RotorStatus as RotorStatus
 from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor

@@ -9,4 +9,9 @@
 | simulate | `simulate_rotor`: checks, Ctrl-C, failure; `RotorResult` |
 | oscillator | `simulate_oscillator`: one mass on one element |
 | compare | `compare`: full against reduced response |
+| baselines | what there is without an element: dry, undamped, and linearised at one load |
+| linear | `LinearRotor`: modes and unbalance response with an impedance in every contact |
+| decay | `log_decrement`: of a free decay, by a fit |
+| settled | `settling`: whether a response has settled; runs that go on until it has |
+| events | `contact_events`: lift-off, impacts, load range, time outside validity |
 """

@@ -20,11 +20,13 @@ class SignalDifference:
     """Difference of one signal; relative figures are None where the full signal is constant."""
 
     rms: float  # RMS of reduced - full
+    offset: float  # mean of reduced - full: another place of rest, not another vibration
     maximum: float  # largest |reduced - full|
     amplitude: float  # half peak-to-peak of full
     std: float  # standard deviation of full
     rms_over_amplitude: float | None
     rms_over_std: float | None
+    vibration_over_std: float | None  # the same without the offset
     maximum_over_amplitude: float | None
 
 
@@ -39,13 +41,23 @@ class Comparison:
 
     @property
     def displacement(self) -> float | None:
-        """Largest `rms_over_amplitude` of the disc and journal signals."""
-        return self._worst(("disc", "journal"))
+        """Largest `rms_over_std` of the disc and journal signals."""
+        return self._worst(("disc", "journal"), "rms_over_std")
 
     @property
     def force(self) -> float | None:
-        """Largest `rms_over_amplitude` of the contact forces."""
-        return self._worst(("force",))
+        """Largest `rms_over_std` of the contact forces."""
+        return self._worst(("force",), "rms_over_std")
+
+    @property
+    def displacement_vibration(self) -> float | None:
+        """Largest `vibration_over_std` of the disc and journal signals: without another place of rest."""
+        return self._worst(("disc", "journal"), "vibration_over_std")
+
+    @property
+    def force_vibration(self) -> float | None:
+        """Largest `vibration_over_std` of the contact forces."""
+        return self._worst(("force",), "vibration_over_std")
 
     def to_dict(self) -> dict[str, object]:
         """All figures, ready for JSON."""
@@ -55,16 +67,14 @@ class Comparison:
             "samples": self.samples,
             "displacement": self.displacement,
             "force": self.force,
+            "displacement_vibration": self.displacement_vibration,
+            "force_vibration": self.force_vibration,
             "signals": {name: asdict(signal) for name, signal in self.signals.items()},
         }
 
-    def _worst(self, prefixes: tuple[str, ...]) -> float | None:
-        figures = [
-            signal.rms_over_amplitude
-            for name, signal in self.signals.items()
-            if name.startswith(prefixes) and signal.rms_over_amplitude is not None
-        ]
-        return max(figures, default=None)
+    def _worst(self, prefixes: tuple[str, ...], figure: str) -> float | None:
+        figures = [getattr(signal, figure) for name, signal in self.signals.items() if name.startswith(prefixes)]
+        return max((value for value in figures if value is not None), default=None)
 
 
 def compare(full: RotorResult, reduced: RotorResult, *, discard: float = 0.0) -> Comparison:
@@ -112,15 +122,18 @@ def _signals(result: RotorResult) -> Iterator[tuple[str, _Floats]]:
 def _difference(full: _Floats, reduced: _Floats) -> SignalDifference:
     error = reduced - full
     rms, maximum = float(np.sqrt(np.mean(error**2))), float(np.abs(error).max())
+    offset, vibration = float(np.mean(error)), float(np.std(error))
     amplitude, std = 0.5 * float(np.ptp(full)), float(np.std(full))
     # A constant signal keeps rounding as its spread: nothing to be relative to.
     moves = amplitude > 1e-12 * float(np.abs(full).max())
     return SignalDifference(
         rms,
+        offset,
         maximum,
         amplitude,
         std,
         rms / amplitude if moves else None,
         rms / std if moves else None,
+        vibration / std if moves else None,
         maximum / amplitude if moves else None,
     )

@@ -10,7 +10,8 @@ module         shows
 ``film``       the steady film: maps, mid-planes, convergence
 ``motion``     histories, the film wave, force against approach
 ``impedance``  stiffness and damping over frequency, and what the elements have of them
-``rotor``      orbit, time response, spectrum
+``rotor``      the rotor under its unbalance: orbit, time response, spectrum
+``vibration``  the rotor's own vibrations: free decay, and unbalance over frequency
 ``paper``      histories, approaches and springs as the paper shows them
 =============  ======================================================================================
 """

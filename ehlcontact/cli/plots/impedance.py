@@ -14,17 +14,20 @@ from reduced_models import FitResult
 
 
 def impedance(
-    response: ImpedanceResult | None, memory: Any, cubics: Sequence[FitResult], rotor_omega: float
+    response: ImpedanceResult, memory: Any, cubics: Sequence[FitResult], frequencies: tuple[float, float]
 ) -> Figure:
-    """K and C of the film, of the film-memory element where there is one, and of cubics at their frequency."""
+    """K and C of the film, of the film-memory element where there is one, and of cubics at their frequency.
+
+    `frequencies` are those of the rotor's speed and of its vertical mode, dimensionless.
+    """
     figure = new_figure(3.6)
     panels = figure.subplots(1, 2)
-    if response is not None:
-        w = response.omega[1:]
-        for axes, values in zip(panels, (response.stiffness, response.damping), strict=True):
-            axes.plot(w, values[1:], "o", color=BLUE, markersize=3.5, label="film")
-    if response is not None and memory is not None:
-        w = np.geomspace(0.5 * rotor_omega, float(response.omega[-1]), 300)
+    own, highest = frequencies[0], float(response.omega[-1])
+    moving = response.omega > 0.0
+    for axes, values in zip(panels, (response.stiffness, response.damping), strict=True):
+        axes.plot(response.omega[moving], values[moving], "o", color=BLUE, markersize=3.5, label="film")
+    if memory is not None:
+        w = np.geomspace(min(0.5 * own, float(response.omega[moving][0])), highest, 300)
         Z = memory.impedance(w)
         for axes, values in zip(panels, (Z.real, Z.imag / w), strict=True):
             axes.plot(w, values, color=GREEN, label="film memory, one element")
@@ -34,9 +37,10 @@ def impedance(
     for axes, known, label in zip(panels, points, ("stiffness K [-]", "damping C [-]"), strict=True):
         if found:
             axes.plot(at, known, "s", color=RED, label="cubic element of each record")
-        axes.axvline(rotor_omega, color=GREY, linestyle=":")
-        axes.annotate(" rotor", (rotor_omega, 0.5), xycoords=("data", "axes fraction"), color=GREY)
-        axes.set(xscale="log", xlabel="frequency Omega [-]", ylabel=label)
+        for omega, name in zip(frequencies, ("speed", "mode"), strict=True):
+            axes.axvline(omega, color=GREY, linestyle=":")
+            axes.annotate(f" {name}", (omega, 0.5), xycoords=("data", "axes fraction"), color=GREY)
+        axes.set(xscale="log", xlabel="frequency \N{GREEK CAPITAL LETTER OMEGA} [-]", ylabel=label)
     panels[1].set_yscale("log")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure

@@ -21,7 +21,15 @@ from ehlcontact.solver.mesh import FINENESS, LARGEST_MESH, Mesh, Purpose, defaul
 # Cost of a stage: convolutions ("conv", docs/solver.md) per thousand nodes and step of one contact, the geometric
 # mean of the two studies in examples/, whose own costs are up to a factor 1.5 on either side. What a step costs
 # depends on how far it goes: hardly a cycle in a free vibration, three at the rotor's frequency.
-COST = {"free": 0.35, "harmonic": 0.76, "rotor_band": 1.05, "rotor_full": 1.05, "rotor_half_step": 0.71}
+COST = {
+    "free": 0.35,
+    "harmonic": 0.76,
+    "rotor_band": 1.05,
+    "rotor_full": 1.05,
+    "rotor_half_step": 0.71,
+    "decay": 0.5,
+    "decay_half_step": 0.4,
+}
 STEADY_COST = 8.0  # likewise per thousand nodes, of a whole steady solve
 CONV = 4.2e-3  # seconds of one when those studies were run
 REST = 10.0 / CONV  # fits, impedance, FMU, reduced rotors and report, of either study
@@ -39,7 +47,7 @@ class Plan:
     mesh: Mesh
     contacts: int
     steps: int  # 0: one steady film
-    step: float | None  # dimensionless time
+    step: float | None  # dimensionless time; None where it follows from the film
     seconds: float | None  # estimated; None where nothing is known
     kept: bool  # finished in the folder already
 
@@ -152,6 +160,7 @@ def _work(name: str, study: Study) -> tuple[Mesh, int, int, float | None]:
     """Mesh, contacts, steps and their length; no steps for a steady film."""
     free, harmonic, r = study.free, study.harmonic, study.rotor
     mesh, contacts = Mesh(study.solver.n_transient, study.domain), 1
+    period: float | None
     match name:
         case "free":
             periods, each, period = free.periods, free.steps_per_period, study.free_motion.period
@@ -161,11 +170,13 @@ def _work(name: str, study: Study) -> tuple[Mesh, int, int, float | None]:
             periods, each, period = r.fit_periods, r.fit_steps_per_period, study.rotor_motion.period
         case "rotor_full" | "rotor_half_step":
             halvings, contacts = int(name == "rotor_half_step"), len(build_rotor(study).mounts)
-            periods = r.check_revolutions if halvings else r.revolutions
-            each, period = r.steps_per_revolution * 2**halvings, study.rotor_motion.period
+            periods, each, period = r.revolutions, r.steps_per_revolution * 2**halvings, study.rotor_motion.period
+        case "decay" | "decay_half_step":
+            halvings, contacts = int(name == "decay_half_step"), len(build_rotor(study).mounts)
+            periods, each, period = r.decay_periods, r.decay_steps_per_period * 2**halvings, None
         case _:
             return Mesh(study.solver.n, study.domain), 1, 0, None
-    return mesh, contacts, ceil(periods * each - 1e-9), period / each
+    return mesh, contacts, ceil(periods * each - 1e-9), None if period is None else period / each
 
 
 def _warnings(study: Study) -> list[str]:

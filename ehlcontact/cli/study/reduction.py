@@ -12,8 +12,16 @@ from ehlcontact.point import Scales
 from ehlcontact.results import ImpedanceResult
 from ehlcontact.transient.motion import HarmonicLoad
 from ehlcontact.transient.result import SimulationResult
-from reduced_models import ContactRecord, CubicContact, FitResult, MemoryFit, fit, fit_memory
-from reduced_models.fitting.memory import impedance_of
+from reduced_models import (
+    ContactRecord,
+    CubicContact,
+    FitResult,
+    MemoryFit,
+    dry_contact,
+    fit,
+    fit_memory,
+    without_damper,
+)
 
 RECORDS = {
     "free": "free vibration",
@@ -23,7 +31,17 @@ RECORDS = {
 MODELS: tuple[Literal["linear", "cubic"], ...] = ("linear", "cubic")
 MEMORY = "memory"  # the film-memory element, fitted to all records and the impedance together
 CHOSEN = ("rotor_band", "cubic")  # the element of the FMU and of the rotor: fitted at its load and frequency
-WRONG = ("harmonic", "cubic")  # fitted in the contact's own band, hundreds of times above the rotor's
+WRONG = ("harmonic", "cubic")  # fitted in the contact's own band, not in the rotor's
+FULL, UNDAMPED, DRY = "full", "undamped", "dry"  # the whole film; and what there is without film, or its damper
+# What a rotor runs on, in words.
+CONTACTS = {
+    FULL: "full film",
+    CHOSEN[0]: "cubic of the rotor's band",
+    MEMORY: "film memory",
+    WRONG[0]: "cubic of the contact's band",
+    UNDAMPED: "cubic without damper",
+    DRY: "dry Hertz contact",
+}
 
 
 @dataclass(frozen=True)
@@ -33,7 +51,7 @@ class Reduction:
     fits: Mapping[tuple[str, str], FitResult]
     refused: Mapping[tuple[str, str], str]
     memory: MemoryFit | str  # or why there is none
-    impedance: ImpedanceResult | None
+    impedance: ImpedanceResult
     scales: Scales
 
     def element_si(self, record: str, model: str) -> Any:
@@ -62,17 +80,22 @@ class Reduction:
 
     @property
     def rotor_elements(self) -> dict[str, Any]:
-        """SI elements that the rotor is run on, by name: the chosen one, and two others where they were fitted."""
+        """SI elements that the rotor runs on: the chosen one, two others where they were fitted, and baselines."""
         others = {MEMORY: self.memory_si, WRONG[0]: self.element_si(*WRONG)}
-        return {CHOSEN[0]: self.chosen} | {name: found for name, found in others.items() if found is not None}
+        fitted = {CHOSEN[0]: self.chosen} | {name: found for name, found in others.items() if found is not None}
+        return fitted | {UNDAMPED: without_damper(self.chosen), DRY: dry_contact(self.scales)}
 
 
 def reduce_records(
-    simulations: Mapping[str, SimulationResult], scales: Scales, assumed: Mapping[str, Any]
+    simulations: Mapping[str, SimulationResult],
+    response: ImpedanceResult,
+    scales: Scales,
+    assumed: Mapping[str, Any],
 ) -> Reduction:
     """Fit every model to every record; a fit that makes no contact is kept as the reason why.
 
-    Elements carry `assumed`, which knows the study's oil, film and roughness, as the records do not.
+    The film memory is fitted to the impedance too. Elements carry `assumed`, which knows the study's oil, film and
+    roughness, as the records do not.
     """
     fits: dict[tuple[str, str], FitResult] = {}
     refused: dict[tuple[str, str], str] = {}
@@ -84,10 +107,8 @@ def reduce_records(
                 fits[record, model] = _assuming(fit(data, model, _window(simulation)), assumed)
             except InputError as error:
                 refused[record, model] = str(error)
-    response: ImpedanceResult | None = None
     memory: MemoryFit | str
     try:
-        response = impedance_of(list(records.values()))
         memory = _assuming(fit_memory(response, list(records.values())), assumed)
     except (InputError, ConvergenceError) as error:
         memory = str(error)

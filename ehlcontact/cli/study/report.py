@@ -8,11 +8,14 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from ehlcontact.cli.page import write_page
-from ehlcontact.cli.plots import film, motion, rotor
+from ehlcontact.cli.plots import film, motion, rotor, vibration
 from ehlcontact.cli.plots.fringes import three_lights
 from ehlcontact.cli.plots.impedance import impedance
-from ehlcontact.cli.study.reduction import MEMORY, RECORDS
+from ehlcontact.cli.study.headline import percent
+from ehlcontact.cli.study.reduction import CONTACTS, FULL, MEMORY, RECORDS
 from ehlcontact.cli.study.results import Findings
+from reduced_models.rotor.events import LOST
+from reduced_models.rotor.settled import MOST_REVOLUTIONS
 
 TITLES = RECORDS | {MEMORY: "all bands, with film memory"}
 
@@ -27,6 +30,10 @@ def write_report(found: Findings, path: Path) -> Path:
         op=found.operating_point,
         scales=found.study.point.scales,
         titles=TITLES,
+        names=CONTACTS,
+        percent=percent,
+        lost=LOST,
+        most_revolutions=MOST_REVOLUTIONS,
     )
 
 
@@ -35,8 +42,9 @@ def drawings(found: Findings) -> dict[str, Callable[[], Figure]]:
     reduction, rotors = found.reduction, found.rotors
     cubic = {name: reduction.fits[name, "cubic"] for name in RECORDS if (name, "cubic") in reduction.fits}
     memory = None if isinstance(reduction.memory, str) else reduction.memory.element
-    reduced = rotors.reduced["rotor_band"]
-    free = found.simulations["free"]
+    turning = {FULL: rotors.unbalance.full, **rotors.unbalance.reduced}
+    how = rotors.unbalance.settling[FULL]
+    free, frequencies = found.simulations["free"], (found.study.rotor_omega, found.at_kicked_mode["Omega"])
     return {
         "film_maps": lambda: film.film_maps(found.steady),
         "midplane": lambda: film.midplanes(found.steady),
@@ -45,8 +53,10 @@ def drawings(found: Findings) -> dict[str, Callable[[], Figure]]:
         "free": lambda: motion.histories(free, cubic.get("free")),
         "film_wave": lambda: motion.wave(found.simulations["harmonic"]),
         "loops": lambda: motion.loops(found.simulations, cubic, RECORDS),
-        "impedance": lambda: impedance(reduction.impedance, memory, list(cubic.values()), found.study.rotor_omega),
-        "orbit": lambda: rotor.orbit(rotors.full, reduced),
-        "response": lambda: rotor.response(rotors.full, rotors.reduced),
-        "spectrum": lambda: rotor.spectrum(rotors.full, reduced),
+        "impedance": lambda: impedance(reduction.impedance, memory, list(cubic.values()), frequencies),
+        "orbit": lambda: rotor.orbit(turning, how, CONTACTS),
+        "response": lambda: rotor.response(turning, how, CONTACTS),
+        "spectrum": lambda: rotor.spectrum(turning, how, CONTACTS),
+        "decay": lambda: vibration.decay(rotors.decay.runs, rotors.decay.decrements, CONTACTS),
+        "bode": lambda: vibration.bode(rotors.bode.hz, rotors.bode.curves, found.study.rotor_hz, CONTACTS),
     }

@@ -8,20 +8,33 @@ import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.metadata import version as distribution_version
+from math import pi
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ehlcontact.assumptions import Assumptions, assumptions
-from ehlcontact.cli.study.reduction import RECORDS, Reduction, export_fmu, reduce_records, save_elements
-from ehlcontact.cli.study.rotor import RotorComparison, compare_rotors
+from ehlcontact.cli.study.differences import RotorFindings, compare_rotors
+from ehlcontact.cli.study.headline import headline
+from ehlcontact.cli.study.reduction import (
+    CHOSEN,
+    CONTACTS,
+    FULL,
+    RECORDS,
+    Reduction,
+    export_fmu,
+    reduce_records,
+    save_elements,
+)
+from ehlcontact.cli.study.response import at_rotor_speed, film_response
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import InputError
 from ehlcontact.origin import __version__
 from ehlcontact.results import SteadyResult
 from ehlcontact.storage import load
 from ehlcontact.transient.result import SimulationResult
+from reduced_models import film_impedance
 
 LIBRARIES = ("numpy", "scipy", "numba", "fmpy", "h5py")
 
@@ -34,7 +47,7 @@ class Findings:
     steady: SteadyResult
     simulations: Mapping[str, SimulationResult]
     reduction: Reduction
-    rotors: RotorComparison
+    rotors: RotorFindings
     fmu: Mapping[str, Any]
     seconds: Mapping[str, float]  # wall time by stage
 
@@ -66,7 +79,8 @@ class Findings:
     @property
     def assumptions(self) -> Assumptions:
         """What was assumed, and how far it holds; vibration is that of the journal on full contacts."""
-        velocity = np.linalg.norm(self.rotors.full.journal_velocity, axis=1)
+        runs = (self.rotors.unbalance.full, self.rotors.decay.runs[FULL])
+        velocity = np.concatenate([np.linalg.norm(run.journal_velocity, axis=1) for run in runs])
         return assumptions(
             self.study.point,
             film=self.steady,
@@ -111,43 +125,67 @@ class Findings:
     def memory(self) -> dict[str, Any]:
         """The film-memory element and the impedance it was fitted to, or why there is none."""
         found, response = self.reduction.memory, self.reduction.impedance
-        if isinstance(found, str) or response is None:
-            return {"refused": found}
+        if isinstance(found, str):
+            return {"refused": found, "impedance": response.summary()}
         return found.to_dict() | {"impedance": response.summary()}
+
+    @property
+    def at_rotor_speed(self) -> dict[str, float]:
+        """Stiffness [N/m] and damping [N s/m] of one contact at the rotor's frequency, by its impedance."""
+        Z, omega = at_rotor_speed(self.study, self.reduction.impedance), 2.0 * pi * self.study.rotor_hz
+        return {"stiffness": Z.real, "damping": Z.imag / omega}
+
+    @property
+    def at_kicked_mode(self) -> dict[str, float]:
+        """Likewise at the frequency of the mode that is kicked."""
+        omega = self.rotors.decay.mode.omega
+        Z = complex(film_impedance(self.reduction.impedance)(np.array([omega]))[0])
+        return {"Omega": omega * self.study.point.scales.time, "stiffness": Z.real, "damping": Z.imag / omega}
+
+    @property
+    def damper_of_fit(self) -> dict[str, Any]:
+        """The chosen element's damper and its 95 % interval [N s/m]."""
+        found, unit = self.reduction.fits[CHOSEN], self.study.point.scales.damping
+        return {"damping": self.reduction.chosen.C1, "interval": [unit * end for end in found.intervals["C1"]]}
+
+    @property
+    def rotor_loop(self) -> dict[str, float]:
+        """Over the load, in the rotor's band: largest force of the cubic's damper, and the cubic's rms misfit."""
+        found, run = self.reduction.fits[CHOSEN], self.simulations[CHOSEN[0]]
+        fitted = (run.T >= found.window[0][0]) & (run.T <= found.window[0][1])
+        return {
+            "damper": found.parameters["C1"] * float(np.abs(run.rate[fitted]).max()),
+            "misfit": found.rms * float(np.std(run.force[fitted])),
+        }
+
+    @property
+    def spectrum_resolution(self) -> float:
+        """Distance of the lines of the spectrum [Hz]."""
+        u = self.rotors.unbalance
+        first = u.settling[FULL].settled_from
+        return self.study.rotor_hz / (1 if first is None else self.study.rotor.revolutions - first)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What elements said about leaving their validity box, each run once, with the contacts that said it."""
+        said: dict[str, list[str]] = {}
+        for when, events in (("unbalance", self.rotors.unbalance.events), ("kick", self.rotors.decay.events)):
+            for name, contacts in events.items():
+                for number, one in enumerate(contacts, start=1):
+                    for text in one.warnings:
+                        said.setdefault(f"{when}, {CONTACTS[name]}: {text}", []).append(str(number))
+        return [f"{text} (contact {', '.join(numbers)})" for text, numbers in said.items()]
+
+    @property
+    def thinnest(self) -> dict[str, float]:
+        """Where the film is lowest, in semi-axes, on the upper half."""
+        i, j = np.unravel_index(int(np.argmin(self.steady.H)), self.steady.H.shape)
+        return {"X": float(self.steady.X[i]), "Y": float(self.steady.Y[j])}
 
     @property
     def answer(self) -> str:
         """What the study found, in one paragraph."""
-        point, s = self.operating_point, self.study
-        chosen = self.reduction.chosen
-        found = self.reduction.fits["rotor_band", "cubic"]
-        c = self.rotors.whole["rotor_band"]
-        displacement, force = 100.0 * (c.displacement or 0.0), 100.0 * (c.force or 0.0)
-        k = float(chosen.stiffness(chosen.approach_at(point["load"]), 0.0))
-        lesson = ""
-        one = self.rotors.whole.get("memory")
-        if one is not None:
-            lesson = (
-                f" One film-memory element, fitted to the impedance and all records at once, has "
-                f"{100.0 * (one.displacement or 0.0):.2f} % and {100.0 * (one.force or 0.0):.2f} %, and holds in "
-                f"every band."
-            )
-        wrong = self.reduction.fits.get(("harmonic", "cubic"))
-        if wrong is not None and wrong.parameters["C1"] > 0.0:
-            ratio = found.parameters["C1"] / wrong.parameters["C1"]
-            lesson += (
-                f" Fitted at Omega = {s.harmonic.omega:.3g}, the contact's own band, the cubic has a damping "
-                f"{ratio:.1f} times smaller: an element is good for the band it was fitted in."
-            )
-        return (
-            f"The most loaded ball of this {s.bearing.name} presses {point['load']:.0f} N on the {s.bearing.race} "
-            f"race (M = {point['M']:.0f}, L = {point['L']:.1f}, kappa = {point['kappa']:.3f}, "
-            f"{point['p_hertz'] * 1e-9:.2f} GPa) and rolls on an oil film of {point['h_central_um']:.3f} um, "
-            f"{point['h_min_um']:.3f} um at its thinnest. For the rotor at {s.bearing.speed_rpm:.0f} rpm "
-            f"the contact is a spring of {k * 1e-6:.1f} N/um with a damper of {chosen.C1:.0f} N s/m: with this "
-            f"cubic element in place of the film, displacements differ by {displacement:.2f} % and contact "
-            f"forces by {force:.2f} % of their dynamic amplitude (rms).{lesson}"
-        )
+        return headline(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Content of ``results.json``."""
@@ -174,6 +212,12 @@ class Findings:
             "memory": self.memory,
             "fmu": self.fmu,
             "cycle_work": self.cycle_work,
+            "at_rotor_speed": self.at_rotor_speed,
+            "at_kicked_mode": self.at_kicked_mode,
+            "damper_of_fit": self.damper_of_fit,
+            "rotor_loop": self.rotor_loop,
+            "spectrum_resolution": self.spectrum_resolution,
+            "warnings": self.warnings,
             "rotor": self.rotors.to_dict(),
             "seconds": self.seconds,
             "versions": self.versions,
@@ -190,10 +234,11 @@ def evaluate(study: Study, folder: Path, ledger: Mapping[str, Mapping[str, Any]]
     histories = {name: run for name, run in simulations.items() if isinstance(run, SimulationResult)}
     scales = study.point.scales
     assumed = assumptions(study.point, film=steady, roughness=study.roughness).short()
-    reduction = reduce_records(histories, scales, assumed)
+    response = film_response(study)
+    reduction = reduce_records(histories, response, scales, assumed)
     save_elements(reduction, folder)
     exported = export_fmu(reduction.chosen, folder / "contact.fmu")
-    rotors = compare_rotors(study, reduction.rotor_elements, folder)
+    rotors = compare_rotors(study, response, reduction.rotor_elements, folder)
     seconds = {name: float(note["seconds"]) for name, note in ledger.items()}
     seconds["elements, FMU, reduced rotors"] = time.perf_counter() - started
     return Findings(study, steady, histories, reduction, rotors, exported, seconds)

@@ -130,15 +130,17 @@ class Rotor(_Section):
 
     arrangement: Literal["vee", "vertical"] = "vee"
     half_angle_deg: Annotated[float, Field(gt=0.0, lt=90.0, allow_inf_nan=False)] = 20.0
-    disc_mass: Positive = 40.0  # kg
-    journal_mass: Positive = 2.0  # kg, both journals
-    shaft_stiffness: Positive = 2.5e7  # N/m
-    shaft_damping: NotNegative = 1500.0  # N s/m
-    disc_damping: NotNegative = 1000.0  # N s/m
-    unbalance: Positive = 8e-4  # kg m
-    revolutions: Periods = 3.0
-    steps_per_revolution: Steps = 60
-    check_revolutions: Periods = 1.0  # run again with half the step
+    disc_mass: Positive = 2.0  # kg
+    journal_mass: Positive = 0.3  # kg, both journals
+    shaft_stiffness: Positive = 2e8  # N/m
+    shaft_damping: NotNegative = 60.0  # N s/m
+    disc_damping: NotNegative = 1.0  # N s/m
+    unbalance: Positive = 4e-5  # kg m
+    revolutions: Annotated[int, Field(ge=2, le=100, strict=True)] = 3  # from near the settled motion on
+    steps_per_revolution: Steps = 60  # and all of it again with half the step
+    kick: Amplitude = 0.05  # swing of the contacts' load after it, in their load at rest
+    decay_periods: Annotated[float, Field(ge=4.0, le=100.0, allow_inf_nan=False)] = 8.0
+    decay_steps_per_period: Steps = 40  # and all of it again with half the step
     fit_amplitude: Amplitude = 0.25
     fit_periods: Periods = 2.0
     fit_steps_per_period: Steps = 40
@@ -207,6 +209,11 @@ class Study(_Section):
     def rotor_omega(self) -> float:
         """Dimensionless angular frequency of the rotor's speed."""
         return self.bearing.speed_rpm * pi / 30.0 * self.point.scales.time
+
+    @property
+    def rotor_hz(self) -> float:
+        """Frequency of the rotor's speed [Hz]."""
+        return self.bearing.speed_rpm / 60.0
 
     @property
     def free_motion(self) -> FreeVibration:

@@ -138,25 +138,39 @@ def _rotor_band(study: Study, update: Update) -> Any:
 def _rotor_full(study: Study, update: Update) -> Any:
     from ehlcontact.cli.study.rotor import run_full
 
-    return run_full(study, 0, study.rotor.revolutions, update)
+    return run_full(study, 0, update)
 
 
 def _rotor_half_step(study: Study, update: Update) -> Any:
     from ehlcontact.cli.study.rotor import run_full
 
-    return run_full(study, 1, study.rotor.check_revolutions, update)
+    return run_full(study, 1, update)
+
+
+def _decay(study: Study, update: Update) -> Any:
+    from ehlcontact.cli.study.kick import run_decay_full
+
+    return run_decay_full(study, 0, update)
+
+
+def _decay_half_step(study: Study, update: Update) -> Any:
+    from ehlcontact.cli.study.kick import run_decay_full
+
+    return run_decay_full(study, 1, update)
 
 
 _STEADY, _RUN = (_store, _load("SteadyResult")), (_store, _load("SimulationResult"))
 _ROTOR = (_store_rotor, _load_rotor)
 
 STAGES = (  # the longest first
+    Stage("rotor_half_step", "rotor again, half the step", ("solver", "rotor"), _rotor_half_step, *_ROTOR),
+    Stage("decay_half_step", "decay again, half the step", ("solver", "rotor"), _decay_half_step, *_ROTOR),
     Stage("rotor_full", "rotor on full contacts", ("solver", "rotor"), _rotor_full, *_ROTOR),
+    Stage("decay", "decay after a kick", ("solver", "rotor"), _decay, *_ROTOR),
     Stage("steady", "steady film", ("solver",), _steady, *_STEADY),
     Stage("free", "free vibration", ("solver", "free"), _free, *_RUN),
     Stage("harmonic", "harmonic load, contact band", ("solver", "harmonic"), _harmonic, *_RUN),
     Stage("rotor_band", "harmonic load, rotor band", ("solver", "rotor"), _rotor_band, *_RUN),
-    Stage("rotor_half_step", "rotor again, half the step", ("solver", "rotor"), _rotor_half_step, *_ROTOR),
 )
 
 

@@ -1,0 +1,232 @@
+"""The rotor on full contacts beside the rotor on every element and on what there is without one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ehlcontact.cli.study.bode import Bode, bode
+from ehlcontact.cli.study.kick import decrement_of, kicked_mode, run_decay_reduced
+from ehlcontact.cli.study.reduction import CHOSEN, DRY, FULL, UNDAMPED
+from ehlcontact.cli.study.response import linear_rotors, mode_numbers
+from ehlcontact.cli.study.rotor import build_rotor, load_rotor, run_reduced
+from ehlcontact.cli.study.schema import Study
+from ehlcontact.errors import ConvergenceError
+from ehlcontact.results import ImpedanceResult
+from reduced_models import (
+    Comparison,
+    ContactElement,
+    ContactEvents,
+    Decrement,
+    LinearRotor,
+    RotorMode,
+    RotorResult,
+    Settling,
+    compare,
+    contact_events,
+    settling,
+)
+
+DECIDES = 0.2  # share of a full decrement that contacts without a film must miss for the film to decide it
+
+Events = Mapping[str, tuple[ContactEvents, ...]]
+
+
+@dataclass(frozen=True)
+class Unbalance:
+    """The settled rotor under its unbalance."""
+
+    full: RotorResult
+    full_half: RotorResult  # half the step, as long
+    reduced: Mapping[str, RotorResult]  # by element and baseline; the chosen one is among them
+    settling: Mapping[str, Settling]  # also of the full one
+    events: Events
+    whole: Mapping[str, Comparison]  # full against each reduced run, from the start
+    settled: Mapping[str, Comparison]  # likewise, where the full one has settled; empty where it has not
+    half: Comparison  # full against the chosen element, both with half the step
+    step_full: Comparison  # full with the step against full with half of it, the whole run
+    step_reduced: Comparison  # the same for the chosen element: what the rotor's integrator contributes
+
+    @property
+    def best(self) -> Mapping[str, Comparison]:
+        """The settled part where there is one, the whole run otherwise."""
+        return self.settled or self.whole
+
+    @property
+    def step_share(self) -> float:
+        """Change of the full run by half the step, over the standard deviation of a signal, the largest."""
+        return max(self.step_full.displacement or 0.0, self.step_full.force or 0.0)
+
+    def to_dict(self) -> dict[str, Any]:
+        """All numbers."""
+        pairs = {"whole": self.whole, "settled": self.settled}
+        return {
+            **{name: {key: c.to_dict() for key, c in group.items()} for name, group in pairs.items()},
+            "half_step": self.half.to_dict(),
+            "step_full": self.step_full.to_dict(),
+            "step_reduced": self.step_reduced.to_dict(),
+            "settling": {name: s.to_dict() for name, s in self.settling.items()},
+            "events": events_dict(self.events),
+            "evaluations_per_step": {
+                "full": float(self.full.iterations[1:].mean()),
+                "full_half_step": float(self.full_half.iterations[1:].mean()),
+            },
+        }
+
+
+@dataclass(frozen=True)
+class Decay:
+    """The rotor after a kick."""
+
+    mode: RotorMode  # on the film, linearised: the one that is kicked
+    runs: Mapping[str, RotorResult]
+    decrements: Mapping[str, Decrement]
+    half_step: Mapping[str, Decrement]  # of the full film and of the chosen element
+    events: Events
+
+    def off(self, name: str) -> float:
+        """How far a decrement is from that of the full film, as a share of it."""
+        return self.decrements[name].decrement / self.decrements[FULL].decrement - 1.0
+
+    @property
+    def nearest_without(self) -> float | None:
+        """How near contacts without a film, or its damping, come: the smaller `off`; None where neither ran."""
+        without = [abs(self.off(name)) for name in (UNDAMPED, DRY) if name in self.decrements]
+        return min(without, default=None)
+
+    @property
+    def film_decides(self) -> bool:
+        """Whether neither dry contacts nor undamped ones come near."""
+        return self.nearest_without is not None and self.nearest_without > DECIDES
+
+    @property
+    def step_share(self) -> float:
+        """Change of the full film's decrement by half the step, as a share of it."""
+        return abs(self.half_step[FULL].decrement / self.decrements[FULL].decrement - 1.0)
+
+    def to_dict(self) -> dict[str, Any]:
+        """All numbers."""
+        return {
+            "decrements": {name: d.to_dict() for name, d in self.decrements.items()},
+            "off_full": {name: self.off(name) for name in self.decrements if name != FULL},
+            "half_step": {name: d.to_dict() for name, d in self.half_step.items()},
+            "film_decides": self.film_decides,
+            "events": events_dict(self.events),
+        }
+
+
+@dataclass(frozen=True)
+class RotorFindings:
+    """Everything about the rotor."""
+
+    unbalance: Unbalance
+    decay: Decay
+    linear: Mapping[str, LinearRotor]
+    kicked: Mapping[str, RotorMode]  # the mode next to the kicked one, on every contact
+    bode: Bode
+    failed: Mapping[str, str]  # contacts that the rotor could not be run on, and why
+
+    def to_dict(self) -> dict[str, Any]:
+        """All numbers."""
+        return self.unbalance.to_dict() | {
+            "decay": self.decay.to_dict(),
+            "modes": {name: mode_numbers(linear) for name, linear in self.linear.items()},
+            "resonance": self.bode.to_dict(),
+            "failed": dict(self.failed),
+        }
+
+
+def compare_rotors(
+    study: Study, response: ImpedanceResult, elements: Mapping[str, ContactElement], folder: Path
+) -> RotorFindings:
+    """Run the rotor on SI elements, by name, and compare it with the stored runs on full contacts.
+
+    A rotor that does not converge on one of them leaves it out, and is told; but for the chosen one.
+    """
+    mode = kicked_mode(study, response)
+    ran: dict[str, _Ran] = {}
+    failed: dict[str, str] = {}
+    for name, element in elements.items():
+        try:
+            turning = run_reduced(study, element, 0)
+            ran[name] = _Ran(element, turning, run_decay_reduced(study, element, mode, response, 0))
+        except ConvergenceError as error:
+            if name == CHOSEN[0]:
+                raise
+            failed[name] = str(error)
+    chosen = ran[CHOSEN[0]].element
+    linear = linear_rotors(study, build_rotor(study), response, {name: one.element for name, one in ran.items()})
+    return RotorFindings(
+        unbalance=_unbalance(study, ran, run_reduced(study, chosen, 1), folder),
+        decay=_decay(study, mode, ran, run_decay_reduced(study, chosen, mode, response, 1), folder),
+        linear=linear,
+        kicked={name: _nearest(one, mode) for name, one in linear.items()},
+        bode=bode(linear),
+        failed=failed,
+    )
+
+
+class _Ran(NamedTuple):
+    """An element and the rotor on it: turning with unbalance, and decaying after the kick."""
+
+    element: ContactElement
+    turning: RotorResult
+    decaying: RotorResult
+
+
+def events_dict(events: Events) -> dict[str, list[dict[str, Any]]]:
+    """Contact by contact, for JSON."""
+    return {name: [contact.to_dict() for contact in contacts] for name, contacts in events.items()}
+
+
+def _unbalance(study: Study, ran: Mapping[str, _Ran], chosen_half: RotorResult, folder: Path) -> Unbalance:
+    rotor, load = build_rotor(study), study.ball_load
+    full, full_half = (load_rotor(folder / f"{name}.h5", rotor) for name in ("rotor_full", "rotor_half_step"))
+    reduced = {name: one.turning for name, one in ran.items()}
+    settled = settling(full)
+    after: dict[str, Comparison] = {}
+    if settled.settled_from is not None:
+        begin = settled.settled_from * 60.0 / study.bearing.speed_rpm
+        after = {name: compare(full, run, discard=begin) for name, run in reduced.items()}
+    return Unbalance(
+        full=full,
+        full_half=full_half,
+        reduced=reduced,
+        settling={FULL: settled} | {name: settling(run) for name, run in reduced.items()},
+        events={FULL: contact_events(full, load)}
+        | {name: _events(one, one.turning, load) for name, one in ran.items()},
+        whole={name: compare(full, run) for name, run in reduced.items()},
+        settled=after,
+        half=compare(full_half, chosen_half),
+        step_full=compare(full, full_half),
+        step_reduced=compare(reduced[CHOSEN[0]], chosen_half),
+    )
+
+
+def _decay(
+    study: Study, mode: RotorMode, ran: Mapping[str, _Ran], chosen_half: RotorResult, folder: Path
+) -> Decay:
+    rotor, load = build_rotor(study, unbalance=False), study.ball_load
+    full, full_half = (load_rotor(folder / f"{name}.h5", rotor) for name in ("decay", "decay_half_step"))
+    runs = {FULL: full} | {name: one.decaying for name, one in ran.items()}
+    half = {FULL: full_half, CHOSEN[0]: chosen_half}
+    return Decay(
+        mode=mode,
+        runs=runs,
+        decrements={name: decrement_of(run, mode) for name, run in runs.items()},
+        half_step={name: decrement_of(run, mode) for name, run in half.items()},
+        events={FULL: contact_events(full, load)}
+        | {name: _events(one, one.decaying, load) for name, one in ran.items()},
+    )
+
+
+def _events(ran: _Ran, run: RotorResult, load: float) -> tuple[ContactEvents, ...]:
+    return contact_events(run, load, [ran.element] * len(run.rotor.mounts))
+
+
+def _nearest(linear: LinearRotor, mode: RotorMode) -> RotorMode:
+    """The mode of another rotor that moves most like a given one: among those of its direction, the nearest."""
+    same = [m for m in linear.modes() if round(m.vertical_share) == round(mode.vertical_share)]
+    return min(same or linear.modes(), key=lambda m: abs(m.omega - mode.omega))

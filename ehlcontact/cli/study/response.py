@@ -1,0 +1,83 @@
+"""The film's impedance in a study, from below the rotor's frequency up, and linear rotors that follow from it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ehlcontact.cli.study.schema import Study
+from ehlcontact.errors import ConvergenceError
+from ehlcontact.impedance import impedance
+from ehlcontact.results import ImpedanceResult
+from reduced_models import ContactElement, JeffcottRotor, LinearRotor, RotorMode, film_impedance, impedance_about
+from reduced_models.fitting.memory import OMEGAS
+from reduced_models.rotor.linear import Impedance
+
+BELOW = 0.5  # of the rotor's frequency: the lowest one solved, but for rest
+PER_DECADE = 7  # frequencies from there to the lowest that a film memory is fitted at, as close as those
+VERTICAL = 0.5  # share of the motion of a mode from which it counts as vertical
+
+
+def film_response(study: Study) -> ImpedanceResult:
+    """Impedance on the mesh of the transient films, from below the rotor's frequency to far above the contact's.
+
+    It is the same every time: a stage that needs it solves it again, in the time of a few steps of its run.
+    """
+    return impedance(study.point, frequencies(study), n=study.solver.n_transient, domain=study.domain)
+
+
+def frequencies(study: Study) -> list[float]:
+    """Dimensionless angular frequencies of `film_response`."""
+    own, lowest = study.rotor_omega, OMEGAS[1]
+    start = BELOW * own
+    decades = np.log10(lowest / start) if start < lowest else 0.0
+    below = np.geomspace(start, lowest, 1 + int(np.ceil(PER_DECADE * decades)))[:-1].tolist() if decades else []
+    return sorted({*OMEGAS, *below, own})
+
+
+def at_rotor_speed(study: Study, response: ImpedanceResult) -> complex:
+    """Impedance of one contact at the rotor's frequency [N/m]."""
+    return complex(film_impedance(response)(np.array([study.rotor_hz * 2.0 * np.pi]))[0])
+
+
+def linear_rotor(rotor: JeffcottRotor, impedance_of_one: Impedance) -> LinearRotor:
+    """The rotor with this impedance in every contact."""
+    return LinearRotor(rotor, [impedance_of_one] * len(rotor.mounts))
+
+
+def linear_rotors(
+    study: Study, rotor: JeffcottRotor, response: ImpedanceResult, elements: Mapping[str, ContactElement]
+) -> dict[str, LinearRotor]:
+    """The rotor on the film, and on every element, linearised about rest."""
+    impedances = {"full": film_impedance(response)}
+    impedances |= {name: impedance_about(element, study.ball_load) for name, element in elements.items()}
+    return {name: linear_rotor(rotor, one) for name, one in impedances.items()}
+
+
+def bounce(linear: LinearRotor) -> RotorMode:
+    """The slowest vibration up and down: the one that is kicked.
+
+    Raises
+    ------
+    ConvergenceError
+        None oscillates.
+    """
+    for mode in linear.modes():
+        if mode.vertical_share >= VERTICAL:
+            return mode
+    raise ConvergenceError("no vertical mode of this rotor oscillates: it is damped too much", None)
+
+
+def mode_numbers(linear: LinearRotor) -> list[dict[str, Any]]:
+    """Frequency, decrement and what bends, of all modes."""
+    return [
+        {
+            "hz": mode.hz,
+            "decrement": mode.decrement,
+            "vertical_share": mode.vertical_share,
+            "contact_share": mode.contact_share,
+        }
+        for mode in linear.modes()
+    ]

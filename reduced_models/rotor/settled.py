@@ -1,0 +1,183 @@
+"""Whether a rotor has settled, by how much successive revolutions differ; and runs that go on until it has."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.checks import require_integer
+from ehlcontact.errors import InputError
+from reduced_models.elements.base import ContactElement
+from reduced_models.elements.validity import OutsideValidityWarning
+from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
+from reduced_models.rotor.simulate import RotorResult, simulate_rotor
+
+_Floats = NDArray[np.float64]
+
+SETTLED = 0.01  # change from one revolution to the next, over a signal's standard deviation, of a settled run
+# Where revolutions cost nothing they go on until one is so much like the other.
+QUIET = 1e-4
+MOST_REVOLUTIONS = 128  # that are given to it
+FIRST_REVOLUTIONS = 8  # after which it is looked at first, and again each time their number has doubled
+STILL = 1e-9  # spread of a signal over its largest value, below which it has nothing to settle
+
+
+@dataclass(frozen=True)
+class Settling:
+    """How a run of whole revolutions settled."""
+
+    changes: tuple[float, ...]  # of each revolution from the one before, from the second on
+    limit: float  # change up to which a revolution counts as settled
+
+    @property
+    def settled_from(self) -> int | None:
+        """First revolution, counted from 0, from which on all changes are below the limit; None without one.
+
+        A settled revolution is like the one before it, so that one belongs to the settled part already.
+        """
+        first = None
+        for k in range(len(self.changes) - 1, -1, -1):
+            if self.changes[k] > self.limit:
+                break
+            first = k
+        return first
+
+    @property
+    def settled(self) -> bool:
+        """Whether the run ends settled."""
+        return self.settled_from is not None
+
+    @property
+    def last_change(self) -> float | None:
+        """Change of the last revolution; None where there was only one."""
+        return self.changes[-1] if self.changes else None
+
+    def to_dict(self) -> dict[str, object]:
+        """All of it, ready for JSON."""
+        return {
+            "changes": list(self.changes),
+            "limit": self.limit,
+            "settled_from_revolution": self.settled_from,
+            "settled": self.settled,
+        }
+
+
+def settling(result: RotorResult, *, limit: float = SETTLED) -> Settling:
+    """Compare successive revolutions of a run at constant speed.
+
+    The change of a revolution is the largest, over displacements of disc and journal and forces of all contacts,
+    of the RMS difference from the revolution before over the standard deviation of the signal in the revolution.
+
+    Parameters
+    ----------
+    result : RotorResult
+        With a whole number of steps in a revolution; what is beyond the last whole revolution is left out.
+    limit : float
+        Change up to which a revolution counts as settled.
+
+    Raises
+    ------
+    InputError
+        No speed, or no whole number of steps in a revolution.
+    """
+    steps = steps_per_revolution(result)
+    signals = _signals(result)
+    changes = []
+    for k in range(1, (len(signals) - 1) // steps):
+        before, now = (signals[1 + i * steps : 1 + (i + 1) * steps] for i in (k - 1, k))
+        spread, size = now.std(axis=0), np.abs(signals).max(axis=0)
+        moves = spread > STILL * size
+        differ = np.sqrt(np.mean((now - before) ** 2, axis=0))
+        changes.append(float((differ[moves] / spread[moves]).max(initial=0.0)))
+    return Settling(tuple(changes), limit)
+
+
+def steps_per_revolution(result: RotorResult) -> int:
+    """Number of steps in a revolution.
+
+    Raises
+    ------
+    InputError
+        No speed, or no whole number.
+    """
+    if result.rotor.speed_rpm == 0.0 or result.t.size < 2:
+        raise InputError("run", f"{result.t.size} times at {result.rotor.speed_rpm:g} rpm", "of a turning rotor")
+    steps = 60.0 / result.rotor.speed_rpm / float(result.t[1] - result.t[0])
+    if abs(steps - round(steps)) > 1e-6 * steps:
+        raise InputError("steps per revolution", steps, "a whole number")
+    return round(steps)
+
+
+def part_of(result: RotorResult, first: int, last: int | None = None, *, keep_time: bool = True) -> RotorResult:
+    """Samples `first` to `last` of a run, both included; with ``keep_time=False`` their time starts at 0."""
+    end = None if last is None else last + 1
+    cut = {name: v[first:end].copy() for name, v in vars(result).items() if isinstance(v, np.ndarray)}
+    if not keep_time:
+        cut["t"] = cut["t"] - cut["t"][0]
+    return replace(result, **cut)  # type: ignore[arg-type]
+
+
+def run_until_settled(
+    rotor: JeffcottRotor,
+    elements: Sequence[ContactElement],
+    *,
+    steps: int,
+    revolutions: int,
+    start: RotorState,
+    tolerance: float = 1e-6,
+) -> RotorResult:
+    """Let a rotor on elements turn until it has settled, and return its last revolutions, from t = 0 on.
+
+    Parameters
+    ----------
+    rotor : JeffcottRotor
+        Turning.
+    elements : sequence of ContactElement
+        One per mount, in SI; copies of them run, at rest at the start. Whether the run stays in their validity box
+        is not told here: ask `contact_events` of the revolutions that are returned.
+    steps : int
+        In a revolution.
+    revolutions : int
+        Returned; settled if they could be, which `settling` tells.
+    start : RotorState
+        Near the settled motion, as of `LinearRotor.orbit_state`.
+    tolerance : float
+        Of `simulate_rotor`.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        As `simulate_rotor`.
+    """
+    require_integer("steps", steps, "a whole number >= 8", 8)
+    require_integer("revolutions", revolutions, "a whole number >= 1", 1)
+    contacts = [element.copy() for element in elements]
+    for contact, approach in zip(contacts, rotor.approaches(start.journal).tolist(), strict=True):
+        contact.rest(approach)
+    dt = 60.0 / rotor.speed_rpm / steps
+    turns, state, done = max(FIRST_REVOLUTIONS, revolutions + 1), start, 0
+    while True:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", OutsideValidityWarning)
+            run = simulate_rotor(
+                rotor, contacts, dt=dt, until=turns * steps * dt, start=state, tolerance=tolerance
+            )
+        done += turns
+        change = settling(run).last_change
+        if done >= MOST_REVOLUTIONS or (change is not None and change <= QUIET):
+            return part_of(run, run.t.size - 1 - revolutions * steps, keep_time=False)
+        state, turns = end_of(run), max(done, revolutions + 1)
+
+
+def end_of(result: RotorResult) -> RotorState:
+    """State at the end of a run."""
+    return RotorState(result.disc[-1], result.journal[-1], result.disc_velocity[-1], result.journal_velocity[-1])
+
+
+def _signals(result: RotorResult) -> _Floats:
+    """Displacements of both bodies and forces of all contacts, shape (N, signals)."""
+    return np.hstack([result.disc, result.journal, result.force])
