@@ -8,7 +8,7 @@ BLOCKS = ("p", "tr", "figcaption", "h1", "h2", "h3", "li")
 INVISIBLE = ("style", "script", "head", "title")
 NUMBER = r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 LONE = re.compile(rf"(?<![\w.]){NUMBER}")  # not part of a name, such as K1 or u2
-SLOT = rf"(?<![\w.])({NUMBER}|-)(?![\w.]*\d)"
+SLOT = rf"(?<![\w.])((?:below )?{NUMBER}|-)(?![\w.]*\d)"
 ASCII = str.maketrans({"µ": "u", "μ": "u", "Ω": "Omega", "ω": "omega", "≤": "<=", "≥": ">=", "−": "-"})
 EDGE = 1e-6  # of the last digit shown: where two computations of it may round to different sides
 
@@ -86,7 +86,10 @@ def is_shown(shown, value, least=2):
     """
     if shown == "-" or value is None:
         return shown == "-" and value is None
-    value, number = float(value), float(shown)
+    value = float(value)
+    if shown.startswith("below "):
+        return abs(value) < float(shown.removeprefix("below ")) and value != 0.0
+    number = float(shown)
     if value == 0.0 or number == 0.0:
         return value == number
     figures = re.sub(r"e.*|[-+.]", "", shown).lstrip("0")

@@ -63,7 +63,6 @@ class Recomputed:
         self.study = tomllib.loads(file.read_text())
         self.folder = folder
         self.steady = read(folder / "steady.h5")
-        self.rotor_full = read(folder / "rotor_full.h5")
         self.records = {name: read(folder / f"{name}.h5") for name in RECORDS}
 
     @cached_property

@@ -1,7 +1,7 @@
 """The walker over the numbers of a page, on a page of its own."""
 
 import pytest
-from page_numbers import PageNumbers, is_shown
+from report.page import PageNumbers, is_shown
 
 PAGE = """<html><head><title>Study 7</title><style>p { margin: 3px }</style></head><body><h1>Two of 5</h1>
 <p>A ball of 7.94&nbsp;mm, K1 = 4.622e+07 N/m,
