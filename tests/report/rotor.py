@@ -10,8 +10,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from report.contact import Recomputed, read
 from scipy import interpolate, optimize, stats
+
+from report.contact import Recomputed, read
 
 CONTACTS = {
     "full": "full film",
@@ -138,7 +139,7 @@ class RecomputedRotor:
         )
 
     def events(self, name, run):
-        """Of each contact: loads, lift-offs, impacts, share lost, and shares outside approach, rate, load, omega."""
+        """Of each contact: loads, lift-offs, impacts, share lost; shares outside approach, rate, load, omega."""
         box = None if name == "full" else self.elements[name].validity.to_dict()
         found = []
         for u, v, f in zip(run.approach.T, run.rate.T, run.force.T, strict=True):
