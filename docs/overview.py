@@ -39,7 +39,7 @@ def main() -> None:
     wave = (run.h_midplane - run.h_midplane[0]) * scales.length * 1e6
     image = panel.pcolormesh(run.T, run.X, wave.T, cmap="RdBu_r", vmin=-0.02, vmax=0.02, rasterized=True)
     panel.set(ylim=(-1.1, 1.0), xlabel="time T [2a/u_sum]", ylabel="X = x/a")
-    panel.set_title("film change [um], carried through", loc="left")
+    panel.set_title("film change [µm], carried through", loc="left")
     figure.colorbar(image, ax=panel)
 
     panel = axes[1, 0]

@@ -150,7 +150,7 @@ def draw(shallow: SimulationResult, deep: SimulationResult, rimless: SimulationR
         shown = np.where(fringes.resolved, fringes.intensity, 0.5)
         panel.pcolormesh(film.x * 1e6, film.y * 1e6, shown.T, cmap="gray", shading="gouraud", rasterized=True)
         panel.set(title=f"instant {k + 1}", ylim=(-185, 185), aspect="equal")
-    panels[0, 0].set_ylabel("fringes at 600 nm, 7 um deep\ny across [um]")
+    panels[0, 0].set_ylabel("fringes at 600 nm, 7 µm deep\ny across [µm]")
     for row, kind, run, without in (
         (panels[1], "simulation", shallow, None),
         (panels[2], "experiment", deep, rimless),
@@ -165,10 +165,10 @@ def draw(shallow: SimulationResult, deep: SimulationResult, rimless: SimulationR
             panel.set_axisbelow(True)
             panel.set(xlim=(-185, 185), ylim=(0, 400))
         row[0].legend(frameon=False, loc="lower center", fontsize=8)
-    panels[1, 0].set_ylabel("0.175 um deep\ngap [nm]")
-    panels[2, 0].set_ylabel("7 um deep\ngap [nm]")
+    panels[1, 0].set_ylabel("0.175 µm deep\ngap [nm]")
+    panels[2, 0].set_ylabel("7 µm deep\ngap [nm]")
     for panel in panels[2]:
-        panel.set_xlabel("x along rolling [um]")
+        panel.set_xlabel("x along rolling [µm]")
     figure.savefig(path, dpi=120)
 
 

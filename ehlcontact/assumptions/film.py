@@ -143,4 +143,4 @@ def _percent(share: float) -> str:
 
 
 def _um(length: float) -> str:
-    return f"{length * 1e6:.2g} um"
+    return f"{length * 1e6:.2g} µm"

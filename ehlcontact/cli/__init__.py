@@ -6,6 +6,7 @@ room           responsibility
 ``app``        the program: subcommands, errors to one line and an exit code
 ``options``    options that subcommands share, in groups, and the inputs they stand for
 ``output``     tables, JSON, complaints, checks of where results go
+``numerals``   numbers for people: figures, exponents, characters of units
 ``streams``    stdout and stderr that may be full, closed, or of few characters
 ``progress``   how far a computation is: bars on a terminal, now and then a line elsewhere
 ``page``       HTML pages that need no other file, from ``templates/``

@@ -11,6 +11,7 @@ from typing import Annotated, Any, get_type_hints
 
 import typer
 
+from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.point import MoesPoint, require_solvable
 from ehlcontact.solver.domain import Domain, check_intervals
@@ -180,9 +181,9 @@ class Files:
 
 def point_rows(point: MoesPoint) -> list[tuple[str, str, str]]:
     """Rows of a table that say which contact this is."""
-    return [("M, L, kappa", f"{point.M:g}, {point.L:g}, {point.kappa:g}", "")]
+    return [("M, L, kappa", ", ".join(map(numeral, (point.M, point.L, point.kappa))), "")]
 
 
 def domain_text(domain: Domain) -> str:
     """The region in words."""
-    return f"[{domain.x_in:g}, {domain.x_out:g}] x [-{domain.y_max:g}, {domain.y_max:g}]"
+    return f"[{domain.x_in:g}, {domain.x_out:g}] x [-{domain.y_max:g}, {domain.y_max:g}] Hertz semi-axes"

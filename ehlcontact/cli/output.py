@@ -15,6 +15,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from ehlcontact.cli.numerals import spelled
 from ehlcontact.cli.streams import StdoutError, to_stderr
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_text
@@ -163,10 +164,11 @@ def show_table(title: str, rows: Iterable[tuple[str, str, str]], json_to: str | 
     """Compact table of quantity, value and unit on stdout, unless JSON goes there."""
     if json_to == STDOUT:
         return
+    title = spelled(title, sys.stdout)
     table = Table(title=title, title_justify="left", show_header=False, pad_edge=False, box=None)
     table.add_column(style="bold")
     table.add_column(justify="right")
     table.add_column(style="dim", overflow="fold")
     for row in rows:
-        table.add_row(*row)
+        table.add_row(*(spelled(text, sys.stdout) for text in row))
     Console().print(table)

@@ -9,6 +9,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from matplotlib.figure import Figure
 
+from ehlcontact.cli.numerals import numeral, percent
 from ehlcontact.cli.plots.style import embedded, styled
 from ehlcontact.files import write_text
 
@@ -28,21 +29,14 @@ def write_page(path: Path, template: str, drawings: Mapping[Any, Callable[[], Fi
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {"sig": significant, "cell": cell}
+    environment.filters |= {"sig": numeral, "percent": percent, "cell": cell}
     with styled():
         images = {name: embedded(draw()) for name, draw in drawings.items()}
     return write_text(path, environment.get_template(template).render(images=images, **content), "file")
 
 
-def significant(value: float | None, digits: int = 4) -> str:
-    """The number with so many significant digits, a dash for none."""
-    return "-" if value is None else f"{value:.{digits}g}"
-
-
-def cell(value: float | str | None) -> str:
-    """A table cell in words: five significant digits, fewer for small errors."""
+def cell(value: float | str | None, digits: int = 5) -> str:
+    """A table cell in words: nothing for None, counts as they are."""
     if value is None:
         return ""
-    if isinstance(value, str | int):
-        return str(value)
-    return f"{value:.5g}" if abs(value) >= 1e-3 or value == 0.0 else f"{value:.3e}"
+    return str(value) if isinstance(value, str | int) else numeral(value, digits)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -13,6 +14,7 @@ from typing import Any, Protocol, Self
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
+from ehlcontact.cli.numerals import spelled
 from ehlcontact.cli.streams import to_stderr
 
 SPACING = 10.0  # seconds between lines, at least: what is done sooner needs none
@@ -179,7 +181,7 @@ def progressing() -> Progressing:
 def progress(description: str) -> Iterator[Any]:
     """Show one task on stderr; yields ``update(done, total, note="")``."""
     with progressing() as shown:
-        task = shown.add(description)
+        task = shown.add(spelled(description, sys.stderr))
 
         def update(done: float, total: float | None, note: str = "") -> None:
             shown.update(task, done, total, note)

@@ -15,9 +15,8 @@ from ehlcontact.errors import InputError
 _Floats = NDArray[np.float64]
 
 FEWEST_PERIODS = 2.0  # of a decay: from less, damping and a drift of the mean look alike
-CONFIDENCE = 0.95  # of the interval
-SEARCH = 0.3  # share of the first guess of the frequency, on either side, within which it is looked for
-MOST_DAMPED = 2.0  # decrement per period, to either side of 0, up to which a decay is looked for
+# How far a decay is looked for: about 0 in the decrement, and about the first guess, relative, in frequency.
+SEARCH = (2.0, 0.3)
 STILL = 1e-9  # spread of a signal over its largest value, below which nothing vibrates
 
 
@@ -88,7 +87,7 @@ def log_decrement(t: ArrayLike, signal: ArrayLike, *, omega: float) -> Decrement
         columns = basis(x)
         return np.asarray(scaled - columns @ np.linalg.lstsq(columns, scaled, rcond=None)[0])
 
-    limits = ([-MOST_DAMPED, -SEARCH], [MOST_DAMPED, SEARCH])
+    limits = ([-SEARCH[0], -SEARCH[1]], SEARCH)
     starts = [optimize.least_squares(left, [d, 0.0], bounds=limits, x_scale=[0.1, 0.01]) for d in (0.0, 0.3)]
     found = min(starts, key=lambda solution: float(solution.cost))
     cosine, sine, _ = np.linalg.lstsq(basis(found.x), scaled, rcond=None)[0]
@@ -115,4 +114,4 @@ def _half_width(found: optimize.OptimizeResult, samples: int) -> float:
     r = float(residual[1:] @ residual[:-1]) / energy if energy > 0.0 else 0.0
     fewer = (1.0 + max(r, 0.0)) / max(1.0 - r, 1e-3)
     variance = energy / freedom * float(covariance[0, 0]) * fewer
-    return float(stats.t.ppf(0.5 + 0.5 * CONFIDENCE, max(freedom / fewer, 1.0))) * float(np.sqrt(variance))
+    return float(stats.t.ppf(0.975, max(freedom / fewer, 1.0))) * float(np.sqrt(variance))

@@ -25,9 +25,8 @@ _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 Impedance = Callable[[_Floats], _Complex]  # omega [rad/s], shape (k,) -> Z [N/m], shape (k,)
 
-SAME_FREQUENCY = 1e-10  # relative change that ends the iteration for a mode
-MOST_ROUNDS = 100  # of it; a handful where the impedance changes slowly
-OSCILLATES = 1e-9  # share of an eigenvalue's size that is imaginary, for it to be a vibration
+SAME_FREQUENCY = 1e-10  # relative change that ends the iteration for a mode; few rounds where Z changes slowly
+MOST_ROUNDS = 100  # of it
 
 
 def impedance_about(element: ContactElement, load: float) -> Impedance:
@@ -128,7 +127,7 @@ class LinearRotor:
     def modes(self) -> tuple[RotorMode, ...]:
         """All modes that oscillate, the slowest first."""
         start, _ = self._eigen(0.0)
-        guesses = sorted((s for s in start if s.imag > OSCILLATES * abs(s)), key=lambda s: s.imag)
+        guesses = sorted((s for s in start if s.imag > SAME_FREQUENCY * abs(s)), key=lambda s: s.imag)
         return tuple(self._mode(guess) for guess in guesses)
 
     def unbalance_response(self, omega: ArrayLike) -> _Complex:

@@ -13,6 +13,7 @@ from ehlcontact.checks import require_integer
 from ehlcontact.errors import InputError
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.validity import OutsideValidityWarning
+from reduced_models.rotor.decay import STILL
 from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
 from reduced_models.rotor.simulate import RotorResult, simulate_rotor
 
@@ -23,7 +24,6 @@ SETTLED = 0.01  # change from one revolution to the next, over a signal's standa
 QUIET = 1e-4
 MOST_REVOLUTIONS = 128  # that are given to it
 FIRST_REVOLUTIONS = 8  # after which it is looked at first, and again each time their number has doubled
-STILL = 1e-9  # spread of a signal over its largest value, below which it has nothing to settle
 
 
 @dataclass(frozen=True)

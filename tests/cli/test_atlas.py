@@ -19,7 +19,7 @@ def test_element_is_printed_saved_and_written(call, tmp_path, model):
     assert document["kind"] == model and document["source"]["atlas"]
     assert load_element(path).to_dict() == document
     table = call("element", *POINT, "--model", model)
-    assert table.code == 0 and "approach" in table.out and "+-" in table.out
+    assert table.code == 0 and "approach" in table.out and "±" in table.out
 
 
 @pytest.mark.parametrize(

@@ -44,7 +44,7 @@ def test_simulation_figure(point, si):
     run = simulate(point, HarmonicLoad(3.0), n=32, until=1.0, dT=0.1)
     figure = simulation_figure(run)
     assert (
-        {"approach [um]", "force [N]"} <= labels(figure) if si else {"approach u", "force f/f0"} <= labels(figure)
+        {"approach [µm]", "force [N]"} <= labels(figure) if si else {"approach u", "force f/f0"} <= labels(figure)
     )
     t, minimum = line(figure, "minimum")
     np.testing.assert_allclose(t, run.T * (run.scales.time * 1e3 if si else 1.0))

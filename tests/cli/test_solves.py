@@ -94,7 +94,7 @@ def test_film_memory_from_a_simulation_alone(call, point, tmp_path):
     record, element, report = tmp_path / "r.h5", tmp_path / "e.json", tmp_path / "fit.json"
     assert call("simulate", *point, "--n", "32", "--free", "5", "--save", record).code == 0
     result = call("fit", record, "--model", "memory", "--save", element, "--json", report)
-    assert result.code == 0 and "C(Omega)" in result.out and "root" in result.out, result
+    assert result.code == 0 and "C(Ω)" in result.out and "root" in result.out, result
     document = json.loads(report.read_text())
     assert set(FIT_KEYS) <= set(document) and document["rms"] < 0.02 and document["condition"] is None
     loaded = load_element(element)

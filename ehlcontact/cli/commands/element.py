@@ -10,6 +10,7 @@ import typer
 
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
+from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
 from reduced_models.elements.validity import text_of
 
@@ -41,7 +42,7 @@ def element(
     answer, made = table.at(point), table.element(point, model)
     error = answer.error
     at = [
-        (f"C at Omega = {w:.3g}", f"{c:.5f}", f"+- {bar:.1g}")
+        (f"C at Ω = {numeral(w, 3)}", f"{c:.5f}", f"± {numeral(bar, 1)}")
         for w, c, bar in zip(answer.omega, answer.damping, error["damping"], strict=True)
         if w in (0.05, 1.0) or abs(w - 6.2832) < 1e-3
     ]
@@ -50,13 +51,17 @@ def element(
         f"{model} element from the atlas, version {table.metadata['version']}",
         [
             *o.point_rows(point),
-            ("approach", f"{answer.approach:.5f}", f"+- {error['approach']:.1g}, dry Hertz 1"),
-            ("central film", f"{answer.h_central:.5f}", f"+- {error['h_central']:.1g}"),
-            ("minimum film", f"{answer.h_min:.5f}", f"+- {error['h_min']:.1g}"),
-            ("static tangent", f"{answer.stiffness[0]:.4f}", f"+- {error['stiffness'][0]:.1g}"),
+            ("approach", f"{answer.approach:.5f}", f"± {numeral(error['approach'], 1)} of the dry Hertz approach"),
+            ("central film", f"{answer.h_central:.5f}", f"± {numeral(error['h_central'], 1)} likewise"),
+            ("minimum film", f"{answer.h_min:.5f}", f"± {numeral(error['h_min'], 1)} likewise"),
+            (
+                "static tangent",
+                f"{answer.stiffness[0]:.4f}",
+                f"± {numeral(error['stiffness'][0], 1)} dimensionless, as C: time in 2a/u_sum",
+            ),
             *at,
             (
-                "valid",
+                "valid approach",
                 f"{made.low:.4f} .. {made.high:.4f}",
                 "" if made.load_range is None else f"load {text_of(made.load_range)}",
             ),

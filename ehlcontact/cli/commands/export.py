@@ -51,8 +51,8 @@ def export(
         str(output),
         [
             ("element", element.kind, element.units),
-            ("findings", str(len(found.findings)), "of fmpy's validation"),
-            ("force", f"{found.force:.1e}", f"relative to the Python element, over {found.states} states"),
+            ("findings", str(len(found.findings)), "of fmpy's validation; none is right"),
+            ("force", f"{found.force:.1e}", f"largest error, over the Python element's; {found.states} states"),
             ("tangents", f"{found.tangents:.1e}", "likewise"),
             ("verified", "yes" if found.passes else "NO", ""),
         ],

@@ -10,6 +10,7 @@ import typer
 
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
+from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.errors import InputError
 
@@ -27,7 +28,11 @@ def fit(
     model: Annotated[str, typer.Option("--model", help="linear, cubic, polynomial, power or memory.")] = "cubic",
     window: Annotated[
         tuple[float, float] | None,
-        typer.Option("--window", metavar="START END", help="Part of T to fit; the last two thirds by default."),
+        typer.Option(
+            "--window",
+            metavar="START END",
+            help="Part of T to fit; by default the last two thirds, of a ramp all.",
+        ),
     ] = None,
     save: Annotated[Path | None, typer.Option("--save", metavar="FILE", help="Save the element as JSON.")] = None,
     json_to: o.JsonTo = None,
@@ -63,14 +68,22 @@ def fit(
     valid = fitted.valid
     table = partial(
         show_table,
-        f"{model} element",
+        f"{model} element, {fitted.element.units}: static loads, dry approaches, 2a/u_sum",
         [
             *rows,
             ("root", "-" if fitted.root is None else f"{fitted.root:.5f}", "approach under the static load"),
             ("tangent", "-" if fitted.tangent is None else f"{fitted.tangent:.4f}", "stiffness there"),
             ("rms error", f"{100 * (fitted.rms or 0.0):.2f} %", "of the standard deviation of the force"),
-            ("e_f (eq. 13)", f"{fitted.e_f:.1e}", ""),
-            ("valid", f"{valid['low']:.4f} .. {valid['high']:.4f}", f"|rate| <= {valid['rate']:.3g}"),
+            (
+                "e_f (eq. 13)",
+                f"{fitted.e_f:.1e}",
+                "sum of force less fit over sum of force: near zero by construction",
+            ),
+            (
+                "valid approach",
+                f"{valid['low']:.4f} .. {valid['high']:.4f}",
+                f"|rate| <= {numeral(valid['rate'], 3)}",
+            ),
         ],
         json_to,
     )
@@ -80,11 +93,11 @@ def fit(
 
 def _coefficients(fitted: FitResult) -> list[tuple[str, str, str]]:
     rows = [
-        (name, f"{value:.5g}", f"{fitted.intervals[name][0]:.4g} .. {fitted.intervals[name][1]:.4g} (95 %)")
+        (name, numeral(value, 5), "{} .. {} (95 %)".format(*map(numeral, fitted.intervals[name])))
         for name, value in fitted.parameters.items()
     ]
     worth = f"{fitted.samples} samples, {fitted.independent_samples:.0f} of them independent"
-    return [*rows, ("condition", f"{fitted.condition:.3g}", worth)]
+    return [*rows, ("condition", numeral(fitted.condition, 3), f"number; {worth}")]
 
 
 def _memory(fitted: ElementFit) -> list[tuple[str, str, str]]:
@@ -92,10 +105,22 @@ def _memory(fitted: ElementFit) -> list[tuple[str, str, str]]:
     low, high = fitted.valid["omega"]
     gains = p["gains"]
     return [
-        ("film", f"{p['film']:.5g}", f"at rest; thins like load^-{p['exponent']:.3g}"),
-        ("squeeze", f"{p['squeeze']:.4g}", "film that a vibrating inlet makes on average"),
-        ("rates", f"{p['lag_rate']:.4g}, {p['inlet_rate']:.4g}, {p['fast_rate']:.4g}", "lag, inlet, fast"),
-        ("gains", ", ".join(f"{g:.3g}" for g in gains[:3]), f"viscous, inlet, fast; and {len(gains) - 3} lags"),
-        ("K(Omega)", f"{100 * found['stiffness_error_max']:.2f} %", "largest error against the impedance"),
-        ("C(Omega)", f"{100 * found['damping_error_max']:.1f} %", f"likewise, for Omega {low:g} .. {high:g}"),
+        (
+            "film",
+            numeral(p["film"], 5),
+            f"of the dry Hertz approach, at rest; thins like load^-{numeral(p['exponent'], 3)}",
+        ),
+        ("squeeze", numeral(p["squeeze"]), "film that a vibrating inlet makes on average"),
+        (
+            "rates",
+            ", ".join(numeral(p[key]) for key in ("lag_rate", "inlet_rate", "fast_rate")),
+            "lag, inlet, fast; per 2a/u_sum",
+        ),
+        ("gains", ", ".join(numeral(g, 3) for g in gains[:3]), f"viscous, inlet, fast; and {len(gains) - 3} lags"),
+        ("K(Ω)", f"{100 * found['stiffness_error_max']:.2f} %", "largest error, of the impedance's K"),
+        (
+            "C(Ω)",
+            f"{100 * found['damping_error_max']:.1f} %",
+            f"of its C; both for Ω {numeral(low)} .. {numeral(high)}",
+        ),
     ]

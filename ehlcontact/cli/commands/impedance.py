@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from ehlcontact.cli import options as o
+from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import check_json, show_table, write_json
 from ehlcontact.cli.progress import progress
 
@@ -37,7 +38,8 @@ def impedance(contact: o.Contact, omega: Omegas, grid: o.Grid, json_to: o.JsonTo
         [
             *o.point_rows(point),
             *((f"Omega = {w:g}", f"K {k:.4f}", f"C {c:.5f}") for w, k, c in triples),
-            ("time", f"{result.seconds:.2f}", f"s, n = {result.n} on {o.domain_text(result.domain)}"),
+            ("grid", f"n = {result.n}", f"on {o.domain_text(result.domain)}"),
+            ("computed in", f"{numeral(result.seconds, 3)} s", ""),
         ],
         json_to,
     )

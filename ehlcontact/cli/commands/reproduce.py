@@ -13,7 +13,6 @@ from ehlcontact.errors import InputError
 from ehlcontact.solver.domain import check_intervals
 
 PAGE, DOCUMENT = "reproduction.html", "reproduction.json"
-SMALLEST = 32
 
 
 def register(app: typer.Typer) -> None:
@@ -42,14 +41,12 @@ def reproduce(
     from ehlcontact.cli.paper.figures import FIGURES
     from ehlcontact.cli.paper.page import reproduce as make
     from ehlcontact.cli.paper.page import write_reproduction
-    from ehlcontact.cli.paper.tables import TABLE_CASES
+    from ehlcontact.cli.paper.table import TABLE_CASES
 
     everything = not table and not figure
     tables = _chosen("--table", table, tuple(TABLE_CASES), everything)
     figures = _chosen("--figure", figure, tuple(FIGURES), everything)
     check_intervals(n)
-    if n % SMALLEST:
-        raise InputError("n", n, "a multiple of 32 (half of it is computed too, to extrapolate)")
     check_json(json_to)
     prepare_folder(output)
 

@@ -10,6 +10,7 @@ import typer
 
 from ehlcontact.checks import require_positive
 from ehlcontact.cli import options as o
+from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, check_file, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.errors import ConvergenceError, InputError
@@ -45,7 +46,7 @@ class MotionOptions:
         typer.Option(
             "--ramp",
             metavar="RATIO DURATION",
-            help="Load rising to RATIO; needs --omega-n.",
+            help="Load rising to RATIO times the static one in DURATION of T; needs --omega-n.",
             rich_help_panel=_MOTION,
         ),
     ] = None
@@ -57,14 +58,18 @@ class MotionOptions:
     ] = None
     offset: Annotated[
         float | None,
-        typer.Option("--offset", help="Initial displacement, for --free.", rich_help_panel=_MOTION),
+        typer.Option(
+            "--offset", help="Initial displacement in dry approaches, for --free.", rich_help_panel=_MOTION
+        ),
     ] = None
     rate: Annotated[
-        float | None, typer.Option("--rate", help="Initial rate, for --free.", rich_help_panel=_MOTION)
+        float | None, typer.Option("--rate", help="Initial rate du/dT, for --free.", rich_help_panel=_MOTION)
     ] = None
     amplitude: Annotated[
         float | None,
-        typer.Option("--amplitude", help="Of --harmonic; 0.1 by default.", rich_help_panel=_MOTION),
+        typer.Option(
+            "--amplitude", help="Of --harmonic, over the static load; 0.1 by default.", rich_help_panel=_MOTION
+        ),
     ] = None
 
     def chosen(self) -> Motion:
@@ -108,11 +113,11 @@ class TimeOptions:
 
     until: Annotated[
         float | None,
-        typer.Option("--until", help="End; by default some periods.", rich_help_panel=_TIME),
+        typer.Option("--until", help="End in T, unit 2a/u_sum; by default some periods.", rich_help_panel=_TIME),
     ] = None
     dt: Annotated[
         float | None,
-        typer.Option("--dt", help="Step (1/80 period); with --error, the first.", rich_help_panel=_TIME),
+        typer.Option("--dt", help="Step in T (1/80 period); with --error, the first.", rich_help_panel=_TIME),
     ] = None
     error: Annotated[
         float | None,
@@ -191,16 +196,20 @@ def _draw(result: SimulationResult) -> Any:
 
 def _rows(result: SimulationResult) -> list[tuple[str, str, str]]:
     settings = [(k, v) for k, v in result.motion.to_dict().items() if isinstance(v, float | int)]
-    steps = f"to T = {result.T[-1]:.4g}, {result.cycles[1:].mean():.1f} cycles each" if result.steps else ""
+    steps = (
+        f"to T = {numeral(result.T[-1])} (unit 2a/u_sum), {result.cycles[1:].mean():.1f} cycles each"
+        if result.steps
+        else ""
+    )
     return [
         *o.point_rows(result.point),
-        ("motion", result.motion.kind, ", ".join(f"{k} {v:g}" for k, v in settings)),
+        ("motion", result.motion.kind, ", ".join(f"{k} {numeral(v)}" for k, v in settings) + "; dimensionless"),
         ("static approach", f"{result.static_approach:.5f}", "of the dry Hertz approach"),
-        ("approach", f"{result.approach.min():.4f} .. {result.approach.max():.4f}", ""),
+        ("approach", f"{result.approach.min():.4f} .. {result.approach.max():.4f}", "of the dry Hertz approach"),
         ("force", f"{result.force.min():.4f} .. {result.force.max():.4f}", "of the static load"),
-        ("minimum film", f"{result.h_min.min():.5f}", "of the dry Hertz approach"),
+        ("smallest film", f"{result.h_min.min():.5f}", "of the dry Hertz approach, anywhere and ever"),
         ("steps", f"{result.steps}", steps),
-        ("grid", f"{result.n}", f"on {o.domain_text(result.domain)}"),
-        ("time", f"{result.seconds:.1f}", "s"),
+        ("grid", f"n = {result.n}", f"on {o.domain_text(result.domain)}"),
+        ("computed in", f"{numeral(result.seconds, 3)} s", ""),
         ("status", str(result.status), ""),
     ]

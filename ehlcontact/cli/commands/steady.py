@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from ehlcontact.cli import options as o
+from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
 
@@ -53,9 +54,10 @@ def _rows(result: SteadyResult) -> list[tuple[str, str, str]]:
         ("central film", f"{result.h_central:.5f}", "of the dry Hertz approach"),
         ("minimum film", f"{result.h_min:.5f}", "of the dry Hertz approach"),
         ("maximum pressure", f"{result.p_max:.4f}", "of the Hertz pressure"),
-        ("residual", f"{result.residual:.1e}", "of the dry start's"),
-        ("load balance", f"{result.load_residual:.1e}", "of the load"),
-        ("cycles", f"{result.cycles}", f"n = {result.n} on {o.domain_text(result.domain)}"),
-        ("time", f"{result.seconds:.2f}", "s"),
+        ("residual", f"{result.residual:.1e}", "over the dry start's"),
+        ("load balance", f"{result.load_residual:.1e}", "over the load"),
+        ("cycles", f"{result.cycles}", ""),
+        ("grid", f"n = {result.n}", f"on {o.domain_text(result.domain)}"),
+        ("computed in", f"{numeral(result.seconds, 3)} s", ""),
         ("status", str(result.status), ""),
     ]

@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from ehlcontact.cli import options as o
+from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import STDOUT, check_json, say, show_table, write_json
 
 if TYPE_CHECKING:
@@ -50,33 +51,45 @@ def _show(found: Forecast, json_to: str | None) -> None:
     show_table(
         found.study.title,
         [
-            ("M, L, kappa", f"{p['M']:.4g}, {p['L']:.4g}, {p['kappa']:.4g}", "most loaded ball"),
-            ("load of that ball", f"{p['ball_load']:.4g} N", f"u_sum {p['u_sum']:.4g} m/s"),
-            ("Hertz pressure", f"{p['p_hertz'] * 1e-9:.3g} GPa", ""),
-            ("ellipse", f"{2e3 * p['a']:.3g} x {2e3 * p['b']:.3g} mm", "along rolling, across"),
-            ("dry approach", f"{p['length'] * 1e6:.4g} µm", f"time unit 2a/u_sum {p['time'] * 1e6:.4g} µs"),
-            ("central film", f"{p['h_central_expected'] * 1e6:.2g} µm", "by formula, incompressible"),
-            ("rotor", f"{found.study.bearing.speed_rpm:g} rpm", f"Omega = {p['rotor_omega']:.3g}"),
-            ("region", o.domain_text(domain), "Hertz semi-axes"),
+            ("M, L, kappa", ", ".join(numeral(p[key]) for key in ("M", "L", "kappa")), "most loaded ball"),
+            ("load of that ball", f"{numeral(p['ball_load'])} N", f"u_sum {numeral(p['u_sum'])} m/s"),
+            ("Hertz pressure", f"{numeral(p['p_hertz'] * 1e-9, 3)} GPa", ""),
+            (
+                "ellipse",
+                f"{numeral(2e3 * p['a'], 3)} x {numeral(2e3 * p['b'], 3)} mm",
+                "length along rolling, width across",
+            ),
+            (
+                "dry approach",
+                f"{numeral(p['length'] * 1e6)} µm",
+                f"time unit 2a/u_sum {numeral(p['time'] * 1e6)} µs",
+            ),
+            ("central film", f"{numeral(p['h_central_expected'] * 1e6, 2)} µm", "by formula, incompressible"),
+            (
+                "rotor",
+                f"{numeral(found.study.bearing.speed_rpm)} rpm",
+                f"Ω = ω 2a/u_sum = {numeral(p['rotor_omega'], 3)}",
+            ),
+            ("region", o.domain_text(domain), ""),
         ],
         json_to,
     )
     _show_stages(found)
     for warning in found.warnings:
         say(f"warning: {warning}")
-    say(f"whole study: about {_time(found.seconds)} with {found.jobs} side by side, good to a factor of two")
+    say(f"whole study: about {_time(found.seconds)}, {found.jobs} side by side; good to a factor of two")
 
 
 def _show_stages(found: Forecast) -> None:
     """One row per stage."""
     kappa = found.study.point.moes.kappa
     table = Table(pad_edge=False, box=None)
-    for column in ("stage", "n", "nodes", "steps", "of T", "estimate"):
+    for column in ("stage", "n", "nodes", "steps", "step in T", "wall time"):
         table.add_column(column, justify="left" if column == "stage" else "right")
     for plan in found.plans:
         nodes = f"{plan.mesh.nodes(kappa):.0f}" + (f" x {plan.contacts}" if plan.contacts > 1 else "")
         cost = "kept" if plan.kept else "unknown" if plan.seconds is None else _time(plan.seconds)
-        step = "" if plan.step is None else f"{plan.step:.3g}"
+        step = "" if plan.step is None else numeral(plan.step, 3)
         table.add_row(plan.stage.title, str(plan.mesh.n), nodes, str(plan.steps or ""), step, cost)
     Console().print(table)
 
@@ -84,6 +97,6 @@ def _show_stages(found: Forecast) -> None:
 def _time(seconds: float) -> str:
     """Seconds, minutes or hours, to two figures."""
     if seconds < 90.0:
-        return f"{seconds:.2g} s"
+        return f"{numeral(seconds, 2)} s"
     minutes = seconds / 60.0
-    return f"{minutes:.2g} min" if minutes < 90.0 else f"{minutes / 60.0:.2g} h"
+    return f"{numeral(minutes, 2)} min" if minutes < 90.0 else f"{numeral(minutes / 60.0, 2)} h"

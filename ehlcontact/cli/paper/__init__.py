@@ -1,15 +1,21 @@
 """``ehlcontact reproduce``: the tables and figures of Nonato and Cavalca (2010), ours beside theirs.
 
-===========  =========================================================================================
-module       responsibility
-===========  =========================================================================================
-``data``     what the paper printed: numbers of its tables, from the two CSV files here
-``runs``     its simulations, each kept in one file, so that an interrupted run resumes
-``fits``     records and elements of the cases, and reduced models integrated over them
-``tables``   Tables 1 to 6
-``figures``  what each figure needs, shows and says; drawn by ``cli/plots``
-``page``     one HTML page and one JSON document
-===========  =========================================================================================
+============  ========================================================================================
+module        responsibility
+============  ========================================================================================
+``data``      what the paper printed: numbers of its tables and text, from the CSV files here
+``runs``      its simulations, each kept in one file, so that an interrupted run resumes
+``fits``      records and elements of the cases, and reduced models integrated over them
+``order``     whether grids show the order in the mesh, and the limit that follows
+``table``     what a table is, and which simulations each takes
+``linear``    Tables 1 and 4
+``removal``   Table 2
+``cubic``     Tables 3, 5 and 6
+``tables``    any of them by its number
+``drawings``  what figures draw and tell
+``figures``   what each figure needs, shows and says; drawn by ``cli/plots``
+``page``      one HTML page and one JSON document
+============  ========================================================================================
 
 Figures 1 (a sketch) and 3 (a measurement) hold no result of the paper.
 """

@@ -1,4 +1,4 @@
-"""What the paper printed in its tables, as data.
+"""What the paper printed in its tables and gives as numbers in its text, as data.
 
 F. Nonato, K. L. Cavalca: On the non-linear dynamic behavior of elastohydrodynamic lubricated point contact.
 Journal of Sound and Vibration 329 (2010) 4656-4671. Numbers only; everything is dimensionless.
@@ -12,14 +12,16 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from reduced_models import CubicContact
+from reduced_models import CubicContact, LinearContact
 
+ViscousElement = LinearContact | CubicContact
 CITATION = (
     "F. Nonato, K. L. Cavalca: On the non-linear dynamic behavior of elastohydrodynamic lubricated point contact. "
     "Journal of Sound and Vibration 329 (2010) 4656-4671."
 )
 # Around the static approach: what a tenth of force makes of it. Only the root and the tangent are read off.
 AROUND_STATIC = (0.78, 0.96)
+FIRST_VALLEY = 1.0  # T close to which section 4 sees the first valley of the central film in Fig. 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,12 +36,20 @@ class PaperFit:
     C1: float
     e_f: float | None
     e_second: float | None
+    last_digit: float  # of K1, K2 and K3 as printed
 
     @property
     def cubic(self) -> CubicContact:
-        """The element of a row of Tables 3, 5 and 6."""
-        assert self.K2 is not None and self.K3 is not None
-        return CubicContact(self.K1, self.K2, self.K3, self.C1, *AROUND_STATIC)
+        """The element of a row of Tables 3, 5 and 6, to read off root and tangent."""
+        found = self.element(*AROUND_STATIC)
+        assert isinstance(found, CubicContact)
+        return found
+
+    def element(self, low: float, high: float) -> ViscousElement:
+        """The element of the row, its polynomial as printed from `low` to `high`."""
+        if self.K2 is None or self.K3 is None:
+            return LinearContact(self.K1, self.C1, low, high)
+        return CubicContact(self.K1, self.K2, self.K3, self.C1, low, high)
 
     @property
     def root(self) -> float:
@@ -50,6 +60,12 @@ class PaperFit:
     def tangent(self) -> float:
         """Stiffness there."""
         return self.cubic.stiffness(self.root, 0.0)
+
+    @property
+    def rounding(self) -> tuple[float, float]:
+        """What half a last digit of each coefficient can do to the root, and to the tangent at a fixed root."""
+        u, half = self.root, 0.5 * self.last_digit
+        return half * (u + u**2 + u**3) / self.tangent, half * (1.0 + 2.0 * u + 3.0 * u**2)
 
 
 def _number(text: str) -> float | None:
@@ -64,7 +80,8 @@ def paper_fits() -> dict[tuple[int, str], PaperFit]:
         numbers: dict[str, Any] = {
             name: _number(row[name]) for name in ("K1", "K2", "K3", "C1", "e_f", "e_second")
         }
-        fitted = PaperFit(table=int(row["table"]), case=row["case"], **numbers)
+        printed = max(len(row[name].partition(".")[2]) for name in ("K1", "K2", "K3"))
+        fitted = PaperFit(table=int(row["table"]), case=row["case"], last_digit=10.0**-printed, **numbers)
         found[fitted.table, fitted.case] = fitted
     return found
 
@@ -76,6 +93,12 @@ def paper_sensitivity() -> dict[str | None, tuple[float, float]]:
         None if row["removed"] == "none" else row["removed"]: (float(row["e_f"]), float(row["e_acc"]))
         for row in _rows("paper_sensitivity.csv")
     }
+
+
+@cache
+def paper_films() -> dict[str, float]:
+    """Minimum over central film at rest at the point of the load ramp (section 3), computed and measured."""
+    return {row["source"]: float(row["h_min_um"]) / float(row["h_central_um"]) for row in _rows("paper_films.csv")}
 
 
 def _rows(name: str) -> list[dict[str, str]]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ehlcontact.cli.paper.data import ViscousElement, paper_fits
 from ehlcontact.cli.paper.runs import Runs
 from ehlcontact.errors import InputError
 from reduced_models import (
@@ -21,7 +22,9 @@ from reduced_models import (
     sensitivity,
     simulate_oscillator,
 )
+from reduced_models.fitting.result import rms_error
 
+BEYOND = 0.25  # of the range of a motion that an element of the paper reaches beyond it on either side
 PAPER_METHOD, STIFF_METHOD = "RK23", "Radau"  # Bogacki and Shampine as in the paper, and a stiff integrator
 
 
@@ -41,9 +44,9 @@ class Fits:
         found = self._fitted(case, model, self.runs.n if n is None else n, whole)
         return found if isinstance(found, FitResult) else None
 
-    def refusal(self, case: str, model: str, whole: bool = False) -> str | None:
+    def refusal(self, case: str, model: str = "cubic", whole: bool = False, n: int | None = None) -> str | None:
         """Why there is no fit."""
-        found = self._fitted(case, model, self.runs.n, whole)
+        found = self._fitted(case, model, self.runs.n if n is None else n, whole)
         return found if isinstance(found, str) else None
 
     def _fitted(self, case: str, model: str, n: int, whole: bool) -> ElementFit | str:
@@ -61,6 +64,18 @@ class Fits:
             return fit(record, model, span)
         except InputError as error:
             return str(error)
+
+    def theirs(self, table: int, case: str, motion: str | None = None) -> ViscousElement:
+        """The paper's element of a case, its polynomial as printed wherever a motion goes; by default its own."""
+        seen = self.record(case if motion is None else motion).approach
+        room = BEYOND * float(np.ptp(seen))
+        return paper_fits()[table, case].element(float(seen.min()) - room, float(seen.max()) + room)
+
+    def rms(self, element: ViscousElement, case: str) -> float:
+        """RMS of the force error over the standard deviation of the force, where the case is fitted."""
+        record = self.record(case)
+        cut = record.window(*record.default_window)
+        return rms_error(cut.force, np.asarray(element.force(cut.approach, cut.rate)))
 
     def sensitivity(self, case: str) -> Sensitivity | None:
         """Table 2 of the case."""

@@ -12,9 +12,18 @@ from ehlcontact.cli.page import write_page
 from ehlcontact.cli.paper.data import CITATION
 from ehlcontact.cli.paper.figures import ELEMENTS_OF, FIGURES, PaperFigure
 from ehlcontact.cli.paper.fits import Fits
-from ehlcontact.cli.paper.runs import compute
-from ehlcontact.cli.paper.tables import EXTRAPOLATED, TABLE_CASES, Table, make_table
+from ehlcontact.cli.paper.runs import POINT, VALIDATION_POINT, compute
+from ehlcontact.cli.paper.table import EXTRAPOLATED, TABLE_CASES, Table
+from ehlcontact.cli.paper.tables import make_table
 from ehlcontact.origin import __version__
+
+LABELS = {
+    "force_rms": "rms of force error / std of force",
+    "approach_rms": "rms of approach error / std of approach",
+    "rk23_against_radau": "rms of RK2(3) less Radau / std of approach",
+    "rk23_evaluations": "evaluations of RK2(3)",
+    "radau_evaluations": "of Radau",
+}
 
 
 @dataclass(frozen=True)
@@ -34,16 +43,20 @@ class Reproduction:
 
     def to_dict(self) -> dict[str, Any]:
         """All numbers, ready for JSON."""
-        coarse, n = self.fits.runs.levels
+        runs = self.fits.runs
         return {
             "status": "not converged" if self.failed else "converged",
             "paper": CITATION,
             "version": __version__,
-            "n": n,
-            "n_coarse": coarse,
+            "n": runs.n,
+            "coarser": {f"case {case}, n = {n}": why for (case, n), why in runs.without.items()},
             "tables": {str(table.number): table.to_dict() for table in self.tables},
             "figures": {
-                str(figure.number): {"caption": figure.caption, "numbers": self.numbers[figure.number]}
+                str(figure.number): {
+                    "caption": figure.caption,
+                    "paper": figure.theirs,
+                    "numbers": self.numbers[figure.number],
+                }
                 for figure in self.figures
             },
             "missing_figures": {str(number): why for number, why in self.missing.items()},
@@ -84,5 +97,9 @@ def write_reproduction(found: Reproduction, path: Path) -> Path:
         found=found,
         citation=CITATION,
         version=__version__,
-        levels=found.fits.runs.levels,
+        runs=found.fits.runs,
+        ramp=VALIDATION_POINT,
+        point=POINT,
+        compared=[table.number for table in found.tables if table.number in EXTRAPOLATED],
+        labels=LABELS,
     )

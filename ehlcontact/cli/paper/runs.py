@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import pi
 from pathlib import Path
 from typing import TypeVar
 
+from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint
 from ehlcontact.results import SteadyResult
-from ehlcontact.solver.domain import Domain
+from ehlcontact.solver.domain import Domain, check_intervals
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.storage import load, save
@@ -49,20 +50,20 @@ class Case:
 CASES = {
     case.name: case
     for case in (
-        Case("1", "free vibration, Omega_n = 10.26", FreeVibration(10.26)),
+        Case("1", "free vibration, Ω_n = 10.26", FreeVibration(10.26)),
         Case(
             "2",
-            "free vibration, Omega_n = 5.13",
+            "free vibration, Ω_n = 5.13",
             FreeVibration(5.13),
             snapshots=tuple(0.25 * k for k in range(8)),
         ),
-        Case("3", "free vibration, Omega_n = 2.56", FreeVibration(2.56)),
-        Case("4", "harmonic load, Omega = pi", HarmonicLoad(pi)),
-        Case("5", "harmonic load, Omega = 2 pi", HarmonicLoad(2.0 * pi), snapshots=(0.0, 0.5, 1.0, 2.0)),
-        Case("6", "harmonic load, Omega = 4 pi", HarmonicLoad(4.0 * pi)),
+        Case("3", "free vibration, Ω_n = 2.56", FreeVibration(2.56)),
+        Case("4", "harmonic load, Ω = π", HarmonicLoad(pi)),
+        Case("5", "harmonic load, Ω = 2π", HarmonicLoad(2.0 * pi), snapshots=(0.0, 0.5, 1.0, 2.0)),
+        Case("6", "harmonic load, Ω = 4π", HarmonicLoad(4.0 * pi)),
         Case(
             "validation",
-            "load ramp, Omega_n = 2.4",
+            "load ramp, Ω_n = 2.4",
             RampLoad(3.67, 1.69, 2.4),
             VALIDATION_POINT,
             Domain(-5.0, 3.0, 4.0),
@@ -84,14 +85,15 @@ class Runs:
     cases: dict[tuple[str, int], SimulationResult] = field(default_factory=dict)
     static: dict[tuple[float, float], SteadyResult] = field(default_factory=dict)  # by (M, L)
     failed: dict[str, str] = field(default_factory=dict)
+    without: dict[tuple[str, int], str] = field(default_factory=dict)  # cases missing on coarser grids, and why
 
     @property
-    def levels(self) -> tuple[int, int]:
-        """Intervals of the coarser and of the finer grid; both give the extrapolated values."""
-        return self.n // 2, self.n
+    def levels(self) -> tuple[int, int, int]:
+        """Intervals of three grids, coarse to fine: the two coarser ones only show the order in the mesh."""
+        return self.n // 4, self.n // 2, self.n
 
 
-def compute(folder: Path, n: int, names: Iterable[str], coarse: Iterable[str], static: bool) -> Runs:
+def compute(folder: Path, n: int, names: Sequence[str], coarse: Sequence[str], static: bool) -> Runs:
     """Compute what is not in the folder yet.
 
     Parameters
@@ -100,8 +102,8 @@ def compute(folder: Path, n: int, names: Iterable[str], coarse: Iterable[str], s
         Of the files.
     n : int
         Intervals along X.
-    names, coarse : iterable of str
-        Cases wanted on n intervals, and those also wanted on n/2.
+    names, coarse : sequence of str
+        Cases wanted on n intervals, and those also wanted on n/2 and n/4, as far as these are grids.
     static : bool
         Whether the steady solves of Fig. 2 are wanted.
 
@@ -111,7 +113,13 @@ def compute(folder: Path, n: int, names: Iterable[str], coarse: Iterable[str], s
         After Ctrl-C; what was finished is in the folder.
     """
     runs = Runs(n)
-    wanted = [(CASES[name], n) for name in names] + [(CASES[name], n // 2) for name in coarse]
+    wanted = [(CASES[name], n) for name in names]
+    for level in runs.levels[:-1]:
+        cases = [CASES[name] for name in coarse]
+        if _is_grid(level):
+            wanted += [(case, level) for case in cases]
+        else:
+            runs.without |= {(case.name, level): "no grid" for case in cases}
     points = [MoesPoint(M, L, 1.0) for L in STATIC_OILS for M in STATIC_LOADS] if static else []
     todo = len(wanted) + len(points)
     for k, (case, level) in enumerate(wanted, start=1):
@@ -119,9 +127,12 @@ def compute(folder: Path, n: int, names: Iterable[str], coarse: Iterable[str], s
         result = _simulated(folder / case.file(level), case, level, label)
         if result.status.ok:
             runs.cases[case.name, level] = result
-        else:
-            at = f"{result.status} at T = {float(result.T[-1]):.4g}" if result.T.size else str(result.status)
+            continue
+        at = f"{result.status} at T = {numeral(result.T[-1])}" if result.T.size else str(result.status)
+        if level == n:
             runs.failed[f"case {case.name}, n = {level}"] = f"{at}: {result.status.advice}"
+        else:
+            runs.without[case.name, level] = at
     for k, point in enumerate(points, start=len(wanted) + 1):
         steady = _solved(folder, point, n, f"{k} of {todo}: steady film, M = {point.M:g}, L = {point.L:g}", runs)
         if steady is not None:
@@ -149,6 +160,14 @@ def _simulated(path: Path, case: Case, n: int, label: str) -> SimulationResult:
     if result.status.ok:
         save(result, path)
     return result
+
+
+def _is_grid(n: int) -> bool:
+    try:
+        check_intervals(n)
+    except InputError:
+        return False
+    return True
 
 
 def _until(case: Case) -> Sequence[float]:

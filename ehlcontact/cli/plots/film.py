@@ -8,11 +8,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.plots.fringes import REFRACTIVE_INDEX, one_light
-from ehlcontact.cli.plots.maps import VIEW, draw_ellipse, draw_map, refined
+from ehlcontact.cli.plots.maps import VIEW, draw_ellipse, draw_map, refined, scale_note
 from ehlcontact.cli.plots.style import BLUE, GREY, ORANGE, RED, legend_above, new_figure
 from ehlcontact.cli.plots.units import units_of
 from ehlcontact.film import Film, Profile, film_of
+from ehlcontact.point import moes_point
 from ehlcontact.results import SteadyResult
 
 WAVELENGTH = 600e-9  # m, of the fringes beside the maps
@@ -23,23 +25,25 @@ def steady_figure(result: SteadyResult) -> Figure:
     """Pressure, film, fringes where there are scales, and both mid-planes: the figure of ``steady --figure``."""
     film = film_of(result)
     seen, si, units = refined(film), film.scales is not None, units_of(film.scales)
+    kappa = moes_point(result.point).kappa
     figure = new_figure(6.8, 10.5)
     parts: Any = figure.subfigures(2, 1, height_ratios=(1.25, 1.0))
     maps, profiles = parts
     panels = maps.subplots(1, 3 if si else 2, sharey=True)
     maps.colorbar(
-        _pressure(panels[0], seen), ax=panels[0], label=units_of(film.scales).pressure.label, location="top"
+        _pressure(panels[0], seen, kappa), ax=panels[0], label=units_of(film.scales).pressure.label, location="top"
     )
-    shown = _film(panels[1], seen, 2.0 * result.h_central)
+    shown = _film(panels[1], seen, kappa, 2.0 * result.h_central)
     maps.colorbar(shown, ax=panels[1], label=units.film.label, location="top", extend="max")
     if si:
-        shown = draw_map(panels[2], seen, one_light(seen, WAVELENGTH), cmap="gray", vmin=0.0, vmax=1.0)
+        shown = draw_map(panels[2], seen, one_light(seen, WAVELENGTH), kappa, cmap="gray", vmin=0.0, vmax=1.0)
         label = f"fringes at {WAVELENGTH * 1e9:.0f} nm, oil of index {REFRACTIVE_INDEX}"
         maps.colorbar(shown, ax=panels[2], label=label, location="top")
     for panel, colour in zip(panels, ("white", "white", RED), strict=False):
         draw_ellipse(panel, film, colour)
     for panel in panels[1:]:
         panel.set_ylabel("")
+    maps.suptitle(scale_note(seen, kappa), fontsize=10, color=GREY)
     _midplanes(profiles.subplots(1, 2), film, (-VIEW[2], VIEW[2]))
     return figure
 
@@ -47,11 +51,11 @@ def steady_figure(result: SteadyResult) -> Figure:
 def film_maps(result: SteadyResult) -> Figure:
     """Pressure and film over the contact, the surfaces moving upwards."""
     film = refined(film_of(result))
-    units = units_of(film.scales)
-    figure = new_figure(5.6)
+    units, kappa = units_of(film.scales), moes_point(result.point).kappa
+    figure = new_figure(5.8)
     upper, lower = figure.subplots(2, 1, sharex=True)
-    figure.colorbar(_pressure(upper, film, upwards=True), ax=upper, label=units.pressure.label, pad=0.01)
-    shown = _film(lower, film, 1.8 * result.h_central, upwards=True)
+    figure.colorbar(_pressure(upper, film, kappa, upwards=True), ax=upper, label=units.pressure.label, pad=0.01)
+    shown = _film(lower, film, kappa, 1.8 * result.h_central, upwards=True)
     figure.colorbar(shown, ax=lower, label=units.film.label, pad=0.01, extend="max")
     lower.contour(
         units.y(film.Y), units.x(film.X), film.H, CONTOURS * result.h_central, colors="white", linewidths=0.6
@@ -59,7 +63,8 @@ def film_maps(result: SteadyResult) -> Figure:
     for axes in (upper, lower):
         draw_ellipse(axes, film, "white", upwards=True)
     upper.set(title="pressure; the surfaces move upwards, dashed: Hertz ellipse", xlabel="")
-    lower.set_title("film; lines at 0.92, 1.08, 1.3 and 1.8 of the central film")
+    lower.set_title(f"film; lines at {', '.join(numeral(level) for level in CONTOURS)} of the central film")
+    figure.suptitle(scale_note(film, kappa, upwards=True), fontsize=10, color=GREY)
     return figure
 
 
@@ -77,24 +82,28 @@ def convergence(result: SteadyResult) -> Figure:
     cycles = np.arange(len(result.residuals))
     floor = 1e-17
     axes.semilogy(
-        cycles, result.residuals / result.dry_residual, "o-", color=BLUE, label="Reynolds, of the dry start's"
+        cycles, result.residuals / result.dry_residual, "o-", color=BLUE, label="Reynolds, over the dry start's"
     )
-    axes.semilogy(cycles, np.abs(result.load_residuals) + floor, "s-", color=ORANGE, label="load balance")
-    axes.semilogy(cycles[1:], result.approach_changes + floor, "^-", color=GREY, label="change of approach")
+    axes.semilogy(
+        cycles, np.abs(result.load_residuals) + floor, "s-", color=ORANGE, label="load balance, over the load"
+    )
+    axes.semilogy(
+        cycles[1:], result.approach_changes + floor, "^-", color=GREY, label="change of approach, over the dry one"
+    )
     axes.set(xlabel="V(2,1) cycle on the finest grid", ylabel="residual [-]", xlim=(0, None))
     axes.legend()
     return figure
 
 
-def _pressure(axes: Axes, film: Film, *, upwards: bool = False) -> Any:
+def _pressure(axes: Axes, film: Film, kappa: float, *, upwards: bool = False) -> Any:
     values = units_of(film.scales).pressure(np.maximum(film.P, 0.0))  # the spline may swing below zero
-    return draw_map(axes, film, values, upwards=upwards, cmap="inferno", vmin=0.0)
+    return draw_map(axes, film, values, kappa, upwards=upwards, cmap="inferno", vmin=0.0)
 
 
-def _film(axes: Axes, film: Film, thickest: float, *, upwards: bool = False) -> Any:
+def _film(axes: Axes, film: Film, kappa: float, thickest: float, *, upwards: bool = False) -> Any:
     unit = units_of(film.scales).film
     limits = {"vmin": unit(float(film.H.min())), "vmax": unit(thickest)}
-    return draw_map(axes, film, unit(film.H), upwards=upwards, cmap="viridis", **limits)
+    return draw_map(axes, film, unit(film.H), kappa, upwards=upwards, cmap="viridis", **limits)
 
 
 def _midplanes(panels: Any, film: Film, across: tuple[float, float]) -> None:

@@ -6,9 +6,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ehlcontact.cli.plots.maps import draw_ellipse, draw_map, refined
-from ehlcontact.cli.plots.style import new_figure
+from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.plots.maps import draw_ellipse, draw_map, refined, scale_note
+from ehlcontact.cli.plots.style import GREY, new_figure
 from ehlcontact.film import Film, Interferogram, film_of, interferogram
+from ehlcontact.point import moes_point
 from ehlcontact.results import SteadyResult
 from ehlcontact.transient.result import SimulationResult
 
@@ -45,11 +47,13 @@ def three_lights(result: SteadyResult) -> Figure:
     channels = [
         brightness(interferogram(film, light, REFRACTIVE_INDEX, np.pi), film.h / COHERENCE) for light in LIGHTS
     ]
-    figure = new_figure(3.0)
+    kappa = moes_point(result.point).kappa
+    figure = new_figure(3.5)
     axes = figure.subplots()
-    draw_map(axes, film, np.stack(channels, axis=-1), upwards=True)
+    draw_map(axes, film, np.stack(channels, axis=-1), kappa, upwards=True)
     draw_ellipse(axes, film, "white", upwards=True)
     axes.set_title(f"pseudo-interferogram: red, green and blue light, oil of index {REFRACTIVE_INDEX}")
+    figure.suptitle(scale_note(film, kappa, upwards=True), fontsize=10, color=GREY)
     return figure
 
 
@@ -58,17 +62,19 @@ def snapshots(run: SimulationResult) -> Figure:
     count = run.snapshot_T.size
     columns = min(count, 4)
     rows = -(-count // columns)
-    figure = new_figure(2.5 * rows + 0.3)
+    kappa, growth = moes_point(run.point).kappa, max(1.0, float(run.load.max())) ** (1.0 / 3.0)
+    figure = new_figure(2.35 * rows + 0.55)
     panels = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True).ravel()
     for axes, T in zip(panels, run.snapshot_T, strict=False):
-        film = refined(film_of(run, float(T)))
+        film = refined(film_of(run, float(T)), growth)
         depth = film.H / run.h_central[0]
         order = FRINGES_AT_REST * depth
         fringes = Interferogram(0.5 * (1.0 + np.cos(2.0 * np.pi * order)), order)
-        draw_map(axes, film, brightness(fringes, depth / FADING), cmap="gray", vmin=0.0, vmax=1.0)
-        axes.set(title=f"T = {T:.2f}", xlabel="", ylabel="")
+        draw_map(axes, film, brightness(fringes, depth / FADING), kappa, cmap="gray", vmin=0.0, vmax=1.0)
+        axes.set(title=f"T = {numeral(T)}", xlabel="", ylabel="")
     for axes in panels[count:]:
         axes.set_visible(False)
+    figure.suptitle(scale_note(film, kappa), fontsize=10, color=GREY)
     figure.supxlabel("X = x/a (surfaces move to the right)", fontsize=10)
     figure.supylabel("Y = y/b", fontsize=10)
     return figure

@@ -131,7 +131,7 @@ def _wave(axes: Axes, run: SimulationResult) -> None:
     for start in np.arange(0.0, wave.T[-1], 2.0):
         axes.plot([start, start + 2.0], [-1.0, 1.0], "--", color="black", linewidth=0.8)
     axes.set(xlim=(T[0], T[-1]), ylim=(X[0], X[-1]))
-    axes.set(xlabel="time T [2a/u_sum]", ylabel="place X = x/a")
+    axes.set(xlabel="time T = u_sum t/(2a)", ylabel="place X = x/a")
     axes.grid(False)
 
 

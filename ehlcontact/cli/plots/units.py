@@ -49,8 +49,8 @@ def units_of(scales: Scales | None) -> Units:
         x=Quantity(scales.a * 1e3, "x along rolling [mm]"),
         y=Quantity(scales.b * 1e3, "y across [mm]"),
         time=Quantity(scales.time * 1e3, "time [ms]"),
-        approach=Quantity(scales.length * 1e6, "approach [um]"),
-        film=Quantity(scales.length * 1e6, "film [um]"),
+        approach=Quantity(scales.length * 1e6, "approach [µm]"),
+        film=Quantity(scales.length * 1e6, "film [µm]"),
         force=Quantity(scales.force, "force [N]"),
         pressure=Quantity(scales.pressure * 1e-9, "pressure [GPa]"),
     )

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.cli.page import significant
 from ehlcontact.cli.plots.rotor import DRAWN, LOOKS, MICRO, Names
-from ehlcontact.cli.plots.style import GREY, legend_above, new_figure
+from ehlcontact.cli.plots.style import legend_above, new_figure
 from reduced_models import Decrement, RotorResult
 
 DIRECTIONS = {"x": "horizontal", "y": "vertical"}
@@ -42,24 +42,24 @@ def decay(runs: Mapping[str, RotorResult], decrements: Mapping[str, Decrement], 
 def bode(
     hz: NDArray[np.float64],
     curves: Mapping[str, Mapping[str, NDArray[np.complex128]]],
-    speed_hz: float,
+    spans: Mapping[str, tuple[float, float]],
     names: Names,
 ) -> Figure:
-    """Amplification and phase of the disc under unbalance over frequency, by direction."""
+    """Amplification and phase of the disc under unbalance, by direction, each over its span of frequency [Hz]."""
     figure = new_figure(5.8)
-    panels: Any = figure.subplots(2, len(curves), squeeze=False, sharex=True, height_ratios=(3, 2))
+    panels: Any = figure.subplots(2, len(curves), squeeze=False, sharex="col", height_ratios=(3, 2))
     for column, (direction, found) in enumerate(curves.items()):
         upper, lower = panels[:, column]
-        for name, curve in found.items():
-            upper.semilogy(hz, np.abs(curve), **LOOKS[name], label=names[name])
+        low, high = spans[direction]
+        shown = (hz >= low) & (hz <= high)
+        for name, whole in found.items():
+            curve = whole[shown]
+            upper.semilogy(hz[shown], np.abs(curve), **LOOKS[name], label=names[name])
             # behind the force of the unbalance, which in y comes a quarter of a turn after that in x
             behind = np.angle(curve * (1j if direction == "y" else 1.0), deg=True)
-            lower.plot(hz, np.where(behind > 90.0, behind - 360.0, behind), **LOOKS[name])
-        for axes in (upper, lower):
-            if hz[0] <= speed_hz <= hz[-1]:
-                axes.axvline(speed_hz, color=GREY, linestyle=":")
+            lower.plot(hz[shown], np.where(behind > 90.0, behind - 360.0, behind), **LOOKS[name])
         upper.set_title(f"disc, {DIRECTIONS[direction]}")
-        lower.set(xlabel="frequency of the unbalance [Hz]", xlim=(hz[0], hz[-1]))
+        lower.set(xlabel="frequency of the unbalance [Hz]", xlim=(low, high))
         lower.set_yticks([0, -90, -180, -270])
     panels[0, 0].set_ylabel("displacement/eccentricity [-]")
     panels[1, 0].set_ylabel("phase [deg]")

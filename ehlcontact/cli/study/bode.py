@@ -14,9 +14,10 @@ from ehlcontact.cli.study.response import VERTICAL
 from reduced_models import LinearRotor, RotorMode
 
 SPAN = (0.3, 1.7)  # of the slowest resonance, and of the fastest shown, at the ends of the frequencies
+SHOWN = (0.75, 1.25)  # likewise, of what a picture shows
 POINTS = 300  # evenly on the logarithm, beside those near resonances
-# Round every resonance, in half widths of its peak, evenly on the area hyperbolic sine.
-NEAR, NEAR_POINTS = 50.0, 81
+# Round every resonance: how far, in half widths of its peak, and points, evenly on the area hyperbolic sine.
+NEAR = (50.0, 81)
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,16 @@ class Bode:
     hz: NDArray[np.float64]
     curves: Mapping[str, Mapping[str, NDArray[np.complex128]]]  # over the eccentricity, unbalance/disc mass
     peaks: Mapping[str, Mapping[str, Resonance]]
+
+    @property
+    def spans(self) -> dict[str, tuple[float, float]]:
+        """Frequencies worth showing of every direction [Hz]: round its resonances, or all where it has none."""
+        found = {}
+        for direction in self.curves:
+            at = [peak.hz for peak in self.peaks[direction].values()]
+            around = (SHOWN[0] * min(at), SHOWN[1] * max(at)) if at else (float(self.hz[0]), float(self.hz[-1]))
+            found[direction] = around
+        return found
 
     def to_dict(self) -> dict[str, Any]:
         """The peaks."""
@@ -77,7 +88,7 @@ def _slowest(linear: LinearRotor) -> dict[str, RotorMode]:
 def _frequencies(modes: list[RotorMode]) -> NDArray[np.float64]:
     centres = [mode.hz for mode in modes]
     parts = [np.geomspace(SPAN[0] * min(centres), SPAN[1] * max(centres), POINTS)]
-    spread = np.sinh(np.linspace(-np.arcsinh(NEAR), np.arcsinh(NEAR), NEAR_POINTS))
+    spread = np.sinh(np.linspace(-np.arcsinh(NEAR[0]), np.arcsinh(NEAR[0]), NEAR[1]))
     for mode in modes:
         half_width = abs(mode.eigenvalue.real) / (2.0 * pi)
         parts.append(mode.hz + half_width * spread)

@@ -22,16 +22,16 @@ from ehlcontact.solver.mesh import FINENESS, LARGEST_MESH, Mesh, Purpose, defaul
 # mean of the two studies in examples/, whose own costs are up to a factor 1.5 on either side. What a step costs
 # depends on how far it goes: hardly a cycle in a free vibration, three at the rotor's frequency.
 COST = {
-    "free": 0.35,
-    "harmonic": 0.76,
-    "rotor_band": 1.05,
-    "rotor_full": 1.05,
-    "rotor_half_step": 0.71,
-    "decay": 0.5,
-    "decay_half_step": 0.4,
+    "free": 0.59,
+    "harmonic": 0.91,
+    "rotor_band": 1.03,
+    "rotor_full": 1.90,
+    "rotor_half_step": 1.16,
+    "decay": 1.67,
+    "decay_half_step": 0.70,
 }
-STEADY_COST = 8.0  # likewise per thousand nodes, of a whole steady solve
-CONV = 4.2e-3  # seconds of one when those studies were run
+STEADY_COST = 3.5  # likewise per thousand nodes, of a whole steady solve
+CONV = 2.3e-3  # seconds of one when those studies were run
 REST = 10.0 / CONV  # fits, impedance, FMU, reduced rotors and report, of either study
 REFERENCE_RUNS = 15  # convolutions timed, of which the fastest counts
 # What too coarse a mesh does, measured against finer grids: the 6205 at n = 64, and solver/mesh.py.

@@ -58,5 +58,5 @@ def drawings(found: Findings) -> dict[str, Callable[[], Figure]]:
         "response": lambda: rotor.response(turning, how, CONTACTS),
         "spectrum": lambda: rotor.spectrum(turning, how, CONTACTS),
         "decay": lambda: vibration.decay(rotors.decay.runs, rotors.decay.decrements, CONTACTS),
-        "bode": lambda: vibration.bode(rotors.bode.hz, rotors.bode.curves, found.study.rotor_hz, CONTACTS),
+        "bode": lambda: vibration.bode(rotors.bode.hz, rotors.bode.curves, rotors.bode.spans, CONTACTS),
     }

@@ -16,7 +16,6 @@ from reduced_models.fitting.memory import OMEGAS
 from reduced_models.rotor.linear import Impedance
 
 BELOW = 0.5  # of the rotor's frequency: the lowest one solved, but for rest
-PER_DECADE = 7  # frequencies from there to the lowest that a film memory is fitted at, as close as those
 VERTICAL = 0.5  # share of the motion of a mode from which it counts as vertical
 
 
@@ -29,11 +28,11 @@ def film_response(study: Study) -> ImpedanceResult:
 
 
 def frequencies(study: Study) -> list[float]:
-    """Dimensionless angular frequencies of `film_response`."""
+    """Dimensionless angular frequencies of `film_response`: below those of a film memory as close as they are."""
     own, lowest = study.rotor_omega, OMEGAS[1]
     start = BELOW * own
     decades = np.log10(lowest / start) if start < lowest else 0.0
-    below = np.geomspace(start, lowest, 1 + int(np.ceil(PER_DECADE * decades)))[:-1].tolist() if decades else []
+    below = np.geomspace(start, lowest, 1 + int(np.ceil(7.0 * decades)))[:-1].tolist() if decades else []
     return sorted({*OMEGAS, *below, own})
 
 

@@ -34,14 +34,13 @@ from reduced_models.rotor.settled import end_of
 
 HISTORIES = tuple(f.name for f in fields(RotorResult) if f.name not in ("status", "rotor"))
 FORMAT = 1  # of the file of a run
-# Of the force balance on full films: at a third of it they take 2 to 3 solves per step in place of 2, and at ten times
-# as much the journal's velocity under a light unbalance shows it.
+# Of the force balance on full films: at a third of it they take 2 to 3 solves per step in place of 2, and at ten
+# times as much the journal's velocity under a light unbalance shows it.
 TOLERANCE = 1e-6
 EXACT = 1e-9  # likewise on elements, which cost nothing
-# Before a run the film is led along the motion it starts on, for so many times that it takes to cross the contact,
-# and so many steps at least.
-LED_TRANSITS, LED_STEPS = 4.0, 3
-TRANSIT = 2.0  # of the film through the contact, in its unit of time
+# Before a run the film is led along the motion it starts on: so long, in its unit of time, of which it takes 2 to
+# cross the contact; and so many steps at least.
+LED = (8.0, 3)
 
 
 def build_rotor(study: Study, *, unbalance: bool = True) -> JeffcottRotor:
@@ -146,7 +145,7 @@ def _settled(
 def _lead(contacts: list[ScaledContact], orbit: RotorResult, film_time: float) -> None:
     """Move every film along the end of an orbit, so that it has the past that belongs to where it starts."""
     dt = float(orbit.t[1] - orbit.t[0])
-    steps = max(LED_STEPS, ceil(LED_TRANSITS * TRANSIT * film_time / dt))
+    steps = max(LED[1], ceil(LED[0] * film_time / dt))
     for i, contact in enumerate(contacts):
         for u, v in zip(orbit.approach[-steps:, i], orbit.rate[-steps:, i], strict=True):
             contact.advance(dt, float(u), float(v))

@@ -32,10 +32,13 @@ def test_figures_follow_their_definitions(run):
     signal = result.signals["force_1"]
     assert signal.rms == pytest.approx(3.0) and signal.maximum == pytest.approx(3.0)
     assert signal.amplitude == pytest.approx(np.ptp(force) / 2) and signal.std == pytest.approx(np.std(force))
-    assert result.force == pytest.approx(3.0 / signal.amplitude)
+    assert signal.offset == pytest.approx(3.0) and signal.vibration_over_std == pytest.approx(0.0, abs=1e-9)
+    assert result.force == pytest.approx(3.0 / np.std(force))
+    assert result.force_vibration == pytest.approx(0.0, abs=1e-9)
     assert signal.rms_over_std == pytest.approx(3.0 / np.std(force))
     journal = run.journal[kept, 1]
-    assert result.displacement == pytest.approx(np.sqrt(np.mean((0.01 * journal) ** 2)) / (np.ptp(journal) / 2))
+    assert result.displacement == pytest.approx(np.sqrt(np.mean((0.01 * journal) ** 2)) / np.std(journal))
+    assert result.displacement_vibration == pytest.approx(0.01)
     assert result.samples == np.count_nonzero(kept) and result.t_start == pytest.approx(0.005)
     document = json.loads(json.dumps(result.to_dict()))
     assert set(document["signals"]) == {
