@@ -38,7 +38,7 @@ def complain(text: str) -> None:
 def say(text: str, json_to: str | None = None) -> None:
     """Say one line on stdout, unless JSON goes there."""
     if json_to != STDOUT:
-        typer.echo(text)
+        typer.echo(spelled(text, sys.stdout))
 
 
 def check_file(field: str, path: Path | None, suffixes: tuple[str, ...] = ()) -> None:

@@ -3,6 +3,7 @@
 from collections import namedtuple
 
 import pytest
+from tiny_study import STUDY
 
 Outcome = namedtuple("Outcome", "code out err")
 POINT = ["--M", "20", "--L", "5", "--kappa", "0.5"]
@@ -47,3 +48,17 @@ def refused(call):
 def quiet(monkeypatch):
     """No lines of progress, which a first compilation would bring about; their own tests call them."""
     monkeypatch.setattr("ehlcontact.cli.progress.Lines.tell", lambda self, now: None)
+
+
+@pytest.fixture(scope="session")
+def finished(tmp_path_factory):
+    """A study file and the folder of its finished run."""
+    from ehlcontact.cli import main
+
+    root = tmp_path_factory.mktemp("run")
+    study = root / "tiny.toml"
+    study.write_text(STUDY)
+    with pytest.raises(SystemExit) as stop:
+        main(["run", str(study), "-o", str(root / "out")])
+    assert not stop.value.code
+    return study, root / "out"

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ehlcontact.cli.page import significant
+from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.plots.rotor import DRAWN, LOOKS, MICRO, Names
 from ehlcontact.cli.plots.style import legend_above, new_figure
 from reduced_models import Decrement, RotorResult
@@ -27,7 +27,7 @@ def decay(runs: Mapping[str, RotorResult], decrements: Mapping[str, Decrement], 
             y = (run.journal[:, 1] - run.journal[0, 1]) * 1e6
             above.plot(run.t * 1e3, y, **LOOKS[name], label=names[name])
         periods = np.array([0.0, found.periods])
-        label = f"{names[name]}: {significant(found.decrement, 3)}"
+        label = f"{names[name]}: {numeral(found.decrement, 3)}"
         below.plot(periods, -found.decrement * periods, **LOOKS[name], label=label)
     above.set(xlabel="time [ms]", ylabel=f"journal y about rest [{MICRO}]", xlim=(0.0, 1e3 * float(run.t[-1])))
     below.set(xlabel="period of those fitted", ylabel="ln(amplitude/first)")

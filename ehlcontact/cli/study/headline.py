@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from ehlcontact.cli.numerals import numeral, percent
 from ehlcontact.cli.study.differences import Events
 from ehlcontact.cli.study.reduction import CHOSEN, CONTACTS, DRY, FULL, MEMORY, UNDAMPED, WRONG
 
@@ -13,7 +14,6 @@ if TYPE_CHECKING:
 
 # Change by half the step, over a signal's standard deviation or the decrement, from which the headline tells it.
 STEP_TOLD = 0.01
-DIGITS = 2  # of percentages
 
 
 def headline(found: Findings) -> str:
@@ -22,20 +22,11 @@ def headline(found: Findings) -> str:
     return " ".join(text for text in (part(found) for part in parts) if text)
 
 
-def percent(share: float | None) -> str:
-    """A share in per cent, with two digits that count, and never as 1e-05."""
-    if share is None:
-        return "-"
-    value = 100.0 * share
-    digits = f"{value:.{DIGITS}g}"
-    return f"{float(digits):g} %" if abs(value) >= 1e-3 or value == 0.0 else "below 0.001 %"
-
-
 def contact(found: Findings) -> str:
     """Load, pressure and film."""
     op, bearing = found.operating_point, found.study.bearing
     return (
-        f"The most loaded ball of this {bearing.name} presses {op['load']:.4g} N on the {bearing.race} race "
+        f"The most loaded ball of this {bearing.name} presses {numeral(op['load'])} N on the {bearing.race} race "
         f"(M = {op['M']:.0f}, L = {op['L']:.1f}, kappa = {op['kappa']:.3f}, {op['p_hertz'] * 1e-9:.2f} GPa) and "
         f"rolls on an oil film of {op['h_central_um']:.3f} \N{MICRO SIGN}m, {op['h_min_um']:.3f} "
         f"\N{MICRO SIGN}m at its thinnest."
@@ -45,12 +36,13 @@ def contact(found: Findings) -> str:
 def damper(found: Findings) -> str:
     """Spring and damper at the rotor's frequency, from the impedance; the fit and its interval beside them."""
     own, fitted = found.at_rotor_speed, found.damper_of_fit
-    low, high = fitted["interval"]
+    low, high = (numeral(end, 3) for end in fitted["interval"])
+    spring = numeral(own["stiffness"] * 1e-6, 3)
     return (
-        f"At the rotor's {found.study.rotor_hz:.4g} Hz a contact is a spring of {own['stiffness'] * 1e-6:.3g} "
-        f"N/\N{MICRO SIGN}m with a damper of {own['damping']:.3g} N s/m, by its impedance there; the cubic "
-        f"fitted to a harmonic load of this frequency has {fitted['damping']:.3g} N s/m "
-        f"(95 %: {low:.3g} to {high:.3g})."
+        f"At the rotor's {numeral(found.study.rotor_hz)} Hz a contact is a spring of {spring} "
+        f"N/\N{MICRO SIGN}m with a damper of {numeral(own['damping'], 3)} N s/m, by its impedance there; the "
+        f"cubic fitted to a harmonic load of this frequency has {numeral(fitted['damping'], 3)} N s/m "
+        f"(95 %: {low} to {high})."
     )
 
 
@@ -59,33 +51,33 @@ def decay(found: Findings) -> str:
     d = found.rotors.decay
     own = d.decrements[FULL]
     rest = [
-        f"the {CONTACTS[name]} gives {d.decrements[name].decrement:.3g} ({off(d.off(name))})"
+        f"the {CONTACTS[name]} gives {numeral(d.decrements[name].decrement, 3)} ({off(d.off(name))})"
         for name in (CHOSEN[0], MEMORY, WRONG[0], UNDAMPED, DRY)
         if name in d.decrements
     ]
     text = (
-        f"Kicked, the rotor vibrates up and down at {own.hz:.4g} Hz with a logarithmic decrement of "
-        f"{own.decrement:.3g} on the full film; {', '.join(rest)}."
+        f"Kicked, the rotor vibrates up and down at {numeral(own.hz)} Hz with a logarithmic decrement of "
+        f"{numeral(own.decrement, 3)} on the full film; {', '.join(rest)}."
     )
     nearest = d.nearest_without
     if nearest is None:
         return text
     without = "without it, or without its damping,"
     if d.film_decides:
-        return f"{text} The film decides it: {without} it is at least {percent(nearest)} off."
-    return f"{text} The film does not decide it: {without} one is only {percent(nearest)} off."
+        return f"{text} The film decides it: {without} it is at least {percent(nearest, 2)} off."
+    return f"{text} The film does not decide it: {without} one is {percent(nearest, 2)} off."
 
 
 def off(share: float) -> str:
     """How far from the full film."""
-    return f"{'+' if share >= 0.0 else '-'}{percent(abs(share))} of it"
+    return f"{'+' if share >= 0.0 else '-'}{percent(abs(share), 2)} of it"
 
 
 def unbalance(found: Findings) -> str:
     """How far elements and baselines are from the full film under unbalance."""
     u = found.rotors.unbalance
     said = [
-        f"the {CONTACTS[name]} by {percent(c.displacement_vibration)} and {percent(c.force_vibration)}"
+        f"the {CONTACTS[name]} by {percent(c.displacement_vibration, 2)} and {percent(c.force_vibration, 2)}"
         for name, c in u.best.items()
         if name in (CHOSEN[0], MEMORY, DRY)
     ]
@@ -99,7 +91,7 @@ def unbalance(found: Findings) -> str:
 def unsettled(found: Findings) -> str:
     """Runs that had not settled at their end."""
     said = [
-        f"{CONTACTS[name]} ({percent(s.last_change)})"
+        f"{CONTACTS[name]} ({percent(s.last_change, 2)})"
         for name, s in found.rotors.unbalance.settling.items()
         if not s.settled
     ]
@@ -115,9 +107,9 @@ def step_check(found: Findings) -> str:
     u, d = found.rotors.unbalance, found.rotors.decay
     said = []
     if u.step_share > STEP_TOLD:
-        said.append(f"the run with unbalance by {percent(u.step_share)} of the standard deviation of a signal")
+        said.append(f"the run with unbalance by {percent(u.step_share, 2)} of the standard deviation of a signal")
     if d.step_share > STEP_TOLD:
-        said.append(f"the decrement by {percent(d.step_share)} of it")
+        said.append(f"the decrement by {percent(d.step_share, 2)} of it")
     return f"THE STEP IS LONG: half of it changes {' and '.join(said)}, on the full film." if said else ""
 
 
@@ -134,15 +126,14 @@ def happenings(found: Findings) -> str:
             if lost.lost_share > 0.0:
                 said.append(
                     f"{when} the {CONTACTS[name]} loses contact (of one contact: {lost.lift_offs} lift-offs, "
-                    f"{lost.impacts} impacts, {percent(lost.lost_share)} of the time without contact)"
+                    f"{lost.impacts} impacts, {percent(lost.lost_share, 2)} of the time without contact)"
                 )
             for quantity in ("approach", "rate", "load", "omega") if name in (CHOSEN[0], MEMORY) else ():
                 shares = [getattr(c, f"outside_{quantity}") or 0.0 for c in contacts]
                 if max(shares) > 0.0:
                     what = "frequency" if quantity == "omega" else quantity
-                    said.append(
-                        f"{when} the {CONTACTS[name]} is outside its {what} for {percent(max(shares))} of the time"
-                    )
+                    share = percent(max(shares), 2)
+                    said.append(f"{when} the {CONTACTS[name]} is outside its {what} for {share} of the time")
     return f"NOTE: {'; '.join(said)}." if said else ""
 
 

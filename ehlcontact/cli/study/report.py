@@ -11,7 +11,6 @@ from ehlcontact.cli.page import write_page
 from ehlcontact.cli.plots import film, motion, rotor, vibration
 from ehlcontact.cli.plots.fringes import three_lights
 from ehlcontact.cli.plots.impedance import impedance
-from ehlcontact.cli.study.headline import percent
 from ehlcontact.cli.study.reduction import CONTACTS, FULL, MEMORY, RECORDS
 from ehlcontact.cli.study.results import Findings
 from reduced_models.rotor.events import LOST
@@ -31,7 +30,6 @@ def write_report(found: Findings, path: Path) -> Path:
         scales=found.study.point.scales,
         titles=TITLES,
         names=CONTACTS,
-        percent=percent,
         lost=LOST,
         most_revolutions=MOST_REVOLUTIONS,
     )

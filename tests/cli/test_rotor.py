@@ -1,0 +1,294 @@
+"""The rotor of a study: what is told of it, computed a second time from the stored runs, and what is told when."""
+
+import html
+import json
+from dataclasses import replace
+from math import pi
+from types import SimpleNamespace
+
+import h5py
+import numpy as np
+import pytest
+from scipy.optimize import curve_fit
+
+from ehlcontact import load
+from ehlcontact.cli.plots import rotor as pictures
+from ehlcontact.cli.plots import vibration
+from ehlcontact.cli.study import headline
+from ehlcontact.cli.study.differences import compare_rotors
+from ehlcontact.cli.study.reduction import CONTACTS
+from ehlcontact.cli.study.response import film_response, frequencies
+from ehlcontact.cli.study.results import evaluate
+from ehlcontact.cli.study.rotor import build_rotor, load_rotor
+from ehlcontact.cli.study.schema import load_study
+from ehlcontact.errors import ConvergenceError
+from reduced_models import ContactEvents, Settling, load_element
+
+
+@pytest.fixture(scope="module")
+def results(finished):
+    return json.loads((finished[1] / "results.json").read_text())
+
+
+@pytest.fixture(scope="module")
+def found(finished):
+    """What was found, put together again from the stages."""
+    return evaluate(load_study(finished[0]), finished[1], {})
+
+
+def stored(folder, name):
+    with h5py.File(folder / f"{name}.h5") as file:
+        return {key: file[key][...] for key in ("t", "journal", "force", "disc")}
+
+
+def test_all_contacts_are_compared(results):
+    rotor = results["rotor"]
+    names = ["rotor_band", "memory", "harmonic", "undamped", "dry"]
+    assert list(rotor["settled"]) == names and list(rotor["whole"]) == names
+    for part in ("settling", "events"):
+        assert list(rotor[part]) == ["full", *names], part
+    assert list(rotor["decay"]["decrements"]) == ["full", *names] == list(rotor["modes"])
+    assert list(rotor["resonance"]["y"]) == ["full", *names]
+
+
+def test_decrements_by_another_fit(finished, results):
+    """scipy's curve_fit of the stored heights."""
+    run, told = stored(finished[1], "decay"), results["rotor"]["decay"]["decrements"]["full"]
+    period = 1.0 / told["hz"]
+    fitted = run["t"] >= run["t"][-1] - told["periods"] * period - 1e-12
+    t, y = run["t"][fitted], 1e9 * run["journal"][fitted, 1]
+
+    def decaying(t, mean, size, delta, omega, phase):
+        return mean + size * np.exp(-delta * omega * t / (2 * pi)) * np.cos(omega * t + phase)
+
+    start = (y.mean(), np.ptp(y) / 2, 0.02, 2 * pi / period, -pi / 2)
+    best, _ = curve_fit(decaying, t - t[0], y, start)
+    assert told["decrement"] == pytest.approx(best[2], rel=1e-4)
+    assert told["hz"] == pytest.approx(best[3] / (2 * pi), rel=1e-6)
+    low, high = told["interval"]
+    assert low < best[2] < high < 2.0 * best[2]
+
+
+def test_decrements_and_the_linear_rotor_agree(results):
+    """The film decides this decay: a tenth of it is left without damper, and the linear rotors say the same."""
+    rotor = results["rotor"]
+    told = rotor["decay"]["decrements"]
+    for name, fitted in told.items():
+        mode = min(rotor["modes"][name], key=lambda m: abs(m["hz"] - fitted["hz"]))
+        assert mode["vertical_share"] == 1.0
+        assert fitted["hz"] == pytest.approx(mode["hz"], rel=0.02), name
+        assert fitted["decrement"] == pytest.approx(mode["decrement"], rel=0.1, abs=1e-3), name
+    for name in ("undamped", "dry"):
+        off = told[name]["decrement"] / told["full"]["decrement"] - 1.0
+        assert rotor["decay"]["off_full"][name] == pytest.approx(off) and off < -0.2
+    assert rotor["decay"]["film_decides"] is True
+    assert abs(rotor["decay"]["off_full"]["rotor_band"]) < 0.1
+    half = rotor["decay"]["half_step"]["full"]["decrement"]
+    assert half == pytest.approx(told["full"]["decrement"], rel=0.05) and half != told["full"]["decrement"]
+
+
+def test_resonance_follows_from_the_decrement(results):
+    """Of one lightly damped mode: the highest point falls as its decrement rises."""
+    rotor = results["rotor"]
+    for name in ("undamped", "dry", "harmonic"):
+        peak, decrement = (
+            rotor["resonance"]["y"][name]["amplitude"],
+            min(rotor["modes"][name], key=lambda m: m["hz"])["decrement"],
+        )
+        own = (
+            rotor["resonance"]["y"]["full"]["amplitude"]
+            * min(rotor["modes"]["full"], key=lambda m: m["hz"])["decrement"]
+        )
+        assert peak * decrement == pytest.approx(own, rel=0.1)
+
+
+def test_settled_from_the_stored_run(finished, results):
+    run, steps = stored(finished[1], "rotor_full"), 20
+    told = results["rotor"]["settling"]["full"]
+    assert run["t"].size == 2 * steps + 1 and len(told["changes"]) == 1
+    changes = []
+    for values in (run["disc"][:, 1], run["journal"][:, 1], run["force"][:, 0]):
+        before, now = values[1 : steps + 1], values[steps + 1 :]
+        changes.append(np.sqrt(np.mean((now - before) ** 2)) / np.std(now))
+    assert told["changes"][0] == pytest.approx(max(changes)) and told["settled"] == (max(changes) <= 0.01)
+    assert results["spectrum_resolution"] == pytest.approx(50.0 / 2.0)
+
+
+def test_differences_from_the_stored_run(finished, results, found):
+    """Over the standard deviation of the full signal, the largest of each kind; the step check is of the whole run."""
+    full = stored(finished[1], "rotor_full")
+    dry = found.rotors.unbalance.reduced["dry"]
+    told = results["rotor"]["whole"]["dry"]
+    error = dry.force[:, 0] - full["force"][:, 0]
+    assert told["force"] == pytest.approx(np.sqrt(np.mean(error**2)) / np.std(full["force"][:, 0]))
+    assert told["force_vibration"] == pytest.approx(np.std(error) / np.std(full["force"][:, 0]))
+        for name in ("disc", "journal"):
+        share = np.std(getattr(dry, name)[:, 1] - full[name][:, 1]) / np.std(full[name][:, 1])
+        assert share <= told["displacement_vibration"] * (1 + 1e-9)
+    assert told["signals"]["journal_y"]["vibration_over_std"] == pytest.approx(share)
+
+    half = stored(finished[1], "rotor_half_step")
+    assert half["t"][-1] == pytest.approx(full["t"][-1])
+    change = half["force"][::2, 0] - full["force"][:, 0]
+    step = results["rotor"]["step_full"]
+    assert step["t_end"] == pytest.approx(0.04) and step["t_start"] == 0.0
+    assert step["force"] == pytest.approx(np.sqrt(np.mean(change**2)) / np.std(full["force"][:, 0]))
+
+
+def test_loads_from_the_stored_runs(finished, results):
+    for name, file in (("events", "rotor_full"), ("decay", "decay")):
+        events = results["rotor"][name] if name == "events" else results["rotor"]["decay"]["events"]
+        force = stored(finished[1], file)["force"][:, 0]
+        (contact,) = events["full"]
+        assert contact["load_range"] == [force.min(), force.max()] and contact["lift_offs"] == 0
+
+
+def test_damper_of_the_headline_is_the_impedances(finished, results):
+    """Solved once more at that frequency alone; beside it the fit with the interval of its own file."""
+    study = load_study(finished[0])
+    scales = study.point.scales
+    omega = 50.0 * 2.0 * pi
+    response = film_response(study)
+    at = list(response.omega).index(min(response.omega, key=lambda w: abs(w - omega * scales.time)))
+    assert response.omega[at] == pytest.approx(omega * scales.time)
+    assert min(frequencies(study)[1:]) == pytest.approx(0.5 * omega * scales.time)
+        told = results["at_rotor_speed"]
+    assert told["damping"] == pytest.approx(response.damping[at] * scales.damping, rel=1e-6)
+    assert told["stiffness"] == pytest.approx(response.stiffness[at] * scales.stiffness, rel=1e-6)
+
+    si = load_element(finished[1] / "elements" / "rotor_band_cubic_si.json")
+    fit = next(row for row in results["fits"] if row["record"] == "rotor_band" and row["model"] == "cubic")
+    assert results["damper_of_fit"]["damping"] == si.C1
+    assert results["damper_of_fit"]["interval"] == pytest.approx(
+        [end * scales.damping for end in fit["intervals"]["C1"]]
+    )
+
+
+def test_the_headline_says_it(results):
+    """The numbers of the paragraph are those of the results."""
+    answer, decay = results["answer"], results["rotor"]["decay"]
+    for name in ("full", "rotor_band", "undamped", "dry"):
+        assert f"{decay['decrements'][name]['decrement']:.3g}" in answer
+    assert f"damper of {results['at_rotor_speed']['damping']:.3g} N s/m" in answer
+    low, high = results["damper_of_fit"]["interval"]
+    assert f"95 %: {low:.3g} to {high:.3g}" in answer
+    assert "The film decides it" in answer and "NOT SETTLED" not in answer and "loses contact" not in answer
+
+
+def test_warnings_are_shown(finished, results):
+    """The cubic of the rotor's band is kicked outside its frequency: told in headline, results and page."""
+    page = html.unescape((finished[1] / "report.html").read_text())
+        told = results["warnings"]
+    assert any(line.startswith("kick, cubic of the rotor's band: CubicContact used") for line in told)
+    assert all(line in page for line in told)
+
+    outside = results["rotor"]["decay"]["events"]["rotor_band"][0]["outside_omega"]
+    assert outside == 1.0
+    assert (
+        "after the kick the cubic of the rotor's band is outside its frequency for 100 % of the time"
+        in results["answer"]
+    )
+
+
+def fake(**changes):
+    """As much of the findings as a sentence looks at."""
+    quiet = ContactEvents(0, 0, 0.0, (30.0, 40.0), 0.0, 0.0, 0.0, 0.0)
+    events = {"full": (quiet,), "rotor_band": (quiet,)}
+    settled = Settling((0.001,), 0.01)
+    unbalance = {"events": events, "settling": {"full": settled}, "step_share": 0.001}
+    decay = {"events": events, "step_share": 0.001}
+    rotors = SimpleNamespace(
+        unbalance=SimpleNamespace(**unbalance | changes.get("unbalance", {})),
+        decay=SimpleNamespace(**decay | changes.get("decay", {})),
+        failed=changes.get("failed", {}),
+    )
+    return SimpleNamespace(rotors=rotors)
+
+
+def test_sentences_that_have_nothing_to_say_are_empty():
+    for sentence in (headline.unsettled, headline.step_check, headline.happenings, headline.failures):
+        assert sentence(fake()) == ""
+
+
+def test_lift_off_is_in_the_headline():
+    bounced = ContactEvents(3, 2, 0.18, (0.0, 90.0), None, None, None, None)
+    told = headline.happenings(fake(unbalance={"events": {"full": (bounced,)}}))
+    assert (
+        "under unbalance the full film loses contact" in told
+        and "3 lift-offs, 2 impacts, 18 % of the time" in told
+    )
+    outside = replace(bounced, lost_share=0.0, outside_load=0.25)
+    told = headline.happenings(fake(decay={"events": {"rotor_band": (outside,)}}))
+    assert told == "NOTE: after the kick the cubic of the rotor's band is outside its load for 25 % of the time."
+
+
+def test_what_is_not_settled_is_in_the_headline():
+    told = headline.unsettled(fake(unbalance={"settling": {"full": Settling((0.2, 0.07), 0.01)}}))
+    assert told.startswith("NOT SETTLED") and "full film (7 %)" in told
+
+
+def test_a_long_step_is_in_the_headline():
+    told = headline.step_check(fake(unbalance={"step_share": 0.08}))
+    assert "run with unbalance by 8 %" in told and "decrement" not in told
+    assert "the decrement by 3 %" in headline.step_check(fake(decay={"step_share": 0.03}))
+
+
+def test_a_contact_that_the_rotor_does_not_run_on(finished, found, monkeypatch):
+    """It is left out and told; the others are there, and the pictures too."""
+    from ehlcontact.cli.study import differences
+
+    real = differences.run_reduced
+
+    def failing(study, element, halvings):
+        if element.kind == "power":
+            raise ConvergenceError("force imbalance 3 N", None)
+        return real(study, element, halvings)
+
+    monkeypatch.setattr(differences, "run_reduced", failing)
+    elements = found.reduction.rotor_elements
+    rotors = compare_rotors(found.study, found.reduction.impedance, elements, finished[1])
+    assert rotors.failed == {"dry": "force imbalance 3 N"} and "dry" not in rotors.unbalance.reduced
+    assert "dry Hertz contact (force imbalance 3 N)" in headline.failures(SimpleNamespace(rotors=rotors))
+    assert rotors.decay.film_decides
+    runs = {"full": rotors.unbalance.full, **rotors.unbalance.reduced}
+    assert pictures.spectrum(runs, rotors.unbalance.settling["full"], CONTACTS).axes
+
+
+def test_pictures_show_what_is_settled(finished, found):
+    """The heavy part of an orbit is the settled one, or the last revolution where there is none."""
+    run = load_rotor(finished[1] / "rotor_full.h5", build_rotor(found.study))
+    settled, is_settled = pictures.settled_part(run, Settling((0.001,), 0.01))
+    assert is_settled and settled.t.size == 41
+    last, is_settled = pictures.settled_part(run, Settling((0.5,), 0.01))
+    assert not is_settled and last.t.size == 21 and last.t[-1] == run.t[-1]
+    grey = pictures.response({"full": run, "dry": run, "rotor_band": run}, Settling((0.5,), 0.01), CONTACTS)
+    said = [text.get_text() for axes in grey.axes for text in axes.texts]
+    assert "not settled" in said
+
+
+def test_spectrum_has_the_amplitude(found):
+    """Of a sum of two harmonics: both, and nothing beside them."""
+    run = found.rotors.unbalance.full
+    wave = 3.0 * np.sin(2 * pi * run.t / 0.02) + 0.5 * np.cos(2 * pi * run.t / 0.01)
+    hz, amplitude = pictures.lines(replace(run, force=wave[:, None]), lambda r: r.force[:, 0])
+        assert amplitude[np.isclose(hz, 50.0)] == pytest.approx(3.0)
+    assert amplitude[np.isclose(hz, 100.0)] == pytest.approx(0.5)
+
+    assert np.sort(amplitude)[-3] < 1e-10 and hz[0] == pytest.approx(25.0)
+
+
+def test_bode_picture_has_amplitude_and_phase(found):
+    bode = found.rotors.bode
+    figure = vibration.bode(bode.hz, bode.curves, bode.spans, CONTACTS)
+    upper, lower = figure.axes
+    curve = next(line for line in upper.get_lines() if line.get_label() == "full film").get_ydata()
+    assert curve.max() == pytest.approx(bode.peaks["y"]["full"].amplitude)
+    phase = lower.get_lines()[0].get_ydata()
+    assert phase[0] == pytest.approx(0.0, abs=5.0) and phase[-1] == pytest.approx(-180.0, abs=5.0)
+
+
+def test_the_impedance_reaches_down_to_the_rotor(finished, results):
+    omega = results["memory"]["impedance"]["omega"]
+    own = results["operating_point"]["rotor_omega"]
+    assert omega[0] == 0.0 and omega[1] <= 0.5 * own * (1 + 1e-9) and any(np.isclose(omega, own))
+    assert load(finished[1] / "rotor_band.h5").motion.omega == pytest.approx(own)
