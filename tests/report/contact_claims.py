@@ -4,6 +4,7 @@ import importlib.metadata
 import platform
 
 import numpy as np
+
 from report.contact import MODELS, POWERS, RECORDS, shape
 
 TITLES = {
@@ -36,6 +37,8 @@ def claim_operating_point(page, again):
     page.claim("Steady film on n = # intervals", solver["n"])
     page.claim("transient films on n = #", solver["n_transient"])
     page.claim("computed region # <= X <= #, |Y| <= #", film.X[0], film.X[-1], film.Y[-1])
+    if solver["n"] == solver["n_transient"]:
+        return
     there, here = coarse.h_central[0] * p.dry_approach * 1e6, p.h_central_um
     page.claim(
         "an approach of # and a central film of # um where that of the steady film gives # and # um",

@@ -22,7 +22,7 @@ CONTACTS = {
     "undamped": "cubic without damper",
     "dry": "dry Hertz contact",
 }
-SAMPLED = 2e-3  # share of a resonance
+SAMPLED, PROJECTED = 2e-3, 0.03  # shares of a resonance, and of the width of an interval
 LOST, SETTLED, MARGIN, OCTAVE = 0.01, 0.01, 0.05, 2.0  # as the page and the elements' warnings say
 
 
@@ -34,7 +34,7 @@ class RecomputedRotor:
 
         self.contact, self.folder, self.results = Recomputed(file, folder), folder, results
         self.library = load_study(file)
-        self.rotor = self.contact.study["rotor"]
+        self.rotor = self.library.rotor.model_dump()  # what a study leaves out has defaults
         names = ("rotor_full", "rotor_half_step", "decay", "decay_half_step")
         self.stored = {name: read(folder / f"{name}.h5") for name in names}
 
@@ -84,7 +84,7 @@ class RecomputedRotor:
         turns = [signals[1 + k * steps : 1 + (k + 1) * steps] for k in range((len(signals) - 1) // steps)]
         moving = turns[0].std(axis=0) > 1e-9 * np.abs(signals).max(axis=0)
         differ = ((now, np.sqrt(((now - before) ** 2).mean(axis=0))) for before, now in pairwise(turns))
-        return [float((change / now.std(axis=0))[moving].max()) for now, change in differ]
+        return [float((change[moving] / now.std(axis=0)[moving]).max()) for now, change in differ]
 
     @property
     def settled_from(self):
@@ -116,27 +116,32 @@ class RecomputedRotor:
         """A decay fitted by one damped vibration and a mean, by all five numbers at once."""
         period = 2.0 * np.pi / self.mode("full").omega
         part = run.t >= period
-        t, y = run.t[part] - run.t[part][0], run.journal[part, 1]
+        t, y = run.t[part] - run.t[part][0], run.journal[part, 1] / run.journal[part, 1].std()
 
         def vibration(t, decrement, omega, cosine, sine, mean):
             envelope = np.exp(-decrement * omega * t / (2.0 * np.pi))
             return envelope * (cosine * np.cos(omega * t) + sine * np.sin(omega * t)) + mean
 
-        size = y.std()
-        start = [0.2, 2.0 * np.pi / period, y[0] / size, 0.0, 0.0]
-        (delta, omega, *_), covariance = optimize.curve_fit(vibration, t, y / size, start, xtol=1e-12)
-        found = optimize.curve_fit(vibration, t, y / size, start, xtol=1e-12)[0]
-        left = y / size - vibration(t, *found)
+        start, exact = [0.02, 2.0 * np.pi / period, 1.0, 0.0, y.mean()], dict.fromkeys(("xtol", "ftol"), 1e-14)
+        found, covariance = optimize.curve_fit(vibration, t, y, start, **exact)
+        left = y - vibration(t, *found)
         r = max(float(left[1:] @ left[:-1] / (left @ left)), 0.0)
         fewer = (1.0 + r) / (1.0 - r)
         half = stats.t.ppf(0.975, (t.size - 5) / fewer) * np.sqrt(covariance[0, 0] * fewer)
         return SimpleNamespace(
-            decrement=delta,
-            interval=(delta - half, delta + half),
-            hz=omega / (2.0 * np.pi),
+            decrement=found[0],
+            interval=(found[0] - half, found[0] + half),
+            hz=found[1] / (2.0 * np.pi),
             misfit=np.sqrt(np.mean(left**2)),
-            periods=t[-1] * omega / (2.0 * np.pi),
+            periods=t[-1] * found[1] / (2.0 * np.pi),
         )
+
+    def interval(self, name):
+        """Interval of a decrement in the results, which is of a projection: its width is held to ours."""
+        low, high = self.results["rotor"]["decay"]["decrements"][name]["interval"]
+        ours = self.decrement(self.runs.decaying[name]).interval
+        assert high - low == pytest.approx(ours[1] - ours[0], rel=PROJECTED)
+        return low, high
 
     def events(self, name, run):
         """Of each contact: loads, lift-offs, impacts, share lost; shares outside approach, rate, load, omega."""
@@ -209,20 +214,26 @@ class RecomputedRotor:
         damping = 0.0 if name == "undamped" else found.parameters["C1"] * contact.units.damping
         return found.tangent * contact.units.stiffness, damping
 
+    @property
+    def directions(self):
+        """Those that move."""
+        return "xy" if self.rotor["arrangement"] == "vee" else "y"
+
     @cached_property
     def matrices(self):
-        """Mass, damping, stiffness, and directions of the contacts; disc x, y, then journal x, y."""
-        r = self.rotor
-        couple, one = np.array([[1.0, -1.0], [-1.0, 1.0]]), np.eye(2)
+        """Mass, damping, stiffness, and directions of the contacts; of the disc, then of the journal."""
+        r, one = self.rotor, np.eye(len(self.directions))
+        couple = np.array([[1.0, -1.0], [-1.0, 1.0]])
         M = np.kron(np.diag([r["disc_mass"], r["journal_mass"]]), one)
         ground = np.diag([r["disc_damping"], 0.0])
         C = np.kron(r["shaft_damping"] * couple + ground, one)
         K = np.kron(r["shaft_stiffness"] * couple, one)
-        tilt = np.radians(r["half_angle_deg"])
-        normals = np.array([[-np.sin(tilt), -np.cos(tilt)], [np.sin(tilt), -np.cos(tilt)]])
-        both = np.zeros((4, 4))
-        both[2:, 2:] = 2.0 * normals.T @ normals  # two bearings
-        return M, C, K, both
+        normals = np.array([[-1.0]])
+        if self.directions == "xy":
+            tilt = np.radians(r["half_angle_deg"])
+            normals = np.array([[-np.sin(tilt), -np.cos(tilt)], [np.sin(tilt), -np.cos(tilt)]])
+        carried = 2.0 * normals.T @ normals  # two bearings
+        return M, C, K, np.kron(np.diag([0.0, 1.0]), carried)
 
     def modes(self, name):
         """Vibrations on a contact, slowest first, each with the impedance at its own frequency."""
@@ -233,10 +244,10 @@ class RecomputedRotor:
                 values, vectors = self._eigen(name, s.imag)
                 k = np.argmin(np.abs(values - s))
                 s = values[k]
-            shape = vectors[:4, k]
+            shape = vectors[: len(vectors) // 2, k]
             stiff = self.impedance(name, s.imag)[0]
             bent = [np.real(shape.conj() @ part @ shape) for part in (stiff * self.matrices[3], self.matrices[2])]
-            up = np.abs(shape[[1, 3]]) ** 2
+            up = np.abs(shape[len(self.directions) - 1 :: len(self.directions)]) ** 2
             found.append(
                 SimpleNamespace(
                     omega=s.imag,
@@ -251,10 +262,11 @@ class RecomputedRotor:
     def _eigen(self, name, omega):
         M, C, K, both = self.matrices
         stiffness, damping = self.impedance(name, omega)
-        A = np.zeros((8, 8))
-        A[:4, 4:] = np.eye(4)
-        A[4:, :4] = -np.linalg.solve(M, K + stiffness * both)
-        A[4:, 4:] = -np.linalg.solve(M, C + damping * both)
+        size = len(M)
+        A = np.zeros((2 * size, 2 * size))
+        A[:size, size:] = np.eye(size)
+        A[size:, :size] = -np.linalg.solve(M, K + stiffness * both)
+        A[size:, size:] = -np.linalg.solve(M, C + damping * both)
         values, vectors = np.linalg.eig(A)
         keep = values.imag > 1e-9 * np.abs(values)
         return values[keep], vectors[:, keep]
@@ -269,10 +281,13 @@ class RecomputedRotor:
     def amplitude(self, name, direction, hz):
         """Of the disc over the eccentricity, where the unbalance turns at `hz` and the film does not."""
         M, C, K, both = self.matrices
-        omega, turning = 2.0 * np.pi * hz, np.array([1.0, -1j, 0.0, 0.0]) * self.rotor["disc_mass"]
+        omega, turning = 2.0 * np.pi * hz, np.zeros(len(M), dtype=complex)
+        turning[: len(self.directions)] = [
+            self.rotor["disc_mass"] * {"x": 1.0, "y": -1j}[d] for d in self.directions
+        ]
         stiffness, damping = self.impedance(name, omega)
         dynamic = K + 1j * omega * C - omega**2 * M + (stiffness + 1j * omega * damping) * both
-        return abs(np.linalg.solve(dynamic, omega**2 * turning)["xy".index(direction)])
+        return abs(np.linalg.solve(dynamic, omega**2 * turning)[self.directions.index(direction)])
 
     def peak(self, name, direction):
         """Largest amplitude near the slowest mode of a direction, and where: at a frequency of the results.

@@ -1,9 +1,8 @@
 """Who knows which number of a report: the headline's and the rotor's part, from `report.rotor`."""
 
 import numpy as np
-from report.rotor import CONTACTS, SETTLED
 
-DIRECTIONS = {"x": "horizontal", "y": "vertical"}
+from report.rotor import CONTACTS, SETTLED
 
 
 def shares(text, values):
@@ -80,7 +79,8 @@ def claim_rotor(page, rotor):
     page.claim("rotor of # kg and # kg of journals", r["disc_mass"], r["journal_mass"])
     page.claim("at # rpm, shaft of # N/um", rotor.hz * 60.0, r["shaft_stiffness"] * 1e-6)
     page.claim("unbalance # g mm", r["unbalance"] * 1e6)
-    page.claim("balls at ±#°", r["half_angle_deg"])
+    if rotor.directions == "xy":
+        page.claim("balls at ±#°", r["half_angle_deg"])
     loss = r["shaft_damping"] * mode.omega / r["shaft_stiffness"]
     page.claim("# N s/m in the shaft, a loss factor of #", r["shaft_damping"], loss)
     page.claim("and # N s/m from the disc", r["disc_damping"])
@@ -98,13 +98,13 @@ def claim_decay(page, rotor):
         text, percent = shares("% | %", (off, found.misfit))
         page.claim(
             f"{CONTACTS[name]} | # | # | # .. # | {text} | # | #",
-            *(found.hz, found.decrement, *found.interval, *percent, linear.hz, linear.decrement),
+            *(found.hz, found.decrement, *rotor.interval(name), *percent, linear.hz, linear.decrement),
         )
     page.claim("over # periods, the first being left out", full.periods)
     page.claim("Half the step changes the full film's decrement by # % of it", 100.0 * step_of_the_decay(rotor))
     page.claim("unbalance (# um), of the rotor linearised", r["unbalance"] / r["disc_mass"] * 1e6)
     page.claim("those of the operating speed, # rpm, throughout", rotor.hz * 60.0)
-    peaks = {name: {way: rotor.peak(name, way) for way in DIRECTIONS} for name in CONTACTS}
+    peaks = {name: {way: rotor.peak(name, way) for way in rotor.directions} for name in CONTACTS}
     for name, found in peaks.items():
         cells, values = "", []
         for way, peak in found.items():
