@@ -30,14 +30,17 @@ def main() -> None:
     panel = axes[0, 0]
     P = np.concatenate([steady.P[:, :0:-1], steady.P], axis=1) * scales.pressure * 1e-9
     y = np.concatenate([-steady.Y[:0:-1], steady.Y]) * scales.b * 1e3
+    along, wide = scales.a * 1e3, scales.b * 1e3
     image = panel.pcolormesh(y, steady.X * scales.a * 1e3, P, cmap="inferno", shading="gouraud", rasterized=True)
-    panel.set(xlim=(-1.3, 1.3), ylim=(-0.19, 0.16), xlabel="y across [mm] (compressed)", ylabel="x rolling [mm]")
+    panel.set(xlim=(-1.35 * wide, 1.35 * wide), ylim=(-1.9 * along, 1.6 * along))
+    panel.set(xlabel="y across [mm] (compressed)", ylabel="x rolling [mm]")
     panel.set_title("film pressure [GPa], full transient EHL", loc="left")
     figure.colorbar(image, ax=panel)
 
     panel = axes[0, 1]
     wave = (run.h_midplane - run.h_midplane[0]) * scales.length * 1e6
-    image = panel.pcolormesh(run.T, run.X, wave.T, cmap="RdBu_r", vmin=-0.02, vmax=0.02, rasterized=True)
+    largest = float(np.percentile(np.abs(wave[:, np.abs(run.X) < 0.9]), 98))  # outside, the film follows the load
+    image = panel.pcolormesh(run.T, run.X, wave.T, cmap="RdBu_r", vmin=-largest, vmax=largest, rasterized=True)
     panel.set(ylim=(-1.1, 1.0), xlabel="time T [2a/u_sum]", ylabel="X = x/a")
     panel.set_title("film change [µm], carried through", loc="left")
     figure.colorbar(image, ax=panel)
@@ -46,9 +49,9 @@ def main() -> None:
     found = json.loads((RESULTS / "results.json").read_text(encoding="utf-8"))
     film, rotor = found["memory"]["impedance"], found["operating_point"]["rotor_omega"]
     memory = FilmMemoryContact.load(RESULTS / "elements" / "memory.json")
-    omega = np.geomspace(0.5 * rotor, film["omega"][-1], 300)
-    panel.loglog(film["omega"][1:], film["damping"][1:], "o", markersize=4, label="full film")
-    panel.plot(omega, memory.impedance(omega).imag / omega, label="film memory, one element")
+    omega = np.geomspace(0.5 * rotor, film["Omega"][-1], 300)
+    panel.loglog(film["Omega"][1:], film["damping"][1:], "o", markersize=4, label="full film")
+    panel.plot(omega, memory.impedance(Omega=omega).imag / omega, label="film memory, one element")
     cubics = [row for row in found["fits"] if row["model"] == "cubic" and "refused" not in row]
     at = [np.mean(row["valid"]["omega"]) for row in cubics]
     panel.plot(
@@ -61,13 +64,17 @@ def main() -> None:
     panel.legend(frameon=False, fontsize=8)
 
     panel = axes[1, 1]
-    with h5py.File(RESULTS / "rotor_full.h5", "r") as file:
-        t, force = file["t"][...], file["force"][...]
-    panel.plot(t * 1e3, force[:, 0], label="contact 1")
-    panel.plot(t * 1e3, force[:, 1], label="contact 2")
-    panel.set(xlabel="time [ms]", ylabel="contact force [N]")
-    panel.set_title("Jeffcott rotor on full contacts", loc="left")
-    panel.set_ylim(top=700)
+    told = found["rotor"]["decay"]["decrements"]
+    with h5py.File(RESULTS / "decay.h5", "r") as file:
+        t, height = file["t"][...], file["journal"][:, 1]
+    size = 1e9 * told["full"]["amplitude"]
+    panel.plot(t * 1e3, 1e9 * (height - height[0]), label="full contacts")
+    since = t[t >= t[-1] - told["full"]["periods"] / told["full"]["hz"]]
+    for name, label, style in (("rotor_band", "cubic", "--"), ("dry", "dry Hertz", "-.")):
+        gone = (since - since[0]) * told[name]["hz"]
+        panel.plot(since * 1e3, size * np.exp(-told[name]["decrement"] * gone), style, label=f"{label}, amplitude")
+    panel.set(xlabel="time [ms]", ylabel="journal about rest [nm]", ylim=(-1.2 * size, 1.8 * size))
+    panel.set_title("rotor after a kick: the film damps it", loc="left")
     panel.legend(frameon=False, fontsize=8, ncols=2)
     PICTURE.parent.mkdir(exist_ok=True)
     figure.savefig(PICTURE, dpi=110)

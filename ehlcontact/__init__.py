@@ -12,7 +12,7 @@ room             responsibility
 ``impedance``    `impedance`: K and C over frequency from the linearised steady state
 ``transient/``   one film through time: motions, surfaces, `simulate`, `FullContact`
 ``assumptions/`` what every solve assumes, and the numbers that tell when it matters
-``results``      frozen results of one instant; those of a run are in ``transient/``
+``results/``     frozen results of one instant (those of a run are in ``transient/``); all of them in SI
 ``origin``       where numbers come from: what all results have in common; the version
 ``film``         the film to look at: maps, mid-planes, fringes, what the surfaces carry through
 ``storage``      `save` and `load`
@@ -45,7 +45,7 @@ from ehlcontact.impedance import impedance
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.origin import __version__
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint, Scales
-from ehlcontact.results import ImpedanceResult, SteadyResult
+from ehlcontact.results import ImpedanceResult, ImpedanceSI, SteadyResult, SteadySI
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for
 from ehlcontact.status import Status
@@ -55,12 +55,14 @@ from ehlcontact.transient.full_contact import FullContact
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 from ehlcontact.transient.prescribed import PrescribedApproach, PrescribedLoad
 from ehlcontact.transient.result import Instants, SimulationResult
+from ehlcontact.transient.si import ContactSI, SimulationSI
 from ehlcontact.transient.simulate import simulate
 from ehlcontact.transient.surface import Dent, TransverseRidge, Waviness
 
 __all__ = [
     "Assumption",
     "Assumptions",
+    "ContactSI",
     "ConvergenceError",
     "Dent",
     "Domain",
@@ -72,6 +74,7 @@ __all__ = [
     "Geometry",
     "HarmonicLoad",
     "ImpedanceResult",
+    "ImpedanceSI",
     "InputError",
     "Instants",
     "Interferogram",
@@ -85,8 +88,10 @@ __all__ = [
     "RampLoad",
     "Scales",
     "SimulationResult",
+    "SimulationSI",
     "Status",
     "SteadyResult",
+    "SteadySI",
     "TransverseRidge",
     "WaveTrack",
     "Waviness",

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ehlcontact.checks import require_finite, require_instance, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from ehlcontact.results import SteadyResult
+from ehlcontact.results import SteadyResult, require_scales
 from ehlcontact.solver.lowest_film import lowest_film
 from ehlcontact.transient.result import SimulationResult
 
@@ -30,22 +30,25 @@ FEWEST_STEPS = 4  # in the time a wave takes from start to end
 SLOWEST = 4.0  # times slower than the surfaces: the slowest wave that is found
 
 
-def require_scales(scales: Scales | None) -> Scales:
-    """Return `scales`, or raise `InputError` where a purely dimensionless point has none."""
-    if scales is None:
-        raise InputError("scales", None, "those of a result made from an OperatingPoint: SI values need units")
-    return scales
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Profile:
-    """Film and pressure along a line through the centre; `X` is x/a or y/b."""
+    """Film and pressure along a line through the centre.
 
-    X: Array  # (k,)
-    H: Array  # (k,)
-    P: Array  # (k,)
+    Attributes
+    ----------
+    X, H, P : ndarray, shape (k,)
+        x/a or y/b, film over the dry approach, pressure over the Hertz pressure.
+    scales : Scales or None
+        Units in SI.
+    across : bool
+        Along Y at X = 0, otherwise along X at Y = 0.
+    """
+
+    X: Array
+    H: Array
+    P: Array
     scales: Scales | None
-    across: bool  # along Y at X = 0, otherwise along X at Y = 0
+    across: bool
 
     @property
     def x(self) -> Array:
@@ -66,16 +69,28 @@ class Profile:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Constriction:
-    """The horseshoe: where and how far the film is narrowed, in dry approaches; on the mid-planes at the nodes."""
+    """The horseshoe: where and how far the film is narrowed; on the mid-planes at the nodes.
 
-    central: float  # at X = Y = 0
+    Attributes
+    ----------
+    central, minimum : float
+        Film at X = Y = 0, and the smallest, over the dry approach.
+    X, Y : float
+        Place of the minimum in semi-axes, Y >= 0; its mirror image is at -Y.
+    exit_film, exit_place : float
+        Least film along Y = 0, over the dry approach, and its X.
+    side_film, side_place : float
+        Least film along X = 0, over the dry approach, and its Y >= 0.
+    """
+
+    central: float
     minimum: float
-    X: float  # place of the minimum, and its mirror image at -Y
-    Y: float  # >= 0
-    exit_film: float  # least film along Y = 0
-    exit_place: float  # X
-    side_film: float  # least film along X = 0
-    side_place: float  # Y >= 0
+    X: float
+    Y: float
+    exit_film: float
+    exit_place: float
+    side_film: float
+    side_place: float
 
     @property
     def ratio(self) -> float:
@@ -85,12 +100,22 @@ class Constriction:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Film:
-    """Film and pressure at one instant over the whole plane."""
+    """Film and pressure at one instant over the whole plane.
 
-    X: Array  # (nx + 1,)
-    Y: Array  # (2 ny + 1,), both signs
-    H: Array  # (nx + 1, 2 ny + 1)
-    P: Array  # (nx + 1, 2 ny + 1)
+    Attributes
+    ----------
+    X, Y : ndarray, shape (nx + 1,), (2 ny + 1,)
+        x/a and y/b, both signs.
+    H, P : ndarray, shape (nx + 1, 2 ny + 1)
+        Film over the dry approach, pressure over the Hertz pressure.
+    scales : Scales or None
+        Units in SI.
+    """
+
+    X: Array
+    Y: Array
+    H: Array
+    P: Array
     scales: Scales | None
 
     @property
@@ -236,10 +261,16 @@ def interferogram(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FilmHistory:
-    """Central and minimum film over time."""
+    """Central and minimum film over time.
 
-    T: Array  # (steps + 1,)
-    central: Array  # (steps + 1,) in dry approaches
+    Attributes
+    ----------
+    T, central, minimum : ndarray, shape (steps + 1,)
+        Times in 2a/u_sum, films over the dry approach.
+    """
+
+    T: Array
+    central: Array
     minimum: Array
     scales: Scales | None
 
@@ -266,21 +297,34 @@ def film_history(run: SimulationResult) -> FilmHistory:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FilmWave:
-    """Change of the film along Y = 0 over place and time: what the surfaces carry through."""
+    """Change of the film along Y = 0 over place and time: what the surfaces carry through.
 
-    X: Array  # (nx + 1,)
-    T: Array  # (steps + 1,)
-    change: Array  # (steps + 1, nx + 1) film less the film at rest, in dry approaches
+    `X` is of shape (nx + 1,), `T` (steps + 1,), and `change` (steps + 1, nx + 1) the film less that at rest.
+    """
+
+    X: Array
+    T: Array
+    change: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class WaveTrack:
-    """Delay of a film wave from place to place."""
+    """Delay of a film wave from place to place.
 
-    X: Array  # (k,) stations
-    delay: Array  # (k,) time at which each station sees what the first one saw
-    speed: float  # dX/dT of the line through them
-    spread: float  # rms departure of the delays from that line
+    Attributes
+    ----------
+    X, delay : ndarray, shape (k,)
+        Stations, and the time in 2a/u_sum at which each sees what the first one saw.
+    speed : float
+        dX/dT of the line through them; that of the surfaces is 1.
+    spread : float
+        RMS departure of the delays from that line.
+    """
+
+    X: Array
+    delay: Array
+    speed: float
+    spread: float
 
 
 def film_wave(run: SimulationResult) -> FilmWave:

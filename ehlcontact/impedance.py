@@ -14,15 +14,15 @@ small least-squares problem, whose residual is the error measure: the frequency 
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy import linalg
 from threadpoolctl import threadpool_limits
 
 from ehlcontact.checks import require_choice
-from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.checks.frequency import by_name, dimensionless
+from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import Point, moes_point, require_solvable, scales_of
 from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.balance import Balance
@@ -46,10 +46,14 @@ SOLVE_SHARE = 0.3  # of the tolerance, for the solves themselves
 SMALLEST_NEW_PART = 1e-10  # of a vector, outside the space so far
 
 
+@by_name(1, omegas="Omega (dimensionless), omega (rad/s), hz or rpm")
 def impedance(
     point: Point,
-    omegas: Sequence[float] | Array,
     *,
+    Omega: ArrayLike | None = None,
+    omega: ArrayLike | None = None,
+    hz: ArrayLike | None = None,
+    rpm: ArrayLike | None = None,
     n: int | None = None,
     domain: Domain | None = None,
     deflection: str = "fft",
@@ -59,8 +63,9 @@ def impedance(
     Parameters
     ----------
     point : MoesPoint or OperatingPoint
-    omegas : sequence of float
-        Dimensionless angular frequencies (time unit 2a/u_sum), from 0 to 200.
+    Omega, omega, hz, rpm : float or sequence of float
+        Frequencies, in exactly one of these: dimensionless (time unit 2a/u_sum, from 0 to 200) at every point; at
+        an `OperatingPoint` also in rad/s, Hz or rev/min.
     n : int, optional
         Intervals along X, a multiple of 16; by default as many as the inlet needs, 80 or more.
     domain : Domain, optional
@@ -71,26 +76,28 @@ def impedance(
     Raises
     ------
     InputError
-        `omegas` empty, not finite, negative or above 200; n not a multiple of 16; no such engine.
+        Frequencies not given in exactly one way, in SI at a dimensionless point, not finite, negative or above
+        Omega = 200; n not a multiple of 16; no such engine.
     ConvergenceError
         The steady state did not converge.
     """
     started = time.perf_counter()
-    omega = _check_frequencies(omegas)
+    moes_point(point)
+    w = dimensionless(_time(point), Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=LARGEST_OMEGA)
     require_choice("deflection", deflection, tuple(ENGINES))
     moes = require_solvable(point)
     with threadpool_limits(1, user_api="blas"):  # its threads wait for each other on matrices as small as these
         steady = _steady(point, n, domain, deflection)
         contact = LinearisedContact(steady, deflection)
-        Z, residual = contact.respond(np.maximum(omega, NEAR_ZERO), TOLERANCE)
+        Z, residual = contact.respond(np.maximum(w, NEAR_ZERO), TOLERANCE)
     return ImpedanceResult(
         point=moes,
         scales=scales_of(point),
         domain=steady.domain,
         n=steady.n,
-        omega=omega,
+        Omega=w,
         stiffness=Z.real.copy(),
-        damping=Z.imag / np.maximum(omega, NEAR_ZERO),
+        damping=Z.imag / np.maximum(w, NEAR_ZERO),
         residual=residual,
         approach=steady.approach,
         h_central=steady.h_central,
@@ -113,17 +120,9 @@ def _steady(point: Point, n: int | None, domain: Domain | None, deflection: str)
     return steady
 
 
-def _check_frequencies(omegas: Sequence[float] | Array) -> Array:
-    try:
-        omega = np.atleast_1d(np.array(omegas, dtype=float)).copy()
-    except (TypeError, ValueError):
-        raise InputError("omegas", omegas, "numbers") from None
-    if omega.ndim != 1 or omega.size == 0:
-        raise InputError("omegas", f"of shape {np.shape(omega)}", "a flat list of at least one frequency")
-    bad = omega[~(np.isfinite(omega) & (omega >= 0.0) & (omega <= LARGEST_OMEGA))]
-    if bad.size:
-        raise InputError("omegas", float(bad[0]), f"finite, >= 0 and <= {LARGEST_OMEGA:g}")
-    return omega
+def _time(point: Point) -> float | None:
+    scales = scales_of(point)
+    return None if scales is None else scales.time
 
 
 class LinearisedContact:

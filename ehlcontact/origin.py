@@ -21,13 +21,29 @@ __version__ = "0.1.0"  # of the distribution; stated here and in pyproject.toml,
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Origin:
-    """The part that all results have in common."""
+    """The part that all results have in common.
+
+    Attributes
+    ----------
+    point : MoesPoint
+        The contact, dimensionless.
+    scales : Scales or None
+        Its units in SI; None for a dimensionless point.
+    domain : Domain
+        Computed region.
+    n : int
+        Intervals along X.
+    seconds : float
+        That it took.
+    version : str
+        Of the library.
+    """
 
     point: MoesPoint
-    scales: Scales | None  # None for a purely dimensionless point
+    scales: Scales | None
     domain: Domain
-    n: int  # intervals along X
-    seconds: float  # that it took
+    n: int
+    seconds: float
     version: str = __version__
 
     def __post_init__(self) -> None:

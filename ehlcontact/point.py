@@ -281,8 +281,8 @@ class OperatingPoint:
         u_sum = omega * pitch_diameter * (1.0 - gamma * gamma) / 2.0
         return cls(geometry, lubricant, load, u_sum)
 
-    def omega_n(self, mass: float) -> float:
-        """Omega_n of a mass [kg] on the contact: ``sqrt(8 f0 R E/(m u_sum^2 K))``, eq. 5 with u_m squared."""
+    def Omega_n(self, mass: float) -> float:
+        """Omega_n, dimensionless, of a mass [kg] on the contact: ``sqrt(8 f0 R E/(m u_sum^2 K))``, eq. 5."""
         s = self.scales
         return sqrt(s.force * s.time**2 / (require_positive("mass", mass) * s.length))
 

@@ -15,6 +15,7 @@ from ehlcontact.transient.result import SimulationResult
 
 Result = SteadyResult | SimulationResult
 _CLASSES: dict[str, type[Any]] = {cls.__name__: cls for cls in (SteadyResult, SimulationResult)}
+FORMAT = 2  # of the file: 1 had the frequencies of motions under omega and omega_n
 WHAT = "result of this library (steady or simulation)"
 
 
@@ -27,7 +28,7 @@ def save(result: Result, path: str | os.PathLike[str]) -> Path:
         `result` is none; the folder does not exist or cannot be written to.
     """
     require_instance("result", result, Result, "a result of solve_steady or simulate")
-    return hdf5.write(result, path, "save")
+    return hdf5.write(result, path, "save", FORMAT)
 
 
 def load(path: str | os.PathLike[str]) -> Result:
@@ -38,7 +39,7 @@ def load(path: str | os.PathLike[str]) -> Result:
     InputError
         No such file, not HDF5, truncated, not one of ours, or written by a newer version.
     """
-    result: Result = hdf5.read(path, _CLASSES, "file", WHAT)
+    result: Result = hdf5.read(path, _CLASSES, "file", WHAT, (1, FORMAT))
     for names, shape in _shapes(result):
         for name in names:
             if getattr(result, name).shape != shape:

@@ -11,8 +11,9 @@ To come: bearing (geometry, ball bearing, excitation) and adapters (to other pro
 Symbols and units: `ehlcontact.point`.
 """
 
+from reduced_models.atlas.answer import AtlasAnswer as AtlasAnswer
+from reduced_models.atlas.answer import AtlasSI as AtlasSI
 from reduced_models.atlas.atlas import Atlas as Atlas
-from reduced_models.atlas.atlas import AtlasAnswer as AtlasAnswer
 from reduced_models.elements.kinds import ContactElement as ContactElement
 from reduced_models.elements.kinds import CubicContact as CubicContact
 from reduced_models.elements.kinds import FilmMemoryContact as FilmMemoryContact

@@ -1,11 +1,12 @@
 """Checks of inputs: plain ones, and what the solvers are made for.
 
-========== ====================================================================================================
-room       responsibility
-========== ====================================================================================================
-``inputs`` each returns what it was given, in its plain form, or raises one line that names it
-``box``    what the solvers are made for, and the slip of unit that a number outside betrays
-========== ====================================================================================================
+============= =================================================================================================
+room          responsibility
+============= =================================================================================================
+``inputs``    each returns what it was given, in its plain form, or raises one line that names it
+``frequency`` the one rule for frequencies: named with their unit, exactly one given
+``box``       what the solvers are made for, and the slip of unit that a number outside betrays
+============= =================================================================================================
 """
 
 from ehlcontact.checks.inputs import (

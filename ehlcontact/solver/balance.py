@@ -23,12 +23,12 @@ class Balance(NamedTuple):
         return cls(1.0, 0.0, u)
 
     @classmethod
-    def newmark(cls, omega_n: float, dT: float, load: float, predictor: float) -> Self:
+    def newmark(cls, Omega_n: float, dT: float, load: float, predictor: float) -> Self:
         """One step of ``u''/Omega_n^2 + f = load`` (eq. 5) by Newmark's rule with beta = 1/4.
 
         There u = predictor + dT^2/4 u'' at the end of the step; `predictor` is what is known of u at its start.
         """
-        stiffness = 4.0 / (omega_n * dT) ** 2
+        stiffness = 4.0 / (Omega_n * dT) ** 2
         return cls(stiffness, 1.0, load + stiffness * predictor)
 
     def residual(self, u: float, force: float) -> float:

@@ -3,7 +3,8 @@
 ================ ==========================================================================================
 module           responsibility
 ================ ==========================================================================================
-``motion``       what drives the bodies: `Motion`, Newmark's rule, free vibration, harmonic load, ramp
+``bodies``       what a motion is: `Motion`, and bodies under a load, by Newmark's rule
+``motion``       free vibration, harmonic load, ramp
 ``prescribed``   loads and approaches given by a table
 ``surface``      what travels through: `Dent`, `TransverseRidge`, `Waviness`
 ``film``         `TransientFilm`: one implicit step of the film
@@ -12,6 +13,7 @@ module           responsibility
 ``settings``     what a run is asked for, checked and with its defaults
 ``run``          film and motion advanced together, in fixed or in controlled steps
 ``checkpoint``   a run's file to go on from
+``si``           a run and a full contact in SI
 ``result``       `SimulationResult` and its `Instants`
 ``simulate``     `simulate`: all of these, from a motion to a result
 ``full_contact`` `FullContact`: the whole film as a force element

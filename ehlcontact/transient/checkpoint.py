@@ -31,7 +31,8 @@ from ehlcontact.transient.step import StepControl
 from ehlcontact.transient.surface import Surface, surface_height
 
 SAME = 1e-12  # of a time or a step: they differ by rounding only
-FORMAT = 2  # of the file: 1 had all fields side by side
+FORMAT = 3  # of the file: 2 called the frequencies of motions omega and omega_n, 1 had all fields side by side
+OLDEST_FORMAT = 2  # that is read
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -190,7 +191,7 @@ def load_checkpoint(path: str | os.PathLike[str]) -> Checkpoint:
         No such file, not a checkpoint, truncated, or of the layout of another version.
     """
     classes, what = {Checkpoint.__name__: Checkpoint}, "checkpoint of `simulate`"
-    checkpoint: Checkpoint = hdf5.read(path, classes, "restart", what, (FORMAT, FORMAT))
+    checkpoint: Checkpoint = hdf5.read(path, classes, "restart", what, (OLDEST_FORMAT, FORMAT))
     return checkpoint
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from ehlcontact.checks import require_choice, require_finite, require_positive
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.point import Point, require_solvable
+from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.mesh import Purpose, mesh_for
 from ehlcontact.status import Status
 from ehlcontact.transient.film import FilmState, Step, TransientFilm
+from ehlcontact.transient.si import ContactSI
 
 
 class FullContact:
@@ -52,7 +53,7 @@ class FullContact:
         deflection: str = "fft",
     ) -> None:
         load = require_positive("largest_load", largest_load)
-        self.point = require_solvable(point, load)
+        self.point, self.scales = require_solvable(point, load), scales_of(point)
         mesh = mesh_for(self.point, Purpose.CONTACT, n=n, domain=domain, largest_load=load)
         self.n, self.domain = mesh.n, mesh.domain
         require_choice("deflection", deflection, tuple(ENGINES))
@@ -94,6 +95,11 @@ class FullContact:
     def h_min(self) -> float:
         """Smallest film."""
         return self._film.level.lowest_film()
+
+    @property
+    def si(self) -> ContactSI:
+        """Force, film and approach at rest in SI; raises `InputError` for a dimensionless point."""
+        return ContactSI.of(self)
 
     def save_state(self) -> FilmState:
         """Everything needed to come back to the present."""

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlcontact.checks import as_column, require_positive
+from ehlcontact.checks.frequency import by_name, fields_by_name
 from ehlcontact.errors import InputError
 from ehlcontact.solver.balance import Balance
-from ehlcontact.transient.motion import Array, Motion, MotionState, Start, UnderLoad
+from ehlcontact.transient.bodies import Array, Motion, MotionState, Start, UnderLoad
 
 CORNER = 0.3  # jump of a table's slope, over its steepest, that counts as a corner; 1/20 period of a sine is 0.31
 Table = tuple[Array, Array]  # times and values, shape (k,) each
@@ -43,13 +44,14 @@ class Tabulated(Motion):
         return self.default_end / (len(self._table[0]) - 1)
 
 
+@fields_by_name(omega_n="Omega_n, dimensionless")
 @dataclass(frozen=True, slots=True, eq=False)
 class PrescribedLoad(Tabulated, UnderLoad):
-    """Load given by a table (linear interpolation) on bodies with (`omega_n`) or without inertia."""
+    """Load given by a table (linear interpolation) on bodies with (`Omega_n`) or without inertia."""
 
     T: ArrayLike
     values: ArrayLike
-    omega_n: float | None = None
+    Omega_n: float | None = None
     kind: ClassVar[str] = "load"
     _table: Table = field(init=False, repr=False)
 
@@ -57,17 +59,18 @@ class PrescribedLoad(Tabulated, UnderLoad):
         table = _as_table(self.T, self.values)
         if not (table[1] > 0.0).all():
             raise InputError("values", float(table[1].min()), "loads > 0 (the contact must stay loaded)")
-        if self.omega_n is not None:
-            require_positive("omega_n", self.omega_n)
+        if self.Omega_n is not None:
+            require_positive("Omega_n", self.Omega_n)
         object.__setattr__(self, "_table", table)
 
     @classmethod
+    @by_name(5, omega_n="Omega_n, dimensionless")
     def from_function(
-        cls, load: Callable[[float], float], until: float, steps: int = 1000, omega_n: float | None = None
+        cls, load: Callable[[float], float], until: float, steps: int = 1000, Omega_n: float | None = None
     ) -> PrescribedLoad:
         """Sample a function of T on [0, until]."""
         T = np.linspace(0.0, require_positive("until", until), steps + 1)
-        return cls(T, [load(t) for t in T], omega_n)
+        return cls(T, [load(t) for t in T], Omega_n)
 
     def load(self, T: float) -> float:
         """Applied load."""
@@ -89,7 +92,7 @@ class PrescribedLoad(Tabulated, UnderLoad):
     def to_dict(self) -> dict[str, Any]:
         """For storage."""
         T, values = self._table
-        return {"kind": self.kind, "T": T.tolist(), "values": values.tolist(), "omega_n": self.omega_n}
+        return {"kind": self.kind, "T": T.tolist(), "values": values.tolist(), "Omega_n": self.Omega_n}
 
 
 @dataclass(frozen=True, slots=True, eq=False)

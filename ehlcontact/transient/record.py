@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ehlcontact.solver.level import Level
 from ehlcontact.status import Status
+from ehlcontact.transient.bodies import MotionState
 from ehlcontact.transient.film import Step, TransientFilm
-from ehlcontact.transient.motion import MotionState
 
 Array = NDArray[np.float64]
 

@@ -14,22 +14,29 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin, freeze
 from ehlcontact.status import Status
-from ehlcontact.transient.motion import Motion
+from ehlcontact.transient.bodies import Motion
+from ehlcontact.transient.si import SimulationSI
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Instants:
-    """A simulation between its steps: continuous with continuous slopes, every array of the shape of T."""
+    """A simulation between its steps, continuous with continuous slopes, dimensionless.
 
-    T: Array  # times
-    approach: Array  # mutual approach / dry approach
-    rate: Array  # derivative of `approach`
-    force: Array  # film force / static load
-    load: Array  # of the motion itself; the film force where the approach is prescribed
-    h_central: Array  # film at X = Y = 0 / dry approach
-    h_min: Array  # smallest film / dry approach
+    Attributes
+    ----------
+    T, approach, rate, force, load, h_central, h_min : ndarray, all of the shape of T
+        As in `SimulationResult`; the load of a motion that prescribes the approach is the film force.
+    """
+
+    T: Array
+    approach: Array
+    rate: Array
+    force: Array
+    load: Array
+    h_central: Array
+    h_min: Array
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -37,29 +44,66 @@ class Instants:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SimulationResult(Origin):
-    """History of a transient contact; entry 0 is the initial state at T = 0."""
+    """History of a transient contact, dimensionless; entry 0 is the initial state at T = 0. ``si`` has it in SI.
+
+    Attributes
+    ----------
+    motion : Motion
+    X, Y : ndarray, shape (nx + 1,), (ny + 1,)
+        x/a and y/b >= 0; fields are even in Y.
+    T : ndarray, shape (steps + 1,)
+        Times, in 2a/u_sum.
+    approach, rate, acceleration : ndarray, shape (steps + 1,)
+        Mutual approach over the dry approach, and its derivatives to T.
+    force, load : ndarray, shape (steps + 1,)
+        Film force, and applied load f_ext(T), over the static load.
+    h_central, h_min : ndarray, shape (steps + 1,)
+        Film at X = Y = 0, and the smallest, between the nodes too, over the dry approach.
+    h_midplane, p_midplane : ndarray, shape (steps + 1, nx + 1)
+        Film over the dry approach and pressure over the Hertz pressure, along Y = 0.
+    residuals : ndarray, shape (steps + 1,)
+        Of each step's last cycle, relative to the central film at rest.
+    load_residuals : ndarray, shape (steps + 1,)
+        Of the equation that closed each step, over the static load.
+    cycles : ndarray, shape (steps + 1,)
+        Cycles of each step.
+    snapshot_T : ndarray, shape (k,)
+        Times of the whole fields kept.
+    snapshot_H, snapshot_P : ndarray, shape (k, nx + 1, ny + 1)
+        Film over the dry approach and pressure over the Hertz pressure.
+    static_approach : float
+        Of the steady state under load 1, over the dry approach.
+    status : Status
+    point, scales, domain, n, seconds, version
+        As in every result: `ehlcontact.origin.Origin`.
+    """
 
     motion: Motion
-    X: Array  # (nx + 1,) x/a
-    Y: Array  # (ny + 1,) y/b >= 0; fields are even in Y
-    T: Array  # (steps + 1,) times
-    approach: Array  # (steps + 1,) mutual approach / dry approach
-    rate: Array  # (steps + 1,) d approach/dT
-    acceleration: Array  # (steps + 1,) d rate/dT
-    force: Array  # (steps + 1,) film force / static load
-    load: Array  # (steps + 1,) applied load f_ext(T) / static load
-    h_central: Array  # (steps + 1,) film at X = Y = 0 / dry approach
-    h_min: Array  # (steps + 1,) smallest film / dry approach, between the nodes too
-    h_midplane: Array  # (steps + 1, nx + 1) film along Y = 0 / dry approach
-    p_midplane: Array  # (steps + 1, nx + 1) pressure along Y = 0 / p_hertz
-    residuals: Array  # (steps + 1,) of each step's last cycle, relative to the central film at rest
-    load_residuals: Array  # (steps + 1,) of the equation that closed each step, / static load
-    cycles: Array  # (steps + 1,) cycles of each step
-    snapshot_T: Array  # (k,) times of the whole fields kept
-    snapshot_H: Array  # (k, nx + 1, ny + 1) film / dry approach
-    snapshot_P: Array  # (k, nx + 1, ny + 1) pressure / p_hertz
-    static_approach: float  # of the steady state under load 1 / dry approach
+    X: Array
+    Y: Array
+    T: Array
+    approach: Array
+    rate: Array
+    acceleration: Array
+    force: Array
+    load: Array
+    h_central: Array
+    h_min: Array
+    h_midplane: Array
+    p_midplane: Array
+    residuals: Array
+    load_residuals: Array
+    cycles: Array
+    snapshot_T: Array
+    snapshot_H: Array
+    snapshot_P: Array
+    static_approach: float
     status: Status
+
+    @property
+    def si(self) -> SimulationSI:
+        """All of it in SI; raises `InputError` for a dimensionless point, which has no units."""
+        return SimulationSI.of(self)
 
     @property
     def steps(self) -> int:
@@ -131,4 +175,5 @@ class SimulationResult(Origin):
             "motion": self.motion.to_dict(),
             "point": self.point.to_dict(),
             "version": self.version,
+            **({} if self.scales is None else {"si": self.si.summary()}),
         }

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 from ehlcontact.solver.balance import Balance
 from ehlcontact.status import Status
+from ehlcontact.transient.bodies import Motion, MotionState
 from ehlcontact.transient.film import FilmState, TransientFilm
-from ehlcontact.transient.motion import Motion, MotionState
 from ehlcontact.transient.record import Entry, History
 from ehlcontact.transient.settings import TimeSteps
 from ehlcontact.transient.step import StepControl, difference, local_error, longest_step, next_time, shortest_step

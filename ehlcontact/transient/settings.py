@@ -12,7 +12,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.mesh import Mesh
-from ehlcontact.transient.motion import Motion
+from ehlcontact.transient.bodies import Motion
 
 LARGEST_ERROR = 0.1
 FIRST_STEP = 0.25  # of the motion's own step: what is tried first under error control

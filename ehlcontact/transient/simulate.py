@@ -16,9 +16,9 @@ from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.mesh import Purpose, mesh_for
 from ehlcontact.status import Status
+from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError, Keeper, load_checkpoint, require_replaceable
 from ehlcontact.transient.film import TransientFilm
-from ehlcontact.transient.motion import Motion
 from ehlcontact.transient.record import History
 from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.run import Run, RunEnd, march

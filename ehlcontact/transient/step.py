@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ehlcontact.transient.motion import Motion
+from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.record import Array, Entry
 
 SAFETY = 0.85

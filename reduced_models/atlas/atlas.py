@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import asdict, dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.assumptions import assumptions
-from ehlcontact.checks import require_choice, require_finite
+from ehlcontact.checks import require_choice
+from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.errors import InputError
-from ehlcontact.point import MoesPoint, Point, moes_point, scales_of
+from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
+from reduced_models.atlas.answer import AtlasAnswer
 from reduced_models.atlas.elements import Loads, cubic_element, memory_element, passive_gains, wide_element
 from reduced_models.atlas.surface import AtlasSurface
 from reduced_models.atlas.table import AtlasTable, Box
@@ -26,28 +28,9 @@ _Floats = NDArray[np.float64]
 
 SHIPPED = Path(__file__).with_name("atlas.npz")
 MODELS = ("memory", "wide", "cubic")
-VIBRATION = 2.0 * math.pi  # frequency of the paper's vibrations, for the cubic
 # Loads of a wide-range element, as far as the box goes.
 LOADS = np.array([0.01, 0.03, 0.07, 0.15, 0.3, 0.6, 1.0, 1.7, 3.0])
 NEIGHBOURS = 1.2  # ratio below which a load is left out beside the end of the box
-
-
-@dataclass(frozen=True)
-class AtlasAnswer:
-    """One point: values in the units of its static load, and in `error` the bar of each."""
-
-    point: MoesPoint
-    approach: float
-    h_central: float
-    h_min: float
-    omega: _Floats  # (k,)
-    stiffness: _Floats  # (k,) K(Omega); the static tangent at Omega = 0
-    damping: _Floats  # (k,) C(Omega)
-    error: dict[str, Any]  # the same keys, half widths
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON but for the arrays."""
-        return asdict(self)
 
 
 class Atlas:
@@ -93,10 +76,21 @@ class Atlas:
         row = _rows(moes, np.ones(1))
         values, slopes, _ = self._surface.at(row)
         bars = self._surface.bars(row[0], values[0], slopes[0], self._oil_error(moes, float(values[0, 0])))
-        return AtlasAnswer(moes, omega=self._table.omega, **self._named(values[0]), error=self._named(bars))
+        named = self._named(values[0])
+        return AtlasAnswer(
+            moes, Omega=self._table.omega, **named, error=self._named(bars), scales=scales_of(point)
+        )
 
+    @by_name(3)
     def element(
-        self, point: Point, model: str = "wide", *, omega: float = VIBRATION
+        self,
+        point: Point,
+        model: str = "wide",
+        *,
+        Omega: float | None = None,
+        omega: float | None = None,
+        hz: float | None = None,
+        rpm: float | None = None,
     ) -> FilmMemoryContact | WideRangeContact | CubicContact:
         """Contact element at a point, in SI for an `OperatingPoint`.
 
@@ -105,16 +99,20 @@ class Atlas:
         point : MoesPoint or OperatingPoint
         model : {"wide", "memory", "cubic"}
             Any load at this speed; this load at any frequency; this load at one frequency.
-        omega : float
-            That frequency, for the cubic: angular, dimensionless.
+        Omega, omega, hz, rpm : float
+            That frequency, in exactly one of these, for the cubic and for no other: dimensionless (2a/u_sum is the
+            unit of time) at every point; at an `OperatingPoint` also in rad/s, Hz or rev/min. A damper without
+            memory is right at one frequency only, so there is no default.
 
         Raises
         ------
         InputError
-            A point outside the box, another model, or a cubic at a load too light for it.
+            A point outside the box, another model, a cubic without its frequency or at a load too light for it, a
+            frequency for a model that serves them all.
         """
         require_choice("model", model, MODELS)
         moes, scales = self._inside(point), scales_of(point)
+        w = self._frequency(model, scales, Omega=Omega, omega=omega, hz=hz, rpm=rpm)
         loads = self._loads(moes) if model == "wide" else np.ones(1)
         rows = _rows(moes, loads)
         values, slopes, shapes = self._surface.at(rows)
@@ -122,8 +120,7 @@ class Atlas:
         source = self._source(moes, rows[reference], values[reference], slopes[reference])
         source["assumptions"] = assumptions(point).short()
         k = self._table.omega.size
-        if model == "cubic":
-            w = self._frequency(omega)
+        if w is not None:
             K, C = (
                 float(np.interp(w, self._table.omega, part)) for part in (values[0, 4 : 4 + k], values[0, 4 + k :])
             )
@@ -157,11 +154,17 @@ class Atlas:
         C = damping[:, : len(self._basis)]
         return {"rms": None, "damping_error_max": float(np.max(np.abs(gains @ self._basis.T - C) / C[:, :1]))}
 
-    def _frequency(self, omega: float) -> float:
-        value = require_finite("omega", omega)
-        if not 0.0 <= value <= self._table.omega[-1]:
-            raise InputError("omega", value, f"between 0 and {self._table.omega[-1]:g}")
-        return value
+    def _frequency(self, model: str, scales: Scales | None, **given: Unpack[Frequency]) -> float | None:
+        """Omega of the cubic; None for the other models, which are made for all frequencies."""
+        if model == "cubic":
+            time = None if scales is None else scales.time
+            return one("frequency", dimensionless(time, **given, most=float(self._table.omega[-1])))
+        for name, value in given.items():
+            if value is not None:
+                highest = float(self._table.metadata["highest_omega"])
+                allowed = f"left out with model {model!r}, which serves every frequency up to Omega = {highest:g}"
+                raise InputError(name, value, allowed)
+        return None
 
     def _inside(self, point: Point) -> MoesPoint:
         moes = moes_point(point)

@@ -46,7 +46,7 @@ def solve_point(point: MoesPoint) -> dict[str, Any]:
 
 def respond(point: MoesPoint, mesh: Mesh) -> dict[str, Any]:
     """Steady film and impedance at `OMEGAS`."""
-    found = impedance(point, OMEGAS, n=mesh.n, domain=mesh.domain)
+    found = impedance(point, Omega=OMEGAS, n=mesh.n, domain=mesh.domain)
     return _film(found, mesh) | {"stiffness": found.stiffness.tolist(), "damping": found.damping.tolist()}
 
 

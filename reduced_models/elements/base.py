@@ -7,14 +7,22 @@ import os
 import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Self, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import require_choice, require_finite, require_instance
+from ehlcontact.checks import require_choice, require_finite, require_instance, require_positive
+from ehlcontact.checks.frequency import (
+    Frequency,
+    by_name,
+    dimensionless,
+    is_given,
+    one,
+    radians_per_second,
+)
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from reduced_models.elements.file import UNITS, naming, numbers, read_document, write_document
@@ -53,7 +61,7 @@ class ContactElement(_Common, ABC):
     rate : float, optional
         Largest rate, in magnitude, that they stand for.
     load_range, omega_range : (low, high), optional
-        Forces and angular frequencies that they stand for.
+        Forces and angular frequencies that they stand for: Omega of a dimensionless element, rad/s of one in SI.
     units : {"dimensionless", "SI"}
     fit, source : mapping, optional
         Quality of the fit and where the data came from, kept in the file.
@@ -143,22 +151,64 @@ class ContactElement(_Common, ABC):
         """RMS error of the force over its standard deviation, None for an element that was not fitted."""
         return None if self.fit is None else self.fit.get("rms")
 
-    def is_valid(
-        self, approach: ArrayLike, rate: ArrayLike = 0.0, omega: float | None = None
-    ) -> bool | NDArray[np.bool_]:
-        """Whether the data covered this approach and rate, and motion of angular frequency `omega`.
+    @property
+    def time(self) -> float | None:
+        """Unit of time [s] of an element in SI that knows its scales; None of any other."""
+        return self._known("time") if self.units == "SI" else None
 
-        The box is closed; a bound that is not known does not count.
+    @by_name(1)
+    def impedance(
+        self,
+        *,
+        load: float | None = None,
+        Omega: ArrayLike | None = None,
+        omega: ArrayLike | None = None,
+        hz: ArrayLike | None = None,
+        rpm: ArrayLike | None = None,
+    ) -> NDArray[np.complex128]:
+        """Z = K + i w C of a small motion of angular frequency w about rest under `load`.
+
+        Parameters
+        ----------
+        load : float, optional
+            By default the static load that the element was made at.
+        Omega, omega, hz, rpm : float or sequence of float
+            Frequencies, in exactly one of these. A dimensionless element takes Omega; one in SI rad/s, Hz or
+            rev/min, and Omega too where it knows its scales.
+
+        Returns
+        -------
+        ndarray, shape (k,)
+            In the units of the element: f0/delta_H and Omega, or N/m and rad/s.
+
+        Raises
+        ------
+        InputError
+            Frequencies not given in exactly one way that the element takes; a load that is not > 0, or not known.
         """
-        return self.validity.covers(approach, rate, omega)
+        return self.response(self._frequencies(Omega=Omega, omega=omega, hz=hz, rpm=rpm), load)
+
+    @abstractmethod
+    def response(self, w: NDArray[np.float64], load: float | None = None) -> NDArray[np.complex128]:
+        """As `impedance`, at angular frequencies in the units of the element (Omega or rad/s), shape (k,)."""
+
+    def is_valid(
+        self, approach: ArrayLike, rate: ArrayLike = 0.0, **frequency: Unpack[Frequency]
+    ) -> bool | NDArray[np.bool_]:
+        """Whether the data covered this approach and rate, and motion of the frequency that may be given.
+
+        The box is closed; a bound that is not known does not count. Frequencies are named as for `impedance`.
+        """
+        return self.validity.covers(approach, rate, self._frequency(frequency))
 
     def warn_outside(
         self,
         approach: ArrayLike = (),
         rate: ArrayLike = (),
-        omega: float | None = None,
+        *,
         force: ArrayLike = (),
         stacklevel: int = 2,
+        **frequency: Unpack[Frequency],
     ) -> None:
         """Warn, once per element, where a motion leaves the validity box by more than `Validity.excess` overlooks.
 
@@ -166,18 +216,43 @@ class ContactElement(_Common, ABC):
         ----------
         approach, rate : array_like
             Of the motion.
-        omega : float, optional
-            Its angular frequency.
         force : array_like
             Contact forces along it.
+        **frequency
+            Its frequency, named as for `impedance`.
         """
         if self._warned:
             return
-        said = self.validity.excess(approach, rate, omega, force)
+        said = self.validity.excess(approach, rate, self._frequency(frequency), force, self.units)
         if said:
             object.__setattr__(self, "_warned", True)
             message = f"{type(self).__name__} used outside its validity box: {', '.join(said)}"
             warnings.warn(message, OutsideValidityWarning, stacklevel=stacklevel + 1)
+
+    def _frequencies(self, **frequency: Unpack[Frequency]) -> NDArray[np.float64]:
+        """Angular frequencies in the units of the element, shape (k,)."""
+        if self.units == "SI":
+            return radians_per_second(self.time, **frequency)
+        return dimensionless(None, **frequency)
+
+    def _frequency(self, frequency: Frequency) -> float | None:
+        """The one in the units of the element, None if none is given."""
+        return one("frequency", self._frequencies(**frequency)) if is_given(**frequency) else None
+
+    def _known(self, unit: str) -> float | None:
+        """SI value of a unit of the point that the element was made at, where its source has it."""
+        scales = (self.source or {}).get("scales")
+        value = scales.get(unit) if isinstance(scales, Mapping) else None
+        return float(value) if isinstance(value, int | float) and value > 0.0 else None
+
+    def _static_load(self, load: float | None) -> float:
+        """`load`, or that of the point that the element was made at."""
+        if load is not None:
+            return require_positive("load", load)
+        static = self._known("force") if self.units == "SI" else 1.0
+        if static is None:
+            raise InputError("load", None, "given in N: this element does not know the load it was made at")
+        return static
 
     def to_si(self, scales: Scales) -> Self:
         """The same element in m, m/s and N.
@@ -197,7 +272,8 @@ class ContactElement(_Common, ABC):
             raise InputError("units", self.units, "dimensionless, to be taken to SI")
         _require_own_scales(scales, self.source)
         changes = self._si_coefficients(scales) | self.validity.to_si(scales).fields()
-        return replace(self, **changes, units="SI")
+        source = {**(self.source or {}), "scales": asdict(scales)}  # so that it knows its unit of time
+        return replace(self, **changes, units="SI", source=source)
 
     def to_dict(self) -> dict[str, Any]:
         """Content of the element file, header apart."""

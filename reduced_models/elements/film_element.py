@@ -100,6 +100,11 @@ class FilmContact(ContactElement):
         """Rates of the filters."""
         return FilterRates(self.lags, self.lag_rate, self.inlet_rate, self.fast_rate)
 
+    @property
+    def time(self) -> float | None:
+        """Unit of time [s] of an element in SI."""
+        return None if self.scales is None else self.scales.time
+
     @cached_property
     def _units(self) -> tuple[float, float, float]:
         s = self.scales
@@ -198,12 +203,12 @@ class FilmContact(ContactElement):
     def _static_x(self, u: float) -> float:
         return float(static(u, self.law)[0])
 
-    def impedance(self, omega: ArrayLike, load: float | None = None) -> NDArray[np.complex128]:
-        """Z(Omega) = K + i Omega C of a small motion about rest under `load` (by default the reference load)."""
+    def response(self, w: _Floats, load: float | None = None) -> NDArray[np.complex128]:
+        """As `impedance`, at angular frequencies in the units of the element, shape (k,)."""
         f, length, time = self._units
         at = 1.0 if load is None else require_positive("load", load) / f
         own = at ** (1.0 / 3.0)
-        w = np.atleast_1d(np.asarray(omega, np.float64)) * time
+        w = w * time
         x = math.log(at)
         gains = np.array([np.interp(x, self.law.gain_x, column) for column in self.law.gains.T])
         tangent = self.spring_tangent(self.approach_at(at * f)) * length / f

@@ -40,7 +40,7 @@ class Validity:
     approach: Band
     rate: float | None = None  # largest, in magnitude
     load: Band | None = None  # contact forces
-    omega: Band | None = None  # angular frequencies
+    omega: Band | None = None  # angular frequencies, Omega or rad/s
     # low, high and largest rate, all with the margin
     reach: tuple[float, float, float] = field(init=False, repr=False, compare=False)
 
@@ -82,12 +82,17 @@ class Validity:
         return inside if u.ndim else bool(inside)
 
     def excess(
-        self, approach: ArrayLike = (), rate: ArrayLike = (), omega: float | None = None, force: ArrayLike = ()
+        self,
+        approach: ArrayLike = (),
+        rate: ArrayLike = (),
+        omega: float | None = None,
+        force: ArrayLike = (),
+        units: str = "dimensionless",
     ) -> list[str]:
         """What of a motion lies outside, in words; small excursions go unmentioned.
 
         Those are a twentieth of the intervals of approach and load and of the largest rate, and an octave of
-        frequency.
+        frequency. `omega` is in the units of the box, which are `units`.
         """
         said = []
         worst = _outside(approach, self.approach)
@@ -101,7 +106,7 @@ class Validity:
             said.append(f"force {worst:.4g} (fitted {text_of(self.load)})")
         if omega is not None and self.omega is not None:
             if not self.omega[0] / OCTAVE <= omega <= self.omega[1] * OCTAVE:
-                said.append(f"angular frequency {omega:.4g} (fitted {text_of(self.omega)})")
+                said.append(f"{frequency_text((omega,), units)} (fitted {frequency_text(self.omega, units)})")
         return said
 
     def to_si(self, scales: Scales) -> Validity:
@@ -148,6 +153,13 @@ def frequency_of(approach: NDArray[np.float64], rate: NDArray[np.float64]) -> fl
 def text_of(band: Band) -> str:
     """The band in words."""
     return f"{band[0]:.4g} to {band[1]:.4g}"
+
+
+def frequency_text(values: tuple[float, ...], units: str) -> str:
+    """One frequency or a band in words: Omega, or in SI Hz of rad/s."""
+    unit = 2.0 * math.pi if units == "SI" else 1.0
+    numbers = " to ".join(f"{w / unit:.4g}" for w in dict.fromkeys(values))
+    return f"{numbers} Hz" if units == "SI" else f"Omega {numbers}"
 
 
 def _around(values: NDArray[np.float64]) -> Band:

@@ -114,10 +114,10 @@ def _least_squares(records: Records, model: str, window: Window | None) -> FitRe
 def _element(samples: Samples, estimate: Estimate) -> MemorylessContact:
     """Element of the estimate, valid over the samples, that knows where they came from."""
     first = samples.records[0]
-    omegas = [cut.omega for cut in samples.cuts]
+    frequencies = [cut.frequency for cut in samples.cuts]
     return estimate.build(
         **estimate.parameters,
-        **Validity.of(samples.approach, samples.rate, samples.force, omegas).fields(),
+        **Validity.of(samples.approach, samples.rate, samples.force, frequencies).fields(),
         units=first.units,
         source=source_of(
             first.point, first.scales, samples.each("n"), samples.each("domain"), samples.each("motion")

@@ -48,8 +48,8 @@ class Response(Protocol):
     """What is asked of an impedance; `ehlcontact.impedance` returns one."""
 
     @property
-    def omega(self) -> _Floats:
-        """Frequencies, shape (k,)."""
+    def Omega(self) -> _Floats:
+        """Dimensionless frequencies, shape (k,)."""
 
     @property
     def stiffness(self) -> _Floats:
@@ -68,7 +68,7 @@ class Response(Protocol):
 class Target:
     """Everything that one fit sees, as plain arrays in the order of frequency."""
 
-    omega: _Floats
+    Omega: _Floats
     stiffness: _Floats
     damping: _Floats
     approach: float
@@ -84,12 +84,12 @@ class Target:
             Too few frequencies or none low enough, an approach beyond the dry one, SI records, or records that
             are not of the contact of the impedance.
         """
-        order = np.argsort(response.omega)
-        omega = np.asarray(response.omega, float)[order]
-        if omega.size < FEWEST_OMEGAS:
-            raise InputError("omega", omega.size, f"at least {FEWEST_OMEGAS} frequencies")
-        if omega[0] > LOWEST_OMEGA:
-            raise InputError("lowest omega", float(omega[0]), f"at most {LOWEST_OMEGA}")
+        order = np.argsort(response.Omega)
+        Omega = np.asarray(response.Omega, float)[order]
+        if Omega.size < FEWEST_OMEGAS:
+            raise InputError("Omega", Omega.size, f"at least {FEWEST_OMEGAS} frequencies")
+        if Omega[0] > LOWEST_OMEGA:
+            raise InputError("lowest Omega", float(Omega[0]), f"at most {LOWEST_OMEGA}")
         if not response.approach < 1.0:
             raise InputError("approach", response.approach, "below 1: there must be a film (refine the grid)")
         for i, record in enumerate(records):
@@ -101,7 +101,7 @@ class Target:
                     raise InputError(f"records[{i}].{name}", theirs, f"as of the impedance, {ours!r}")
             record.require_matching_rate()
         stiffness, damping = np.asarray(response.stiffness, float), np.asarray(response.damping, float)
-        return cls(omega, stiffness[order], damping[order], float(response.approach), tuple(records))
+        return cls(Omega, stiffness[order], damping[order], float(response.approach), tuple(records))
 
     @property
     def film(self) -> tuple[float, float]:
@@ -129,12 +129,12 @@ class Target:
 
     def part(self, fold: int, inside: bool) -> Target:
         """The data of one fold, or all but those; the lowest frequency belongs to all."""
-        keep = (np.arange(self.omega.size) % FOLDS == fold) == inside
+        keep = (np.arange(self.Omega.size) % FOLDS == fold) == inside
         keep[0] = True
         records = tuple(r for i, r in enumerate(self.records) if (i % FOLDS == fold) == inside)
         return replace(
             self,
-            omega=self.omega[keep],
+            Omega=self.Omega[keep],
             stiffness=self.stiffness[keep],
             damping=self.damping[keep],
             records=records,
@@ -212,7 +212,7 @@ def impedance_of(records: Sequence[ContactRecord]) -> ImpedanceResult:
     first = records[0]
     if first.point is None or first.n is None or first.domain is None:
         raise InputError("records[0]", "without point, n or domain", "of a simulation, or give an impedance")
-    return impedance(first.point, OMEGAS, n=first.n, domain=Domain(*first.domain))
+    return impedance(first.point, Omega=OMEGAS, n=first.n, domain=Domain(*first.domain))
 
 
 def cross_validate(target: Target, lags: int) -> float:
@@ -221,8 +221,8 @@ def cross_validate(target: Target, lags: int) -> float:
     for fold in range(FOLDS):
         element, _ = _solve(target.part(fold, inside=False), lags)
         left_out = target.part(fold, inside=True)
-        w = left_out.omega
-        Z = element.impedance(w)
+        w = left_out.Omega
+        Z = element.response(w)
         damping = Z.imag / np.maximum(w, 1e-5) / left_out.damping - 1.0
         squares.append(np.mean((damping[w > 0.0] / WEIGHT_C) ** 2))
         squares.append(np.mean(((Z.real / left_out.stiffness - 1.0) / WEIGHT_K) ** 2))
@@ -237,13 +237,13 @@ def _solve(target: Target, lags: int) -> tuple[FilmMemoryContact, GainFit]:
 
     def parts(p: _Floats) -> tuple[FilmMemoryContact, GainFit]:
         rates = FilterRates(lags, *(float(value) for value in np.exp(p[:3])))
-        gains = fit_gains(rates, target.omega, target.stiffness, target.damping, target.static)
+        gains = fit_gains(rates, target.Omega, target.stiffness, target.damping, target.static)
         squeeze = float(p[3]) if target.records else 0.0
         return _element(target, rates, gains, squeeze), gains
 
     def residuals(p: _Floats) -> _Floats:
         element, gains = parts(p)
-        rows = [gains.residuals / np.sqrt(target.omega.size)]
+        rows = [gains.residuals / np.sqrt(target.Omega.size)]
         for record in target.records:
             error = _force(element, record) - record.force
             rows.append(error / (FORCE_WEIGHT * np.std(record.force) * np.sqrt(len(record))))
@@ -269,7 +269,7 @@ def _element(target: Target, rates: FilterRates, gains: GainFit, squeeze: float)
         inlet_rate=rates.inlet_rate,
         fast_rate=rates.fast_rate,
         gains=tuple(gains.gains.tolist()),
-        **Validity.of(*target.motion, target.omega).fields(),
+        **Validity.of(*target.motion, target.Omega).fields(),
     )
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ehlcontact import Status
 from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
+from ehlcontact.checks.frequency import fields_by_name, renamed_keys
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Scales
 from reduced_models.elements.file import UNITS
@@ -24,6 +25,7 @@ _REQUIRED = ("T", "approach", "rate", "force")
 _HISTORIES = (*_REQUIRED, "load", "acceleration")
 
 
+@fields_by_name(omega_n="Omega_n, dimensionless")
 @dataclass(frozen=True, eq=False)
 class ContactRecord:
     """One history of a contact, simulated or measured.
@@ -44,8 +46,8 @@ class ContactRecord:
         (x_in, x_out, y_max) of the simulation; damping depends on it.
     motion : mapping, optional
         Description of the motion.
-    omega_n : float, optional
-        Omega_n of eq. 5; None for a record without inertia. Dimensionless records only.
+    Omega_n : float, optional
+        Of eq. 5; None for a record without inertia. Dimensionless records only.
     static_load : float, optional
         Load at which the static approach (``root``) of a fit is given; 1 for a dimensionless record.
     units : {"dimensionless", "SI"}
@@ -54,7 +56,7 @@ class ContactRecord:
     ------
     InputError
         A history that is not one-dimensional, too short, not finite or of another length than T; T not
-        strictly increasing; omega_n with SI units. The message names the field.
+        strictly increasing; Omega_n with SI units. The message names the field.
     """
 
     T: NDArray[np.float64]
@@ -68,7 +70,7 @@ class ContactRecord:
     n: int | None = None
     domain: tuple[float, ...] | None = None
     motion: Mapping[str, Any] | None = None
-    omega_n: float | None = None
+    Omega_n: float | None = None
     static_load: float | None = None
     units: str = "dimensionless"
 
@@ -79,10 +81,12 @@ class ContactRecord:
             values = getattr(self, name)
             if name in _REQUIRED or values is not None:
                 object.__setattr__(self, name, as_column(name, values, size=self.T.size))
-        if self.omega_n is not None:
-            object.__setattr__(self, "omega_n", require_positive("omega_n", self.omega_n))
+        if self.Omega_n is not None:
+            object.__setattr__(self, "Omega_n", require_positive("Omega_n", self.Omega_n))
             if self.units == "SI":
-                raise InputError("omega_n", self.omega_n, "None for a record in SI units")
+                raise InputError("Omega_n", self.Omega_n, "None for a record in SI units")
+        if self.motion is not None:
+            object.__setattr__(self, "motion", renamed_keys(self.motion))
         if self.static_load is None and self.units == "dimensionless":
             object.__setattr__(self, "static_load", 1.0)
         elif self.static_load is not None:
@@ -127,7 +131,7 @@ class ContactRecord:
             n=int(simulation.n),
             domain=tuple(float(value) for value in domain),
             motion=motion,
-            omega_n=motion.get("omega_n"),
+            Omega_n=renamed_keys(motion).get("Omega_n"),
         )
 
     def __len__(self) -> int:
@@ -147,22 +151,22 @@ class ContactRecord:
         motion = self.motion or {}
         if motion.get("kind") == "ramp":
             return start, end
-        if motion.get("kind") == "harmonic" and motion.get("omega"):
-            period = 2.0 * np.pi / motion["omega"]
+        if motion.get("kind") == "harmonic" and motion.get("Omega"):
+            period = 2.0 * np.pi / motion["Omega"]
             periods = int((end - start) / 1.5 / period + 1e-9)
             if periods >= 1:
                 return end - periods * period, end
         return start + (end - start) / 3.0, end
 
     @property
-    def omega(self) -> float:
-        """Angular frequency of the motion: of a harmonic load its own, else from the spreads of rate and approach.
+    def frequency(self) -> float:
+        """Angular frequency of the motion in the units of the record: Omega, or rad/s.
 
-        0 for a record that does not move.
+        Of a harmonic load its own, else from the spreads of rate and approach; 0 where nothing moves.
         """
         motion = self.motion or {}
-        if motion.get("kind") == "harmonic" and motion.get("omega"):
-            return float(motion["omega"])
+        if motion.get("kind") == "harmonic" and motion.get("Omega"):
+            return float(motion["Omega"])
         spread = float(np.std(self.approach))
         return float(np.std(self.rate)) / spread if spread > 0.0 else 0.0
 

@@ -81,10 +81,10 @@ class Samples:
         """Eq. 13 for the acceleration that the motion equation (eq. 7) gives with the fitted force."""
         true, modelled = 0.0, 0.0
         for cut, force in zip(self.cuts, self.split(fitted), strict=True):
-            if cut.omega_n is None or cut.load is None or cut.acceleration is None:
+            if cut.Omega_n is None or cut.load is None or cut.acceleration is None:
                 return None
             true += float(np.sum(cut.acceleration))
-            modelled += float(np.sum(cut.omega_n**2 * (cut.load - force)))
+            modelled += float(np.sum(cut.Omega_n**2 * (cut.load - force)))
         return (true - modelled) / true if true != 0.0 else None
 
 

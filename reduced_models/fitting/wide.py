@@ -12,6 +12,7 @@ from scipy.optimize import least_squares
 
 from ehlcontact import impedance, solve_steady
 from ehlcontact.checks import as_column
+from ehlcontact.checks.frequency import by_name
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
 from ehlcontact.point import Point, moes_point, require_solvable, scales_of
@@ -74,8 +75,8 @@ def wide_range_contact(
         rates, squeeze = memory.rates, memory.squeeze
     else:
         rates, squeeze = _common_rates(responses, lags), 0.0
-    gains = [fit_gains(rates, r.omega, r.stiffness, r.damping, _static(r)).gains.tolist() for r in responses]
-    omegas = [(float(np.min(r.omega)), float(np.max(r.omega))) for r in responses]
+    gains = [fit_gains(rates, r.Omega, r.stiffness, r.damping, _static(r)).gains.tolist() for r in responses]
+    bands = [(float(np.min(r.Omega)), float(np.max(r.Omega))) for r in responses]
     return WideRangeContact(
         loads=at,  # type: ignore[arg-type]
         approach=u,  # type: ignore[arg-type]
@@ -85,17 +86,18 @@ def wide_range_contact(
         lag_rate=rates.lag_rate,
         inlet_rate=rates.inlet_rate,
         fast_rate=rates.fast_rate,
-        omega_range=(min(low for low, _ in omegas), max(high for _, high in omegas)),
+        omega_range=(min(low for low, _ in bands), max(high for _, high in bands)),
         source=source,
     )
 
 
+@by_name(2, omegas="Omega, dimensionless")
 def wide_range_from_solves(
     point: Point,
     loads: Sequence[float] = LOADS,
     *,
     memory_loads: Sequence[float] = MEMORY_LOADS,
-    omegas: Sequence[float] = OMEGAS,
+    Omega: Sequence[float] = OMEGAS,
     memory: FilmMemoryContact | None = None,
     lags: int = 12,
     n: int = 128,
@@ -108,8 +110,8 @@ def wide_range_from_solves(
         The reference: its load is 1.
     loads, memory_loads : sequence of float
         Loads of the steady solves and of the impedances, increasing, in units of the reference load.
-    omegas : sequence of float
-        Frequencies of the impedances in the time of each load.
+    Omega : sequence of float
+        Dimensionless frequencies of the impedances, in the time of each load.
     memory, lags
         As for `wide_range_contact`.
     n : int
@@ -133,7 +135,7 @@ def wide_range_from_solves(
     for f in sorted({*at.tolist(), *places.tolist()}):  # all of them before the first solve
         require_solvable(replace(moes, M=moes.M * f))
     steady = [solve_steady(replace(moes, M=moes.M * f), n=n) for f in at.tolist()]
-    responses = [impedance(replace(moes, M=moes.M * f), omegas, n=n) for f in places.tolist()]
+    responses = [impedance(replace(moes, M=moes.M * f), Omega=Omega, n=n) for f in places.tolist()]
     approach, domains = [s.approach for s in steady], [list(s.domain.as_tuple()) for s in steady]
     source = source_of(moes, scales, n, domains)
     return wide_range_contact(at, approach, places, responses, lags=lags, memory=memory, source=source)
@@ -141,7 +143,7 @@ def wide_range_from_solves(
 
 def _static(response: Response) -> float:
     """Tangent at rest: K at the lowest frequency."""
-    return float(response.stiffness[np.argmin(response.omega)])
+    return float(response.stiffness[np.argmin(response.Omega)])
 
 
 def _common_rates(responses: Sequence[Response], lags: int) -> FilterRates:
@@ -151,7 +153,7 @@ def _common_rates(responses: Sequence[Response], lags: int) -> FilterRates:
         return FilterRates(lags, *(float(value) for value in np.exp(p)))
 
     def residuals(p: _Floats) -> _Floats:
-        fits = [fit_gains(rates(p), r.omega, r.stiffness, r.damping, _static(r)) for r in responses]
+        fits = [fit_gains(rates(p), r.Omega, r.stiffness, r.damping, _static(r)) for r in responses]
         return np.concatenate([fit.residuals for fit in fits])
 
     lower, upper = np.log(np.array(SEARCH_LIMITS[:3])).T

@@ -102,13 +102,16 @@ class ScaledContact:
         force, stiffness, damping = self.contact.step_tangents(dt / s.time, approach / s.length, rate / s.rate)
         return force * s.force, stiffness * s.stiffness, damping * s.damping
 
-    def warn_outside(self, approach: Any, rate: Any, omega: float | None, force: Any, stacklevel: int = 2) -> None:
-        """Warn where the motion leaves the validity box of a wrapped element; a full contact has none."""
+    def warn_outside(
+        self, approach: Any, rate: Any, *, force: Any, omega: float | None, stacklevel: int = 2
+    ) -> None:
+        """Warn where a motion of `omega` rad/s leaves the box of a wrapped element; a full contact has none."""
         warn = getattr(self.contact, "warn_outside", None)
         if warn is not None:
             s = self.scales
-            scaled = None if omega is None else omega * s.time
-            warn(approach / s.length, rate / s.rate, scaled, force / s.force, stacklevel + 1)
+            Omega = None if omega is None else omega * s.time
+            u, v, f = approach / s.length, rate / s.rate, force / s.force
+            warn(u, v, force=f, Omega=Omega, stacklevel=stacklevel + 1)
 
 
 class ContactForces:

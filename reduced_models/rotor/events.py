@@ -113,5 +113,5 @@ def _said(element: ContactElement, approach: _Floats, rate: _Floats, force: _Flo
     """Warnings of a copy of the element about this motion: the one that ran may have warned already."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", OutsideValidityWarning)
-        element.copy().warn_outside(approach, rate, frequency_of(approach, rate), force)
+        element.copy().warn_outside(approach, rate, force=force, omega=frequency_of(approach, rate))
     return tuple(str(warning.message) for warning in caught)

@@ -30,13 +30,8 @@ MOST_ROUNDS = 100  # of it
 
 
 def impedance_about(element: ContactElement, load: float) -> Impedance:
-    """Impedance of an element about rest under `load`, as a function of the angular frequency in its units."""
-    response = getattr(element, "impedance", None)
-    if response is not None:
-        return lambda omega: np.asarray(response(omega, load), dtype=np.complex128)
-    u = element.approach_at(load)
-    stiffness, damping = float(element.stiffness(u, 0.0)), float(element.damping(u, 0.0))  # type: ignore[attr-defined]
-    return lambda omega: np.asarray(stiffness + 1j * damping * np.asarray(omega), dtype=np.complex128)
+    """Impedance of an SI element about rest under `load` [N], as a function of omega [rad/s]."""
+    return lambda omega: element.response(np.atleast_1d(np.asarray(omega, dtype=np.float64)), load)
 
 
 def film_impedance(response: ImpedanceResult) -> Impedance:
@@ -52,10 +47,10 @@ def film_impedance(response: ImpedanceResult) -> Impedance:
     scales = response.scales
     if scales is None:
         raise InputError("response.scales", None, "of an OperatingPoint, for a rotor in SI")
-    order = np.argsort(response.omega)
+    order = np.argsort(response.Omega)
     if order.size < 2:
-        raise InputError("response.omega", response.omega.tolist(), "at least 2 frequencies")
-    known = response.omega[order]
+        raise InputError("response.Omega", response.Omega.tolist(), "at least 2 frequencies")
+    known = response.Omega[order]
     parts = [PchipInterpolator(known, values[order]) for values in (response.stiffness, response.damping)]
 
     def impedance(omega: _Floats) -> _Complex:

@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 
 from ehlcontact import Status
 from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
+from ehlcontact.checks.frequency import Frequency, by_name
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.validity import frequency_of
@@ -26,7 +27,20 @@ Load = float | ArrayLike | Callable[[float], float]
 
 @dataclass(frozen=True, eq=False)
 class OscillatorResult:
-    """Histories at the times T, each of shape (N,), in the units of the element."""
+    """Histories in the units of the element, dimensionless or SI.
+
+    Attributes
+    ----------
+    T : ndarray, shape (N,)
+        Times, in 2a/u_sum or s.
+    approach, rate : ndarray, shape (N,)
+        Over the dry approach or in m, and the derivative to T.
+    force, load : ndarray, shape (N,)
+        Of the contact, and applied; over the static load or in N.
+    evaluations : int
+        Of the equations of motion.
+    status : Status
+    """
 
     T: _Floats
     approach: _Floats
@@ -37,11 +51,13 @@ class OscillatorResult:
     status: Status
 
 
+@by_name(2, omega_n="Omega_n (dimensionless), or mass [kg] with an element in SI")
 def simulate_oscillator(
     element: ContactElement,
     T: ArrayLike,
     *,
-    omega_n: float | None,
+    Omega_n: float | None = None,
+    mass: float | None = None,
     load: Load = 1.0,
     u0: float,
     v0: float = 0.0,
@@ -53,14 +69,16 @@ def simulate_oscillator(
     Parameters
     ----------
     element : ContactElement
-        It warns, once, where the motion leaves its validity box. With an element in SI, T is in s and
-        ``omega_n = 1/sqrt(mass)``. A film memory starts from rest at `u0`, in continuous time; the element's own
-        state is not touched.
+        It warns, once, where the motion leaves its validity box. A film memory starts from rest at `u0`, in
+        continuous time; the element's own state is not touched.
     T : array_like, shape (N,)
-        Increasing times of the result; the first is the start. No step is longer than the widest gap between
-        them, so a load that T resolves is not stepped over.
-    omega_n : float or None
-        None leaves inertia out: the rate follows from F(u, u') = load, which needs a damper and a load > 0.
+        Increasing times of the result, in s with an element in SI; the first is the start. No step is longer than
+        the widest gap between them, so a load that T resolves is not stepped over.
+    Omega_n : float, optional
+        Of the mass on a dimensionless element (eq. 5).
+    mass : float, optional
+        In kg, on an element in SI. Neither leaves inertia out: the rate follows from F(u, u') = load, which needs
+        a damper and a load > 0.
     load : float, array_like of shape (N,) or callable
         An array holds the load at T, with straight lines between.
     u0, v0 : float
@@ -74,7 +92,8 @@ def simulate_oscillator(
     Raises
     ------
     InputError
-        Times, load, tolerance or method that cannot be used; no inertia and no damper.
+        Times, load, tolerance or method that cannot be used; no inertia and no damper; Omega_n for an element in
+        SI, or a mass for a dimensionless one.
     ConvergenceError
         The integration broke off; ``result`` holds the times it reached.
     """
@@ -86,9 +105,8 @@ def simulate_oscillator(
     start = [require_finite("u0", u0)]
     size = max(abs(float(element.high)), abs(u0))
     atol = [rtol * size]
-    square = None
-    if omega_n is not None:
-        square = require_positive("omega_n", omega_n) ** 2
+    square = _inverse_mass(element, Omega_n, mass)
+    if square is not None:
         start.append(require_finite("v0", v0))
         # Rate of an oscillation as large as the motion, on the secant stiffness.
         speed = np.sqrt(square * abs(float(element.spring(size))) / size) * size
@@ -108,13 +126,25 @@ def simulate_oscillator(
     )
     ended = solution.success and bool(np.all(np.isfinite(solution.y)))
     status = Status.CONVERGED if ended else Status.FAILED
-    result = _result(element, solution, rates, applied, omega_n is not None, status)
+    result = _result(element, solution, rates, applied, square is not None, status)
     if not result.status.ok:
         reached = float(result.T[-1]) if result.T.size else float(times[0])
         raise ConvergenceError(f"oscillator broke off at T = {reached:g}: {solution.message}", result)
-    omega = frequency_of(result.approach, result.rate)
-    element.warn_outside(result.approach, result.rate, omega, result.force)
+    w = frequency_of(result.approach, result.rate)
+    frequency: Frequency = {"omega": w} if element.units == "SI" else {"Omega": w}
+    element.warn_outside(result.approach, result.rate, force=result.force, **frequency)
     return result
+
+
+def _inverse_mass(element: ContactElement, Omega_n: float | None, mass: float | None) -> float | None:
+    """Omega_n^2 or 1/mass, None without inertia."""
+    if element.units == "SI":
+        if Omega_n is not None:
+            raise InputError("Omega_n", Omega_n, "left out with an element in SI: give its mass [kg]")
+        return None if mass is None else 1.0 / require_positive("mass", mass)
+    if mass is not None:
+        raise InputError("mass", mass, "left out with a dimensionless element: give Omega_n")
+    return None if Omega_n is None else require_positive("Omega_n", Omega_n) ** 2
 
 
 def _inertial(element: Any, applied: Callable[[float], float], square: float) -> tuple[Callable, Callable]:

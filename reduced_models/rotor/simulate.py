@@ -23,17 +23,35 @@ RotorStatus = Status  # its public name; a run ends as converged, interrupted or
 
 @dataclass(frozen=True, eq=False)
 class RotorResult:
-    """Histories of a rotor run in SI; entry 0 is the start. N times, C contacts."""
+    """Histories of a rotor run in SI; entry 0 is the start.
 
-    t: _Floats  # (N,) [s]
-    disc: _Floats  # (N, 2) [m]
-    disc_velocity: _Floats  # (N, 2) [m/s]
-    journal: _Floats  # (N, 2) [m]
-    journal_velocity: _Floats  # (N, 2) [m/s]
-    approach: _Floats  # (N, C) [m]
-    rate: _Floats  # (N, C) [m/s]
-    force: _Floats  # (N, C) on one contact of one bearing [N]
-    iterations: NDArray[np.int64]  # (N,) evaluations of every contact in the step
+    Attributes
+    ----------
+    t : ndarray, shape (N,)
+        Times [s].
+    disc, journal : ndarray, shape (N, 2)
+        Positions [m].
+    disc_velocity, journal_velocity : ndarray, shape (N, 2)
+        Velocities [m/s].
+    approach, rate : ndarray, shape (N, contacts)
+        Of every contact [m], [m/s].
+    force : ndarray, shape (N, contacts)
+        On one contact of one bearing [N].
+    iterations : ndarray, shape (N,)
+        Evaluations of every contact in the step.
+    status : Status
+    rotor : JeffcottRotor
+    """
+
+    t: _Floats
+    disc: _Floats
+    disc_velocity: _Floats
+    journal: _Floats
+    journal_velocity: _Floats
+    approach: _Floats
+    rate: _Floats
+    force: _Floats
+    iterations: NDArray[np.int64]
     status: Status
     rotor: JeffcottRotor
 
@@ -163,4 +181,4 @@ def _warn_outside(contacts: Sequence[Contact], result: RotorResult) -> None:
         warn = getattr(contact, "warn_outside", None)
         if warn is not None:
             u, v, f = result.approach[:, i], result.rate[:, i], result.force[:, i]
-            warn(u, v, frequency_of(u, v), f, stacklevel=4)
+            warn(u, v, force=f, omega=frequency_of(u, v), stacklevel=4)

@@ -183,7 +183,7 @@ def impedances(bench: Bench) -> None:
     omega = [0.0, 0.05, 0.4, 1.5, 4.0, 8.0, 16.0, 30.0]
 
     def figures(name: str) -> Figures:
-        found = impedance(_point(name), omega)
+        found = impedance(_point(name), Omega=omega)
         return {"n": found.n, "extent": found.domain.x_in, "K": found.stiffness, "C": found.damping}
 
     for name in ("paper", "light", "6205"):
@@ -387,7 +387,7 @@ def memory_fits(bench: Bench) -> None:
     from ehlcontact import impedance
     from reduced_models import fit_memory
 
-    response = impedance(_point("paper"), [0.0, *np.geomspace(0.03, 60.0, 14)], n=32)
+    response = impedance(_point("paper"), Omega=[0.0, *np.geomspace(0.03, 60.0, 14)], n=32)
     free = _records()[0]
 
     def figures(found: Any) -> Figures:
@@ -419,10 +419,15 @@ def wide(bench: Bench) -> None:
         return {
             "approach": [found.approach_at(load) for load in loads],
             "tangent": [found.spring_tangent(found.approach_at(load)) for load in loads],
-            "C": found.impedance(np.array([0.05, 1.0, 10.0])).imag / np.array([0.05, 1.0, 10.0]),
+            "C": found.impedance(Omega=[0.05, 1.0, 10.0]).imag / np.array([0.05, 1.0, 10.0]),
         }
 
     bench.case("from solves", figures)
+
+
+def _at(model: str) -> dict[str, float]:
+    """Frequency of an element of the atlas that is asked for one."""
+    return {"Omega": 2.0 * np.pi} if model == "cubic" else {}
 
 
 def elements(bench: Bench) -> None:
@@ -526,7 +531,7 @@ def atlas(bench: Bench) -> None:
         return figures
 
     def element(point: Any, model: str) -> Figures:
-        found = Atlas().element(point, model)
+        found = Atlas().element(point, model, **_at(model))
         u = np.linspace(found.low, found.high, 9)
         return {
             "spring": np.asarray(found.spring(u)),
@@ -681,7 +686,7 @@ def rotor(bench: Bench) -> None:
         return found if iterations is None else found | {"iterations": int(np.sum(iterations))}
 
     def on(rotor: Any, model: str, count: int, **options: Any) -> Figures:
-        contacts = [table.element(bearing, model) for _ in range(count)]
+        contacts = [table.element(bearing, model, **_at(model)) for _ in range(count)]
         return figures(simulate_rotor(rotor, contacts, dt=2e-4, until=0.02, **options))
 
     for model in ("wide", "memory", "cubic"):
@@ -713,7 +718,7 @@ def rotor(bench: Bench) -> None:
 
     def swing() -> Figures:
         found = simulate_oscillator(
-            table.element(_point("paper"), "wide"), np.linspace(0.0, 1.0, 21), omega_n=5.13, load=1.05, u0=0.87
+            table.element(_point("paper"), "wide"), np.linspace(0.0, 1.0, 21), Omega_n=5.13, load=1.05, u0=0.87
         )
         return {"approach": found.approach, "force": found.force}
 

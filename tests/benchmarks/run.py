@@ -129,7 +129,7 @@ def impedance_of_twelve() -> tuple[float, dict[str, float]]:
     """Impedance at twelve frequencies."""
     omega = np.concatenate([[0.0], np.geomspace(0.05, 30.0, 11)])
     point = MoesPoint(200, 10, 0.5)
-    return median_time(lambda: impedance(point, omega), 3), {"n": impedance(point, omega).n}
+    return median_time(lambda: impedance(point, Omega=omega), 3), {"n": impedance(point, Omega=omega).n}
 
 
 def deflection(engine: str, n: int) -> tuple[float, dict[str, float]]:

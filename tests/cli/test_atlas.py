@@ -7,18 +7,19 @@ import pytest
 
 from reduced_models import Atlas, load_element
 
+AT = {"wide": (), "memory": (), "cubic": ("--Omega", "6.2832")}
 POINT = ("--M", "2900", "--L", "19", "--kappa", "0.11")
 
 
 @pytest.mark.parametrize("model", ["wide", "memory", "cubic"])
 def test_element_is_printed_saved_and_written(call, tmp_path, model):
     path = tmp_path / "e.json"
-    result = call("element", *POINT, "--model", model, "--save", path, "--json", "-")
+    result = call("element", *POINT, "--model", model, *AT[model], "--save", path, "--json", "-")
     assert result.code == 0 and result.err == ""
     document = json.loads(result.out)
     assert document["kind"] == model and document["source"]["atlas"]
     assert load_element(path).to_dict() == document
-    table = call("element", *POINT, "--model", model)
+    table = call("element", *POINT, "--model", model, *AT[model])
     assert table.code == 0 and "approach" in table.out and "±" in table.out
 
 
@@ -32,7 +33,9 @@ def test_element_is_printed_saved_and_written(call, tmp_path, model):
         ((*POINT, "--model", "quartic"), ("--model", "quartic", "wide")),
         ((*POINT, "--save", "e.txt"), ("--save", ".json")),
         ((*POINT, "--atlas", "nowhere.npz"), ("nowhere.npz",)),
-        (("--M", "6", "--L", "19", "--kappa", "0.11", "--model", "cubic"), ("cubic", "wide")),
+        (("--M", "6", "--L", "19", "--kappa", "0.11", "--model", "cubic", "--Omega", "1"), ("cubic", "wide")),
+        ((*POINT, "--model", "cubic"), ("--Omega", "given with --model cubic")),
+        ((*POINT, "--model", "wide", "--omega", "1"), ("Omega", "left out", "wide")),
     ],
 )
 def test_element_refuses(refused, arguments, words):

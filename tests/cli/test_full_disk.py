@@ -65,7 +65,7 @@ def test_what_else_is_written_does_not_cost_the_rest(call, no_room, tmp_path):
 
 
 def test_fmu_atlas_and_report(call, refused, no_room, tmp_path):
-    assert call(*WIDE[:1], "--model", "cubic", *WIDE[1:], "--save", tmp_path / "e.json").code == 0
+    assert call(*WIDE[:1], "--model", "cubic", "--Omega", "1", *WIDE[1:], "--save", tmp_path / "e.json").code == 0
     assert call("export", tmp_path / "e.json", "-o", tmp_path / "x.fmu").code == 0
     before = (tmp_path / "x.fmu").read_bytes()
     no_room()

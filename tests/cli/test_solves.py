@@ -43,7 +43,7 @@ def test_impedance(call, refused, point):
     assert all(k > 1.0 for k in document["stiffness"]) and all(c > 0.0 for c in document["damping"])
     table = call("impedance", *point, "--n", "32", "--omega", "3")
     assert table.code == 0 and "Omega = 3" in table.out
-    refused(["omegas", "-1"], "impedance", *point, "--omega", "-1")
+    refused(["Omega", "-1"], "impedance", *point, "--omega", "-1")
     refused(["n", "16"], "impedance", *point, "--n", "100", "--omega", "1")
 
 
@@ -160,7 +160,7 @@ def test_interrupted_simulation_goes_on_from_its_checkpoint(call, refused, point
     assert again.code == 0 and again.err == ""
     assert json.loads(again.out) | {"seconds": 0} == whole | {"seconds": 0}
     refused(
-        ("restart", "motion.omega", "3.0", "2.0"), *(o if o != "3" else "2" for o in run), "--restart", checkpoint
+        ("restart", "motion.Omega", "3.0", "2.0"), *(o if o != "3" else "2" for o in run), "--restart", checkpoint
     )
 
 

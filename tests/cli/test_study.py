@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from math import log10
+from math import log10, pi
 from pathlib import Path
 
 import h5py
@@ -53,6 +53,25 @@ def test_fingerprint_of_earlier_versions_holds(study):
     content = {"bearing": dump["bearing"], "oil": oil, "solver": dump["solver"]}
     text = json.dumps([__version__, content], sort_keys=True)
     assert study.fingerprint("solver") == hashlib.sha256(text.encode()).hexdigest()[:16]
+    content["free"] = {"omega_n": 2.56, "periods": 2.5, "steps_per_period": 80}
+    content["harmonic"] = {"omega": 3.1416, "amplitude": 0.1, "periods": 3.0, "steps_per_period": 80}
+    text = json.dumps([__version__, content], sort_keys=True)
+    expected = hashlib.sha256(text.encode()).hexdigest()[:16]
+    assert study.fingerprint("solver", "free", "harmonic") == expected
+
+
+def test_frequencies_of_the_motions_in_hertz(tmp_path, study):
+    """hz in place of Omega_n (of small dry vibrations) and of Omega; the stages of both are the same."""
+    file, time = tmp_path / "hertz.toml", study.point.scales.time
+    free, load = (1.0 / (study.free_motion.period * time), study.harmonic_motion.Omega / (2 * pi * time))
+    text = (EXAMPLES / "deep_groove_6205.toml").read_text()
+    for old, new in (("Omega_n = 2.56", f"hz = {free!r}"), ("Omega = 3.1416", f"hz = {load!r}")):
+        assert old in text
+        text = text.replace(old, new)
+    file.write_text(text)
+    found = load_study(file)
+    assert found.free_motion.Omega_n == pytest.approx(2.56, rel=1e-12)
+    assert found.harmonic_motion.Omega == pytest.approx(3.1416, rel=1e-12)
 
 
 def test_roughness_in_micrometres(tmp_path, study):
@@ -118,6 +137,11 @@ def test_rotor_runs_of_earlier_versions_can_be_read(study, tmp_path):
         ("eta0 = 0.0367\nalpha = 2.0e-8", "iso_vg = 68", ("oil.temperature", "given")),
         ("eta0 = 0.0367\nalpha = 2.0e-8", "temperature = 50.0", ("oil.iso_vg", "given")),
         ("eta0 = 0.0367\nalpha = 2.0e-8", "", ("oil.eta0", "given", "iso_vg")),
+        ("[free]", "[free]\nomega_n = 2.56", ("free.omega_n", "2.56", "as Omega_n (dimensionless", "hz")),
+        ("[harmonic]", "[harmonic]\nomega = 3.14", ("harmonic.omega", "3.14", "as Omega (dimensionless", "hz")),
+        ("[free]", "[free]\nOmega_n = 2.56\nhz = 1e4", ("free.hz", "10000", "left out where free.Omega_n")),
+        ("[harmonic]", "[harmonic]\nOmega = 2\nhz = 1e4", ("harmonic.hz", "left out where harmonic.Omega")),
+        ("[harmonic]", "[harmonic]\nhz = 0", ("harmonic.hz", "0", "greater than 0")),
         ("eta0 = 0.0367\nalpha = 2.0e-8", GRADE.replace("68", "67"), ("oil.iso_vg", "67", "one of 10, 15")),
         ("eta0 = 0.0367\nalpha = 2.0e-8", GRADE.replace("50", "323"), ("oil.temperature", "323", "given in K?")),
         (

@@ -29,7 +29,7 @@ def test_intervals(n):
         with pytest.raises(InputError, match=r"^n = "):
             call(n)
     with pytest.raises(InputError, match=r"^n = "):
-        impedance(POINT, [1.0], n=n)
+        impedance(POINT, Omega=[1.0], n=n)
 
 
 def test_intervals_of_numpy():
@@ -39,8 +39,8 @@ def test_intervals_of_numpy():
 @pytest.mark.parametrize(
     ("field", "call"),
     [
-        ("omega", lambda: HarmonicLoad("3.14")),
-        ("omega_n", lambda: FreeVibration("5")),
+        ("Omega", lambda: HarmonicLoad("3.14")),
+        ("Omega_n", lambda: FreeVibration("5")),
         ("nu1", lambda: Geometry(1.0, 1.0, nu1="0.3")),
         ("conformity", lambda: Geometry.ball_bearing(8e-3, 39e-3, "0.52")),
         ("M", lambda: MoesPoint(np.bool_(True), 10, 1.0)),
@@ -52,8 +52,8 @@ def test_intervals_of_numpy():
         ("max_cycles", lambda: solve_steady(POINT, max_cycles=-1)),
         ("max_cycles", lambda: solve_steady(POINT, max_cycles="a")),
         ("snapshots", lambda: simulate(POINT, FreeVibration(5.0), until=1.0, snapshots=(1.5,))),
-        ("omegas", lambda: impedance(POINT, [])),
-        ("omegas", lambda: impedance(POINT, [-1.0])),
+        ("Omega", lambda: impedance(POINT, Omega=[])),
+        ("Omega", lambda: impedance(POINT, Omega=[-1.0])),
     ],
 )
 def test_field_is_named(field, call):

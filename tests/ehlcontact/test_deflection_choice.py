@@ -19,7 +19,7 @@ def run(engine):
 
 
 def response(engine):
-    return impedance(POINT, [0.0, 3.0], n=32, deflection=engine).stiffness
+    return impedance(POINT, Omega=[0.0, 3.0], n=32, deflection=engine).stiffness
 
 
 def contact(engine):

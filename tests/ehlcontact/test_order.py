@@ -137,7 +137,7 @@ def test_uneven_time_steps_are_second_order(motion):
             assert entry.step.status.ok
             run.keep(entry)
         columns = run.history.record(run.film.level).columns()
-        names = ("approach", "rate", "force") if motion.omega_n else ("approach",)
+        names = ("approach", "rate", "force") if motion.Omega_n else ("approach",)
         histories.append(np.array([columns[name][:: steps // 24] for name in names]))
     errors = np.abs(np.diff(histories, axis=0)).max(axis=-1)
     assert (np.log2(errors[:-1] / errors[1:]) >= 1.8).all()

@@ -121,13 +121,13 @@ def test_omega_n_is_equation_5_with_the_speed_squared(operating_point):
     K, E = elliptic_integrals(p.moes.kappa)
     R = 1.0 / (1.0 / p.geometry.radius_x + 1.0 / p.geometry.radius_y)
     omega = (8.0 * p.load * R * E / (0.02 * p.u_sum**2 * K)) ** 0.5
-    assert p.omega_n(0.02) == pytest.approx(omega, rel=1e-10)
+    assert p.Omega_n(0.02) == pytest.approx(omega, rel=1e-10)
 
 
 @pytest.mark.parametrize("mass", BAD_POSITIVE)
 def test_bad_mass_is_named(operating_point, mass):
     with pytest.raises(InputError, match=r"^mass = "):
-        operating_point.omega_n(mass)
+        operating_point.Omega_n(mass)
 
 
 def test_swapped_axes_scale_alike():

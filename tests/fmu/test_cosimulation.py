@@ -176,7 +176,7 @@ def test_oscillator_on_the_fmu_follows_the_python_one(slave, rollback, elements)
     twin = runge_kutta(lambda t, h, u, v: element.force(u, v), T, u0, 0.0)
     assert np.max(np.abs(ours - twin)) <= 1e-12
     with pytest.warns(OutsideValidityWarning, match="approach"):
-        python = simulate_oscillator(element, T, omega_n=OMEGA_N, u0=u0, method="DOP853", rtol=1e-10)
+        python = simulate_oscillator(element, T, Omega_n=OMEGA_N, u0=u0, method="DOP853", rtol=1e-10)
     assert np.max(np.abs(ours - python.approach)) <= 1e-6
 
 
@@ -208,7 +208,7 @@ def implicit(unit, rollback, n, until=2.0):
 def test_implicit_master_with_rollback_is_second_order(slave, rollback, elements):
     unit = slave("cubic")
     python = simulate_oscillator(
-        elements["cubic"], [0.0, 2.0], omega_n=OMEGA_N, u0=1.0, method="DOP853", rtol=1e-11
+        elements["cubic"], [0.0, 2.0], Omega_n=OMEGA_N, u0=1.0, method="DOP853", rtol=1e-11
     ).approach[-1]
     errors = [abs(implicit(unit, rollback, n) - python) for n in (400, 800)]
     assert errors[1] < 1e-4

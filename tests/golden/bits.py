@@ -146,7 +146,7 @@ def records() -> Leaves:
         "free": (PAPER, FreeVibration(5.13), {"n": 32}),
         "offset": (PAPER, FreeVibration(2.56, offset=0.05), {"n": 32, "until": 1.0}),
         "harmonic": (PAPER, HarmonicLoad(np.pi), {"n": 32, "until": 1.0}),
-        "inertia": (PAPER, HarmonicLoad(np.pi, omega_n=5.13), {"n": 32, "until": 1.0}),
+        "inertia": (PAPER, HarmonicLoad(np.pi, Omega_n=5.13), {"n": 32, "until": 1.0}),
         "ramp": (PAPER, RampLoad(1.5, 0.5, 5.13), {"n": 32, "until": 1.0}),
         "load": (PAPER, PrescribedLoad(T, 1.0 + 0.1 * T), {"n": 32}),
         "approach": (PAPER, PrescribedApproach(T, 0.88 + 0.05 * np.sin(np.pi * T) ** 2), {"n": 32}),
@@ -159,7 +159,7 @@ def records() -> Leaves:
         "dent": (PAPER, HarmonicLoad(np.pi), {"n": 64, "until": 0.5, "surface": Dent(0.05, 0.8, speed=1.2)}),
         "waves": (PAPER, HarmonicLoad(np.pi), {"n": 64, "until": 0.5, "surface": Waviness(0.01, 0.8)}),
         "narrow": (NARROW, FreeVibration(5.13), {"until": 0.2, "snapshots": (0.1,)}),
-        "SI": (BEARING, FreeVibration(BEARING.omega_n(0.5)), {"n": 64, "until": 1.0}),
+        "SI": (BEARING, FreeVibration(BEARING.Omega_n(0.5)), {"n": 64, "until": 1.0}),
         "failing": (PAPER, RampLoad(60.0, 0.3, 5.13), {"n": 32, "until": 0.5, "throw": False}),
     }
     for name, (point, motion, options) in cases.items():
@@ -180,11 +180,11 @@ def records() -> Leaves:
 def responses() -> Leaves:
     """Impedances."""
     omega = [0.0, 0.05, 0.25, 3.0, 12.0, 30.0]
-    yield from leaves("paper", impedance(PAPER, omega, n=32))
-    yield from leaves("chosen", impedance(PAPER, omega))
-    yield from leaves("narrow", impedance(NARROW, omega))
-    yield from leaves("light", impedance(MoesPoint(5, 12, 0.12), omega))
-    yield from leaves("SI", impedance(BEARING, omega))
+    yield from leaves("paper", impedance(PAPER, Omega=omega, n=32))
+    yield from leaves("chosen", impedance(PAPER, Omega=omega))
+    yield from leaves("narrow", impedance(NARROW, Omega=omega))
+    yield from leaves("light", impedance(MoesPoint(5, 12, 0.12), Omega=omega))
+    yield from leaves("SI", impedance(BEARING, Omega=omega))
 
 
 def full_contact() -> Leaves:
@@ -210,7 +210,7 @@ def fits() -> Leaves:
         yield from leaves(model, fit([free, harmonic], model=model).to_dict())
         yield from leaves(f"{model} of one", fit(free, model=model).to_dict())
     yield from leaves("window", fit(free, window=(0.5, 2.0)).to_dict())
-    response = impedance(PAPER, [0.0, *np.geomspace(0.03, 60.0, 14)], n=32)
+    response = impedance(PAPER, Omega=[0.0, *np.geomspace(0.03, 60.0, 14)], n=32)
     memory = fit_memory(response, [free], lags=6)
     yield from leaves("memory", memory.to_dict())
     yield from leaves("memory chosen", fit_memory(response).to_dict())
@@ -220,7 +220,7 @@ def fits() -> Leaves:
         PAPER,
         loads=[0.3, 0.7, 1.0, 1.8],
         memory_loads=[0.5, 1.0],
-        omegas=[0.0, *np.geomspace(0.05, 30.0, 9)],
+        Omega=[0.0, *np.geomspace(0.05, 30.0, 9)],
         n=32,
     )
     yield from element("wide from solves", wide)
@@ -254,7 +254,7 @@ def element(name: str, contact: Any) -> Leaves:
             steps += [*contact.step_tangents(dt, at, rate), contact.advance(dt, at, rate)]
     yield f"{name}.steps", np.array(steps)
     if hasattr(contact, "impedance"):
-        yield f"{name}.impedance", contact.impedance(np.array([0.0, 0.01, 1.0, 6.0, 40.0]) * 0.05 / dt)
+        yield f"{name}.impedance", contact.response(np.array([0.0, 0.01, 1.0, 6.0, 40.0]) * 0.05 / dt)
         states = np.linspace(-0.01, 0.02, contact.state_count)
         force, rates = contact.state_rates(states, 0.5 * (low + high), v[3])
         yield f"{name}.rates", np.append(rates, force)
@@ -292,7 +292,12 @@ def elements() -> Leaves:
         yield from leaves(f"atlas {name}", atlas.at(point))
         for model in ("wide", "memory", "cubic"):
             if not (model == "cubic" and name == "light"):
-                yield from element(f"{model} {name}", atlas.element(point, model))
+                yield from element(f"{model} {name}", atlas.element(point, model, **at(model)))
+
+
+def at(model: str) -> dict[str, float]:
+    """Frequency of an element that is asked for one."""
+    return {"Omega": 2.0 * np.pi} if model == "cubic" else {}
 
 
 def motions() -> Leaves:
@@ -305,14 +310,14 @@ def motions() -> Leaves:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         for model in ("wide", "memory", "cubic"):
-            first, second = (atlas.element(BEARING, model) for _ in range(2))
+            first, second = (atlas.element(BEARING, model, **at(model)) for _ in range(2))
             runs[model] = simulate_rotor(upright, [first], dt=2e-4, until=0.02)
             yield from leaves(f"rotor {model}", runs[model])
             yield from leaves(f"vee {model}", simulate_rotor(vee, [first, second], dt=2e-4, until=0.02))
-            dimensionless = atlas.element(PAPER, model)
+            dimensionless = atlas.element(PAPER, model, **at(model))
             for omega_n in (5.13, None):
                 swing = simulate_oscillator(
-                    dimensionless, np.linspace(0.0, 1.0, 21), omega_n=omega_n, load=1.05, u0=0.87, v0=0.1
+                    dimensionless, np.linspace(0.0, 1.0, 21), Omega_n=omega_n, load=1.05, u0=0.87, v0=0.1
                 )
                 yield from leaves(f"oscillator {model} {omega_n}", swing)
         full = FullContact(BEARING, n=64)

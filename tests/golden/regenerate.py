@@ -65,14 +65,14 @@ def transient(name):
 
 def response():
     """Stiffness and damping at n = 32."""
-    result = impedance(PAPER, OMEGAS, n=32)
+    result = impedance(PAPER, Omega=OMEGAS, n=32)
     return {"stiffness": result.stiffness.tolist(), "damping": result.damping.tolist()}
 
 
 def fitted(model):
     """What every model makes of one short record: coefficients, quality, and the statics of the element."""
     if model == "memory":
-        response = impedance(PAPER, [0.0, *np.geomspace(0.03, 60.0, 12)], n=32)
+        response = impedance(PAPER, Omega=[0.0, *np.geomspace(0.03, 60.0, 12)], n=32)
         result = fit_memory(response, lags=6)
         return {"root": result.root, "tangent": result.tangent, "gains": list(result.element.gains)}
     record = ContactRecord.from_result(simulate(PAPER, FreeVibration(5.13), n=32, tol=1e-7))
@@ -88,7 +88,7 @@ def answered(name):
     found |= {k: getattr(answer, k).tolist() for k in ("stiffness", "damping")}
     found["bars"] = [answer.error["approach"], answer.error["h_central"], *answer.error["damping"].tolist()]
     for model in ("wide", "memory", "cubic"):
-        element = atlas.element(point, model)
+        element = atlas.element(point, model, **({"Omega": 2.0 * np.pi} if model == "cubic" else {}))
         rest = element.approach_at(1.0)
         element.rest(rest)
         found[model] = [rest, *element.step_tangents(0.3, rest + 0.02, 0.05)]

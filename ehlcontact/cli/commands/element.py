@@ -12,6 +12,7 @@ from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
+from ehlcontact.errors import InputError
 from reduced_models.elements.validity import text_of
 
 
@@ -24,6 +25,15 @@ def register(app: typer.Typer) -> None:
 def element(
     contact: o.Contact,
     model: Annotated[str, typer.Option("--model", help="wide, memory or cubic.")] = "wide",
+    Omega: Annotated[
+        float | None,
+        typer.Option(
+            "--Omega",
+            "--omega",
+            help="Of a cubic, which has to be told: the dimensionless angular frequency (unit of time 2a/u_sum) "
+            "that its damper is for. Both names mean the same: this command knows dimensionless points only.",
+        ),
+    ] = None,
     atlas: Annotated[
         Path | None,
         typer.Option("--atlas", metavar="FILE", help="An atlas; the library's own by default."),
@@ -35,15 +45,17 @@ def element(
     from reduced_models.atlas.atlas import MODELS, Atlas
 
     require_choice("--model", model, MODELS)
+    if model == "cubic" and Omega is None:
+        raise InputError("--Omega", None, "given with --model cubic: a damper without memory is for one frequency")
     point = contact.point()
     check_file("--save", save, (".json",))
     check_json(json_to)
     table = Atlas(atlas)
-    answer, made = table.at(point), table.element(point, model)
+    answer, made = table.at(point), table.element(point, model, Omega=Omega)
     error = answer.error
     at = [
         (f"C at Ω = {numeral(w, 3)}", f"{c:.5f}", f"± {numeral(bar, 1)}")
-        for w, c, bar in zip(answer.omega, answer.damping, error["damping"], strict=True)
+        for w, c, bar in zip(answer.Omega, answer.damping, error["damping"], strict=True)
         if w in (0.05, 1.0) or abs(w - 6.2832) < 1e-3
     ]
     shown = partial(

@@ -11,9 +11,14 @@ from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import check_json, show_table, write_json
 from ehlcontact.cli.progress import progress
 
-Omegas = Annotated[
+Frequencies = Annotated[
     list[float],
-    typer.Option("--omega", help="Dimensionless frequency, >= 0; give it once per frequency."),
+    typer.Option(
+        "--Omega",
+        "--omega",
+        help="Dimensionless angular frequency (unit of time 2a/u_sum), >= 0; give it once per frequency. "
+        "Both names mean the same: this command knows dimensionless points only.",
+    ),
 ]
 
 
@@ -23,16 +28,16 @@ def register(app: typer.Typer) -> None:
 
 
 @o.grouped
-def impedance(contact: o.Contact, omega: Omegas, grid: o.Grid, json_to: o.JsonTo = None) -> None:
+def impedance(contact: o.Contact, Omega: Frequencies, grid: o.Grid, json_to: o.JsonTo = None) -> None:
     """Linearise the steady film: stiffness K and damping C over frequency."""
     from ehlcontact.impedance import impedance as solve
 
     point, chosen = contact.solvable(), grid.chosen()
     check_json(json_to)
     with progress("linearised contact"):
-        result = solve(point, omega, **chosen)
+        result = solve(point, Omega=Omega, **chosen)
     write_json(result.summary(), json_to)
-    triples = zip(result.omega, result.stiffness, result.damping, strict=True)
+    triples = zip(result.Omega, result.stiffness, result.damping, strict=True)
     show_table(
         "impedance: force over approach, static load 1, dry approach 1, time unit 2a/u_sum",
         [

@@ -14,8 +14,9 @@ from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, check_file, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError
-from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, Motion, RampLoad
+from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 
 if TYPE_CHECKING:
     from ehlcontact.transient.result import SimulationResult
@@ -35,11 +36,11 @@ class MotionOptions:
 
     free: Annotated[
         float | None,
-        typer.Option("--free", metavar="OMEGA_N", help="Free vibration.", rich_help_panel=_MOTION),
+        typer.Option("--free", metavar="OMEGA_N", help="Free vibration, dimensionless.", rich_help_panel=_MOTION),
     ] = None
     harmonic: Annotated[
         float | None,
-        typer.Option("--harmonic", metavar="OMEGA", help="Harmonic load.", rich_help_panel=_MOTION),
+        typer.Option("--harmonic", metavar="OMEGA", help="Harmonic load, dimensionless.", rich_help_panel=_MOTION),
     ] = None
     ramp: Annotated[
         tuple[float, float] | None,
@@ -50,10 +51,13 @@ class MotionOptions:
             rich_help_panel=_MOTION,
         ),
     ] = None
-    omega_n: Annotated[
+    Omega_n: Annotated[
         float | None,
         typer.Option(
-            "--omega-n", help="Omega_n of the bodies, for --ramp and --harmonic.", rich_help_panel=_MOTION
+            "--Omega-n",
+            "--omega-n",
+            help="Dimensionless Omega_n of the bodies, for --ramp and --harmonic; both names mean the same.",
+            rich_help_panel=_MOTION,
         ),
     ] = None
     offset: Annotated[
@@ -88,11 +92,11 @@ class MotionOptions:
         if self.free is not None:
             return FreeVibration(self.free, self.offset or 0.0, self.rate)
         if self.harmonic is not None:
-            return HarmonicLoad(self.harmonic, 0.1 if self.amplitude is None else self.amplitude, self.omega_n)
+            return HarmonicLoad(self.harmonic, 0.1 if self.amplitude is None else self.amplitude, self.Omega_n)
         assert self.ramp is not None
-        if self.omega_n is None:
+        if self.Omega_n is None:
             raise InputError("--omega-n", None, "given with --ramp: a finite number > 0")
-        return RampLoad(*self.ramp, self.omega_n)
+        return RampLoad(*self.ramp, self.Omega_n)
 
     def _refuse_strangers(self, chosen: str) -> None:
         """Make sure that no option was given that the chosen motion does not take."""
@@ -100,7 +104,7 @@ class MotionOptions:
             "--offset": (self.offset, ("--free",)),
             "--rate": (self.rate, ("--free",)),
             "--amplitude": (self.amplitude, ("--harmonic",)),
-            "--omega-n": (self.omega_n, ("--harmonic", "--ramp")),
+            "--omega-n": (self.Omega_n, ("--harmonic", "--ramp")),
         }
         for name, (value, motions) in owners.items():
             if value is not None and chosen not in motions:

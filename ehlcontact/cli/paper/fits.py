@@ -94,7 +94,7 @@ class Fits:
             return simulate_oscillator(
                 element,
                 cut.T,
-                omega_n=cut.omega_n,
+                Omega_n=cut.Omega_n,
                 load=cut.load,
                 u0=float(cut.approach[0]),
                 v0=float(cut.rate[0]),

@@ -101,5 +101,6 @@ def write_reproduction(found: Reproduction, path: Path) -> Path:
         ramp=VALIDATION_POINT,
         point=POINT,
         compared=[table.number for table in found.tables if table.number in EXTRAPOLATED],
+        coarser=sorted({n for _, n in found.fits.runs.cases if n != found.fits.runs.n}),
         labels=LABELS,
     )

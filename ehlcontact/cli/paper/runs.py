@@ -19,7 +19,8 @@ from ehlcontact.solver.domain import Domain, check_intervals
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.storage import load, save
-from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, Motion, RampLoad
+from ehlcontact.transient.bodies import Motion
+from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.simulate import simulate
 

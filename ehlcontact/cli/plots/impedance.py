@@ -22,13 +22,13 @@ def impedance(
     """
     figure = new_figure(3.6)
     panels = figure.subplots(1, 2)
-    own, highest = frequencies[0], float(response.omega[-1])
-    moving = response.omega > 0.0
+    own, highest = frequencies[0], float(response.Omega[-1])
+    moving = response.Omega > 0.0
     for axes, values in zip(panels, (response.stiffness, response.damping), strict=True):
-        axes.plot(response.omega[moving], values[moving], "o", color=BLUE, markersize=3.5, label="film")
+        axes.plot(response.Omega[moving], values[moving], "o", color=BLUE, markersize=3.5, label="film")
     if memory is not None:
-        w = np.geomspace(min(0.5 * own, float(response.omega[moving][0])), highest, 300)
-        Z = memory.impedance(w)
+        w = np.geomspace(min(0.5 * own, float(response.Omega[moving][0])), highest, 300)
+        Z = memory.impedance(Omega=w)
         for axes, values in zip(panels, (Z.real, Z.imag / w), strict=True):
             axes.plot(w, values, color=GREEN, label="film memory, one element")
     found = [cubic for cubic in cubics if cubic.tangent is not None]

@@ -94,8 +94,8 @@ def force(
         fitted: Floats = np.asarray(element.force(record.approach, record.rate))
         if not acceleration:
             return fitted
-        assert record.omega_n is not None and record.load is not None
-        return record.omega_n**2 * (record.load - fitted)
+        assert record.Omega_n is not None and record.load is not None
+        return record.Omega_n**2 * (record.load - fitted)
 
     def panel(axes: Axes) -> None:
         name = "acceleration" if acceleration else "force"

@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
+import numpy as np
+
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Scales
 from ehlcontact.results import ImpedanceResult
@@ -22,6 +24,7 @@ from reduced_models import (
     fit_memory,
     without_damper,
 )
+from reduced_models.fitting.memory import OMEGAS
 
 RECORDS = {
     "free": "free vibration",
@@ -109,10 +112,17 @@ def reduce_records(
                 refused[record, model] = str(error)
     memory: MemoryFit | str
     try:
-        memory = _assuming(fit_memory(response, list(records.values())), assumed)
+        memory = _assuming(fit_memory(_spread(response), list(records.values())), assumed)
     except (InputError, ConvergenceError) as error:
         memory = str(error)
     return Reduction(fits, refused, memory, response, scales)
+
+
+def _spread(response: ImpedanceResult) -> ImpedanceResult:
+    """At the frequencies that a film memory is fitted at: more at the slow end would outweigh the others."""
+    kept = np.isin(response.Omega, OMEGAS)
+    names = ("Omega", "stiffness", "damping", "residual")
+    return replace(response, **{name: getattr(response, name)[kept] for name in names})
 
 
 def _assuming(found: Any, assumed: Mapping[str, Any]) -> Any:

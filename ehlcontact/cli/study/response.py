@@ -24,7 +24,7 @@ def film_response(study: Study) -> ImpedanceResult:
 
     It is the same every time: a stage that needs it solves it again, in the time of a few steps of its run.
     """
-    return impedance(study.point, frequencies(study), n=study.solver.n_transient, domain=study.domain)
+    return impedance(study.point, Omega=frequencies(study), n=study.solver.n_transient, domain=study.domain)
 
 
 def frequencies(study: Study) -> list[float]:

@@ -109,9 +109,10 @@ class Solver(_Section):
 
 
 class Free(_Section):
-    """Free vibration of a mass on the contact."""
+    """Free vibration of a mass on the contact, by its Omega_n or the frequency of small dry vibrations."""
 
-    omega_n: Positive = 2.56
+    Omega_n: Positive | None = None  # dimensionless; 2.56 where neither is given
+    hz: Positive | None = None
     periods: Periods = 2.5
     steps_per_period: Steps = 80
 
@@ -119,7 +120,8 @@ class Free(_Section):
 class Harmonic(_Section):
     """Harmonic load in the band of the contact's own vibrations."""
 
-    omega: Positive = pi
+    Omega: Positive | None = None  # dimensionless; pi where neither is given
+    hz: Positive | None = None
     amplitude: Amplitude = 0.1
     periods: Periods = 3.0
     steps_per_period: Steps = 80
@@ -218,12 +220,19 @@ class Study(_Section):
     @property
     def free_motion(self) -> FreeVibration:
         """Motion of the free vibration."""
-        return FreeVibration(self.free.omega_n)
+        _once("free", "Omega_n", self.free.Omega_n, self.free.hz)
+        if self.free.hz is not None:
+            return FreeVibration.at(self.point, hz=self.free.hz)
+        return FreeVibration(2.56 if self.free.Omega_n is None else self.free.Omega_n)
 
     @property
     def harmonic_motion(self) -> HarmonicLoad:
         """Motion in the contact's band."""
-        return HarmonicLoad(self.harmonic.omega, self.harmonic.amplitude)
+        settings = self.harmonic
+        _once("harmonic", "Omega", settings.Omega, settings.hz)
+        if settings.hz is not None:
+            return HarmonicLoad.at(self.point, hz=settings.hz, amplitude=settings.amplitude)
+        return HarmonicLoad(pi if settings.Omega is None else settings.Omega, settings.amplitude)
 
     @property
     def rotor_motion(self) -> HarmonicLoad:
@@ -238,9 +247,23 @@ class Study(_Section):
     def fingerprint(self, *sections: str) -> str:
         """Hash of the bearing, the oil, the version and further sections: what a stage's result depends on."""
         dump = self.model_dump(exclude_none=True)  # so that an entry more in the schema changes nothing
+        # however it was given, and under its name of old: so that a finished study stays finished
+        for section, name, given, value in (
+            ("free", "omega_n", "Omega_n", self.free_motion.Omega_n),
+            ("harmonic", "omega", "Omega", self.harmonic_motion.Omega),
+        ):
+            kept = {key: entry for key, entry in dump[section].items() if key not in (given, "hz")}
+            dump[section] = kept | {name: value}
         content = {name: dump[name] for name in ("bearing", "oil", *sections)}
         text = json.dumps([__version__, content], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _once(section: str, name: str, *given: float | None) -> None:
+    if None not in given:
+        raise InputError(
+            f"{section}.hz", given[1], f"left out where {section}.{name} is given: one frequency, one name"
+        )
 
 
 def load_study(path: Path) -> Study:

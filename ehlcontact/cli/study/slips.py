@@ -24,6 +24,8 @@ QUANTITIES = {
     "oil.eta0": INPUTS["eta0"],
     "oil.alpha": INPUTS["alpha"],
 }
+# Names from before frequencies carried their unit: omega is in rad/s now, so they are not taken silently.
+RENAMED = {"free.omega_n": "Omega_n", "harmonic.omega": "Omega"}
 # Where pydantic speaks of Python: what TOML calls it.
 RANGE = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
 LIST = "a list of three numbers"
@@ -51,7 +53,9 @@ def first_error(path: Path, error: ValidationError, study: type[BaseModel]) -> I
     first = next((e for e in errors if e["type"] == "extra_forbidden"), errors[0])
     loc, value = first["loc"], first["input"]
     field = ".".join(str(part) for part in loc) or "study"
-    if first["type"] == "extra_forbidden":
+    if field in RENAMED:
+        allowed = f"given as {RENAMED[field]} (dimensionless, the same number) or as hz"
+    elif first["type"] == "extra_forbidden":
         allowed = "left out; " + _known_instead(study, loc)
     elif first["type"] == "missing" and isinstance(loc[-1], int):
         field, allowed = ".".join(str(part) for part in loc[:-1]), LIST

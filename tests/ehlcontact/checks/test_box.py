@@ -31,7 +31,7 @@ GOOD = MoesPoint(200.0, 10.0, 0.5)
 SOLVERS = {
     "solve_steady": solve_steady,
     "simulate": lambda point: simulate(point, FreeVibration(5.13)),
-    "impedance": lambda point: impedance(point, [1.0]),
+    "impedance": lambda point: impedance(point, Omega=[1.0]),
     "FullContact": FullContact,
 }
 

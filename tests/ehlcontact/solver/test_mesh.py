@@ -106,15 +106,15 @@ def test_no_remedy_for_what_was_asked_for_or_is_done():
 
 
 def test_impedance_tells_the_grid_it_chose():
-    assert impedance(MoesPoint(200, 10, 0.5), [0.0]).n == 80
-    assert impedance(MoesPoint(200, 10, 0.5), [0.0], n=48).n == 48
+    assert impedance(MoesPoint(200, 10, 0.5), Omega=[0.0]).n == 80
+    assert impedance(MoesPoint(200, 10, 0.5), Omega=[0.0], n=48).n == 48
 
 
 @pytest.mark.slow
 def test_damping_of_a_thin_film_within_a_few_per_cent():
     """A deep groove at 1 kN on the chosen grid against one of half the mesh size."""
     point, omega = MoesPoint(2900, 19, 0.11), [0.05, 0.25, 1.0, 3.14, 6.28]
-    chosen = impedance(point, omega)
-    finer = impedance(point, omega, n=2 * chosen.n)
+    chosen = impedance(point, Omega=omega)
+    finer = impedance(point, Omega=omega, n=2 * chosen.n)
     assert np.abs(chosen.damping / finer.damping - 1.0).max() < 0.05
     assert np.abs(chosen.stiffness / finer.stiffness - 1.0).max() < 0.005

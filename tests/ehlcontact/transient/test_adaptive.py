@@ -29,9 +29,9 @@ T = np.linspace(0.0, 2.0, 41)
 PULSE = PrescribedLoad([0.0, 0.5, 0.7, 1.2, 1.4, 6.0], [1.0, 1.0, 1.3, 1.3, 1.0, 1.0])
 
 
-def several_fold(low, high, omega_n=None):
+def several_fold(low, high, Omega_n=None):
     """Load from `low` to `high` and back, all within one transit each."""
-    return PrescribedLoad([0.0, 0.5, 1.5, 2.5, 3.5, 6.0], [low, low, high, high, low, low], omega_n)
+    return PrescribedLoad([0.0, 0.5, 1.5, 2.5, 3.5, 6.0], [low, low, high, high, low, low], Omega_n)
 
 
 def largest_error(record, reference):
@@ -133,9 +133,9 @@ def test_load_that_rises_forty_fold():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("omega_n", [None, 5.13])
-def test_load_that_rises_sixty_fold(omega_n):
-    record = simulate(POINT, several_fold(0.05, 3.0, omega_n), n=128, error=1e-3)
+@pytest.mark.parametrize("Omega_n", [None, 5.13])
+def test_load_that_rises_sixty_fold(Omega_n):
+    record = simulate(POINT, several_fold(0.05, 3.0, Omega_n), n=128, error=1e-3)
     assert record.status is Status.CONVERGED
     assert record.force.max() >= 3.0 - 1e-3
     assert (record.h_min > 0.0).all()

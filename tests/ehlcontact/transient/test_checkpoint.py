@@ -290,7 +290,7 @@ def stopped(tmp_path_factory):
         (dict(point=MoesPoint(210, 10, 0.5)), ("point", "M=200", "M=210")),
         (dict(domain=Domain(-4.0, 1.5, 3.0)), ("domain", "x_in=-4.5", "x_in=-4.0")),
         (dict(n=64), ("n", "32", "64")),
-        (dict(motion=FreeVibration(5.2)), ("motion.omega_n", "5.13", "5.2")),
+        (dict(motion=FreeVibration(5.2)), ("motion.Omega_n", "5.13", "5.2")),
         (dict(motion=HarmonicLoad(5.13)), ("motion.kind", "free", "harmonic")),
         (dict(tol=1e-3), ("tol", "0.003", "0.001")),
         (dict(dT=0.04), ("dT", "0.05", "0.04")),
@@ -329,7 +329,7 @@ def test_checkpoint_of_another_version(stopped, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("number", "words"), [(1, "of format 2 or newer; make it anew"), (3, "upgrade to read it")]
+    ("number", "words"), [(1, "of format 2 or newer; make it anew"), (4, "upgrade to read it")]
 )
 def test_checkpoint_of_another_layout(stopped, tmp_path, number, words):
     path = shutil.copy(stopped[0], tmp_path / "c.h5")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import FreeVibration, HarmonicLoad, InputError, PrescribedApproach, PrescribedLoad, RampLoad
-from ehlcontact.transient.motion import Motion
+from ehlcontact.transient.bodies import Motion
 
 NAN, INF = float("nan"), float("inf")
 T = np.linspace(0.0, 2.0, 9)
@@ -65,15 +65,15 @@ def test_prescribed_approach():
 @pytest.mark.parametrize(
     ("make", "field"),
     [
-        (lambda v: FreeVibration(v), "omega_n"),
-        (lambda v: HarmonicLoad(v), "omega"),
+        (lambda v: FreeVibration(v), "Omega_n"),
+        (lambda v: HarmonicLoad(v), "Omega"),
         (lambda v: HarmonicLoad(1.0, amplitude=v), "amplitude"),
         (lambda v: RampLoad(v, 1.0, 2.0), "ratio"),
         (lambda v: RampLoad(2.0, v, 2.0), "duration"),
-        (lambda v: RampLoad(2.0, 1.0, v), "omega_n"),
+        (lambda v: RampLoad(2.0, 1.0, v), "Omega_n"),
         (lambda v: PrescribedLoad.from_function(lambda t: 1.0, v), "until"),
     ],
-    ids=["free", "harmonic", "amplitude", "ratio", "duration", "ramp omega_n", "until"],
+    ids=["free", "harmonic", "amplitude", "ratio", "duration", "ramp Omega_n", "until"],
 )
 def test_bad_number_is_named(make, field, value):
     with pytest.raises(InputError, match=f"^{field} = .*: must be "):
@@ -89,8 +89,8 @@ def test_bad_number_is_named(make, field, value):
         ("rate", lambda: FreeVibration(5.0, rate=INF)),
         ("rate", lambda: FreeVibration(1.0, rate=2.6)),
         ("amplitude", lambda: HarmonicLoad(1.0, amplitude=1.0)),
-        ("omega_n", lambda: HarmonicLoad(1.0, omega_n=-1.0)),
-        ("omega_n", lambda: PrescribedLoad(T, 1.0 + T, omega_n=0.0)),
+        ("Omega_n", lambda: HarmonicLoad(1.0, Omega_n=-1.0)),
+        ("Omega_n", lambda: PrescribedLoad(T, 1.0 + T, Omega_n=0.0)),
         ("values", lambda: PrescribedLoad(T, 1.0 - T)),
         ("length of values", lambda: PrescribedLoad(T, T[:-1])),
         ("length of T", lambda: PrescribedLoad(T[:3], T[:3] + 1.0)),
@@ -113,9 +113,9 @@ def test_other_bad_input_is_named(field, make):
 MOTIONS = [
     FreeVibration(5.13, offset=0.05),
     FreeVibration(5.13),
-    HarmonicLoad(pi, 0.2, omega_n=12.0),
+    HarmonicLoad(pi, 0.2, Omega_n=12.0),
     RampLoad(3.67, 1.69, 2.4),
-    PrescribedLoad(T, 1.0 + 0.1 * T, omega_n=3.0),
+    PrescribedLoad(T, 1.0 + 0.1 * T, Omega_n=3.0),
     PrescribedApproach(T, 0.9 + 0.01 * T),
 ]
 

@@ -170,7 +170,7 @@ def test_prescribed_load_equals_the_same_harmonic_load():
 
 def test_inertia_of_a_stiff_oscillator_is_quasi_static():
     """At Omega_n far above the load's frequency, eq. 5 tends to eq. 6."""
-    light = simulate(POINT, HarmonicLoad(0.5 * pi, omega_n=40.0), n=N, until=4.0, dT=0.025)
+    light = simulate(POINT, HarmonicLoad(0.5 * pi, Omega_n=40.0), n=N, until=4.0, dT=0.025)
     none = simulate(POINT, HarmonicLoad(0.5 * pi), n=N, until=4.0, dT=0.025)
     late = light.T > 1.0
     np.testing.assert_allclose(light.approach[late], none.approach[late], atol=3e-3)

@@ -27,6 +27,7 @@ from reduced_models.atlas.table import FIRST
 
 CASE = MoesPoint(200.0, 10.0, 0.5)
 LIMITS = {"approach": 0.003, "tangent": 0.01, "film": 0.02, "damping": 0.05}  # relative errors
+AT = {"wide": {}, "memory": {}, "cubic": {"Omega": 2.0 * math.pi}}
 BEARING = MoesPoint(2900.0, 19.0, 0.11)
 
 
@@ -135,7 +136,7 @@ def test_error_bars_widen_by_what_the_oil_may_change(shipped, alpha, eta0):
 
 @pytest.mark.parametrize("model", MODELS)
 def test_elements_stand_on_the_answers(shipped, model):
-    answer, element = shipped.at(BEARING), shipped.element(BEARING, model)
+    answer, element = shipped.at(BEARING), shipped.element(BEARING, model, **AT[model])
     assert element.kind == model
     u = answer.approach
     assert element.spring(u) == pytest.approx(1.0, abs=1e-6)
@@ -147,7 +148,7 @@ def test_elements_stand_on_the_answers(shipped, model):
     tolerance = 1e-6 if model == "memory" else 0.02
     assert element.spring_tangent(u) == pytest.approx(answer.stiffness[0], rel=tolerance)
     for w in (0.05, 1.0):
-        Z = complex(element.impedance(w)[0])
+        Z = complex(element.impedance(Omega=w)[0])
         assert Z.imag / w == pytest.approx(answer.damping[OMEGAS.index(w)], rel=0.05)
 
 
@@ -195,9 +196,9 @@ def test_every_point_of_the_box_gives_elements(shipped):
         for model in MODELS:
             if model == "cubic" and shipped.at(point).approach < LEAST_APPROACH:
                 with pytest.raises(InputError, match="cubic"):
-                    shipped.element(point, model)
+                    shipped.element(point, model, **AT[model])
                 continue
-            shipped.element(point, model)
+            shipped.element(point, model, **AT[model])
             made += 1
     assert made > 300
 
@@ -206,8 +207,8 @@ def test_every_point_of_the_box_gives_elements(shipped):
 def test_operating_points_get_elements_in_si(shipped, model):
     geometry = Geometry.ball_bearing(7.94e-3, 38.5e-3, 0.52)
     point = OperatingPoint(geometry, Lubricant(0.04, 2.2e-8), load=500.0, u_sum=6.0)
-    element = shipped.element(point, model)
-    expected = shipped.element(point.moes, model).to_si(point.scales)
+    element = shipped.element(point, model, **AT[model])
+    expected = shipped.element(point.moes, model, **AT[model]).to_si(point.scales)
     assert element.units == "SI"
     for name in ("low", "high", "load_range", "omega_range"):
         assert getattr(element, name) == pytest.approx(getattr(expected, name), rel=1e-12)
@@ -218,7 +219,7 @@ def test_operating_points_get_elements_in_si(shipped, model):
 
 @pytest.mark.parametrize("model", MODELS)
 def test_elements_say_where_they_come_from(shipped, tmp_path, model):
-    read = load_element(shipped.element(CASE, model).save(tmp_path / "e.json"))
+    read = load_element(shipped.element(CASE, model, **AT[model]).save(tmp_path / "e.json"))
     assert read.source["atlas"] == shipped.metadata["version"]
     assert read.source["point"]["M"] == CASE.M and 0.0 < read.source["error"]["approach"] < 0.01
     assert read.load_range is not None and read.omega_range is not None
@@ -226,11 +227,46 @@ def test_elements_say_where_they_come_from(shipped, tmp_path, model):
     assert read.source["assumptions"]["isothermal"]["holds"] is None  # without dimensions
 
 
+def test_answers_in_si_have_their_error_bars_in_si(shipped):
+    oil = Lubricant(0.037, 2e-8)
+    point = OperatingPoint(Geometry(0.0016, 0.05), oil, 60.0, 5.0)
+    answer, s = shipped.at(point), point.scales
+    si = answer.si
+    np.testing.assert_allclose(si.hz, answer.Omega / (2.0 * math.pi * s.time))
+    np.testing.assert_allclose(si.damping, answer.damping * s.force / s.length * s.time)
+    for name, unit in (("approach", s.length), ("h_min", s.length), ("stiffness", s.force / s.length)):
+        np.testing.assert_allclose(getattr(si, name), np.asarray(getattr(answer, name)) * unit)
+        np.testing.assert_allclose(si.error[name], np.asarray(answer.error[name]) * unit)
+    assert set(si.error) == set(answer.error) and answer.to_dict()["si"]["force"] == 60.0
+    with pytest.raises(InputError, match=r"^scales = None"):
+        _ = shipped.at(point.moes).si
+
+
+def test_a_cubic_is_asked_for_its_frequency(shipped):
+    """No default: its damper is right at one frequency only; and in SI by any of its names."""
+    point = OperatingPoint(Geometry(0.0016, 0.05), Lubricant(0.037, 2e-8), 60.0, 5.0)
+    with pytest.raises(
+        InputError, match=r"^frequency = None: must be given once, as Omega \(dimensionless\), omega"
+    ):
+        shipped.element(point, "cubic")
+    slow, same = shipped.element(point, "cubic", hz=50.0), shipped.element(point, "cubic", rpm=3000.0)
+    assert slow.C1 == pytest.approx(same.C1, rel=1e-12)
+    answer = shipped.at(point).si
+    assert pytest.approx(np.interp(50.0, answer.hz, answer.damping), rel=1e-6) == slow.C1
+    for model in ("wide", "memory"):
+        with pytest.raises(
+            InputError, match=rf"^hz = 50: must be left out with model '{model}', which serves every"
+        ):
+            shipped.element(point, model, hz=50)
+    with pytest.raises(InputError, match=r"^hz = 50: must be left out: a dimensionless contact"):
+        shipped.element(CASE, "cubic", hz=50)
+
+
 def test_cubic_of_another_frequency(shipped):
-    slow = shipped.element(CASE, "cubic", omega=0.05)
-    assert slow.C1 > 4.0 * shipped.element(CASE, "cubic").C1
-    with pytest.raises(InputError, match="omega"):
-        shipped.element(CASE, "cubic", omega=100.0)
+    slow = shipped.element(CASE, "cubic", Omega=0.05)
+    assert slow.C1 > 4.0 * shipped.element(CASE, "cubic", **AT["cubic"]).C1
+    with pytest.raises(InputError, match=r"^Omega = 100.0: must be finite, >= 0 and <= 60$"):
+        shipped.element(CASE, "cubic", Omega=100.0)
     with pytest.raises(InputError, match="model"):
         shipped.element(CASE, "quartic")
 

@@ -207,7 +207,8 @@ def test_scalars_and_arrays_take_the_same_way(element):
 def test_si_is_the_same_element_in_other_units(element):
     si = element.to_si(SCALES)
     asked = Dimensionless(si, SCALES.force, SCALES.length, SCALES.time)
-    assert type(si) is type(element) and si.units == "SI" and si.fit == element.fit and si.source == element.source
+    assert type(si) is type(element) and si.units == "SI" and si.fit == element.fit
+    assert si.source == {**(element.source or {}), "scales": asdict(SCALES)} and si.time == SCALES.time
     for u in (-0.5, 0.6, 0.9, 1.3):
         assert asked.spring(u) == pytest.approx(element.spring(u), rel=1e-10, abs=1e-12)
         for v in (-30.0, -0.5, 0.0, 2.0):
@@ -272,8 +273,8 @@ def test_files_without_a_coefficient_or_with_text_name_it(element, tmp_path):
         (lambda e: e.advance(0.1, 1.2, 0.0), r"approach 1\.2 \(fitted 0\.75 to 1\)"),
         (lambda e: e.advance(0.1, 0.5, 0.0), r"approach 0\.5 \(fitted 0\.75 to 1\)"),
         (lambda e: e.advance(0.1, 0.9, -3.0), r"rate 3 \(fitted up to 1\.2\)"),
-        (lambda e: e.warn_outside([0.9], [1.0], None, [0.9, 1.5]), r"force 1\.5 \(fitted 0\.8 to 1\.2\)"),
-        (lambda e: e.warn_outside([0.9], [1.0], 13.0), r"angular frequency 13 \(fitted 3 to 6\)"),
+        (lambda e: e.warn_outside([0.9], [1.0], force=[0.9, 1.5]), r"force 1\.5 \(fitted 0\.8 to 1\.2\)"),
+        (lambda e: e.warn_outside([0.9], [1.0], Omega=13.0), r"Omega 13 \(fitted Omega 3 to 6\)"),
     ],
 )
 def test_leaving_the_box_is_told_once(element, call, words):
@@ -290,13 +291,13 @@ def test_within_the_margin_and_for_questions_nothing_is_said(element):
         warnings.simplefilter("error")
         element.advance(0.1, 0.75, -1.2)
         element.advance(0.1, 1.01, 1.25)
-        element.warn_outside([0.74, 1.01], [1.25], 11.9, [0.785, 1.215])
+        element.warn_outside([0.74, 1.01], [1.25], Omega=11.9, force=[0.785, 1.215])
         element.warn_outside()
         element.step_tangents(0.1, 5.0, 9.0), element.spring(np.linspace(0, 5, 9)), element.approach_at(9.0)
-    assert element.is_valid(0.75, 1.2, omega=6.0) and not element.is_valid(0.9, 0.5, omega=7.0)
+    assert element.is_valid(0.75, 1.2, Omega=6.0) and not element.is_valid(0.9, 0.5, Omega=7.0)
     np.testing.assert_array_equal(element.is_valid([0.7, 0.8, 0.8], [0.0, -0.5, -2.0]), [False, True, False])
     assert element.is_valid(1.0) and not element.is_valid(1.0001) and not element.is_valid(0.9, 1.2001)
-    assert replace(element, omega_range=None).is_valid(0.9, omega=1e9)
+    assert replace(element, omega_range=None).is_valid(0.9, Omega=1e9)
 
 
 @pytest.mark.parametrize(

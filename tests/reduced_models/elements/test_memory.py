@@ -19,7 +19,7 @@ def test_active_gains_are_refused(memory):
 
 def test_impedance_and_wrapper_in_si(memory, scales):
     si, wrapped = memory.to_si(scales), ScaledContact(memory.copy(), scales)
-    np.testing.assert_allclose(si.impedance(pi / scales.time), memory.impedance(pi) * scales.stiffness)
+    np.testing.assert_allclose(si.impedance(omega=pi / scales.time), memory.impedance(Omega=pi) * scales.stiffness)
     for i in range(1, 40):
         at = 0.05 * scales.time, (0.87 + 0.05 * np.sin(0.05 * pi * i)) * scales.length, 0.1 * scales.rate
         assert si.advance(*at) == pytest.approx(wrapped.advance(*at), rel=1e-12)

@@ -17,8 +17,8 @@ def boxed():
 
 
 def test_a_bound_that_is_not_known_does_not_count(boxed, linear):
-    assert linear.is_valid(0.9, 1e9, omega=1e9) and not linear.is_valid(1.1, 1e9)
-    assert boxed.is_valid(0.9, 0.5, omega=4.0) and not boxed.is_valid(0.9, 1.1)
+    assert linear.is_valid(0.9, 1e9, Omega=1e9) and not linear.is_valid(1.1, 1e9)
+    assert boxed.is_valid(0.9, 0.5, Omega=4.0) and not boxed.is_valid(0.9, 1.1)
     assert linear.validity == Validity((0.75, 1.0)) and linear.validity.excess([0.9], [1e9], 1e9, [1e9]) == []
 
 
@@ -45,9 +45,9 @@ def test_control_block_warns(boxed):
 def test_oscillation_at_another_frequency_is_told():
     element = LinearContact(1.0, 0.01, 0.5, 1.5, omega_range=(3.0, 3.0))
     T = np.linspace(0.0, 3.0, 301)
-    simulate_oscillator(element, T, omega_n=4.0, u0=1.1)
-    with pytest.warns(OutsideValidityWarning, match=r"angular frequency .* \(fitted 3 to 3\)"):
-        simulate_oscillator(element, T, omega_n=20.0, u0=1.1)
+    simulate_oscillator(element, T, Omega_n=4.0, u0=1.1)
+    with pytest.warns(OutsideValidityWarning, match=r"Omega .* \(fitted Omega 3\)"):
+        simulate_oscillator(element, T, Omega_n=20.0, u0=1.1)
 
 
 def test_warned_elements_are_still_equal_hashable_and_pickled(boxed):

@@ -64,9 +64,9 @@ def test_impedance_interpolates_over_the_load(wide):
     for F, gains in zip(wide.gain_loads, wide.gains, strict=True):
         own = F ** (1.0 / 3.0)
         C = 1.5 * float((wide.rates.basis([pi]) @ np.array(gains))[0].real)
-        Z = wide.impedance(pi / own, F)[0]
+        Z = wide.impedance(load=F, Omega=pi / own)[0]
         assert Z.imag / (pi / own) == pytest.approx(C * own * own, rel=1e-9)
-    between = [wide.impedance(0.01, F)[0].imag / F ** (2.0 / 3.0) for F in (0.3, 0.7, 2.0)]
+    between = [wide.impedance(load=F, Omega=0.01)[0].imag / F ** (2.0 / 3.0) for F in (0.3, 0.7, 2.0)]
     assert between[0] > between[1] > between[2]
 
 
@@ -101,7 +101,7 @@ def test_oscillator_agrees_with_steps_at_every_load(wide):
     """Load from 0.3 to 2 and back, across the rows of the gains: continuous time against exact steps."""
     T = np.linspace(0.0, 12.0, 2401)
     load = 0.3 + 1.7 * np.exp(-((T - 5.0) ** 2))
-    run = simulate_oscillator(wide, T, omega_n=4.0, load=load, u0=wide.approach_at(0.3), rtol=1e-8)
+    run = simulate_oscillator(wide, T, Omega_n=4.0, load=load, u0=wide.approach_at(0.3), rtol=1e-8)
     assert run.force.max() > 1.8
     assert np.abs(wide.drive(T, run.approach, run.rate) - run.force)[1:].max() < 2e-4
 
@@ -146,8 +146,8 @@ def test_from_solves_meets_loads_it_was_not_made_of():
     for F in unused:
         u = solve_steady(replace(point, M=200 * F), n=48).approach * F ** (2.0 / 3.0)
         assert wide.spring(u) == pytest.approx(F, rel=0.01)
-    Z = impedance(point, [0.05, pi, 2.0 * pi], n=48)
-    ours = wide.impedance(Z.omega)
+    Z = impedance(point, Omega=[0.05, pi, 2.0 * pi], n=48)
+    ours = wide.impedance(Omega=Z.Omega)
     np.testing.assert_allclose(ours.real, Z.stiffness, rtol=0.02)
     assert ours[0].imag / 0.05 == pytest.approx(Z.damping[0], rel=0.05)
     assert wide.source["point"]["M"] == 200 and wide.source["n"] == 48
@@ -167,7 +167,7 @@ def test_a_6205_from_lift_off_to_overload():
     """Static curve against unused solves, and a load pulse from 5 % to 200 % and back against full EHL."""
     point = MoesPoint(2900, 19, 0.11)
     omegas = np.concatenate([[0.0], np.geomspace(0.03, 60.0, 24)])
-    memory = fit_memory(impedance(point, omegas, n=128), lags=12).element
+    memory = fit_memory(impedance(point, Omega=omegas, n=128), lags=12).element
     wide = wide_range_from_solves(point, memory=memory, n=128)
     for F in (0.01 * 1.3, 0.025, 0.06, 0.12, 0.2, 0.45, 0.8, 1.3, 2.2, 2.7):
         u = solve_steady(replace(point, M=2900 * F), n=128).approach * F ** (2.0 / 3.0)

@@ -189,7 +189,7 @@ def test_measured_record_in_si(record, scales):
 
 
 def test_without_inertia_there_is_no_acceleration_error(record):
-    assert fit(replace(record, omega_n=None)).e_acc is None
+    assert fit(replace(record, Omega_n=None)).e_acc is None
 
 
 def test_constant_record_names_its_columns(record):

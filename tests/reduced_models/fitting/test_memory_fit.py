@@ -20,7 +20,7 @@ EXAMPLE = Path(__file__).parents[3] / "examples" / "one_element_for_all.py"
 @pytest.fixture(scope="module")
 def coarse():
     """Impedance and records of the same contact on a coarse grid."""
-    response = impedance(POINT, OMEGAS, n=32)
+    response = impedance(POINT, Omega=OMEGAS, n=32)
     motions = (FreeVibration(5.13), HarmonicLoad(pi / 4), HarmonicLoad(2.0 * pi))
     records = [
         ContactRecord.from_result(simulate(POINT, motion, n=32, domain=response.domain)) for motion in motions
@@ -32,12 +32,12 @@ def test_one_element_fits_impedance_and_records(coarse):
     response, records = coarse
     result = fit_memory(response, records, lags=8)
     assert max(result.record_rms) < 0.015
-    band = response.omega <= 30.0
+    band = response.Omega <= 30.0
     assert np.abs(result.damping_error[band]).max() < 0.1 and np.abs(result.stiffness_error[band]).max() < 0.01
     element = result.element
-    Z = element.impedance(response.omega[1:])
+    Z = element.impedance(Omega=response.Omega[1:])
     np.testing.assert_allclose(
-        Z.imag / response.omega[1:] / response.damping[1:] - 1.0, result.damping_error[1:], atol=1e-9
+        Z.imag / response.Omega[1:] / response.damping[1:] - 1.0, result.damping_error[1:], atol=1e-9
     )
     assert element.rms == result.rms < 0.01
     assert element.source["n"] == 32 and element.source["point"]["M"] == 200
@@ -58,8 +58,8 @@ def test_cross_validation_chooses_the_order_and_the_impedance_alone_will_do(coar
 def test_records_of_simulations_know_where_to_solve_the_impedance(coarse):
     response, records = coarse
     element = fit_memory(None, records[2], lags=4).element
-    C = np.interp(0.05, response.omega, response.damping)
-    assert element.impedance(0.05)[0].imag / 0.05 == pytest.approx(C, rel=0.05)
+    C = np.interp(0.05, response.Omega, response.damping)
+    assert element.impedance(Omega=0.05)[0].imag / 0.05 == pytest.approx(C, rel=0.05)
     with pytest.raises(InputError, match="give an impedance"):
         fit_memory(None)
     with pytest.raises(InputError, match="give an impedance"):
@@ -69,14 +69,14 @@ def test_records_of_simulations_know_where_to_solve_the_impedance(coarse):
 def test_bad_data_for_the_fit(coarse):
     response, records = coarse
     plain = SimpleNamespace(
-        omega=response.omega, stiffness=response.stiffness, damping=response.damping, approach=response.approach
+        Omega=response.Omega, stiffness=response.stiffness, damping=response.damping, approach=response.approach
     )
     with pytest.raises(InputError, match="at least 8 frequencies"):
-        fit_memory(impedance(POINT, [0.0, 1.0], n=32))
+        fit_memory(impedance(POINT, Omega=[0.0, 1.0], n=32))
     few = SimpleNamespace(
-        **(vars(plain) | {key: getattr(plain, key)[9:] for key in ("omega", "stiffness", "damping")})
+        **(vars(plain) | {key: getattr(plain, key)[9:] for key in ("Omega", "stiffness", "damping")})
     )
-    with pytest.raises(InputError, match="lowest omega"):
+    with pytest.raises(InputError, match="lowest Omega"):
         fit_memory(few)
     with pytest.raises(InputError, match="approach"):
         fit_memory(SimpleNamespace(**(vars(plain) | {"approach": 1.0})))
@@ -96,7 +96,7 @@ def test_one_element_for_all():
     spec = importlib.util.spec_from_file_location("one_element_for_all", EXAMPLE)
     example = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(example)
-    Z = impedance(example.POINT, example.OMEGAS, n=64, domain=example.DOMAIN)
+    Z = impedance(example.POINT, Omega=example.OMEGAS, n=64, domain=example.DOMAIN)
     seen = {name: example.record(motion, 64) for name, motion in example.fitted_motions().items()}
     unseen = {"chirp": example.record(example.chirp(), 64), "step": example.record(example.load_step(), 64)}
     result = fit_memory(Z, list(seen.values()))
@@ -104,12 +104,15 @@ def test_one_element_for_all():
     assert len(rows) == 11
     assert max(memory for memory, *_ in rows.values()) < 0.012
     assert max(one for _, _, one in rows.values()) > 0.04, "what one viscous cubic makes of it"
-    band = (Z.omega >= 0.02) & (Z.omega <= 30.0)
+    band = (Z.Omega >= 0.02) & (Z.Omega <= 30.0)
     assert np.abs(result.damping_error[band]).max() < 0.1
     assert np.abs(result.stiffness_error[band]).max() < 0.01
     w = np.geomspace(0.022, 29.5, 40)  # frequencies that the fit did not see
-    between, ours = impedance(example.POINT, w, n=64, domain=example.DOMAIN), result.element.impedance(w)
+    between, ours = (
+        impedance(example.POINT, Omega=w, n=64, domain=example.DOMAIN),
+        result.element.impedance(Omega=w),
+    )
     assert np.abs(ours.imag / w / between.damping - 1.0).max() < 0.1
     assert np.abs(ours.real / between.stiffness - 1.0).max() < 0.01
-    low = result.element.impedance(0.05)[0].imag / 0.05
-    assert low == pytest.approx(np.interp(0.05, Z.omega, Z.damping), rel=0.03)
+    low = result.element.impedance(Omega=0.05)[0].imag / 0.05
+    assert low == pytest.approx(np.interp(0.05, Z.Omega, Z.damping), rel=0.03)

@@ -40,8 +40,8 @@ def test_measured_record_in_si_has_no_static_load_unless_given():
         ({"T": np.zeros(3)}, "length of T"),
         ({"force": ["a"] * 31}, "force"),
         ({"force": None}, "force"),
-        ({"omega_n": -1.0}, "omega_n"),
-        ({"omega_n": 1.0, "units": "SI"}, "omega_n"),
+        ({"Omega_n": -1.0}, "Omega_n"),
+        ({"Omega_n": 1.0, "units": "SI"}, "Omega_n"),
         ({"units": "um"}, "units"),
         ({"static_load": 0.0}, "static_load"),
     ],
@@ -55,7 +55,7 @@ def test_bad_histories_are_named(changes, field):
 def test_window_is_closed_and_keeps_everything_else(record):
     cut = record.window(1.0, 2.0)
     assert cut.T[0] == pytest.approx(1.0) and cut.T[-1] == pytest.approx(2.0) and len(cut) == 101
-    assert cut.load.size == cut.acceleration.size == 101 and cut.omega_n == record.omega_n
+    assert cut.load.size == cut.acceleration.size == 101 and cut.Omega_n == record.Omega_n
     assert record.default_window == pytest.approx((1.0, 3.0))
 
 
@@ -73,7 +73,7 @@ def simulation(status="converged", domain=(-4.5, 1.5, 3.0)):
         scales=None,
         n=np.int64(64),
         domain=domain,
-        motion=SimpleNamespace(to_dict=lambda: {"kind": "free", "omega_n": 5.13}),
+        motion=SimpleNamespace(to_dict=lambda: {"kind": "free", "Omega_n": 5.13}),
         status=status,
     )
 
@@ -81,7 +81,7 @@ def simulation(status="converged", domain=(-4.5, 1.5, 3.0)):
 @pytest.mark.parametrize("domain", [(-4.5, 1.5, 3.0), SimpleNamespace(x_in=-4.5, x_out=1.5, y_max=3.0)])
 def test_from_result_takes_what_the_fit_will_need(domain):
     record = ContactRecord.from_result(simulation(domain=domain))
-    assert record.omega_n == 5.13 and record.domain == (-4.5, 1.5, 3.0) and record.n == 64
+    assert record.Omega_n == 5.13 and record.domain == (-4.5, 1.5, 3.0) and record.n == 64
     assert record.motion["kind"] == "free" and record.load is not None
 
 

@@ -37,5 +37,5 @@ def test_box_of_a_wrapped_element_is_watched_in_si(cubic, maxwell, scales):
         np.array([0.9, x]) * unit for x, unit in ((1.2, scales.length), (0.4, scales.rate), (1.0, scales.force))
     )
     with pytest.warns(OutsideValidityWarning, match="approach 1.2 "):
-        ScaledContact(cubic, scales).warn_outside(u, v, None, f)
-    ScaledContact(maxwell(1, 1, 1), scales).warn_outside(u, v, None, f)  # no box, nothing to say
+        ScaledContact(cubic, scales).warn_outside(u, v, force=f, omega=None)
+    ScaledContact(maxwell(1, 1, 1), scales).warn_outside(u, v, force=f, omega=None)  # no box, nothing to say

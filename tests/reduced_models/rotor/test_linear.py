@@ -87,11 +87,11 @@ def test_orbit_state_is_on_the_periodic_motion():
 
 
 def test_film_impedance_follows_the_solve():
-    response = impedance(POINT, [0.0, 0.005, 0.1, 1.0], n=32)
+    response = impedance(POINT, Omega=[0.0, 0.005, 0.1, 1.0], n=32)
     Z, s = film_impedance(response), POINT.scales
-    at = Z(response.omega / s.time)
+    at = Z(response.Omega / s.time)
     assert at.real == pytest.approx(response.stiffness * s.stiffness)
-    assert at.imag == pytest.approx(response.omega / s.time * response.damping * s.damping)
+    assert at.imag == pytest.approx(response.Omega / s.time * response.damping * s.damping)
     beyond = Z(np.array([50.0 / s.time]))[0]
     assert beyond.real == pytest.approx(response.stiffness[-1] * s.stiffness)
     between = Z(np.array([0.5 / s.time]))[0].imag * s.time / 0.5 / s.damping
@@ -101,11 +101,11 @@ def test_film_impedance_follows_the_solve():
 def test_impedance_of_an_element_with_memory():
     element = Atlas().element(POINT, "memory")
     omega = np.array([300.0, 6000.0])
-    assert np.array_equal(impedance_about(element, 48.7)(omega), element.impedance(omega, 48.7))
+    assert np.array_equal(impedance_about(element, 48.7)(omega), element.impedance(omega=omega, load=48.7))
 
 
 def test_refused():
     with pytest.raises(InputError, match="one per mount"):
         LinearRotor(one_mass(), [spring, spring])
     with pytest.raises(InputError, match="OperatingPoint"):
-        film_impedance(impedance(MoesPoint(20, 5, 0.5), [0.0, 0.1], n=32))
+        film_impedance(impedance(MoesPoint(20, 5, 0.5), Omega=[0.0, 0.1], n=32))

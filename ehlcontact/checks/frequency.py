@@ -1,0 +1,181 @@
+"""The one rule for frequencies: named with their unit, exactly one given, nothing guessed.
+
+======== ==================================================================== ==================
+name     is                                                                   taken by
+======== ==================================================================== ==================
+``Omega`` dimensionless angular frequency, per unit 2a/u_sum of time          every contact
+``omega`` angular frequency [rad/s]                                           contacts in SI
+``hz``   frequency [Hz]                                                       contacts in SI
+``rpm``  turns per minute                                                     contacts in SI
+======== ==================================================================== ==================
+
+A contact in SI is an `OperatingPoint`, or what was made from one: it knows how long its unit of time is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import wraps
+from math import inf, pi
+from typing import Any, ParamSpec, TypedDict, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ehlcontact.errors import InputError
+
+Array = NDArray[np.float64]
+P = ParamSpec("P")
+Result = TypeVar("Result")
+
+_RADIANS = {"omega": 1.0, "hz": 2.0 * pi, "rpm": pi / 30.0}  # rad/s in one of each
+_KEYWORDS = "Omega (dimensionless), omega (rad/s), hz or rpm"
+_RENAMED = {"omega": "Omega", "omega_n": "Omega_n", "omegas": "Omega"}  # in files, before the rule
+
+
+class Frequency(TypedDict, total=False):
+    """A frequency as keyword arguments."""
+
+    Omega: ArrayLike | None
+    omega: ArrayLike | None
+    hz: ArrayLike | None
+    rpm: ArrayLike | None
+
+
+def is_given(
+    Omega: ArrayLike | None = None,
+    omega: ArrayLike | None = None,
+    hz: ArrayLike | None = None,
+    rpm: ArrayLike | None = None,
+) -> bool:
+    """Whether any is."""
+    return any(value is not None for value in (Omega, omega, hz, rpm))
+
+
+def dimensionless(
+    time: float | None,
+    *,
+    Omega: ArrayLike | None = None,
+    omega: ArrayLike | None = None,
+    hz: ArrayLike | None = None,
+    rpm: ArrayLike | None = None,
+    most: float = inf,
+) -> Array:
+    """Omega of the one frequency that is given, shape (k,).
+
+    Parameters
+    ----------
+    time : float or None
+        The contact's unit of time, 2a/u_sum [s]; None for a dimensionless contact.
+    Omega, omega, hz, rpm : array_like
+        The frequency: a number or a flat list of them.
+    most : float
+        Largest Omega that is allowed.
+
+    Raises
+    ------
+    InputError
+        None is given, or several; omega, hz or rpm of a contact without a unit of time; no numbers, or negative,
+        infinite or too large ones. The line says what to give instead.
+    """
+    name, value = _the_one(time, {"Omega": Omega, "omega": omega, "hz": hz, "rpm": rpm})
+    if name == "Omega":
+        return _checked(name, value, most)
+    if time is None:
+        raise InputError(name, value, "left out: a dimensionless contact has no unit of time; give Omega")
+    unit = _RADIANS[name] * time
+    return _checked(name, value, most / unit) * unit
+
+
+def radians_per_second(
+    time: float | None,
+    *,
+    Omega: ArrayLike | None = None,
+    omega: ArrayLike | None = None,
+    hz: ArrayLike | None = None,
+    rpm: ArrayLike | None = None,
+) -> Array:
+    """Angular frequency [rad/s], shape (k,), of something in SI; without a `time` it does not take Omega.
+
+    Raises
+    ------
+    InputError
+        As `dimensionless`.
+    """
+    name, value = _the_one(1.0, {"Omega": Omega, "omega": omega, "hz": hz, "rpm": rpm})
+    if name != "Omega":
+        return _checked(name, value, inf) * _RADIANS[name]
+    if time is None:
+        raise InputError(
+            name, value, "left out: the unit of time of this contact is not known; give omega, hz or rpm"
+        )
+    return _checked(name, value, inf) / time
+
+
+def one(name: str, found: Array) -> float:
+    """The single frequency of an array; raises `InputError` where there are several."""
+    if found.size != 1:
+        raise InputError(name, found.tolist(), "a single frequency")
+    return float(found[0])
+
+
+def by_name(positional: int | None, **renamed: str) -> Callable[[Callable[P, Result]], Callable[P, Result]]:
+    """Let a call tell in one line what its frequency is called now.
+
+    Parameters
+    ----------
+    positional : int or None
+        Arguments that it takes without a name: one more is taken for a frequency that lacks its own. None for any.
+    **renamed : str
+        What an old name is called now, or several names with what they mean.
+    """
+
+    def decorate(call: Callable[P, Result]) -> Callable[P, Result]:
+        @wraps(call)
+        def checked(*args: P.args, **kwargs: P.kwargs) -> Result:
+            if positional is not None and len(args) > positional:
+                raise InputError("frequency", args[positional], f"named with its unit: {_KEYWORDS}")
+            for old in renamed.keys() & kwargs.keys():
+                raise InputError(old, kwargs[old], f"given as {renamed[old]}")
+            return call(*args, **kwargs)
+
+        return checked
+
+    return decorate
+
+
+def fields_by_name(**renamed: str) -> Callable[[type[Result]], type[Result]]:
+    """`by_name` for the fields of a class that has its frequencies by position too."""
+
+    def decorate(cls: type[Result]) -> type[Result]:
+        setattr(cls, "__init__", by_name(None, **renamed)(cls.__init__))  # noqa: B010
+        return cls
+
+    return decorate
+
+
+def renamed_keys(entries: Mapping[str, Any]) -> dict[str, Any]:
+    """Entries of a stored motion, with the frequencies of old files under their names of today."""
+    return {_RENAMED.get(key, key): value for key, value in entries.items()}
+
+
+def _the_one(time: float | None, values: Mapping[str, ArrayLike | None]) -> tuple[str, ArrayLike]:
+    given = {name: value for name, value in values.items() if value is not None}
+    if len(given) != 1:
+        allowed = "given once, as Omega (dimensionless)" if time is None else f"given once, as {_KEYWORDS}"
+        raise InputError("frequency", " and ".join(given) or None, allowed)
+    return next(iter(given.items()))
+
+
+def _checked(name: str, value: ArrayLike, most: float) -> Array:
+    try:
+        found = np.atleast_1d(np.array(value, dtype=float))
+    except (TypeError, ValueError):
+        raise InputError(name, value, "numbers") from None
+    if found.ndim != 1 or found.size == 0:
+        raise InputError(name, f"of shape {np.shape(found)}", "a number, or a flat list of at least one")
+    bad = found[~(np.isfinite(found) & (found >= 0.0) & (found <= most))]
+    if bad.size:
+        limit = "" if most == inf else f" and <= {most:.6g}"
+        raise InputError(name, float(bad[0]), f"finite, >= 0{limit}")
+    return found

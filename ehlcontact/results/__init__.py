@@ -1,0 +1,22 @@
+"""Frozen results of one instant, and every result in SI; arrays are read-only. Those of a run are in `transient`.
+
+============= =================================================================================
+module        responsibility
+============= =================================================================================
+``steady``    `SteadyResult`: the film at rest
+``impedance`` `ImpedanceResult`: stiffness and damping over frequency
+``si``        what their ``.si`` gives: every quantity in SI
+============= =================================================================================
+"""
+
+from ehlcontact.results.impedance import ImpedanceResult
+from ehlcontact.results.si import ImpedanceSI, SteadySI, require_scales
+from ehlcontact.results.steady import SteadyResult
+
+__all__ = [
+    "ImpedanceResult",
+    "ImpedanceSI",
+    "SteadyResult",
+    "SteadySI",
+    "require_scales",
+]

@@ -1,0 +1,151 @@
+"""Every quantity of a result at rest in SI: what ``.si`` gives, where the point is one in SI.
+
+m, N, Pa, N/m, N s/m; frequencies in rad/s and in Hz.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.errors import InputError
+from ehlcontact.origin import freeze
+from ehlcontact.point import Scales
+
+if TYPE_CHECKING:  # they import this module
+    from ehlcontact.results.impedance import ImpedanceResult
+    from ehlcontact.results.steady import SteadyResult
+
+Array = NDArray[np.float64]
+
+
+def require_scales(scales: Scales | None) -> Scales:
+    """Return `scales`, or raise `InputError` where a dimensionless point has none."""
+    if scales is None:
+        allowed = "those of a result made from an OperatingPoint: a dimensionless point has no SI values"
+        raise InputError("scales", None, allowed)
+    return scales
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class View:
+    """Numbers in SI, arrays read-only."""
+
+    def __post_init__(self) -> None:
+        freeze(self)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SteadySI(View):
+    """A `SteadyResult` in SI.
+
+    Attributes
+    ----------
+    x, y : ndarray, shape (nx + 1,), (ny + 1,)
+        Places along rolling and across, y >= 0 [m]; fields are even in y.
+    p, h : ndarray, shape (nx + 1, ny + 1)
+        Pressure [Pa] and film [m].
+    approach : float
+        Mutual approach of the bodies [m].
+    force : float
+        Of the film [N].
+    h_central, h_min : float
+        Film in the centre, and the smallest [m].
+    p_max : float
+        Largest pressure [Pa].
+    """
+
+    x: Array
+    y: Array
+    p: Array
+    h: Array
+    approach: float
+    force: float
+    h_central: float
+    h_min: float
+    p_max: float
+
+    @classmethod
+    def of(cls, result: SteadyResult) -> Self:
+        """View of a result; raises `InputError` if its point is dimensionless."""
+        s = require_scales(result.scales)
+        return cls(
+            x=result.X * s.a,
+            y=result.Y * s.b,
+            p=result.P * s.pressure,
+            h=result.H * s.length,
+            approach=result.approach * s.length,
+            force=result.force * s.force,
+            h_central=result.h_central * s.length,
+            h_min=result.h_min * s.length,
+            p_max=result.p_max * s.pressure,
+        )
+
+    def summary(self) -> dict[str, Any]:
+        """Its numbers, for JSON."""
+        names = ("approach", "force", "h_central", "h_min", "p_max")
+        return {name: getattr(self, name) for name in names}
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ImpedanceSI(View):
+    """An `ImpedanceResult` in SI.
+
+    Attributes
+    ----------
+    omega, hz : ndarray, shape (k,)
+        The frequencies, in rad/s and in Hz.
+    stiffness, damping : ndarray, shape (k,)
+        K [N/m] and C [N s/m] of a small vibration.
+    approach : float
+        Mutual approach at rest [m].
+    force : float
+        Static load [N].
+    h_central, h_min : float
+        Film at rest, in the centre and the smallest [m].
+    """
+
+    omega: Array
+    hz: Array
+    stiffness: Array
+    damping: Array
+    approach: float
+    force: float
+    h_central: float
+    h_min: float
+
+    @classmethod
+    def of(cls, result: ImpedanceResult) -> Self:
+        """View of a result; raises `InputError` if its point is dimensionless."""
+        s = require_scales(result.scales)
+        omega = result.Omega / s.time
+        return cls(
+            omega=omega,
+            hz=omega / (2.0 * pi),
+            stiffness=result.stiffness * s.stiffness,
+            damping=result.damping * s.damping,
+            approach=result.approach * s.length,
+            force=s.force,
+            h_central=result.h_central * s.length,
+            h_min=result.h_min * s.length,
+        )
+
+    @property
+    def impedance(self) -> NDArray[np.complex128]:
+        """Z = K + i omega C [N/m], shape (k,)."""
+        return self.stiffness + 1j * self.omega * self.damping
+
+    def to_control(self) -> Any:
+        """``control.FrequencyResponseData`` from approach [m] to force [N], over rad/s."""
+        import control
+
+        return control.frd(self.impedance, self.omega, inputs="u", outputs="F", name="contact")
+
+    def summary(self) -> dict[str, Any]:
+        """All of it, for JSON."""
+        arrays = {name: getattr(self, name).tolist() for name in ("omega", "hz", "stiffness", "damping")}
+        return arrays | {name: getattr(self, name) for name in ("approach", "force", "h_central", "h_min")}

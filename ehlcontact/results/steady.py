@@ -1,0 +1,105 @@
+"""The film at rest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.origin import Origin
+from ehlcontact.results.si import SteadySI
+from ehlcontact.status import Status
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SteadyResult(Origin):
+    """Steady film of a contact under constant load, or at a prescribed approach, dimensionless; ``si`` is in SI.
+
+    Attributes
+    ----------
+    X, Y : ndarray, shape (nx + 1,), (ny + 1,)
+        x/a and y/b >= 0; fields are even in Y.
+    P, H : ndarray, shape (nx + 1, ny + 1)
+        Pressure over the Hertz pressure, and film over the dry approach.
+    approach : float
+        Mutual approach over the dry approach.
+    force : float
+        Film force over the static load.
+    h_central, h_min : float
+        Film at X = Y = 0 and the smallest, between the nodes too, over the dry approach.
+    residuals : ndarray, shape (cycles + 1,)
+        Mean |residual| over P > 0: at the start after full multigrid, then after each cycle.
+    load_residuals : ndarray, shape (cycles + 1,)
+        Of the load (or approach) equation, likewise.
+    approach_changes : ndarray, shape (cycles,)
+        Change of the approach in each cycle.
+    dry_residual : float
+        Mean |residual| of the dry Hertz start on this grid: the scale.
+    status : Status
+    point, scales, domain, n, seconds, version
+        As in every result: `ehlcontact.origin.Origin`.
+    """
+
+    X: Array
+    Y: Array
+    P: Array
+    H: Array
+    approach: float
+    force: float
+    h_central: float
+    h_min: float
+    residuals: Array
+    load_residuals: Array
+    approach_changes: Array
+    dry_residual: float
+    status: Status
+
+    @property
+    def si(self) -> SteadySI:
+        """All of it in SI; raises `InputError` for a dimensionless point, which has no units."""
+        return SteadySI.of(self)
+
+    @property
+    def residual(self) -> float:
+        """Last residual relative to that of the dry Hertz start."""
+        return float(self.residuals[-1] / self.dry_residual)
+
+    @property
+    def load_residual(self) -> float:
+        """Last residual of the load equation."""
+        return float(self.load_residuals[-1])
+
+    @property
+    def cycles(self) -> int:
+        """Number of V cycles on the finest grid."""
+        return len(self.residuals) - 1
+
+    @property
+    def p_max(self) -> float:
+        """Largest pressure / p_hertz."""
+        return float(self.P.max())
+
+    def summary(self) -> dict[str, Any]:
+        """The JSON form of the command line."""
+        return {
+            "approach": self.approach,
+            "force": self.force,
+            "h_central": self.h_central,
+            "h_min": self.h_min,
+            "p_max": self.p_max,
+            "residual": self.residual,
+            "load_residual": self.load_residual,
+            "cycles": self.cycles,
+            "seconds": self.seconds,
+            "status": str(self.status),
+            "advice": self.status.advice,
+            "n": self.n,
+            "domain": list(self.domain.as_tuple()),
+            "point": self.point.to_dict(),
+            "version": self.version,
+            **({} if self.scales is None else {"si": self.si.summary()}),
+        }

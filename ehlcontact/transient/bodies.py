@@ -1,0 +1,180 @@
+"""What a motion is: how it closes a step, moves its bodies, and says how long and in what steps it runs.
+
+Three kinds: a driven approach (`prescribed.PrescribedApproach`), and bodies under a load, with inertia or without.
+With it the approach obeys ``u''/Omega_n^2 + f = f_ext`` (eq. 5), integrated by Newmark's rule; without it the film
+carries the load at every instant (eq. 6). A `Motion` says by which `Balance` a step is closed and how the bodies
+move once it is solved, so that nobody else asks which kind it is.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.checks.frequency import renamed_keys
+from ehlcontact.errors import InputError
+from ehlcontact.solver.balance import Balance
+
+Array = NDArray[np.float64]
+
+_KINDS: dict[str, type[Motion]] = {}
+
+
+@dataclass(frozen=True, slots=True)
+class MotionState:
+    """Motion of the bodies at one time."""
+
+    T: float
+    u: float  # mutual approach / dry approach
+    rate: float  # du/dT
+    acceleration: float  # d2u/dT2; 0 where no equation of motion gives it
+
+
+class Start(NamedTuple):
+    """What holds the contact still until T = 0, in place of the static load."""
+
+    balance: Balance
+    u: float  # guess
+
+
+class Motion(ABC):
+    """What drives a contact: closes its steps, moves its bodies, and says how long and in what steps it runs."""
+
+    __slots__ = ()
+    kind: ClassVar[str]  # its name in files
+
+    def __init_subclass__(cls) -> None:
+        if "kind" in vars(cls):
+            _KINDS[cls.kind] = cls
+
+    @property
+    def corners(self) -> tuple[float, ...]:
+        """Times at which the slope jumps: controlled steps end there and begin anew."""
+        return ()
+
+    @property
+    @abstractmethod
+    def default_end(self) -> float:
+        """Time at which a run ends."""
+
+    @property
+    @abstractmethod
+    def default_step(self) -> float:
+        """Fixed step of a run."""
+
+    @property
+    @abstractmethod
+    def largest_load(self) -> float:
+        """Largest film force to expect, for the domain."""
+
+    @abstractmethod
+    def applied(self, T: float, force: float) -> float:
+        """Load on the bodies: the motion's own, or, where the approach is driven, the film `force` it takes."""
+
+    @abstractmethod
+    def held(self, static: float) -> Start | None:
+        """What holds the contact at rest before T = 0; None if that is load 1, with the approach `static`."""
+
+    @abstractmethod
+    def begin(self, u: float, force: float) -> MotionState:
+        """State at T = 0, of the film at rest with approach `u` and film force `force`."""
+
+    @abstractmethod
+    def balance(self, now: MotionState, T: float, dT: float) -> tuple[Balance, float]:
+        """Equation that closes the step of length `dT` from `now` to `T`, and a guess of the approach there."""
+
+    @abstractmethod
+    def after(self, now: MotionState, u: float, T: float, dT: float) -> MotionState:
+        """State at `T`, where the step from `now` led to the approach `u`."""
+
+    @abstractmethod
+    def slopes(self, T: Array, approach: Array, rate: Array, acceleration: Array) -> tuple[Array, Array]:
+        """Rate and acceleration of a record, shape (k,): as integrated, else second-order differences of it."""
+
+    @abstractmethod
+    def free(self, approach: float, force: float) -> tuple[float, ...]:
+        """Those of two errors that count: what is prescribed has none."""
+
+    @abstractmethod
+    def to_dict(self) -> dict[str, Any]:
+        """For storage."""
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> Motion:
+        """Rebuild a motion of any kind from `to_dict`, or from that of an old file.
+
+        Raises
+        ------
+        InputError
+            An unknown kind.
+        """
+        arguments = renamed_keys(data)
+        kind = arguments.pop("kind", None)
+        if kind not in _KINDS:
+            raise InputError("motion.kind", kind, "one of " + ", ".join(_KINDS))
+        return _KINDS[kind](**arguments)
+
+
+class UnderLoad(Motion):
+    """Bodies under the load ``f_ext(T)`` (static load 1), with inertia if they have an `Omega_n`."""
+
+    __slots__ = ()
+    Omega_n: float | None
+
+    @abstractmethod
+    def load(self, T: float) -> float:
+        """Applied load."""
+
+    @property
+    def initial_rate(self) -> float:
+        """Rate at T = 0."""
+        return 0.0
+
+    def applied(self, T: float, force: float) -> float:
+        """The load, whatever the film carries."""
+        return self.load(T)
+
+    def held(self, static: float) -> Start | None:
+        """The load at T = 0, where that is not 1."""
+        load = self.load(0.0)
+        return None if load == 1.0 else Start(Balance.of_load(load), static)
+
+    def begin(self, u: float, force: float) -> MotionState:
+        """At the initial rate, accelerated by what the film does not carry."""
+        acceleration = self.Omega_n**2 * (self.load(0.0) - force) if self.Omega_n else 0.0
+        return MotionState(0.0, u, self.initial_rate, acceleration)
+
+    def balance(self, now: MotionState, T: float, dT: float) -> tuple[Balance, float]:
+        """Newmark's rule, or the load itself."""
+        if not self.Omega_n:
+            return Balance.of_load(self.load(T)), now.u + dT * now.rate
+        predictor = _predictor(now, dT)
+        guess = predictor + 0.25 * dT * dT * now.acceleration
+        return Balance.newmark(self.Omega_n, dT, self.load(T), predictor), guess
+
+    def after(self, now: MotionState, u: float, T: float, dT: float) -> MotionState:
+        """Newmark's rule with gamma = 1/2; without inertia the mean rate of the step."""
+        if not self.Omega_n:
+            return MotionState(T, u, (u - now.u) / dT, 0.0)
+        acceleration = 4.0 * (u - _predictor(now, dT)) / (dT * dT)
+        return MotionState(T, u, now.rate + 0.5 * dT * (now.acceleration + acceleration), acceleration)
+
+    def slopes(self, T: Array, approach: Array, rate: Array, acceleration: Array) -> tuple[Array, Array]:
+        """As integrated; without inertia no equation gives them."""
+        if self.Omega_n:
+            return rate, acceleration
+        rate = np.gradient(approach, T, edge_order=2)
+        return rate, np.gradient(rate, T, edge_order=2)
+
+    def free(self, approach: float, force: float) -> tuple[float, ...]:
+        """Without inertia the force is the load."""
+        return (approach, force) if self.Omega_n else (approach,)
+
+
+def _predictor(now: MotionState, dT: float) -> float:
+    """Approach `dT` ahead by Newmark's rule (beta = 1/4), but for the share of the new acceleration."""
+    return now.u + dT * now.rate + 0.25 * dT * dT * now.acceleration

@@ -1,0 +1,107 @@
+"""``.si`` of every result: each field in its unit, none forgotten, and described with unit and shape."""
+
+from dataclasses import fields
+from inspect import getdoc
+from math import pi
+
+import numpy as np
+import pytest
+
+from ehlcontact import (
+    FreeVibration,
+    FullContact,
+    HarmonicLoad,
+    ImpedanceResult,
+    ImpedanceSI,
+    InputError,
+    SimulationResult,
+    SimulationSI,
+    SteadyResult,
+    SteadySI,
+    simulate,
+    solve_steady,
+)
+from ehlcontact.lubricant import Lubricant
+from ehlcontact.point import Geometry, OperatingPoint
+from ehlcontact.transient.result import Instants
+
+POINT = OperatingPoint(Geometry(0.004, 0.01), Lubricant(0.08, 1.9e-8), 3.0, 1.3)
+S = POINT.scales
+UNITS = {
+    "t": ("T", S.time),
+    "snapshot_t": ("snapshot_T", S.time),
+    "x": ("X", S.a),
+    "y": ("Y", S.b),
+    "p": ("P", S.pressure),
+    "h": ("H", S.length),
+    "p_max": ("p_max", S.pressure),
+    "p_midplane": ("p_midplane", S.pressure),
+    "snapshot_p": ("snapshot_P", S.pressure),
+    "h_midplane": ("h_midplane", S.length),
+    "snapshot_h": ("snapshot_H", S.length),
+    **{name: (name, S.length) for name in ("approach", "h_central", "h_min", "static_approach")},
+    **{name: (name, S.force) for name in ("force", "load")},
+    "rate": ("rate", S.length / S.time),
+    "acceleration": ("acceleration", S.length / S.time**2),
+}
+
+
+@pytest.fixture(scope="module")
+def steady():
+    return solve_steady(POINT, n=32)
+
+
+@pytest.fixture(scope="module")
+def run():
+    motion = HarmonicLoad.at(POINT, hz=2000.0, mass=0.05)
+    return simulate(POINT, motion, n=16, until=0.3, dT=0.1, snapshots=(0.1,))
+
+
+def test_every_field_in_its_unit(steady, run):
+    for result, beside in ((steady, set()), (run, {"static_load", "mass", "omega", "hz"})):
+        si = result.si
+        for name in {f.name for f in fields(si)} - beside:
+            ours, unit = UNITS[name]
+            np.testing.assert_allclose(getattr(si, name), np.asarray(getattr(result, ours)) * unit, rtol=1e-14)
+        assert all(not v.flags.writeable for f in fields(si) if isinstance(v := getattr(si, f.name), np.ndarray))
+        assert set(result.summary()["si"]) <= {f.name for f in fields(si)}
+
+
+def test_motion_in_si(run):
+    si = run.si
+    assert (si.hz, si.omega, si.mass) == pytest.approx((2000.0, 4000.0 * pi, 0.05))
+    assert si.static_load == POINT.load
+    # Newton's law in SI: what the film does not carry accelerates the mass.
+    np.testing.assert_allclose(si.mass * si.acceleration[1:], (si.load - si.force)[1:], atol=1e-3 * POINT.load)
+    assert simulate(POINT, FreeVibration(5.0), n=16, until=0.2, dT=0.1).si.hz is None
+
+
+def test_full_contact_in_si():
+    contact = FullContact(POINT, n=32)
+    si = contact.si
+    assert si.force == pytest.approx(POINT.load, rel=1e-6)
+    assert si.static_approach == contact.static_approach * S.length
+    assert (si.h_central, si.h_min) == (contact.h_central * S.length, contact.h_min * S.length)
+    with pytest.raises(InputError, match=r"^scales = None"):
+        _ = FullContact(POINT.moes, n=32).si
+
+
+def test_dimensionless_points_have_none():
+    for result in (
+        solve_steady(POINT.moes, n=16, throw=False),
+        simulate(POINT.moes, FreeVibration(5.0), n=16, until=0.1, dT=0.1),
+    ):
+        with pytest.raises(InputError, match=r"^scales = None: must be those of a result made from an Op"):
+            _ = result.si
+        assert "si" not in result.summary()
+
+
+@pytest.mark.parametrize(
+    "cls", [SteadyResult, SteadySI, ImpedanceResult, ImpedanceSI, SimulationResult, SimulationSI, Instants]
+)
+def test_every_field_is_described(cls):
+    """Name, unit and shape in the docstring: under Attributes, as numpydoc has it."""
+    lines = getdoc(cls).split("Attributes\n", 1)[1].splitlines()
+    heads = [line.partition(" : ")[0] for line in lines if line and line[0] != " "]
+    named = {name.strip() for head in heads for name in head.split(",")}
+    assert {f.name for f in fields(cls)} <= named
