@@ -93,7 +93,7 @@ def test_work_of_a_cycle_in_the_results(again, results):
 
 def test_memory_in_the_results(again, results):
     found, data = results["memory"], results["memory"]["impedance"]
-    K, C = again.memory_impedance(data["omega"])
+    K, C = again.memory_impedance(data["Omega"])
     assert found["stiffness_error_max"] == pytest.approx(np.abs(K / data["stiffness"] - 1.0).max(), rel=1e-4)
     assert found["damping_error_max"] == pytest.approx(np.abs(C / data["damping"] - 1.0).max(), rel=1e-4)
     assert found["record_rms"] == pytest.approx([again.memory_rms(name) for name in RECORDS], rel=1e-6)

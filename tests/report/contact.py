@@ -126,7 +126,7 @@ class Recomputed:
         end = run.T[-1]
         if motion["kind"] != "harmonic":
             return run.T >= end / 3.0
-        period = 2.0 * np.pi / motion["omega"]
+        period = 2.0 * np.pi / motion["Omega"]
         return run.T >= end - max(1, int(end / period * 2.0 / 3.0 + 1e-9)) * period - 1e-9 * end
 
     def fit(self, name, model):
@@ -172,7 +172,7 @@ class Recomputed:
     def work(self):
         """Work of the last cycle in the rotor's band [J], of the film and of the elements that were fitted."""
         run = self.records["rotor_band"]
-        period = 2.0 * np.pi / run.motion["omega"]
+        period = 2.0 * np.pi / run.motion["Omega"]
         last = run.T >= run.T[-1] - period * (1.0 + 1e-9)
         u, v = run.approach[last], run.rate[last]
         forces = {"full": run.force[last]}

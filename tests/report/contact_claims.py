@@ -86,13 +86,13 @@ def claim_assumptions(page, again, rotor, results):
 
 def claim_captions(page, again, rotor):
     p, free, harmonic = again.point, again.records["free"].motion, again.records["harmonic"].motion
-    mass = p.load * p.time_unit**2 / p.dry_approach / free["omega_n"] ** 2
+    mass = p.load * p.time_unit**2 / p.dry_approach / free["Omega_n"] ** 2
     x, y = np.unravel_index(again.steady.H.argmin(), again.steady.H.shape)
     page.claim("lowest node of the film is at X = #, |Y| = # semi", again.steady.X[x], again.steady.Y[y])
-    hertz = harmonic["omega"] / p.time_unit / (2.0 * np.pi)
+    hertz = harmonic["Omega"] / p.time_unit / (2.0 * np.pi)
     page.claim("full multigrid: # cycles in # s", again.steady.residuals.size - 1, again.steady.seconds)
-    page.claim("Free vibration at Omega_n = #, a mass of # g", free["omega_n"], mass * 1e3)
-    page.claim("Harmonic load at Omega = # (# kHz)", harmonic["omega"], hertz * 1e-3)
+    page.claim("Free vibration at Omega_n = #, a mass of # g", free["Omega_n"], mass * 1e3)
+    page.claim("Harmonic load at Omega = # (# kHz)", harmonic["Omega"], hertz * 1e-3)
     found, inside, run = again.fit("rotor_band", "cubic"), again.window("rotor_band"), again.records["rotor_band"]
     pushes = 100.0 * found.parameters["C1"] * np.abs(run.rate[inside]).max()
     misses = 100.0 * found.rms * run.force[inside].std()
@@ -126,7 +126,7 @@ def claim_fits(page, again, refused):
 
 def claim_memory_and_work(page, again, results):
     data = results["memory"]["impedance"]
-    K, C = again.memory_impedance(data["omega"])
+    K, C = again.memory_impedance(data["Omega"])
     errors = (100.0 * np.abs(ours / data[name] - 1.0).max() for ours, name in ((K, "stiffness"), (C, "damping")))
     page.claim("K within # % and C within # % of the film's", *errors)
     page.claim("force within # %, # %, # % (rms", *(100.0 * again.memory_rms(r) for r in RECORDS))

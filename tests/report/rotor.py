@@ -169,27 +169,25 @@ class RecomputedRotor:
         low, high = box["omega"]
         return [*found, float(not low / OCTAVE <= v.std() / u.std() <= high * OCTAVE)]
 
-    def warning(self, name, run, k):
-        """What an element has to say about contact `k` of a run; empty where it has nothing."""
-        element, u, v, f = self.elements[name], run.approach[:, k], run.rate[:, k], run.force[:, k]
-        box, said = element.validity.to_dict(), []
+    def warned(self, name, run, k):
+        """Numbers of what an element has to say about contact `k` of a run: what lies outside, and its bounds."""
+        u, v, f = run.approach[:, k], run.rate[:, k], run.force[:, k]
+        box, said = self.elements[name].validity.to_dict(), []
 
         def worst(values, low, high):
             least, most, slack = values.min(), values.max(), MARGIN * (high - low)
             if low - slack <= least and most <= high + slack:
-                return None
-            return most if most - high > low - least else least
+                return []
+            return [most if most - high > low - least else least, low, high]
 
-        if (value := worst(u, box["low"], box["high"])) is not None:
-            said.append(f"approach {value:.4g} (fitted {box['low']:.4g} to {box['high']:.4g})")
+        said += worst(u, box["low"], box["high"])
         if box["rate"] is not None and np.abs(v).max() > (1.0 + MARGIN) * box["rate"]:
-            said.append(f"rate {np.abs(v).max():.4g} (fitted up to {box['rate']:.4g})")
-        if box["load"] is not None and (value := worst(f, *box["load"])) is not None:
-            said.append(f"force {value:.4g} (fitted {box['load'][0]:.4g} to {box['load'][1]:.4g})")
+            said += [np.abs(v).max(), box["rate"]]
+        if box["load"] is not None:
+            said += worst(f, *box["load"])
         if box["omega"] is not None and self._outside(box, u, v, f)[3]:
-            low, high = box["omega"]
-            said.append(f"angular frequency {v.std() / u.std():.4g} (fitted {low:.4g} to {high:.4g})")
-        return f"{type(element).__name__} used outside its validity box: {', '.join(said)}" if said else ""
+            said += [omega / (2.0 * np.pi) for omega in (v.std() / u.std(), *sorted(set(box["omega"])))]
+        return said
 
     # ---- linear
 
@@ -204,9 +202,9 @@ class RecomputedRotor:
             if name == "memory":
                 K, C = contact.memory_impedance([own])
             else:
-                within = np.clip([own], data["omega"][0], data["omega"][-1])
+                within = np.clip([own], data["Omega"][0], data["Omega"][-1])
                 K, C = (
-                    interpolate.PchipInterpolator(data["omega"], data[part])(within)
+                    interpolate.PchipInterpolator(data["Omega"], data[part])(within)
                     for part in ("stiffness", "damping")
                 )
             return float(K[0]) * contact.units.stiffness, float(C[0]) * contact.units.damping

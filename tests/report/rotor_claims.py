@@ -1,7 +1,10 @@
 """Who knows which number of a report: the headline's and the rotor's part, from `report.rotor`."""
 
+import re
+
 import numpy as np
 
+from report.page import LONE
 from report.rotor import CONTACTS, SETTLED
 
 
@@ -149,15 +152,25 @@ def claim_unbalance(page, rotor):
 
 def claim_events(page, rotor):
     for when, runs in (("unbalance", rotor.runs.turning), ("kick", rotor.runs.decaying)):
-        said = {}
         for name, run in runs.items():
-            for number, (low, high, off, on, *rest) in enumerate(rotor.events(name, run), start=1):
-                text, percent = shares("% | % | % | % | %", rest)
-                page.claim(
-                    f"{when}: {CONTACTS[name]} | {number} | # .. # | # | # | {text}", low, high, off, on, *percent
-                )
-                if name != "full" and (warning := rotor.warning(name, run, number - 1)):
-                    said.setdefault(f"{when}, {CONTACTS[name]}: {warning}", []).append(str(number))
-        for text, numbers in said.items():
-            page.claim(f"{text} (contact {', '.join(numbers)})")
+            for number, found in enumerate(rotor.events(name, run), start=1):
+                text, percent = shares("% | % | % | % | %", found[4:])
+                row = f"{when}: {CONTACTS[name]} | {number} | # .. # | # | # | {text}"
+                page.claim(row, *found[:4], *percent)
     page.claim("below # % of its load at rest", 1.0)
+    claim_warnings(page, rotor)
+
+
+def claim_warnings(page, rotor):
+    """Each as it stands in the results, but for its numbers; none is left out."""
+    expected = {
+        (when, CONTACTS[name], k + 1): rotor.warned(name, run, k)
+        for when, runs in (("unbalance", rotor.runs.turning), ("kick", rotor.runs.decaying))
+        for name, run in list(runs.items())[1:]
+        for k in range(run.force.shape[1])
+    }
+    for line in rotor.results["warnings"]:
+        head, text, numbers = re.fullmatch(r"(.*?): (.*) \(contact ([\d, ]+)\)", line).groups()
+        told = [expected.pop((*head.split(", ", 1), int(number))) for number in numbers.split(", ")]
+        page.claim(f"{head}: {LONE.sub('#', text)} (contact {numbers})", *told[0])
+    assert not any(expected.values())
