@@ -108,7 +108,7 @@ class Tests:
 
     def first_failure(self, tests: Sequence[str], fresh_cache: bool = False) -> str | None:
         """The first of `tests` that fails, None if all pass."""
-        with tempfile.TemporaryDirectory(dir=self.tree.parent) as fresh:
+        with tempfile.TemporaryDirectory(dir=self.tree.parent, ignore_cleanup_errors=True) as fresh:
             cache = fresh if fresh_cache else str(self.tree.parent / f"cache-{self.tree.name}")
             return self._failure(tests, cache)
 
@@ -204,7 +204,10 @@ def run(
     done: list[Outcome] = []
     stopped = threading.Event()
     free: SimpleQueue[Tests] = SimpleQueue()
-    with tempfile.TemporaryDirectory(prefix="mutants-") as folder, ThreadPoolExecutor(jobs) as pool:
+    with (
+        tempfile.TemporaryDirectory(prefix="mutants-", ignore_cleanup_errors=True) as folder,
+        ThreadPoolExecutor(jobs) as pool,
+    ):
         trees = [copy_tree(root, Path(folder) / f"tree{k}") for k in range(jobs)]
         started = time.monotonic()
 
