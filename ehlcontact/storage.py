@@ -39,6 +39,7 @@ def load(path: str | os.PathLike[str]) -> Result:
     InputError
         No such file, not HDF5, truncated, not one of ours, or written by a newer version.
     """
+    require_instance("file", path, str | os.PathLike, "the name of a file")
     result: Result = hdf5.read(path, _CLASSES, "file", WHAT, (1, FORMAT))
     for names, shape in _shapes(result):
         for name in names:

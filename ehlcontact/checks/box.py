@@ -80,6 +80,9 @@ class Limits(NamedTuple):
 
 
 MEASURED = Limits((5.0, 30000.0), (0.0, 25.0), (0.08, 5.0), 3.5e9, 80.0)  # docs/solver.md
+SMALLEST_L = (
+    1e-6  # of one that is not 0: formulas of its powers overflow at 1e-50, the Hertz pressure is 20 Pa here
+)
 LIMITS = Limits((0.1, 60000.0), (0.0, 40.0), (0.04, 8.0), 5e9, 120.0)
 
 Given = Mapping[str, tuple[float, Quantity]]  # a user's inputs, by the user's name for each
@@ -101,6 +104,8 @@ def require_in_box(numbers: Mapping[str, float], given: Given, when: str = "") -
     pressure = numbers["p_hertz"] * 1e-9
     here = ", ".join(f"{name} = {numbers[name]:.4g}" for name in ("M", "L", "kappa"))
     note = f", {MADE_FOR} ({'; '.join(slips) or f'{here}, {pressure:.3g} GPa'})"
+    if 0.0 < numbers["L"] < SMALLEST_L:
+        raise InputError(f"L{when}", numbers["L"], f"0, or between {SMALLEST_L:g} and {LIMITS.L[1]:g}{note}")
     for name in ("M", "L", "kappa"):
         low, high = getattr(LIMITS, name)
         if not low <= numbers[name] <= high:

@@ -6,6 +6,7 @@ room           responsibility
 ``app``        the program: subcommands, errors to one line and an exit code
 ``options``    options that subcommands share, in groups, and the inputs they stand for
 ``output``     tables, JSON, complaints, checks of where results go
+``usage``      what is wrong with a command line, in one line
 ``numerals``   numbers for people: figures, exponents, characters of units
 ``streams``    stdout and stderr that may be full, closed, or of few characters
 ``progress``   how far a computation is: bars on a terminal, now and then a line elsewhere
@@ -27,7 +28,7 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from ehlcontact.process import TOO_EARLY, end_guard
+from ehlcontact.process.guard import TOO_EARLY, end_guard
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:

@@ -21,8 +21,9 @@ from ehlcontact.cli.commands import (
     steady,
     validate,
 )
-from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain, one_line
+from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain
 from ehlcontact.cli.streams import StdoutError, watched_stdout
+from ehlcontact.cli.usage import by_option, command_of, usage_line
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.origin import __version__
 
@@ -90,15 +91,18 @@ def execute(arguments: Sequence[str] | None = None) -> int:
         complain(INTERRUPTED_LINE)
         return FAILED
     except UsageFailure as error:
-        complain(_usage_line(error, given))
+        complain(usage_line(error, given, typer.main.get_command(app)))
         return USAGE
 
 
 def _invoke(given: list[str]) -> int:
     """The command itself: not by its `main`, which has its own ways with Ctrl-C and a closed stdout."""
+    root = typer.main.get_command(app)
     try:
-        with typer.main.get_command(app).make_context("ehlcontact", given) as context:
+        with root.make_context("ehlcontact", list(given)) as context:
             context.command.invoke(context)
+    except InputError as error:
+        raise by_option(error, command_of(root, given)[0], given) from None
     except typer.Exit as end:
         return end.exit_code
     except UsageFailure as error:
@@ -107,17 +111,3 @@ def _invoke(given: list[str]) -> int:
         typer.echo(str(error))
         return USAGE
     return 0
-
-
-def _usage_line(error: Exception, arguments: Sequence[str]) -> str:
-    """What was wrong with the command line; for a value, the option, the value and what it must be."""
-    message = str(getattr(error, "format_message", error.__str__)())
-    parameter = getattr(error, "param", None)
-    given = list(arguments)
-    for option in getattr(parameter, "opts", ()):
-        if isinstance(error, typer.BadParameter) and option in given:
-            start = given.index(option) + 1
-            value = " ".join(given[start : start + parameter.nargs])  # type: ignore[union-attr]
-            allowed = str(getattr(error, "message", message)).removeprefix("Input should be ")
-            return str(InputError(option, value, allowed))
-    return one_line(message)

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import functools
 import inspect
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import MISSING, dataclass, fields, is_dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Annotated, Any, get_type_hints
 
 import typer
 
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
+from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, show_table, write_json, write_to
+from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, require_solvable
 from ehlcontact.solver.domain import Domain, check_intervals
 
@@ -32,16 +35,16 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
         shown += [parameter.replace(kind=parameter.KEYWORD_ONLY)] if group is None else _options(group)
 
     @functools.wraps(command)
-    def called(**given: Any) -> None:
+    def ungrouped(**given: Any) -> None:
         made = {
             name: group(**{field.name: given.pop(field.name) for field in fields(group)})
             for name, group in groups.items()
         }
         command(**made, **given)
 
-    called.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
-    called.__annotations__ = {parameter.name: parameter.annotation for parameter in shown}
-    return called
+    ungrouped.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
+    ungrouped.__annotations__ = {parameter.name: parameter.annotation for parameter in shown}
+    return ungrouped
 
 
 def _options(group: Any) -> Iterator[inspect.Parameter]:
@@ -52,6 +55,15 @@ def _options(group: Any) -> Iterator[inspect.Parameter]:
         yield inspect.Parameter(
             field.name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kinds[field.name]
         )
+
+
+@contextmanager
+def called(**options: str) -> Iterator[None]:
+    """Let an `InputError` of the block name the option where the library has a name of its own."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(options.get(error.field, error.field), error.value, error.allowed) from None
 
 
 Intervals = Annotated[int, typer.Option("--n", help="Intervals along X, a multiple of 16.", rich_help_panel=_GRID)]
@@ -126,7 +138,8 @@ class Grid:
         """Check the options; ``n`` and ``domain`` for a solver, None where it shall choose."""
         if self.n is not None:
             check_intervals(self.n)
-        return {"n": self.n, "domain": None if self.domain is None else Domain(*self.domain)}
+        with called(x_in="--domain XA", x_out="--domain XB", y_max="--domain YMAX"):
+            return {"n": self.n, "domain": None if self.domain is None else Domain(*self.domain)}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -145,11 +158,21 @@ class Files:
     ] = None
     json_to: JsonTo = None
 
-    def check(self) -> None:
-        """Make sure, before a long solve, that all of them can be written."""
+    def check(self, beside: Mapping[str, Path | None] = MappingProxyType({}), read: Path | None = None) -> None:
+        """Make sure, before a long solve, that all of them can be written, and that none replaces another.
+
+        Parameters
+        ----------
+        beside : mapping
+            Further options and the files that they have written.
+        read : Path, optional
+            A file that the command reads.
+        """
         check_file("--save", self.save, HDF5)
         check_file("--figure", self.figure, PICTURES)
         check_json(self.json_to)
+        own = {"--save": self.save, "--figure": self.figure, "--json": self.json_to}
+        check_apart({**beside, **own}, (read,))
 
     def deliver(self, result: Any, title: str, rows: list[tuple[str, str, str]], draw: Drawing | None) -> None:
         """Save, draw (if there is anything), write and show the result, each whatever becomes of the others.

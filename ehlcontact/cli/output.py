@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import sys
 import tempfile
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -93,12 +95,60 @@ def prepare_folder(folder: Path) -> None:
     check_folder("--output", folder)
 
 
+def check_place(folder: Path) -> None:
+    """Make sure, without making it, that `prepare_folder` will be able to.
+
+    Raises
+    ------
+    InputError
+        A file stands there or above it, or the folder above cannot be written to.
+    """
+    above = next(path for path in (folder, *folder.absolute().parents) if os.path.lexists(path))
+    if not above.is_dir():
+        raise InputError("--output", str(folder), f"a folder that can be made; {above} is a file")
+    if not os.access(above, os.W_OK):
+        raise InputError("--output", str(folder), f"a folder that can be written to; {above} cannot")
+
+
 def check_json(path: str | None) -> None:
     """The same for the target of ``--json``."""
     if path == STDOUT and sys.stdout is None:
         raise InputError("--json", path, "used with a stdout that is not closed")
     if path not in (None, STDOUT):
         check_file("--json", Path(str(path)))
+
+
+def check_apart(targets: Mapping[str, Path | str | None], read: Iterable[Path | None] = ()) -> None:
+    """Make sure that no result takes the place of another, or of a file that is read.
+
+    Parameters
+    ----------
+    targets : mapping
+        Option to where its result goes; None where it was not given.
+    read : iterable of Path
+        Files that the command reads.
+
+    Raises
+    ------
+    InputError
+        It names the second option of one file, or the option whose file is read.
+    """
+    taken = {os.path.realpath(path): "read" for path in read if path is not None}
+    for option, path in targets.items():
+        if path is None or path == STDOUT or _is_device(path):
+            continue
+        place = os.path.realpath(path)
+        if place in taken:
+            used = "which is read" if taken[place] == "read" else f"which is for {taken[place]}"
+            raise InputError(option, str(path), f"another file than this, {used}")
+        taken[place] = option
+
+
+def _is_device(path: Path | str) -> bool:
+    """Whether it is written to and not replaced, as /dev/null is."""
+    with suppress(OSError, ValueError):
+        return os.path.exists(path) and not os.path.isfile(path)
+    return False
 
 
 def plain(value: Any) -> Any:

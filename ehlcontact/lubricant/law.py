@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from ehlcontact.checks import require_choice, require_nonnegative, require_positive
+from ehlcontact.checks.box import INPUTS
 from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_node
 from ehlcontact.lubricant.oil import ALPHA_SCATTER, GOLD_PRESSURE, GRADE_SCATTER, MineralOil
@@ -81,7 +82,9 @@ class Lubricant:
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, require_nonnegative(name, getattr(self, name)))
         if self.viscosity == "roelands" and math.log(self.eta0) + ROELANDS_LOG <= 0.0:
-            raise InputError("eta0", self.eta0, "> 6.31e-5 Pa s for Roelands' law")
+            guess = INPUTS["eta0"].slip(self.eta0)
+            allowed = "> 6.31e-5 Pa s for Roelands' law"
+            raise InputError("eta0", self.eta0, f"{allowed} ({guess})" if guess else allowed)
 
     @classmethod
     def iso_vg(

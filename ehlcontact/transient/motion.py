@@ -18,6 +18,16 @@ from ehlcontact.transient.bodies import Start, UnderLoad
 
 SMALL_VIBRATION = 1.5**0.5  # dry angular frequency over Omega_n
 STEPS_PER_PERIOD = 80
+# Of bodies and loads, in 1/T: below, nothing moves while a bearing turns a thousand times; above, it is hundreds
+# of times faster than any body on a film. A frequency beyond was given in other units, or with another mass.
+SLOWEST, FASTEST = 1e-6, 1e3
+
+
+def _require_frequency(field: str, value: object) -> None:
+    """Raise `InputError` unless it is a dimensionless frequency that a contact can have."""
+    if not SLOWEST <= require_positive(field, value) <= FASTEST:
+        unit = "in units of u_sum/(2a), not rad/s or Hz"
+        raise InputError(field, value, f"between {SLOWEST:g} and {FASTEST:g} ({unit})")
 
 
 def _scales(instead: str, point: object) -> Scales:
@@ -55,7 +65,7 @@ class FreeVibration(UnderLoad):
     kind: ClassVar[str] = "free"
 
     def __post_init__(self) -> None:
-        require_positive("Omega_n", self.Omega_n)
+        _require_frequency("Omega_n", self.Omega_n)
         if abs(require_finite("offset", self.offset)) > 2.0:
             raise InputError("offset", self.offset, "between -2 and 2 dry approaches")
         if self.rate is None:
@@ -161,11 +171,11 @@ class HarmonicLoad(UnderLoad):
     kind: ClassVar[str] = "harmonic"
 
     def __post_init__(self) -> None:
-        require_positive("Omega", self.Omega)
+        _require_frequency("Omega", self.Omega)
         if not 0.0 < require_positive("amplitude", self.amplitude) < 1.0:
             raise InputError("amplitude", self.amplitude, "above 0 and below 1 (the contact must stay loaded)")
         if self.Omega_n is not None:
-            require_positive("Omega_n", self.Omega_n)
+            _require_frequency("Omega_n", self.Omega_n)
 
     @classmethod
     def at(
@@ -229,8 +239,9 @@ class RampLoad(UnderLoad):
     kind: ClassVar[str] = "ramp"
 
     def __post_init__(self) -> None:
-        for name in ("ratio", "duration", "Omega_n"):
+        for name in ("ratio", "duration"):
             require_positive(name, getattr(self, name))
+        _require_frequency("Omega_n", self.Omega_n)
 
     def load(self, T: float) -> float:
         """Applied load."""

@@ -15,6 +15,7 @@ from ehlcontact.solver.mesh import Mesh
 from ehlcontact.transient.bodies import Motion
 
 LARGEST_ERROR = 0.1
+SMALLEST_ERROR = 1e-8  # the tolerance that goes with it comes near rounding: no step would be small enough
 FIRST_STEP = 0.25  # of the motion's own step: what is tried first under error control
 MOST_STEPS = 1_000_000  # in fixed steps
 ROUNDING = 1e-9  # of a step: an end this much later is met all the same
@@ -45,8 +46,8 @@ class TimeSteps:
         tol = require_positive("tol", tol)
         default = motion.default_step
         if error is not None:
-            if not require_positive("error", error) <= LARGEST_ERROR:
-                raise InputError("error", error, f"above 0 and at most {LARGEST_ERROR}")
+            if not SMALLEST_ERROR <= require_positive("error", error) <= LARGEST_ERROR:
+                raise InputError("error", error, f"between {SMALLEST_ERROR:g} and {LARGEST_ERROR:g}")
             tol = min(tol, TOL_SHARE * error)
             default = min(FIRST_STEP * default, until)
         dT = default if dT is None else require_positive("dT", dT)

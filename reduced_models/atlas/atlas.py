@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import replace
+from dataclasses import asdict, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Unpack
@@ -14,11 +14,19 @@ from numpy.typing import NDArray
 
 from ehlcontact.assumptions import assumptions
 from ehlcontact.checks import require_choice
+from ehlcontact.checks.box import INPUTS
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from reduced_models.atlas.answer import AtlasAnswer
-from reduced_models.atlas.elements import Loads, cubic_element, memory_element, passive_gains, wide_element
+from reduced_models.atlas.elements import (
+    Loads,
+    cubic_element,
+    damper_band,
+    memory_element,
+    passive_gains,
+    wide_element,
+)
 from reduced_models.atlas.surface import AtlasSurface
 from reduced_models.atlas.table import AtlasTable, Box
 from reduced_models.elements.film_response import DRY
@@ -118,13 +126,14 @@ class Atlas:
         values, slopes, shapes = self._surface.at(rows)
         reference = int(np.argmin(np.abs(loads - 1.0)))
         source = self._source(moes, rows[reference], values[reference], slopes[reference])
+        source["scales"] = None if scales is None else asdict(scales)
         source["assumptions"] = assumptions(point).short()
         k = self._table.omega.size
         if w is not None:
-            K, C = (
-                float(np.interp(w, self._table.omega, part)) for part in (values[0, 4 : 4 + k], values[0, 4 + k :])
-            )
-            cubic = cubic_element(float(values[0, 0]), K, max(C, 0.0), w, source)
+            parts = values[0, 4 : 4 + k], values[0, 4 + k :]
+            K, C = (float(np.interp(w, self._table.omega, part)) for part in parts)
+            band = damper_band(self._table.omega, parts[1], w)
+            cubic = cubic_element(float(values[0, 0]), K, max(C, 0.0), band, source)
             return cubic if scales is None else cubic.to_si(scales)
         gains = np.maximum(shapes * values[:, 3:4], 0.0)
         at = Loads(
@@ -169,15 +178,15 @@ class Atlas:
     def _inside(self, point: Point) -> MoesPoint:
         moes = moes_point(point)
         self.box.require_inside(moes)
-        laws = self._table.metadata["viscosity"], self._table.metadata["density"]
-        if (moes.viscosity, moes.density) != laws:
-            raise InputError("viscosity and density", (moes.viscosity, moes.density), f"{laws}, as of the atlas")
+        for name in ("viscosity", "density"):
+            if getattr(moes, name) != self._table.metadata[name]:
+                raise InputError(name, getattr(moes, name), f"{self._table.metadata[name]}, the law of the atlas")
         for name in ("alpha", "eta0"):
             low, high = getattr(self._table.oil, name)
             if not low <= getattr(moes, name) <= high:
-                raise InputError(
-                    name, getattr(moes, name), f"between {low:g} and {high:g}, the range of the atlas"
-                )
+                guess = INPUTS[name].slip(getattr(moes, name))
+                allowed = f"between {low:g} and {high:g} {INPUTS[name].unit}, the range of the atlas"
+                raise InputError(name, getattr(moes, name), f"{allowed} ({guess})" if guess else allowed)
         return moes
 
     def _loads(self, point: MoesPoint) -> _Floats:

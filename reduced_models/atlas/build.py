@@ -24,7 +24,7 @@ from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import OMEGAS, solve_point
 from reduced_models.atlas.surface import coordinates, error_factor, left_out_errors, to_smooth
 from reduced_models.atlas.table import FIRST_INTERPOLATION, FIRST_OIL, AtlasTable, Box
-from reduced_models.atlas.work import Job, Solve, Solved, WorkFile, on_cluster, on_processes
+from reduced_models.atlas.work import Job, Solve, Solved, WorkFile, on_cluster, on_processes, require_scheduler
 from reduced_models.elements.film_response import DRY, WEIGHT_C, WEIGHT_K, FilterRates
 
 _Floats = NDArray[np.float64]
@@ -84,9 +84,13 @@ def build_atlas(
         A work file of other settings, no scheduler at that address, or too few points that converged.
     """
     points = sample_points(draws, light_draws, seed)
+    if len(points) < FEWEST:  # told before they are solved
+        allowed = f"at least {FEWEST}; draws = {draws} and light_draws = {light_draws} have too few in the box"
+        raise InputError("points", len(points), allowed)
     if scheduler is None:
         run = partial(on_processes, solve, processes=processes)
     else:
+        require_scheduler(scheduler)
         run = partial(on_cluster, solve, scheduler=scheduler)
     with WorkFile(work, settings(seed)) as file:
         _solve_missing(file, points, run, progress)

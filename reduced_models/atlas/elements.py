@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from ehlcontact.point import Scales
 from reduced_models.elements.film_response import FilterRates
 from reduced_models.elements.kinds import CubicContact, FilmMemoryContact, WideRangeContact
 from reduced_models.elements.memory import film_and_exponent
+from reduced_models.elements.validity import MARGIN, Band
 
 _Floats = NDArray[np.float64]
 
@@ -88,10 +90,22 @@ def wide_element(at: Loads, scales: Scales | None) -> WideRangeContact:
     )
 
 
+def damper_band(Omega: _Floats, damping: _Floats, w: float) -> Band:
+    """The frequencies about `w` at which C(Omega), linear between its nodes, is C(w) within a twentieth."""
+    places = np.unique(np.concatenate([*(np.linspace(a, b, 65) for a, b in pairwise(Omega.tolist())), [w]]))
+    C, at = np.interp(places, Omega, damping), int(np.searchsorted(places, w))
+    off = np.flatnonzero(np.abs(C - C[at]) > MARGIN * abs(C[at]))
+    low, high = off[off < at], off[off > at]
+    return (
+        float(places[low[-1] + 1] if low.size else places[0]),
+        float(places[high[0] - 1] if high.size else places[-1]),
+    )
+
+
 def cubic_element(
-    approach: float, stiffness: float, damping: float, omega: float, source: Mapping[str, Any]
+    approach: float, stiffness: float, damping: float, band: Band, source: Mapping[str, Any]
 ) -> CubicContact:
-    """The paper's viscous cubic, for vibrations of one frequency: load 1, tangent and curvature at its approach.
+    """The paper's viscous cubic, for vibrations of one band: load 1, tangent and curvature at its approach.
 
     The curvature is that of a dry contact on its film, F = (1 + 2/3 K (u - u_0))^(3/2), hence F'' = K^2/3.
 
@@ -114,7 +128,7 @@ def cubic_element(
         low=low,
         high=high,
         load_range=LOAD_BAND,
-        omega_range=(omega, omega),
+        omega_range=band,
         source=source,
     )
 

@@ -221,5 +221,6 @@ class AtlasTable:
         except OSError as error:
             raise InputError("atlas", str(path), f"a readable atlas ({error.strerror or error})") from None
         except Exception as error:  # whatever zip files, numpy and classes raise on what is damaged, or no atlas
-            raise InputError("atlas", str(path), f"a complete atlas file ({error})") from None
+            reason = "no npz file, or one of Python objects" if "pickle" in str(error) else str(error)
+            raise InputError("atlas", str(path), f"a complete atlas file ({reason})") from None
         raise InputError("atlas", f"version {version}", f"of version {VERSION}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import multiprocessing
 import os
+import socket
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -16,7 +17,7 @@ from typing import Any, Self
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import parse_json
 from ehlcontact.point import MoesPoint
-from ehlcontact.process import end_when, interrupts_held
+from ehlcontact.process.workers import end_when, interrupts_held
 
 Job = tuple[str, MoesPoint]
 Entry = dict[str, Any]
@@ -162,6 +163,27 @@ def _follow_parent() -> None:
         end_when(parent.join)
 
 
+def require_scheduler(scheduler: str) -> None:
+    """Make sure that somebody listens there, before anything is made or begun.
+
+    A client of Dask that finds nobody goes on looking when it is thrown away: 20 s, and a traceback at the end.
+
+    Raises
+    ------
+    InputError
+        ``dask.distributed`` is not installed, no address, or nobody there.
+    """
+    try:
+        from distributed.comm import get_address_host_port
+    except ImportError:
+        raise InputError("--scheduler", scheduler, "used with dask: pip install 'ehlcontact[cluster]'") from None
+    try:
+        socket.create_connection(get_address_host_port(scheduler), CONNECT_SECONDS).close()
+    except (OSError, ValueError) as error:
+        reason = str(error) or type(error).__name__
+        raise InputError("--scheduler", scheduler, f"the address of a Dask scheduler ({reason})") from None
+
+
 def on_cluster(solve: Solve, jobs: Sequence[Job], scheduler: str) -> Solved:
     """Solve on the Dask cluster at that address; what a lost worker was at goes to another one.
 
@@ -172,10 +194,9 @@ def on_cluster(solve: Solve, jobs: Sequence[Job], scheduler: str) -> Solved:
     ConvergenceError
         Workers keep dying at a point.
     """
-    try:
-        import distributed
-    except ImportError:
-        raise InputError("--scheduler", scheduler, "used with dask: pip install 'ehlcontact[cluster]'") from None
+    require_scheduler(scheduler)
+    import distributed
+
     try:
         client = distributed.Client(scheduler, timeout=CONNECT_SECONDS, set_as_default=False)
     except (OSError, ValueError) as error:

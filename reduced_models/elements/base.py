@@ -24,10 +24,12 @@ from ehlcontact.checks.frequency import (
     radians_per_second,
 )
 from ehlcontact.errors import InputError
-from ehlcontact.point import Scales
+from ehlcontact.point import Point, Scales
 from reduced_models.elements.file import UNITS, naming, numbers, read_document, write_document
+from reduced_models.elements.made_for import MadeFor, known_scale
 from reduced_models.elements.validity import Band, OutsideValidityWarning, Validity
 
+UNWATCHED = (-math.inf, math.inf, math.inf, -math.inf, math.inf)  # a reach that nothing leaves
 SAME_SCALES = 1e-6  # relative; more than a rounded file or another order of the same arithmetic makes
 _SCALED_BY = ("force", "length", "time")
 
@@ -51,8 +53,10 @@ class ContactElement(_Common, ABC):
     Approach in units of the dry Hertz approach or m, rate in its time derivative, force in units of the static
     load or N: see ``units``.
 
-    ``validity`` holds what the data covered. Force and tangents may be asked for anywhere; a simulation that
-    leaves the box (`advance`, `simulate_oscillator`) warns, once per element.
+    ``validity`` holds what the data covered, ``made_for`` the speed and the oil. Whoever moves the element outside
+    the box (`advance`, `state_rates`, ``force`` of single values, `simulate_oscillator`, `simulate_rotor`), at a
+    frequency outside its band, or for another contact (`check`), is told, once per element and reason. Tangents,
+    the spring and arrays are questions, which may be asked anywhere.
 
     Parameters
     ----------
@@ -72,13 +76,15 @@ class ContactElement(_Common, ABC):
     low: float  # fields of the subclass, so that they follow its coefficients
     high: float
     validity: Validity
-    _warned: bool
+    beyond: ClassVar[Mapping[str, str]] = {}  # what to take instead, by what was left: "motion", "frequency"
+    _told: set[str]
+    _reach: tuple[float, float, float, float, float]
 
     def __post_init__(self) -> None:
         require_choice("units", self.units, UNITS)
         self._check_coefficients()
         validity = Validity((self.low, self.high), self.rate, self.load_range, self.omega_range)
-        for name, value in {**validity.fields(), "validity": validity, "_warned": False}.items():
+        for name, value in {**validity.fields(), "validity": validity, **_watch(validity)}.items():
             object.__setattr__(self, name, value)
 
     def _check_coefficients(self) -> None:
@@ -120,10 +126,18 @@ class ContactElement(_Common, ABC):
         """Number of states in continuous time; none without memory."""
 
     @abstractmethod
+    def continuous(
+        self, states: NDArray[np.float64], approach: float, rate: float
+    ) -> tuple[float, NDArray[np.float64]]:
+        """As `state_rates`, for integrators that try where they do not go: nobody is told of leaving the box."""
+
     def state_rates(
         self, states: NDArray[np.float64], approach: float, rate: float
     ) -> tuple[float, NDArray[np.float64]]:
-        """Force and d(states)/dt in continuous time; the element's own state is not touched."""
+        """Force and d(states)/dt in continuous time; all zero at rest, the element's own is not touched."""
+        force, rates = self.continuous(states, approach, rate)
+        self._watch(approach, rate, force)
+        return force, rates
 
     @abstractmethod
     def rate_under(self, states: NDArray[np.float64], approach: float, force: float) -> float:
@@ -221,13 +235,57 @@ class ContactElement(_Common, ABC):
         **frequency
             Its frequency, named as for `impedance`.
         """
-        if self._warned:
-            return
-        said = self.validity.excess(approach, rate, self._frequency(frequency), force, self.units)
-        if said:
-            object.__setattr__(self, "_warned", True)
-            message = f"{type(self).__name__} used outside its validity box: {', '.join(said)}"
+        said = {
+            "motion": self.validity.excess(approach, rate, None, force),
+            "frequency": self.validity.excess(omega=self._frequency(frequency), units=self.units),
+        }
+        new = {reason: words for reason, words in said.items() if words and reason not in self._told}
+        if new:
+            self._tell(set(new))
+            left = ", ".join(word for words in new.values() for word in words)
+            advice = "".join(f"; {self.beyond[reason]}" for reason in new if reason in self.beyond)
+            message = f"{type(self).__name__} used outside its validity box: {left}{advice}"
             warnings.warn(message, OutsideValidityWarning, stacklevel=stacklevel + 1)
+
+    def check(self, point: Point | None = None, *, stacklevel: int = 2, **frequency: Unpack[Frequency]) -> None:
+        """Warn, once per element, if it is to stand for another contact, or to move outside its band.
+
+        Parameters
+        ----------
+        point : MoesPoint or OperatingPoint, optional
+            Contact that it shall stand for: another speed, oil or shape than those of ``made_for`` (by more than a
+            twentieth) is told, and a static load outside ``load_range``.
+        **frequency
+            Of the motion, as of a rotor's speed; named as for `impedance`.
+        """
+        force: list[float] = []
+        if point is not None:
+            said = self.made_for.differences(point)
+            if said and "point" not in self._told:
+                self._tell({"point"})
+                message = f"{type(self).__name__} used for another contact than it was made for: {', '.join(said)}"
+                warnings.warn(message, OutsideValidityWarning, stacklevel=stacklevel)
+            load, unit = self.made_for.load_of(point), self._known("force") if self.units == "SI" else 1.0
+            if load is not None and unit is not None and not said:
+                force = [load * unit]
+        self.warn_outside(force=force, stacklevel=stacklevel, **frequency)
+
+    def _watch(self, approach: float, rate: float, force: float) -> None:
+        """Warn of a single state outside the box."""
+        low, high, fastest, least, most = self._reach
+        if not (low <= approach <= high and -fastest <= rate <= fastest and least <= force <= most):
+            self.warn_outside(approach, rate, force=force, stacklevel=3)
+
+    def _tell(self, reasons: set[str]) -> None:
+        """Note that these have been told; a motion that has been told is no longer watched."""
+        self._told.update(reasons)
+        if "motion" in reasons:
+            object.__setattr__(self, "_reach", UNWATCHED)
+
+    @property
+    def made_for(self) -> MadeFor:
+        """Speed, oil and shape of the contact that it was made for, as far as its source tells."""
+        return MadeFor.of(self.source, self.units == "SI")
 
     def _frequencies(self, **frequency: Unpack[Frequency]) -> NDArray[np.float64]:
         """Angular frequencies in the units of the element, shape (k,)."""
@@ -241,9 +299,7 @@ class ContactElement(_Common, ABC):
 
     def _known(self, unit: str) -> float | None:
         """SI value of a unit of the point that the element was made at, where its source has it."""
-        scales = (self.source or {}).get("scales")
-        value = scales.get(unit) if isinstance(scales, Mapping) else None
-        return float(value) if isinstance(value, int | float) and value > 0.0 else None
+        return known_scale(self.source, unit)
 
     def _static_load(self, load: float | None) -> float:
         """`load`, or that of the point that the element was made at."""
@@ -326,6 +382,11 @@ class ContactElement(_Common, ABC):
     def _read_coefficients(cls, document: Mapping[str, Any]) -> dict[str, Any]:
         """Coefficients of the class, as arguments of its constructor, from a document of `read_document`."""
         return numbers("parameters", document["parameters"], cls.parameter_names)
+
+
+def _watch(validity: Validity) -> dict[str, Any]:
+    """What a fresh element remembers of what it has told."""
+    return {"_told": set(), "_reach": validity.reach}
 
 
 def _require_own_scales(scales: Scales, source: Mapping[str, Any] | None) -> None:

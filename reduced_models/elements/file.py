@@ -43,26 +43,28 @@ def read_document(path: str | os.PathLike[str]) -> dict[str, Any]:
         document = parse_json(read_text(path))
     except (OSError, TypeError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise InputError(name, reason, "a readable element file") from None
+        raise InputError("file", name, f"a readable element file ({reason})") from None
+    except UnicodeDecodeError:
+        raise InputError("file", name, "an element file, which is text: complete JSON in UTF-8") from None
     except ValueError as error:
-        raise InputError(name, f"{error}", "complete JSON with finite numbers") from None
+        raise InputError("file", name, f"an element file: complete JSON with finite numbers ({error})") from None
     if not isinstance(document, dict) or document.get("schema") != SCHEMA:
         found = document.get("schema") if isinstance(document, dict) else type(document).__name__
-        raise InputError(name, found, f"a file with schema {SCHEMA!r}")
+        raise InputError(f"{name}: schema", found, f"the schema {SCHEMA!r} of an element file")
     found = document.get("version")
     if not isinstance(found, int) or isinstance(found, bool) or not 1 <= found <= VERSION:
-        raise InputError(name, f"version {found}", f"of version 1 to {VERSION} (a newer library wrote it?)")
+        raise InputError(f"{name}: version", found, f"between 1 and {VERSION} (a newer library wrote it?)")
     for key in ("kind", "units"):
         if not isinstance(document.get(key), str):
-            raise InputError(name, f"{key} {document.get(key)!r}", f"a file with a text entry {key!r}")
+            raise InputError(f"{name}: {key}", document.get(key), "text")
     if document["units"] not in UNITS:
-        raise InputError(name, f"units {document['units']!r}", "in units " + " or ".join(UNITS))
+        raise InputError(f"{name}: units", document["units"], " or ".join(UNITS))
     for key in ("parameters", "valid"):
         if not isinstance(document.get(key), dict):
-            raise InputError(name, f"{key} {document.get(key)!r}", f"a file with an object {key!r}")
+            raise InputError(f"{name}: {key}", document.get(key), "an object of names and values")
     for key in ("fit", "source"):
         if not isinstance(document.get(key, {}), dict | None):
-            raise InputError(name, f"{key} {document.get(key)!r}", f"a file whose {key!r} is an object or null")
+            raise InputError(f"{name}: {key}", document.get(key), "an object, or null")
     return document
 
 

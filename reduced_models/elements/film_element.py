@@ -117,9 +117,6 @@ class FilmContact(ContactElement):
         approaches and rates, and every filter is integrated exactly.
         """
         u, v = float(approach), float(rate)
-        low, high, fastest = self.validity.reach
-        if not (low <= u <= high and -fastest <= v <= fastest):
-            self.warn_outside(u, v)
         f, length, time = self._units
         force = film_step(self.law, self._state, self._next, _step(dt) / time, u / length, v / length * time)[0]
         if not math.isfinite(force):
@@ -127,6 +124,7 @@ class FilmContact(ContactElement):
         old = self._state
         object.__setattr__(self, "_state", self._next)
         object.__setattr__(self, "_next", old)
+        self._watch(u, v, float(force) * f)
         return float(force) * f
 
     def step_tangents(self, dt: float, approach: float, rate: float) -> tuple[float, float, float]:
@@ -220,11 +218,8 @@ class FilmContact(ContactElement):
         """Number of states of the film in continuous time."""
         return 2 + self.lags
 
-    def state_rates(self, states: _Floats, approach: float, rate: float) -> tuple[float, _Floats]:
-        """Force and d(states)/dt in continuous time; states are all zero at rest.
-
-        What `advance` does with a motion that is cubic within the step; the element's own state is not touched.
-        """
+    def continuous(self, states: _Floats, approach: float, rate: float) -> tuple[float, _Floats]:
+        """Force and d(states)/dt in continuous time: what `advance` does with a motion cubic within the step."""
         f, length, time = self._units
         rates = np.empty(states.size)
         force = film_rates(self.law, states, approach / length, rate / length * time, rates)

@@ -15,8 +15,8 @@ mixed term, level off with a continuous slope, so that far away only a viscous d
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable
-from typing import Any, overload
+from collections.abc import Callable, Mapping
+from typing import Any, ClassVar, overload
 
 import numpy as np
 from numba import extending
@@ -178,6 +178,9 @@ class MemorylessContact(ContactElement):
     """Spring beside damper, never pulling: exact tangents, no state. A subclass gives its law and its units."""
 
     law: Law
+    beyond: ClassVar[Mapping[str, str]] = {
+        "frequency": "its damper is for the band it was made in: a film memory (model 'memory' or 'wide') has all"
+    }
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -204,8 +207,20 @@ class MemorylessContact(ContactElement):
     @overload
     def force(self, approach: ArrayLike, rate: ArrayLike) -> float | _Floats: ...
     def force(self, approach: ArrayLike, rate: ArrayLike) -> float | _Floats:
-        """Contact force, never negative; scalars or arrays that broadcast."""
-        return self._value(0, approach, rate)
+        """Contact force, never negative; scalars or arrays that broadcast.
+
+        Of a single value outside the validity box it warns, once per element; arrays are questions.
+        """
+        if not (isinstance(approach, float) and isinstance(rate, float)):
+            found = self._value(0, approach, rate)
+            if isinstance(found, float):
+                self._watch(float(approach), float(rate), found)  # type: ignore[arg-type]
+            return found
+        force = contact(approach, rate, self.law)[0]
+        low, high, fastest, least, most = self._reach  # here, for the sake of integrators: a call takes 0.1 us
+        if not (low <= approach <= high and -fastest <= rate <= fastest and least <= force <= most):
+            self.warn_outside(approach, rate, force=force)
+        return force
 
     @overload
     def stiffness(self, approach: float, rate: float) -> float: ...
@@ -274,9 +289,9 @@ class MemorylessContact(ContactElement):
         """No states."""
         return 0
 
-    def state_rates(self, states: _Floats, approach: float, rate: float) -> tuple[float, _Floats]:
+    def continuous(self, states: _Floats, approach: float, rate: float) -> tuple[float, _Floats]:
         """Force, and the rates of no states."""
-        return self.force(float(approach), float(rate)), states
+        return contact(float(approach), float(rate), self.law)[0], states
 
     def rate_under(self, states: _Floats, approach: float, force: float) -> float:
         """As `rate_at`, whatever the states."""
@@ -285,10 +300,9 @@ class MemorylessContact(ContactElement):
     def advance(self, dt: float, approach: float, rate: float) -> float:
         """Force at the end of a step; `dt` is ignored, for the element has no memory."""
         approach, rate = float(approach), float(rate)
-        low, high, fastest = self.validity.reach
-        if not (low <= approach <= high and -fastest <= rate <= fastest):
-            self.warn_outside(approach, rate)
-        return contact(approach, rate, self.law)[0]
+        force = contact(approach, rate, self.law)[0]
+        self._watch(approach, rate, force)
+        return force
 
     def step_tangents(self, dt: float, approach: float, rate: float) -> tuple[float, float, float]:
         """Force, dF/du and dF/du' at the end of a step; `dt` is ignored."""

@@ -41,8 +41,8 @@ class Validity:
     rate: float | None = None  # largest, in magnitude
     load: Band | None = None  # contact forces
     omega: Band | None = None  # angular frequencies, Omega or rad/s
-    # low, high and largest rate, all with the margin
-    reach: tuple[float, float, float] = field(init=False, repr=False, compare=False)
+    # low, high, largest rate, least and most force, all with the margin
+    reach: tuple[float, float, float, float, float] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         low, high = self.approach
@@ -52,12 +52,15 @@ class Validity:
         rate = None if self.rate is None else require_nonnegative("rate", self.rate)
         slack = MARGIN * (high - low)
         fastest = math.inf if rate is None else (1.0 + MARGIN) * rate
+        load = _band("load_range", self.load)
+        least, most = (-math.inf, math.inf) if load is None else load
+        more = MARGIN * (most - least) if load is not None else 0.0
         checked = {
             "approach": (low, high),
             "rate": rate,
-            "load": _band("load_range", self.load),
+            "load": load,
             "omega": _band("omega_range", self.omega),
-            "reach": (low - slack, high + slack, fastest),
+            "reach": (low - slack, high + slack, fastest, least - more, most + more),
         }
         for name, value in checked.items():
             object.__setattr__(self, name, value)

@@ -102,6 +102,13 @@ class ScaledContact:
         force, stiffness, damping = self.contact.step_tangents(dt / s.time, approach / s.length, rate / s.rate)
         return force * s.force, stiffness * s.stiffness, damping * s.damping
 
+    def check(self, point: Any = None, *, stacklevel: int = 2, omega: float | None = None) -> None:
+        """Warn where a wrapped element was made for another contact, or for another band than `omega` rad/s."""
+        check = getattr(self.contact, "check", None)
+        if check is not None:
+            Omega = None if omega is None else omega * self.scales.time
+            check(point, stacklevel=stacklevel + 1, Omega=Omega)
+
     def warn_outside(
         self, approach: Any, rate: Any, *, force: Any, omega: float | None, stacklevel: int = 2
     ) -> None:

@@ -28,6 +28,7 @@ from ehlcontact.checks import (
     require_positive,
 )
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.point import Point, moes_point
 from reduced_models.rotor.equilibrium import StaticContacts, equilibrium
 
 _Floats = NDArray[np.float64]
@@ -46,17 +47,22 @@ class ContactMount:
         Direction from the journal centre to the contact [rad]; -pi/2 is below.
     offset : float
         Approach with the journal at the origin [m].
+    point : OperatingPoint or MoesPoint, optional
+        The contact that sits there: an element made for another speed, oil or shape then says so.
 
     Raises
     ------
     InputError
-        Not finite, or an angle beyond one turn (given in degrees?).
+        Not finite, an angle beyond one turn (given in degrees?), or no operating point.
     """
 
     angle: float
     offset: float = 0.0
+    point: Point | None = None
 
     def __post_init__(self) -> None:
+        if self.point is not None:
+            moes_point(self.point)
         if abs(require_finite("angle", self.angle)) > 2.0 * pi:
             raise InputError("angle", self.angle, "between -2 pi and 2 pi; angles are in radians")
         require_finite("offset", self.offset)
@@ -142,25 +148,27 @@ class JeffcottRotor:
             raise InputError("mounts", self.mounts, "at least one ContactMount")
 
     @classmethod
-    def vertical(cls, *, offset: float = 0.0, **parameters: Any) -> Self:
+    def vertical(cls, *, offset: float = 0.0, point: Point | None = None, **parameters: Any) -> Self:
         """Rotor that moves in y only, above a single contact: the smallest system with a shaft in it.
 
         Parameters
         ----------
         offset : float
             Approach with the journal at the origin [m].
+        point : OperatingPoint or MoesPoint, optional
+            The contact, as for `ContactMount`.
         **parameters
             As for the class; ``bearings`` is 1 unless given.
         """
         defaults: dict[str, Any] = {"bearings": 1, "directions": "y"}
-        return cls(mounts=(ContactMount(DOWN, offset),), **(defaults | parameters))
+        return cls(mounts=(ContactMount(DOWN, offset, point),), **(defaults | parameters))
 
     @classmethod
-    def vee(cls, *, half_angle: float, offset: float = 0.0, **parameters: Any) -> Self:
+    def vee(cls, *, half_angle: float, offset: float = 0.0, point: Point | None = None, **parameters: Any) -> Self:
         """Rotor in two contacts at +-`half_angle` [rad] from straight below, like two balls of a bearing."""
         if not 0.0 < require_positive("half_angle", half_angle) < pi / 2.0:
             raise InputError("half_angle", half_angle, "between 0 and pi/2")
-        mounts = (ContactMount(DOWN - half_angle, offset), ContactMount(DOWN + half_angle, offset))
+        mounts = tuple(ContactMount(DOWN + angle, offset, point) for angle in (-half_angle, half_angle))
         return cls(mounts=mounts, **parameters)
 
     @property
@@ -253,6 +261,17 @@ class JeffcottRotor:
             raise InputError("static load", self.static_load.tolist(), "carried by pushing contacts")
         return forces
 
+    def check(self, contacts: Sequence[Any], *, stacklevel: int = 2) -> None:
+        """Let elements warn, once each, whose band does not hold this speed, or that were made for other contacts.
+
+        What the mounts know of their contacts counts. `simulate_rotor` and `static_equilibrium` call it.
+        """
+        omega = self.omega if self.speed_rpm > 0.0 else None
+        for mount, contact in zip(self.mounts, contacts, strict=False):
+            check = getattr(contact, "check", None)
+            if check is not None:
+                check(mount.point, stacklevel=stacklevel + 1, omega=omega)
+
     def static_equilibrium(self, contacts: Sequence[Any]) -> RotorState:
         """State at rest under the static load, the contacts carrying it.
 
@@ -268,6 +287,7 @@ class JeffcottRotor:
         ConvergenceError
             The contacts do not stand against the load; ``result`` is the last state.
         """
+        self.check(contacts, stacklevel=3)
         carrying = StaticContacts(contacts, self.normals, self.offsets, self.bearings)
         try:
             return self.rest_state(equilibrium(carrying, self.static_load))

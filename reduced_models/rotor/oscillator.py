@@ -151,7 +151,7 @@ def _inertial(element: Any, applied: Callable[[float], float], square: float) ->
     """Rates of approach, rate and states; the Jacobian is that of an element without states."""
 
     def rates(time: float, y: _Floats) -> _Floats:
-        force, states = element.state_rates(y[2:], float(y[0]), float(y[1]))
+        force, states = element.continuous(y[2:], float(y[0]), float(y[1]))
         return np.array([y[1], square * (applied(time) - force), *states])
 
     def jacobian(time: float, y: _Floats) -> list[list[float]]:
@@ -172,7 +172,7 @@ def _quasi_static(element: Any, applied: Callable[[float], float]) -> tuple[Call
         if f <= 0.0:
             raise InputError(f"load at T = {time:g}", f, "> 0 for a motion without inertia")
         v = element.rate_under(y[1:], u, f)
-        return np.array([v, *element.state_rates(y[1:], u, v)[1]])
+        return np.array([v, *element.continuous(y[1:], u, v)[1]])
 
     def jacobian(time: float, y: _Floats) -> list[list[float]]:
         u, v = float(y[0]), float(rates(time, y)[0])
@@ -205,5 +205,5 @@ def _result(
     load = np.array([applied(time) for time in T])
     rate = y[1] if inertia else np.array([rates(time, y[:, i])[0] for i, time in enumerate(T)])
     states = y[2 if inertia else 1 :].T
-    force = np.array([element.state_rates(*at)[0] for at in zip(states, y[0], rate, strict=True)])
+    force = np.array([element.continuous(*at)[0] for at in zip(states, y[0], rate, strict=True)])
     return OscillatorResult(T, y[0], rate, force, load, int(solution.nfev), status)

@@ -78,7 +78,8 @@ def simulate_rotor(
     Generalised-alpha steps (second order); disc, shaft and journal mass are condensed exactly, so that each
     step solves only for the journal. Reduced elements, memory included, are iterated by Newton with their exact
     tangents, contacts without tangents by secants; every evaluation starts each contact from its state at the
-    start of the step. Elements warn, once, where the run left their validity box.
+    start of the step. Elements warn, once: before the run where the rotor's speed lies outside their band, or a
+    mount knows of another contact than they were made for; after it where it left their validity box.
 
     Parameters
     ----------
@@ -120,6 +121,7 @@ def simulate_rotor(
         raise InputError("rho_inf", rho_inf, "between 0 and 1")
     max_iterations = require_integer("max_iterations", max_iterations, "a whole number >= 1", 1)
     _check_contacts(rotor, contacts)
+    rotor.check(contacts, stacklevel=3)
     state = _start_state(rotor, contacts, start)
     steps = max(1, math.ceil(until / dt - 1e-9))  # but for rounding of the quotient
     run = RotorStepper(

@@ -45,7 +45,7 @@ def test_no_arguments_show_the_help(call):
         (("steady", "--M", "many", "--L", "5", "--kappa", "1"), ("--M", "many", "must be", "number")),
         (
             ("steady", "--M", "20", "--L", "5", "--kappa", "1", "--n", "64.5"),
-            ("--n", "64.5", "must be", "integer"),
+            ("--n", "64.5", "must be", "whole number"),
         ),
         (("steady", "--M", "20", "--L", "5", "--kappa", "1", "--colour", "x"), ("--colour",)),
         (("steady", "--M", "20", "--L", "5", "--kappa", "1", "--domain", "-4", "2"), ("--domain",)),
@@ -60,7 +60,7 @@ def test_as_a_process():
     command = [sys.executable, "-m", "ehlcontact.cli", "steady", "--M", "-1", "--L", "5", "--kappa", "1"]
     found = subprocess.run(command, capture_output=True, text=True, check=False)
     assert found.returncode == 2 and found.stdout == ""
-    assert found.stderr.splitlines() == ["ehlcontact: M = -1.0: must be a finite number > 0"]
+    assert found.stderr.splitlines() == ["ehlcontact: --M = -1.0: must be a finite number > 0"]
 
 
 def test_help_does_not_load_the_solver():

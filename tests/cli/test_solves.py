@@ -43,7 +43,7 @@ def test_impedance(call, refused, point):
     assert all(k > 1.0 for k in document["stiffness"]) and all(c > 0.0 for c in document["damping"])
     table = call("impedance", *point, "--n", "32", "--omega", "3")
     assert table.code == 0 and "Omega = 3" in table.out
-    refused(["Omega", "-1"], "impedance", *point, "--omega", "-1")
+    refused(["--omega = -1.0"], "impedance", *point, "--omega", "-1")
     refused(["n", "16"], "impedance", *point, "--n", "100", "--omega", "1")
 
 

@@ -5,9 +5,11 @@ import subprocess
 import sys
 import time
 
-from ehlcontact.process import interrupts_held
+from ehlcontact.process.workers import interrupts_held
 
-CHILD = "from ehlcontact.process import end_when, stdin_closed\nend_when(stdin_closed)\nprint(1, flush=True)"
+CHILD = (
+    "from ehlcontact.process.workers import end_when, stdin_closed\nend_when(stdin_closed)\nprint(1, flush=True)"
+)
 BUSY = "while True: pass"
 
 

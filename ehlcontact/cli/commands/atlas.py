@@ -10,7 +10,16 @@ import typer
 
 from ehlcontact.checks import require_integer
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, check_file, check_json, complain, deliver, show_table, write_json
+from ehlcontact.cli.output import (
+    FAILED,
+    check_apart,
+    check_file,
+    check_json,
+    complain,
+    deliver,
+    show_table,
+    write_json,
+)
 from ehlcontact.cli.progress import progress
 
 NPZ = (".npz",)
@@ -56,6 +65,7 @@ def build(
     kept = output.with_suffix(".jsonl") if work is None else work
     check_file("--work", kept)
     check_json(json_to)
+    check_apart({"--output": output, "--work": kept, "--json": json_to})
     for name, value in (("--draws", draws), ("--light-draws", light_draws), ("--seed", seed)):
         require_integer(name, value, "a whole number >= 0", 0)
     count = (os.cpu_count() or 1) if processes is None else processes

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
+from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.errors import InputError
-from reduced_models.elements.validity import text_of
+from reduced_models.elements.validity import MARGIN, frequency_text, text_of
 
 
 def register(app: typer.Typer) -> None:
@@ -50,6 +50,7 @@ def element(
     point = contact.point()
     check_file("--save", save, (".json",))
     check_json(json_to)
+    check_apart({"--save": save, "--json": json_to}, (atlas,))
     table = Atlas(atlas)
     answer, made = table.at(point), table.element(point, model, Omega=Omega)
     error = answer.error
@@ -72,6 +73,7 @@ def element(
                 f"± {numeral(error['stiffness'][0], 1)} dimensionless, as C: time in 2a/u_sum",
             ),
             *at,
+            *_damper(made),
             (
                 "valid approach",
                 f"{made.low:.4f} .. {made.high:.4f}",
@@ -82,3 +84,12 @@ def element(
     )
     kept = partial(write_to, "--save", save, made.save)
     deliver(kept, lambda: write_json(made.to_dict(), json_to), shown)
+
+
+def _damper(made: Any) -> list[tuple[str, str, str]]:
+    """The one damping of a cubic, and the band it is for."""
+    if not hasattr(made, "C1"):
+        return []
+    return [
+        ("damper C1", f"{made.C1:.5f}", f"within {MARGIN:.0%} for {frequency_text(made.omega_range, made.units)}")
+    ]

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, check_file, check_json, complain, show_table, write_json
+from ehlcontact.cli.output import FAILED, check_apart, check_file, check_json, complain, show_table, write_json
 from ehlcontact.errors import InputError
 
 
@@ -33,6 +33,7 @@ def export(
         raise InputError("file", str(file), "an element (.json); export of a bearing is not built yet")
     check_file("--output", output, (".fmu",))
     check_json(json_to)
+    check_apart({"--output": output, "--json": json_to}, (file,))
     from fmu import BuildError, export_contact, verify
     from reduced_models import CubicContact, LinearContact, load_element
 
@@ -41,7 +42,8 @@ def export(
         kinds = f"{LinearContact.kind} or {CubicContact.kind}; FMUs of other kinds are not built yet"
         raise InputError(str(file), f"kind {element.kind!r}", kinds)
     try:
-        export_contact(element, output, fmi=fmi, model_name=name)
+        with o.called(model_name="--name"):
+            export_contact(element, output, fmi=fmi, model_name=name)
     except BuildError as error:
         complain(f"the FMU could not be compiled: {error}")
         raise typer.Exit(FAILED) from None

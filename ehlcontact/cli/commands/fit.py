@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -11,7 +12,7 @@ import typer
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.output import check_file, check_json, deliver, show_table, write_json, write_to
+from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
@@ -50,6 +51,7 @@ def fit(
         raise InputError("--window", window, "left out with --model memory, which takes whole records")
     check_file("--save", save, (".json",))
     check_json(json_to)
+    check_apart({"--save": save, "--json": json_to}, files)
     records = []
     for file in files:
         result = load(file)
@@ -63,7 +65,12 @@ def fit(
     if again is not None:
         first, second = (str(files[k]) for k in again)
         raise InputError("file", second, f"given once: it holds the record of {first}")
-    fitted = fit_records(records, model, window)
+    with o.called(window="--window", start="--window START"):
+        try:
+            fitted = fit_records(records, model, window)
+        except InputError as error:
+            name, allowed = (_with_files(text, files) for text in (error.field, error.allowed))
+            raise InputError(name, error.value, allowed) from None
     rows = _coefficients(fitted) if isinstance(fitted, FitResult) else _memory(fitted)
     valid = fitted.valid
     table = partial(
@@ -89,6 +96,11 @@ def fit(
     )
     kept = partial(write_to, "--save", save, fitted.element.save)
     deliver(kept, lambda: write_json(fitted.to_dict(), json_to), table)
+
+
+def _with_files(text: str, files: list[Path]) -> str:
+    """The text with names of files where the library numbers its records."""
+    return re.sub(r"records\[(\d+)\]", lambda found: str(files[int(found[1])]), text)
 
 
 def _coefficients(fitted: FitResult) -> list[tuple[str, str, str]]:

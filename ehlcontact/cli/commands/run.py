@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, USAGE, check_json, complain, prepare_folder, say, write_json
+from ehlcontact.cli.output import FAILED, USAGE, check_apart, check_json, complain, prepare_folder, say, write_json
 from ehlcontact.files import read_text, write_text
 from ehlcontact.status import Status
 
@@ -42,6 +42,7 @@ def run(
     study = load_study(study_file)
     folder = output if output is not None else Path("results") / study_file.stem
     check_json(json_to)
+    check_apart({"--json": json_to}, (study_file,))
     prepare_folder(folder)
     copy = folder / STUDY_COPY
     if not copy.exists() or not copy.samefile(study_file):

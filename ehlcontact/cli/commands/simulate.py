@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from os.path import realpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -90,13 +91,16 @@ class MotionOptions:
             raise InputError("motion", " ".join(chosen) or None, "exactly one of --free, --harmonic, --ramp")
         self._refuse_strangers(chosen[0])
         if self.free is not None:
-            return FreeVibration(self.free, self.offset or 0.0, self.rate)
+            with o.called(Omega_n="--free"):
+                return FreeVibration(self.free, self.offset or 0.0, self.rate)
         if self.harmonic is not None:
-            return HarmonicLoad(self.harmonic, 0.1 if self.amplitude is None else self.amplitude, self.Omega_n)
+            with o.called(Omega="--harmonic"):
+                return HarmonicLoad(self.harmonic, 0.1 if self.amplitude is None else self.amplitude, self.Omega_n)
         assert self.ramp is not None
         if self.Omega_n is None:
             raise InputError("--omega-n", None, "given with --ramp: a finite number > 0")
-        return RampLoad(*self.ramp, self.Omega_n)
+        with o.called(ratio="--ramp RATIO", duration="--ramp DURATION"):
+            return RampLoad(*self.ramp, self.Omega_n)
 
     def _refuse_strangers(self, chosen: str) -> None:
         """Make sure that no option was given that the chosen motion does not take."""
@@ -153,6 +157,12 @@ class RestartOptions:
         ),
     ] = None
 
+    @property
+    def other(self) -> Path | None:
+        """The file to go on from, unless the checkpoints of this run replace it: that is how runs go on."""
+        same = self.checkpoint is not None and realpath(self.checkpoint) == realpath(self.restart or "")
+        return None if same else self.restart
+
 
 @o.grouped
 def simulate(
@@ -169,9 +179,9 @@ def simulate(
     arguments = (contact.solvable(), motion.chosen())
     chosen = grid.chosen() | time.chosen()
     check_file("--checkpoint", restart.checkpoint, o.HDF5)
-    files.check()
+    files.check({"--checkpoint": restart.checkpoint}, restart.other)
     failure, unkept = "", None
-    with progress("transient film") as update:
+    with progress("transient film") as update, o.called(dT="--dt"):
         try:
             result = integrate(
                 *arguments, **chosen, callback=update, checkpoint=restart.checkpoint, restart=restart.restart

@@ -12,7 +12,7 @@ from rich.table import Table
 
 from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.output import STDOUT, check_json, say, show_table, write_json
+from ehlcontact.cli.output import STDOUT, check_apart, check_json, check_place, say, show_table, write_json
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.forecast import Forecast
@@ -38,7 +38,9 @@ def validate(
 
     study = load_study(study_file)
     check_json(json_to)
+    check_apart({"--json": json_to}, (study_file,))
     folder = output if output is not None else Path("results") / study_file.stem
+    check_place(folder)
     found = forecast(study, folder, min(jobs, os.cpu_count() or 1))
     write_json(found.to_dict(), json_to)
     _show(found, json_to)
@@ -77,7 +79,9 @@ def _show(found: Forecast, json_to: str | None) -> None:
     _show_stages(found)
     for warning in found.warnings:
         say(f"warning: {warning}")
-    say(f"whole study: about {_time(found.seconds)}, {found.jobs} side by side; good to a factor of two")
+    together = f"about {_time(found.seconds)}, {found.jobs} side by side"
+    idle = "on cores with nothing else to do, where an earlier run has compiled the solver"
+    say(f"whole study: {together}; good to a factor of two {idle}")
 
 
 def _show_stages(found: Forecast) -> None:

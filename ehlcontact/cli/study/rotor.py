@@ -91,11 +91,10 @@ def run_full(study: Study, halvings: int, callback: Callable[[int, int], None]) 
     start = rest_of(rotor, contacts)
     try:
         orbit = first_orbit(study, rotor, halvings)
-    except ConvergenceError:  # a motion so wild that no element follows it: then from rest
-        pass
-    else:
         _lead(contacts, orbit, study.point.scales.time)
         start = end_of(orbit)
+    except ConvergenceError:  # a motion so wild that no element, or no film at once, follows it: then from rest
+        contacts = full_contacts(study, rotor)
     return simulate_rotor(
         rotor,
         contacts,
@@ -143,11 +142,16 @@ def _settled(
 
 
 def _lead(contacts: list[ScaledContact], orbit: RotorResult, film_time: float) -> None:
-    """Move every film along the end of an orbit, so that it has the past that belongs to where it starts."""
+    """Move every film along the end of an orbit, so that it has the past that belongs to where it starts.
+
+    From where the orbit passes its place of rest, so that no film is made to jump.
+    """
     dt = float(orbit.t[1] - orbit.t[0])
     steps = max(LED[1], ceil(LED[0] * film_time / dt))
     for i, contact in enumerate(contacts):
-        for u, v in zip(orbit.approach[-steps:, i], orbit.rate[-steps:, i], strict=True):
+        away = np.abs(orbit.approach[:, i] - contact.contact.static_approach * contact.scales.length)
+        first = int(np.argmin(away[: max(1, away.size - steps)]))
+        for u, v in zip(orbit.approach[first:, i], orbit.rate[first:, i], strict=True):
             contact.advance(dt, float(u), float(v))
 
 

@@ -11,18 +11,28 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from ehlcontact.cli.study.slips import first_error, inputs_of
+from ehlcontact.cli.study.slips import ROTOR, broken_line, first_error, inputs_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import read_text
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.origin import __version__
 from ehlcontact.point import OperatingPoint, most_loaded_ball, require_solvable
 from ehlcontact.solver.domain import Domain
-from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
+from ehlcontact.transient.motion import FASTEST, SLOWEST, FreeVibration, HarmonicLoad
+
+MOST_ECCENTRIC = 0.01  # m of the disc's centre of mass: balanced rotors have some 1e-6, and none runs with more
+# What the library calls some entries.
+ENTRIES = {
+    "x_in": "solver.domain.0",
+    "x_out": "solver.domain.1",
+    "y_max": "solver.domain.2",
+    "conformity": "bearing.conformity",
+}
 
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
+Frequency = Annotated[float, Field(ge=SLOWEST, le=FASTEST, allow_inf_nan=False)]
 Grid = Annotated[int, Field(ge=16, le=2048, multiple_of=16, strict=True)]
 Steps = Annotated[int, Field(ge=20, le=2000, strict=True)]
 Amplitude = Annotated[float, Field(gt=0.0, lt=1.0, allow_inf_nan=False)]
@@ -111,7 +121,7 @@ class Solver(_Section):
 class Free(_Section):
     """Free vibration of a mass on the contact, by its Omega_n or the frequency of small dry vibrations."""
 
-    Omega_n: Positive | None = None  # dimensionless; 2.56 where neither is given
+    Omega_n: Frequency | None = None  # dimensionless; 2.56 where neither is given
     hz: Positive | None = None
     periods: Periods = 2.5
     steps_per_period: Steps = 80
@@ -120,7 +130,7 @@ class Free(_Section):
 class Harmonic(_Section):
     """Harmonic load in the band of the contact's own vibrations."""
 
-    Omega: Positive | None = None  # dimensionless; pi where neither is given
+    Omega: Frequency | None = None  # dimensionless; pi where neither is given
     hz: Positive | None = None
     amplitude: Amplitude = 0.1
     periods: Periods = 3.0
@@ -275,24 +285,40 @@ def load_study(path: Path) -> Study:
         No such file, not TOML, an unknown, missing or impossible entry, or a contact that the solvers are not made
         for; the line names file, field, value, allowed range and, where there is one, a likely slip.
     """
+    text = ""
     try:
-        document = tomllib.loads(read_text(path))
+        text = read_text(path)
+        document = tomllib.loads(text)
     except OSError as error:
         raise InputError("study", str(path), f"a readable TOML file ({error.strerror})") from None
     except (ValueError, RecursionError) as error:
-        reason = "nested too deeply" if isinstance(error, RecursionError) else str(error)
-        raise InputError("study", str(path), f"complete TOML ({reason})") from None
+        raise InputError("study", str(path), f"complete TOML ({broken_line(text, error)})") from None
     try:
         study = Study.model_validate(document)
     except ValidationError as error:
         raise first_error(path, error, Study) from None
     given = inputs_of(study)
     try:
-        for name, (value, quantity) in given.items():
+        for name, (value, quantity) in {**given, **inputs_of(study, ROTOR)}.items():
             quantity.require(name, value)
+        _require_together(study)
         for name in ("domain", "point", "roughness", "free_motion", "harmonic_motion", "rotor_motion"):
             getattr(study, name)  # made here once, so that what the library refuses is refused now
         require_solvable(study.point, study.largest_load, given)
     except InputError as error:
-        raise InputError(f"{path}: {error.field}", error.value, error.allowed) from None
+        raise InputError(f"{path}: {ENTRIES.get(error.field, error.field)}", error.value, error.allowed) from None
     return study
+
+
+def _require_together(study: Study) -> None:
+    """Raise `InputError` for entries that are possible alone and impossible together."""
+    bearing, rotor = study.bearing, study.rotor
+    if not bearing.pitch_diameter_mm > bearing.ball_diameter_mm:
+        allowed = f"above bearing.ball_diameter_mm = {bearing.ball_diameter_mm:g}"
+        raise InputError("bearing.pitch_diameter_mm", bearing.pitch_diameter_mm, allowed)
+    if not rotor.unbalance <= MOST_ECCENTRIC * rotor.disc_mass:
+        guess = ROTOR["rotor.unbalance"].slip(rotor.unbalance)
+        allowed = (
+            f"at most {MOST_ECCENTRIC * rotor.disc_mass:g} kg m, {1e3 * MOST_ECCENTRIC:g} mm times the disc's mass"
+        )
+        raise InputError("rotor.unbalance", rotor.unbalance, f"{allowed} ({guess})" if guess else allowed)

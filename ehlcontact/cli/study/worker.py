@@ -15,7 +15,7 @@ from pathlib import Path
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import Outcome, stage_named
 from ehlcontact.errors import InputError
-from ehlcontact.process import end_when, stdin_closed
+from ehlcontact.process.workers import end_when, stdin_closed
 from ehlcontact.status import Status
 
 SPACING = 0.1  # seconds between progress lines

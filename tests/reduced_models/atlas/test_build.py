@@ -258,5 +258,5 @@ def test_no_cluster_at_the_address(tmp_path, monkeypatch):
     monkeypatch.setattr("reduced_models.atlas.work.CONNECT_SECONDS", 0.5)
     with pytest.raises(InputError, match="--scheduler"):
         build_atlas(
-            tmp_path / "a.npz", tmp_path / "w.jsonl", 2, 2, scheduler="tcp://127.0.0.1:1", solve=atlas_stub.solve
+            tmp_path / "a.npz", tmp_path / "w.jsonl", 20, 2, scheduler="tcp://127.0.0.1:1", solve=atlas_stub.solve
         )

@@ -51,6 +51,7 @@ def test_force_is_the_slow_twin_inside_and_outside(element):
 SPRING = st.tuples(st.floats(0.3, 1.2), st.floats(0.0, 1.0), st.floats(-0.05, 0.5))
 
 
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 @given(spring=SPRING, C1=st.floats(0.0, 0.2), low=st.floats(0.2, 0.9), width=st.floats(0.05, 0.5))
 def test_law_is_c1_monotone_and_never_pulls(spring, C1, low, width):
     e = CubicContact(*spring, C1, low, low + width)
@@ -64,6 +65,7 @@ def test_law_is_c1_monotone_and_never_pulls(spring, C1, low, width):
     assert np.all(force >= 0.0) and np.all(np.diff(force) >= 0.0)
 
 
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 def test_extension_above_grows_like_hertz(cubic):
     assert cubic.force(4e6, 0.0) / cubic.force(1e6, 0.0) == pytest.approx(8.0, rel=1e-5)
 

@@ -21,6 +21,7 @@ def test_inside_the_box_it_is_eq_11(element):
     np.testing.assert_allclose(element.force(u, v), powers + t["B4"] * u * v, rtol=1e-13)
 
 
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 @pytest.mark.parametrize("u", [0.5, 0.75, 0.9, 1.0, 1.3])
 @pytest.mark.parametrize("v", [-1.2, 0.0, 1.2])
 def test_tangents_are_continuous_across_the_box(element, u, v):
@@ -31,6 +32,7 @@ def test_tangents_are_continuous_across_the_box(element, u, v):
             assert method(*left) == pytest.approx(method(*right), abs=1e-6)
 
 
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 def test_beyond_the_largest_rate_only_a_viscous_damper_is_left(element):
     assert element.damping(0.9, 60.0) == pytest.approx(TERMS["C1"] + TERMS["B4"] * 0.9, rel=1e-9)
     power = [v * (element.force(0.9, v) - element.force(0.9, 0.0)) for v in (-60.0, 60.0)]

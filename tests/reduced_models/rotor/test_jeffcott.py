@@ -40,6 +40,7 @@ def test_vertical_rotor_has_one_axis_and_stands_on_its_contact(contact):
     assert state.journal[0] == state.disc[0] == 0.0
 
 
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 @pytest.mark.parametrize("side", [0.0, 300.0])
 @pytest.mark.parametrize("offset", [0.0, 2e-5, -3e-5])
 def test_vee_equilibrium_balances_every_direction(contact, side, offset):
@@ -50,6 +51,7 @@ def test_vee_equilibrium_balances_every_direction(contact, side, offset):
     np.testing.assert_allclose(2 * rotor.normals.T @ forces, rotor.static_load, rtol=1e-9, atol=1e-7)
 
 
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 def test_five_contacts_some_open(contact):
     mounts = [ContactMount(a) for a in np.linspace(-np.pi, np.pi, 5, endpoint=False)]
     rotor = JeffcottRotor(mounts=mounts, **BODY, load=(50.0, -400.0))

@@ -106,8 +106,8 @@ def test_mass_that_leaves_the_contact_flies_and_comes_back(cubic):
 class BlowsUp(LinearContact):
     """Pushes outwards with the square of the approach."""
 
-    def force(self, approach, rate):
-        return -(np.asarray(approach) ** 2)
+    def continuous(self, states, approach, rate):
+        return -(approach**2), states
 
     def stiffness(self, approach, rate):
         return -2.0 * np.asarray(approach)

@@ -61,6 +61,7 @@ def test_static_start_stays_at_rest(contact):
     assert not result.journal.flags.writeable and result.iterations[0] == 0
 
 
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 @pytest.mark.parametrize("vee", [False, True])
 def test_second_order_towards_the_exact_motion(contact, rotor, vee):
     contacts = [contact]

@@ -1,0 +1,111 @@
+"""What is wrong with a command line, in one line: the option as it was typed, and what it may be."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import typer
+
+from ehlcontact.cli.output import one_line
+from ehlcontact.errors import InputError
+
+# What the parser says of numbers, in its readers' words.
+PLAIN_WORDS = {
+    "a valid integer, unable to parse string as an integer": "a whole number",
+    "a valid number, unable to parse string as a number": "a number, as 0.04 or 4e-2",
+}
+
+
+def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
+    """What was wrong; the option, the value and what it must be where the error tells them.
+
+    Parameters
+    ----------
+    error : Exception
+        A usage error of the parser.
+    arguments : sequence of str
+        The command line.
+    root : click.Command
+        The program.
+    """
+    message = one_line(str(getattr(error, "format_message", error.__str__)()))
+    command, name = command_of(root, arguments)
+    kind, parameter = type(error).__name__, getattr(error, "param", None)
+    if kind == "MissingParameter" and parameter is not None:
+        return str(InputError(_title(parameter, ()), None, f"given{_about(parameter)}"))
+    if kind == "BadOptionUsage":
+        parameter = next((p for p in command.params if getattr(error, "option_name", "") in p.opts), None)
+        if parameter is not None:
+            few = "one value" if parameter.nargs == 1 else f"{parameter.nargs} values"
+            found = InputError(_title(parameter, arguments), None, f"followed by {few}{_about(parameter)}")
+            return str(found).replace(" = None", "", 1)
+    if kind == "NoSuchOption" and name:
+        options = (option.opts[0] for option in command.params if option.opts[0].startswith("--"))
+        return f"{message.rstrip('.')}; `{name}` knows {', '.join(options)}"
+    if kind == "UsageError" and "unexpected extra argument" in message:
+        return f"{message}; `ehlcontact {name} --help` shows what `{name}` takes: options come with their names"
+    if "No such command" in message and getattr(command, "commands", None) and "Did you mean" not in message:
+        return f"{message.rstrip('.')}; known: {', '.join(command.commands)}"
+    if isinstance(error, typer.BadParameter) and parameter is not None:
+        return _bad_value(error, parameter, arguments, message)
+    return message
+
+
+def command_of(root: Any, arguments: Sequence[str]) -> tuple[Any, str]:
+    """The command that a command line calls, as far as it can be told, and its name."""
+    command, names = root, []
+    for word in arguments:
+        below = getattr(command, "commands", {})
+        if word not in below:
+            break
+        command = below[word]
+        names.append(word)
+    return command, " ".join(names)
+
+
+def by_option(error: InputError, command: Any, arguments: Sequence[str]) -> InputError:
+    """The error with the option, as it was typed, in place of the library's name for what it sets."""
+    for parameter in command.params:
+        option = parameter.opts[0]
+        if option.startswith("--") and error.field in (parameter.name, option[2:]):
+            return InputError(_title(parameter, arguments), error.value, error.allowed)
+    return error
+
+
+def _bad_value(error: Exception, parameter: Any, arguments: Sequence[str], message: str) -> str:
+    """A value that is none for its option or argument; all of them where it was given more than once."""
+    values = []
+    for k, word in enumerate(arguments):
+        option, joined, value = word.partition("=")
+        if option in parameter.opts:
+            values.append(value if joined else " ".join(arguments[k + 1 : k + 1 + parameter.nargs]))
+    if not values:
+        return message
+    allowed = str(getattr(error, "message", message)).removeprefix("Input should be ")
+    # typer's own options have the ends of their range themselves, click's have a type that has them
+    low, high = (
+        getattr(parameter, end, getattr(getattr(parameter, "type", None), end, None)) for end in ("min", "max")
+    )
+    if low is not None and high is not None:
+        allowed = f"a whole number between {low} and {high}"
+    shown = values[0] if len(values) == 1 else ", ".join(values)
+    typed = next(
+        option for option in parameter.opts if any(word.partition("=")[0] == option for word in arguments)
+    )
+    return str(InputError(typed, shown, f"{PLAIN_WORDS.get(allowed, allowed)}{_about(parameter)}"))
+
+
+def _title(parameter: Any, arguments: Sequence[str]) -> str:
+    """An option as it was typed, where it has several names; the name that stands for an argument."""
+    typed = {word.partition("=")[0] for word in arguments}
+    option = str(next((name for name in parameter.opts if name in typed), parameter.opts[0]))
+    return option if option.startswith("-") else str(parameter.metavar or option)
+
+
+def _about(parameter: Any) -> str:
+    """What an option's help says, in brackets: its quantity, unit and range."""
+    text = one_line(getattr(parameter, "help", None) or "").rstrip(".")
+    metavar = parameter.metavar if parameter.nargs > 1 and parameter.metavar else ""
+    about = f"{metavar}: {text}" if metavar and text else text or metavar
+    return f" ({about})" if about else ""

@@ -1,0 +1,49 @@
+"""Ctrl-C while the command line is imported: one line and exit code 1.
+
+Its imports take a second, most of it before any code of the command line runs, and some packages swallow what is
+raised while they are imported. So this is what `ehlcontact` imports first, and it imports next to nothing itself.
+"""
+
+import _signal  # built in: `signal` would import 10 ms of others, unguarded
+import os
+import sys
+from itertools import pairwise
+
+PROGRAM = "ehlcontact"
+TOO_EARLY = f"{PROGRAM}: interrupted before anything was computed\n"
+
+
+def guard_imports() -> None:
+    """Until `end_guard`, Ctrl-C ends this process if it is the command line.
+
+    Programs of others that import the library keep their own ways.
+    """
+    if _is_program() and _signal.getsignal(_signal.SIGINT) is _signal.default_int_handler:
+        try:
+            _signal.signal(_signal.SIGINT, _leave)
+        except ValueError:  # not in the main thread
+            pass
+
+
+def end_guard() -> None:
+    """Ctrl-C raises `KeyboardInterrupt` again."""
+    if _signal.getsignal(_signal.SIGINT) is _leave:
+        _signal.signal(_signal.SIGINT, _signal.default_int_handler)
+
+
+def _is_program() -> bool:
+    """Whether this process was started as ``ehlcontact`` or ``python -m ehlcontact.cli``."""
+    given = sys.orig_argv
+    started = os.path.splitext(os.path.basename(sys.argv[0]))[0]
+    return started == PROGRAM or ("-m", f"{PROGRAM}.cli") in pairwise(given)
+
+
+def _leave(*_: object) -> None:
+    try:
+        os.write(2, TOO_EARLY.encode())
+    except OSError:
+        pass
+    os._exit(1)
+
+
+guard_imports()  # here and not in the package, whose imports are what takes so long

@@ -1,0 +1,185 @@
+"""An element knows what it was made for - speed, oil, load, band - and says so once where used for others."""
+
+import math
+import warnings
+from dataclasses import asdict, replace
+
+import numpy as np
+import pytest
+
+from ehlcontact import InputError, Lubricant, OperatingPoint
+from reduced_models import (
+    Atlas,
+    ContactMount,
+    JeffcottRotor,
+    OutsideValidityWarning,
+    ScaledContact,
+    load_element,
+    simulate_rotor,
+)
+from reduced_models.atlas.elements import damper_band
+from reduced_models.elements.made_for import MadeFor
+
+RACE = {"ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3, "conformity": 0.52}
+OIL = Lubricant(0.037, 2e-8)
+POINT = OperatingPoint.ball_bearing(OIL, **RACE, speed_rpm=3000, load=486)
+FASTER = OperatingPoint.ball_bearing(OIL, **RACE, speed_rpm=6000, load=486)
+THINNER = OperatingPoint.ball_bearing(Lubricant(0.02, 2e-8), **RACE, speed_rpm=3000, load=486)
+HEAVIER = OperatingPoint.ball_bearing(OIL, **RACE, speed_rpm=3000, load=800)
+BODY = {"disc_mass": 40.0, "journal_mass": 2.0, "shaft_stiffness": 2.5e7, "load": (0.0, -100.0)}
+
+
+def rotor(**changes):
+    return JeffcottRotor.vertical(**(BODY | {"unbalance": 8e-4, "speed_rpm": 3000.0} | changes))
+
+
+@pytest.fixture(scope="module")
+def atlas():
+    return Atlas()
+
+
+@pytest.fixture(params=["wide", "memory", "cubic"])
+def element(atlas, request):
+    return atlas.element(POINT, request.param, **({"rpm": 3000} if request.param == "cubic" else {}))
+
+
+def test_speed_and_oil_are_known_in_si_without_dimensions_and_from_the_file(element, atlas, tmp_path):
+    made = element.made_for
+    assert made.u_sum == pytest.approx(POINT.u_sum) and (made.eta0, made.alpha) == (0.037, 2e-8)
+    assert load_element(element.save(tmp_path / "e.json")).made_for == made
+    plain = atlas.element(POINT.moes, "memory")
+    assert plain.made_for == replace(made, u_sum=None)
+    assert plain.to_si(POINT.scales).made_for.u_sum == pytest.approx(POINT.u_sum)
+    assert replace(element, source=None, units=element.units).made_for == MadeFor()
+
+
+@pytest.mark.parametrize(
+    ("point", "words"),
+    [
+        (FASTER, r"u_sum = 11\.76 m/s \(made for 5\.879 m/s\)$"),
+        (THINNER, r"eta0 = 0\.02 Pa s \(made for 0\.037 Pa s\)$"),
+        (FASTER.moes, r"L = 22\.48 \(made for 18\.9\)$"),
+    ],
+)
+def test_another_speed_or_oil_is_told_once(element, point, words):
+    with pytest.warns(OutsideValidityWarning, match=f"another contact than it was made for: {words}") as told:
+        element.check(point)
+        element.check(point)
+    assert len(told) == 1 and told[0].filename == __file__
+
+
+def test_the_own_point_and_another_load_of_a_wide_element_are_no_news(atlas):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        atlas.element(POINT, "wide").check(HEAVIER, hz=50)
+        for model in ("wide", "memory"):
+            for point in (POINT, POINT.moes):
+                atlas.element(POINT, model).check(point, rpm=3000)
+                atlas.element(POINT.moes, model).check(point)
+
+
+def test_another_load_than_that_of_a_memory_names_the_wide_element(atlas):
+    with pytest.warns(OutsideValidityWarning, match=r"force 800 \(fitted 437.4 to 534.6\).*model 'wide'"):
+        atlas.element(POINT, "memory").check(HEAVIER)
+    with pytest.warns(OutsideValidityWarning, match=r"model 'wide'"):
+        memory = atlas.element(POINT, "memory")
+        memory.advance(1e-5, 1.5 * memory.approach_at(486.0), 0.0)
+
+
+def test_the_path_of_an_integrator_of_ones_own(element):
+    """`force` and `state_rates` of single states; what tries places (`continuous`) and arrays is not told."""
+    far = 6.0 * element.approach_at(486.0)
+    states = np.zeros(element.state_count)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        element.state_rates(states, element.approach_at(486.0), 0.0)
+        element.continuous(states, far, 0.0), element.step_tangents(1e-5, far, 0.0)
+    calls = [lambda e: e.state_rates(states, far, 0.0)]
+    if element.state_count == 0:
+        calls += [lambda e: e.force(far, 0.0), lambda e: e.force(np.float64(far), 0)]
+        element.force(np.full(3, far), 0.0)
+    for call in calls:
+        fresh = element.copy()
+        with pytest.warns(OutsideValidityWarning, match=r"used outside .*approach .*, force ") as told:
+            for _ in range(3):
+                call(fresh)
+        assert len(told) == 1 and told[0].filename == __file__
+
+
+def test_force_beyond_the_load_band_is_told_though_approach_and_rate_are_inside(element):
+    u = element.approach_at(486.0)
+    strict = replace(element, load_range=(600.0, 700.0))
+    with pytest.warns(OutsideValidityWarning, match=r"box: force 486 \(fitted 600 to 700\)"):
+        for _ in range(2):
+            strict.state_rates(np.zeros(strict.state_count), u, 0.0)
+
+
+def test_a_rotor_tells_its_speed_before_it_runs(atlas):
+    fast = atlas.element(POINT, "cubic", hz=25e3)  # of the contact's own band
+    for start in (lambda: simulate_rotor(rotor(), [fast.copy()], dt=1e-4, until=2e-4),
+                  lambda: rotor().check([fast.copy()]),
+                  lambda: rotor().static_equilibrium([fast.copy()])):  # fmt: skip
+        with pytest.warns(OutsideValidityWarning, match=r": 50 Hz \(fitted 2\.059e\+04 to .* Hz\); its damper is"):
+            start()
+    wrapped = ScaledContact(atlas.element(POINT.moes, "cubic", Omega=6.0), POINT.scales)
+    with pytest.warns(OutsideValidityWarning, match=r": Omega 0\.01187 \(fitted Omega 4\."):
+        rotor().check([wrapped])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for model, at in (("cubic", {"rpm": 3000}), ("memory", {}), ("wide", {})):
+            rotor(speed_rpm=1000.0).check([atlas.element(POINT, model, **at)])
+        rotor(speed_rpm=0.0).check([fast])
+
+
+def test_a_mount_knows_its_contact(atlas):
+    wide = atlas.element(POINT, "wide")
+    with pytest.warns(OutsideValidityWarning, match="u_sum = 11.76 m/s"):
+        rotor(point=FASTER).check([wide])
+    vee = JeffcottRotor.vee(half_angle=0.35, point=THINNER, **BODY)
+    with pytest.warns(OutsideValidityWarning, match=r"eta0 = 0\.02") as told:
+        vee.check([wide.copy(), ScaledContact(atlas.element(POINT.moes, "wide"), POINT.scales)])
+    assert len(told) == 2
+    with pytest.raises(InputError, match=r"^point = 'str'"):
+        ContactMount(0.0, point="6205")
+
+
+def test_reasons_are_told_one_by_one(atlas):
+    memory = atlas.element(POINT, "memory")
+    with pytest.warns(OutsideValidityWarning) as told:
+        memory.advance(1e-5, 2.0 * memory.high, 0.0)
+        memory.check(FASTER, hz=1e6)
+        memory.check(FASTER, hz=1e6)
+    assert [str(w.message).split(":")[0].rsplit(" ", 2)[-2:] for w in told] == [
+        ["validity", "box"], ["made", "for"], ["validity", "box"]
+    ]  # fmt: skip
+    assert "Hz" in str(told[2].message) and "approach" not in str(told[2].message)
+
+
+def test_band_of_a_damper_is_where_it_is_right(atlas):
+    answer = atlas.at(POINT)
+    for w in (0.0, 0.012, 1.0, 6.0, 60.0):
+        low, high = damper_band(answer.Omega, answer.damping, w)
+        inside = np.linspace(low, high, 50)
+        C = np.interp(inside, answer.Omega, answer.damping) / np.interp(w, answer.Omega, answer.damping)
+        assert low <= w <= high and np.all(np.abs(C - 1.0) <= 0.05)
+    si = atlas.element(POINT, "cubic", rpm=3000)
+    assert si.omega_range[0] == 0.0 and si.omega_range[1] > 2.0 * 100 * math.pi
+    assert si.source["scales"] == asdict(POINT.scales)
+
+
+def test_memoryless_elements_have_one_damping(atlas):
+    si = atlas.element(POINT, "cubic", rpm=3000)
+    Z = si.impedance(hz=[10.0, 50.0])
+    np.testing.assert_allclose(Z.imag / (2 * math.pi * np.array([10.0, 50.0])), si.C1)
+    np.testing.assert_allclose(Z.real, si.spring_tangent(si.approach_at(486.0)))
+    assert si.impedance(Omega=2 * math.pi * 50 * POINT.scales.time) == pytest.approx(Z[1:], rel=1e-12)
+    unknown = replace(si, source=None)
+    assert unknown.impedance(rpm=3000, load=486.0) == pytest.approx(Z[1:], rel=1e-9)
+    with pytest.raises(InputError, match=r"^load = None: must be given in N"):
+        unknown.impedance(rpm=3000)
+    with pytest.raises(InputError, match=r"^Omega = 1.0: must be left out: .*give omega, hz or rpm"):
+        unknown.impedance(Omega=1.0, load=486.0)
+    with pytest.raises(InputError, match=r"^frequency = 314.0: must be named with its unit"):
+        si.impedance(314.0)
+    with pytest.raises(InputError, match=r"^hz = 50: must be left out: a dimensionless contact"):
+        atlas.element(POINT.moes, "memory").impedance(hz=50)
