@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from math import pi
 
 import numpy as np
 
 from ehlcontact.cli.study.response import bounce, film_response, linear_rotor
-from ehlcontact.cli.study.rotor import EXACT, TOLERANCE, build_rotor, full_contacts, rest_of
+from ehlcontact.cli.study.rotor import EXACT, TOLERANCE, build_rotor, full_contacts, rest_of, told_elsewhere
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.results import ImpedanceResult
 from reduced_models import (
@@ -23,7 +22,6 @@ from reduced_models import (
     log_decrement,
     simulate_rotor,
 )
-from reduced_models.elements.validity import OutsideValidityWarning
 
 LEFT_OUT = 1.0  # periods at the beginning of a decay that are not fitted: what was kicked beside the mode
 
@@ -54,12 +52,11 @@ def run_decay_reduced(
     """Decay after the same kick with an SI element in every contact, from its own rest."""
     rotor = build_rotor(study, unbalance=False)
     elements = [element.copy() for _ in rotor.mounts]
-    rest = rotor.static_equilibrium(elements)
-    for contact, approach in zip(elements, rotor.approaches(rest.journal).tolist(), strict=True):
-        contact.rest(approach)
-    start = kicked(study, rest, mode, response)
-    with warnings.catch_warnings():  # told of the whole run by `contact_events`
-        warnings.simplefilter("ignore", OutsideValidityWarning)
+    with told_elsewhere():
+        rest = rotor.static_equilibrium(elements)
+        for contact, approach in zip(elements, rotor.approaches(rest.journal).tolist(), strict=True):
+            contact.rest(approach)
+        start = kicked(study, rest, mode, response)
         return _run(study, rotor, elements, start, mode, halvings)
 
 

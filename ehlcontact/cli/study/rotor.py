@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import fields
 from math import ceil, cos, radians
 from pathlib import Path
@@ -22,6 +24,7 @@ from ehlcontact.transient.full_contact import FullContact
 from reduced_models import (
     ContactElement,
     JeffcottRotor,
+    OutsideValidityWarning,
     RotorResult,
     RotorState,
     ScaledContact,
@@ -131,14 +134,23 @@ def _settled(
 ) -> RotorResult:
     elements = [element.copy() for _ in rotor.mounts]
     linear = linear_rotor(rotor, impedance_about(element, study.ball_load))
-    return run_until_settled(
-        rotor,
-        elements,
-        steps=study.rotor.steps_per_revolution * 2**halvings,
-        revolutions=revolutions,
-        start=linear.orbit_state(rotor.static_equilibrium(elements)),
-        tolerance=EXACT,
-    )
+    with told_elsewhere():
+        return run_until_settled(
+            rotor,
+            elements,
+            steps=study.rotor.steps_per_revolution * 2**halvings,
+            revolutions=revolutions,
+            start=linear.orbit_state(rotor.static_equilibrium(elements)),
+            tolerance=EXACT,
+        )
+
+
+@contextmanager
+def told_elsewhere() -> Iterator[None]:
+    """No warnings about validity meanwhile: `contact_events` collects them, of the revolutions that are shown."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", OutsideValidityWarning)
+        yield
 
 
 def _lead(contacts: list[ScaledContact], orbit: RotorResult, film_time: float) -> None:
