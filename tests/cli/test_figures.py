@@ -57,6 +57,51 @@ def test_simulation_figure(point, si):
     np.testing.assert_allclose(shown[shown.shape[0] // 2, -1], centre * unit, rtol=1e-6)
 
 
+def test_loops_show_the_element_that_was_fitted():
+    """In its window, in SI: its force along the record, and below, the damper's part alone."""
+    from ehlcontact.cli.plots.motion import loops
+    from reduced_models import ContactRecord, fit
+
+    run = simulate(IN_SI, HarmonicLoad(3.0), n=32, until=4.0, dT=0.05)
+    found = fit(ContactRecord.from_result(run), "cubic", (2.0, 4.0))
+    figure = loops({"harmonic": run}, {"harmonic": found}, {"harmonic": "a title"})
+    assert "a title" in labels(figure)
+    k, inside = found.parameters, run.T >= 2.0
+    u, damper = run.approach[inside], k["C1"] * run.rate[inside]
+    spring = k["K1"] * u + k["K2"] * u**2 + k["K3"] * u**3
+    place, force = line(figure, "cubic element")
+    np.testing.assert_allclose(place, u * run.scales.length * 1e6)
+    np.testing.assert_allclose(force, (spring + damper) * run.scales.force)
+    np.testing.assert_allclose(line(figure, "film")[1], run.force[inside] * run.scales.force)
+    film, element = (np.asarray(drawn.get_ydata()) for drawn in figure.axes[1].get_lines()[:2])
+    np.testing.assert_allclose(film, (run.force[inside] - spring) * run.scales.force, atol=1e-12)
+    np.testing.assert_allclose(element, damper * run.scales.force, atol=1e-12)
+
+
+def test_spectrum_shows_amplitudes():
+    """Of a run with known ones, over its settled part: 3 um twice a revolution, 7 N once, whatever the means."""
+    from ehlcontact import Status
+    from ehlcontact.cli.plots.rotor import spectrum
+    from reduced_models import JeffcottRotor, RotorResult, Settling
+
+    rotor = JeffcottRotor.vertical(disc_mass=1.0, journal_mass=0.1, shaft_stiffness=1e6, speed_rpm=3000.0)
+    t = np.arange(3 * 40 + 1) / 2000.0
+    turned = 2.0 * np.pi * 50.0 * t
+    start = 1.0 + (t <= 0.02)  # the first of three revolutions is not settled
+    moved = np.column_stack([np.zeros(t.size), 1e-6 * start * (20.0 + 3.0 * np.sin(2.0 * turned))])
+    force = (100.0 + 7.0 * start * np.cos(turned))[:, None]
+    still, once = np.zeros((t.size, 2)), np.zeros((t.size, 1))
+    known = {"t": t, "disc": moved, "journal": moved, "force": force, "iterations": np.ones(t.size)}
+    unknown = {"disc_velocity": still, "journal_velocity": still, "approach": once, "rate": once}
+    run = RotorResult(**known, **unknown, status=Status.CONVERGED, rotor=rotor)
+    figure = spectrum({"full": run}, Settling((0.5, 0.0), 0.01), {"full": "full film"})
+    displacement, load = (np.array(axes.get_lines()[0].get_data()) for axes in figure.axes)
+    for (hz, amplitude), (where, size) in ((displacement, (100.0, 3.0)), (load, (50.0, 7.0))):
+        highest = np.argmax(amplitude)
+        assert hz[highest] == pytest.approx(where) and amplitude[highest] == pytest.approx(size, rel=1e-12)
+        assert np.delete(amplitude, highest).max() < 1e-9 * size
+
+
 @pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf"])
 def test_steady_command_draws(call, point, tmp_path, suffix):
     target = tmp_path / f"film{suffix}"

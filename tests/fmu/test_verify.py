@@ -1,4 +1,5 @@
 import dataclasses
+import importlib
 import json
 import os
 import zipfile
@@ -56,6 +57,38 @@ def test_units_are_compared(fmus, elements):
     assert not found.passes
     assert found.force <= 1e-12
     assert any(line.startswith("force:") and "[N]" in line for line in found.findings)
+
+
+@pytest.mark.parametrize(
+    ("part", "column", "field"),
+    [
+        ("values", 0, "force"),
+        ("values", 1, "tangents"),
+        ("values", 2, "tangents"),
+        ("partials", 0, "derivatives"),
+        ("partials", 1, "derivatives"),
+        ("flags", slice(3), "flags"),
+    ],
+)
+def test_whatever_an_fmu_gets_wrong_is_told(fmus, elements, monkeypatch, part, column, field):
+    """Each output by itself; all else is as it should be."""
+    verification = importlib.import_module("fmu.verify")  # which hides behind its function
+    run = verification._run
+
+    def slightly_wrong(*arguments):
+        outputs = dict(zip(("values", "partials", "flags"), run(*arguments), strict=True))
+        if part == "flags":
+            outputs[part][column] = ~outputs[part][column]
+        else:
+            outputs[part][:, column] *= 1.0 + 1e-9
+        return tuple(outputs.values())
+
+    monkeypatch.setattr(verification, "_run", slightly_wrong)
+    found = verify(fmus["cubic"], elements["cubic"])
+    wrong = {"force": 1e-9, "tangents": 1e-9, "derivatives": 1e-9, "flags": 3}
+    assert not found.passes and found.findings == ()
+    assert getattr(found, field) == pytest.approx(wrong[field], rel=1e-3)
+    assert all(getattr(found, other) <= 1e-12 for other in wrong if other != field)
 
 
 def rewritten(source, target, change, suffix=".xml"):

@@ -150,6 +150,16 @@ def test_damping_cuts_distributed_changes_alone(level):
     np.testing.assert_allclose(w[1][free], ((1.0 - 0.3 * f.theta[2]) * w[0])[free], rtol=1e-12)
 
 
+def test_far_from_the_solution_changes_are_limited(level):
+    """To the same size up and down; nodes that ask for less get what they ask for."""
+    f, w = level.fields, []
+    for size in (1e-4, 1e3):
+        relax.relax_line(2, f, size * level.rhs, level.stencil, level.c_t, level.near, level.spread)
+        w.append(f.w[2, 1:-1].copy())
+    assert w[1].max() == relax.LARGEST_CHANGE and w[1].min() == -relax.LARGEST_CHANGE
+    assert 0.0 < np.abs(w[0]).max() <= relax.LARGEST_CHANGE
+
+
 def test_dry_node_joins_only_if_its_residual_asks_for_pressure(level):
     f = level.fields
     level.rhs *= 30.0  # both signs of the residual

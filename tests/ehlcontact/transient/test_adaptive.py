@@ -18,7 +18,10 @@ from ehlcontact import (
     Status,
     simulate,
 )
-from ehlcontact.transient.step import LARGEST_GROWTH, StepControl, next_time
+from ehlcontact.transient.film import Step
+from ehlcontact.transient.motion import MotionState
+from ehlcontact.transient.record import Entry
+from ehlcontact.transient.step import LARGEST_GROWTH, StepControl, local_error, next_time
 
 POINT = MoesPoint(200, 10, 0.5)
 N = 32
@@ -212,6 +215,22 @@ def test_step_control():
     assert 0.03 < control.step < 0.05
     control.refused(0.1, 1e9, 3)
     assert control.step == pytest.approx(0.02)
+
+
+@pytest.mark.parametrize("times", [(0.0, 1.0, 2.0, 3.0), (0.0, 1.0, 1.3, 2.1), (0.0, 0.2, 1.1, 1.4)])
+def test_local_error_of_uneven_steps(times):
+    """What BDF2 misses of u = T^3, on which Milne's estimate is exact."""
+    t0, t1, t2, end = times
+    h, ratio = end - t2, (end - t2) / (t2 - t1)
+    leading, now, before = (1.0 + 2.0 * ratio) / (1.0 + ratio), 1.0 + ratio, ratio**2 / (1.0 + ratio)
+    made = (3.0 * end**2 * h + now * t2**3 - before * t1**3) / leading
+    film, solved = np.zeros(3), Step(0.0, 0.0, 1, Status.CONVERGED)
+    entries = [
+        Entry(MotionState(t, u, 0.0, 0.0), 0.0, 1.0, 0.0, 0.0, film, film, solved)
+        for t, u in ((t0, t0**3), (t1, t1**3), (t2, t2**3), (end, made))
+    ]
+    error = local_error(entries[:3], entries[3], HarmonicLoad(1.0))
+    assert error == pytest.approx(abs(made - end**3), rel=1e-12) and error > 0.05
 
 
 @pytest.mark.parametrize("error", [0.0, -1e-3, float("nan"), float("inf"), 0.2, True, "small"])

@@ -132,6 +132,12 @@ def test_snapshots(free):
     assert (free.snapshot_P >= 0.0).all()
 
 
+def test_snapshot_at_the_end():
+    run = simulate(POINT, HarmonicLoad(3.0), n=N, until=0.2, dT=0.1, snapshots=(0.1, 0.2))
+    np.testing.assert_allclose(run.snapshot_T, [0.1, 0.2], rtol=1e-12)
+    np.testing.assert_array_equal(run.snapshot_H[-1, :, 0], run.h_midplane[-1])
+
+
 def test_no_snapshots(harmonic):
     assert harmonic.snapshot_T.shape == (0,)
     assert harmonic.snapshot_H.shape == (0, N + 1, harmonic.Y.size)

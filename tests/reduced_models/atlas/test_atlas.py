@@ -119,6 +119,21 @@ def test_another_oil_widens_the_error_bars(analytic):
     assert other.error["approach"] > own.error["approach"] and other.error["h_central"] > own.error["h_central"]
 
 
+@pytest.mark.parametrize(("alpha", "eta0"), [(1.5e-8, 0.04), (2.2e-8, 0.1), (3.5e-8, 0.01)])
+def test_error_bars_widen_by_what_the_oil_may_change(shipped, alpha, eta0):
+    """The relative change of each answer per unit of ln alpha and of ln eta0 that the file records, in full."""
+    meta = shipped.metadata
+    own, other = shipped.at(CASE), shipped.at(MoesPoint(200.0, 10.0, 0.5, alpha=alpha, eta0=eta0))
+    away = abs(math.log(alpha / meta["alpha"])), abs(math.log(eta0 / meta["eta0"]))
+    film, K, C = (np.dot(meta["oil"][name], away) for name in ("film", "stiffness", "damping"))
+    K *= 1.0 - own.approach  # the thinner the film, the less
+    changes = {"h_central": film * own.h_central, "h_min": film * own.h_min, "stiffness": K * own.stiffness}
+    for name, change in (changes | {"approach": film * (1.0 - own.approach)}).items():
+        np.testing.assert_allclose(np.subtract(other.error[name], own.error[name]), change, rtol=1e-9)
+    assert (other.error["damping"] > np.hypot(own.error["damping"], C * own.damping)).all()
+    assert (other.error["damping"] < own.error["damping"] + 2.0 * C * own.damping).all()
+
+
 @pytest.mark.parametrize("model", MODELS)
 def test_elements_stand_on_the_answers(shipped, model):
     answer, element = shipped.at(BEARING), shipped.element(BEARING, model, **AT[model])
@@ -135,6 +150,14 @@ def test_elements_stand_on_the_answers(shipped, model):
     for w in (0.05, 1.0):
         Z = complex(element.impedance(Omega=w)[0])
         assert Z.imag / w == pytest.approx(answer.damping[OMEGAS.index(w)], rel=0.05)
+
+
+def test_cubic_bends_like_a_dry_contact_on_its_film(shipped):
+    """F = (1 + 2/3 K (u - u0))^(3/2): its curvature at u0, and its loads at the ends to third order."""
+    element, u = shipped.element(BEARING, "cubic"), shipped.at(BEARING).approach
+    K = element.spring_tangent(u)
+    assert 2.0 * element.K2 + 6.0 * element.K3 * u == pytest.approx(K * K / 3.0, rel=1e-9)
+    assert [element.spring(end) for end in (element.low, element.high)] == pytest.approx([0.9, 1.1], abs=1e-4)
 
 
 def test_wide_range_follows_the_atlas_over_the_load(shipped):

@@ -30,6 +30,8 @@ def test_box_round_samples_goes_to_elements_files_and_units(scales):
         assert Validity.from_dict(json.loads(json.dumps(one.to_dict()))) == one
     si = box.to_si(scales)
     assert si.approach == (0.8 * scales.length, 1.1 * scales.length) and si.rate == 3.0 * scales.rate
+    assert si.load == (0.7 * scales.force, 1.2 * scales.force)
+    assert si.omega == pytest.approx((2.0 / scales.time, 4.0 / scales.time), rel=1e-15)  # rad/s
     assert si.excess([1.3 * scales.length]) == [f"approach 5.2e-06 (fitted {0.8 * 4e-6:.4g} to {1.1 * 4e-6:.4g})"]
 
 

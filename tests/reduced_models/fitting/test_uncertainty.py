@@ -33,6 +33,14 @@ def test_white_noise_counts_in_full_and_coloured_noise_as_its_correlation_time_s
     assert counted == pytest.approx(20_000 * (1 - rho) / (1 + rho), rel=0.25)
 
 
+def test_samples_of_known_sequences_are_counted_exactly():
+    """1 + 2 rho_1 with rho_1 = 1/4, and over two records; what hangs together to the end counts once at least."""
+    one, other = np.array([1.0, 1.0, -1.0, -1.0]), np.array([1.0, -1.0, 1.0, -1.0])
+    assert independent_samples([one]) == pytest.approx(4.0 / 1.5, rel=1e-14)
+    assert independent_samples([one, other]) == pytest.approx(4.0 / 1.5 + 4.0, rel=1e-14)
+    assert independent_samples([np.ones(3)]) == 1.0  # rho = 2/3, 1/3
+
+
 def test_half_width_is_students():
     # Tables: t(0.975, 10) = 2.228; with nothing to spare one degree of freedom, 12.706.
     assert half_widths(np.ones(2), 12.0) == pytest.approx(2.228, abs=1e-3)

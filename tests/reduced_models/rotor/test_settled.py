@@ -101,3 +101,11 @@ def test_settling_asks_for_whole_revolutions():
     element = dry_contact(SCALES)
     with pytest.raises(InputError, match="steps"):
         run_until_settled(run.rotor, [element], steps=4, revolutions=2, start=run.rotor.rest_state(np.zeros(1)))
+
+
+def test_the_signal_that_settles_last_decides():
+    """A force that drifts beside displacements that repeat: one of four signals that move."""
+    still = history(0.0)
+    drifting = replace(still, force=still.force + 0.01 * still.t[:, None] / 0.02)
+    expected = 0.01 * np.sqrt(2.0)  # over the standard deviation of a wave of amplitude 1
+    assert settling(drifting).changes == pytest.approx([expected] * 3, rel=0.01)
