@@ -72,7 +72,7 @@ STUDIES = [
     ("n = 64", "n = 64\ndomain = [-4.5, 1.5, 0]", ("solver.domain.2 = 0.0", "between 1.2 and 100")),
     ("[free]", "[free]\nOmega_n = 0", ("free.Omega_n = 0", "between 1e-06 and 1000")),
     ("[free]", "[free]\nOmega_n = 1e9", ("free.Omega_n = 1000000000.0", "between 1e-06 and 1000")),
-    ("[free]", "[free]\nperiods = 101", ("free.periods = 101", "between 2 and 100")),
+    ("[free]", "[free]\nperiods = 101", ("free.periods = 101", "between 1 and 100")),
     ("[free]", "[free]\nsteps = 3", ("free.steps = 3", "steps_per_period?")),
     (STEPS, "steps_per_period = 5000", ("steps_per_period = 5000", "between 20 and 2000")),
     (STEPS, "steps_per_period = 1e4", ("steps_per_period = 10000.0", WHOLE)),
