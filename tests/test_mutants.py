@@ -49,6 +49,7 @@ def tree(tmp_path):
     """A library of one function, and its test."""
     root = tmp_path / "checkout"
     (root / "fmu").mkdir(parents=True)
+    (root / "fmu" / "__init__.py").touch()  # else an installed package of that name would be found
     (root / "fmu" / "sums.py").write_text("def mean(a, b):\n    return (a + b) / 2\n")
     (root / "tests" / "fmu").mkdir(parents=True)
     (root / "tests" / "fmu" / "test_sums.py").write_text(

@@ -55,6 +55,12 @@ def point():
     return MoesPoint(200, 10, 0.5)
 
 
+@cache
+def full_contact():
+    """Solved, and compiled, before anything bad is asked of it."""
+    return FullContact(point(), n=32)
+
+
 def record(**changes):
     columns = {"T": LINE, "approach": 0.8 + 0.1 * LINE, "rate": 0.1 + 0.0 * LINE, "force": 1.0 + LINE}
     return rm.ContactRecord(**(columns | changes))
@@ -214,7 +220,7 @@ CALLS = {
     ),
     "no frequency": (lambda: impedance(point(), Omega=[]), ("Omega", "a flat list of at least one")),
     "full contact backwards": (
-        lambda: FullContact(point(), n=32).advance(-1.0, 0.8, 0.0),
+        lambda: full_contact().advance(-1.0, 0.8, 0.0),
         ("dt", "a finite number > 0"),
     ),
     # files

@@ -13,7 +13,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-from bad_input.calls import CALLS
+from bad_input.calls import CALLS, full_contact
 from bad_input.commands import COMMANDS, ELEMENT, FILM, OTHER, RECORD, STUDY, at, steady
 from bad_input.studies import SMALL, STUDIES
 from cli.test_bad_files import CASES
@@ -117,6 +117,7 @@ def test_studies(refused, good, k):
 def test_calls(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     call, words = CALLS[name]
+    full_contact()
     started = time.process_time()
     with pytest.raises(InputError) as caught:
         call()
