@@ -278,7 +278,7 @@ class MemorylessContact(ContactElement):
             raise InputError(f"damping at approach {approach:g}", damping, "> 0 for a motion without inertia")
         return (force - spring) / damping
 
-    def response(self, w: _Floats, load: float | None = None) -> NDArray[np.complex128]:
+    def _response(self, w: _Floats, load: float | None = None) -> NDArray[np.complex128]:
         """As `impedance`, at angular frequencies in the units of the element, shape (k,): one K, one C."""
         u = self.approach_at(self._static_load(load))
         spring, damper = self.spring_tangent(u), float(self._parts(u)[1])

@@ -98,15 +98,16 @@ class Validity:
         frequency. `omega` is in the units of the box, which are `units`.
         """
         said = []
+        m, speed, newton = (" m", " m/s", " N") if units == "SI" else ("", "", "")
         worst = _outside(approach, self.approach)
         if worst is not None:
-            said.append(f"approach {worst:.4g} (fitted {text_of(self.approach)})")
+            said.append(f"approach {worst:.4g}{m} (fitted {text_of(self.approach)}{m})")
         v = np.abs(np.asarray(rate, float))
         if v.size and v.max() > self.reach[2]:
-            said.append(f"rate {float(v.max()):.4g} (fitted up to {self.rate:.4g})")
+            said.append(f"rate {float(v.max()):.4g}{speed} (fitted up to {self.rate:.4g}{speed})")
         worst = None if self.load is None else _outside(force, self.load)
         if self.load is not None and worst is not None:
-            said.append(f"force {worst:.4g} (fitted {text_of(self.load)})")
+            said.append(f"force {worst:.4g}{newton} (fitted {text_of(self.load)}{newton})")
         if omega is not None and self.omega is not None:
             if not self.omega[0] / OCTAVE <= omega <= self.omega[1] * OCTAVE:
                 said.append(f"{frequency_text((omega,), units)} (fitted {frequency_text(self.omega, units)})")
