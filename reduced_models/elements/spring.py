@@ -179,7 +179,7 @@ class MemorylessContact(ContactElement):
 
     law: Law
     beyond: ClassVar[Mapping[str, str]] = {
-        "frequency": "its damper is for the band it was made in: a film memory (model 'memory' or 'wide') has all"
+        "frequency": "it is for the band it was made in: a film memory (model 'memory' or 'wide') is for all"
     }
 
     def __post_init__(self) -> None:

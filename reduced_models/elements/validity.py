@@ -162,8 +162,13 @@ def text_of(band: Band) -> str:
 def frequency_text(values: tuple[float, ...], units: str) -> str:
     """One frequency or a band in words: Omega, or in SI Hz of rad/s."""
     unit = 2.0 * math.pi if units == "SI" else 1.0
-    numbers = " to ".join(f"{w / unit:.4g}" for w in dict.fromkeys(values))
+    numbers = " to ".join(_plain(w / unit) for w in dict.fromkeys(values))
     return f"{numbers} Hz" if units == "SI" else f"Omega {numbers}"
+
+
+def _plain(value: float) -> str:
+    """Four digits, and no exponent for kilohertz."""
+    return f"{float(f'{value:.4g}'):.0f}" if 1e4 <= value < 1e7 else f"{value:.4g}"
 
 
 def _around(values: NDArray[np.float64]) -> Band:
