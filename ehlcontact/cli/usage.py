@@ -58,6 +58,15 @@ def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
     return message
 
 
+def lower_case_note(arguments: Sequence[str], root: Any) -> str:
+    """A line for who gives --omega, which is rad/s in Python, to a command that has it for --Omega; else empty."""
+    command, _ = command_of(root, arguments)
+    both = any({"--Omega", "--omega"} <= set(option.opts) for option in command.params)
+    if not both or not any(word.partition("=")[0] == "--omega" for word in arguments):
+        return ""
+    return "note: --omega is dimensionless here, as --Omega: not rad/s"
+
+
 def command_of(root: Any, arguments: Sequence[str]) -> tuple[Any, str]:
     """The command that a command line calls, as far as it can be told, and its name."""
     command, names = root, []
