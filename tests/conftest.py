@@ -1,12 +1,18 @@
 """What several test folders share: every steady film is solved once per session; and disks that are full."""
 
 import os
+import signal
 import subprocess
 from functools import cache
 
 import pytest
 
 from ehlcontact import MoesPoint, solve_steady
+
+# A shell starts what runs in the background with Ctrl-C ignored, and that is inherited: the programs under test,
+# which are interrupted here, would not notice.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @cache

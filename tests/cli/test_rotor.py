@@ -129,6 +129,13 @@ def test_differences_from_the_stored_run(finished, results, found):
     assert step["force"] == pytest.approx(np.sqrt(np.mean(change**2)) / np.std(full["force"][:, 0]))
 
 
+def test_the_step_check_tells_the_signal_that_changes_most(finished, found):
+    full, half = (stored(finished[1], name) for name in ("rotor_full", "rotor_half_step"))
+    signals = ((run["disc"][:, 1], run["journal"][:, 1], run["force"][:, 0]) for run in (full, half))
+    changes = [np.sqrt(np.mean((b[::2] - a) ** 2)) / np.std(a) for a, b in zip(*signals, strict=True)]
+    assert found.rotors.unbalance.step_share == pytest.approx(max(changes)) and min(changes) < 0.9 * max(changes)
+
+
 def test_loads_from_the_stored_runs(finished, results):
     for name, file in (("events", "rotor_full"), ("decay", "decay")):
         events = results["rotor"][name] if name == "events" else results["rotor"]["decay"]["events"]

@@ -115,7 +115,7 @@ class RecomputedRotor:
     def decrement(self, run):
         """A decay fitted by one damped vibration and a mean, by all five numbers at once."""
         period = 2.0 * np.pi / self.mode("full").omega
-        part = run.t >= period
+        part = run.t >= period * (1.0 - 1e-9)
         t, y = run.t[part] - run.t[part][0], run.journal[part, 1] / run.journal[part, 1].std()
 
         def vibration(t, decrement, omega, cosine, sine, mean):

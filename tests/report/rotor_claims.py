@@ -39,7 +39,7 @@ def claim_headline(page, rotor):
     for name, found in decays.items():
         page.claim(f"the {CONTACTS[name]} gives # (# % of it)", found.decrement, 100.0 * off[name])
     nearest = min(abs(off[name]) for name in ("undamped", "dry"))
-    said = "it is at least # % off" if nearest > 0.2 else "one is only # % off"
+    said = "it is at least # % off" if nearest > 0.2 else "one is # % off"
     page.claim(f"without it, or without its damping, {said}", 100.0 * nearest)
     for name in ("rotor_band", "memory", "dry"):
         _, vibration, _, force = rotor.against_full(name)

@@ -96,7 +96,9 @@ def run_full(study: Study, halvings: int, callback: Callable[[int, int], None]) 
         orbit = first_orbit(study, rotor, halvings)
         _lead(contacts, orbit, study.point.scales.time)
         start = end_of(orbit)
-    except ConvergenceError:  # a motion so wild that no element, or no film at once, follows it: then from rest
+    except ConvergenceError as error:  # a motion so wild that no element, or no film, follows it: then from rest
+        if getattr(error.result, "status", None) is Status.INTERRUPTED:
+            raise KeyboardInterrupt from None
         contacts = full_contacts(study, rotor)
     return simulate_rotor(
         rotor,

@@ -18,8 +18,8 @@ from ehlcontact import (
     Status,
     simulate,
 )
+from ehlcontact.transient.bodies import MotionState
 from ehlcontact.transient.film import Step
-from ehlcontact.transient.motion import MotionState
 from ehlcontact.transient.record import Entry
 from ehlcontact.transient.step import LARGEST_GROWTH, StepControl, local_error, next_time
 
