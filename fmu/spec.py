@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 from ehlcontact.errors import InputError
 from reduced_models import CubicContact, LinearContact
+from reduced_models.elements.validity import frequency_text, text_of
 
 Element = LinearContact | CubicContact
 
@@ -161,17 +162,28 @@ def _contact_variables(element: Element) -> tuple[Variable, ...]:
         parameter(6, "K1", "N/m", "Coefficient of the approach in the spring force"),
         parameter(7, "K2", "N.m-2", "Coefficient of the squared approach in the spring force"),
         parameter(8, "K3", "N.m-3", "Coefficient of the cubed approach in the spring force"),
-        parameter(9, "C1", "N.s/m", "Damping coefficient", minimum=0.0),
+        parameter(9, "C1", "N.s/m", f"Damping coefficient{_band(element)}", minimum=0.0),
         parameter(10, "low", "m", "Lower end of the validity interval of the approach"),
         parameter(11, "high", "m", "Upper end of the validity interval of the approach"),
     )
+
+
+def _band(element: Element) -> str:
+    """What a damper without memory is for, in words."""
+    band = element.omega_range
+    return "" if band is None else f", for motion of {frequency_text(band, element.units)}"
 
 
 def _notes(element: Element) -> tuple[tuple[str, str], ...]:
     lines = [("Element", f"{type(element).__name__}, units: {element.units}")]
     if element.rate is not None:
         lines.append(("Largest rate of the data", repr(element.rate)))
-    for label, details in (("Fit", element.fit), ("Source", element.source)):
+    if element.omega_range is not None:
+        lines.append(("Frequencies of the data", frequency_text(element.omega_range, element.units)))
+    if element.load_range is not None:
+        lines.append(("Forces of the data", text_of(element.load_range)))
+    made = {name: value for name, value in asdict(element.made_for).items() if value is not None}
+    for label, details in (("Made for", made), ("Fit", element.fit), ("Source", element.source)):
         if details:
             lines.append((label, _flat(details)))
     return tuple(lines)

@@ -19,8 +19,8 @@ def constant_speed(contact: Contact, vibration: float | None) -> Assumption:
         s, _, _, u = contact.require_si()
         details = {"crossing_time": 2.0 * s.time, "largest_change": LARGEST_SPEED_CHANGE * u}
         verdict = (
-            f"{details['largest_change']:.2g} m/s of change change the film by 1 %, "
-            f"within the {details['crossing_time'] * 1e6:.2g} us that it takes to cross"
+            f"a change of {details['largest_change']:.2g} m/s within the {details['crossing_time'] * 1e6:.2g} "
+            "\N{MICRO SIGN}s that the film takes to cross makes 1 % of film"
         )
         value, verdict = _against_rolling(vibration, u, verdict)
     return Assumption(
@@ -43,7 +43,7 @@ def one_direction(contact: Contact, vibration: float | None) -> Assumption:
     if contact.scales is not None:
         u = contact.require_si()[3]
         details = {"largest_cross_speed": LARGEST_CROSS_SPEED * u}
-        verdict = f"holds up to {details['largest_cross_speed']:.2g} m/s across; a reversal is out of the question"
+        verdict = f"holds up to {details['largest_cross_speed']:.2g} m/s across; a reversal is not covered"
         value, verdict = _against_rolling(vibration, u, verdict)
     return Assumption(
         name="one direction",

@@ -115,7 +115,7 @@ def radians_per_second(
 def one(name: str, found: Array) -> float:
     """The single frequency of an array; raises `InputError` where there are several."""
     if found.size != 1:
-        raise InputError(name, found.tolist(), "a single frequency")
+        raise InputError(name, f"{found.size} numbers", "a single frequency")
     return float(found[0])
 
 
@@ -169,7 +169,10 @@ def _the_one(time: float | None, values: Mapping[str, ArrayLike | None]) -> tupl
 
 def _checked(name: str, value: ArrayLike, most: float) -> Array:
     try:
-        found = np.atleast_1d(np.array(value, dtype=float))
+        given = np.atleast_1d(np.asarray(value))
+        if given.dtype.kind not in "fiuO":  # True is no 1 Hz, and what a quoted text means is a guess
+            raise ValueError
+        found = np.array(given, dtype=float)
     except (TypeError, ValueError):
         raise InputError(name, value, "numbers") from None
     if found.ndim != 1 or found.size == 0:

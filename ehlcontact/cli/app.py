@@ -23,7 +23,7 @@ from ehlcontact.cli.commands import (
 )
 from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain
 from ehlcontact.cli.streams import StdoutError, watched_stdout
-from ehlcontact.cli.usage import by_option, command_of, usage_line
+from ehlcontact.cli.usage import by_option, command_of, lower_case_note, usage_line
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.origin import __version__
 
@@ -101,6 +101,8 @@ def _invoke(given: list[str]) -> int:
     try:
         with root.make_context("ehlcontact", list(given)) as context:
             context.command.invoke(context)
+        if note := lower_case_note(given, root):
+            complain(note)
     except InputError as error:
         raise by_option(error, command_of(root, given)[0], given) from None
     except typer.Exit as end:

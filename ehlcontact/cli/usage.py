@@ -16,6 +16,8 @@ PLAIN_WORDS = {
     "a valid number, unable to parse string as a number": "a number, as 0.04 or 4e-2",
 }
 
+SI_FREQUENCIES = ("--hz", "--rpm", "--frequency")  # what else a user may try where frequencies are dimensionless
+
 
 def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
     """What was wrong; the option, the value and what it must be where the error tells them.
@@ -41,6 +43,10 @@ def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
             found = InputError(_title(parameter, arguments), None, f"followed by {few}{_about(parameter)}")
             return str(found).replace(" = None", "", 1)
     if kind == "NoSuchOption" and name:
+        typed = str(getattr(error, "option_name", ""))
+        if typed in SI_FREQUENCIES and any("--Omega" in option.opts for option in command.params):
+            allowed = "given as --Omega, 2a/u_sum times rad/s: a point of --M --L --kappa has no unit of time"
+            return str(InputError(typed, None, allowed)).replace(" = None", "", 1)
         options = (option.opts[0] for option in command.params if option.opts[0].startswith("--"))
         return f"{message.rstrip('.')}; `{name}` knows {', '.join(options)}"
     if kind == "UsageError" and "unexpected extra argument" in message:
@@ -50,6 +56,15 @@ def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
     if isinstance(error, typer.BadParameter) and parameter is not None:
         return _bad_value(error, parameter, arguments, message)
     return message
+
+
+def lower_case_note(arguments: Sequence[str], root: Any) -> str:
+    """A line for who gives --omega, which is rad/s in Python, to a command that has it for --Omega; else empty."""
+    command, _ = command_of(root, arguments)
+    both = any({"--Omega", "--omega"} <= set(option.opts) for option in command.params)
+    if not both or not any(word.partition("=")[0] == "--omega" for word in arguments):
+        return ""
+    return "note: --omega is dimensionless here, as --Omega: not rad/s"
 
 
 def command_of(root: Any, arguments: Sequence[str]) -> tuple[Any, str]:

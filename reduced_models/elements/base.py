@@ -200,10 +200,10 @@ class ContactElement(_Common, ABC):
         InputError
             Frequencies not given in exactly one way that the element takes; a load that is not > 0, or not known.
         """
-        return self.response(self._frequencies(Omega=Omega, omega=omega, hz=hz, rpm=rpm), load)
+        return self._response(self._frequencies(Omega=Omega, omega=omega, hz=hz, rpm=rpm), load)
 
     @abstractmethod
-    def response(self, w: NDArray[np.float64], load: float | None = None) -> NDArray[np.complex128]:
+    def _response(self, w: NDArray[np.float64], load: float | None = None) -> NDArray[np.complex128]:
         """As `impedance`, at angular frequencies in the units of the element (Omega or rad/s), shape (k,)."""
 
     def is_valid(
@@ -236,7 +236,7 @@ class ContactElement(_Common, ABC):
             Its frequency, named as for `impedance`.
         """
         said = {
-            "motion": self.validity.excess(approach, rate, None, force),
+            "motion": self.validity.excess(approach, rate, None, force, self.units),
             "frequency": self.validity.excess(omega=self._frequency(frequency), units=self.units),
         }
         new = {reason: words for reason, words in said.items() if words and reason not in self._told}

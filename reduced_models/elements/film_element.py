@@ -201,7 +201,7 @@ class FilmContact(ContactElement):
     def _static_x(self, u: float) -> float:
         return float(static(u, self.law)[0])
 
-    def response(self, w: _Floats, load: float | None = None) -> NDArray[np.complex128]:
+    def _response(self, w: _Floats, load: float | None = None) -> NDArray[np.complex128]:
         """As `impedance`, at angular frequencies in the units of the element, shape (k,)."""
         f, length, time = self._units
         at = 1.0 if load is None else require_positive("load", load) / f

@@ -179,7 +179,7 @@ class MemorylessContact(ContactElement):
 
     law: Law
     beyond: ClassVar[Mapping[str, str]] = {
-        "frequency": "its damper is for the band it was made in: a film memory (model 'memory' or 'wide') has all"
+        "frequency": "it is for the band it was made in: a film memory (model 'memory' or 'wide') is for all"
     }
 
     def __post_init__(self) -> None:
@@ -278,7 +278,7 @@ class MemorylessContact(ContactElement):
             raise InputError(f"damping at approach {approach:g}", damping, "> 0 for a motion without inertia")
         return (force - spring) / damping
 
-    def response(self, w: _Floats, load: float | None = None) -> NDArray[np.complex128]:
+    def _response(self, w: _Floats, load: float | None = None) -> NDArray[np.complex128]:
         """As `impedance`, at angular frequencies in the units of the element, shape (k,): one K, one C."""
         u = self.approach_at(self._static_load(load))
         spring, damper = self.spring_tangent(u), float(self._parts(u)[1])

@@ -98,15 +98,16 @@ class Validity:
         frequency. `omega` is in the units of the box, which are `units`.
         """
         said = []
+        m, speed, newton = (" m", " m/s", " N") if units == "SI" else ("", "", "")
         worst = _outside(approach, self.approach)
         if worst is not None:
-            said.append(f"approach {worst:.4g} (fitted {text_of(self.approach)})")
+            said.append(f"approach {worst:.4g}{m} (fitted {text_of(self.approach)}{m})")
         v = np.abs(np.asarray(rate, float))
         if v.size and v.max() > self.reach[2]:
-            said.append(f"rate {float(v.max()):.4g} (fitted up to {self.rate:.4g})")
+            said.append(f"rate {float(v.max()):.4g}{speed} (fitted up to {self.rate:.4g}{speed})")
         worst = None if self.load is None else _outside(force, self.load)
         if self.load is not None and worst is not None:
-            said.append(f"force {worst:.4g} (fitted {text_of(self.load)})")
+            said.append(f"force {worst:.4g}{newton} (fitted {text_of(self.load)}{newton})")
         if omega is not None and self.omega is not None:
             if not self.omega[0] / OCTAVE <= omega <= self.omega[1] * OCTAVE:
                 said.append(f"{frequency_text((omega,), units)} (fitted {frequency_text(self.omega, units)})")
@@ -161,8 +162,13 @@ def text_of(band: Band) -> str:
 def frequency_text(values: tuple[float, ...], units: str) -> str:
     """One frequency or a band in words: Omega, or in SI Hz of rad/s."""
     unit = 2.0 * math.pi if units == "SI" else 1.0
-    numbers = " to ".join(f"{w / unit:.4g}" for w in dict.fromkeys(values))
+    numbers = " to ".join(_plain(w / unit) for w in dict.fromkeys(values))
     return f"{numbers} Hz" if units == "SI" else f"Omega {numbers}"
+
+
+def _plain(value: float) -> str:
+    """Four digits, and no exponent for kilohertz."""
+    return f"{float(f'{value:.4g}'):.0f}" if 1e4 <= value < 1e7 else f"{value:.4g}"
 
 
 def _around(values: NDArray[np.float64]) -> Band:

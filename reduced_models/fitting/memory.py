@@ -222,7 +222,7 @@ def cross_validate(target: Target, lags: int) -> float:
         element, _ = _solve(target.part(fold, inside=False), lags)
         left_out = target.part(fold, inside=True)
         w = left_out.Omega
-        Z = element.response(w)
+        Z = element.impedance(Omega=w)
         damping = Z.imag / np.maximum(w, 1e-5) / left_out.damping - 1.0
         squares.append(np.mean((damping[w > 0.0] / WEIGHT_C) ** 2))
         squares.append(np.mean(((Z.real / left_out.stiffness - 1.0) / WEIGHT_K) ** 2))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from math import pi
 
@@ -60,7 +61,8 @@ def log_decrement(t: ArrayLike, signal: ArrayLike, *, omega: float) -> Decrement
         Increasing times [s].
     signal : array_like, shape (N,)
     omega : float
-        First guess of the angular frequency [rad/s], within a quarter of it.
+        First guess of the angular frequency [rad/s], within a quarter of it. Where the fit ends at the limits of
+        its search, a warning says so.
 
     Raises
     ------
@@ -91,6 +93,9 @@ def log_decrement(t: ArrayLike, signal: ArrayLike, *, omega: float) -> Decrement
     starts = [optimize.least_squares(left, [d, 0.0], bounds=limits, x_scale=[0.1, 0.01]) for d in (0.0, 0.3)]
     found = min(starts, key=lambda solution: float(solution.cost))
     cosine, sine, _ = np.linalg.lstsq(basis(found.x), scaled, rcond=None)[0]
+    if np.isclose(np.abs(found.x), SEARCH, rtol=1e-3).any():
+        where = f"within {SEARCH[1]:.0%} of omega = {guess:.5g} rad/s, with a decrement up to {SEARCH[0]:g}"
+        warnings.warn(f"no decay found {where}: is that the signal's angular frequency?", stacklevel=2)
     w = guess * (1.0 + float(found.x[1]))
     half = _half_width(found, since.size)
     delta = float(found.x[0])

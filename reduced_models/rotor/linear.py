@@ -10,13 +10,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from math import pi
+from typing import Unpack
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy import linalg
 from scipy.interpolate import PchipInterpolator
 
 from ehlcontact import ImpedanceResult
+from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
@@ -31,7 +33,7 @@ MOST_ROUNDS = 100  # of it
 
 def impedance_about(element: ContactElement, load: float) -> Impedance:
     """Impedance of an SI element about rest under `load` [N], as a function of omega [rad/s]."""
-    return lambda omega: element.response(np.atleast_1d(np.asarray(omega, dtype=np.float64)), load)
+    return lambda omega: element.impedance(omega=omega, load=load)
 
 
 def film_impedance(response: ImpedanceResult) -> Impedance:
@@ -114,8 +116,10 @@ class LinearRotor:
         normals = np.hstack([np.zeros((len(self.rotor.mounts), size)), self.rotor.normals])
         object.__setattr__(self, "_normals", normals)
 
-    def contact_stiffness(self, omega: float) -> _Complex:
-        """Dynamic stiffness of all contacts, shape (N, N), in the order of `JeffcottRotor.matrices`."""
+    def contact_stiffness(self, *, omega: float) -> _Complex:
+        """Dynamic stiffness of all contacts [N/m] at `omega` [rad/s], shape (N, N), in the order of
+        `JeffcottRotor.matrices`.
+        """
         Z = np.array([complex(impedance(np.array([omega]))[0]) for impedance in self.impedances])
         return np.asarray(self.rotor.bearings * (self._normals.T * Z) @ self._normals)
 
@@ -125,26 +129,31 @@ class LinearRotor:
         guesses = sorted((s for s in start if s.imag > SAME_FREQUENCY * abs(s)), key=lambda s: s.imag)
         return tuple(self._mode(guess) for guess in guesses)
 
-    def unbalance_response(self, omega: ArrayLike) -> _Complex:
+    @by_name(1)
+    def unbalance_response(self, **frequency: Unpack[Frequency]) -> _Complex:
         """Complex amplitudes of the displacements [m], shape (k, N), q(t) = Re(q exp(i omega t)).
 
-        The rotor's unbalance turns at `omega` [rad/s], shape (k,), instead of at its speed.
+        Parameters
+        ----------
+        **frequency
+            At which the unbalance turns instead of at the rotor's speed: exactly one of omega [rad/s], hz and rpm,
+            shape (k,).
         """
         M, C, K = self.rotor.matrices()
-        frequencies = np.atleast_1d(np.asarray(omega, dtype=np.float64))
+        frequencies = radians_per_second(None, **frequency)
         turning = np.zeros(len(M), dtype=np.complex128)
         size = len(self.rotor.axes)
         turning[:size] = np.array([1.0, -1j])[list(self.rotor.axes)]
         amplitudes = np.empty((frequencies.size, len(M)), dtype=np.complex128)
         for k, w in enumerate(frequencies.tolist()):
-            dynamic = K + 1j * w * C - w * w * M + self.contact_stiffness(w)
+            dynamic = K + 1j * w * C - w * w * M + self.contact_stiffness(omega=w)
             amplitudes[k] = np.linalg.solve(dynamic, self.rotor.unbalance * w * w * turning)
         return amplitudes
 
     def orbit_state(self, rest: RotorState) -> RotorState:
         """State at t = 0 on the periodic response to the unbalance at the rotor's speed, about `rest`."""
         w = self.rotor.omega
-        q = self.unbalance_response([w])[0]
+        q = self.unbalance_response(omega=w)[0]
         moved, speed = self._planes(q.real), self._planes((1j * w * q).real)
         return RotorState(rest.disc + moved[0], rest.journal + moved[1], speed[0], speed[1])
 
@@ -162,7 +171,7 @@ class LinearRotor:
         size = len(self.rotor.matrices()[0])
         shape = vector[:size] / vector[np.argmax(np.abs(vector[:size]))]
         _, _, K = self.rotor.matrices()
-        in_contacts = float(np.real(shape.conj() @ self.contact_stiffness(s.imag).real @ shape))
+        in_contacts = float(np.real(shape.conj() @ self.contact_stiffness(omega=s.imag).real @ shape))
         in_shaft = float(np.real(shape.conj() @ K @ shape))
         disc, journal = self._planes(shape)
         return RotorMode(s, disc, journal, in_contacts / (in_contacts + in_shaft))
@@ -171,7 +180,7 @@ class LinearRotor:
         """Eigenvalues and vectors of the state matrix with the contacts as they are at `omega`."""
         M, C, K = self.rotor.matrices()
         w = max(omega, 1e-6 * self.rotor.omega, 1e-6)
-        Z = self.contact_stiffness(w)
+        Z = self.contact_stiffness(omega=w)
         size = len(M)
         A = np.zeros((2 * size, 2 * size))
         A[:size, size:] = np.eye(size)

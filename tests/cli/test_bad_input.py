@@ -127,6 +127,12 @@ def test_kinds_without_fmu(refused, tmp_path):
         refused((file.name, element.kind, "cubic", "not built yet"), "export", file, "-o", tmp_path / "x.fmu")
 
 
+@pytest.mark.parametrize("option", ["--hz", "--rpm", "--frequency"])
+@pytest.mark.parametrize("command", [("impedance",), ("element", "--model", "cubic")])
+def test_frequencies_in_si_are_sent_to_their_dimensionless_name(refused, point, command, option):
+    refused((option, "--Omega", "2a/u_sum", "no unit of time"), *command, *point, option, "50")
+
+
 def test_export_options(refused, tmp_path):
     refused(("--model", "quartic", "linear"), "fit", "r.h5", "--model", "quartic")
     refused(("--fmi", "3", "not built yet"), "export", "e.json", "-o", "x.fmu", "--fmi", "3")

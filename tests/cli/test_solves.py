@@ -36,13 +36,15 @@ def test_steady_table_and_json_file(call, point, tmp_path):
 
 
 def test_impedance(call, refused, point):
-    result = call("impedance", *point, "--n", "32", "--omega", "0", "--omega", "3", "--json", "-")
+    result = call("impedance", *point, "--n", "32", "--Omega", "0", "--Omega", "3", "--json", "-")
     assert result.code == 0 and result.err == ""
     document = json.loads(result.out)
     assert document["omega"] == [0.0, 3.0]
     assert all(k > 1.0 for k in document["stiffness"]) and all(c > 0.0 for c in document["damping"])
     table = call("impedance", *point, "--n", "32", "--omega", "3")
     assert table.code == 0 and "Omega = 3" in table.out
+    assert "note: --omega is dimensionless here, as --Omega: not rad/s" in table.err
+    assert "note" not in call("impedance", *point, "--n", "32", "--Omega", "3").err
     refused(["--omega = -1.0"], "impedance", *point, "--omega", "-1")
     refused(["n", "16"], "impedance", *point, "--n", "100", "--omega", "1")
 

@@ -3,6 +3,7 @@
 import re
 from math import pi
 from pathlib import Path
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -23,6 +24,7 @@ def snippet(tmp_path_factory):
     folder = tmp_path_factory.mktemp("readme")
     found = {}
     exec(code.replace('"contact.fmu"', repr(str(folder / "contact.fmu"))), found)
+    found["contact.fmu"] = folder / "contact.fmu"
     return found
 
 
@@ -37,6 +39,18 @@ def test_it_runs_and_has_the_damping_of_its_speed(snippet, capsys):
     assert said == pytest.approx(si.C1, abs=0.5)
     own = Atlas().element(point, "cubic", hz=1.5**0.5 * 2.56 / (2 * pi * point.scales.time))  # that free vibration
     assert 5.0 < si.C1 / own.C1 < 7.0
+
+
+def test_the_fmu_says_what_it_is_for(snippet):
+    """Band, speed and oil: whoever gets the file has neither the element nor the study."""
+    si = snippet["si"]
+    low, high = (w / (2.0 * pi) for w in si.omega_range)
+    with ZipFile(snippet["contact.fmu"]) as archive:
+        described = archive.read("modelDescription.xml").decode()
+        page = archive.read("documentation/index.html").decode()
+    assert f'description="Damping coefficient, for motion of {low:.4g} to {high:.4g} Hz"' in described
+    assert f"{low:.4g} to {high:.4g} Hz" in page and "437.4 to 534.6" in page
+    assert f"u_sum: {snippet['point'].u_sum}" in page and "eta0: 0.037" in page
 
 
 @pytest.mark.slow

@@ -254,7 +254,8 @@ def element(name: str, contact: Any) -> Leaves:
             steps += [*contact.step_tangents(dt, at, rate), contact.advance(dt, at, rate)]
     yield f"{name}.steps", np.array(steps)
     if hasattr(contact, "impedance"):
-        yield f"{name}.impedance", contact.response(np.array([0.0, 0.01, 1.0, 6.0, 40.0]) * 0.05 / dt)
+        unit, w = "Omega" if contact.units == "dimensionless" else "omega", np.array([0.0, 0.01, 1.0, 6.0, 40.0])
+        yield f"{name}.impedance", contact.impedance(**{unit: w * 0.05 / dt})
         states = np.linspace(-0.01, 0.02, contact.state_count)
         force, rates = contact.state_rates(states, 0.5 * (low + high), v[3])
         yield f"{name}.rates", np.append(rates, force)

@@ -75,7 +75,7 @@ def claim_assumptions(page, again, rotor, results):
     )
     page.claim("constant speed | # | <= # | yes", shaken / u, 0.01 / 0.67)
     page.claim(
-        "adds up to # m/s to # m/s; # m/s of change change the film by 1 %, within the # us",
+        "adds up to # m/s to # m/s; a change of # m/s within the # us",
         *(shaken, u, 0.01 / 0.67 * u, 2.0 * p.time_unit * 1e6),
     )
     page.claim("one direction | # | <= # | yes", shaken / u, 0.1)

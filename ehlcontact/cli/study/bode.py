@@ -69,7 +69,7 @@ def bode(rotors: Mapping[str, LinearRotor]) -> Bode:
     curves: dict[str, dict[str, NDArray[np.complex128]]] = {direction: {} for direction in directions}
     peaks: dict[str, dict[str, Resonance]] = {direction: {} for direction in directions}
     for name, linear in rotors.items():
-        amplitudes = linear.unbalance_response(2.0 * pi * hz) / eccentricity
+        amplitudes = linear.unbalance_response(hz=hz) / eccentricity
         for column, direction in enumerate(directions):
             curve = amplitudes[:, column]
             curves[direction][name] = curve

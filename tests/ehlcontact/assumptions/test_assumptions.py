@@ -131,6 +131,18 @@ def test_out_of_range_is_said_in_the_headline(name, arguments, words):
     assert name in table.to_dict()["out_of_range"]
 
 
+def test_what_is_not_covered_is_not_called_impossible():
+    """A vibration faster than the rolling reverses it: no verdict may say that this does not happen."""
+    found = assumptions(bearing(), vibration=30.0)
+    said = found["one direction"].verdict
+    assert not found["one direction"].holds and said.endswith("across; a reversal is not covered")
+    change, crossing = (found["constant speed"].details[name] for name in ("largest_change", "crossing_time"))
+    claim = (
+        f"a change of {change:.2g} m/s within the {crossing * 1e6:.2g} µs that the film takes to cross makes 1 %"
+    )
+    assert claim in found["constant speed"].verdict
+
+
 def test_nothing_out_of_range_is_no_headline():
     table = assumptions(bearing(), domain=Domain(), roughness=(1e-8, 3e-8), vibration=1e-3)
     assert table.headline == "" and all(a.holds for a in table) and table.not_judged == ()

@@ -43,6 +43,9 @@ def test_one_frequency_in_four_units(given):
         (TIME, {"hz": -1}, "hz = -1.0: must be finite, >= 0"),
         (TIME, {"hz": [1.0, float("nan")]}, "hz = nan: must be finite, >= 0"),
         (TIME, {"rpm": "fast"}, "rpm = 'fast': must be numbers"),
+        (TIME, {"hz": "50"}, "hz = '50': must be numbers"),
+        (TIME, {"hz": True}, "hz = True: must be numbers"),
+        (TIME, {"hz": 5 + 1j}, "hz = (5+1j): must be numbers"),
         (TIME, {"Omega": []}, "Omega = 'of shape (0,)': must be a number, or a flat list"),
     ],
 )
@@ -50,6 +53,12 @@ def test_what_is_wrong_is_said_in_one_line(time, given, line):
     with pytest.raises(InputError) as caught:
         dimensionless(time, **given)
     assert str(caught.value).startswith(line) and "\n" not in str(caught.value)
+
+
+def test_one_of_several_is_asked_for_in_their_own_words():
+    """Not with the Omega of 50 and 60 Hz, which nobody gave."""
+    with pytest.raises(InputError, match=r"^frequency = '2 numbers': must be a single frequency$"):
+        HarmonicLoad.at(BEARING, hz=[50.0, 60.0])  # type: ignore[arg-type]
 
 
 def test_limits_are_told_in_the_unit_that_was_used():

@@ -32,7 +32,12 @@ def test_box_round_samples_goes_to_elements_files_and_units(scales):
     assert si.approach == (0.8 * scales.length, 1.1 * scales.length) and si.rate == 3.0 * scales.rate
     assert si.load == (0.7 * scales.force, 1.2 * scales.force)
     assert si.omega == pytest.approx((2.0 / scales.time, 4.0 / scales.time), rel=1e-15)  # rad/s
-    assert si.excess([1.3 * scales.length]) == [f"approach 5.2e-06 (fitted {0.8 * 4e-6:.4g} to {1.1 * 4e-6:.4g})"]
+    said = f"approach 5.2e-06 m (fitted {0.8 * 4e-6:.4g} to {1.1 * 4e-6:.4g} m)"
+    assert si.excess([1.3 * scales.length], units="SI") == [said]
+    fast, force = 5.0 * scales.rate, 2.0 * scales.force
+    rate, load = si.excess(rate=[fast], force=[force], units="SI")
+    assert rate == f"rate {fast:.4g} m/s (fitted up to {3.0 * scales.rate:.4g} m/s)"
+    assert load == f"force {force:.4g} N (fitted {0.7 * scales.force:.4g} to {1.2 * scales.force:.4g} N)"
 
 
 def test_control_block_warns(boxed):

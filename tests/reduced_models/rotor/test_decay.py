@@ -24,6 +24,14 @@ def test_exact_decay(delta, guess):
     assert found.to_dict()["decrement"] == found.decrement
 
 
+def test_a_guess_in_hertz_is_told():
+    """Six times too low, the search ends where it has to: that is no decrement."""
+    t = np.linspace(0.0, 0.02, 2000)
+    y = np.exp(-30.0 * t) * np.cos(2.0 * pi * 800.0 * t)
+    with pytest.warns(UserWarning, match=r"^no decay found within 30% of omega = 800 rad/s, .* angular frequency"):
+        log_decrement(t, y, omega=800.0)
+
+
 def test_interval_covers_noise():
     """Of 60 decays with noise the 95 % interval holds the truth in most, and not in all."""
     generator, t = np.random.default_rng(5), np.linspace(0.0, 0.008, 320)

@@ -33,9 +33,23 @@ def test_mode_of_one_mass():
 def test_response_of_one_mass():
     """Amplitude and phase of m e omega^2 sin(omega t) on one mass."""
     rotor, omega = one_mass(shaft_stiffness=1e16), np.array([50.0, 3000.0, 6400.0, 20000.0])
-    q = LinearRotor(rotor, [spring]).unbalance_response(omega)
+    q = LinearRotor(rotor, [spring]).unbalance_response(omega=omega)
     expected = 4e-5 * omega**2 * -1j / (2.0 * K + 2j * omega * C - MASS * omega**2)
     assert q.shape == (4, 2) and q[:, 1] == pytest.approx(expected, rel=1e-4)
+
+
+def test_the_frequency_of_an_unbalance_has_its_unit():
+    linear = LinearRotor(one_mass(), [spring])
+    q = linear.unbalance_response(omega=2.0 * np.pi * 50.0)
+    assert np.allclose(linear.unbalance_response(hz=50.0), q, rtol=1e-12)
+    assert np.allclose(linear.unbalance_response(rpm=[3000.0]), q, rtol=1e-12)
+    for given, line in (
+        (((50.0,), {}), "^frequency = 50.0: must be named with its unit"),
+        (((), {}), "^frequency = None: must be given once"),
+        (((), {"Omega": 1.0}), "give omega, hz or rpm$"),
+    ):
+        with pytest.raises(InputError, match=line):
+            linear.unbalance_response(*given[0], **given[1])
 
 
 def test_shaft_and_contacts_share_the_strain_energy():
@@ -81,7 +95,7 @@ def test_orbit_state_is_on_the_periodic_motion():
     run = simulate_rotor(
         rotor, [element], dt=0.02 / 400, until=0.04, start=linear.orbit_state(rest), tolerance=1e-12, rho_inf=1.0
     )
-    q = linear.unbalance_response([rotor.omega])[0, 0]
+    q = linear.unbalance_response(omega=rotor.omega)[0, 0]
     expected = rest.disc[1] + (q * np.exp(1j * rotor.omega * run.t)).real
     assert np.abs(run.disc[:, 1] - expected).max() < 2e-3 * abs(q)
 
