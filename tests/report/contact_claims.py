@@ -75,7 +75,8 @@ def claim_assumptions(page, again, rotor, results):
     )
     page.claim("constant speed | # | <= # | yes", shaken / u, 0.01 / 0.67)
     page.claim(
-        "adds up to # m/s to # m/s; a change of # m/s within the # us",
+        "adds up to # m/s to # m/s; "
+        "a change of # m/s within the # us that the film takes to cross makes 1 % of film",
         *(shaken, u, 0.01 / 0.67 * u, 2.0 * p.time_unit * 1e6),
     )
     page.claim("one direction | # | <= # | yes", shaken / u, 0.1)
