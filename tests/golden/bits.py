@@ -253,7 +253,7 @@ def element(name: str, contact: Any) -> Leaves:
             rate = 0.7 * (high - low) * 0.3 / dt * np.cos(0.3 * k)
             steps += [*contact.step_tangents(dt, at, rate), contact.advance(dt, at, rate)]
     yield f"{name}.steps", np.array(steps)
-    if hasattr(contact, "impedance"):
+    if hasattr(contact, "drive"):
         unit, w = "Omega" if contact.units == "dimensionless" else "omega", np.array([0.0, 0.01, 1.0, 6.0, 40.0])
         yield f"{name}.impedance", contact.impedance(**{unit: w * 0.05 / dt})
         states = np.linspace(-0.01, 0.02, contact.state_count)
