@@ -49,9 +49,9 @@ def load_step(until: float = 6.0) -> PrescribedLoad:
 
 def fitted_motions() -> dict[str, Any]:
     """Motions that the element is fitted to."""
-    free = {f"free, Omega_n {w}": FreeVibration(w) for w in (2.56, 5.13, 10.26)}
+    free = {f"free, Omega_n {w}": FreeVibration(Omega_n=w) for w in (2.56, 5.13, 10.26)}
     omegas = (0.05, 0.3, pi / 4, pi, 2 * pi, 4 * pi)
-    return free | {f"harmonic, {NAMES.get(w, w)}": HarmonicLoad(w) for w in omegas}
+    return free | {f"harmonic, {NAMES.get(w, w)}": HarmonicLoad(Omega=w) for w in omegas}
 
 
 def record(motion: Any, n: int) -> ContactRecord:

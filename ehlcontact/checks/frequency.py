@@ -119,13 +119,17 @@ def one(name: str, found: Array) -> float:
     return float(found[0])
 
 
-def by_name(positional: int | None, **renamed: str) -> Callable[[Callable[P, Result]], Callable[P, Result]]:
+def by_name(
+    positional: int | None, how: str = f"named with its unit: {_KEYWORDS}", **renamed: str
+) -> Callable[[Callable[P, Result]], Callable[P, Result]]:
     """Let a call tell in one line what its frequency is called now.
 
     Parameters
     ----------
     positional : int or None
         Arguments that it takes without a name: one more is taken for a frequency that lacks its own. None for any.
+    how : str
+        How a frequency is given.
     **renamed : str
         What an old name is called now, or several names with what they mean.
     """
@@ -134,7 +138,7 @@ def by_name(positional: int | None, **renamed: str) -> Callable[[Callable[P, Res
         @wraps(call)
         def checked(*args: P.args, **kwargs: P.kwargs) -> Result:
             if positional is not None and len(args) > positional:
-                raise InputError("frequency", args[positional], f"named with its unit: {_KEYWORDS}")
+                raise InputError("frequency", args[positional], how)
             for old in renamed.keys() & kwargs.keys():
                 raise InputError(old, kwargs[old], f"given as {renamed[old]}")
             return call(*args, **kwargs)
@@ -144,11 +148,13 @@ def by_name(positional: int | None, **renamed: str) -> Callable[[Callable[P, Res
     return decorate
 
 
-def fields_by_name(**renamed: str) -> Callable[[type[Result]], type[Result]]:
-    """`by_name` for the fields of a class that has its frequencies by position too."""
+def fields_by_name(positional: int, **renamed: str) -> Callable[[type[Result]], type[Result]]:
+    """`by_name` for the fields of a class, so many of which need no name; its frequency is the first `renamed`."""
 
     def decorate(cls: type[Result]) -> type[Result]:
-        setattr(cls, "__init__", by_name(None, **renamed)(cls.__init__))  # noqa: B010
+        how = f"given as {next(iter(renamed.values()))}"
+        named = by_name(positional + 1, how, **renamed)(cls.__init__)  # and self
+        setattr(cls, "__init__", named)  # noqa: B010
         return cls
 
     return decorate

@@ -37,7 +37,7 @@ def _scales(instead: str, point: object) -> Scales:
     return point.scales
 
 
-@fields_by_name(omega_n="Omega_n, dimensionless; FreeVibration.at(point, hz=...) takes SI")
+@fields_by_name(0, omega_n="Omega_n, dimensionless; FreeVibration.at(point, hz=...) takes SI")
 @dataclass(frozen=True, slots=True)
 class FreeVibration(UnderLoad):
     """Free vibration of a mass on the contact under constant load 1.
@@ -104,7 +104,7 @@ class FreeVibration(UnderLoad):
         else:
             Omega_n = one("frequency", dimensionless(scales.time, omega=omega, hz=hz)) / SMALL_VIBRATION
         at_start = None if rate is None else require_finite("rate", rate) / scales.rate
-        return cls(Omega_n, require_finite("offset", offset) / scales.length, at_start)
+        return cls(Omega_n=Omega_n, offset=require_finite("offset", offset) / scales.length, rate=at_start)
 
     @property
     def period(self) -> float:
@@ -146,6 +146,7 @@ class FreeVibration(UnderLoad):
 
 
 @fields_by_name(
+    0,
     omega="Omega, dimensionless; HarmonicLoad.at(point, hz=...) takes SI",
     omega_n="Omega_n, dimensionless",
 )
@@ -197,7 +198,7 @@ class HarmonicLoad(UnderLoad):
         """
         scales = _scales("HarmonicLoad(Omega)", point)
         Omega = one("frequency", dimensionless(scales.time, omega=omega, hz=hz, rpm=rpm))
-        return cls(Omega, amplitude, None if mass is None else point.Omega_n(mass))
+        return cls(Omega=Omega, amplitude=amplitude, Omega_n=None if mass is None else point.Omega_n(mass))
 
     @property
     def period(self) -> float:
@@ -228,7 +229,7 @@ class HarmonicLoad(UnderLoad):
         return {"kind": self.kind, "Omega": self.Omega, "amplitude": self.amplitude, "Omega_n": self.Omega_n}
 
 
-@fields_by_name(omega_n="Omega_n, dimensionless")
+@fields_by_name(2, omega_n="Omega_n, dimensionless")
 @dataclass(frozen=True, slots=True)
 class RampLoad(UnderLoad):
     """Load rising linearly from 1 to `ratio` within `duration`, then constant, on bodies with inertia."""

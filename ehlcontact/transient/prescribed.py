@@ -44,7 +44,7 @@ class Tabulated(Motion):
         return self.default_end / (len(self._table[0]) - 1)
 
 
-@fields_by_name(omega_n="Omega_n, dimensionless")
+@fields_by_name(2, omega_n="Omega_n, dimensionless")
 @dataclass(frozen=True, slots=True, eq=False)
 class PrescribedLoad(Tabulated, UnderLoad):
     """Load given by a table (linear interpolation) on bodies with (`Omega_n`) or without inertia."""
@@ -64,13 +64,13 @@ class PrescribedLoad(Tabulated, UnderLoad):
         object.__setattr__(self, "_table", table)
 
     @classmethod
-    @by_name(5, omega_n="Omega_n, dimensionless")
+    @by_name(4, "given as Omega_n, dimensionless", omega_n="Omega_n, dimensionless")
     def from_function(
         cls, load: Callable[[float], float], until: float, steps: int = 1000, Omega_n: float | None = None
     ) -> PrescribedLoad:
         """Sample a function of T on [0, until]."""
         T = np.linspace(0.0, require_positive("until", until), steps + 1)
-        return cls(T, [load(t) for t in T], Omega_n)
+        return cls(T, [load(t) for t in T], Omega_n=Omega_n)
 
     def load(self, T: float) -> float:
         """Applied load."""

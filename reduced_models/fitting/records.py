@@ -25,7 +25,7 @@ _REQUIRED = ("T", "approach", "rate", "force")
 _HISTORIES = (*_REQUIRED, "load", "acceleration")
 
 
-@fields_by_name(omega_n="Omega_n, dimensionless")
+@fields_by_name(6, omega_n="Omega_n, dimensionless")
 @dataclass(frozen=True, eq=False)
 class ContactRecord:
     """One history of a contact, simulated or measured.

@@ -47,7 +47,8 @@ def good(tmp_path_factory):
     folder = tmp_path_factory.mktemp("good")
     for name, M in ((RECORD, 20.0), (OTHER, 30.0)):
         save(
-            simulate(MoesPoint(M, 5, 0.5), HarmonicLoad(3.0), n=16, until=0.5, dT=0.05, throw=False), folder / name
+            simulate(MoesPoint(M, 5, 0.5), HarmonicLoad(Omega=3.0), n=16, until=0.5, dT=0.05, throw=False),
+            folder / name,
         )
     save(solve_steady(MoesPoint(20, 5, 0.5), n=16, throw=False), folder / FILM)
     CubicContact(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0).save(folder / ELEMENT)

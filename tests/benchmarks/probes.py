@@ -228,25 +228,25 @@ def transient(bench: Bench) -> None:
 
     parted = PrescribedApproach(T, 0.88 - 2.0 * T)
     cases = {
-        "free": ("paper", FreeVibration(5.13), {"n": 32}),
-        "free 6205": ("6205", FreeVibration(10.0), {"n": 64, "until": 0.15}),
-        "free on the chosen grid": ("paper", FreeVibration(5.13), {"until": 0.05}),
-        "harmonic": ("paper", HarmonicLoad(np.pi), {"n": 64, "until": 1.0}),
-        "ramp": ("paper", RampLoad(1.5, 0.5, 5.13), {"n": 32, "until": 1.0}),
+        "free": ("paper", FreeVibration(Omega_n=5.13), {"n": 32}),
+        "free 6205": ("6205", FreeVibration(Omega_n=10.0), {"n": 64, "until": 0.15}),
+        "free on the chosen grid": ("paper", FreeVibration(Omega_n=5.13), {"until": 0.05}),
+        "harmonic": ("paper", HarmonicLoad(Omega=np.pi), {"n": 64, "until": 1.0}),
+        "ramp": ("paper", RampLoad(1.5, 0.5, Omega_n=5.13), {"n": 32, "until": 1.0}),
         "approach": ("paper", wave, {"n": 32}),
-        "controlled ramp": ("paper", RampLoad(1.5, 0.5, 5.13), {"n": 32, "until": 1.5, "error": 1e-3}),
+        "controlled ramp": ("paper", RampLoad(1.5, 0.5, Omega_n=5.13), {"n": 32, "until": 1.5, "error": 1e-3}),
         "controlled approach": ("paper", wave, {"n": 32, "error": 1e-4, "snapshots": (0.3,)}),
         "controlled table": ("paper", PrescribedLoad(T, bent), {"n": 32, "error": 3e-4}),
-        "controlled blow": ("paper", RampLoad(4.0, 0.02, 5.13), {"n": 32, "until": 0.5, "error": 1e-2}),
+        "controlled blow": ("paper", RampLoad(4.0, 0.02, Omega_n=5.13), {"n": 32, "until": 0.5, "error": 1e-2}),
         "controlled press": ("paper", pressed, {"n": 32, "error": 1e-2}),
         "controlled lift": ("paper", lifted, {"n": 32, "error": 1e-3}),
-        "jump": ("paper", HarmonicLoad(np.pi), {"n": 32, "until": 0.5, "error": 1e-4, "surface": jump}),
-        "controlled long": ("paper", HarmonicLoad(0.05), {"n": 32, "until": 60.0, "error": 1e-3}),
+        "jump": ("paper", HarmonicLoad(Omega=np.pi), {"n": 32, "until": 0.5, "error": 1e-4, "surface": jump}),
+        "controlled long": ("paper", HarmonicLoad(Omega=0.05), {"n": 32, "until": 60.0, "error": 1e-3}),
         "parted": ("paper", parted, {"n": 32}),
-        "failing": ("paper", RampLoad(60.0, 0.3, 5.13), {"n": 32, "until": 0.5}),
+        "failing": ("paper", RampLoad(60.0, 0.3, Omega_n=5.13), {"n": 32, "until": 0.5}),
         "failing in controlled steps": (
             "paper",
-            RampLoad(60.0, 0.3, 5.13),
+            RampLoad(60.0, 0.3, Omega_n=5.13),
             {"n": 32, "until": 0.5, "error": 1e-2},
         ),
     }
@@ -271,7 +271,7 @@ def surfaces(bench: Bench) -> None:
         bench.case(
             name,
             lambda s=surface: _record(
-                simulate(_point("paper"), HarmonicLoad(np.pi), n=64, until=0.3, surface=s, throw=False)
+                simulate(_point("paper"), HarmonicLoad(Omega=np.pi), n=64, until=0.3, surface=s, throw=False)
             ),
         )
 
@@ -297,8 +297,8 @@ def wave(bench: Bench) -> None:
     """Speed of a film wave."""
     from ehlcontact import HarmonicLoad, film_wave, simulate, track_wave
 
-    result = simulate(_point("paper"), HarmonicLoad(np.pi), n=64, until=4.0)
-    coarse = simulate(_point("paper"), HarmonicLoad(np.pi), n=32, until=4.0, dT=0.2)
+    result = simulate(_point("paper"), HarmonicLoad(Omega=np.pi), n=64, until=4.0)
+    coarse = simulate(_point("paper"), HarmonicLoad(Omega=np.pi), n=32, until=4.0, dT=0.2)
 
     def figures(run: Any, start: float, end: float) -> Figures:
         track = track_wave(film_wave(run), start, end)
@@ -346,8 +346,8 @@ def _records() -> tuple[Any, Any]:
     from ehlcontact import FreeVibration, HarmonicLoad, simulate
     from reduced_models import ContactRecord
 
-    free = simulate(_point("paper"), FreeVibration(5.13), n=32)
-    harmonic = simulate(_point("paper"), HarmonicLoad(2.0 * np.pi), n=32)
+    free = simulate(_point("paper"), FreeVibration(Omega_n=5.13), n=32)
+    harmonic = simulate(_point("paper"), HarmonicLoad(Omega=2.0 * np.pi), n=32)
     return ContactRecord.from_result(free), ContactRecord.from_result(harmonic)
 
 
@@ -774,7 +774,7 @@ def warm_up() -> None:
     from ehlcontact import FreeVibration, MoesPoint, simulate, solve_steady
 
     solve_steady(MoesPoint(200.0, 10.0, 0.5), n=32, throw=False)
-    simulate(MoesPoint(200.0, 10.0, 0.5), FreeVibration(5.13), n=32, until=0.1, throw=False)
+    simulate(MoesPoint(200.0, 10.0, 0.5), FreeVibration(Omega_n=5.13), n=32, until=0.1, throw=False)
 
 
 PROBES: dict[str, Callable[[Bench], None]] = {

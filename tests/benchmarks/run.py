@@ -75,7 +75,7 @@ def transient_step(n: int) -> tuple[float, dict[str, float]]:
     """One step of free vibration with force and approach within 1e-4 of the fully converged step."""
     point = MoesPoint(200, 10, 0.5)
     omega_n = 5.13
-    motion = FreeVibration(omega_n)
+    motion = FreeVibration(Omega_n=omega_n)
     dT = motion.default_step
     film = TransientFilm(point, Mesh(n, Domain()), 3e-3)
     film.start_steady(LOAD)
@@ -118,7 +118,7 @@ def fitted_element() -> tuple[float, dict[str, float]]:
     outcome: dict[str, float] = {}
 
     def work() -> None:
-        record = ContactRecord.from_result(simulate(point, FreeVibration(5.13), n=64))
+        record = ContactRecord.from_result(simulate(point, FreeVibration(Omega_n=5.13), n=64))
         result = fit(record, model="cubic")
         outcome.update(root=result.root or np.nan, tangent=result.tangent or np.nan, **result.parameters)
 

@@ -50,7 +50,7 @@ SUFFIX = {
 def good(tmp_path_factory):
     """Content of a sound file of every kind, and of a steady film."""
     folder, point = tmp_path_factory.mktemp("good"), MoesPoint(20, 5, 0.5)
-    save(simulate(point, HarmonicLoad(3.0), **RUN, checkpoint=folder / "checkpoint"), folder / "result")
+    save(simulate(point, HarmonicLoad(Omega=3.0), **RUN, checkpoint=folder / "checkpoint"), folder / "result")
     save(solve_steady(point, n=16, throw=False), folder / "steady")
     CubicContact(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0).save(folder / "element")
     (folder / "study").write_text(STUDY)

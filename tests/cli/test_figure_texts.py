@@ -52,7 +52,7 @@ def test_the_papers_elements_are_drawn_as_printed(reproduction):
 
 def test_figures_of_films_and_motions():
     steady = solve_steady(BALL, n=32)
-    run = simulate(BALL, HarmonicLoad(3.0), n=32, until=1.0, dT=0.1)
+    run = simulate(BALL, HarmonicLoad(Omega=3.0), n=32, until=1.0, dT=0.1)
     draws = (film.steady_figure, film.film_maps, film.midplanes, film.convergence, fringes.three_lights)
     said = {draw.__name__: texts(draw(steady)) for draw in draws}
     said |= {"simulation": texts(motion.simulation_figure(run)), "wave": texts(motion.wave(run))}

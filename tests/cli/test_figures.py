@@ -41,7 +41,7 @@ def test_steady_figure(point, si):
 def test_simulation_figure(point, si):
     from ehlcontact.cli.plots.motion import simulation_figure
 
-    run = simulate(point, HarmonicLoad(3.0), n=32, until=1.0, dT=0.1)
+    run = simulate(point, HarmonicLoad(Omega=3.0), n=32, until=1.0, dT=0.1)
     figure = simulation_figure(run)
     assert (
         {"approach [µm]", "force [N]"} <= labels(figure) if si else {"approach u", "force f/f0"} <= labels(figure)
@@ -62,7 +62,7 @@ def test_loops_show_the_element_that_was_fitted():
     from ehlcontact.cli.plots.motion import loops
     from reduced_models import ContactRecord, fit
 
-    run = simulate(IN_SI, HarmonicLoad(3.0), n=32, until=4.0, dT=0.05)
+    run = simulate(IN_SI, HarmonicLoad(Omega=3.0), n=32, until=4.0, dT=0.05)
     found = fit(ContactRecord.from_result(run), "cubic", (2.0, 4.0))
     figure = loops({"harmonic": run}, {"harmonic": found}, {"harmonic": "a title"})
     assert "a title" in labels(figure)

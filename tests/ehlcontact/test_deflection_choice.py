@@ -15,7 +15,7 @@ def film(engine):
 
 
 def run(engine):
-    return simulate(POINT, FreeVibration(5.13), n=32, until=0.2, tol=1e-6, deflection=engine).force
+    return simulate(POINT, FreeVibration(Omega_n=5.13), n=32, until=0.2, tol=1e-6, deflection=engine).force
 
 
 def response(engine):

@@ -32,7 +32,7 @@ def film(steady):
 
 @pytest.fixture(scope="module")
 def harmonic():
-    return simulate(MoesPoint(200.0, 10.0, 0.5), HarmonicLoad(np.pi), n=32, until=1.0)
+    return simulate(MoesPoint(200.0, 10.0, 0.5), HarmonicLoad(Omega=np.pi), n=32, until=1.0)
 
 
 def wedge(gap):
@@ -152,7 +152,8 @@ def test_tracking_a_known_wave(speed):
 
 
 @pytest.mark.parametrize(
-    "motion", [pytest.param(HarmonicLoad(np.pi), id="harmonic", marks=pytest.mark.slow), FreeVibration(5.13)]
+    "motion",
+    [pytest.param(HarmonicLoad(Omega=np.pi), id="harmonic", marks=pytest.mark.slow), FreeVibration(Omega_n=5.13)],
 )
 def test_film_is_carried_at_the_mean_speed(motion):
     """Measured dX/dT is 1 in incompressible oil; in compressible oil a part of the film follows the pressure."""
@@ -183,6 +184,6 @@ def test_film_wave_of_a_steady_film_is_refused(steady):
 
 
 def test_wave_in_too_long_steps_is_refused():
-    run = simulate(MoesPoint(200.0, 10.0, 0.5), HarmonicLoad(np.pi), n=32, until=4.0, dT=1.0)
+    run = simulate(MoesPoint(200.0, 10.0, 0.5), HarmonicLoad(Omega=np.pi), n=32, until=4.0, dT=1.0)
     with pytest.raises(InputError, match=r"^wave = 'a record of 4 steps': must be one in steps of 0.3 at most"):
         track_wave(film_wave(run))

@@ -97,12 +97,12 @@ def test_limit_of_the_published_program(steady, M, n, error):
 # Nonato and Cavalca (2010), Tables 3 and 5: K1, K2, K3, C1 at M = 200, L = 10, kappa = 0.5. Of a cubic only the
 # root of f(u) = 1 and the tangent there can be identified from +-10 % of motion.
 CUBICS = {
-    "3.1": (FreeVibration(10.26), (1.552, -1.414, 1.093, 0.011)),
-    "3.2": (FreeVibration(5.13), (0.806, 0.346, 0.054, 0.013)),
-    "3.3": (FreeVibration(2.56), (0.747, 0.502, -0.046, 0.015)),
-    "5.4": (HarmonicLoad(pi), (0.703, 0.596, -0.097, 0.015)),
-    "5.5": (HarmonicLoad(2.0 * pi), (0.603, 0.815, -0.215, 0.013)),
-    "5.6": (HarmonicLoad(4.0 * pi), (0.413, 1.236, -0.444, 0.011)),
+    "3.1": (FreeVibration(Omega_n=10.26), (1.552, -1.414, 1.093, 0.011)),
+    "3.2": (FreeVibration(Omega_n=5.13), (0.806, 0.346, 0.054, 0.013)),
+    "3.3": (FreeVibration(Omega_n=2.56), (0.747, 0.502, -0.046, 0.015)),
+    "5.4": (HarmonicLoad(Omega=pi), (0.703, 0.596, -0.097, 0.015)),
+    "5.5": (HarmonicLoad(Omega=2.0 * pi), (0.603, 0.815, -0.215, 0.013)),
+    "5.6": (HarmonicLoad(Omega=4.0 * pi), (0.413, 1.236, -0.444, 0.011)),
 }
 
 
@@ -128,7 +128,11 @@ def test_table_6():
     tangent are asked for.
     """
     record = simulate(
-        MoesPoint(58.07, 4.62, 1.0), RampLoad(3.67, 1.69, 2.4), n=128, domain=Domain(-5.0, 3.0, 4.0), until=5.6
+        MoesPoint(58.07, 4.62, 1.0),
+        RampLoad(3.67, 1.69, Omega_n=2.4),
+        n=128,
+        domain=Domain(-5.0, 3.0, 4.0),
+        until=5.6,
     )
     result = fit(ContactRecord.from_result(record), model="cubic")
     assert result.window == (pytest.approx((0.0, 5.6)),)

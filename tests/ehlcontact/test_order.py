@@ -23,7 +23,7 @@ from ehlcontact.transient.record import History
 from ehlcontact.transient.run import Run
 
 POINT = MoesPoint(200, 10, 0.5)
-RAMP = RampLoad(1.3, 2.0, 5.13)  # its corner lies beyond the end
+RAMP = RampLoad(1.3, 2.0, Omega_n=5.13)  # its corner lies beyond the end
 
 
 def orders(errors):
@@ -109,7 +109,7 @@ def test_smallest_film_is_second_order(steady, M, L, kappa):
 
 def test_time_steps_are_second_order():
     """u and force at fixed T of a free vibration, Delta T halved three times."""
-    motion = FreeVibration(5.13)
+    motion = FreeVibration(Omega_n=5.13)
     ends = []
     for steps in (20, 40, 80, 160):
         until = motion.period
@@ -121,7 +121,9 @@ def test_time_steps_are_second_order():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("motion", [FreeVibration(5.13), HarmonicLoad(2.0 * pi), RAMP], ids=lambda m: m.kind)
+@pytest.mark.parametrize(
+    "motion", [FreeVibration(Omega_n=5.13), HarmonicLoad(Omega=2.0 * pi), RAMP], ids=lambda m: m.kind
+)
 def test_uneven_time_steps_are_second_order(motion):
     """u, rate and force over the record, with steps that vary smoothly by a factor of four, halved three times."""
     until, histories = 1.2, []

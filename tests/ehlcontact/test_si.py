@@ -73,7 +73,7 @@ def test_motion_in_si(run):
     assert si.static_load == POINT.load
     # Newton's law in SI: what the film does not carry accelerates the mass.
     np.testing.assert_allclose(si.mass * si.acceleration[1:], (si.load - si.force)[1:], atol=1e-3 * POINT.load)
-    assert simulate(POINT, FreeVibration(5.0), n=16, until=0.2, dT=0.1).si.hz is None
+    assert simulate(POINT, FreeVibration(Omega_n=5.0), n=16, until=0.2, dT=0.1).si.hz is None
 
 
 def test_full_contact_in_si():
@@ -89,7 +89,7 @@ def test_full_contact_in_si():
 def test_dimensionless_points_have_none():
     for result in (
         solve_steady(POINT.moes, n=16, throw=False),
-        simulate(POINT.moes, FreeVibration(5.0), n=16, until=0.1, dT=0.1),
+        simulate(POINT.moes, FreeVibration(Omega_n=5.0), n=16, until=0.1, dT=0.1),
     ):
         with pytest.raises(InputError, match=r"^scales = None: must be those of a result made from an Op"):
             _ = result.si

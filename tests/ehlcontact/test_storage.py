@@ -42,7 +42,7 @@ def steady_si():
 
 @pytest.fixture(scope="module")
 def record():
-    return simulate(POINT, HarmonicLoad(pi), n=32, until=0.3, dT=0.1, snapshots=(0.1,))
+    return simulate(POINT, HarmonicLoad(Omega=pi), n=32, until=0.3, dT=0.1, snapshots=(0.1,))
 
 
 def assert_same(one, other):
@@ -73,8 +73,8 @@ def test_steady_round_trip(steady_si, tmp_path):
 @pytest.mark.parametrize(
     "motion",
     [
-        FreeVibration(5.0),
-        RampLoad(1.3, 0.1, 5.0),
+        FreeVibration(Omega_n=5.0),
+        RampLoad(1.3, 0.1, Omega_n=5.0),
         PrescribedLoad(T, 1.0 + T),
         PrescribedApproach(T, 0.6 + 0.1 * T),
     ],
@@ -133,7 +133,9 @@ def test_simulation_file_of_version_0_1_0(tmp_path):
     old = load(DATA / "simulation.h5")
     assert isinstance(old, SimulationResult)
     assert (old.point, old.scales, old.domain.x_out) == (POINT, None, 1.5)
-    assert old.motion.to_dict() == PrescribedLoad([0.0, 0.1, 0.2, 0.3], [1.0, 1.1, 1.1, 1.0], 5.0).to_dict()
+    assert (
+        old.motion.to_dict() == PrescribedLoad([0.0, 0.1, 0.2, 0.3], [1.0, 1.1, 1.1, 1.0], Omega_n=5.0).to_dict()
+    )
     assert old.status is Status.CONVERGED
     np.testing.assert_array_equal(old.T, [0.0, 0.05, 0.1, 0.15000000000000002, 0.2])
     np.testing.assert_allclose(old.load, [1.0, 1.05, 1.1, 1.1, 1.1])

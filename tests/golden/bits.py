@@ -143,37 +143,37 @@ def steady_films() -> Leaves:
 def records() -> Leaves:
     """Histories of every motion, in fixed and in controlled steps, over surfaces, stopped and resumed."""
     cases: dict[str, tuple[Any, Any, dict[str, Any]]] = {
-        "free": (PAPER, FreeVibration(5.13), {"n": 32}),
-        "offset": (PAPER, FreeVibration(2.56, offset=0.05), {"n": 32, "until": 1.0}),
-        "harmonic": (PAPER, HarmonicLoad(np.pi), {"n": 32, "until": 1.0}),
-        "inertia": (PAPER, HarmonicLoad(np.pi, Omega_n=5.13), {"n": 32, "until": 1.0}),
-        "ramp": (PAPER, RampLoad(1.5, 0.5, 5.13), {"n": 32, "until": 1.0}),
+        "free": (PAPER, FreeVibration(Omega_n=5.13), {"n": 32}),
+        "offset": (PAPER, FreeVibration(Omega_n=2.56, offset=0.05), {"n": 32, "until": 1.0}),
+        "harmonic": (PAPER, HarmonicLoad(Omega=np.pi), {"n": 32, "until": 1.0}),
+        "inertia": (PAPER, HarmonicLoad(Omega=np.pi, Omega_n=5.13), {"n": 32, "until": 1.0}),
+        "ramp": (PAPER, RampLoad(1.5, 0.5, Omega_n=5.13), {"n": 32, "until": 1.0}),
         "load": (PAPER, PrescribedLoad(T, 1.0 + 0.1 * T), {"n": 32}),
         "approach": (PAPER, PrescribedApproach(T, 0.88 + 0.05 * np.sin(np.pi * T) ** 2), {"n": 32}),
-        "controlled": (PAPER, RampLoad(1.5, 0.5, 5.13), {"n": 32, "until": 1.0, "error": 1e-3}),
+        "controlled": (PAPER, RampLoad(1.5, 0.5, Omega_n=5.13), {"n": 32, "until": 1.0, "error": 1e-3}),
         "controlled approach": (
             PAPER,
             PrescribedApproach(T, 0.88 + 0.05 * np.sin(np.pi * T) ** 2),
             {"n": 32, "error": 1e-3, "snapshots": (0.5, 1.0)},
         ),
-        "dent": (PAPER, HarmonicLoad(np.pi), {"n": 64, "until": 0.5, "surface": Dent(0.05, 0.8, speed=1.2)}),
-        "waves": (PAPER, HarmonicLoad(np.pi), {"n": 64, "until": 0.5, "surface": Waviness(0.01, 0.8)}),
-        "narrow": (NARROW, FreeVibration(5.13), {"until": 0.2, "snapshots": (0.1,)}),
-        "SI": (BEARING, FreeVibration(BEARING.Omega_n(0.5)), {"n": 64, "until": 1.0}),
-        "failing": (PAPER, RampLoad(60.0, 0.3, 5.13), {"n": 32, "until": 0.5, "throw": False}),
+        "dent": (PAPER, HarmonicLoad(Omega=np.pi), {"n": 64, "until": 0.5, "surface": Dent(0.05, 0.8, speed=1.2)}),
+        "waves": (PAPER, HarmonicLoad(Omega=np.pi), {"n": 64, "until": 0.5, "surface": Waviness(0.01, 0.8)}),
+        "narrow": (NARROW, FreeVibration(Omega_n=5.13), {"until": 0.2, "snapshots": (0.1,)}),
+        "SI": (BEARING, FreeVibration(Omega_n=BEARING.Omega_n(0.5)), {"n": 64, "until": 1.0}),
+        "failing": (PAPER, RampLoad(60.0, 0.3, Omega_n=5.13), {"n": 32, "until": 0.5, "throw": False}),
     }
     for name, (point, motion, options) in cases.items():
         result = simulate(point, motion, **options)
         yield from leaves(name, result)
         if result.steps > 2:
             yield from leaves(f"{name} between", result.at([0.25 * result.T[-1], 0.7 * result.T[-1]]))
-    wave = film_wave(simulate(PAPER, HarmonicLoad(np.pi), n=32, until=4.0))
+    wave = film_wave(simulate(PAPER, HarmonicLoad(Omega=np.pi), n=32, until=4.0))
     yield from leaves("wave", track_wave(wave))
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "run.h5"
-        simulate(PAPER, FreeVibration(5.13), n=32, until=0.25, dT=0.0125, checkpoint=file)
+        simulate(PAPER, FreeVibration(Omega_n=5.13), n=32, until=0.25, dT=0.0125, checkpoint=file)
         yield from leaves(
-            "resumed", simulate(PAPER, FreeVibration(5.13), n=32, until=0.5, dT=0.0125, restart=file)
+            "resumed", simulate(PAPER, FreeVibration(Omega_n=5.13), n=32, until=0.5, dT=0.0125, restart=file)
         )
 
 
@@ -204,8 +204,8 @@ def full_contact() -> Leaves:
 
 def fits() -> Leaves:
     """Every model fitted to the same records."""
-    free = ContactRecord.from_result(simulate(PAPER, FreeVibration(5.13), n=32))
-    harmonic = ContactRecord.from_result(simulate(PAPER, HarmonicLoad(2.0 * np.pi), n=32))
+    free = ContactRecord.from_result(simulate(PAPER, FreeVibration(Omega_n=5.13), n=32))
+    harmonic = ContactRecord.from_result(simulate(PAPER, HarmonicLoad(Omega=2.0 * np.pi), n=32))
     for model in ("linear", "cubic", "polynomial", "power"):
         yield from leaves(model, fit([free, harmonic], model=model).to_dict())
         yield from leaves(f"{model} of one", fit(free, model=model).to_dict())

@@ -37,10 +37,10 @@ STEADY = {
 }
 T = np.linspace(0.0, 1.0, 21)
 TRANSIENT = {
-    "free": (FreeVibration(5.13), {}),
-    "offset": (FreeVibration(2.56, offset=0.05), {"until": 1.0}),
-    "harmonic": (HarmonicLoad(np.pi), {"until": 1.0}),
-    "ramp": (RampLoad(1.5, 0.5, 5.13), {"until": 1.0}),
+    "free": (FreeVibration(Omega_n=5.13), {}),
+    "offset": (FreeVibration(Omega_n=2.56, offset=0.05), {"until": 1.0}),
+    "harmonic": (HarmonicLoad(Omega=np.pi), {"until": 1.0}),
+    "ramp": (RampLoad(1.5, 0.5, Omega_n=5.13), {"until": 1.0}),
     "approach": (PrescribedApproach(T, 0.88 + 0.05 * np.sin(np.pi * T) ** 2), {}),
 }
 OMEGAS = [0.0, 0.25, 3.0, 12.0]
@@ -75,7 +75,7 @@ def fitted(model):
         response = impedance(PAPER, Omega=[0.0, *np.geomspace(0.03, 60.0, 12)], n=32)
         result = fit_memory(response, lags=6)
         return {"root": result.root, "tangent": result.tangent, "gains": list(result.element.gains)}
-    record = ContactRecord.from_result(simulate(PAPER, FreeVibration(5.13), n=32, tol=1e-7))
+    record = ContactRecord.from_result(simulate(PAPER, FreeVibration(Omega_n=5.13), n=32, tol=1e-7))
     result = fit(record, model=model)
     return {"root": result.root, "tangent": result.tangent, "rms": result.rms, **result.parameters}
 

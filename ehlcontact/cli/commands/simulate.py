@@ -92,15 +92,16 @@ class MotionOptions:
         self._refuse_strangers(chosen[0])
         if self.free is not None:
             with o.called(Omega_n="--free"):
-                return FreeVibration(self.free, self.offset or 0.0, self.rate)
+                return FreeVibration(Omega_n=self.free, offset=self.offset or 0.0, rate=self.rate)
         if self.harmonic is not None:
             with o.called(Omega="--harmonic"):
-                return HarmonicLoad(self.harmonic, 0.1 if self.amplitude is None else self.amplitude, self.Omega_n)
+                amplitude = 0.1 if self.amplitude is None else self.amplitude
+                return HarmonicLoad(Omega=self.harmonic, amplitude=amplitude, Omega_n=self.Omega_n)
         assert self.ramp is not None
         if self.Omega_n is None:
             raise InputError("--omega-n", None, "given with --ramp: a finite number > 0")
         with o.called(ratio="--ramp RATIO", duration="--ramp DURATION"):
-            return RampLoad(*self.ramp, self.Omega_n)
+            return RampLoad(*self.ramp, Omega_n=self.Omega_n)
 
     def _refuse_strangers(self, chosen: str) -> None:
         """Make sure that no option was given that the chosen motion does not take."""

@@ -51,21 +51,21 @@ class Case:
 CASES = {
     case.name: case
     for case in (
-        Case("1", "free vibration, Ω_n = 10.26", FreeVibration(10.26)),
+        Case("1", "free vibration, Ω_n = 10.26", FreeVibration(Omega_n=10.26)),
         Case(
             "2",
             "free vibration, Ω_n = 5.13",
-            FreeVibration(5.13),
+            FreeVibration(Omega_n=5.13),
             snapshots=tuple(0.25 * k for k in range(8)),
         ),
-        Case("3", "free vibration, Ω_n = 2.56", FreeVibration(2.56)),
-        Case("4", "harmonic load, Ω = π", HarmonicLoad(pi)),
-        Case("5", "harmonic load, Ω = 2π", HarmonicLoad(2.0 * pi), snapshots=(0.0, 0.5, 1.0, 2.0)),
-        Case("6", "harmonic load, Ω = 4π", HarmonicLoad(4.0 * pi)),
+        Case("3", "free vibration, Ω_n = 2.56", FreeVibration(Omega_n=2.56)),
+        Case("4", "harmonic load, Ω = π", HarmonicLoad(Omega=pi)),
+        Case("5", "harmonic load, Ω = 2π", HarmonicLoad(Omega=2.0 * pi), snapshots=(0.0, 0.5, 1.0, 2.0)),
+        Case("6", "harmonic load, Ω = 4π", HarmonicLoad(Omega=4.0 * pi)),
         Case(
             "validation",
             "load ramp, Ω_n = 2.4",
-            RampLoad(3.67, 1.69, 2.4),
+            RampLoad(3.67, 1.69, Omega_n=2.4),
             VALIDATION_POINT,
             Domain(-5.0, 3.0, 4.0),
             5.6,

@@ -233,7 +233,7 @@ class Study(_Section):
         _once("free", "Omega_n", self.free.Omega_n, self.free.hz)
         if self.free.hz is not None:
             return FreeVibration.at(self.point, hz=self.free.hz)
-        return FreeVibration(2.56 if self.free.Omega_n is None else self.free.Omega_n)
+        return FreeVibration(Omega_n=2.56 if self.free.Omega_n is None else self.free.Omega_n)
 
     @property
     def harmonic_motion(self) -> HarmonicLoad:
@@ -242,12 +242,12 @@ class Study(_Section):
         _once("harmonic", "Omega", settings.Omega, settings.hz)
         if settings.hz is not None:
             return HarmonicLoad.at(self.point, hz=settings.hz, amplitude=settings.amplitude)
-        return HarmonicLoad(pi if settings.Omega is None else settings.Omega, settings.amplitude)
+        return HarmonicLoad(Omega=pi if settings.Omega is None else settings.Omega, amplitude=settings.amplitude)
 
     @property
     def rotor_motion(self) -> HarmonicLoad:
         """Harmonic load at the rotor's speed."""
-        return HarmonicLoad(self.rotor_omega, self.rotor.fit_amplitude)
+        return HarmonicLoad(Omega=self.rotor_omega, amplitude=self.rotor.fit_amplitude)
 
     @property
     def largest_load(self) -> float:

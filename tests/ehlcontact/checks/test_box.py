@@ -30,7 +30,7 @@ BEARING = dict(ball_diameter=7.94e-3, pitch_diameter=39.04e-3, conformity=0.52, 
 GOOD = MoesPoint(200.0, 10.0, 0.5)
 SOLVERS = {
     "solve_steady": solve_steady,
-    "simulate": lambda point: simulate(point, FreeVibration(5.13)),
+    "simulate": lambda point: simulate(point, FreeVibration(Omega_n=5.13)),
     "impedance": lambda point: impedance(point, Omega=[1.0]),
     "FullContact": FullContact,
 }
@@ -111,7 +111,7 @@ def test_points_in_si(make, words):
 @pytest.mark.parametrize(
     "call",
     [
-        lambda: simulate(GOOD, RampLoad(1e4, 1.0, 2.4)),
+        lambda: simulate(GOOD, RampLoad(1e4, 1.0, Omega_n=2.4)),
         lambda: simulate(GOOD, PrescribedLoad([0.0, 1.0, 2.0, 3.0], [1.0, 1.0, 1e4, 1.0])),
         lambda: simulate(GOOD, PrescribedApproach([0.0, 1.0, 2.0, 3.0], [1.0, 1.0, 1e3, 1.0])),
         lambda: FullContact(GOOD, largest_load=1e4),

@@ -84,8 +84,11 @@ def test_without_a_unit_of_time_there_is_no_dimensionless_one():
         (lambda: impedance(POINT, hz=50), r"^hz = 50: must be left out: a dimensionless contact .*give Omega$"),
         (lambda: impedance(BEARING), "^frequency = None"),
         (lambda: FreeVibration(omega_n=5.13), "^omega_n = 5.13: must be given as Omega_n, dimensionless"),
+        (lambda: FreeVibration(50), "^frequency = 50: must be given as Omega_n, dimensionless; FreeVibration.at"),
+        (lambda: HarmonicLoad(50), "^frequency = 50: must be given as Omega, dimensionless; HarmonicLoad.at"),
+        (lambda: RampLoad(3.0, 1.0, 50), "^frequency = 50: must be given as Omega_n, dimensionless"),
         (lambda: HarmonicLoad(omega=1.0), "^omega = 1.0: must be given as Omega, dimensionless"),
-        (lambda: HarmonicLoad(1.0, omega_n=2.0), "^omega_n = 2.0: must be given as Omega_n, dimensionless"),
+        (lambda: HarmonicLoad(Omega=1.0, omega_n=2.0), "^omega_n = 2.0: must be given as Omega_n, dimensionless"),
         (lambda: RampLoad(3.0, 1.0, omega_n=2.0), "^omega_n = 2.0: must be given as Omega_n"),
         (
             lambda: PrescribedLoad.from_function(lambda t: 1.0, 2.0, omega_n=3.0),

@@ -76,8 +76,8 @@ def test_hdf5_on_a_disk_of_16_kb(full_disk):
 def test_results_and_checkpoints_on_a_disk_of_16_kb(full_disk):
     options = dict(n=64, until=0.2, dT=0.1)
     with pytest.raises(InputError, match=r"^checkpoint = .*No space left"):
-        simulate(POINT, HarmonicLoad(3.0), **options, checkpoint=full_disk / "c.h5")
-    result = simulate(POINT, HarmonicLoad(3.0), **options)
+        simulate(POINT, HarmonicLoad(Omega=3.0), **options, checkpoint=full_disk / "c.h5")
+    result = simulate(POINT, HarmonicLoad(Omega=3.0), **options)
     with pytest.raises(InputError, match=r"^save = .*No space left"):
         save(result, full_disk / "r.h5")
     assert names(full_disk) == ["kept.txt"]

@@ -37,9 +37,9 @@ N = 32
 FIXED = dict(n=N, until=0.8, dT=0.05, snapshots=(0.1, 0.52))
 CONTROLLED = dict(n=N, until=0.8, error=1e-3, snapshots=(0.1, 0.52))
 RUNS = {
-    "free": (FreeVibration(5.13), FIXED),
-    "harmonic over waviness": (HarmonicLoad(3.0), FIXED | dict(surface=Waviness(0.05, 0.5))),
-    "ramp, controlled": (RampLoad(1.3, 0.3, 5.13), CONTROLLED),
+    "free": (FreeVibration(Omega_n=5.13), FIXED),
+    "harmonic over waviness": (HarmonicLoad(Omega=3.0), FIXED | dict(surface=Waviness(0.05, 0.5))),
+    "ramp, controlled": (RampLoad(1.3, 0.3, Omega_n=5.13), CONTROLLED),
     "pulse, controlled": (PrescribedLoad([0.0, 0.3, 0.4, 0.5, 0.8], [1.0, 1.0, 1.3, 1.0, 1.0]), CONTROLLED),
     "approach, controlled": (PrescribedApproach([0.0, 0.3, 0.6, 0.8], [0.88, 0.95, 0.90, 0.88]), CONTROLLED),
 }
@@ -89,7 +89,7 @@ def test_an_existing_file_is_not_overwritten(tmp_path):
     path = tmp_path / "kept.h5"
     path.write_bytes(b"somebody's result")
     with pytest.raises(InputError, match=r"^checkpoint = .*would be lost"):
-        simulate(POINT, HarmonicLoad(3.0), n=16, until=0.1, dT=0.1, checkpoint=path)
+        simulate(POINT, HarmonicLoad(Omega=3.0), n=16, until=0.1, dT=0.1, checkpoint=path)
     assert path.read_bytes() == b"somebody's result"
 
 
@@ -99,11 +99,11 @@ def test_an_existing_file_is_not_overwritten(tmp_path):
 def test_other_points_and_grids(point, n, tmp_path):
     """Other coarsest grids, engines and a ring of restarts, in another process."""
     settings = dict(n=n, until=0.2, dT=0.02)
-    whole = simulate(point, HarmonicLoad(3.0), **settings)
-    simulate(point, HarmonicLoad(3.0), **settings, checkpoint=tmp_path / "c.h5", callback=stop_after(0.07))
+    whole = simulate(point, HarmonicLoad(Omega=3.0), **settings)
+    simulate(point, HarmonicLoad(Omega=3.0), **settings, checkpoint=tmp_path / "c.h5", callback=stop_after(0.07))
     simulate(
         point,
-        HarmonicLoad(3.0),
+        HarmonicLoad(Omega=3.0),
         **settings,
         restart=tmp_path / "c.h5",
         checkpoint=tmp_path / "c.h5",
@@ -112,7 +112,8 @@ def test_other_points_and_grids(point, n, tmp_path):
     script = (
         "import sys; from ehlcontact import *\n"
         f"point = MoesPoint({point.M}, {point.L}, {point.kappa})\n"
-        f"save(simulate(point, HarmonicLoad(3.0), n={n}, until=0.2, dT=0.02, restart=sys.argv[1]), sys.argv[2])"
+        f"run = simulate(point, HarmonicLoad(Omega=3.0), n={n}, until=0.2, dT=0.02, restart=sys.argv[1])\n"
+        "save(run, sys.argv[2])"
     )
     alone = os.environ | {"OPENBLAS_NUM_THREADS": "1"}
     subprocess.run([sys.executable, "-c", script, tmp_path / "c.h5", tmp_path / "r.h5"], check=True, env=alone)
@@ -181,13 +182,13 @@ def test_failed_step_leaves_the_last_good_one(tmp_path, monkeypatch):
 
 
 def test_a_finished_run_can_be_extended(tmp_path):
-    motion = HarmonicLoad(3.0)
+    motion = HarmonicLoad(Omega=3.0)
     simulate(POINT, motion, n=N, until=0.4, dT=0.05, checkpoint=tmp_path / "c.h5")
     longer = simulate(POINT, motion, n=N, until=0.8, dT=0.05, restart=tmp_path / "c.h5")
     assert_same_bits(simulate(POINT, motion, n=N, until=0.8, dT=0.05), longer)
 
 
-@pytest.mark.parametrize("motion", [HarmonicLoad(3.0), FreeVibration(5.13)], ids=lambda m: m.kind)
+@pytest.mark.parametrize("motion", [HarmonicLoad(Omega=3.0), FreeVibration(Omega_n=5.13)], ids=lambda m: m.kind)
 @pytest.mark.parametrize("dT", [None, 0.03])
 def test_a_later_end_keeps_the_stored_step(motion, dT, tmp_path):
     """Whatever the default, or the shortening, would be for that end; also the second time."""
@@ -211,14 +212,14 @@ def test_a_later_end_keeps_the_stored_step(motion, dT, tmp_path):
 def test_a_finished_run_can_be_asked_for_again(until, tmp_path):
     """Its end is met but for rounding: three steps of 0.1 are more than 0.3."""
     options = dict(n=N, until=until, dT=0.1)
-    whole = simulate(POINT, HarmonicLoad(3.0), **options, checkpoint=tmp_path / "c.h5")
-    assert_same_bits(whole, simulate(POINT, HarmonicLoad(3.0), **options, restart=tmp_path / "c.h5"))
+    whole = simulate(POINT, HarmonicLoad(Omega=3.0), **options, checkpoint=tmp_path / "c.h5")
+    assert_same_bits(whole, simulate(POINT, HarmonicLoad(Omega=3.0), **options, restart=tmp_path / "c.h5"))
 
 
 def test_a_controlled_run_can_be_extended(tmp_path):
     options = dict(n=N, error=1e-3)
-    simulate(POINT, HarmonicLoad(3.0), until=0.4, **options, checkpoint=tmp_path / "c.h5")
-    longer = simulate(POINT, HarmonicLoad(3.0), until=0.8, **options, restart=tmp_path / "c.h5")
+    simulate(POINT, HarmonicLoad(Omega=3.0), until=0.4, **options, checkpoint=tmp_path / "c.h5")
+    longer = simulate(POINT, HarmonicLoad(Omega=3.0), until=0.8, **options, restart=tmp_path / "c.h5")
     assert longer.T[-1] == 0.8
 
 
@@ -235,12 +236,12 @@ def test_a_checkpoint_that_cannot_be_written_later_is_told_and_the_run_goes_on(t
     options = dict(n=N, until=0.4, dT=0.1, checkpoint=path, checkpoint_every=0.0)
     fails.add(0.35)
     with pytest.warns(RuntimeWarning, match="No space left.*the run goes on") as told:
-        result = simulate(POINT, HarmonicLoad(3.0), **options)
+        result = simulate(POINT, HarmonicLoad(Omega=3.0), **options)
     assert len(told) == 1 and result.status.ok and load_checkpoint(path).record.T == result.T[-1]
     path.unlink()
     fails.add(9.0)
     with pytest.warns(RuntimeWarning), pytest.raises(InputError, match=r"^checkpoint = .*No space left") as caught:
-        simulate(POINT, HarmonicLoad(3.0), **options)
+        simulate(POINT, HarmonicLoad(Omega=3.0), **options)
     assert np.array_equal(caught.value.result.force, result.force)
     assert load_checkpoint(path).record.T == 0.1
 
@@ -273,7 +274,7 @@ def stopped(tmp_path_factory):
     path = tmp_path_factory.mktemp("checkpoint") / "c.h5"
     arguments = dict(
         point=POINT,
-        motion=FreeVibration(5.13),
+        motion=FreeVibration(Omega_n=5.13),
         n=N,
         until=0.4,
         dT=0.05,
@@ -290,8 +291,8 @@ def stopped(tmp_path_factory):
         (dict(point=MoesPoint(210, 10, 0.5)), ("point", "M=200", "M=210")),
         (dict(domain=Domain(-4.0, 1.5, 3.0)), ("domain", "x_in=-4.5", "x_in=-4.0")),
         (dict(n=64), ("n", "32", "64")),
-        (dict(motion=FreeVibration(5.2)), ("motion.Omega_n", "5.13", "5.2")),
-        (dict(motion=HarmonicLoad(5.13)), ("motion.kind", "free", "harmonic")),
+        (dict(motion=FreeVibration(Omega_n=5.2)), ("motion.Omega_n", "5.13", "5.2")),
+        (dict(motion=HarmonicLoad(Omega=5.13)), ("motion.kind", "free", "harmonic")),
         (dict(tol=1e-3), ("tol", "0.003", "0.001")),
         (dict(dT=0.04), ("dT", "0.05", "0.04")),
         (dict(error=1e-3), ("error", "None", "0.001")),
@@ -350,7 +351,7 @@ def test_truncated_checkpoint(stopped, tmp_path, part):
 
 
 def test_files_that_are_no_checkpoint(stopped, tmp_path):
-    save(simulate(POINT, HarmonicLoad(3.0), n=N, until=0.1, dT=0.05), tmp_path / "result.h5")
+    save(simulate(POINT, HarmonicLoad(Omega=3.0), n=N, until=0.1, dT=0.05), tmp_path / "result.h5")
     (tmp_path / "text.h5").write_text("T,u\n0,1\n")
     for name in ("result.h5", "text.h5", "missing.h5", "."):
         with pytest.raises(InputError, match=r"^restart = .*: must be .*checkpoint of `simulate`"):
@@ -364,9 +365,9 @@ def test_a_checkpoint_is_no_result(stopped):
 
 def test_checkpoint_in_no_folder(tmp_path):
     with pytest.raises(InputError, match=r"^checkpoint = .*: must be in a folder that can be written to"):
-        simulate(POINT, HarmonicLoad(3.0), n=N, until=0.1, dT=0.05, checkpoint=tmp_path / "none" / "c.h5")
+        simulate(POINT, HarmonicLoad(Omega=3.0), n=N, until=0.1, dT=0.05, checkpoint=tmp_path / "none" / "c.h5")
     with pytest.raises(InputError, match=r"^checkpoint_every = -1\.0: must be "):
-        simulate(POINT, HarmonicLoad(3.0), n=16, checkpoint=tmp_path / "c.h5", checkpoint_every=-1.0)
+        simulate(POINT, HarmonicLoad(Omega=3.0), n=16, checkpoint=tmp_path / "c.h5", checkpoint_every=-1.0)
 
 
 @pytest.mark.skipif(os.name != "posix", reason="permissions of POSIX")

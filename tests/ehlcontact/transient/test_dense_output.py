@@ -13,7 +13,7 @@ POINT = MoesPoint(20, 5, 0.5)
 
 @pytest.fixture(scope="module")
 def record():
-    return simulate(POINT, HarmonicLoad(pi), n=16, until=1.0, dT=0.1)
+    return simulate(POINT, HarmonicLoad(Omega=pi), n=16, until=1.0, dT=0.1)
 
 
 def smooth(record, steps):
@@ -80,4 +80,4 @@ def test_outside_the_record(record, T):
 
 def test_too_short_a_record(record):
     with pytest.raises(InputError, match=r"^steps = 1: must be at least 2"):
-        simulate(POINT, HarmonicLoad(pi), n=16, until=0.1, dT=0.1).at(0.05)
+        simulate(POINT, HarmonicLoad(Omega=pi), n=16, until=0.1, dT=0.1).at(0.05)

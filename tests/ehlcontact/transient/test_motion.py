@@ -14,11 +14,11 @@ BAD = [0.0, -1.0, NAN, INF, True, None, "fast", [1.0, 2.0]]
 
 
 def test_free_vibration_defaults():
-    motion = FreeVibration(5.13)
+    motion = FreeVibration(Omega_n=5.13)
     assert motion.period == pytest.approx(5.13 / 5.13, rel=1e-3)
     assert motion.initial_rate == pytest.approx(0.1 * 1.5**0.5 * 5.13)
-    assert FreeVibration(5.13, offset=0.1).initial_rate == 0.0
-    assert FreeVibration(5.13, rate=-0.2).initial_rate == -0.2
+    assert FreeVibration(Omega_n=5.13, offset=0.1).initial_rate == 0.0
+    assert FreeVibration(Omega_n=5.13, rate=-0.2).initial_rate == -0.2
     assert motion.load(3.0) == 1.0
     assert motion.default_end == pytest.approx(2.5 * motion.period)
     assert motion.default_step <= motion.period / 40
@@ -26,18 +26,18 @@ def test_free_vibration_defaults():
 
 
 def test_harmonic_load():
-    motion = HarmonicLoad(pi, amplitude=0.2)
+    motion = HarmonicLoad(Omega=pi, amplitude=0.2)
     assert motion.period == pytest.approx(2.0)
     assert motion.load(0.5) == pytest.approx(1.2)
     assert motion.load(1.5) == pytest.approx(0.8)
     assert motion.largest_load == pytest.approx(1.2)
     assert motion.default_end >= 2.0 + motion.period
-    assert HarmonicLoad(0.01).default_step <= 0.5
-    assert HarmonicLoad(50.0).default_end >= 2.0
+    assert HarmonicLoad(Omega=0.01).default_step <= 0.5
+    assert HarmonicLoad(Omega=50.0).default_end >= 2.0
 
 
 def test_ramp_load():
-    motion = RampLoad(3.67, 1.69, 2.4)
+    motion = RampLoad(3.67, 1.69, Omega_n=2.4)
     assert motion.load(0.0) == 1.0
     assert motion.load(0.5 * 1.69) == pytest.approx(0.5 * 4.67)
     assert motion.load(5.0) == pytest.approx(3.67)
@@ -65,12 +65,12 @@ def test_prescribed_approach():
 @pytest.mark.parametrize(
     ("make", "field"),
     [
-        (lambda v: FreeVibration(v), "Omega_n"),
-        (lambda v: HarmonicLoad(v), "Omega"),
-        (lambda v: HarmonicLoad(1.0, amplitude=v), "amplitude"),
-        (lambda v: RampLoad(v, 1.0, 2.0), "ratio"),
-        (lambda v: RampLoad(2.0, v, 2.0), "duration"),
-        (lambda v: RampLoad(2.0, 1.0, v), "Omega_n"),
+        (lambda v: FreeVibration(Omega_n=v), "Omega_n"),
+        (lambda v: HarmonicLoad(Omega=v), "Omega"),
+        (lambda v: HarmonicLoad(Omega=1.0, amplitude=v), "amplitude"),
+        (lambda v: RampLoad(v, 1.0, Omega_n=2.0), "ratio"),
+        (lambda v: RampLoad(2.0, v, Omega_n=2.0), "duration"),
+        (lambda v: RampLoad(2.0, 1.0, Omega_n=v), "Omega_n"),
         (lambda v: PrescribedLoad.from_function(lambda t: 1.0, v), "until"),
     ],
     ids=["free", "harmonic", "amplitude", "ratio", "duration", "ramp Omega_n", "until"],
@@ -83,13 +83,13 @@ def test_bad_number_is_named(make, field, value):
 @pytest.mark.parametrize(
     ("field", "make"),
     [
-        ("offset", lambda: FreeVibration(5.0, offset=NAN)),
-        ("offset", lambda: FreeVibration(5.0, offset=2.5)),
-        ("offset", lambda: FreeVibration(5.0, offset=0.0, rate=0.0)),
-        ("rate", lambda: FreeVibration(5.0, rate=INF)),
-        ("rate", lambda: FreeVibration(1.0, rate=2.6)),
-        ("amplitude", lambda: HarmonicLoad(1.0, amplitude=1.0)),
-        ("Omega_n", lambda: HarmonicLoad(1.0, Omega_n=-1.0)),
+        ("offset", lambda: FreeVibration(Omega_n=5.0, offset=NAN)),
+        ("offset", lambda: FreeVibration(Omega_n=5.0, offset=2.5)),
+        ("offset", lambda: FreeVibration(Omega_n=5.0, offset=0.0, rate=0.0)),
+        ("rate", lambda: FreeVibration(Omega_n=5.0, rate=INF)),
+        ("rate", lambda: FreeVibration(Omega_n=1.0, rate=2.6)),
+        ("amplitude", lambda: HarmonicLoad(Omega=1.0, amplitude=1.0)),
+        ("Omega_n", lambda: HarmonicLoad(Omega=1.0, Omega_n=-1.0)),
         ("Omega_n", lambda: PrescribedLoad(T, 1.0 + T, Omega_n=0.0)),
         ("values", lambda: PrescribedLoad(T, 1.0 - T)),
         ("length of values", lambda: PrescribedLoad(T, T[:-1])),
@@ -111,10 +111,10 @@ def test_other_bad_input_is_named(field, make):
 
 
 MOTIONS = [
-    FreeVibration(5.13, offset=0.05),
-    FreeVibration(5.13),
-    HarmonicLoad(pi, 0.2, Omega_n=12.0),
-    RampLoad(3.67, 1.69, 2.4),
+    FreeVibration(Omega_n=5.13, offset=0.05),
+    FreeVibration(Omega_n=5.13),
+    HarmonicLoad(Omega=pi, amplitude=0.2, Omega_n=12.0),
+    RampLoad(3.67, 1.69, Omega_n=2.4),
     PrescribedLoad(T, 1.0 + 0.1 * T, Omega_n=3.0),
     PrescribedApproach(T, 0.9 + 0.01 * T),
 ]

@@ -103,7 +103,11 @@ def test_film_round_a_carried_dent(depth, largest):
 def test_surface_must_be_even_in_y():
     with pytest.raises(InputError, match=r"^surface = .*even in Y"):
         simulate(
-            MoesPoint(200, 10, 0.5), HarmonicLoad(3.0), n=16, until=0.1, surface=lambda X, Y, T: 0.01 * Y + 0.0 * X
+            MoesPoint(200, 10, 0.5),
+            HarmonicLoad(Omega=3.0),
+            n=16,
+            until=0.1,
+            surface=lambda X, Y, T: 0.01 * Y + 0.0 * X,
         )
 
 
@@ -138,15 +142,15 @@ def test_step_of_a_surface_is_not_taken_for_a_short_wave():
 def test_surface_that_closes_the_gap_is_named():
     ridge = TransverseRidge(3.0, 0.4, start=0.0)
     with pytest.raises(ConvergenceError, match="surface stands out by 3"):
-        simulate(MoesPoint(200, 10, 0.5), HarmonicLoad(3.0), n=32, until=0.1, surface=ridge)
+        simulate(MoesPoint(200, 10, 0.5), HarmonicLoad(Omega=3.0), n=32, until=0.1, surface=ridge)
 
 
 def test_endless_fixed_steps_are_refused():
     with pytest.raises(InputError, match=r"^dT = 1e-09: must be at least"):
-        simulate(MoesPoint(200, 10, 0.5), HarmonicLoad(3.0), n=16, until=10.0, dT=1e-9)
+        simulate(MoesPoint(200, 10, 0.5), HarmonicLoad(Omega=3.0), n=16, until=10.0, dT=1e-9)
 
 
 @pytest.mark.parametrize(("arguments", "named"), [({"surface": 3}, "surface"), ({"snapshots": 0.5}, "snapshots")])
 def test_what_is_no_surface_and_no_list(arguments, named):
     with pytest.raises(InputError, match=rf"^{named} = "):
-        simulate(MoesPoint(200, 10, 0.5), HarmonicLoad(3.0), n=16, until=0.1, **arguments)
+        simulate(MoesPoint(200, 10, 0.5), HarmonicLoad(Omega=3.0), n=16, until=0.1, **arguments)

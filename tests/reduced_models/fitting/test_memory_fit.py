@@ -21,7 +21,7 @@ EXAMPLE = Path(__file__).parents[3] / "examples" / "one_element_for_all.py"
 def coarse():
     """Impedance and records of the same contact on a coarse grid."""
     response = impedance(POINT, Omega=OMEGAS, n=32)
-    motions = (FreeVibration(5.13), HarmonicLoad(pi / 4), HarmonicLoad(2.0 * pi))
+    motions = (FreeVibration(Omega_n=5.13), HarmonicLoad(Omega=pi / 4), HarmonicLoad(Omega=2.0 * pi))
     records = [
         ContactRecord.from_result(simulate(POINT, motion, n=32, domain=response.domain)) for motion in motions
     ]
