@@ -10,6 +10,9 @@ from report.page import PageNumbers
 from report.rotor import RecomputedRotor
 from tiny_study import STUDY
 
+from ehlcontact.cli.study.forecast import cautions
+from ehlcontact.cli.study.schema import load_study
+
 # Two balls, another grid for the steady film, and a swing so wild that the run has not settled.
 WILD = {
     "n = 32\nn_t": "n = 48\nn_t",
@@ -144,6 +147,8 @@ def test_every_number_of_the_page(made, again, rotor, results, refused):
     contact_claims.claim_fmu(page, made[1])
     contact_claims.claim_origin(page, results)
     rotor_claims.claim_headline(page, rotor)
+    for told in cautions(load_study(made[1] / "study.toml")):  # `validate` has tests of its own
+        page.claim(told)
     rotor_claims.claim_rotor(page, rotor)
     rotor_claims.claim_decay(page, rotor)
     rotor_claims.claim_unbalance(page, rotor)

@@ -4,6 +4,7 @@ import html
 import json
 from dataclasses import replace
 from math import pi
+from pathlib import Path
 from types import SimpleNamespace
 
 import h5py
@@ -226,6 +227,17 @@ def test_lift_off_is_in_the_headline():
 def test_what_is_not_settled_is_in_the_headline():
     told = headline.unsettled(fake(unbalance={"settling": {"full": Settling((0.2, 0.07), 0.01)}}))
     assert told.startswith("NOT SETTLED") and "full film (7 %)" in told
+
+
+def test_a_coarse_grid_is_in_the_headline(tmp_path):
+    """A heavy load on the mesh of a light one converges, with a film far too thin."""
+    text = (Path(__file__).parents[2] / "examples" / "small_study.toml").read_text()
+    (tmp_path / "heavy.toml").write_text(text.replace("radial_load = 70.0", "radial_load = 3000.0"))
+    assert "radial_load = 70.0" in text
+    told = headline.grids(SimpleNamespace(study=load_study(tmp_path / "heavy.toml")))
+    assert told.startswith("NOT AS SURE AS IT LOOKS: solver.n = 64: a mesh of ") and "too coarse" in told
+    (tmp_path / "light.toml").write_text(text)
+    assert headline.grids(SimpleNamespace(study=load_study(tmp_path / "light.toml"))) == ""
 
 
 def test_a_long_step_is_in_the_headline():

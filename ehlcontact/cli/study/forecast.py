@@ -142,7 +142,7 @@ def forecast(study: Study, folder: Path, jobs: int) -> Forecast:
         seconds = cost * conv * mesh.nodes(kappa) * 1e-3
         estimate = float(seconds) if np.isfinite(seconds) else None
         plans.append(Plan(stage, mesh, contacts, steps, step, estimate, is_done(stage, study, folder, ledger)))
-    return Forecast(study, folder, jobs, conv, tuple(plans), tuple(_warnings(study)))
+    return Forecast(study, folder, jobs, conv, tuple(plans), tuple(cautions(study)))
 
 
 def convolution_seconds() -> float:
@@ -179,7 +179,7 @@ def _work(name: str, study: Study) -> tuple[Mesh, int, int, float | None]:
     return mesh, contacts, ceil(periods * each - 1e-9), None if period is None else period / each
 
 
-def _warnings(study: Study) -> list[str]:
+def cautions(study: Study) -> list[str]:
     """What will run, but not well."""
     return [*_coarse(study), *_outside(study)]
 

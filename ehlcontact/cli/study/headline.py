@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ehlcontact.cli.numerals import numeral, percent
 from ehlcontact.cli.study.differences import Events
+from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.reduction import CHOSEN, CONTACTS, DRY, FULL, MEMORY, UNDAMPED, WRONG
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ STEP_TOLD = 0.01
 
 def headline(found: Findings) -> str:
     """The paragraph."""
-    parts = (contact, damper, decay, unbalance, unsettled, step_check, happenings, failures, assumed)
+    parts = (contact, damper, decay, unbalance, unsettled, step_check, grids, happenings, failures, assumed)
     return " ".join(text for text in (part(found) for part in parts) if text)
 
 
@@ -111,6 +112,12 @@ def step_check(found: Findings) -> str:
     if d.step_share > STEP_TOLD:
         said.append(f"the decrement by {percent(d.step_share, 2)} of it")
     return f"THE STEP IS LONG: half of it changes {' and '.join(said)}, on the full film." if said else ""
+
+
+def grids(found: Findings) -> str:
+    """What `validate` would have told beforehand: meshes too coarse for this film, numbers nobody measured at."""
+    said = cautions(found.study)
+    return f"NOT AS SURE AS IT LOOKS: {'; '.join(said)}." if said else ""
 
 
 def happenings(found: Findings) -> str:
