@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import HarmonicLoad, impedance, simulate
-from ehlcontact.cli.study.forecast import _warnings
+from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.schema import load_study
 from reduced_models import Atlas, ContactRecord, fit
 
@@ -65,4 +65,4 @@ def test_the_film_itself_says_the_same(snippet):
     fitted = fit(ContactRecord.from_result(record), model="cubic").element.to_si(point.scales)
     assert pytest.approx(float(film.si.damping[0]), rel=0.03) == fitted.C1
     assert record.n == load_study(ROOT / "examples" / "deep_groove_6205.toml").solver.n_transient
-    assert _warnings(load_study(ROOT / "examples" / "deep_groove_6205.toml")) == []
+    assert cautions(load_study(ROOT / "examples" / "deep_groove_6205.toml")) == []
