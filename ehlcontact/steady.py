@@ -30,6 +30,7 @@ from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.status import Status
 
+LARGEST_RESIDUAL = 0.1  # relative, of a converged film: what is solved is judged by the pressure
 LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7
 MAX_CYCLES = 80  # of V cycles: films of the box take up to 34
@@ -40,14 +41,14 @@ class Method(NamedTuple):
     """How one mesh is solved."""
 
     newton: bool
-    cautious: bool  # relaxation
+    effort: int  # of the cycles, and of those that lead to the start of Newton steps
 
 
-LAST_RESORT = Method(newton=True, cautious=True)
+LAST_RESORT = Method(newton=True, effort=2)
 METHODS = {
-    "automatic": (Method(False, False), Method(False, True), LAST_RESORT),
-    "multigrid": (Method(False, False),),
-    "newton": (Method(True, False),),
+    "automatic": (Method(False, 1), Method(False, 2), LAST_RESORT),
+    "multigrid": (Method(False, 1),),
+    "newton": (Method(True, 1),),
 }
 
 
@@ -57,7 +58,7 @@ def solve_steady(
     n: int | None = None,
     domain: Domain | None = None,
     approach: float | None = None,
-    tol: float = 3e-5,
+    tol: float = 1e-5,
     max_cycles: int = MAX_CYCLES,
     method: str = "automatic",
     deflection: str = "fft",
@@ -78,13 +79,14 @@ def solve_steady(
         Prescribe the approach (dry Hertz value 1) instead of the load; above 1 the default domain widens for the
         force it takes.
     tol : float
-        Mean |residual| over P > 0 relative to that of the dry Hertz start on the same grid.
+        Largest change of the pressure that further cycles would still make, over the Hertz pressure: the last one
+        and its factor from cycle to cycle tell.
     max_cycles : int
         Limit of V(2,1) cycles, or of Newton steps, on the finest grid.
     method : {"automatic", "multigrid", "newton"}
         V cycles, or Newton steps from the same full-multigrid start; both solve the same equations.
-        ``"automatic"`` cycles; where that fails it cycles with cautious relaxation, and at last, on grids that
-        allow it, turns to Newton.
+        ``"automatic"`` cycles; where that fails it begins again with twice the sweeps in every cycle, and at last,
+        on grids that allow it, turns to Newton.
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection: fast transforms, exact to rounding; multilevel multi-integration, as in
         the paper; the direct sum, slow. See `ehlcontact.solver.deflection`.
@@ -143,7 +145,7 @@ class _Attempt:
 
     def __init__(self, point: MoesPoint, mesh: Mesh, method: Method, deflection: str) -> None:
         self.mesh, self.method = mesh, method
-        self.multigrid = Multigrid(point, mesh, deflection=deflection, cautious=method.cautious)
+        self.multigrid = Multigrid(point, mesh, deflection=deflection, effort=method.effort)
         self.scale = self.multigrid.finest.dry_residual()
         self.track = Track()
 
@@ -152,7 +154,7 @@ class _Attempt:
         mg = self.multigrid
         if balance.weight == 0.0:
             mg.u = balance.rhs
-        goal = Goal(self.scale, tol, most, LOAD_TOLERANCE, APPROACH_TOLERANCE)
+        goal = Goal(self.scale, LARGEST_RESIDUAL, most, LOAD_TOLERANCE, APPROACH_TOLERANCE, pressure=tol)
         try:
             mg.full_multigrid(balance)
             if self.method.newton:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from math import inf, isfinite
 from typing import NamedTuple
 
@@ -19,6 +20,9 @@ from ehlcontact.status import Status
 STAGNATION_CYCLES = 6  # the last so many are held against all before them,
 STAGNATION_FACTOR = 0.7  # and have to bring the least residual down to this share
 DIVERGENCE_FACTOR = 1e3  # times the scale: a residual that large does not come back
+SLOW = 0.5  # change of the pressure over that of the iteration before, above which the sweeps are doubled,
+MOST_EFFORT = 4  # up to so many times
+LEAST_FACTOR = 0.2  # assumed of what is to come: the first iterations fall faster
 BORDER_SLOPE = 0.1  # of the maximum per semi-axis, at inlet and sides
 BORDER_PRESSURE = 0.02  # of the maximum, beside the outlet; a film that ends outside the grid is not computed
 
@@ -32,6 +36,7 @@ class Goal(NamedTuple):
     balance: float  # largest residual of the balance,
     approach: float  # and changes of u
     force: float = inf  # and of the force in the last iteration
+    pressure: float = inf  # largest change of P that is still to come
 
 
 @dataclass(slots=True)
@@ -41,17 +46,38 @@ class Track:
     residuals: list[float] = field(default_factory=list)  # mean |residual| over P > 0
     balance_residuals: list[float] = field(default_factory=list)
     changes: list[float] = field(default_factory=list)  # of u, one per iteration
+    pressure_changes: list[float] = field(default_factory=list)  # largest of P, one per iteration
 
     @property
     def iterations(self) -> int:
         """Number of cycles or steps."""
         return len(self.residuals) - 1
 
+    @property
+    def pressure_error(self) -> float:
+        """Largest change of P that is still to come: the last one, and all that follow if they go on falling so.
+
+        The residual tells less: it weighs a node by its flow factor, that is, most where pressure matters least.
+        """
+        return pressure_error(self.pressure_changes)
+
+
+def pressure_error(changes: Sequence[float]) -> float:
+    """Sum of the changes that follow `changes`, as a geometric series of the worse of the last two factors.
+
+    Infinite before any iteration and where they do not fall; a single change stands for itself.
+    """
+    if len(changes) < 2:
+        return changes[0] if changes else inf
+    last = changes[-3:]
+    factor = max(LEAST_FACTOR, *(b / a if a > 0.0 else 0.0 for a, b in pairwise(last)))
+    return changes[-1] * factor / (1.0 - factor) if factor < 1.0 else inf
+
 
 def iterate(
     film: Multigrid,
     balance: Balance,
-    advance: Callable[[Balance], None],
+    advance: Callable[[Balance], float],
     goal: Goal,
     track: Track,
     watch: Callable[[int, float], None] | None = None,
@@ -64,7 +90,7 @@ def iterate(
         Its finest level is up to date.
     balance : Balance
     advance : callable
-        `Multigrid.cycle`, or a Newton step.
+        `Multigrid.cycle`, or a Newton step; returns the largest change of P.
     goal : Goal
     track : Track
         Empty; filled as it goes, so that an interrupted caller still has it.
@@ -72,6 +98,7 @@ def iterate(
         Called with the number of the iteration and the residual after it, over the scale.
     """
     level = film.finest
+    film.effort = film.least_effort
     change_of_u = change_of_force = inf
     while True:
         force = level.force()
@@ -81,30 +108,39 @@ def iterate(
             watch(track.iterations, track.residuals[-1] / goal.scale)
         settled = change_of_u < goal.approach and change_of_force <= goal.force
         settled = settled and abs(track.balance_residuals[-1]) < goal.balance
+        settled = settled and track.pressure_error <= goal.pressure
         if not isfinite(track.balance_residuals[-1]):  # a pressure of NaN has no residual
             return Status.NONFINITE
-        if (status := classify(track.residuals, goal, settled)) is not None:
+        if (status := classify(track.residuals, goal, settled, track.pressure_changes)) is not None:
             return judge(status, level)
         u = film.u
-        advance(balance)
+        track.pressure_changes.append(advance(balance))
         change_of_u, change_of_force = abs(film.u - u), abs(level.force() - force)
         track.changes.append(change_of_u)
+        if track.iterations > 0 and track.pressure_changes[-1] > SLOW * track.pressure_changes[-2]:
+            film.effort = min(2 * film.effort, MOST_EFFORT)
 
 
-def classify(residuals: Sequence[float], goal: Goal, settled: bool) -> Status | None:
-    """Status of an iteration with these residuals, or None to go on; `settled`: the other criteria hold."""
+def classify(
+    residuals: Sequence[float], goal: Goal, settled: bool, changes: Sequence[float] = ()
+) -> Status | None:
+    """Status of an iteration with these residuals, or None to go on.
+
+    `settled`: the other criteria hold; `changes`: those of the pressure, by which stagnation is judged.
+    """
     last, cycles = residuals[-1], len(residuals) - 1
     if not isfinite(last):
         return Status.NONFINITE
     if last <= goal.tol * goal.scale and settled:
         return Status.CONVERGED
-    if last > DIVERGENCE_FACTOR * goal.scale:
+    if cycles > 0 and last > DIVERGENCE_FACTOR * goal.scale:  # a poor start is not divergence
         return Status.DIVERGED
     if cycles >= goal.most:
         return Status.MAX_CYCLES
     if cycles > 2 * STAGNATION_CYCLES:
-        recent = min(residuals[-STAGNATION_CYCLES:])
-        if recent > STAGNATION_FACTOR * min(residuals[:-STAGNATION_CYCLES]):
+        judged = changes or residuals
+        recent = min(judged[-STAGNATION_CYCLES:])
+        if recent > STAGNATION_FACTOR * min(judged[:-STAGNATION_CYCLES]):
             return Status.STAGNATED
     return None
 

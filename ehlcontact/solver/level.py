@@ -11,13 +11,14 @@ from ehlcontact.hertz import shape_factor
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.deflection import make_deflection
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.kernels import boundary, relax, reynolds
+from ehlcontact.solver.kernels import boundary, flanks, relax, reynolds
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS
 from ehlcontact.solver.lowest_film import lowest_film
 from ehlcontact.solver.mesh import Mesh
 
 Array = NDArray[np.float64]
 
+LINES_APART = 5.0  # physical distance of lines over that of nodes, from which a level is coarsened along X alone
 FORCE_FACTOR = 1.5 / np.pi  # eq. 4: force = 3/(2 pi) iint P
 
 
@@ -31,8 +32,6 @@ class Fields(NamedTuple):
     w: Array  # distributed change
     p_coef: Array  # (6, ny + 1, nx + 1)
     h_coef: Array  # (6, ny + 1, nx + 1)
-    band: Array  # (bandwidth, nx - 1 + PAD)
-    b: Array  # (nx - 1 + PAD,)
 
 
 class Level:
@@ -47,12 +46,11 @@ class Level:
         self.X = np.linspace(domain.x_in, domain.x_out, nx + 1)
         self.Y = np.linspace(0.0, domain.y_max, ny + 1)
         self.hx, self.hy = (domain.x_out - domain.x_in) / nx, domain.y_max / ny
-        self.cautious = False  # relaxation: slower, and does not swing from line to line where the other does
         self.set_point(point)
         S = shape_factor(point.kappa)
         self.gap = S * self.X**2 + (1.0 - S) * self.Y[:, None] ** 2
         self.deflection = make_deflection(nx, ny, self.hx, self.hy, point.kappa, deflection)
-        self.near, self.spread = _near_coefficients(self.deflection.kernel)
+        self.near = self.deflection.kernel[: relax.NEAR + 2, : relax.NEAR + 2].copy()
         shape = (ny + 1, nx + 1)
         self.fields = Fields(
             P=np.zeros(shape),
@@ -62,8 +60,6 @@ class Level:
             w=np.zeros(shape),
             p_coef=np.zeros((NEIGHBOURS, *shape)),
             h_coef=np.zeros((NEIGHBOURS, *shape)),
-            band=np.zeros((relax.BAND_LOWER + relax.BAND_UPPER + 1, nx - 1 + relax.PAD)),
-            b=np.zeros(nx - 1 + relax.PAD),
         )
         self.rhs = np.zeros(shape)
         self.film_shift: Array | float = 0.0
@@ -76,18 +72,17 @@ class Level:
 
     def set_point(self, point: MoesPoint) -> None:
         """Numbers that the kernels need at `point`, whose kappa must be that of the level."""
-        self.law = point.law
+        self.M, self.law = point.M, point.law
         # On a mesh finer along X, smooth changes of P deflect the film further beyond the near coefficients.
         # In a contact long along rolling the same P deflects it more too (kernel over hx goes like 1/K(kappa));
         # that the value should rise like kappa itself is measured, not derived.
-        switch = relax.SWITCH * max(1.0, 0.5 * self.hy / (point.kappa * self.hx)) * max(1.0, point.kappa)
+        switch = relax.SWITCH * max(1.0, 0.5 * self.hy / (point.kappa * self.hx))
         self.stencil = reynolds.Stencil(
             cx=self.hx**-2,
             cy=point.kappa**2 * self.hy**-2,
             inv_hx=1.0 / self.hx,
             lam=point.lam,
-            switch=switch * (relax.CAUTIOUS_SWITCH if self.cautious else 1.0),
-            damping=relax.CAUTIOUS_DAMPING if self.cautious else 0.0,
+            switch=switch,
         )
 
     @property
@@ -158,12 +153,28 @@ class Level:
 
     def relax(self) -> None:
         """One relaxation sweep from the state of the last `update`; P written, the rest left to the next one."""
-        f, numbers = self.fields, self.stencil
-        relax.relax_lines(f, self.rhs, self.law, numbers, self.c_t, self.near, self.spread)
+        f, numbers, lines = self.fields, self.stencil, self.ny
+        self._weigh()
+        for colour in (0, 1):
+            if colour == 1:
+                reynolds.update_flow(f.P, f.H, self.law, numbers, f.flow)
+            relax.relax_lines(0, (lines + 1 - colour) // 2, colour, f, self.rhs, numbers, self.c_t, self.near)
+            relax.apply_lines(0, lines, colour, f, self.near)
         own = self.near[0, 0]
         boundary.relax_boundary(
             f.P, f.H, f.flow, self.rhs, self.law, numbers, self.c_t, own, self.nodes, self.marks
         )
+
+    def relax_flanks(self) -> None:
+        """Local passes along the steep flanks, from the state of the last `update`; as `relax`."""
+        self._weigh()
+        f = self.fields
+        flanks.relax_flanks(f, self.rhs, self.law, self.stencil, self.c_t, self.near, self.marks)
+
+    def _weigh(self) -> None:
+        """Weights of the distributed changes, from the state of the last `update`."""
+        f = self.fields
+        relax.distribution_weights(0, self.ny, f.P, f.flow, self.stencil, self.c_t, f.theta)
 
     def set_dry_hertz(self) -> None:
         """Dry Hertz pressure, the start of every solve."""
@@ -171,7 +182,14 @@ class Level:
 
 
 def build_hierarchy(point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str = "fft") -> list[Level]:
-    """Levels coarse to fine, halving the mesh while at least `coarsest` intervals are left."""
+    """Levels coarse to fine, halving the mesh while at least `coarsest` intervals are left.
+
+    Physically, lines across a wide contact lie many node distances apart. The near coefficients of a line then stand
+    for too little of what a change that is smooth along X, but differs from line to line, does to the film: sweeps
+    leave such stripes (factor .96 each at kappa = .09, n = 512), and a grid with half the lines does not see them. One
+    with half the nodes on every line does. So these meshes are coarsened along X until lines lie less than
+    LINES_APART node distances apart.
+    """
     n, domain = mesh.n, mesh.domain
     halvings = 0
     while (n >> halvings) % 2 == 0 and (n >> (halvings + 1)) >= coarsest:
@@ -181,13 +199,10 @@ def build_hierarchy(point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str
     # lines lie closer together than their nodes
     hy = hx * max(1.0, point.kappa)
     ny = max(4, round(domain.y_max / hy / 2**halvings)) * 2**halvings
-    return [Level(point, domain, n >> k, ny >> k, deflection) for k in range(halvings, -1, -1)]
-
-
-def _near_coefficients(kernel: Array) -> tuple[Array, Array]:
-    """Near influence coefficients by lag, and their means over the four neighbours of the source."""
-    size = relax.NEAR + 1
-    lag = np.abs(np.arange(-1, size + 1))
-    k = kernel[np.ix_(lag, lag)]
-    spread = relax.SHARE * (k[:-2, 1:-1] + k[2:, 1:-1] + k[1:-1, :-2] + k[1:-1, 2:])
-    return np.ascontiguousarray(kernel[:size, :size]), np.ascontiguousarray(spread)
+    sizes, coarsest = [(n, ny)], (n >> halvings, ny >> halvings)
+    while sizes[-1] != coarsest:
+        nx, ny = sizes[-1]
+        apart = (domain.y_max / ny) / (point.kappa * (domain.x_out - domain.x_in) / nx)
+        both = apart < LINES_APART or nx == coarsest[0]
+        sizes.append((nx // 2 if nx > coarsest[0] else nx, ny // 2 if both and ny > coarsest[1] else ny))
+    return [Level(point, domain, *size, deflection) for size in reversed(sizes)]

@@ -31,7 +31,7 @@ from scipy.sparse.linalg import LinearOperator, gcrotmk, splu
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse import BALANCE_WEIGHT, bordered_lu, coefficients
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
-from ehlcontact.solver.kernels.relax import SHARE
+from ehlcontact.solver.kernels.relax import SHARE, response
 from ehlcontact.solver.level import Array, Level
 
 Mask = NDArray[np.bool_]
@@ -163,8 +163,7 @@ class NearCorrection:
         shape = system.free.shape
         shares = np.array([1.0, *(len(CROSS) - 1) * (-SHARE,)])
         self._distribution = stencil_matrix(CROSS, shares[:, None, None], shape)[inside][:, inside]
-        decaying = fine.near - fine.spread
-        near = np.array([decaying[abs(dj), abs(di)] for dj, di in SQUARE])
+        near = np.array([response(dj, di, (SHARE,) * (len(CROSS) - 1), fine.near) for dj, di in SQUARE])
         film = stencil_matrix(SQUARE, near[:, None, None], shape)[:, inside]
         matrix = system.by_pressure[inside][:, inside] @ self._distribution + system.by_film[inside] @ film
         self._lu = splu(matrix.tocsc(), **SPARSE_LU)
@@ -185,18 +184,18 @@ class CoarseCorrection:
     """Dense bordered Jacobian of a coarse level, with interpolation from it and its weighted transpose."""
 
     def __init__(self, coarse: Level, fine: Level, system: LinearFilm) -> None:
-        every = fine.nx // coarse.nx
-        self._nodes = np.flatnonzero(system.free[::every, ::every])
-        across, along = (_interpolation(intervals, every) for intervals in (coarse.ny, coarse.nx))
+        every = fine.ny // coarse.ny, fine.nx // coarse.nx
+        self._nodes = np.flatnonzero(system.free[:: every[0], :: every[1]])
+        across, along = (_interpolation(n, k) for n, k in zip((coarse.ny, coarse.nx), every, strict=True))
         self._up = sparse.kron(across, along, format="csr")[:, self._nodes]
         weights = coarse.force_weights.ravel()[self._nodes]
         self._down = sparse.diags(1.0 / weights) @ self._up.T @ sparse.diags(fine.force_weights.ravel())
         self._lu = self._factorise(coarse, fine, every, system)
 
-    def _factorise(self, coarse: Level, fine: Level, every: int, system: LinearFilm) -> Any:
+    def _factorise(self, coarse: Level, fine: Level, every: tuple[int, int], system: LinearFilm) -> Any:
         f = coarse.fields
-        f.P[...] = fine.P[::every, ::every]
-        f.H[...] = fine.H[::every, ::every]
+        f.P[...] = fine.P[:: every[0], :: every[1]]
+        f.H[...] = fine.H[:: every[0], :: every[1]]
         coarse.update_residual()  # for eps
         return bordered_lu(coarse, self._nodes, coefficients(coarse, system.c_t), system.balance)
 

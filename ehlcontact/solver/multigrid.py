@@ -1,8 +1,10 @@
 """Full-approximation-scheme multigrid, with force balance or equation of motion inside the cycle.
 
-Venner and Lubrecht (2000), ch. 3 and 6, with three changes that remove the usual stall: the blend of both
-relaxations is smooth (`kernels.relax`), the cavitation boundary gets local passes (`kernels.boundary`), and
-the coarsest grid is solved by Newton together with u (`coarse`) instead of being relaxed.
+Venner and Lubrecht (2000), ch. 3 and 6, with changes that make its convergence independent of the mesh: the blend of
+both relaxations is smooth and gives nothing to nodes of the other kind (`kernels.relax`), the steep flanks of the
+pressure and the cavitation boundary get local passes (`kernels.flanks`, `kernels.boundary`), lines that lie far apart
+are coarsened along X first (`level.build_hierarchy`), and the coarsest grid is solved by Newton together with u
+(`coarse`) instead of being relaxed.
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ from ehlcontact.solver.kernels import transfer
 from ehlcontact.solver.level import Level, build_hierarchy
 from ehlcontact.solver.mesh import Mesh, coarsest_intervals, resolved_load
 
-PRE_SWEEPS, POST_SWEEPS = 2, 1
+PRE_SWEEPS, POST_SWEEPS = 2, 1  # then the flanks
 CYCLES_PER_LEVEL = 1  # of full multigrid, before the finest level
 LARGEST_LOADING = 4.0  # factor by which the load of a level rises at once
 CYCLES_AFTER_LOADING = 4  # on a level that carries more load than the one below
@@ -33,12 +35,10 @@ class Multigrid:
     changes it in other ways calls ``finest.update(u)``.
     """
 
-    def __init__(self, point: MoesPoint, mesh: Mesh, *, deflection: str = "fft", cautious: bool = False) -> None:
+    def __init__(self, point: MoesPoint, mesh: Mesh, *, deflection: str = "fft", effort: int = 1) -> None:
         self.point = point
         self.levels = build_hierarchy(point, mesh, coarsest_intervals(point, mesh.n), deflection)
-        for level in self.levels:
-            level.cautious = cautious
-            level.set_point(point)
+        self.effort = self.least_effort = effort  # how often the sweeps of a cycle are repeated
         self.newton = CoarseNewton(self.levels[0])
         self.u = initial_approach(point)
 
@@ -67,57 +67,62 @@ class Multigrid:
             fine.rhs[...] = 0.0
             fine.film_shift = 0.0
             _interpolate_solution(coarse, fine)
-            cycles = CYCLES_PER_LEVEL if fine is not self.finest else 0
             steps = ceil(log(loads[k] / loads[k - 1]) / log(LARGEST_LOADING) - 1e-9)
             for step in range(1, steps + 1):
                 self._set_load(k, loads[k - 1] * (loads[k] / loads[k - 1]) ** (step / steps))
                 self._repeat(k, CYCLES_AFTER_LOADING, balance)
-            self._repeat(k, cycles if steps == 0 else 0, balance)
+            if steps == 0:
+                self._set_load(k, loads[k])
+                self._repeat(k, CYCLES_PER_LEVEL if fine is not self.finest else 0, balance)
         self.finest.update(self.u)
 
     def _set_load(self, k: int, M: float) -> None:
         """Moes load on levels 0 to k."""
+        if self.levels[0].M != M:
+            self.newton.factors = None
         for level in self.levels[: k + 1]:
             level.set_point(replace(self.point, M=M))
-        self.newton.factors = None
 
     def _repeat(self, k: int, cycles: int, balance: Balance) -> None:
         for _ in range(cycles):
             self.levels[k].update(self.u)
             self.u = self._cycle(k, self.u, balance)
 
-    def cycle(self, balance: Balance) -> None:
-        """One V cycle on the finest level."""
+    def cycle(self, balance: Balance) -> float:
+        """One V cycle on the finest level; returns the largest change of P."""
+        before = self.finest.P.copy()
         self.u = self._cycle(len(self.levels) - 1, self.u, balance)
         self.finest.update(self.u)
+        return float(np.abs(self.finest.P - before).max())
 
     def _cycle(self, k: int, u: float, balance: Balance) -> float:
         """One V cycle on level k, from the state of its last `update`; P written, returns u."""
         fine = self.levels[k]
         if k == 0:
             return self.newton.correct(u, balance)
-        for _ in range(PRE_SWEEPS):
-            fine.relax()
+        for move in (*(fine.relax,) * PRE_SWEEPS, fine.relax_flanks) * self.effort:
+            move()
             r = fine.update(u)
         coarse = self.levels[k - 1]
+        along, across = fine.nx // coarse.nx, fine.ny // coarse.ny
         r[fine.P <= 0.0] = 0.0
-        transfer.restrict_pressure(fine.P, coarse.P)
+        transfer.restrict_pressure(fine.P, coarse.P, along, across)
         start = coarse.P.copy()
         # Full approximation: right-hand sides for which the restricted solution has the restricted residual.
         coarse.film_shift = 0.0
         coarse.update_film(u)
-        coarse.film_shift = fine.H[::2, ::2] - coarse.H
-        coarse.H[...] = fine.H[::2, ::2]
+        coarse.film_shift = fine.H[::across, ::along] - coarse.H
+        coarse.H[...] = fine.H[::across, ::along]
         coarse.rhs[...] = 0.0
         defect = coarse.update_residual().copy()
-        transfer.full_weighting(r, coarse.rhs)
+        transfer.full_weighting(r, coarse.rhs, along, across)
         coarse.rhs -= defect
         shift = balance.weight * (coarse.force() - fine.force())
         u = self._cycle(k - 1, u, balance.shifted(shift))
-        transfer.add_correction(coarse.P, start, fine.P)
-        for _ in range(POST_SWEEPS):
+        transfer.add_correction(coarse.P, start, fine.P, along, across)
+        for move in (*(fine.relax,) * POST_SWEEPS, fine.relax_flanks) * self.effort:
             fine.update(u)
-            fine.relax()
+            move()
         return u
 
 
@@ -133,9 +138,12 @@ def _interpolate_solution(coarse: Level, fine: Level) -> None:
     fine.P[...] = np.maximum(RectBivariateSpline(Y, coarse.X, P, s=0)(fine.Y, fine.X), 0.0)
     wet = np.zeros(fine.P.shape, dtype=bool)
     source = coarse.P > 0.0
-    wet[::2, ::2] = source
-    wet[1::2, ::2] = source[:-1] | source[1:]
-    wet[:, 1::2] = wet[:, :-1:2] | wet[:, 2::2]
+    along, across = fine.nx // coarse.nx, fine.ny // coarse.ny
+    wet[::across, ::along] = source
+    if across == 2:
+        wet[1::2, ::along] = source[:-1] | source[1:]
+    if along == 2:
+        wet[:, 1::2] = wet[:, :-1:2] | wet[:, 2::2]
     fine.P[~wet] = 0.0
     fine.P[:, [0, -1]] = 0.0
     fine.P[-1] = 0.0

@@ -30,15 +30,15 @@ class NewtonKrylov:
         self.multigrid = multigrid
         self._preconditioner: Preconditioner | None = None
 
-    def step(self, balance: Balance) -> None:
-        """One Newton step and one relaxation sweep; state of the multigrid written, as by `Multigrid.cycle`."""
+    def step(self, balance: Balance) -> float:
+        """One Newton step and one relaxation sweep, as `Multigrid.cycle`; returns the largest change of P."""
         mg, level = self.multigrid, self.multigrid.finest
         r = level.r
         free = (level.P > 0.0) | (r < 0.0)
         system = LinearFilm(level, free, balance)
         b = system.right_hand_side(r, balance.residual(mg.u, level.force()))
         if not np.isfinite(b).all():
-            return  # the driver finds the same residual, and reports it
+            return np.inf  # the driver finds the same residual, and reports it
         if self._preconditioner is None:
             self._preconditioner = Preconditioner(mg.levels, system)
         solution = solve_linear(system, self._preconditioner, b, FORCING)
@@ -46,8 +46,10 @@ class NewtonKrylov:
             self._preconditioner = None
         dP = solution.x[:-1].reshape(level.P.shape)
         damping = step_length(dP, float(solution.x[-1]), mg.u)
+        before = level.P.copy()
         level.P[...] = np.maximum(level.P + damping * dP, 0.0)
         mg.u += damping * float(solution.x[-1])
         level.update(mg.u)
         level.relax()
         level.update(mg.u)
+        return float(np.abs(level.P - before).max())

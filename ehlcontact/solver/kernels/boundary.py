@@ -10,16 +10,20 @@ from ehlcontact.jit import jit, jit_node
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
 from ehlcontact.solver.kernels.reynolds import operator_at, update_across, update_along, update_node
 
-PASSES = 4
-REACH = 3  # nodes on either side of the boundary
-MARKED, UPDATED = 1, 2
-DOMINANCE = 3.0  # flow term over wedge term
+PASSES = 16
+REACH = 8  # nodes on either side of the boundary; fine grids need it, where coarse corrections end so far from it
+UPDATED = 255  # mark
+DOMINANCE = 10.0  # flow term over wedge term,
+NEAREST = 3.0  # up to this distance from the boundary; as its cube more beyond, where smoother changes are relaxed
 SQUEEZE_DOMINANCE = 30.0  # flow term over squeeze term
 
 
 @jit
 def mark_boundary(P, marks):
-    """Mark the nodes within REACH of a change between P > 0 and P = 0; `marks` (bytes) written, 0 elsewhere."""
+    """Mark the nodes within REACH of a change between P > 0 and P = 0, by 1 at the farthest, REACH + 1 at it.
+
+    `marks` (bytes) written, 0 elsewhere.
+    """
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
     marks[:] = 0
     for j in range(ny):
@@ -28,9 +32,10 @@ def mark_boundary(P, marks):
             east = i + 1 < nx and (P[j, i + 1] > 0.0) != wet
             north = j + 1 < ny and (P[j + 1, i] > 0.0) != wet
             if east or north:
-                for jj in range(max(j - REACH, -REACH), min(j + REACH + 1, ny - 1) + 1):
+                for jj in range(max(j - REACH, 1 - ny), min(j + REACH + 1, ny - 1) + 1):
                     for ii in range(max(i - REACH, 1), min(i + REACH + 1, nx - 1) + 1):
-                        marks[abs(jj), ii] = MARKED
+                        away = max(abs(jj - j), abs(ii - i))
+                        marks[abs(jj), ii] = max(marks[abs(jj), ii], REACH + 1 - min(away, REACH))
 
 
 @jit_node
@@ -46,7 +51,7 @@ def update_marked(P, H, law, stencil, flow, marks):
     """Flow at marked nodes, their neighbours and the faces between; `marks` of the neighbours become UPDATED."""
     for j in range(P.shape[0] - 1):
         for i in range(1, P.shape[1] - 1):
-            if marks[j, i] == MARKED:
+            if 0 < marks[j, i] < UPDATED:
                 update_node(j, i, P, H, law, stencil, flow)
                 for q in range(1, NEIGHBOURS):
                     jq, iq = neighbour(q, j, i)
@@ -55,7 +60,7 @@ def update_marked(P, H, law, stencil, flow, marks):
                         marks[jq, iq] = UPDATED
     for j in range(P.shape[0] - 1):
         for i in range(1, P.shape[1] - 1):
-            if marks[j, i] == MARKED:
+            if 0 < marks[j, i] < UPDATED:
                 update_along(j, i - 1, flow)
                 update_along(j, i, flow)
                 update_across(j - 1 if j > 0 else 0, i, flow)
@@ -75,7 +80,9 @@ def relax_boundary(P, H, flow, rhs, law, stencil, c_t, self_deflection, nodes, m
     count = 0
     for j in range(P.shape[0] - 1):
         for i in range(1, width - 1):
-            if marks[j, i] == MARKED and total_flow(j, i, flow, stencil) > transport * self_deflection:
+            away = max(1.0, (REACH + 1 - marks[j, i]) / NEAREST)
+            least = transport * self_deflection * away * away * away
+            if 0 < marks[j, i] < UPDATED and total_flow(j, i, flow, stencil) > least:
                 nodes[count] = j * width + i
                 count += 1
     for sweep in range(PASSES):

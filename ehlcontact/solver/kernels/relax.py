@@ -1,49 +1,65 @@
 """Hybrid line relaxation: one unknown line along X at a time, even lines first, then odd lines.
 
-The change of pressure is written as ``dP = w - theta (mean of w over the four neighbours)``. Where flow
-through the gap dominates, theta = 0 and this is Gauss-Seidel in P; where the oil is stiff and mere transport
-is left, theta = 1: the deflection of such a distributed change decays like 1/r^3 instead of 1/r, so a few
-near coefficients stand for all (distributive Jacobi; Venner and Lubrecht 2000, ch. 6). theta is a *smooth*
-function of the local ratio of both terms: a hard switch flips to and fro from sweep to sweep and leaves a
-limit cycle along the switch line.
+Where flow through the gap dominates, this is Gauss-Seidel in P. Where the oil is stiff and mere transport is left, a
+change of P is taken back in equal shares by the four neighbours: the deflection of such a distributed change decays
+like 1/r^3 instead of 1/r, so a few near coefficients stand for all (distributive Jacobi; Venner and Lubrecht 2000,
+ch. 6). Two neighbours exchange ``SHARE min(theta, theta')``. The weight theta is a *smooth* function of the local
+ratio of flow and transport: a hard switch flips to and fro from sweep to sweep and leaves a limit cycle along the
+switch line. And the *smaller* of both weights counts: what a stiff node gave to a neighbour with a thousand times its
+flow factor, as there are on the flanks of the pressure, would leave a residual there a thousand times its own.
 
-The flow factor eps falls by orders of magnitude from one node to the next on the flanks of the pressure. Taken
-as given, single nodes there never settle; with its full derivatives they overshoot. Three quarters of them
-serve everywhere.
+The flow factor eps falls by orders of magnitude from one node to the next on those flanks. Taken as given, single
+nodes there never settle; with its full derivatives they overshoot. Three quarters of them serve everywhere. And the
+change of a whole line is cut where it is too large for its linear equations: cut node by node, it would no longer be
+distributed.
 """
+
+import numpy as np
 
 from ehlcontact.jit import jit, jit_node
 from ehlcontact.solver.kernels.linearise import linearise_at
-from ehlcontact.solver.kernels.reynolds import operator_at, update_flow
+from ehlcontact.solver.kernels.reynolds import operator_at
 
 BAND_LOWER, BAND_UPPER = 4, 3  # WW neighbour with two near coefficients upstream; E with two downstream
+BAND = BAND_LOWER + BAND_UPPER + 1
 PAD = max(BAND_LOWER, BAND_UPPER)
 NEAR = 2  # near influence coefficients kept on either side
 SHARE = 0.25  # part of a distributed change that each neighbour takes back
-SWITCH = 3.0  # eps/hx^2 at which theta = 1/2 in steady flow (Venner and Lubrecht's hard switch: 0.3),
+SWITCH = 6.0  # eps/hx^2 at which theta = 1/2 in steady flow (Venner and Lubrecht's hard switch: 0.3),
 # for meshes up to twice as fine along X as along Y, physically; in proportion more for finer ones
-CAUTIOUS_SWITCH, CAUTIOUS_DAMPING = 5.0, 0.3  # where eps/hx^2 is near the switch all over the contact, as in very
-# thin films of isoviscous oil: factor of the switch, and share by which distributed changes are cut
 SQUEEZE = 10.0  # how much more the squeeze term raises it than the wedge term
 FLOW_SLOPE = 0.75  # share of the derivatives of eps; see above
-LARGEST_CHANGE = 0.15  # of P in one sweep; far from the solution the linear model overshoots
+FILM_CHANGE = 1.0
+LARGEST_CHANGE = 0.3  # of P in one sweep, along one line; far from the solution the linear model overshoots
 
 
-@jit
-def distribution_weights(P, flow, stencil, c_t, theta):
-    """Weight theta of the distributed change at every interior node; 0 where P = 0. `theta` written.
+@jit_node
+def distribution_weight(j, i, P, flow, stencil, switch):
+    """Weight theta of the distributed change at one interior node; 0 where P = 0."""
+    face = j - 1 if j > 0 else 0
+    along = stencil.cx * max(flow.along[j, i - 1], flow.along[j, i])
+    across = stencil.cy * max(flow.across[face, i], flow.across[j, i])
+    ratio = max(along, across) / switch
+    return 1.0 / (1.0 + ratio * ratio * ratio * ratio)
+
+
+@jit_node
+def switch_value(stencil, c_t):
+    """eps/hx^2 at which both relaxations have equal parts.
 
     The squeeze term, unlike the wedge term, does not vanish for smooth changes. Plain changes of P, whose
     smooth part deflects the film far beyond the near coefficients, are then safe only at larger eps.
     """
-    switch = stencil.switch * (1.0 + SQUEEZE * c_t / (1.5 * stencil.inv_hx))
-    for j in range(P.shape[0] - 1):
-        face = j - 1 if j > 0 else 0
+    return stencil.switch * (1.0 + SQUEEZE * c_t / (1.5 * stencil.inv_hx))
+
+
+@jit
+def distribution_weights(first, last, P, flow, stencil, c_t, theta):
+    """Weights theta at the interior nodes of lines `first` to `last` - 1; `theta` written."""
+    switch = switch_value(stencil, c_t)
+    for j in range(first, last):
         for i in range(1, P.shape[1] - 1):
-            along = stencil.cx * max(flow.along[j, i - 1], flow.along[j, i])
-            across = stencil.cy * max(flow.across[face, i], flow.across[j, i])
-            ratio = max(along, across) / switch
-            theta[j, i] = 1.0 / (1.0 + ratio * ratio * ratio * ratio) if P[j, i] > 0.0 else 0.0
+            theta[j, i] = distribution_weight(j, i, P, flow, stencil, switch)
 
 
 @jit
@@ -53,8 +69,8 @@ def solve_band(band, b, m):
     ``band[BAND_LOWER + o, r]`` couples row r to row r + o. Both arrays have `PAD` columns beyond m, so that the
     inner loops need no limits.
     """
-    band[:, m:] = 0.0
-    b[m:] = 0.0
+    band[:, m : m + PAD] = 0.0
+    b[m : m + PAD] = 0.0
     for r in range(m):
         pivot = 1.0 / band[BAND_LOWER, r]
         band[BAND_LOWER, r] = pivot
@@ -71,111 +87,161 @@ def solve_band(band, b, m):
 
 
 @jit_node
-def assemble_at(j, i, P, flow, theta, stencil, c_t, near, spread, band):
-    """Row of one node in the matrix of the distributed changes of line j; column ``i - 1`` of `band` written.
+def shares_at(j, i, theta):
+    """Shares of a change at one interior node that its neighbours W, E, S, N take back."""
+    t = theta[j, i]
+    south = j - 1 if j > 0 else 1
+    return (
+        SHARE * min(t, theta[j, i - 1]),
+        SHARE * min(t, theta[j, i + 1]),
+        SHARE * min(t, theta[south, i]),
+        SHARE * min(t, theta[j + 1, i]),
+    )
 
-    A unit change at node k of the line raises P there by 1 and lowers its neighbours by SHARE theta_k, and
-    deflects the film near it by ``near - theta_k spread``. So every entry is ``a - theta_k d``: `a` answers a
-    plain change, `d` what a distributed one gives away.
-    """
-    pc, pw, pe, ps, pn, pww, hc, hw, he, _, _, hww = linearise_at(j, i, P, flow, stencil, c_t, FLOW_SLOPE)
-    n0, n1, n2 = near[0, 0], near[0, 1], near[0, 2]
-    s0, s1, s2 = spread[0, 0], spread[0, 1], spread[0, 2]
-    across = pn + (2.0 * ps if j == 1 else ps)  # line 1 gives to the symmetry line twice: itself and its image
-    r, last = i - 1, P.shape[1] - 1
-    d = hww * s2
-    band[0, r] = hww * n2 - theta[j, max(i - 4, 0)] * d
-    d = hww * s1 + hw * s2 + SHARE * pww
-    band[1, r] = hww * n1 + hw * n2 - theta[j, max(i - 3, 0)] * d
-    d = hww * s0 + hw * s1 + hc * s2 + SHARE * pw
-    band[2, r] = pww + hww * n0 + hw * n1 + hc * n2 - theta[j, max(i - 2, 0)] * d
-    d = hww * s1 + hw * s0 + hc * s1 + he * s2 + SHARE * (pww + pc)
-    band[3, r] = pw + hww * n1 + hw * n0 + hc * n1 + he * n2 - theta[j, i - 1] * d
-    d = hww * s2 + hw * s1 + hc * s0 + he * s1 + SHARE * (pw + pe + across)
-    band[4, r] = pc + hww * n2 + hw * n1 + hc * n0 + he * n1 - theta[j, i] * d
-    d = hw * s2 + hc * s1 + he * s0 + SHARE * pc
-    band[5, r] = pe + hw * n2 + hc * n1 + he * n0 - theta[j, i + 1] * d
-    d = hc * s2 + he * s1 + SHARE * pe
-    band[6, r] = hc * n2 + he * n1 - theta[j, min(i + 2, last)] * d
-    band[7, r] = he * n2 - theta[j, min(i + 3, last)] * (he * s2)
+
+@jit_node
+def response(line, shift, shares, near):
+    """Film that a distributed unit change causes `line` lines and `shift` nodes further, by the near coefficients."""
+    west, east, south, north = shares
+    film = near[abs(line), abs(shift)] - west * near[abs(line), abs(shift + 1)]
+    film -= east * near[abs(line), abs(shift - 1)]
+    return film - south * near[abs(line + 1), abs(shift)] - north * near[abs(line - 1), abs(shift)]
 
 
 @jit
-def relax_line(j, fields, rhs, stencil, c_t, near, spread):
-    """Solve line j for its distributed changes; ``fields.w[j]`` written.
+def responses(line, j, start, stop, theta, near, films):
+    """`response` of nodes `start` to `stop` - 1 of line j, `line` lines further.
 
-    ``near[dj, di]`` are the influence coefficients and ``spread[dj, di]`` their mean over the four neighbours.
-    A node joins the solve if P > 0 or if its residual asks for pressure (complementarity).
+    ``films[i, NEAR + shift]`` written, and 0 for `PAD` nodes beside them.
     """
-    P, flow, band, b = fields.P, fields.flow, fields.band, fields.b
-    m = P.shape[1] - 2
-    for r in range(m):
-        b[r] = rhs[j, r + 1] - operator_at(j, r + 1, P, flow, stencil, c_t)
-        if P[j, r + 1] > 0.0 or b[r] < 0.0:
-            assemble_at(j, r + 1, P, flow, fields.theta, stencil, c_t, near, spread, band)
+    for i in range(max(start - PAD, 0), start):
+        films[i, :] = 0.0
+    for i in range(stop, min(stop + PAD, films.shape[0])):
+        films[i, :] = 0.0
+    for i in range(start, stop):
+        shares = shares_at(j, i, theta)
+        for shift in range(-NEAR, NEAR + 1):
+            films[i, NEAR + shift] = response(line, shift, shares, near)
+
+
+@jit_node
+def assemble_at(j, i, P, flow, theta, stencil, c_t, films, band, r):
+    """Row of one node in the matrix of the distributed changes of its line; column `r` of `band` written.
+
+    A unit change at node k of the line raises P there by 1, lowers its neighbours by their shares and deflects the
+    film near it by ``films[k]``.
+    """
+    pc, pw, pe, ps, pn, pww, hc, hw, he, _, _, hww = linearise_at(j, i, P, flow, stencil, c_t, FLOW_SLOPE)
+    last = P.shape[1] - 1
+    k = max(i - 4, 0)
+    band[0, r] = hww * films[k, 4]
+    k = max(i - 3, 0)
+    band[1, r] = hww * films[k, 3] + hw * films[k, 4] - pww * SHARE * min(theta[j, k], theta[j, max(i - 2, 0)])
+    k = max(i - 2, 0)
+    west = SHARE * min(theta[j, k], theta[j, i - 1])
+    band[2, r] = hww * films[k, 2] + hw * films[k, 3] + hc * films[k, 4] + pww - pw * west
+    own, k = theta[j, i], i - 1
+    near_west = SHARE * min(theta[j, k], own)
+    flow_part = pw - pww * west - pc * near_west
+    band[3, r] = hww * films[k, 1] + hw * films[k, 2] + hc * films[k, 3] + he * films[k, 4] + flow_part
+    near_east = SHARE * min(own, theta[j, i + 1])
+    south = SHARE * min(own, theta[j - 1 if j > 0 else 1, i])
+    north = SHARE * min(own, theta[j + 1, i])
+    # line 1 gives to the symmetry line twice: itself and its image
+    flow_part = pc - pw * near_west - pe * near_east - pn * north - (2.0 * ps if j == 1 else ps) * south
+    band[4, r] = hww * films[i, 0] + hw * films[i, 1] + hc * films[i, 2] + he * films[i, 3] + flow_part
+    k = i + 1
+    band[5, r] = hw * films[k, 0] + hc * films[k, 1] + he * films[k, 2] + pe - pc * near_east
+    k = min(i + 2, last)
+    band[6, r] = hc * films[k, 0] + he * films[k, 1] - pe * SHARE * min(theta[j, i + 1], theta[j, k])
+    band[7, r] = he * films[min(i + 3, last), 0]
+
+
+@jit
+def relax_line(j, start, stop, fields, rhs, stencil, c_t, near, work):
+    """Solve nodes `start` to `stop` - 1 of line j for their distributed changes; ``fields.w`` written there.
+
+    A node joins the solve if P > 0 or if its residual asks for pressure (complementarity). `work` is
+    ``(films, band, b)`` of `line_work`.
+    """
+    P, flow, theta, w = fields.P, fields.flow, fields.theta, fields.w
+    films, band, b = work
+    responses(0, j, start, stop, theta, near, films)
+    for i in range(start, stop):
+        r = i - start
+        b[r] = rhs[j, i] - operator_at(j, i, P, flow, stencil, c_t)
+        if P[j, i] > 0.0 or b[r] < 0.0:
+            assemble_at(j, i, P, flow, theta, stencil, c_t, films, band, r)
         else:
             band[:, r] = 0.0
             band[BAND_LOWER, r] = 1.0
             b[r] = 0.0
+    m = stop - start
     solve_band(band, b, m)
+    largest = LARGEST_CHANGE
     for r in range(m):
-        change = (1.0 - stencil.damping * fields.theta[j, r + 1]) * b[r]
-        fields.w[j, r + 1] = min(max(change, -LARGEST_CHANGE), LARGEST_CHANGE)
+        H = fields.H[j, start + r]
+        relative = LARGEST_CHANGE / FILM_CHANGE * near[0, 0] / H if H > 0.0 else 0.0
+        largest = max(largest, abs(b[r]) * max(1.0, relative))
+    for r in range(m):
+        w[j, start + r] = LARGEST_CHANGE / largest * b[r]
 
 
 @jit
-def apply_line(j, P, theta, w):
-    """Add line j's distributed changes to `P`; neighbours without pressure take no share."""
-    ny, nx = P.shape[0] - 1, P.shape[1] - 1
-    for i in range(1, nx):
+def line_work(nodes):
+    """Work arrays of `relax_line` for lines of so many nodes."""
+    return np.zeros((nodes, 2 * NEAR + 1)), np.empty((BAND, nodes + PAD)), np.empty(nodes + PAD)
+
+
+@jit
+def relax_lines(first, last, colour, fields, rhs, stencil, c_t, near):
+    """`relax_line` for the whole lines ``colour + 2 k``, k from `first` to `last` - 1, which are independent."""
+    nodes = fields.P.shape[1]
+    work = line_work(nodes)
+    for k in range(first, last):
+        relax_line(colour + 2 * k, 1, nodes - 1, fields, rhs, stencil, c_t, near, work)
+
+
+@jit_node
+def change_at(j, i, colour, P, theta, w):
+    """Change of P at one interior node by the distributed changes of the lines of one colour."""
+    if P[j, i] <= 0.0:
+        return w[j, i] if (j - colour) % 2 == 0 else 0.0
+    if (j - colour) % 2 == 0:
         change = w[j, i]
-        P[j, i] += change
-        share = SHARE * theta[j, i] * change
-        if share != 0.0:
-            if P[j, i - 1] > 0.0:
-                P[j, i - 1] -= share
-            if P[j, i + 1] > 0.0:
-                P[j, i + 1] -= share
-            if j + 1 < ny and P[j + 1, i] > 0.0:
-                P[j + 1, i] -= share
-            if j > 0 and P[j - 1, i] > 0.0:
-                P[j - 1, i] -= share if j > 1 else 2.0 * share  # the image line j = -1 gives as much
+        change -= SHARE * min(theta[j, i - 1], theta[j, i]) * w[j, i - 1]
+        return change - SHARE * min(theta[j, i + 1], theta[j, i]) * w[j, i + 1]
+    north = SHARE * min(theta[j, i], theta[j + 1, i]) * w[j + 1, i]
+    if j == 0:
+        return -2.0 * north  # line 1 and its image
+    return -north - SHARE * min(theta[j, i], theta[j - 1, i]) * w[j - 1, i]
 
 
 @jit
-def near_film(j, H, theta, w, near, spread):
-    """Add to line j of `H` the near deflection caused by both neighbour lines, whose ends have w = 0."""
-    nx = H.shape[1] - 1
+def apply_lines(first, last, colour, fields, near):
+    """Add the distributed changes of one colour to P of lines `first` to `last` - 1, and to H of the other colour's.
+
+    Only near coefficients, and neighbour lines, count for H.
+    """
+    P, theta, w = fields.P, fields.theta, fields.w
+    ny, nx = P.shape[0] - 1, P.shape[1] - 1
+    films = np.zeros((nx + 1, 2 * NEAR + 1))
+    for j in range(first, last):
+        for i in range(1, nx):
+            P[j, i] = max(P[j, i] + change_at(j, i, colour, P, theta, w), 0.0)
+        if colour == 0 and j % 2 == 1:
+            for source in (j - 1, j + 1):
+                if source < ny:
+                    responses(j - source, source, 1, nx, theta, near, films)
+                    near_film(fields.H[j], w[source], films)
+
+
+@jit
+def near_film(H, w, films):
+    """Add to a line `H` of the film what the distributed changes `w` of a line cause there, by `films` of `responses`."""
+    nx = H.shape[0] - 1
     for i in range(1, nx):
         change = 0.0
-        for d in range(-NEAR, NEAR + 1):
-            k = min(max(i + d, 0), nx)
-            plain = w[j - 1, k] + w[j + 1, k]
-            given = theta[j - 1, k] * w[j - 1, k] + theta[j + 1, k] * w[j + 1, k]
-            change += near[1, abs(d)] * plain - spread[1, abs(d)] * given
-        H[j, i] += change
-
-
-@jit
-def relax_lines(fields, rhs, law, stencil, c_t, near, spread):
-    """One sweep over all lines, from the flow of P and H; P, H (near field only) and flow of `fields` written.
-
-    The flow is that of the state between the colours then.
-    """
-    P, H, flow = fields.P, fields.H, fields.flow
-    ny, nx = P.shape[0] - 1, P.shape[1] - 1
-    for colour in range(2):
-        if colour == 0:
-            distribution_weights(P, flow, stencil, c_t, fields.theta)
-        else:
-            update_flow(P, H, law, stencil, flow)
-        for j in range(colour, ny, 2):
-            relax_line(j, fields, rhs, stencil, c_t, near, spread)
-        for j in range(colour, ny, 2):
-            apply_line(j, P, fields.theta, fields.w)
-        for j in range(ny):
-            for i in range(1, nx):
-                P[j, i] = max(P[j, i], 0.0)
-        if colour == 0:
-            for j in range(1, ny, 2):
-                near_film(j, H, fields.theta, fields.w, near, spread)
+        for k in range(max(i - NEAR, 1), min(i + NEAR, nx - 1) + 1):
+            change += w[k] * films[k, NEAR + i - k]
+        H[i] += change

@@ -29,7 +29,6 @@ class Stencil(NamedTuple):
     inv_hx: float  # 1/hx
     lam: float  # Reynolds coefficient lambda
     switch: float  # eps/hx^2 at which both relaxations have equal parts, in steady flow
-    damping: float  # share by which distributed changes are cut; 0 mostly
 
 
 class Flow(NamedTuple):
@@ -96,17 +95,23 @@ def update_across(j, i, flow):
 
 
 @jit
-def update_flow(P, H, law, stencil, flow):
-    """All of `flow` from P and H."""
-    ny, nx = P.shape[0] - 1, P.shape[1] - 1
-    for j in range(ny + 1):
+def update_lines(first, last, P, H, law, stencil, flow):
+    """All of `flow` on lines `first` to `last` - 1, and between those."""
+    nx = P.shape[1] - 1
+    for j in range(first, last):
         for i in range(nx + 1):
             update_node(j, i, P, H, law, stencil, flow)
         for i in range(nx):
             update_along(j, i, flow)
-        if j > 0:
+        if j > first:
             for i in range(nx + 1):
                 update_across(j - 1, i, flow)
+
+
+@jit
+def update_flow(P, H, law, stencil, flow):
+    """All of `flow` from P and H."""
+    update_lines(0, P.shape[0], P, H, law, stencil, flow)
 
 
 @jit_node
