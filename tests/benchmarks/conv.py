@@ -1,0 +1,117 @@
+"""The reference operation "conv", and times as ratios to it.
+
+conv is the smallest time of 101 `scipy.fft` rfft2 + multiply + irfft2 of a 257 x 257 float64 field zero-padded to
+512 x 512 on one thread. It is taken before and after every benchmark: where the two differ by more than
+`LARGEST_DRIFT` the machine was busy with something else, and no ratio is given.
+"""
+
+from __future__ import annotations
+
+import os
+import statistics
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy import fft
+
+LARGEST_DRIFT = 0.15  # of the smaller one; on a quiet machine they differ by 12 % at most
+
+
+def reference(runs: int = 101) -> float:
+    """Time of the reference operation [s]."""
+    field = np.random.default_rng(1).random((257, 257))
+    kernel = fft.rfft2(np.random.default_rng(2).random((512, 512)))
+    times = []
+    for _ in range(runs):
+        start = time.perf_counter()
+        fft.irfft2(fft.rfft2(field, (512, 512), workers=1) * kernel, (512, 512), workers=1)
+        times.append(time.perf_counter() - start)
+    return min(times)
+
+
+class Clock:
+    """Wall and processor seconds, while it runs."""
+
+    def __init__(self) -> None:
+        self.wall = self.cpu = 0.0
+        self._since: tuple[float, float] | None = None
+
+    def __enter__(self) -> Clock:
+        self._since = time.perf_counter(), time.process_time()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        assert self._since is not None
+        self.wall += time.perf_counter() - self._since[0]
+        self.cpu += time.process_time() - self._since[1]
+
+
+def median_seconds(work: Callable[[], object], repetitions: int) -> dict[str, float]:
+    """Median wall and processor time of `work` in seconds, after one call that is not timed."""
+    work()
+    clocks = []
+    for _ in range(repetitions):
+        with Clock() as clock:
+            work()
+        clocks.append(clock)
+    return {
+        "seconds": statistics.median(clock.wall for clock in clocks),
+        "cpu": statistics.median(clock.cpu for clock in clocks),
+    }
+
+
+class Bracket:
+    """conv before and after what is timed: ``with Bracket() as bracket: ...``, then ``bracket.ratios(row)``."""
+
+    def __init__(self, measure: Callable[[], float] = reference) -> None:
+        self._measure = measure
+        self.before = self.after = float("nan")
+
+    def __enter__(self) -> Bracket:
+        self.before = self._measure()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.after = self._measure()
+
+    @property
+    def refused(self) -> str | None:
+        """Why no ratio is given, if none is."""
+        drift = max(self.before, self.after) / min(self.before, self.after) - 1.0
+        if drift <= LARGEST_DRIFT:
+            return None
+        return (
+            f"conv {1e3 * self.before:.2f} ms before and {1e3 * self.after:.2f} ms after: {100 * drift:.0f} % apart, "
+            f"more than {100 * LARGEST_DRIFT:.0f} %"
+        )
+
+    def ratios(self, row: dict[str, Any]) -> dict[str, Any]:
+        """Give `row`, and every table in it, ``conv`` beside ``seconds`` and ``cpu_conv`` beside ``cpu``.
+
+        None where refused.
+        """
+        conv = None if self.refused else 0.5 * (self.before + self.after)
+        for table in (row, *(value for value in row.values() if isinstance(value, dict))):
+            for seconds, ratio in (("seconds", "conv"), ("cpu", "cpu_conv")):
+                if isinstance(table.get(seconds), float):
+                    table[ratio] = table[seconds] / conv if conv else None
+        return row | {"conv_ms": [1e3 * self.before, 1e3 * self.after], "refused": self.refused}
+
+
+def circumstances() -> dict[str, Any]:
+    """What a figure depends on beside the work: code, threads, and how busy the machine is."""
+    folder = Path(__file__).parent
+    told = subprocess.run(
+        ["git", "describe", "--always", "--dirty"], cwd=folder, capture_output=True, text=True, check=False
+    )
+    return {
+        "commit": told.stdout.strip() or "unknown",
+        "date": time.strftime("%Y-%m-%d"),
+        "cores": os.cpu_count(),
+        "threads": {name: os.environ.get(name) for name in ("OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS")},
+        "load": os.getloadavg()[0],
+    }
