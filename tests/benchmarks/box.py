@@ -3,12 +3,12 @@
     python tests/benchmarks/box.py --seed 7 --count 500 --json box-7.json --jobs 2
     python tests/benchmarks/box.py --seed 7 --count 500 --json box-7.json --jobs 2 --thin 60
 
-Points of a scrambled Sobol sequence over ln M, L and ln kappa within `MEASURED` of `ehlcontact.checks.box`: the first
-`count` of those below its Hertz pressure; grid, region and method are left to `solve_steady`. Every failure is
-printed as it comes, then statuses, convergence factors and the worst ten. With ``--thin`` the converged ones with the
-thinnest films are solved again on twice the grid, on the same region: a smallest film that moves by more than
-`LARGEST_MOVE` was not solved, whatever its status says. A JSON file keeps each row as it comes; a second call solves
-only what is missing.
+Points of a scrambled Sobol sequence over ln M, L and ln kappa within `MEASURED` of `ehlcontact.checks.box`: the
+first `count` of those below its Hertz pressure; grid, region and method are left to `solve_steady`. Every failure
+is printed as it comes, then statuses, convergence factors and the worst ten. With ``--thin`` the converged ones
+with the thinnest films are solved again on twice the grid, on the same region: a smallest film that moves by more
+than `LARGEST_MOVE` was not solved, whatever its status says. A JSON file keeps each row as it comes; a second call
+solves only what is missing.
 """
 
 from __future__ import annotations
@@ -152,22 +152,16 @@ def main() -> None:
     ledger = Ledger(arguments.json, "box.py", {"seed": arguments.seed}, arguments.again)
     points = box_points(arguments.count, arguments.seed)
     wanted = [Task(str(k), solve, (p.M, p.L, p.kappa), 1.0) for k, p in enumerate(points)]
-    stale = [
-        t.key
-        for t in wanted
-        if t.key in ledger.rows and ledger.rows[t.key].get("M", t.arguments[0]) != t.arguments[0]
-    ]
-    if stale:
-        parser.error(
-            f"{arguments.json}: point {stale[0]} is another one: the box has changed; --again overwrites it"
-        )
+    for task in wanted:
+        if ledger.rows.get(task.key, {}).get("M", task.arguments[0]) != task.arguments[0]:
+            parser.error(
+                f"{arguments.json}: point {task.key} is another; the box has changed, --again overwrites it"
+            )
     print(f"seed {arguments.seed}: {len(points)} points below {MEASURED.p_hertz * 1e-9:g} GPa")
     work_through(ledger, wanted, failure, jobs=arguments.jobs, lasting=True)
     rows = [ledger.rows[task.key] for task in wanted]
-    again = [
-        Task(f"thin {row['key']}", solve_finer, (row,), float(row["n"]) ** 2)
-        for row in thinnest(rows, arguments.thin)
-    ]
+    thin = thinnest(rows, arguments.thin)
+    again = [Task(f"thin {row['key']}", solve_finer, (row,), float(row["n"]) ** 2) for row in thin]
     work_through(ledger, again, line, jobs=arguments.jobs, lasting=True)
     print("\n".join(summary(rows, [ledger.rows[task.key] for task in again])))
     print("worst ten:")

@@ -1,11 +1,11 @@
 """Cycles, and what they cost, over 24 points of the box and all grids on which their films are resolved.
 
     python tests/benchmarks/cycles.py --json cycles.json                     # everything: hours at n = 2048
-    python tests/benchmarks/cycles.py --n 128 256 --points 1 4 6205 2900:19:.107
+    python tests/benchmarks/cycles.py --n 128 256 --points 1 4 20:10:.7
 
-For each: cycles until P is within 1e-8 of the converged film, the mean factor by which its error falls, that factor
-per V(2,1) cycle worth of relaxation, and what becomes of the cycles otherwise. See `honest` for how it is measured.
-A JSON file keeps each row as it comes; a second call measures only what is missing.
+For each: cycles until P is within 1e-8 of the converged film, the mean factor by which its error falls, that
+factor per V(2,1) cycle worth of relaxation, and what becomes of the cycles otherwise. `honest` tells how it is
+measured. A JSON file keeps each row as it comes; a second call measures only what is missing.
 """
 
 from __future__ import annotations

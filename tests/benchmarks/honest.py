@@ -1,9 +1,9 @@
 """The honest measure of a steady film: what it costs until the result is that of the converged film on its grid.
 
-"Honest" is approach, central and smallest film within `RELATIVE` and P within `LARGEST` (largest difference over the
-grid) of the fully converged solution on the same grid; "full" is P within `FULL` of it. The converged solution is
-found first: cycles until the change of P stays at rounding, or, where they stagnate, cautious ones, or Newton steps.
-Then everything is done again from nothing against the clock, which stands still while errors are taken.
+"Honest" is approach, central and smallest film within `RELATIVE` and P within `LARGEST` (largest difference over
+the grid) of the fully converged solution on the same grid; "full" is P within `FULL` of it. The converged solution
+is found first: cycles until the change of P stays at rounding, or, where they stagnate, cautious ones, or Newton
+steps. Then everything is done again from nothing against the clock, which stands still while errors are taken.
 """
 
 from __future__ import annotations
@@ -139,7 +139,8 @@ def settle(film: Multigrid, advance: Advance, most: int, way: str = "cycles") ->
         if no_progress(changes):
             break
     span = min(5, len(changes) - 1)
-    change = max(changes[-3:]) if isfinite(changes[-1]) else float("inf")
+    moved = isfinite(changes[-1]) and max(changes) > 0.0  # Newton steps stay where they are beside NaN
+    change = max(changes[-3:]) if moved else float("inf")
     factor = (changes[-1] / max(changes[-1 - span], 1e-300)) ** (1.0 / span) if span and isfinite(change) else 1.0
     return Reference(State.of(film), way, len(changes), change / (1.0 - min(factor, 0.98)), change)
 
@@ -234,7 +235,7 @@ def clocked(point: MoesPoint, mesh: Mesh, way: str, cycles: int) -> tuple[list[f
     """Wall and processor seconds of one solve from nothing, after full multigrid and each of `cycles`."""
     wall, cpu, clock = [], [], Clock()
     with clock:
-        film, start, advance = film_on(point, mesh, way)
+        _, start, advance = film_on(point, mesh, way)
         start()
     for k in range(cycles + 1):
         wall.append(clock.wall)

@@ -1,4 +1,4 @@
-"""What the benchmarks share: rows that survive an interruption, work in processes of its own, and the time left."""
+"""What the benchmarks share: rows that survive an interruption, work in processes, and the time left."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class Ledger:
 
 
 def in_processes(tasks: list[Task], jobs: int = 1, lasting: bool = False) -> Iterator[tuple[Task, Row]]:
-    """Rows as they come, each from a fresh process: peak memory is its own, and one that dies takes no other along.
+    """Rows as they come, each from a fresh process: peak memory is its own, and one that dies takes none along.
 
     With `lasting`, `jobs` processes take one task after the other: for many small ones. BLAS has one thread in
     each where there are several.
@@ -132,7 +132,7 @@ def work_through(
     lasting: bool = False,
     tries: int = 1,
 ) -> None:
-    """Measure what the ledger lacks, print the lines of the rows; those refused are tried again, `tries` in all."""
+    """Measure what the ledger lacks and print a line for each; those refused are tried again, `tries` in all."""
     for attempt in range(tries):
         missing = ledger.missing(tasks)
         if attempt == 0 and len(missing) < len(tasks):
