@@ -192,6 +192,8 @@ def test_a_row_short_of_what_is_asked_for_says_so(row):
 
     assert cycles.fault(row) == ""
     assert "more than 12" in cycles.fault(row | {"full": {"cycles": 13}})
+    far = row["newton_gap"] | {"P": 2e-9}
+    assert cycles.fault(row | {"newton_gap": far}) == "2e-09 of P from Newton's solution"
     assert "above 0.3" in cycles.fault(row | {"factor_v21": 0.31})
     assert "stagnates" in cycles.fault(row | {"full": None, "verdict": "stagnates at 1e-03"})
 
@@ -227,7 +229,6 @@ def test_page_holds_a_place_for_every_table(row):
 
     text = page.PAGE.read_text(encoding="utf-8")
     run = {"tool": "run.py", "rows": [row | {"key": "steady 200-10-1 256"}]}
-    other = {"tool": "box.py", "settings": {"seed": 77}, "rows": []}
     for name in ("steady", "steps", "others", "published", "cycles", "box"):
         assert (
             page.replaced(text, name, "x").count(f"<!-- {name}, made by page.py -->\nx\n<!-- end of {name} -->")
@@ -237,7 +238,26 @@ def test_page_holds_a_place_for_every_table(row):
     assert left == ["steps", "others", "cycles", "box"]
     assert f"| 200, 10, 0.5 | 64 | {page.reached(row['honest'])} |" in new
     assert page.remade(new, [run])[0] == new
-    del other
+
+
+def test_tables_of_points_and_box(row):
+    import page
+
+    text = page.PAGE.read_text(encoding="utf-8")
+    lost = {"key": "5:12:0.12 128", "verdict": "stagnates at 1e-03", "n": 128, "date": "d", "commit": "c"}
+    points = {"tool": "cycles.py", "settings": {}, "rows": [row | {"key": "200:10:0.5 64"}, lost]}
+    good = {"M": 5.0, "L": 1.0, "kappa": 1.0, "status": "converged", "seconds": 3.0}
+    found = [
+        good | {"key": "0"},
+        good | {"key": "1", "status": "diverged"},
+        {"key": "thin 0", "of": "0", "move": 0.2},
+    ]
+    box = {"tool": "box.py", "settings": {"seed": 77}, "made": {"date": "d", "commit": "c"}, "rows": found}
+    new, _ = page.remade(text, [points, box])
+    full = f"{row['full']['cycles']}, {page.number(row['factor_v21'])}"
+    assert f"| 200, 10, 0.5 | {full} |  |\n| 5, 12, 0.12 |  | stagnates at 1e-03 |" in new
+    assert "1 of 2 reach 1e-8" in new
+    assert "| 77 | 2 | 1 (50.0%) | 1 `diverged` | 3.00 s / 0.1 min | 1 of 1, worst 20.0% |" in new
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,7 @@ from math import exp, log
 from pathlib import Path
 
 import numpy as np
+from conv import circumstances
 from ledger import Ledger, Row, Task, duration, work_through
 from scipy.stats import qmc
 
@@ -150,6 +151,7 @@ def main() -> None:
     parser.add_argument("--again", action="store_true", help="forget what the file holds")
     arguments = parser.parse_args()
     ledger = Ledger(arguments.json, "box.py", {"seed": arguments.seed}, arguments.again)
+    ledger.more["made"] = circumstances()
     points = box_points(arguments.count, arguments.seed)
     wanted = [Task(str(k), solve, (p.M, p.L, p.kappa), 1.0) for k, p in enumerate(points)]
     for task in wanted:

@@ -22,6 +22,7 @@ from ehlcontact.solver.mesh import Purpose, mesh_for
 GRIDS = (128, 256, 512, 1024, 2048)
 RESOLVED = 0.6  # mesh over inlet width up to which a film is resolved, as in `ehlcontact.solver.mesh`
 MOST_CYCLES, MOST_STEPS, LARGEST_FACTOR = 12, 8, 0.3  # asked for: per V(2,1) cycle worth of relaxation
+LARGEST_GAP = 1e-9  # of P, between the solutions of cycles and of Newton steps
 # Eight that were asked for, and sixteen chosen one after the other as far as possible from all before, in ln M, L
 # and ln kappa, of 1024 Sobol points over M 5 to 30000, L 0 to 30, kappa 0.045 to 1 below 3.5 GPa.
 POINTS: tuple[tuple[float, float, float], ...] = (
@@ -69,19 +70,19 @@ def chosen(texts: list[str]) -> list[tuple[float, float, float]]:
     return found or list(POINTS)
 
 
-def tasks(points: list[tuple[float, float, float]], grids: list[int], way: str) -> list[Task]:
+def tasks(points: list[tuple[float, float, float]], grids: list[int], way: str, newton: int = 0) -> list[Task]:
     """One for each point and grid on which it is resolved, the coarse grids first; weights are seconds, about."""
     return [
-        Task(f"{M:g}:{L:g}:{kappa:g} {n}", solve, (M, L, kappa, n, way), 4.0 + n * n * 6e-5)
+        Task(f"{M:g}:{L:g}:{kappa:g} {n}", solve, (M, L, kappa, n, way, newton), 4.0 + n * n * 6e-5)
         for n in grids
         for M, L, kappa in points
         if resolved(MoesPoint(M, L, kappa), n)
     ]
 
 
-def solve(M: float, L: float, kappa: float, n: int, way: str) -> Row:
-    """One row."""
-    return measure(MoesPoint(M, L, kappa), n, way=way)
+def solve(M: float, L: float, kappa: float, n: int, way: str, newton: int) -> Row:
+    """One row; grids of up to `newton` nodes are solved by Newton steps too."""
+    return measure(MoesPoint(M, L, kappa), n, way=way, newton_nodes=newton)
 
 
 def fault(row: Row) -> str:
@@ -93,6 +94,10 @@ def fault(row: Row) -> str:
     faults = [f"more than {most} {row['way']}"] if row["full"]["cycles"] > most else []
     if not newton and row["factor_v21"] is not None and row["factor_v21"] > LARGEST_FACTOR:
         faults.append(f"factor per V(2,1) above {LARGEST_FACTOR:g}")
+    gap = row.get("newton_gap")
+    if gap and not gap["P"] <= LARGEST_GAP:
+        known = f", known to {gap['uncertainty']:.0e}" if gap["uncertainty"] > LARGEST_GAP else ""
+        faults.append(f"{gap['P']:.0e} of P from Newton's solution{known}")
     return ", ".join(faults)
 
 
@@ -117,12 +122,13 @@ def main() -> None:
     parser.add_argument("--points", nargs="+", default=[], help="numbers from 1 to 24, or M:L:kappa")
     parser.add_argument("--n", type=int, nargs="+", default=GRIDS, help="intervals along X")
     parser.add_argument("--way", choices=WAYS, default="cycles")
+    parser.add_argument("--newton", type=int, default=0, help="nodes up to which Newton steps are compared")
     parser.add_argument("--jobs", type=int, default=1, help="processes; with more than one, times mean little")
     parser.add_argument("--json", type=Path, help="file for the rows; gone on with where it exists")
     parser.add_argument("--again", action="store_true", help="forget what the file holds")
     arguments = parser.parse_args()
     ledger = Ledger(arguments.json, "cycles.py", {"way": arguments.way}, arguments.again)
-    wanted = tasks(chosen(arguments.points), list(arguments.n), arguments.way)
+    wanted = tasks(chosen(arguments.points), list(arguments.n), arguments.way, arguments.newton)
     work_through(ledger, wanted, line, jobs=arguments.jobs)
     rows = [ledger.rows[task.key] for task in wanted]
     bad = [row for row in rows if fault(row)]

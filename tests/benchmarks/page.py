@@ -175,7 +175,7 @@ def _cycles_cell(row: Row | None) -> str:
     return f"{row['full']['cycles']}, {number(row['factor_v21'])}"
 
 
-def box(files: dict[int, Rows]) -> str | None:
+def box(files: dict[int, Rows], made: list[Row]) -> str | None:
     """The box, one line for each seed."""
     if not files:
         return None
@@ -192,7 +192,7 @@ def box(files: dict[int, Rows]) -> str | None:
         time = f"{np.median(seconds):.2f} s / {sum(seconds) / 60.0:.1f} min"
         cells.append([f"{seed}", f"{len(found)}", f"{good} ({good / len(found):.1%})", failed, time, moved])
     head = ["seed", "points", "converged", "others", "time, median / all", "smallest film moves by more than 10 %"]
-    return table(head, cells)
+    return table(head, cells) + "\n\n" + made_by(made)
 
 
 def replaced(page: str, name: str, text: str) -> str:
@@ -208,10 +208,12 @@ def remade(page: str, files: list[Row]) -> tuple[str, list[str]]:
     """The page with all tables that these files know, and the names of the others."""
     by_tool: dict[str, Rows] = {"run.py": {}, "cycles.py": {}}
     boxes: dict[int, Rows] = {}
+    made: list[Row] = []
     for file in files:
         rows = {row["key"]: row for row in file["rows"]}
         if file["tool"] == "box.py":
             boxes.setdefault(file["settings"]["seed"], {}).update(rows)
+            made.append(file["made"])
         else:
             by_tool[file["tool"]].update(rows)
     run = by_tool["run.py"]
@@ -221,7 +223,7 @@ def remade(page: str, files: list[Row]) -> tuple[str, list[str]]:
         "others": lambda: others(run),
         "published": lambda: published(run),
         "cycles": lambda: cycles(by_tool["cycles.py"]),
-        "box": lambda: box(boxes),
+        "box": lambda: box(boxes, made),
     }
     left = []
     for name, make in tables.items():

@@ -129,6 +129,9 @@ def line(key: str, row: Row) -> str:
         parts.append(f"Newton within {row['newton_gap']['P']:.0e} of P")
     if row.get("refused"):
         parts.append(f"NO RATIO: {row['refused']}")
+    elif "conv_ms" in row:
+        before, after = row["conv_ms"]
+        parts.append(f"conv {before:.2f} and {after:.2f} ms")
     return f"{key:26s} " + "; ".join(parts)
 
 
