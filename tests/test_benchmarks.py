@@ -1,6 +1,7 @@
 """The benchmarks' own pieces: that they measure what they say, on a small grid; no time is asserted."""
 
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -175,6 +176,18 @@ def test_rows_survive_and_only_missing_ones_are_measured(tmp_path, capsys):
     with pytest.raises(SystemExit, match="--again"):
         ledger.Ledger(path, "another")
     assert ledger.Ledger(path, "another", again=True).rows == {}
+
+
+def test_a_process_that_dies_takes_no_row_along(tmp_path):
+    import ledger
+
+    rows = ledger.Ledger(tmp_path / "rows.json", "tool")
+    # functions that a fresh process finds: a row of its own, and the end
+    kept = ledger.Task("kept", dict, ([("twice", 2)],), 1.0)
+    tasks = [kept, ledger.Task("dies", os._exit, (1,), 1.0), kept._replace(key="after")]
+    ledger.work_through(rows, tasks, lambda key, row: "", lasting=True, tries=2)
+    assert {key: row.get("twice") for key, row in rows.rows.items()} == {"kept": 2, "dies": None, "after": 2}
+    assert rows.rows["dies"]["status"] == "process died"
 
 
 def test_points_are_24_and_resolved_somewhere():

@@ -160,11 +160,11 @@ def main() -> None:
                 f"{arguments.json}: point {task.key} is another; the box has changed, --again overwrites it"
             )
     print(f"seed {arguments.seed}: {len(points)} points below {MEASURED.p_hertz * 1e-9:g} GPa")
-    work_through(ledger, wanted, failure, jobs=arguments.jobs, lasting=True)
+    work_through(ledger, wanted, failure, jobs=arguments.jobs, lasting=True, tries=2)
     rows = [ledger.rows[task.key] for task in wanted]
     thin = thinnest(rows, arguments.thin)
     again = [Task(f"thin {row['key']}", solve_finer, (row,), float(row["n"]) ** 2) for row in thin]
-    work_through(ledger, again, line, jobs=arguments.jobs, lasting=True)
+    work_through(ledger, again, line, jobs=arguments.jobs, tries=2)
     print("\n".join(summary(rows, [ledger.rows[task.key] for task in again])))
     print("worst ten:")
     for row in sorted(rows, key=lambda row: (row["status"] == "converged", -(row.get("factor") or 1.0)))[:SHOWN]:

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 Row = dict[str, Any]
 
 BETWEEN_LINES = 3.0  # s, of progress
+LASTING = 30  # tasks of a process that takes several
 
 
 class Task(NamedTuple):
@@ -75,12 +76,13 @@ class Ledger:
 def in_processes(tasks: list[Task], jobs: int = 1, lasting: bool = False) -> Iterator[tuple[Task, Row]]:
     """Rows as they come, each from a fresh process: peak memory is its own, and one that dies takes none along.
 
-    With `lasting`, `jobs` processes take one task after the other: for many small ones. BLAS has one thread in
-    each where there are several.
+    With `lasting`, each of the `jobs` processes takes `LASTING` tasks or so, which is for many small ones; where
+    one dies, all that is left of these falls with it. BLAS has one thread in each where there are several.
     """
     if jobs > 1:
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    groups = [tasks] if lasting else [tasks[k : k + jobs] for k in range(0, len(tasks), jobs)]
+    size = jobs * LASTING if lasting else jobs
+    groups = [tasks[k : k + size] for k in range(0, len(tasks), size)]
     for group in groups:
         with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
             waiting = {pool.submit(task.work, *task.arguments): task for task in group}
@@ -132,13 +134,16 @@ def work_through(
     lasting: bool = False,
     tries: int = 1,
 ) -> None:
-    """Measure what the ledger lacks and print a line for each; those refused are tried again, `tries` in all."""
+    """Measure what the ledger lacks and print a line for each; those refused are tried again, `tries` in all.
+
+    Again means in a process of its own.
+    """
     for attempt in range(tries):
         missing = ledger.missing(tasks)
         if attempt == 0 and len(missing) < len(tasks):
             print(f"{len(tasks) - len(missing)} of {len(tasks)} known")
         progress = Progress(missing)
-        for task, row in in_processes(missing, jobs, lasting):
+        for task, row in in_processes(missing, jobs, lasting and attempt == 0):
             ledger.put(task.key, row)
             if told := line(task.key, row):
                 print(told, flush=True)
