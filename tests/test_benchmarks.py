@@ -31,6 +31,19 @@ def row(tools):
     return honest.measure(POINT, 64, newton_nodes=10_000, default=True)
 
 
+def test_no_ratio_where_the_processor_was_shared():
+    """What threads share is no waiting; what the wall saw alone is."""
+    import conv
+
+    with conv.Bracket(lambda: 4e-3) as bracket:
+        pass
+    row = bracket.ratios({"honest": {"seconds": 1.0, "cpu": 2.0}, "full": {"seconds": 2.0, "cpu": 1.6}})
+    assert row["honest"]["conv"] == pytest.approx(250.0)
+    assert row["full"]["conv"] is None
+    assert row["full"]["cpu_conv"] == pytest.approx(400.0)
+    assert row["refused"] == "2 s for 1.6 s of work: the processor was shared"
+
+
 def test_conv_is_the_smallest_of_its_runs(monkeypatch):
     import conv
 
@@ -47,7 +60,7 @@ def test_no_ratio_where_conv_drifts(after, ratio):
     times = iter([4e-3, after])
     with conv.Bracket(lambda: next(times)) as bracket:
         pass
-    row = bracket.ratios({"seconds": 1.0, "full": {"seconds": 2.0, "cpu": 1.0}, "cycles": 3})
+    row = bracket.ratios({"seconds": 1.0, "cpu": 0.9, "full": {"seconds": 1.1, "cpu": 1.0}, "cycles": 3})
     assert row["conv_ms"] == [4.0, 1e3 * after]
     assert row["conv"] == row["full"]["cpu_conv"] == (ratio and pytest.approx(ratio))
     assert (row["refused"] is None) == (ratio is not None)

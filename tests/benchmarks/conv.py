@@ -2,7 +2,8 @@
 
 conv is the smallest time of 101 `scipy.fft` rfft2 + multiply + irfft2 of a 257 x 257 float64 field zero-padded to
 512 x 512 on one thread. It is taken before and after every benchmark: where the two differ by more than
-`LARGEST_DRIFT` the machine was busy with something else, and no ratio is given.
+`LARGEST_DRIFT` the machine was busy with something else, and no ratio is given; nor is one where the work took
+that much longer by the wall than by the processor, which the smallest of 101 does not see.
 
 It runs in a process that does nothing else. In that of the work it is 1.5 times faster or not, by what the work
 has freed before: glibc then hands out kept memory to the transforms, and spares them a thousand page faults each.
@@ -89,8 +90,8 @@ class Bracket:
         self.after = self._measure()
 
     @property
-    def refused(self) -> str | None:
-        """Why no ratio is given, if none is."""
+    def drift(self) -> str | None:
+        """Why no ratio is given at all, if none is."""
         drift = max(self.before, self.after) / min(self.before, self.after) - 1.0
         if drift <= LARGEST_DRIFT:
             return None
@@ -102,14 +103,21 @@ class Bracket:
     def ratios(self, row: dict[str, Any]) -> dict[str, Any]:
         """Give `row`, and every table in it, ``conv`` beside ``seconds`` and ``cpu_conv`` beside ``cpu``.
 
-        None where refused.
+        None where conv drifted; none of the wall's seconds where the work had to wait for the processor.
+        ``refused`` says why.
         """
-        conv = None if self.refused else 0.5 * (self.before + self.after)
+        refused = self.drift
+        conv = None if refused else 0.5 * (self.before + self.after)
         for table in (row, *(value for value in row.values() if isinstance(value, dict))):
-            for seconds, ratio in (("seconds", "conv"), ("cpu", "cpu_conv")):
-                if isinstance(table.get(seconds), float):
-                    table[ratio] = table[seconds] / conv if conv else None
-        return row | {"conv_ms": [1e3 * self.before, 1e3 * self.after], "refused": self.refused}
+            if not isinstance(table.get("seconds"), float):
+                continue
+            wall, cpu = table["seconds"], table["cpu"]
+            waited = wall > (1.0 + LARGEST_DRIFT) * cpu
+            if waited and refused is None:
+                refused = f"{wall:.3g} s for {cpu:.3g} s of work: the processor was shared"
+            table["conv"] = wall / conv if conv and not waited else None
+            table["cpu_conv"] = cpu / conv if conv else None
+        return row | {"conv_ms": [1e3 * self.before, 1e3 * self.after], "refused": refused}
 
 
 def circumstances() -> dict[str, Any]:

@@ -109,7 +109,9 @@ def line(key: str, row: Row) -> str:
     if row["factor_v21"]:
         factors += f", per V(2,1) {row['factor_v21']:.3f}"
     cost = f"{row['full']['seconds']:.3g} s"
-    if row["full"].get("conv"):
+    if row["full"].get("cpu_conv") and not row["full"].get("conv"):
+        cost = f"{row['full']['cpu_conv']:.3g} conv by cpu, {cost}"
+    elif row["full"].get("conv"):
         cost = f"{row['full']['conv']:.3g} conv ({row['full']['cpu_conv']:.3g} cpu), {cost}"
     wrong = fault(row)
     note = f"  <- {wrong}" if wrong else ""

@@ -290,6 +290,7 @@ def measure(
                 row[name]["cpu"] = statistics.median(cpu[k] for _, cpu in runs)
         row["start"] = {
             "seconds": statistics.median(wall[0] for wall, _ in runs),
+            "cpu": statistics.median(cpu[0] for _, cpu in runs),
             "errors": found.errors[0]._asdict(),
         }
         if default:

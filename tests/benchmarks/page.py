@@ -76,7 +76,14 @@ def made_by(rows: list[Row]) -> str:
 
 def reached(part: Row | None) -> str:
     """Cycles, and conv."""
-    return "-" if part is None else f"{part['cycles']}: {number(part.get('conv'), 3)}"
+    return "-" if part is None else f"{part['cycles']}: {ratio(part)}"
+
+
+def ratio(part: Row) -> str:
+    """Conv; that of processor time where the wall's would tell how busy the machine was."""
+    if part.get("conv") is None and part.get("cpu_conv") is not None:
+        return f"({number(part['cpu_conv'], 3)} cpu)"
+    return number(part.get("conv"), 3)
 
 
 def steady(rows: Rows) -> str | None:
@@ -92,7 +99,7 @@ def steady(rows: Rows) -> str | None:
         asked = "-"
         if default:
             fits = {True: "", False: ", not honest", None: ", unknown"}[default["honest"]]
-            asked = f"{default['status']}{fits}, {default['cycles']}: {number(default.get('conv'), 3)}"
+            asked = f"{default['status']}{fits}, {reached(default)}"
         cost = [reached(row["honest"]), reached(row["full"])]
         told = "" if row["verdict"] == "converges" else row["verdict"]
         factor = number(row["factor_v21"]) if row["factor"] else told
@@ -126,8 +133,8 @@ def others(rows: Rows) -> str | None:
     mine = [row for key, row in rows.items() if not key.startswith(("steady ", "step "))]
     if not mine:
         return None
-    cells = [[row["key"], number(row.get("conv"), 3), number(row.get("cpu_conv"), 3)] for row in mine]
-    return table(["work", "conv", "of processor time"], cells) + "\n\n" + made_by(mine)
+    cells = [[row["key"], ratio(row)] for row in mine]
+    return table(["work", "conv"], cells) + "\n\n" + made_by(mine)
 
 
 def published(rows: Rows) -> str | None:
@@ -140,7 +147,7 @@ def published(rows: Rows) -> str | None:
         if row is not None:
             mine.append(row)
             part = row["honest"]
-            ours = [number(part.get("conv"), 3), number(part["seconds"])] if part else [row["verdict"], "-"]
+            ours = [ratio(part), number(part["seconds"])] if part else [row["verdict"], "-"]
         theirs = [number(s / PUBLISHED_CONV, 3) for s in (as_published, tuned)]
         cells.append([f"{n + 1}^2", f"{M}", NAMES[oil], *theirs, *ours])
     if not mine:

@@ -128,7 +128,7 @@ def line(key: str, row: Row) -> str:
     if row.get("newton_gap"):
         parts.append(f"Newton within {row['newton_gap']['P']:.0e} of P")
     if row.get("refused"):
-        parts.append(f"NO RATIO: {row['refused']}")
+        parts.append(f"BUSY: {row['refused']}")
     elif "conv_ms" in row:
         before, after = row["conv_ms"]
         parts.append(f"conv {before:.2f} and {after:.2f} ms")
@@ -137,8 +137,10 @@ def line(key: str, row: Row) -> str:
 
 def _ratio(part: Row) -> str:
     """Conv by the wall and by processor time, and seconds."""
-    if part.get("conv") is None:
+    if part.get("cpu_conv") is None:
         return f"{part['seconds']:.3g} s"
+    if part["conv"] is None:
+        return f"{part['cpu_conv']:.3g} conv by cpu ({part['seconds']:.3g} s)"
     return f"{part['conv']:.3g} conv ({part['cpu_conv']:.3g} cpu, {part['seconds']:.3g} s)"
 
 
