@@ -35,7 +35,7 @@ def test_no_ratio_where_the_processor_was_shared():
     """What threads share is no waiting; what the wall saw alone is."""
     import conv
 
-    with conv.Bracket(lambda: 4e-3) as bracket:
+    with conv.Bracket(lambda: (4e-3, 4e-3)) as bracket:
         pass
     row = bracket.ratios({"honest": {"seconds": 1.0, "cpu": 2.0}, "full": {"seconds": 2.0, "cpu": 1.6}})
     assert row["honest"]["conv"] == pytest.approx(250.0)
@@ -47,9 +47,10 @@ def test_no_ratio_where_the_processor_was_shared():
 def test_conv_is_the_smallest_of_its_runs(monkeypatch):
     import conv
 
-    ticks = iter([0.0, 3.0, 10.0, 11.0, 20.0, 22.0])
-    monkeypatch.setattr(conv.time, "perf_counter", lambda: next(ticks))
-    assert conv.convolution(3) == 1.0
+    wall, cpu = iter([0.0, 3.0, 10.0, 11.0, 20.0, 22.0]), iter([0.0, 0.5, 1.0, 1.7, 2.0, 2.6])
+    monkeypatch.setattr(conv.time, "perf_counter", lambda: next(wall))
+    monkeypatch.setattr(conv.time, "process_time", lambda: next(cpu))
+    assert conv.convolution(3) == (1.0, 0.5)
 
 
 @pytest.mark.parametrize(("after", "ratio"), [(4.5e-3, 1.0 / 4.25e-3), (4.7e-3, None), (3.4e-3, None)])
@@ -57,12 +58,13 @@ def test_no_ratio_where_conv_drifts(after, ratio):
     """Before it is 4 ms: 12.5 % is quiet, 17.5 % either way is not."""
     import conv
 
-    times = iter([4e-3, after])
+    times = iter([(4e-3, 4e-3), (after, 4e-3)])
     with conv.Bracket(lambda: next(times)) as bracket:
         pass
     row = bracket.ratios({"seconds": 1.0, "cpu": 0.9, "full": {"seconds": 1.1, "cpu": 1.0}, "cycles": 3})
     assert row["conv_ms"] == [4.0, 1e3 * after]
-    assert row["conv"] == row["full"]["cpu_conv"] == (ratio and pytest.approx(ratio))
+    assert row["conv"] == (ratio and pytest.approx(ratio))
+    assert row["full"]["cpu_conv"] == pytest.approx(250.0)
     assert (row["refused"] is None) == (ratio is not None)
     if ratio is None:
         assert "4.00 ms before" in row["refused"]

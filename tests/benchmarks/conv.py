@@ -26,22 +26,23 @@ from scipy import fft
 LARGEST_DRIFT = 0.15  # of the smaller one; on a quiet machine they differ by 12 % at most
 
 
-def reference() -> float:
-    """Time of the reference operation [s], in a process of its own."""
+def reference() -> tuple[float, float]:
+    """Wall and processor time of the reference operation [s], in a process of its own."""
     told = subprocess.run([sys.executable, __file__], capture_output=True, text=True, check=True)
-    return float(told.stdout)
+    wall, cpu = told.stdout.split()
+    return float(wall), float(cpu)
 
 
-def convolution(runs: int = 101) -> float:
-    """Smallest time of the reference operation [s], here and now."""
+def convolution(runs: int = 101) -> tuple[float, float]:
+    """Smallest wall and processor time of the reference operation [s], here and now."""
     field = np.random.default_rng(1).random((257, 257))
     kernel = fft.rfft2(np.random.default_rng(2).random((512, 512)))
-    times = []
+    clocks = []
     for _ in range(runs):
-        start = time.perf_counter()
-        fft.irfft2(fft.rfft2(field, (512, 512), workers=1) * kernel, (512, 512), workers=1)
-        times.append(time.perf_counter() - start)
-    return min(times)
+        with Clock() as clock:
+            fft.irfft2(fft.rfft2(field, (512, 512), workers=1) * kernel, (512, 512), workers=1)
+        clocks.append(clock)
+    return min(clock.wall for clock in clocks), min(clock.cpu for clock in clocks)
 
 
 class Clock:
@@ -78,16 +79,16 @@ def median_seconds(work: Callable[[], object], repetitions: int) -> dict[str, fl
 class Bracket:
     """conv before and after what is timed: ``with Bracket() as bracket: ...``, then ``bracket.ratios(row)``."""
 
-    def __init__(self, measure: Callable[[], float] = reference) -> None:
+    def __init__(self, measure: Callable[[], tuple[float, float]] = reference) -> None:
         self._measure = measure
-        self.before = self.after = float("nan")
+        self.before = self.after = self.cpu_before = self.cpu_after = float("nan")
 
     def __enter__(self) -> Bracket:
-        self.before = self._measure()
+        self.before, self.cpu_before = self._measure()
         return self
 
     def __exit__(self, *_: object) -> None:
-        self.after = self._measure()
+        self.after, self.cpu_after = self._measure()
 
     @property
     def drift(self) -> str | None:
@@ -103,11 +104,12 @@ class Bracket:
     def ratios(self, row: dict[str, Any]) -> dict[str, Any]:
         """Give `row`, and every table in it, ``conv`` beside ``seconds`` and ``cpu_conv`` beside ``cpu``.
 
-        None where conv drifted; none of the wall's seconds where the work had to wait for the processor.
-        ``refused`` says why.
+        The latter is over the processor time of conv, and always given. The former is None where conv drifted and
+        where the work had to wait for the processor; ``refused`` says why.
         """
         refused = self.drift
         conv = None if refused else 0.5 * (self.before + self.after)
+        cpu_conv = 0.5 * (self.cpu_before + self.cpu_after)
         for table in (row, *(value for value in row.values() if isinstance(value, dict))):
             if not isinstance(table.get("seconds"), float):
                 continue
@@ -116,8 +118,9 @@ class Bracket:
             if waited and refused is None:
                 refused = f"{wall:.3g} s for {cpu:.3g} s of work: the processor was shared"
             table["conv"] = wall / conv if conv and not waited else None
-            table["cpu_conv"] = cpu / conv if conv else None
-        return row | {"conv_ms": [1e3 * self.before, 1e3 * self.after], "refused": refused}
+            table["cpu_conv"] = cpu / cpu_conv
+        told = [[1e3 * self.before, 1e3 * self.after], [1e3 * self.cpu_before, 1e3 * self.cpu_after]]
+        return row | {"conv_ms": told[0], "conv_cpu_ms": told[1], "refused": refused}
 
 
 def circumstances() -> dict[str, Any]:
@@ -136,4 +139,4 @@ def circumstances() -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    print(convolution())
+    print(*convolution())
