@@ -16,7 +16,7 @@ PICTURE = Path("docs/images/box.png")
 
 def main(source: Path) -> None:
     """Smallest film and time of every point, over load and ellipse."""
-    rows = json.loads(source.read_text())["rows"]
+    rows = [row for row in json.loads(source.read_text())["rows"] if "n" in row and "of" not in row]
     good = [row for row in rows if row["status"] == "converged"]
     bad = [row for row in rows if row["status"] != "converged"]
     M, kappa = (np.array([row[name] for row in good]) for name in ("M", "kappa"))

@@ -1,48 +1,65 @@
-"""Steady solves over the whole box of rolling bearings, unattended.
+"""Steady solves over the whole box of rolling bearings, unattended, and the thinnest of them on twice the grid.
 
-Run with ``python tests/benchmarks/box.py [--points 300] [--seed 7] [--json FILE]``. Points of a scrambled Sobol
-sequence over log M, L and log kappa, those with a Hertz pressure below 3.5 GPa; grid, domain and method are left
-to `solve_steady`. Prints every failure as it comes, the convergence factors and the worst ten. With ``--json`` it
-goes on where an interrupted run of the same seed stopped.
+    python tests/benchmarks/box.py --seed 7 --count 500 --json box-7.json --jobs 2
+    python tests/benchmarks/box.py --seed 7 --count 500 --json box-7.json --jobs 2 --thin 60
+
+Points of a scrambled Sobol sequence over ln M, L and ln kappa within `MEASURED` of `ehlcontact.checks.box`: the
+first `count` of those below its Hertz pressure; grid, region and method are left to `solve_steady`. Every failure
+is printed as it comes, then statuses, convergence factors and the worst ten. With ``--thin`` the converged ones
+with the thinnest films are solved again on twice the grid, on the same region: a smallest film that moves by more
+than `LARGEST_MOVE` was not solved, whatever its status says. A JSON file keeps each row as it comes; a second call
+solves only what is missing.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
+from collections import Counter
 from math import exp, log
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from conv import circumstances
+from ledger import Ledger, Row, Task, duration, work_through
 from scipy.stats import qmc
 
-from ehlcontact import MoesPoint, solve_steady
+from ehlcontact import Domain, MoesPoint, solve_steady
+from ehlcontact.checks.box import MEASURED
+from ehlcontact.errors import InputError
+from ehlcontact.solver.mesh import Mesh
 
-M_RANGE, L_RANGE, KAPPA_RANGE = (5.0, 30000.0), (0.0, 25.0), (0.08, 5.0)
-LARGEST_PRESSURE = 3.5e9
-
-
-def box_points(number: int, seed: int) -> list[MoesPoint]:
-    """First `number` points of the sequence, less those with too high a Hertz pressure."""
-    unit = qmc.Sobol(3, scramble=True, seed=seed).random(2 ** int(np.ceil(np.log2(number))))[:number]
-    points = []
-    for a, b, c in unit:
-        M = exp(log(M_RANGE[0]) + a * log(M_RANGE[1] / M_RANGE[0]))
-        L = L_RANGE[0] + b * (L_RANGE[1] - L_RANGE[0])
-        kappa = exp(log(KAPPA_RANGE[0]) + c * log(KAPPA_RANGE[1] / KAPPA_RANGE[0]))
-        points.append(MoesPoint(M, L, kappa))
-    return [point for point in points if point.p_hertz < LARGEST_PRESSURE]
+LARGEST_MOVE = 0.1  # of the smallest film on twice the grid
+LARGEST_GRID = 4_000_000  # nodes of the twice finer grid: some gigabytes
+SHOWN = 10
 
 
-def measure(point: MoesPoint) -> dict[str, Any]:
+def box_points(count: int, seed: int) -> list[MoesPoint]:
+    """First `count` points of the sequence with a Hertz pressure in the box; more points add to the fewer."""
+    points: list[MoesPoint] = []
+    draws = 2 ** int(np.ceil(np.log2(max(count, 1))))
+    while len(points) < count:
+        draws *= 2
+        unit = qmc.Sobol(3, scramble=True, seed=seed).random(draws)
+        points = [point for point in map(_point, unit) if point.p_hertz < MEASURED.p_hertz][:count]
+    return points
+
+
+def _point(unit: np.ndarray) -> MoesPoint:
+    (M_low, M_high), (L_low, L_high), (kappa_low, kappa_high) = MEASURED.M, MEASURED.L, MEASURED.kappa
+    a, b, c = (float(x) for x in unit)
+    M = exp(log(M_low) + a * log(M_high / M_low))
+    return MoesPoint(M, L_low + b * (L_high - L_low), exp(log(kappa_low) + c * log(kappa_high / kappa_low)))
+
+
+def solve(M: float, L: float, kappa: float) -> Row:
     """One solve; the convergence factor is the geometric mean over its cycles, or Newton steps, to tolerance."""
+    point = MoesPoint(M, L, kappa)
     result = solve_steady(point, throw=False)
     drop = result.residuals[-1] / result.residuals[0]
     return {
-        "M": point.M,
-        "L": point.L,
-        "kappa": point.kappa,
+        "M": M,
+        "L": L,
+        "kappa": kappa,
         "p_hertz": point.p_hertz,
         "status": str(result.status),
         "cycles": result.cycles,
@@ -57,44 +74,101 @@ def measure(point: MoesPoint) -> dict[str, Any]:
     }
 
 
-def line(row: dict[str, Any]) -> str:
+def solve_finer(row: Row) -> Row:
+    """The same film on twice the grid, and how far its films and its approach have moved, of the finer ones."""
+    domain, n, point = Domain(*row["domain"]), 2 * row["n"], MoesPoint(row["M"], row["L"], row["kappa"])
+    found: Row = {"of": row["key"], "M": row["M"], "L": row["L"], "kappa": row["kappa"], "n": n}
+    if not Mesh(n, domain).nodes(point.kappa) <= LARGEST_GRID:
+        return found | {"status": "not solved: the grid has too many nodes", "move": None}
+    try:
+        result = solve_steady(point, n=n, domain=domain, throw=False)
+    except InputError as refused:
+        return found | {"status": f"not solved: {refused}", "move": None}
+    moves = {
+        "move": abs(row["h_min"] / result.h_min - 1.0) if result.status.ok else None,
+        "move_central": abs(row["h_central"] / result.h_central - 1.0) if result.status.ok else None,
+        "move_approach": abs(row["approach"] / result.approach - 1.0) if result.status.ok else None,
+    }
+    return found | {"status": str(result.status), "h_min": result.h_min, "seconds": result.seconds} | moves
+
+
+def line(key: str, row: Row) -> str:
     """A row in words."""
+    where = f"{key:>4s}  M {row['M']:8.1f}  L {row['L']:5.2f}  kappa {row['kappa']:.3f}" if "M" in row else key
+    if "of" in row:
+        moved = "-" if row["move"] is None else f"{100 * row['move']:.2g} %"
+        return f"{where}  n {row['n']:4d}  {row['status']}: smallest film moves by {moved}"
+    if "n" not in row:
+        return f"{where}  {row['status']}: {row.get('verdict', '')}"
     factor = "   -" if row["factor"] is None else f"{row['factor']:.2f}"
     return (
-        f"M {row['M']:8.1f}  L {row['L']:5.2f}  kappa {row['kappa']:.3f}  {row['status']:13s} n {row['n']:4d}  "
-        f"cycles {row['cycles']:2d}  factor {factor}  Hm {row['h_min']:.5f}  {row['seconds']:.1f} s"
+        f"{where}  {row['status']:13s} n {row['n']:4d}  cycles {row['cycles']:2d}  factor {factor}  "
+        f"Hm {row['h_min']:.5f}  {row['seconds']:.1f} s"
     )
+
+
+def failure(key: str, row: Row) -> str:
+    """A row in words, where it failed; otherwise nothing to say."""
+    return line(key, row) if row["status"] != "converged" else ""
+
+
+def thinnest(rows: list[Row], number: int) -> list[Row]:
+    """Converged rows with the smallest films."""
+    return sorted((row for row in rows if row["status"] == "converged"), key=lambda row: row["h_min"])[:number]
+
+
+def summary(rows: list[Row], thin: list[Row]) -> list[str]:
+    """What came out, in lines."""
+    good = [row for row in rows if row["status"] == "converged"]
+    counts = Counter(str(row["status"]) for row in rows)
+    told = ", ".join(f"{number} {status}" for status, number in counts.most_common())
+    lines = [f"converged {len(good)} of {len(rows)} ({len(good) / max(len(rows), 1):.1%}): {told}"]
+    factors = [row["factor"] for row in good if row["factor"] is not None]
+    if factors:
+        lines.append(f"factor per cycle: median {np.median(factors):.3f}, worst {max(factors):.2f}")
+        seconds = [row["seconds"] for row in rows if "seconds" in row]
+        lines.append(f"seconds: median {np.median(seconds):.2f}, all {duration(sum(seconds))}")
+    if thin:
+        moves = [row["move"] for row in thin if row["move"] is not None]
+        moved = [row for row in thin if row["move"] is not None and row["move"] > LARGEST_MOVE]
+        lines.append(
+            f"smallest film of the {len(thin)} thinnest on twice the grid: {len(moves)} solved there, of which "
+            f"{len(moved)} move by more than {100 * LARGEST_MOVE:.0f} %"
+            + (f"; median {100 * np.median(moves):.2g} %, worst {100 * max(moves):.2g} %" if moves else "")
+        )
+        lines += ["  " + line(row["of"], row) for row in thin if row in moved or row["move"] is None]
+    return lines
 
 
 def main() -> None:
     """Run and report."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--points", type=int, default=300)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--count", type=int, default=500, help="points")
     parser.add_argument("--seed", type=int, default=7)
-    parser.add_argument("--json", type=Path)
+    parser.add_argument("--thin", type=int, default=0, help="thinnest films to solve again on twice the grid")
+    parser.add_argument("--jobs", type=int, default=1, help="processes")
+    parser.add_argument("--json", type=Path, help="file for the rows; gone on with where it exists")
+    parser.add_argument("--again", action="store_true", help="forget what the file holds")
     arguments = parser.parse_args()
-    points = box_points(arguments.points, arguments.seed)
-    rows: list[dict[str, Any]] = []
-    if arguments.json is not None and arguments.json.exists():
-        known = json.loads(arguments.json.read_text())
-        if known["seed"] == arguments.seed:
-            rows = known["rows"][: len(points)]
-    print(f"seed {arguments.seed}: {len(points)} of {arguments.points} points below 3.5 GPa, {len(rows)} known")
-    measure(MoesPoint(20.0, 5.0, 0.5))  # compiles
-    for point in points[len(rows) :]:
-        rows.append(measure(point))
-        if rows[-1]["status"] != "converged":
-            print(line(rows[-1]), flush=True)
-        if arguments.json is not None:
-            arguments.json.write_text(json.dumps({"seed": arguments.seed, "rows": rows}))
-    good = [row for row in rows if row["status"] == "converged"]
-    factors = [row["factor"] for row in good if row["factor"] is not None]
-    print(f"converged {len(good)} of {len(rows)} ({len(good) / len(rows):.1%})")
-    print(f"factor per cycle: median {np.median(factors):.3f}, worst {max(factors):.2f}")
-    print(f"seconds: median {np.median([row['seconds'] for row in rows]):.2f}")
+    ledger = Ledger(arguments.json, "box.py", {"seed": arguments.seed}, arguments.again)
+    ledger.more["made"] = circumstances()
+    points = box_points(arguments.count, arguments.seed)
+    wanted = [Task(str(k), solve, (p.M, p.L, p.kappa), 1.0) for k, p in enumerate(points)]
+    for task in wanted:
+        if ledger.rows.get(task.key, {}).get("M", task.arguments[0]) != task.arguments[0]:
+            parser.error(
+                f"{arguments.json}: point {task.key} is another; the box has changed, --again overwrites it"
+            )
+    print(f"seed {arguments.seed}: {len(points)} points below {MEASURED.p_hertz * 1e-9:g} GPa")
+    work_through(ledger, wanted, failure, jobs=arguments.jobs, lasting=True, tries=2)
+    rows = [ledger.rows[task.key] for task in wanted]
+    thin = thinnest(rows, arguments.thin)
+    again = [Task(f"thin {row['key']}", solve_finer, (row,), float(row["n"]) ** 2) for row in thin]
+    work_through(ledger, again, line, jobs=arguments.jobs, tries=2)
+    print("\n".join(summary(rows, [ledger.rows[task.key] for task in again])))
     print("worst ten:")
-    for row in sorted(rows, key=lambda row: (row["status"] == "converged", -(row["factor"] or 1.0)))[:10]:
-        print("  " + line(row))
+    for row in sorted(rows, key=lambda row: (row["status"] == "converged", -(row.get("factor") or 1.0)))[:SHOWN]:
+        print("  " + line(row["key"], row))
 
 
 if __name__ == "__main__":

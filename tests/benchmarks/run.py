@@ -1,138 +1,77 @@
-"""Benchmarks, as ratios to one reference operation timed in the same process.
+"""Benchmarks, as ratios to one reference operation ("conv", see `conv`) timed before and after each.
 
-Run with ``python tests/benchmarks/run.py [--only TEXT] [--json FILE]``. The reference, "conv", is one scipy.fft
-rfft2 + multiply + irfft2 of a 257x257 float64 field zero-padded to 512x512 on one thread, the smallest of 101.
-Everything is timed after JIT compilation, as the median of a few repetitions. Nothing here asserts a time.
+    python tests/benchmarks/run.py                        # all rows on the default grids
+    python tests/benchmarks/run.py --only "steady 6205" --n 128 256 512 1024 2048 --json run.json
+    python tests/benchmarks/run.py --list                 # names of the rows
+
+Steady films and steps in time are measured honestly, see `honest` and `honest_step`. Every row runs in a fresh
+process, after JIT compilation; wall seconds are the median of a few repetitions, processor seconds stand beside. A
+JSON file keeps each row as it comes, and a second call measures only what is missing, or was refused because the
+machine was busy. Nothing here asserts a time.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
-import statistics
-import time
-from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import numpy as np
-from scipy import fft
+from conv import Bracket, circumstances, median_seconds
+from honest import measure
+from honest_step import MOTIONS, measure_step
+from ledger import Ledger, Row, Task, work_through
 
-from ehlcontact import Domain, FreeVibration, MoesPoint, impedance, simulate, solve_steady
-from ehlcontact.solver.balance import Balance
+from ehlcontact import FreeVibration, MoesPoint, impedance, simulate
 from ehlcontact.solver.deflection import make_deflection
-from ehlcontact.solver.mesh import Mesh
-from ehlcontact.solver.multigrid import Multigrid
-from ehlcontact.transient.film import TransientFilm
 from reduced_models import ContactRecord, fit
 
-LOAD = Balance.of_load()
+POINT = MoesPoint(200, 10, 0.5)
+TEXTBOOK = {"viscosity": "barus", "density": "incompressible"}  # of Venner and Lubrecht
+STEADY = {
+    "200-10-0.5": POINT,
+    "200-10-1": MoesPoint(200, 10, 1),
+    "6205": MoesPoint(2900, 19, 0.107),
+    "20-10-1": MoesPoint(20, 10, 1),
+    "20-10-1-barus": MoesPoint(20, 10, 1, **TEXTBOOK),
+    "200-10-1-barus": MoesPoint(200, 10, 1, **TEXTBOOK),
+}
+GRIDS, LARGEST_STEP_GRID = (128, 256, 512, 1024, 2048), 1024
+DEFAULT_GRIDS = (128, 256, 512)
 LARGEST_DIRECT = 512  # intervals: the direct sum takes 16 times as long with every doubling
+NEWTON_NODES = 40_000  # grids on which cycles are compared with Newton steps: n = 256 of `Domain()`
 
 
-def median_time(work: Callable[[], object], repetitions: int) -> float:
-    """Median wall time of `work` in seconds, after one call that is not timed."""
-    work()
-    times = []
-    for _ in range(repetitions):
-        start = time.perf_counter()
-        work()
-        times.append(time.perf_counter() - start)
-    return statistics.median(times)
+def steady(name: str, n: int, repeat: int | None = None) -> Row:
+    """Full multigrid and cycles from nothing to the honest measure, and to full convergence."""
+    repeat = repeat or (5 if n <= 256 else 3)
+    return measure(STEADY[name], n, repeat=repeat, newton_nodes=NEWTON_NODES, default=True)
 
 
-def reference() -> float:
-    """Time of the reference operation [s]."""
-    field = np.random.default_rng(1).random((257, 257))
-    kernel = fft.rfft2(np.random.default_rng(2).random((512, 512)))
-    times = []
-    for _ in range(101):
-        start = time.perf_counter()
-        fft.irfft2(fft.rfft2(field, (512, 512), workers=1) * kernel, (512, 512), workers=1)
-        times.append(time.perf_counter() - start)
-    return min(times)
+def transient_step(motion: str, n: int, repeat: int | None = None) -> Row:
+    """One step in the middle of a run, likewise."""
+    return measure_step(POINT, motion, n, repeat=repeat or (9 if n <= 512 else 5))
 
 
-def steady(n: int) -> tuple[float, dict[str, float]]:
-    """Full multigrid and as many cycles as bring u within 1e-3 of its converged value on this grid."""
-    point = MoesPoint(200, 10, 1)
-    converged = solve_steady(point, n=n, tol=1e-6).approach
-    multigrid = Multigrid(point, Mesh(n, Domain()))
-    multigrid.full_multigrid(LOAD)
-    cycles = 0
-    while abs(multigrid.u - converged) > 1e-3:
-        multigrid.cycle(LOAD)
-        cycles += 1
-
-    def work() -> None:
-        fresh = Multigrid(point, Mesh(n, Domain()))
-        fresh.full_multigrid(LOAD)
-        for _ in range(cycles):
-            fresh.cycle(LOAD)
-
-    return median_time(work, 5), {"cycles": cycles, "error of u": abs(multigrid.u - converged)}
-
-
-def transient_step(n: int) -> tuple[float, dict[str, float]]:
-    """One step of free vibration with force and approach within 1e-4 of the fully converged step."""
-    point = MoesPoint(200, 10, 0.5)
-    omega_n = 5.13
-    motion = FreeVibration(Omega_n=omega_n)
-    dT = motion.default_step
-    film = TransientFilm(point, Mesh(n, Domain()), 3e-3)
-    film.start_steady(LOAD)
-    u, rate, acceleration = film.u, motion.initial_rate, 0.0
-
-    def step(tol: float, u: float, rate: float, acceleration: float) -> tuple[float, float]:
-        film.tol = tol
-        predictor = u + dT * rate + 0.25 * dT * dT * acceleration
-        balance = Balance.newmark(omega_n, dT, 1.0, predictor)
-        film.advance(dT, balance, predictor + 0.25 * dT * dT * acceleration)
-        return film.u, film.level.force()
-
-    for _ in range(20):  # into the record, where extrapolation has something to go by
-        new, _ = step(3e-3, u, rate, acceleration)
-        before = acceleration
-        acceleration = 4.0 * (new - u - dT * rate - 0.25 * dT * dT * acceleration) / dT**2
-        rate += 0.5 * dT * (before + acceleration)
-        u = new
-    state = film.save_state()
-    exact = step(1e-8, u, rate, acceleration)
-    tol, error = 1e-5, 0.0
-    for trial in (3.0, 1.0, 3e-1, 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5):
-        film.restore_state(state)
-        reached = step(trial, u, rate, acceleration)
-        error = max(abs(a - b) for a, b in zip(reached, exact, strict=True))
-        tol = trial
-        if error < 1e-4:
-            break
-
-    def work() -> None:
-        film.restore_state(state)
-        step(tol, u, rate, acceleration)
-
-    return median_time(work, 9), {"tol": tol, "error": error, "central film": film.level.central_film()}
-
-
-def fitted_element() -> tuple[float, dict[str, float]]:
+def fitted_element() -> Row:
     """A cubic element from nothing: steady state, 2.5 periods of free vibration, fit."""
-    point = MoesPoint(200, 10, 0.5)
     outcome: dict[str, float] = {}
 
     def work() -> None:
-        record = ContactRecord.from_result(simulate(point, FreeVibration(Omega_n=5.13), n=64))
+        record = ContactRecord.from_result(simulate(POINT, FreeVibration(Omega_n=5.13), n=64))
         result = fit(record, model="cubic")
         outcome.update(root=result.root or np.nan, tangent=result.tangent or np.nan, **result.parameters)
 
-    return median_time(work, 3), outcome
+    return _timed(work, 3) | outcome
 
 
-def impedance_of_twelve() -> tuple[float, dict[str, float]]:
+def impedance_of_twelve() -> Row:
     """Impedance at twelve frequencies."""
     omega = np.concatenate([[0.0], np.geomspace(0.05, 30.0, 11)])
-    point = MoesPoint(200, 10, 0.5)
-    return median_time(lambda: impedance(point, Omega=omega), 3), {"n": impedance(point, Omega=omega).n}
+    return _timed(lambda: impedance(POINT, Omega=omega), 3) | {"n": impedance(POINT, Omega=omega).n}
 
 
-def deflection(engine: str, n: int) -> tuple[float, dict[str, float]]:
+def deflection(engine: str, n: int) -> Row:
     """One deflection of a film's pressure, steep where it cavitates; its largest error against fast transforms."""
     kappa, hx = 0.5, 6.0 / n
     X, Y = np.linspace(-4.5, 1.5, n + 1), np.linspace(0.0, 3.0, n // 2 + 1)[:, None]
@@ -141,41 +80,89 @@ def deflection(engine: str, n: int) -> tuple[float, dict[str, float]]:
     P[:, [0, -1]] = 0.0
     P[-1] = 0.0
     chosen, exact = (make_deflection(n, n // 2, hx, hx, kappa, name) for name in (engine, "fft"))
-    W = exact(P)
-    return median_time(lambda: chosen(P), 5), {"error": float(np.abs(chosen(P) - W).max())}
+    return _timed(lambda: chosen(P), 5) | {"error": float(np.abs(chosen(P) - exact(P)).max())}
+
+
+def _timed(work: Any, repetitions: int) -> Row:
+    with Bracket() as bracket:
+        row: Row = dict(median_seconds(work, repetitions))
+    return bracket.ratios(row) | circumstances()
+
+
+def tasks(grids: tuple[int, ...], repeat: int | None = None) -> list[Task]:
+    """All rows on these grids; weights are seconds, about."""
+    found = [
+        Task(f"steady {name} {n}", steady, (name, n, repeat), 4 + n * n * 8e-5) for name in STEADY for n in grids
+    ]
+    found += [
+        Task(f"step {motion} {n}", transient_step, (motion, n, repeat), 3 + n * n * 1e-4)
+        for motion in MOTIONS
+        for n in grids
+        if n <= LARGEST_STEP_GRID
+    ]
+    found.append(Task("fitted cubic element", fitted_element, (), 5.0))
+    found.append(Task("impedance, 12 frequencies", impedance_of_twelve, (), 5.0))
+    return found + [
+        Task(f"deflection {engine} {n}", deflection, (engine, n), 3.0)
+        for n in grids
+        for engine in ("fft", "mlmi", "direct")
+        if engine != "direct" or n <= LARGEST_DIRECT
+    ]
+
+
+def line(key: str, row: Row) -> str:
+    """A row in words."""
+    parts = []
+    for name in ("honest", "full", "solve_steady", "simulate"):
+        if row.get(name):
+            part = row[name]
+            note = "" if part.get("honest", True) else " (not honest)"
+            parts.append(f"{name} {part['cycles']} cycles {_ratio(part)}{note}")
+    if "seconds" in row:
+        parts.append(_ratio(row))
+    if row.get("factor") is not None:
+        parts.append(f"factor {row['factor']:.2f} per cycle of {row['work']:.1f} V(2,1)")
+    parts += [str(row[name]) for name in ("verdict",) if name in row]
+    if "peak_mb" in row:
+        parts.append(f"{row['peak_mb']:.0f} MB")
+    if row.get("newton_gap"):
+        parts.append(f"Newton within {row['newton_gap']['P']:.0e} of P")
+    if row.get("refused"):
+        parts.append(f"BUSY: {row['refused']}")
+    elif "conv_ms" in row:
+        before, after = row["conv_ms"]
+        parts.append(f"conv {before:.2f} and {after:.2f} ms")
+    return f"{key:26s} " + "; ".join(parts)
+
+
+def _ratio(part: Row) -> str:
+    """Conv by the wall and by processor time, and seconds."""
+    if part.get("cpu_conv") is None:
+        return f"{part['seconds']:.3g} s"
+    if part["conv"] is None:
+        return f"{part['cpu_conv']:.3g} conv by cpu ({part['seconds']:.3g} s)"
+    return f"{part['conv']:.3g} conv ({part['cpu_conv']:.3g} cpu, {part['seconds']:.3g} s)"
 
 
 def main() -> None:
-    """Run all benchmarks and print them."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--only", default="", help="run those whose names hold this text")
-    parser.add_argument("--json", help="write the figures to this file")
+    """Run the rows and print them."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", nargs="+", default=[""], help="rows whose names hold one of these texts")
+    parser.add_argument("--n", type=int, nargs="+", default=DEFAULT_GRIDS, help="intervals along X")
+    parser.add_argument("--repeat", type=int, help="repetitions of which the median is told")
+    parser.add_argument("--tries", type=int, default=2, help="of rows refused because the machine was busy")
+    parser.add_argument("--json", type=Path, help="file for the rows; gone on with where it exists")
+    parser.add_argument("--again", action="store_true", help="forget what the file holds")
+    parser.add_argument("--list", action="store_true", help="names of the rows")
     arguments = parser.parse_args()
-    conv = reference()
-    print(f"conv = {conv * 1e3:.2f} ms")
-    rows = {}
-    benchmarks: list[tuple[str, Callable[[], tuple[float, dict[str, float]]]]] = [
-        *((f"steady {n}", lambda n=n: steady(n)) for n in (128, 256, 512)),
-        *((f"transient step {n}", lambda n=n: transient_step(n)) for n in (128, 256)),
-        ("fitted cubic element", fitted_element),
-        ("impedance, 12 frequencies", impedance_of_twelve),
-        *(
-            (f"deflection {engine} {n}", lambda engine=engine, n=n: deflection(engine, n))
-            for n in (128, 256, 512, 1024, 2048)
-            for engine in ("fft", "mlmi", "direct")
-            if engine != "direct" or n <= LARGEST_DIRECT
-        ),
+    wanted = [
+        task for task in tasks(tuple(arguments.n), arguments.repeat) if any(t in task.key for t in arguments.only)
     ]
-    for name, benchmark in benchmarks:
-        if arguments.only not in name:
-            continue
-        seconds, details = benchmark()
-        rows[name] = {"conv": seconds / conv, "seconds": seconds, **details}
-        shown = ", ".join(f"{key} {value:.4g}" for key, value in details.items())
-        print(f"{name:28s} {seconds / conv:8.1f} conv   {seconds:8.3f} s   {shown}", flush=True)
-    if arguments.json:
-        with open(arguments.json, "w", encoding="utf-8") as file:
-            json.dump({"conv_seconds": conv, "benchmarks": rows}, file, indent=1)
+    if arguments.list:
+        print("\n".join(task.key for task in wanted))
+        return
+    ledger = Ledger(arguments.json, "run.py", again=arguments.again)
+    work_through(ledger, wanted, line, tries=arguments.tries)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,151 @@
+"""What the benchmarks share: rows that survive an interruption, work in processes, and the time left."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any, NamedTuple
+
+Row = dict[str, Any]
+
+BETWEEN_LINES = 3.0  # s, of progress
+LASTING = 30  # tasks of a process that takes several
+
+
+class Task(NamedTuple):
+    """One row to be measured: ``work(*arguments)`` returns it; `weight` is its share of all the time."""
+
+    key: str
+    work: Callable[..., Row]
+    arguments: tuple[Any, ...]
+    weight: float
+
+
+class Ledger:
+    """Rows by key in a JSON file, written after each; without a path, in memory only.
+
+    Parameters
+    ----------
+    path : Path, optional
+        An existing file of the same `tool` and `settings` is gone on with; one of another is refused.
+    tool : str
+    settings : dict
+        On which all rows depend, such as a seed.
+    again : bool
+        Forget what an existing file holds.
+    """
+
+    def __init__(self, path: Path | None, tool: str, settings: Row | None = None, again: bool = False) -> None:
+        self.path, self.head = path, {"tool": tool, "settings": settings or {}}
+        self.rows: dict[str, Row] = {}
+        self.more: Row = {}
+        if path is not None and path.exists() and not again:
+            stored = json.loads(path.read_text(encoding="utf-8"))
+            if {name: stored.get(name) for name in self.head} != self.head:
+                sys.exit(f"{path}: is not of {tool} with {settings or 'these settings'}; --again overwrites it")
+            self.rows = {row["key"]: row for row in stored["rows"]}
+            self.more = {name: value for name, value in stored.items() if name not in {*self.head, "rows"}}
+
+    def put(self, key: str, row: Row) -> None:
+        """Add or replace a row."""
+        self.rows[key] = {"key": key, **row}
+        self.write()
+
+    def write(self) -> None:
+        """Replace the file in one move, so that an interruption leaves the old one or the new one."""
+        if self.path is None:
+            return
+        new = self.path.with_name(self.path.name + ".new")
+        text = ",\n".join(json.dumps(row) for row in self.rows.values())
+        head = json.dumps(self.head | self.more)[:-1]
+        new.write_text(f'{head}, "rows": [\n{text}\n]}}\n', encoding="utf-8")
+        new.replace(self.path)
+
+    def missing(self, tasks: list[Task]) -> list[Task]:
+        """Those without a row, or whose row was refused: the machine was busy, or the process died."""
+        return [task for task in tasks if self.rows.get(task.key, {"refused": "unknown"}).get("refused")]
+
+
+def in_processes(tasks: list[Task], jobs: int = 1, lasting: bool = False) -> Iterator[tuple[Task, Row]]:
+    """Rows as they come, each from a fresh process: peak memory is its own, and one that dies takes none along.
+
+    With `lasting`, each of the `jobs` processes takes `LASTING` tasks or so, which is for many small ones; where
+    one dies, all that is left of these falls with it. BLAS has one thread in each where there are several.
+    """
+    if jobs > 1:
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    size = jobs * LASTING if lasting else jobs
+    groups = [tasks[k : k + size] for k in range(0, len(tasks), size)]
+    for group in groups:
+        with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+            waiting = {pool.submit(task.work, *task.arguments): task for task in group}
+            try:
+                for future in as_completed(waiting):
+                    try:
+                        row = future.result()
+                    except BrokenProcessPool:
+                        row = {"verdict": "process died", "status": "process died", "refused": "process died"}
+                    except Exception as fault:
+                        row = {"verdict": f"{type(fault).__name__}: {fault}", "status": "error"}
+                    yield waiting[future], row
+            except BaseException:
+                pool.shutdown(wait=False, cancel_futures=True)
+                raise
+
+
+class Progress:
+    """Rows done and the time left, on stderr; from the time that a unit of weight has taken."""
+
+    def __init__(self, tasks: list[Task]) -> None:
+        self.total, self.count = sum(task.weight for task in tasks), len(tasks)
+        self.done, self.weight, self.start, self.told = 0, 0.0, time.perf_counter(), 0.0
+
+    def step(self, task: Task) -> str:
+        """Note that a task is done; returns what to say, which is nothing where little time has passed."""
+        self.done, self.weight = self.done + 1, self.weight + task.weight
+        spent = time.perf_counter() - self.start
+        if spent - self.told < BETWEEN_LINES and self.done < self.count:
+            return ""
+        self.told = spent
+        left = spent * (self.total - self.weight) / self.weight
+        return f"  [{self.done} of {self.count}, {duration(spent)}, about {duration(left)} left]\n"
+
+
+def duration(seconds: float) -> str:
+    """Seconds in words."""
+    if seconds < 100.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 6000.0 else f"{seconds / 3600.0:.1f} h"
+
+
+def work_through(
+    ledger: Ledger,
+    tasks: list[Task],
+    line: Callable[[str, Row], str],
+    *,
+    jobs: int = 1,
+    lasting: bool = False,
+    tries: int = 1,
+) -> None:
+    """Measure what the ledger lacks and print a line for each; those refused are tried again, `tries` in all.
+
+    Again means in a process of its own.
+    """
+    for attempt in range(tries):
+        missing = ledger.missing(tasks)
+        if attempt == 0 and len(missing) < len(tasks):
+            print(f"{len(tasks) - len(missing)} of {len(tasks)} known")
+        progress = Progress(missing)
+        for task, row in in_processes(missing, jobs, lasting and attempt == 0):
+            ledger.put(task.key, row)
+            if told := line(task.key, row):
+                print(told, flush=True)
+            sys.stderr.write(progress.step(task))
+            sys.stderr.flush()
