@@ -20,7 +20,7 @@ from ehlcontact.status import Status
 STAGNATION_CYCLES = 6  # the last so many are held against all before them,
 STAGNATION_FACTOR = 0.7  # and have to bring the least residual down to this share
 DIVERGENCE_FACTOR = 1e3  # times the scale: a residual that large does not come back
-SLOW = 0.5  # change of the pressure over that of the iteration before, above which the sweeps are doubled,
+SLOW = 0.9  # change of the pressure over that of the iteration before, above which the sweeps are doubled,
 MOST_EFFORT = 4  # up to so many times
 LEAST_FACTOR = 0.2  # assumed of what is to come: the first iterations fall faster
 BORDER_SLOPE = 0.1  # of the maximum per semi-axis, at inlet and sides
