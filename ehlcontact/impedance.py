@@ -31,7 +31,8 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
-from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, remedy
+from ehlcontact.solver.memory import Solve
+from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, remedy, require_room
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
@@ -83,7 +84,8 @@ def impedance(
     ------
     InputError
         Frequencies not given in exactly one way, in SI at a dimensionless point, not finite, negative or above
-        Omega = 200; n not a multiple of 16; no such engine; more threads than cores.
+        Omega = 200; n not a multiple of 16, or a grid that would not fit into memory; no such engine; more
+        threads than cores.
     ConvergenceError
         The steady state did not converge.
     """
@@ -116,9 +118,11 @@ def _steady(point: Point, n: int | None, domain: Domain | None, deflection: str,
     """The film to linearise; on a wider region where that is left open and light load needs it."""
     moes = moes_point(point)
     mesh = mesh_for(moes, Purpose.DAMPING, n=n, domain=domain)
+    require_room(mesh, moes, Solve.IMPEDANCE)
     way: dict[str, Any] = {"deflection": deflection, "threads": threads, "throw": False}
     steady = solve_steady(point, n=mesh.n, domain=mesh.domain, **way)
     if (wider := remedy(mesh, steady.status, moes, Purpose.DAMPING, n=n, domain=domain)) is not None:
+        require_room(wider, moes, Solve.IMPEDANCE)
         steady = solve_steady(point, n=wider.n, domain=wider.domain, **way)
     if steady.status is Status.INTERRUPTED:
         raise KeyboardInterrupt  # there is nothing to keep: no frequency has been looked at

@@ -18,6 +18,7 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.iterate import Goal, Track, iterate
+from ehlcontact.solver.memory import Solve
 from ehlcontact.solver.mesh import (
     FAILED,
     LARGEST_ATTEMPTS,
@@ -27,6 +28,7 @@ from ehlcontact.solver.mesh import (
     default_domain,
     mesh_for,
     remedy,
+    require_room,
 )
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
@@ -108,7 +110,7 @@ def solve_steady(
     Raises
     ------
     InputError
-        An argument outside its range.
+        An argument outside its range; a grid that would not fit into memory.
     ConvergenceError
         Not converged; ``error.result`` holds the partial result.
     """
@@ -128,6 +130,7 @@ def solve_steady(
         if load > 1.0 and domain is None:
             domain = default_domain(moes, load)
     mesh = mesh_for(moes, Purpose.FILM, n=n, domain=domain)
+    require_room(mesh, moes, Solve.NEWTON if method == "newton" else Solve.CYCLES)
     for _ in range(LARGEST_ATTEMPTS):
         for way in METHODS[method]:
             if way is LAST_RESORT and not allows_newton(mesh, moes):

@@ -7,6 +7,7 @@ room         responsibility
 ``workers``  processes that end with their parent, and leave Ctrl-C to it
 ``threads``  `Team`: threads that share the loops of a solve; how many there are by default
 ``blas``     BLAS on one thread while we solve
+``memory``   how much memory may still be taken
 ===========  =======================================================================================
 """
 

@@ -10,7 +10,7 @@ from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.mesh import Purpose, mesh_for
+from ehlcontact.solver.mesh import Purpose, mesh_for, require_room
 from ehlcontact.status import Status
 from ehlcontact.transient.film import FilmState, Step, TransientFilm
 from ehlcontact.transient.si import ContactSI
@@ -41,7 +41,7 @@ class FullContact:
     Raises
     ------
     InputError
-        An argument outside its range.
+        An argument outside its range; a grid that would not fit into memory.
     ConvergenceError
         The steady state at the start did not converge.
     """
@@ -61,6 +61,7 @@ class FullContact:
         load = require_positive("largest_load", largest_load)
         self.point, self.scales = require_solvable(point, load), scales_of(point)
         mesh = mesh_for(self.point, Purpose.CONTACT, n=n, domain=domain, largest_load=load)
+        require_room(mesh, self.point)
         self.n, self.domain = mesh.n, mesh.domain
         require_choice("deflection", deflection, tuple(ENGINES))
         tol, threads = require_positive("tol", tol), require_threads("threads", threads)

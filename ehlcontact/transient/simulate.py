@@ -16,7 +16,7 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.mesh import Purpose, mesh_for
+from ehlcontact.solver.mesh import Purpose, mesh_for, require_room
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError, Keeper, load_checkpoint, require_replaceable
@@ -99,8 +99,9 @@ def simulate(
     Raises
     ------
     InputError
-        An argument outside its range; a checkpoint that cannot be written, or is not one of this run. Only the
-        first checkpoint ends the run; of the last, ``error.result`` holds the run all the same.
+        An argument outside its range; a grid that would not fit into memory; a checkpoint that cannot be written,
+        or is not one of this run. Only the first checkpoint ends the run; of the last, ``error.result`` holds the
+        run all the same.
     ConvergenceError
         A step did not converge, or did not meet `error` however short (status ``step_too_small``);
         ``error.result`` holds the history so far.
@@ -109,6 +110,7 @@ def simulate(
     require_instance("motion", motion, Motion, "a motion such as FreeVibration or HarmonicLoad")
     moes = require_solvable(point, motion.largest_load)
     mesh = mesh_for(moes, Purpose.RUN, n=n, domain=domain, largest_load=motion.largest_load)
+    require_room(mesh, moes)
     steps = TimeSteps.of(motion, until, dT, error, tol)
     settings = RunSettings.of(moes, mesh, motion, steps, snapshots, deflection)
     if not (surface is None or callable(surface)):

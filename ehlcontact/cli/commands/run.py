@@ -11,7 +11,9 @@ import typer
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import FAILED, USAGE, check_apart, check_json, complain, prepare_folder, say, write_json
+from ehlcontact.errors import InputError
 from ehlcontact.files import read_text, write_text
+from ehlcontact.point import moes_point
 from ehlcontact.status import Status
 
 if TYPE_CHECKING:
@@ -44,6 +46,7 @@ def run(
     study = load_study(study_file)
     folder = output if output is not None else Path("results") / study_file.stem
     require_threads("threads", threads)
+    _require_room(study, study_file)
     check_json(json_to)
     check_apart({"--json": json_to}, (study_file,))
     prepare_folder(folder)
@@ -61,6 +64,18 @@ def run(
     except KeyboardInterrupt:
         complain(f"interrupted; what was computed is in {folder}, the same command resumes")
         raise typer.Exit(FAILED) from None
+
+
+def _require_room(study: Study, path: Path) -> None:
+    """Raise `InputError` for a grid of the study that would not fit into memory."""
+    from ehlcontact.solver.memory import Solve
+    from ehlcontact.solver.mesh import Mesh, require_room
+
+    for name, solve in (("n", Solve.CYCLES), ("n_transient", Solve.IMPEDANCE)):
+        try:
+            require_room(Mesh(getattr(study.solver, name), study.domain), moes_point(study.point), solve)
+        except InputError as error:
+            raise InputError(f"{path}: solver.{name}", error.value, error.allowed) from None
 
 
 def _compute(study: Study, copy: Path, folder: Path, share: tuple[int, int], json_to: str | None) -> None:
