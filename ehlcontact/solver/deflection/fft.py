@@ -11,7 +11,7 @@ from ehlcontact.process.threads import ALONE, Team
 from ehlcontact.solver.deflection.coefficients import Array, influence_coefficients
 
 BLOCK = 2**15  # numbers transformed at a time
-MATRICES_UP_TO = 64  # intervals along X, for `MatrixTransforms`; beyond, BLAS starts threads, and waits for them
+MATRICES_UP_TO = 64  # intervals along X, for `MatrixTransforms`; from about 100 on fast ones cost less
 
 
 class FastFourier:
