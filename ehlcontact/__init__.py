@@ -17,7 +17,7 @@ room             responsibility
 ``film``         the film to look at: maps, mid-planes, fringes, what the surfaces carry through
 ``storage``      `save` and `load`
 ``files/``       files that are replaced in one move; texts of any origin; any dataclass in an HDF5 file
-``process/``     processes that end with their parent, and on Ctrl-C
+``process/``     processes that end with their parent, and on Ctrl-C; threads
 ``checks/``      checks of inputs, and the box that the solvers are made for
 ``errors``       `InputError`, `ConvergenceError`
 ``status``       how a solve or a run ended, with advice

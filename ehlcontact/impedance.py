@@ -14,22 +14,25 @@ small least-squares problem, whose residual is the error measure: the frequency 
 from __future__ import annotations
 
 import time
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import linalg
-from threadpoolctl import threadpool_limits
 
 from ehlcontact.checks import require_choice
 from ehlcontact.checks.frequency import by_name, dimensionless
+from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import Point, moes_point, require_solvable, scales_of
+from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
-from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, remedy
+from ehlcontact.solver.memory import Solve
+from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, remedy, require_room
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
@@ -47,6 +50,7 @@ SMALLEST_NEW_PART = 1e-10  # of a vector, outside the space so far
 
 
 @by_name(1, omegas="Omega (dimensionless), omega (rad/s), hz or rpm")
+@one_blas_thread()
 def impedance(
     point: Point,
     *,
@@ -57,6 +61,7 @@ def impedance(
     n: int | None = None,
     domain: Domain | None = None,
     deflection: str = "fft",
+    threads: int | None = None,
 ) -> ImpedanceResult:
     """Linearise the converged steady contact and return K(Omega) and C(Omega).
 
@@ -72,12 +77,15 @@ def impedance(
         Computed region, by default that of `solve_steady`. C depends on it by about 1/extent^2.
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection, as in `solve_steady`.
+    threads : int, optional
+        As in `solve_steady`.
 
     Raises
     ------
     InputError
         Frequencies not given in exactly one way, in SI at a dimensionless point, not finite, negative or above
-        Omega = 200; n not a multiple of 16; no such engine.
+        Omega = 200; n not a multiple of 16, or a grid that would not fit into memory; no such engine; more
+        threads than cores.
     ConvergenceError
         The steady state did not converge.
     """
@@ -86,10 +94,10 @@ def impedance(
     w = dimensionless(_time(point), Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=LARGEST_OMEGA)
     require_choice("deflection", deflection, tuple(ENGINES))
     moes = require_solvable(point)
-    with threadpool_limits(1, user_api="blas"):  # its threads wait for each other on matrices as small as these
-        steady = _steady(point, n, domain, deflection)
-        contact = LinearisedContact(steady, deflection)
-        Z, residual = contact.respond(np.maximum(w, NEAR_ZERO), TOLERANCE)
+    threads = require_threads("threads", threads)
+    steady = _steady(point, n, domain, deflection, threads)
+    contact = LinearisedContact(steady, deflection, threads)
+    Z, residual = contact.respond(np.maximum(w, NEAR_ZERO), TOLERANCE)
     return ImpedanceResult(
         point=moes,
         scales=scales_of(point),
@@ -106,13 +114,16 @@ def impedance(
     )
 
 
-def _steady(point: Point, n: int | None, domain: Domain | None, deflection: str) -> SteadyResult:
+def _steady(point: Point, n: int | None, domain: Domain | None, deflection: str, threads: int) -> SteadyResult:
     """The film to linearise; on a wider region where that is left open and light load needs it."""
     moes = moes_point(point)
     mesh = mesh_for(moes, Purpose.DAMPING, n=n, domain=domain)
-    steady = solve_steady(point, n=mesh.n, domain=mesh.domain, deflection=deflection, throw=False)
+    require_room(mesh, moes, Solve.IMPEDANCE)
+    way: dict[str, Any] = {"deflection": deflection, "threads": threads, "throw": False}
+    steady = solve_steady(point, n=mesh.n, domain=mesh.domain, **way)
     if (wider := remedy(mesh, steady.status, moes, Purpose.DAMPING, n=n, domain=domain)) is not None:
-        steady = solve_steady(point, n=wider.n, domain=wider.domain, deflection=deflection, throw=False)
+        require_room(wider, moes, Solve.IMPEDANCE)
+        steady = solve_steady(point, n=wider.n, domain=wider.domain, **way)
     if steady.status is Status.INTERRUPTED:
         raise KeyboardInterrupt  # there is nothing to keep: no frequency has been looked at
     if not steady.status.ok:
@@ -136,10 +147,13 @@ class LinearisedContact:
     film : SteadyResult
     deflection : {"fft", "mlmi", "direct"}
         Engine by which it was solved.
+    threads : int
+        As in `solve_steady`.
     """
 
-    def __init__(self, film: SteadyResult, deflection: str = "fft") -> None:
-        self._multigrid = Multigrid(film.point, Mesh(film.n, film.domain), deflection=deflection)
+    def __init__(self, film: SteadyResult, deflection: str = "fft", threads: int = 1) -> None:
+        mesh = Mesh(film.n, film.domain)
+        self._multigrid = Multigrid(film.point, mesh, deflection=deflection, threads=threads)
         level = self._level = self._multigrid.finest
         level.P[...] = film.P.T
         level.update(film.approach)

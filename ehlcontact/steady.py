@@ -9,13 +9,16 @@ from typing import NamedTuple
 import numpy as np
 
 from ehlcontact.checks import require_choice, require_finite, require_integer, require_positive
+from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import MoesPoint, Point, Scales, require_solvable, scales_of
+from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.iterate import Goal, Track, iterate
+from ehlcontact.solver.memory import Solve
 from ehlcontact.solver.mesh import (
     FAILED,
     LARGEST_ATTEMPTS,
@@ -25,6 +28,7 @@ from ehlcontact.solver.mesh import (
     default_domain,
     mesh_for,
     remedy,
+    require_room,
 )
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
@@ -52,6 +56,7 @@ METHODS = {
 }
 
 
+@one_blas_thread()
 def solve_steady(
     point: Point,
     *,
@@ -62,6 +67,7 @@ def solve_steady(
     max_cycles: int = MAX_CYCLES,
     method: str = "automatic",
     deflection: str = "fft",
+    threads: int | None = None,
     throw: bool = True,
     callback: Callable[[int, float], None] | None = None,
 ) -> SteadyResult:
@@ -90,6 +96,9 @@ def solve_steady(
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection: fast transforms, exact to rounding; multilevel multi-integration, as in
         the paper; the direct sum, slow. See `ehlcontact.solver.deflection`.
+    threads : int, optional
+        Threads that share the work, at most the cores there are; by default all of them, within the present limits
+        of BLAS, and one in the processes of a pool. Results are the same, bit for bit, for any number.
     throw : bool
         Raise on failure; otherwise look at ``result.status``.
     callback : callable, optional
@@ -103,7 +112,7 @@ def solve_steady(
     Raises
     ------
     InputError
-        An argument outside its range.
+        An argument outside its range; a grid that would not fit into memory.
     ConvergenceError
         Not converged; ``error.result`` holds the partial result.
     """
@@ -113,6 +122,7 @@ def solve_steady(
     require_positive("tol", tol)
     require_choice("method", method, tuple(METHODS))
     require_choice("deflection", deflection, tuple(ENGINES))
+    threads = require_threads("threads", threads)
     if approach is None:
         balance = Balance.of_load()
     else:
@@ -122,11 +132,12 @@ def solve_steady(
         if load > 1.0 and domain is None:
             domain = default_domain(moes, load)
     mesh = mesh_for(moes, Purpose.FILM, n=n, domain=domain)
+    require_room(mesh, moes, Solve.NEWTON if method == "newton" else Solve.CYCLES)
     for _ in range(LARGEST_ATTEMPTS):
         for way in METHODS[method]:
             if way is LAST_RESORT and not allows_newton(mesh, moes):
                 break
-            solved = _Attempt(moes, mesh, way, deflection)
+            solved = _Attempt(moes, mesh, way, deflection, threads)
             status = solved.run(balance, tol, max_cycles, callback)
             if status not in FAILED:
                 break
@@ -143,9 +154,9 @@ def solve_steady(
 class _Attempt:
     """One solve on one mesh, from full multigrid to a judged status."""
 
-    def __init__(self, point: MoesPoint, mesh: Mesh, method: Method, deflection: str) -> None:
+    def __init__(self, point: MoesPoint, mesh: Mesh, method: Method, deflection: str, threads: int) -> None:
         self.mesh, self.method = mesh, method
-        self.multigrid = Multigrid(point, mesh, deflection=deflection, effort=method.effort)
+        self.multigrid = Multigrid(point, mesh, deflection=deflection, effort=method.effort, threads=threads)
         self.scale = self.multigrid.finest.dry_residual()
         self.track = Track()
 

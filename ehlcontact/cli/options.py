@@ -13,6 +13,7 @@ from typing import Annotated, Any, get_type_hints
 
 import typer
 
+from ehlcontact.checks.machine import require_threads
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.errors import InputError
@@ -112,7 +113,7 @@ class Contact:
 
 @dataclass(frozen=True, kw_only=True)
 class Grid:
-    """Where and how finely the film is solved."""
+    """Where and how finely the film is solved, and by how many threads."""
 
     n: Annotated[
         int | None,
@@ -133,13 +134,24 @@ class Grid:
             rich_help_panel=_GRID,
         ),
     ] = None
+    threads: Annotated[
+        int | None,
+        typer.Option(
+            "--threads",
+            show_default="all cores",
+            help="Threads that share the work; the result is the same for any number.",
+            rich_help_panel=_GRID,
+        ),
+    ] = None
 
     def chosen(self) -> dict[str, Any]:
-        """Check the options; ``n`` and ``domain`` for a solver, None where it shall choose."""
+        """Check the options; ``n``, ``domain`` and ``threads`` for a solver, None where it shall choose."""
         if self.n is not None:
             check_intervals(self.n)
+        require_threads("threads", self.threads)
         with called(x_in="--domain XA", x_out="--domain XB", y_max="--domain YMAX"):
-            return {"n": self.n, "domain": None if self.domain is None else Domain(*self.domain)}
+            domain = None if self.domain is None else Domain(*self.domain)
+        return {"n": self.n, "domain": domain, "threads": self.threads}
 
 
 @dataclass(frozen=True, kw_only=True)

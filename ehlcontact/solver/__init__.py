@@ -5,6 +5,7 @@ room            responsibility
 =============== ==========================================================================================
 ``mesh``        `mesh_for`, `remedy`: which region and grid a film needs, what to try after a failure
 ``domain``      `Domain`: the computed region
+``memory``      what a grid takes, told before it is tried
 ``level``       `Level`: the arrays of one mesh and the equations on it; a hierarchy of them
 ``deflection/`` the elastic deflection: fast transforms, multi-integration, direct sum
 ``kernels/``    the equations node by node, compiled: Reynolds residual, derivatives, relaxation, transfer

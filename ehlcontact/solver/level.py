@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.hertz import shape_factor
 from ehlcontact.point import MoesPoint
+from ehlcontact.process.threads import ALONE, team_of
 from ehlcontact.solver.deflection import make_deflection
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.kernels import boundary, flanks, relax, reynolds
@@ -20,6 +21,7 @@ Array = NDArray[np.float64]
 
 LINES_APART = 5.0  # physical distance of lines over that of nodes, from which a level is coarsened along X alone
 FORCE_FACTOR = 1.5 / np.pi  # eq. 4: force = 3/(2 pi) iint P
+SHARED_FROM = 8000  # nodes: on smaller levels threads wait longer for each other than they work
 
 
 class Fields(NamedTuple):
@@ -49,6 +51,7 @@ class Level:
         self.set_point(point)
         S = shape_factor(point.kappa)
         self.gap = S * self.X**2 + (1.0 - S) * self.Y[:, None] ** 2
+        self.team = ALONE
         self.deflection = make_deflection(nx, ny, self.hx, self.hy, point.kappa, deflection)
         self.near = self.deflection.kernel[: relax.NEAR + 2, : relax.NEAR + 2].copy()
         shape = (ny + 1, nx + 1)
@@ -69,6 +72,11 @@ class Level:
         self.nodes = np.zeros(shape[0] * shape[1], dtype=np.int64)
         self.force_weights = np.full(shape, 2.0 * FORCE_FACTOR * self.hx * self.hy)
         self.force_weights[0] *= 0.5
+
+    def share(self, threads: int) -> None:
+        """Let so many threads do the work on this level, if it is large enough for more than one."""
+        if self.gap.size >= SHARED_FROM:
+            self.team = self.deflection.team = team_of(threads)
 
     def set_point(self, point: MoesPoint) -> None:
         """Numbers that the kernels need at `point`, whose kappa must be that of the level."""

@@ -19,6 +19,7 @@ from ehlcontact.checks import require_instance
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.domain import MOST_INTERVALS, Domain, check_intervals
+from ehlcontact.solver.memory import Solve, fits, require_memory
 from ehlcontact.status import Status
 
 
@@ -212,7 +213,8 @@ def remedy(
     if domain is None and mesh.domain not in {NEAR_DOMAIN, NEAREST_DOMAIN} and point.inlet_width < INLET_NEAR:
         return Mesh(mesh.n, NEAR_DOMAIN)
     finer = Mesh(2 * mesh.n, mesh.domain)
-    return finer if finer.nodes(point.kappa) <= FINENESS[Purpose.FILM].largest else None
+    nodes = finer.nodes(point.kappa)
+    return finer if nodes <= FINENESS[Purpose.FILM].largest and fits(nodes) else None
 
 
 def default_domain(point: MoesPoint, largest_load: float = 1.0) -> Domain:
@@ -231,7 +233,13 @@ def thin_sides(point: MoesPoint) -> bool:
 
 def allows_newton(mesh: Mesh, point: MoesPoint) -> bool:
     """Whether the factors of Newton steps on this mesh are affordable."""
-    return mesh.nodes(point.kappa) <= LARGEST_NEWTON
+    nodes = mesh.nodes(point.kappa)
+    return nodes <= LARGEST_NEWTON and fits(nodes, Solve.NEWTON)
+
+
+def require_room(mesh: Mesh, point: MoesPoint, solve: Solve = Solve.CYCLES) -> None:
+    """Raise `InputError` for a mesh that would not fit into memory."""
+    require_memory(mesh.n, mesh.nodes(point.kappa), solve)
 
 
 def coarsest_intervals(point: MoesPoint, n: int) -> int:

@@ -32,12 +32,16 @@ class Multigrid:
     """A hierarchy of levels and the cycle on it; the state is P on the finest level and the approach u.
 
     Film, flow and residual of the finest level belong to that state after `full_multigrid` and `cycle`; who
-    changes it in other ways calls ``finest.update(u)``.
+    changes it in other ways calls ``finest.update(u)``. `threads` share the work; results do not depend on them.
     """
 
-    def __init__(self, point: MoesPoint, mesh: Mesh, *, deflection: str = "fft", effort: int = 1) -> None:
+    def __init__(
+        self, point: MoesPoint, mesh: Mesh, *, deflection: str = "fft", effort: int = 1, threads: int = 1
+    ) -> None:
         self.point = point
         self.levels = build_hierarchy(point, mesh, coarsest_intervals(point, mesh.n), deflection)
+        for level in self.levels:
+            level.share(threads)
         self.effort = self.least_effort = effort  # how often the sweeps of a cycle are repeated
         self.newton = CoarseNewton(self.levels[0])
         self.u = initial_approach(point)

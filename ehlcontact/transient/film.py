@@ -63,10 +63,14 @@ class TransientFilm:
         transport term d(rho H)/dX.
     deflection : {"fft", "mlmi", "direct"}
         Engine, as in `solve_steady`.
+    threads : int
+        As there.
     """
 
-    def __init__(self, point: MoesPoint, mesh: Mesh, tol: float, deflection: str = "fft") -> None:
-        self.multigrid = Multigrid(point, mesh, deflection=deflection)
+    def __init__(
+        self, point: MoesPoint, mesh: Mesh, tol: float, deflection: str = "fft", threads: int = 1
+    ) -> None:
+        self.multigrid = Multigrid(point, mesh, deflection=deflection, threads=threads)
         self.tol = tol
         self.scale = 1.0
         self._past: tuple[tuple[float, Array], ...] = ()

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from ehlcontact.checks import require_choice, require_finite, require_positive
+from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import Point, require_solvable, scales_of
+from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.mesh import Purpose, mesh_for
+from ehlcontact.solver.mesh import Purpose, mesh_for, require_room
 from ehlcontact.status import Status
 from ehlcontact.transient.film import FilmState, Step, TransientFilm
 from ehlcontact.transient.si import ContactSI
@@ -33,15 +35,18 @@ class FullContact:
         Residual at which a step counts as solved; see `simulate`.
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection, as in `solve_steady`.
+    threads : int, optional
+        As in `solve_steady`.
 
     Raises
     ------
     InputError
-        An argument outside its range.
+        An argument outside its range; a grid that would not fit into memory.
     ConvergenceError
         The steady state at the start did not converge.
     """
 
+    @one_blas_thread()
     def __init__(
         self,
         point: Point,
@@ -51,17 +56,21 @@ class FullContact:
         largest_load: float = 1.0,
         tol: float = 3e-3,
         deflection: str = "fft",
+        threads: int | None = None,
     ) -> None:
         load = require_positive("largest_load", largest_load)
         self.point, self.scales = require_solvable(point, load), scales_of(point)
         mesh = mesh_for(self.point, Purpose.CONTACT, n=n, domain=domain, largest_load=load)
+        require_room(mesh, self.point)
         self.n, self.domain = mesh.n, mesh.domain
         require_choice("deflection", deflection, tuple(ENGINES))
-        self._film = TransientFilm(self.point, mesh, require_positive("tol", tol), deflection)
+        tol, threads = require_positive("tol", tol), require_threads("threads", threads)
+        self._film = TransientFilm(self.point, mesh, tol, deflection, threads)
         self._check(self._film.start_steady(Balance.of_load()))
         self.static_approach = self._film.u
         self.force = self._film.level.force()
 
+    @one_blas_thread()
     def advance(self, dt: float, approach: float, rate: float = 0.0) -> float:
         """Move to `approach` within `dt` and return the force at the end of the step.
 
@@ -105,6 +114,7 @@ class FullContact:
         """Everything needed to come back to the present."""
         return self._film.save_state()
 
+    @one_blas_thread()
     def restore_state(self, state: FilmState) -> None:
         """Return to a saved state."""
         self._film.restore_state(state)

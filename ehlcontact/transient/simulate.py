@@ -11,10 +11,12 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.checks import require_instance, require_nonnegative
+from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
+from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.mesh import Purpose, mesh_for
+from ehlcontact.solver.mesh import Purpose, mesh_for, require_room
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError, Keeper, load_checkpoint, require_replaceable
@@ -27,6 +29,7 @@ from ehlcontact.transient.step import StepControl
 from ehlcontact.transient.surface import Surface, surface_height
 
 
+@one_blas_thread()
 def simulate(
     point: Point,
     motion: Motion,
@@ -40,6 +43,7 @@ def simulate(
     snapshots: Sequence[float] = (),
     surface: Surface | None = None,
     deflection: str = "fft",
+    threads: int | None = None,
     throw: bool = True,
     callback: Callable[[float, float], None] | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
@@ -71,6 +75,8 @@ def simulate(
         Feature G(X, Y, T) added to the gap, even in Y; see `surface`. At rest for T <= 0.
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection, as in `solve_steady`.
+    threads : int, optional
+        As in `solve_steady`.
     throw : bool
         Raise on failure; otherwise look at ``result.status``.
     callback : callable, optional
@@ -81,10 +87,9 @@ def simulate(
     checkpoint_every : float
         Seconds between checkpoints.
     restart : path, optional
-        Checkpoint to go on from. The other arguments must be those of its run; the record then equals that of an
-        uninterrupted run bit for bit, where BLAS has one thread (with more, LU factors round differently from run
-        to run). `until` may be later: the stored step goes on, and ends at or, where it does not divide `until`,
-        within a step after it.
+        Checkpoint to go on from. The other arguments must be those of its run, except `threads`; the record then
+        equals that of an uninterrupted run bit for bit. `until` may be later: the stored step goes on, and ends at
+        or, where it does not divide `until`, within a step after it.
 
     Returns
     -------
@@ -94,8 +99,9 @@ def simulate(
     Raises
     ------
     InputError
-        An argument outside its range; a checkpoint that cannot be written, or is not one of this run. Only the
-        first checkpoint ends the run; of the last, ``error.result`` holds the run all the same.
+        An argument outside its range; a grid that would not fit into memory; a checkpoint that cannot be written,
+        or is not one of this run. Only the first checkpoint ends the run; of the last, ``error.result`` holds the
+        run all the same.
     ConvergenceError
         A step did not converge, or did not meet `error` however short (status ``step_too_small``);
         ``error.result`` holds the history so far.
@@ -104,6 +110,7 @@ def simulate(
     require_instance("motion", motion, Motion, "a motion such as FreeVibration or HarmonicLoad")
     moes = require_solvable(point, motion.largest_load)
     mesh = mesh_for(moes, Purpose.RUN, n=n, domain=domain, largest_load=motion.largest_load)
+    require_room(mesh, moes)
     steps = TimeSteps.of(motion, until, dT, error, tol)
     settings = RunSettings.of(moes, mesh, motion, steps, snapshots, deflection)
     if not (surface is None or callable(surface)):
@@ -111,7 +118,7 @@ def simulate(
     require_nonnegative("checkpoint_every", checkpoint_every)
     if checkpoint is not None:
         require_replaceable(checkpoint, restart)
-    film = TransientFilm(moes, mesh, steps.tol, deflection)
+    film = TransientFilm(moes, mesh, steps.tol, deflection, require_threads("threads", threads))
     earlier = None
     if restart is not None:
         earlier = load_checkpoint(restart)

@@ -170,6 +170,16 @@ CALLS = {
         lambda: solve_steady(point(), domain=[-4.5, 1.5, 3.0]),
         ("domain", "a Domain(x_in, x_out, y_max)"),
     ),
+    "no threads": (lambda: solve_steady(point(), threads=0), ("threads", "a whole number from 1 to")),
+    "threads of a float": (lambda: FullContact(point(), threads=2.0), ("threads", "a whole number from 1 to")),
+    "more threads than cores": (
+        lambda: simulate(point(), FreeVibration(Omega_n=5.0), threads=9999),
+        ("threads", "a whole number from 1 to"),
+    ),
+    "threads below 0": (
+        lambda: impedance(point(), Omega=1.0, threads=-1),
+        ("threads", "a whole number from 1 to"),
+    ),
     "n odd": (lambda: solve_steady(point(), n=100), ("n", "a multiple of 16 between 16 and")),
     "n of a float": (
         lambda: simulate(point(), FreeVibration(Omega_n=5.0), n=64.0),

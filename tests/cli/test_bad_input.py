@@ -2,6 +2,7 @@
 
 import h5py
 import pytest
+from tiny_study import STUDY
 
 from reduced_models import FilmMemoryContact, PowerLawContact
 
@@ -11,6 +12,23 @@ GOOD = {"--M": "20", "--L": "5", "--kappa": "0.5"}
 def steady(**changes):
     options = GOOD | {f"--{name}": value for name, value in changes.items()}
     return ["steady", *(part for pair in options.items() for part in pair)]
+
+
+def test_a_grid_that_would_not_fit_into_memory(refused, monkeypatch, tmp_path):
+    """Said before anything is tried or written."""
+    monkeypatch.setattr("ehlcontact.solver.memory.available_bytes", lambda: 5e6)
+    point = [part for pair in GOOD.items() for part in pair]
+    words = ("n = 256", "fits into memory", "nodes take about", "GB", "0.005 GB are free")
+    for command in (["steady"], ["simulate", "--free", "5"], ["impedance", "--Omega", "1"]):
+        refused(("--" + words[0], *words[1:]), *command, *point, "--n", "256")
+    kept = tmp_path / "kept.h5"
+    kept.write_bytes(b"a result of old")
+    refused(words, *steady(n="256"), "--save", kept)
+    assert kept.read_bytes() == b"a result of old"
+    study = tmp_path / "study.toml"
+    study.write_text(STUDY.replace("n_transient = 32", "n_transient = 64"))
+    refused(("study.toml: solver.n_transient = 64", *words[1:]), "run", study, "-o", tmp_path / "out")
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize(

@@ -8,9 +8,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ehlcontact.checks.machine import require_threads
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import FAILED, USAGE, check_apart, check_json, complain, prepare_folder, say, write_json
+from ehlcontact.errors import InputError
 from ehlcontact.files import read_text, write_text
+from ehlcontact.point import moes_point
 from ehlcontact.status import Status
 
 if TYPE_CHECKING:
@@ -31,6 +34,7 @@ def run(
         typer.Option("--output", "-o", metavar="DIR", help="Folder of the results; results/STUDY by default."),
     ] = None,
     jobs: Annotated[int, typer.Option("--jobs", min=1, max=16, help="Computations side by side.")] = 2,
+    threads: Annotated[int, typer.Option("--threads", help="Threads of each, at most the cores.")] = 1,
     json_to: o.JsonTo = None,
 ) -> None:
     """Do a whole study: steady film, transients, elements, FMU, rotor, report.
@@ -41,6 +45,8 @@ def run(
 
     study = load_study(study_file)
     folder = output if output is not None else Path("results") / study_file.stem
+    require_threads("threads", threads)
+    _require_room(study, study_file)
     check_json(json_to)
     check_apart({"--json": json_to}, (study_file,))
     prepare_folder(folder)
@@ -51,7 +57,7 @@ def run(
     from ehlcontact.cli.study.runner import StorageError
 
     try:
-        _compute(study, copy, folder, min(jobs, os.cpu_count() or 1), json_to)
+        _compute(study, copy, folder, (min(jobs, os.cpu_count() or 1), threads), json_to)
     except StorageError as error:
         complain(f"{error}; what was computed before is in {folder}, the same command resumes")
         raise typer.Exit(USAGE) from None
@@ -60,11 +66,23 @@ def run(
         raise typer.Exit(FAILED) from None
 
 
-def _compute(study: Study, copy: Path, folder: Path, jobs: int, json_to: str | None) -> None:
-    """Stages, then elements, FMU, reduced rotors and report."""
+def _require_room(study: Study, path: Path) -> None:
+    """Raise `InputError` for a grid of the study that would not fit into memory."""
+    from ehlcontact.solver.memory import Solve
+    from ehlcontact.solver.mesh import Mesh, require_room
+
+    for name, solve in (("n", Solve.CYCLES), ("n_transient", Solve.IMPEDANCE)):
+        try:
+            require_room(Mesh(getattr(study.solver, name), study.domain), moes_point(study.point), solve)
+        except InputError as error:
+            raise InputError(f"{path}: solver.{name}", error.value, error.allowed) from None
+
+
+def _compute(study: Study, copy: Path, folder: Path, share: tuple[int, int], json_to: str | None) -> None:
+    """Stages, so many side by side with so many threads each, then elements, FMU, reduced rotors and report."""
     from ehlcontact.cli.study.runner import run_stages
 
-    ledger = run_stages(study, copy, folder, jobs)
+    ledger = run_stages(study, copy, folder, *share)
     failed = {name: note for name, note in ledger.items() if note["status"] != Status.CONVERGED}
     if failed:
         for name, note in failed.items():

@@ -1,8 +1,8 @@
 """Run the stages of a study side by side, each in its own process, with progress, resume and Ctrl-C.
 
-Separate processes use the cores better than threaded linear algebra on matrices this small: each worker gets
-one BLAS thread. What is finished is noted in ``stages.json`` with the fingerprint of the study sections it
-depends on and a checksum of its file, and skipped the next time.
+Separate processes use the cores better than threads of one film: each worker gets one thread, unless told
+otherwise. What is finished is noted in ``stages.json`` with the fingerprint of the study sections it depends on
+and a checksum of its file, and skipped the next time.
 """
 
 from __future__ import annotations
@@ -43,11 +43,11 @@ class StorageError(Exception):
 class _Worker:
     """One process and the thread that reads its events into the common queue."""
 
-    def __init__(self, stage: Stage, study_file: Path, folder: Path, events: queue.Queue) -> None:
+    def __init__(self, stage: Stage, study_file: Path, folder: Path, events: queue.Queue, threads: int) -> None:
         self.stage = stage
         self.last: dict[str, Any] = {}
         path = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))
-        environment = os.environ | dict.fromkeys(THREADS, "1") | {"PYTHONPATH": path}
+        environment = os.environ | dict.fromkeys(THREADS, str(threads)) | {"PYTHONPATH": path}
         command = [sys.executable, "-m", f"{__package__}.worker", str(study_file), str(folder), stage.name]
         self._errors = tempfile.TemporaryFile(mode="w+", encoding="utf-8")
         # Its own session: Ctrl-C in the terminal comes to us alone, and we pass it on once.
@@ -148,12 +148,14 @@ def _to_do(study: Study, folder: Path, ledger: Mapping[str, Mapping[str, Any]]) 
     return todo
 
 
-def run_stages(study: Study, study_file: Path, folder: Path, jobs: int) -> dict[str, dict[str, Any]]:
+def run_stages(
+    study: Study, study_file: Path, folder: Path, jobs: int, threads: int = 1
+) -> dict[str, dict[str, Any]]:
     """Run what is not done yet; returns the ledger, which is on disk after every stage.
 
-    A stage that fails does not stop the others. Ctrl-C, the signal of a `kill`, and a file that cannot be written
-    let the workers save their partial results, and are raised then, the signal as `KeyboardInterrupt`. However
-    this ends, no worker stays behind.
+    `jobs` of them run side by side, with `threads` each. One that fails does not stop the others. Ctrl-C, the
+    signal of a `kill`, and a file that cannot be written let the workers save their partial results, and are
+    raised then, the signal as `KeyboardInterrupt`. However this ends, no worker stays behind.
 
     Raises
     ------
@@ -188,7 +190,7 @@ def run_stages(study: Study, study_file: Path, folder: Path, jobs: int) -> dict[
             while todo or running:
                 while todo and len(running) < jobs:
                     stage = todo.pop(0)
-                    running.append(_Worker(stage, study_file, folder, events))
+                    running.append(_Worker(stage, study_file, folder, events, threads))
                     shown.start(tasks[stage.name])
                 worker, event = events.get()
                 if event is None:

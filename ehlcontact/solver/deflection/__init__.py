@@ -20,6 +20,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from ehlcontact.checks import require_choice
+from ehlcontact.process.threads import Team
 from ehlcontact.solver.deflection.coefficients import Array
 from ehlcontact.solver.deflection.direct import DirectSum
 from ehlcontact.solver.deflection.fft import FastFourier
@@ -27,11 +28,12 @@ from ehlcontact.solver.deflection.mlmi import Mlmi
 
 
 class Deflection(Protocol):
-    """What the engines have in common; an instance serves one thread at a time."""
+    """What the engines have in common; an instance serves one caller at a time."""
 
     nx: int
     ny: int
     kernel: Array  # influence coefficients, lags 0..2 ny along Y and 0..nx along X
+    team: Team  # that an engine may share its work with
 
     def __call__(self, P: Array) -> Array:
         """Deflection of the pressure `P`, shape (ny + 1, nx + 1), zero on the outer border nodes."""

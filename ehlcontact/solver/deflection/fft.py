@@ -7,10 +7,11 @@ from math import pi
 import numpy as np
 from scipy import fft
 
+from ehlcontact.process.threads import ALONE, Team
 from ehlcontact.solver.deflection.coefficients import Array, influence_coefficients
 
-BLOCK = 2**15  # numbers transformed along X at a time
-MATRICES_UP_TO = 64  # intervals along X, for `MatrixTransforms`; beyond, BLAS starts threads, and waits for them
+BLOCK = 2**15  # numbers transformed at a time
+MATRICES_UP_TO = 64  # intervals along X, for `MatrixTransforms`; from about 100 on fast ones cost less
 
 
 class FastFourier:
@@ -25,10 +26,11 @@ class FastFourier:
         self.kernel = influence_coefficients(nx + 1, 2 * ny + 1, hx, hy, kappa)
         transforms = MatrixTransforms if nx <= MATRICES_UP_TO else FastTransforms
         self._transforms: MatrixTransforms | FastTransforms = transforms(self.kernel)
+        self.team = ALONE
 
     def __call__(self, P: Array) -> Array:
         """Deflection of the pressure `P`, shape (ny + 1, nx + 1), zero on the outer border nodes."""
-        return self._transforms(P)
+        return self._transforms(P, self.team)
 
 
 class FastTransforms:
@@ -36,30 +38,49 @@ class FastTransforms:
 
     Along Y the even, zero-padded sequence of period 4 ny needs a cosine transform of 2 ny + 1 numbers. As
     pressure fills only the first ny of them and deflection is wanted there only, its even frequencies are a
-    cosine transform of ny + 1 numbers and its odd ones a shifted one of ny. Along X a block of rows at a time
-    goes to frequencies and back, so that it stays in cache; that gains more than threads do.
+    cosine transform of ny + 1 numbers and its odd ones a shifted one of ny. A block of lines at a time is
+    transformed, so that it stays in cache; threads take whole blocks, which are the same for any number of them.
     """
 
     def __init__(self, kernel: Array) -> None:
         self._ny, self._nx = kernel.shape[0] // 2, kernel.shape[1] - 1
         spectrum = fft.dctn(kernel, type=1) / (4 * self._ny)
         self._spectrum = np.concatenate([spectrum[::2], spectrum[1::2]])  # even frequencies first
+        self._lines, self._columns = (_blocks(*of) for of in (kernel.shape, kernel.shape[::-1]))
 
-    def __call__(self, P: Array) -> Array:
+    def __call__(self, P: Array, team: Team = ALONE) -> Array:
         """As `FastFourier`."""
-        nx, ny = self._nx, self._ny
-        rows = np.empty((2 * ny + 1, nx + 1))
-        rows[: ny + 1] = fft.dct(P, 1, axis=0)
-        rows[ny + 1 :] = fft.dct(P[:ny], 3, axis=0)
-        height = max(1, BLOCK // nx)
-        for first in range(0, 2 * ny + 1, height):
-            block = slice(first, first + height)
+        rows = np.empty((2 * self._ny + 1, self._nx + 1))
+        W = np.empty_like(P)
+        team.run(self._across, len(self._columns), P, rows, least=1)
+        team.run(self._along, len(self._lines), rows, least=1)
+        team.run(self._back_across, len(self._columns), rows, W, least=1)
+        return W
+
+    def _across(self, first: int, last: int, P: Array, rows: Array) -> None:
+        ny = self._ny
+        for block in self._columns[first:last]:
+            rows[: ny + 1, block] = fft.dct(P[:, block], 1, axis=0)
+            rows[ny + 1 :, block] = fft.dct(P[:ny, block], 3, axis=0)
+
+    def _along(self, first: int, last: int, rows: Array) -> None:
+        nx = self._nx
+        for block in self._lines[first:last]:
             spectrum = fft.rfft(rows[block], 2 * nx, axis=1)
             spectrum *= self._spectrum[block]
             rows[block] = fft.irfft(spectrum, 2 * nx, axis=1, overwrite_x=True)[:, : nx + 1]
-        W = fft.dct(rows[: ny + 1], 1, axis=0)
-        W[:ny] += fft.dct(rows[ny + 1 :], 2, axis=0)  # zero at j = ny
-        return W
+
+    def _back_across(self, first: int, last: int, rows: Array, W: Array) -> None:
+        ny = self._ny
+        for block in self._columns[first:last]:
+            W[:, block] = fft.dct(rows[: ny + 1, block], 1, axis=0)
+            W[:ny, block] += fft.dct(rows[ny + 1 :, block], 2, axis=0)  # zero at j = ny
+
+
+def _blocks(count: int, length: int) -> list[slice]:
+    """All of `count` lines of `length` numbers, in blocks."""
+    step = max(8, BLOCK // length // 8 * 8)  # whole lines of cache, where lines are columns
+    return [slice(first, first + step) for first in range(0, count, step)]
 
 
 class MatrixTransforms:
@@ -78,6 +99,6 @@ class MatrixTransforms:
         self._back_along = np.ascontiguousarray(self._along.T) / (2 * nx)
         self._spectrum = np.concatenate([spectrum * share, spectrum * share], axis=1)
 
-    def __call__(self, P: Array) -> Array:
-        """As `FastFourier`."""
+    def __call__(self, P: Array, team: Team = ALONE) -> Array:
+        """As `FastFourier`; as small as the grid is, nothing is shared with the `team`."""
         return self._back_across @ (((self._across @ P @ self._along) * self._spectrum) @ self._back_along)

@@ -9,7 +9,6 @@ from dataclasses import fields, replace
 import h5py
 import numpy as np
 import pytest
-from threadpoolctl import threadpool_limits
 
 from ehlcontact import (
     ConvergenceError,
@@ -43,13 +42,6 @@ RUNS = {
     "pulse, controlled": (PrescribedLoad([0.0, 0.3, 0.4, 0.5, 0.8], [1.0, 1.0, 1.3, 1.0, 1.0]), CONTROLLED),
     "approach, controlled": (PrescribedApproach([0.0, 0.3, 0.6, 0.8], [0.88, 0.95, 0.90, 0.88]), CONTROLLED),
 }
-
-
-@pytest.fixture(scope="module", autouse=True)
-def one_thread():
-    """LU factors of several BLAS threads round differently from run to run, all the more on a busy machine."""
-    with threadpool_limits(1, user_api="blas"):
-        yield
 
 
 def assert_same_bits(one, other):

@@ -1,0 +1,124 @@
+"""The memory of a grid: told before it is tried, and about what is taken then."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from ehlcontact import Domain, FreeVibration, FullContact, InputError, MoesPoint, impedance, simulate, solve_steady
+from ehlcontact.solver import memory
+from ehlcontact.solver.memory import Solve, fits, needed_bytes, require_memory
+from ehlcontact.solver.mesh import Mesh, Purpose, allows_newton, remedy
+from ehlcontact.status import Status
+
+POINT = MoesPoint(200, 10, 0.5)
+SCRIPT = r"""
+import re
+from pathlib import Path
+from ehlcontact import FreeVibration, MoesPoint, impedance, simulate, solve_steady
+
+def solve(n):
+    point, settings = MoesPoint(200, 10, 0.5), dict(n=n, threads=1)
+    if {what!r} == "run":
+        simulate(point, FreeVibration(Omega_n=5.13), until=0.03, dT=0.01, throw=False, **settings)
+    elif {what!r} == "impedance":
+        impedance(point, Omega=[0.0, 3.0], **settings)
+    else:
+        method = "newton" if {what!r} == "newton" else "multigrid"
+        solve_steady(point, max_cycles=2, method=method, throw=False, **settings)
+
+def peak():  # not ru_maxrss, which begins with that of the parent
+    return 1024 * int(re.search(r"VmHWM:\s*(\d+)", Path("/proc/self/status").read_text())[1])
+
+solve(32)
+before = peak()
+solve({n})
+print(peak() - before)
+"""
+
+
+@pytest.fixture
+def free(monkeypatch):
+    """Leaves so many bytes free."""
+    return lambda count: monkeypatch.setattr(memory, "available_bytes", lambda: count)
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="not told here")
+@pytest.mark.parametrize(
+    ("what", "n"),
+    [
+        ("cycles", 512),
+        ("newton", 256),
+        pytest.param("impedance", 256, marks=pytest.mark.slow),
+        pytest.param("cycles", 1024, marks=pytest.mark.slow),
+        pytest.param("run", 512, marks=pytest.mark.slow),
+        pytest.param("run", 1024, marks=pytest.mark.slow),
+        pytest.param("newton", 512, marks=pytest.mark.slow),
+    ],
+)
+def test_estimate_is_within_30_percent_of_what_is_taken(what, n):
+    script = SCRIPT.format(what=what, n=n)
+    for _ in range(2):  # compiling takes memory too: what it did is read the second time
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    solve = Solve.CYCLES if what == "run" else Solve(what)
+    assert needed_bytes(Mesh(n, Domain()).nodes(0.5), solve) == pytest.approx(float(done.stdout), rel=0.3)
+
+
+def test_in_a_small_memory(free):
+    nodes = 1e6
+    free(needed_bytes(nodes))
+    assert fits(nodes) and fits(0.9 * nodes)
+    assert not fits(1.1 * nodes) and not fits(nodes, Solve.NEWTON)
+    require_memory(1024, nodes)
+    with pytest.raises(
+        InputError, match=r"^n = 1024: must be such that the grid fits into memory: 2e\+06 nodes take"
+    ):
+        require_memory(1024, 2 * nodes)
+
+
+def test_where_nobody_tells_what_is_free(free):
+    free(None)
+    assert fits(1e12)
+    require_memory(2048, 1e12)
+
+
+CALLS = {
+    "film": lambda: solve_steady(POINT, n=256),
+    "newton": lambda: solve_steady(POINT, n=128, method="newton"),
+    "run": lambda: simulate(POINT, FreeVibration(Omega_n=5.13), n=256),
+    "response": lambda: impedance(POINT, Omega=[0.0], n=128),
+    "contact": lambda: FullContact(POINT, n=256),
+}
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_refused_before_anything_is_tried(call, free, monkeypatch):
+    free(6e6)
+
+    def made(*args, **kwargs):
+        raise AssertionError("a level was made")
+
+    monkeypatch.setattr("ehlcontact.solver.multigrid.build_hierarchy", made)
+    match = (
+        r"^n = (128|256): must be such that the grid fits into memory: .* GB \((cycles|newton|impedance)\), and"
+    )
+    with pytest.raises(InputError, match=match + r" 0\.006 GB are free"):
+        CALLS[call]()
+
+
+def test_a_grid_beyond_any_memory():
+    """Without a stand-in for the machine."""
+    with pytest.raises(InputError, match=r"^n = 2048: .* 1e\+15 nodes take about 2.96e\+08 GB \(cycles\), and"):
+        require_memory(2048, 1e15)
+
+
+def test_remedies_fit(free):
+    """What fails is not tried again on a grid that does not fit: what was reached is kept."""
+    mesh = Mesh(256, Domain())
+    assert remedy(mesh, Status.STAGNATED, POINT, Purpose.FILM) == Mesh(512, Domain())
+    assert allows_newton(mesh, POINT)
+    free(2e7)
+    assert remedy(mesh, Status.STAGNATED, POINT, Purpose.FILM) is None
+    assert not allows_newton(mesh, POINT)
