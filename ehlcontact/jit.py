@@ -10,5 +10,5 @@ from numba import njit
 
 # Elements: no fused multiply-adds, for the same force must come out whatever a kernel was inlined into (and in C).
 jit_exact: Any = partial(njit, cache=True, error_model="numpy")
-jit: Any = partial(jit_exact, fastmath={"contract", "nsz"})
+jit: Any = partial(jit_exact, fastmath={"contract", "nsz"}, nogil=True)  # threads share the lines of a grid
 jit_node: Any = partial(jit, forceinline=True)  # for one node: a call with a dozen arrays costs more than the work

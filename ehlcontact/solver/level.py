@@ -120,15 +120,19 @@ class Level:
     def update_residual(self) -> Array:
         """Flow and residual ``rhs - N(P, H)`` from P and H; returns ``self.r``."""
         f = self.fields
-        reynolds.update_flow(f.P, f.H, self.law, self.stencil, f.flow)
-        reynolds.residual(f.P, f.flow, self.stencil, self.c_t, self.rhs, self.r)
+        self._update_flow()
+        self.team.run(reynolds.residual_lines, self.ny, f.P, f.flow, self.stencil, self.c_t, self.rhs, self.r)
         return self.r
+
+    def _update_flow(self) -> None:
+        f = self.fields
+        self.team.run(reynolds.update_lines, self.ny + 1, f.P, f.H, self.law, self.stencil, f.flow)
+        self.team.run(reynolds.update_between_lines, self.ny, f.flow)
 
     def density(self) -> Array:
         """Density at the present P, over ambient density."""
-        f = self.fields
-        reynolds.update_flow(f.P, f.H, self.law, self.stencil, f.flow)
-        return f.flow.rho
+        self._update_flow()
+        return self.fields.flow.rho
 
     def transport(self, content: Array, history: Array) -> Array:
         """Discrete ``d(content)/dX + d(content)/dT``; `history` is the known part of the latter, as in `rhs`."""
@@ -165,9 +169,10 @@ class Level:
         self._weigh()
         for colour in (0, 1):
             if colour == 1:
-                reynolds.update_flow(f.P, f.H, self.law, numbers, f.flow)
-            relax.relax_lines(0, (lines + 1 - colour) // 2, colour, f, self.rhs, numbers, self.c_t, self.near)
-            relax.apply_lines(0, lines, colour, f, self.near)
+                self._update_flow()
+            coloured = (lines + 1 - colour) // 2
+            self.team.run(relax.relax_lines, coloured, colour, f, self.rhs, numbers, self.c_t, self.near)
+            self.team.run(relax.apply_lines, lines, colour, f, self.near)
         own = self.near[0, 0]
         boundary.relax_boundary(
             f.P, f.H, f.flow, self.rhs, self.law, numbers, self.c_t, own, self.nodes, self.marks
@@ -182,7 +187,7 @@ class Level:
     def _weigh(self) -> None:
         """Weights of the distributed changes, from the state of the last `update`."""
         f = self.fields
-        relax.distribution_weights(0, self.ny, f.P, f.flow, self.stencil, self.c_t, f.theta)
+        self.team.run(relax.distribution_weights, self.ny, f.P, f.flow, self.stencil, self.c_t, f.theta)
 
     def set_dry_hertz(self) -> None:
         """Dry Hertz pressure, the start of every solve."""

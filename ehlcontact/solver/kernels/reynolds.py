@@ -96,22 +96,28 @@ def update_across(j, i, flow):
 
 @jit
 def update_lines(first, last, P, H, law, stencil, flow):
-    """All of `flow` on lines `first` to `last` - 1, and between those."""
+    """All of `flow` on lines `first` to `last` - 1."""
     nx = P.shape[1] - 1
     for j in range(first, last):
         for i in range(nx + 1):
             update_node(j, i, P, H, law, stencil, flow)
         for i in range(nx):
             update_along(j, i, flow)
-        if j > first:
-            for i in range(nx + 1):
-                update_across(j - 1, i, flow)
+
+
+@jit
+def update_between_lines(first, last, flow):
+    """Flow between lines `first` to `last` - 1 and the ones after them."""
+    for j in range(first, last):
+        for i in range(flow.eps.shape[1]):
+            update_across(j, i, flow)
 
 
 @jit
 def update_flow(P, H, law, stencil, flow):
     """All of `flow` from P and H."""
     update_lines(0, P.shape[0], P, H, law, stencil, flow)
+    update_between_lines(0, P.shape[0] - 1, flow)
 
 
 @jit_node
@@ -135,11 +141,17 @@ def operator_at(j, i, P, flow, stencil, c_t):
 
 
 @jit
-def residual(P, flow, stencil, c_t, rhs, out):
-    """``rhs - N(P, H)`` at all interior nodes; `out` written, its boundary left alone."""
-    for j in range(P.shape[0] - 1):
+def residual_lines(first, last, P, flow, stencil, c_t, rhs, out):
+    """`residual` on lines `first` to `last` - 1."""
+    for j in range(first, last):
         for i in range(1, P.shape[1] - 1):
             out[j, i] = rhs[j, i] - operator_at(j, i, P, flow, stencil, c_t)
+
+
+@jit
+def residual(P, flow, stencil, c_t, rhs, out):
+    """``rhs - N(P, H)`` at all interior nodes; `out` written, its boundary left alone."""
+    residual_lines(0, P.shape[0] - 1, P, flow, stencil, c_t, rhs, out)
 
 
 @jit
