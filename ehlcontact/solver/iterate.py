@@ -20,7 +20,7 @@ from ehlcontact.status import Status
 STAGNATION_CYCLES = 6  # the last so many are held against all before them,
 STAGNATION_FACTOR = 0.7  # and have to bring the least residual down to this share
 DIVERGENCE_FACTOR = 1e3  # times the scale: a residual that large does not come back
-SLOW = 0.9  # change of the pressure over that of the iteration before, above which the sweeps are doubled,
+SLOW = 0.45  # change of the pressure over that of the iteration before, above which, twice, the sweeps are doubled,
 MOST_EFFORT = 4  # up to so many times
 LEAST_FACTOR = 0.2  # assumed of what is to come: the first iterations fall faster
 BORDER_SLOPE = 0.1  # of the maximum per semi-axis, at inlet and sides
@@ -74,6 +74,11 @@ def pressure_error(changes: Sequence[float]) -> float:
     return changes[-1] * factor / (1.0 - factor) if factor < 1.0 else inf
 
 
+def falls_slowly(changes: Sequence[float]) -> bool:
+    """Whether the last two changes were both more than SLOW times the one before."""
+    return len(changes) > 2 and all(b > SLOW * a for a, b in pairwise(changes[-3:]))
+
+
 def iterate(
     film: Multigrid,
     balance: Balance,
@@ -117,7 +122,7 @@ def iterate(
         track.pressure_changes.append(advance(balance))
         change_of_u, change_of_force = abs(film.u - u), abs(level.force() - force)
         track.changes.append(change_of_u)
-        if track.iterations > 0 and track.pressure_changes[-1] > SLOW * track.pressure_changes[-2]:
+        if falls_slowly(track.pressure_changes):
             film.effort = min(2 * film.effort, MOST_EFFORT)
 
 

@@ -10,8 +10,9 @@ from ehlcontact.jit import jit, jit_node
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
 from ehlcontact.solver.kernels.reynolds import operator_at, update_across, update_along, update_node
 
-PASSES = 16
-REACH = 8  # nodes on either side of the boundary; fine grids need it, where coarse corrections end so far from it
+NODES_EACH = 64  # intervals along X per node of reach: coarse corrections end some way before the boundary, not some
+LEAST_REACH, MOST_REACH = 3, 8  # nodes before it
+PASSES_EACH = 2  # passes per node of reach
 UPDATED = 255  # mark
 DOMINANCE = 10.0  # flow term over wedge term,
 NEAREST = 3.0  # up to this distance from the boundary; as its cube more beyond, where smoother changes are relaxed
@@ -19,8 +20,14 @@ SQUEEZE_DOMINANCE = 30.0  # flow term over squeeze term
 
 
 @jit
-def mark_boundary(P, marks):
-    """Mark the nodes within REACH of a change between P > 0 and P = 0, by 1 at the farthest, REACH + 1 at it.
+def reach_of(nx):
+    """Nodes on either side of the boundary that are relaxed."""
+    return min(max(nx // NODES_EACH, LEAST_REACH), MOST_REACH)
+
+
+@jit
+def mark_boundary(P, reach, marks):
+    """Mark the nodes within `reach` of a change between P > 0 and P = 0, by 1 at the farthest, reach + 1 at it.
 
     `marks` (bytes) written, 0 elsewhere.
     """
@@ -32,10 +39,10 @@ def mark_boundary(P, marks):
             east = i + 1 < nx and (P[j, i + 1] > 0.0) != wet
             north = j + 1 < ny and (P[j + 1, i] > 0.0) != wet
             if east or north:
-                for jj in range(max(j - REACH, 1 - ny), min(j + REACH + 1, ny - 1) + 1):
-                    for ii in range(max(i - REACH, 1), min(i + REACH + 1, nx - 1) + 1):
+                for jj in range(max(j - reach, 1 - ny), min(j + reach + 1, ny - 1) + 1):
+                    for ii in range(max(i - reach, 1), min(i + reach + 1, nx - 1) + 1):
                         away = max(abs(jj - j), abs(ii - i))
-                        marks[abs(jj), ii] = max(marks[abs(jj), ii], REACH + 1 - min(away, REACH))
+                        marks[abs(jj), ii] = max(marks[abs(jj), ii], reach + 1 - min(away, reach))
 
 
 @jit_node
@@ -74,18 +81,19 @@ def relax_boundary(P, H, flow, rhs, law, stencil, c_t, self_deflection, nodes, m
     `P` and, there, `flow` are written; `nodes`, `marks` are work space.
     """
     width = P.shape[1]
-    mark_boundary(P, marks)
+    reach = reach_of(width - 1)
+    mark_boundary(P, reach, marks)
     update_marked(P, H, law, stencil, flow, marks)
     transport = DOMINANCE * 1.5 * stencil.inv_hx + SQUEEZE_DOMINANCE * c_t
     count = 0
     for j in range(P.shape[0] - 1):
         for i in range(1, width - 1):
-            away = max(1.0, (REACH + 1 - marks[j, i]) / NEAREST)
+            away = max(1.0, (reach + 1 - marks[j, i]) / NEAREST)
             least = transport * self_deflection * away * away * away
             if 0 < marks[j, i] < UPDATED and total_flow(j, i, flow, stencil) > least:
                 nodes[count] = j * width + i
                 count += 1
-    for sweep in range(PASSES):
+    for sweep in range(PASSES_EACH * reach):
         for s in range(count):
             node = nodes[s] if sweep % 2 == 0 else nodes[count - 1 - s]
             j, i = node // width, node % width

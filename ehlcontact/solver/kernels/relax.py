@@ -25,7 +25,7 @@ BAND = BAND_LOWER + BAND_UPPER + 1
 PAD = max(BAND_LOWER, BAND_UPPER)
 NEAR = 2  # near influence coefficients kept on either side
 SHARE = 0.25  # part of a distributed change that each neighbour takes back
-SWITCH = 6.0  # eps/hx^2 at which theta = 1/2 in steady flow (Venner and Lubrecht's hard switch: 0.3),
+SWITCH = 8.0  # eps/hx^2 at which theta = 1/2 in steady flow (Venner and Lubrecht's hard switch: 0.3),
 # for meshes up to twice as fine along X as along Y, physically; in proportion more for finer ones
 SQUEEZE = 10.0  # how much more the squeeze term raises it than the wedge term
 FLOW_SLOPE = 0.75  # share of the derivatives of eps; see above
