@@ -49,7 +49,7 @@ def test_solve_band(kernel, m):
 @pytest.mark.parametrize("lines", [(0, 8), (2, 5)])
 def test_distribution_weights(level, point, kernel, c_t, lines):
     f, theta = level.fields, np.full_like(level.P, np.nan)
-    exponent = np.random.default_rng(2).uniform(-2, 2, f.P.shape)  # both sides of the switch
+    exponent = np.random.default_rng(2).uniform(-2, 3, f.P.shape)  # both sides of the switch
     eps = f.flow.eps
     eps[...] = level.hx**2 * 10.0**exponent
     f.flow.along[:, :-1] = np.vectorize(oracles.flow_mean)(eps[:, :-1], eps[:, 1:])
@@ -70,7 +70,9 @@ def random_change(level, colour, seed=5):
     f.w[:-1, 1:-1] = 1e-3 * rng.normal(size=(level.ny, level.nx - 1))
     f.w[f.P == 0.0] = 0.0
     f.w[2:4, 5:9] = 2e-3  # dry nodes that join the solve
-    f.w[1 - colour :: 2] = 7.0  # of the lines of the other colour, solved before, and none of this sweep's business
+    f.w[1 - colour :: 2] = (
+        7.0  # of the lines of the other colour, solved before, and none of this sweep's business
+    )
 
 
 def deposits(level, colour):
@@ -150,7 +152,7 @@ def test_relax_lines_solves_every_line_of_its_colour(level, colour):
     lines = (level.ny + 1 - colour) // 2
     for first, last in ((1, lines), (0, 1)):
         relax.relax_lines(first, last, colour, f, level.rhs, level.stencil, level.c_t, level.near)
-    np.testing.assert_array_equal(f.w, expected)
+    np.testing.assert_allclose(f.w, expected, rtol=1e-12)
 
 
 def line_matrix(level, j):
@@ -163,7 +165,7 @@ def line_matrix(level, j):
         for row in {ny + j, ny - j}:
             for node, part in oracles.nodes_of_a_distributed_change(row, c, theta).items():
                 dP[node] += part
-        for i in range(max(c - NEAR, 1), min(c + NEAR, nx - 1) + 1):
+        for i in range(max(c - NEAR, 0), min(c + NEAR, nx) + 1):
             for node, part in oracles.nodes_of_a_distributed_change(ny + j, c, theta).items():
                 dH[i] += K[abs(node[0] - ny - j), abs(node[1] - i)] * part
         for i in range(1, nx):
@@ -218,11 +220,11 @@ def test_too_large_changes_are_cut_all_alike(level, film, size):
     f.P[:-1, 1:-1] += 0.05  # all under pressure, so that the linear system is the same for any residual
     level.update_residual()
     level.rhs[...] -= level.r  # a residual of zero
-    pushed = 1e-9 * np.random.default_rng(8).normal(size=f.P.shape)
-    unlimited = size / 1e-9 * relax_line(level, j, level.rhs + pushed)
+    pushed = 1e-5 * np.random.default_rng(8).normal(size=f.P.shape)
+    unlimited = size / 1e-5 * relax_line(level, j, level.rhs + pushed)
     if film is not None:
         f.H[j, 4:9] = film  # by which changes are judged; the flow stays as it is
-    w = relax_line(level, j, level.rhs + size / 1e-9 * pushed)
+    w = relax_line(level, j, level.rhs + size / 1e-5 * pushed)
     by_film = np.abs(unlimited) * level.near[0, 0] / np.where(f.H[j] > 0.0, f.H[j], np.inf)
     factor = max(1.0, np.abs(unlimited).max() / 0.3, by_film.max())
     assert (factor > 1.0) == (size == 1e2)
