@@ -146,22 +146,23 @@ def deflection(P, hx, hy, kappa):
     return out
 
 
-def full_weighting(fine):
-    """Nine-point full weighting of a half-domain field, interior; NaN on the border."""
+def full_weighting(fine, along=2, across=2):
+    """Full weighting of a half-domain field to a mesh so many times as coarse, interior; NaN on the border."""
     ny = fine.shape[0] - 1
     full = mirrored(fine)
-    stencil = np.outer([1.0, 2.0, 1.0], [1.0, 2.0, 1.0]) / 16.0
-    coarse = np.full((ny // 2 + 1, (fine.shape[1] - 1) // 2 + 1), np.nan)
+    halved, kept = np.array([0.25, 0.5, 0.25]), np.array([0.0, 1.0, 0.0])
+    stencil = np.outer(halved if across == 2 else kept, halved if along == 2 else kept)
+    coarse = np.full((ny // across + 1, (fine.shape[1] - 1) // along + 1), np.nan)
     for j in range(coarse.shape[0] - 1):
         for i in range(1, coarse.shape[1] - 1):
-            row, column = ny + 2 * j, 2 * i
+            row, column = ny + across * j, along * i
             coarse[j, i] = np.sum(stencil * full[row - 1 : row + 2, column - 1 : column + 2])
     return coarse
 
 
-def bilinear(coarse, j, i):
-    """Bilinear interpolation of a coarse field to fine node (j, i)."""
-    y, x = 0.5 * j, 0.5 * i
+def bilinear(coarse, j, i, along=2, across=2):
+    """Bilinear interpolation of a coarse field to fine node (j, i) of a mesh so many times as fine."""
+    y, x = j / across, i / along
     j0, i0 = min(int(y), coarse.shape[0] - 2), min(int(x), coarse.shape[1] - 2)
     t, s = y - j0, x - i0
     return (1 - t) * ((1 - s) * coarse[j0, i0] + s * coarse[j0, i0 + 1]) + t * (
@@ -169,14 +170,23 @@ def bilinear(coarse, j, i):
     )
 
 
-def distribution_weight(P, eps, j, i, hx, hy, kappa, c_t):
+def nodes_of_a_distributed_change(j, i, theta):
+    """Nodes of the whole domain and their parts of a unit change at (j, i), j and `theta` of the whole domain too.
+
+    A neighbour takes back a quarter of what both nodes' weights allow, the smaller one.
+    """
+    parts = {(j, i): 1.0}
+    for node in ((j, i - 1), (j, i + 1), (j - 1, i), (j + 1, i)):
+        parts[node] = -0.25 * min(theta[j, i], theta[node])
+    return parts
+
+
+def distribution_weight(eps, j, i, hx, hy, kappa, c_t):
     """Weight theta of one node: half where eps/h^2 towards its largest neighbour equals the switch."""
-    if P[j, i] <= 0.0:
-        return 0.0
     below = eps[1, i] if j == 0 else eps[j - 1, i]
     along = max(flow_mean(eps[j, i], other) for other in (eps[j, i - 1], eps[j, i + 1])) / hx**2
     across = max(flow_mean(eps[j, i], other) for other in (below, eps[j + 1, i])) * kappa**2 / hy**2
-    switch = 3.0 * max(1.0, 0.5 * hy / (kappa * hx)) * (1.0 + 10.0 * c_t * hx / 1.5)
+    switch = 6.0 * max(1.0, 0.5 * hy / (kappa * hx)) * (1.0 + 10.0 * c_t * hx / 1.5)
     ratio = max(along, across) / switch
     return 1.0 / (1.0 + ratio**4)
 

@@ -35,7 +35,7 @@ LARGEST_CHANGE = 0.3  # of P in one sweep, along one line; far from the solution
 
 @jit_node
 def distribution_weight(j, i, P, flow, stencil, switch):
-    """Weight theta of the distributed change at one interior node; 0 where P = 0."""
+    """Weight theta of the distributed change at one interior node."""
     face = j - 1 if j > 0 else 0
     along = stencil.cx * max(flow.along[j, i - 1], flow.along[j, i])
     across = stencil.cy * max(flow.across[face, i], flow.across[j, i])

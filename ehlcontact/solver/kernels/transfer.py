@@ -1,10 +1,14 @@
-"""Grid transfer on half domains, halving along X, along Y or both."""
+"""Grid transfer on half domains: full weighting down, bilinear up.
+
+Ratios `sx` along X and `sy` along Y are 2 or 1, not both 1: a mesh may be coarsened along one direction alone.
+"""
 
 from ehlcontact.jit import jit
 
 
 @jit
 def full_weighting(fine, coarse, sx, sy):
+    """Full weighting, even about line 0; interior of `coarse` written, its boundary left alone."""
     for j in range(coarse.shape[0] - 1):
         c = sy * j
         n, s = c + 1, c - 1 if j > 0 else 1
@@ -24,6 +28,7 @@ def full_weighting(fine, coarse, sx, sy):
 
 @jit
 def restrict_pressure(fine, coarse, sx, sy):
+    """Full weighting where all its pressures are positive, injection beside cavitation; `coarse` written."""
     rx, ry = sx - 1, sy - 1
     for j in range(coarse.shape[0] - 1):
         for i in range(1, coarse.shape[1] - 1):
@@ -43,6 +48,12 @@ def restrict_pressure(fine, coarse, sx, sy):
 
 @jit
 def add_correction(new, old, fine, sx, sy):
+    """Add the bilinear interpolation of ``new - old`` to `fine`, except along the cavitation boundary.
+
+    A coarse correction beside its own cavitation boundary is no information about the fine one: nodes whose
+    coarse neighbours are not all under pressure, before and after, are left to relaxation. The border of the
+    domain is no such boundary.
+    """
     for j in range(fine.shape[0] - 1):
         j0 = j // sy
         j1 = (j + sy - 1) // sy

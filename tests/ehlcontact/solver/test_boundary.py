@@ -1,38 +1,39 @@
 """The cavitation-boundary passes."""
 
 import numpy as np
-import oracles
 import pytest
 
 from ehlcontact import MoesPoint
 from ehlcontact.solver.kernels import boundary
+from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
 from ehlcontact.solver.kernels.reynolds import operator_at, residual
+
+KERNELS = [boundary.relax_boundary, boundary.relax_boundary.py_func]
 
 
 @pytest.mark.parametrize("kernel", [boundary.mark_boundary, boundary.mark_boundary.py_func], ids=["jit", "python"])
 def test_marks(kernel):
-    """Against distances on the whole domain: all nodes within REACH of a change, none beyond REACH + 1."""
+    """Against distances from the node before a change: one less per node, none beyond REACH of the node after it."""
     P = np.zeros((13, 31))
-    P[:5, 8:18] = 0.5
+    P[:5, 11:18] = 0.5
     P[:1, 14] = 0.0  # a hole on the symmetry line
     marks = np.full(P.shape, 7, dtype=np.uint8)
     kernel(P, marks)
-    wet = oracles.mirrored(P) > 0.0
+    wet = P > 0.0
     changes = [
-        node
-        for r in range(1, wet.shape[0] - 1)
-        for c in range(1, wet.shape[1] - 1)
-        for node, other in (((r, c), (r, c + 1)), ((r, c), (r + 1, c)))
-        if wet[node] != wet[other]
-        for node in (node, other)
+        (r, c)
+        for r in range(12)
+        for c in range(1, 30)
+        for other in ((r, c + 1), (r + 1, c))
+        if other[0] < 12 and other[1] < 30 and wet[r, c] != wet[other]
     ]
     for j in range(12):
         for i in range(1, 30):
-            distance = min(max(abs(r - 12 - j), abs(c - i)) for r, c in changes)
-            if distance <= boundary.REACH:
-                assert marks[j, i] == boundary.MARKED, (j, i)
-            elif distance > boundary.REACH + 1:
-                assert marks[j, i] == 0, (j, i)
+            away = [max(abs(j - r), abs(i - c)) for r, c in changes]
+            reached = [max(j - r - 1, r - j, i - c - 1, c - i) <= boundary.REACH for r, c in changes]
+            expected = max(1, boundary.REACH + 1 - min(away)) if any(reached) else 0
+            assert marks[j, i] == expected, (j, i)
+    assert 0 in marks[:12, 1:30] and boundary.REACH + 1 in marks
     assert (marks[:, [0, -1]] == 0).all()
 
 
@@ -41,23 +42,11 @@ def solved(solve_by_newton):
     return solve_by_newton(MoesPoint(20, 5, 0.5))[0]
 
 
-def passes(level, kernel):
+def passes(level, kernel, self_deflection=None):
     f = level.fields
-    kernel(
-        f.P,
-        f.H,
-        f.flow,
-        level.rhs,
-        level.law,
-        level.stencil,
-        level.c_t,
-        level.near[0, 0],
-        level.nodes,
-        level.marks,
-    )
-
-
-KERNELS = [boundary.relax_boundary, boundary.relax_boundary.py_func]
+    own = level.near[0, 0] if self_deflection is None else self_deflection
+    marks = np.zeros(f.P.shape, dtype=np.int64)  # of bytes, Python's differences would overflow
+    kernel(f.P, f.H, f.flow, level.rhs, level.law, level.stencil, level.c_t, own, level.nodes, marks)
 
 
 @pytest.mark.parametrize("kernel", [boundary.update_marked, boundary.update_marked.py_func], ids=["jit", "python"])
@@ -65,10 +54,13 @@ def test_flow_at_marked_nodes_is_up_to_date(level, kernel):
     """The operator there, from stale flow and this update, equals that from a full one."""
     f = level.fields
     marks = np.zeros(f.P.shape, dtype=np.uint8)
-    marks[0, 1:4] = marks[3:6, 8:10] = marks[-2, -2] = boundary.MARKED
+    marks[0, 1:4] = marks[3:6, 8:10] = marks[-2, -2] = 1
+    marks[4, 8] = boundary.REACH + 1
     marked = [(j, i) for j, i in np.argwhere(marks)]
+    around = {neighbour.py_func(q, j, i) for j, i in marked for q in range(1, NEIGHBOURS)} - set(marked)
     f.P[f.P > 0.0] *= 1.3
     kernel(f.P, f.H, level.law, level.stencil, f.flow, marks)
+    assert {(j, i) for j, i in np.argwhere(marks == boundary.UPDATED)} == {k for k in around if k[1] >= 0}
     got = [operator_at.py_func(j, i, f.P, f.flow, level.stencil, level.c_t) for j, i in marked]
     level.update_residual()
     expected = [operator_at.py_func(j, i, f.P, f.flow, level.stencil, level.c_t) for j, i in marked]
@@ -83,11 +75,39 @@ def test_solution_stays(solved, kernel):
     solved.P[...] = P
 
 
+def least_flow(level, marks, self_deflection):
+    """Flow that a node needs so that a frozen film is safe there: ten wedge, thirty squeeze terms, more far away."""
+    away = np.maximum(1.0, (boundary.REACH + 1.0 - marks) / 3.0)
+    return (10.0 * 1.5 / level.hx + 30.0 * level.c_t) * self_deflection * away**3
+
+
+@pytest.mark.parametrize("kernel", KERNELS, ids=["jit", "python"])
+@pytest.mark.parametrize("c_t", [0.0, 2.0])
+def test_only_where_flow_dominates(solved, kernel, c_t):
+    """Of a residual everywhere, the passes see marked nodes whose flow exceeds wedge and squeeze, no others."""
+    P, f, before = solved.P.copy(), solved.fields, solved.c_t
+    marks = np.zeros(P.shape, dtype=np.uint8)
+    boundary.mark_boundary(P, marks)
+    along, across = np.zeros_like(P), np.zeros_like(P)
+    along[:, 1:-1] = solved.stencil.cx * (f.flow.along[:, :-2] + f.flow.along[:, 1:-1])
+    across[1:-1] = solved.stencil.cy * (f.flow.across[:-2] + f.flow.across[1:-1])
+    across[0] = solved.stencil.cy * 2.0 * f.flow.across[0]
+    flow, own = along + across, 4.0 * solved.near[0, 0]
+    solved.c_t = c_t
+    expected = (marks > 0) & (flow > least_flow(solved, marks.astype(float), own))
+    near = (marks > 0) & (flow > least_flow(solved, boundary.REACH + 1.0, own))
+    assert 0 < np.count_nonzero(expected) < np.count_nonzero(near) < np.count_nonzero(marks)
+    solved.rhs[...] = -1e3  # asks every node for pressure
+    passes(solved, kernel, own)
+    np.testing.assert_array_equal(solved.P != P, expected)
+    solved.P[...], solved.rhs[...], solved.c_t = P, 0.0, before
+
+
 def test_disturbed_boundary_is_restored(solved):
     P, f = solved.P.copy(), solved.fields
     marks = np.zeros(P.shape, dtype=np.uint8)
     boundary.mark_boundary(P, marks)
-    tiny = (marks == boundary.MARKED) & (P > 0.0) & (P < 1e-3)
+    tiny = (marks > 0) & (P > 0.0) & (P < 1e-3)
     assert tiny.sum() > 3
 
     def left():  # at frozen film, which is all these passes see

@@ -5,7 +5,7 @@ import pytest
 
 from ehlcontact import Domain, MoesPoint, Status
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.iterate import Goal, Track, classify, iterate
+from ehlcontact.solver.iterate import MOST_EFFORT, Goal, Track, classify, iterate, pressure_error
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 
@@ -33,7 +33,8 @@ def goal(scale=1.0, tol=1e-4, most=9, balance=1e-7, approach=1e-7, **others):
         ([NAN], False, 0, Status.NONFINITE),
         ([1.0, 2e3], False, 9, Status.DIVERGED),
         ([1.0, 9e2], False, 9, None),
-        ([2e3, 1.0], False, 9, None),  # a poor start is not divergence
+        ([2e3, 1.0], False, 9, None),  # a poor start is not divergence,
+        ([2e3], False, 9, None),  # nor before anything has been tried
         ([1.0] * 13, False, 40, None),
         ([1.0] * 14, False, 40, Status.STAGNATED),
         ([1.0] * 14, True, 40, Status.STAGNATED),
@@ -47,9 +48,53 @@ def test_classify(residuals, settled, most, expected):
     assert classify(residuals, goal(most=most), settled) is expected
 
 
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        ([0.1] * 14, Status.STAGNATED),
+        ([0.8**k for k in range(14)], None),
+        ([0.97**k for k in range(14)], Status.STAGNATED),
+        ([1.0] * 8 + [0.6] * 6, None),
+    ],
+)
+def test_stagnation_is_judged_by_the_pressure(changes, expected):
+    """Where its changes are known, and whatever the residuals do."""
+    assert classify(FALLING[:14], goal(tol=1e-30, most=40), False, changes) is expected
+    assert classify([1.0] * 14, goal(most=40), False, changes) is expected
+
+
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        ([], INF),
+        ([0.3], 0.3),  # nothing to compare with
+        ([0.4, 0.2], 0.2),  # 0.1 + 0.05 + ...
+        ([0.9, 0.3, 0.15], 0.15),  # the worse of the last two factors, here the last
+        ([0.2, 0.1, 0.01], 0.01),  # and here the one before
+        ([9.0, 9.0, 0.9, 0.09], 0.09 / 4.0),  # older ones are forgotten; never less than a fifth
+        ([1.0, 1e-9], 1e-9 / 4.0),
+        ([0.1, 0.1], INF),
+        ([0.1, 0.2, 0.01], INF),
+        ([0.2, 0.0, 0.0], 0.0),
+        ([0.0, 0.0], 0.0),
+    ],
+)
+def test_pressure_error(changes, expected):
+    """The rest of a geometric series."""
+    assert pressure_error(changes) == pytest.approx(expected, rel=1e-12)
+    track = Track()
+    track.pressure_changes.extend(changes)
+    assert track.pressure_error == pressure_error(changes)
+
+
+def test_pressure_error_is_the_rest_of_the_series():
+    changes = [0.5**k for k in range(60)]
+    assert pressure_error(changes[:4]) == pytest.approx(sum(changes[4:]), rel=1e-12)
+
+
 def test_scale_is_what_counts():
     assert classify([1e-3], goal(scale=100.0), True) is Status.CONVERGED
-    assert classify([1e-3], goal(scale=1e-8), True) is Status.DIVERGED
+    assert classify([1.0, 1e-3], goal(scale=1e-8), True) is Status.DIVERGED
 
 
 @pytest.fixture
@@ -69,6 +114,7 @@ def test_cycles_until_both_residuals_hold(film):
     assert track.residuals[-1] <= 1e-4 * scale
     assert abs(track.balance_residuals[-1]) < 1e-7 and track.changes[-1] < 1e-7
     assert len(track.residuals) == len(track.balance_residuals) == track.iterations + 1 == len(track.changes) + 1
+    assert len(track.pressure_changes) == len(track.changes)
     assert seen == [(k, r / scale) for k, r in enumerate(track.residuals) if k > 0]
 
 
@@ -80,12 +126,60 @@ def test_a_force_that_still_changes_is_not_settled(film):
     assert loose.iterations == 1 and tight.iterations > 1
 
 
+def test_a_pressure_that_still_changes_is_not_settled(film):
+    """And is, once what is still to come is small: the distance to the solution, as cycles to the end tell."""
+    multigrid, scale = film
+    loose, tight = Track(), Track()
+    assert iterate(multigrid, LOAD, multigrid.cycle, goal(scale, 1.0, 40, 1.0, 1.0, pressure=INF), loose).ok
+    assert iterate(multigrid, LOAD, multigrid.cycle, goal(scale, 1.0, 40, 1.0, 1.0, pressure=1e-6), tight).ok
+    assert loose.iterations == 1 < tight.iterations
+    assert tight.pressure_error <= 1e-6 < pressure_error(tight.pressure_changes[:-1])
+    P = multigrid.finest.P.copy()
+    for _ in range(15):
+        multigrid.cycle(LOAD)
+    assert np.abs(multigrid.finest.P - P).max() <= 1e-6
+
+
+class Scripted:
+    """Iterations whose changes of the pressure are given; notes the effort of each."""
+
+    def __init__(self, film, changes):
+        self.film, self.changes, self.efforts = film, changes, []
+
+    def __call__(self, balance):
+        self.efforts.append(self.film.effort)
+        return self.changes[len(self.efforts) - 1]
+
+
+@pytest.mark.parametrize(
+    ("least", "changes", "efforts"),
+    [
+        (1, [1.0, 0.89, 0.79, 0.7], [1, 1, 1, 1]),
+        (1, [1.0, 0.91, 0.5, 0.2], [1, 1, 2, 2]),  # it does not go back
+        (1, [1.0, 0.95, 0.94, 0.93, 0.92], [1, 1, 2, 4, 4]),
+        (1, [1.0, 2.0, 0.1, 0.2, 0.1], [1, 1, 2, 2, 4]),
+        (2, [1.0, 0.5, 0.6, 0.3], [2, 2, 2, 4]),
+    ],
+)
+def test_slow_iterations_are_given_more_sweeps(film, least, changes, efforts):
+    """Twice as many, up to four times; the next solve begins with the least again."""
+    multigrid, scale = film
+    multigrid.least_effort = least
+    for _ in range(2):
+        advance = Scripted(multigrid, changes)
+        status = iterate(multigrid, LOAD, advance, goal(scale, 0.0, len(changes)), Track())
+        assert status is Status.MAX_CYCLES
+        assert advance.efforts == efforts
+        assert max(efforts) <= MOST_EFFORT
+
+
 def test_nan_ends_it(film):
     multigrid, scale = film
 
     def spoil(balance):
         multigrid.finest.P[3, 3] = np.nan
         multigrid.finest.update(multigrid.u)
+        return np.nan
 
     track = Track()
     assert iterate(multigrid, LOAD, spoil, goal(scale, 1e-12), track) is Status.NONFINITE
@@ -97,7 +191,7 @@ def test_a_film_that_is_none_has_not_converged(film):
     multigrid.finest.H[0, 16] = -1e-3
 
     def nothing(balance):
-        pass
+        return 0.0
 
     assert iterate(multigrid, LOAD, nothing, goal(scale, 1e9, 9, 1e9, 1e9), Track()) is Status.UNRESOLVED
 

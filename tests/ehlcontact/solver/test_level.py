@@ -53,6 +53,50 @@ def test_hierarchy(n, coarsest):
     assert (levels[-1].X[0], levels[-1].X[-1], levels[-1].Y[-1]) == (-5.0, 3.0, 4.0)
 
 
+def apart(level, kappa):
+    """Physical distance of lines over that of nodes."""
+    return level.hy / (kappa * level.hx)
+
+
+@pytest.mark.parametrize(
+    ("kappa", "n", "coarsest", "alone"),
+    [
+        (1.0, 128, 16, 0),
+        (3.0, 128, 16, 0),
+        (0.21, 128, 16, 0),
+        (0.19, 128, 16, 1),
+        (0.09, 256, 16, 2),
+        (0.03, 64, 16, 2),
+    ],
+)
+def test_lines_far_apart_are_coarsened_along_x_first(kappa, n, coarsest, alone):
+    """So many halvings along X alone; the coarsest grid is the same as by halving both."""
+    domain = Domain(-2.0, 1.35, 1.6)
+    levels = build_hierarchy(MoesPoint(20, 5, kappa), Mesh(n, domain), coarsest)
+    ratios = [(fine.nx // coarse.nx, fine.ny // coarse.ny) for coarse, fine in itertools.pairwise(levels)][::-1]
+    along = int(np.log2(n // coarsest))
+    assert ratios == [(2, 1)] * alone + [(2, 2)] * (along - alone) + [(1, 2)] * alone
+    for (coarse, fine), (x, y) in zip(itertools.pairwise(levels), ratios[::-1], strict=True):
+        np.testing.assert_allclose(fine.X[::x], coarse.X, atol=1e-14)
+        np.testing.assert_allclose(fine.Y[::y], coarse.Y, atol=1e-14)
+        assert (x, y) == ((2, 1) if apart(fine, kappa) >= 5.0 else (2, 2)) or fine.nx == coarsest
+    assert levels[-1].ny == levels[0].ny * n // coarsest
+    assert 0.6 < levels[-1].hy / levels[-1].hx / max(1.0, kappa) < 1.25
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_sweeps_ask_for_the_state_of_the_last_update(level, threads):
+    """P moves and stays positive; film and residual are left to the next update, whoever asks for it."""
+    level.share(threads)
+    P = level.P.copy()
+    level.relax()
+    assert (level.P != P).any() and (level.P >= 0.0).all()
+    assert (level.P[-1] == 0.0).all() and (level.P[:, [0, -1]] == 0.0).all()
+    H, r = level.H.copy(), level.update(0.3).copy()
+    assert (level.H != H).any()
+    np.testing.assert_array_equal(level.update(0.3), r)
+
+
 def test_dry_start():
     level = Level(MoesPoint(20, 5, 0.5), Domain(-1.5, 1.5, 1.5), 48, 24)
     level.set_dry_hertz()

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, MoesPoint, solve_steady
+from ehlcontact import Domain, MoesPoint, Status, solve_steady, steady
 from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.level import Level
 from ehlcontact.solver.mesh import Mesh, coarsest_intervals
 from ehlcontact.solver.multigrid import Multigrid, initial_approach
 
@@ -99,14 +100,102 @@ def test_narrow_ellipses_converge(M, L, kappa):
     assert result.status in (("converged",) if result.h_min > 0.0 else ("unresolved",))
 
 
-def test_cautious_relaxation_where_the_other_swings():
-    """Isoviscous oil, eps/hx^2 near its switch all over the contact: lines swing, and cautious ones do not."""
+@pytest.mark.slow
+def test_where_cycles_fail_steps_take_over():
+    """Isoviscous oil, eps/hx^2 near its switch all over the contact: the hardest for the smoother."""
     point, domain = MoesPoint(30000, 0, 0.35), Domain(-2.0, 1.35, 1.6)
-    plain = solve_steady(point, n=512, domain=domain, method="multigrid", throw=False)
-    assert plain.status == "diverged"
+    plain = solve_steady(point, n=512, domain=domain, method="multigrid", max_cycles=20, throw=False)
+    assert not plain.status.ok
     result = solve_steady(point, n=512, domain=domain)
     assert result.h_min > 0.0
     assert result.residual < 3e-5
+
+
+def test_each_way_of_a_method_is_tried_in_turn(monkeypatch):
+    """The second one with twice the sweeps, from a new start, and the last with Newton steps."""
+    tried = []
+
+    def failing(attempt, *_):
+        tried.append((attempt.method, attempt.multigrid.effort, attempt.multigrid.least_effort))
+        return Status.STAGNATED
+
+    monkeypatch.setattr(steady._Attempt, "run", failing)
+    monkeypatch.setattr(steady, "remedy", lambda *_, **__: None)
+    for name, efforts in (("automatic", [1, 2, 2]), ("multigrid", [1]), ("newton", [1])):
+        tried.clear()
+        assert solve_steady(MoesPoint(20, 8, 0.5), n=32, method=name, throw=False).status == "stagnated"
+        assert tried == [(way, e, e) for way, e in zip(steady.METHODS[name], efforts, strict=True)]
+    assert [way.newton for way in steady.METHODS["automatic"]] == [False, False, True]
+
+
+@pytest.mark.parametrize("effort", [1, 2, 4])
+def test_effort_repeats_the_sweeps_of_a_cycle(monkeypatch, effort):
+    """Two sweeps and the flanks on the way down, one and the flanks on the way up, each so many times."""
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()), effort=effort)
+    mg.full_multigrid(LOAD)
+    moves = []
+    for name in ("relax", "relax_flanks"):
+        plain = getattr(Level, name)
+        monkeypatch.setattr(Level, name, lambda level, n=name, f=plain: (moves.append((n, level.nx)), f(level))[1])
+    mg.cycle(LOAD)
+    down, up = ["relax", "relax", "relax_flanks"] * effort, ["relax", "relax_flanks"] * effort
+    sizes = [level.nx for level in mg.levels[1:]]
+    expected = [(name, nx) for nx in sizes[::-1] for name in down] + [(name, nx) for nx in sizes for name in up]
+    assert moves == expected
+
+
+@pytest.mark.parametrize(("M", "L", "kappa"), [(20, 10, 1.0), (200, 0, 0.35)])
+def test_more_effort_makes_a_cycle_converge_faster(M, L, kappa):
+    """Where sweeps are what limits it, as in isoviscous oil."""
+    ends = []
+    for effort in (1, 2):
+        mg = Multigrid(MoesPoint(M, L, kappa), Mesh(128, Domain()), effort=effort)
+        mg.full_multigrid(LOAD)
+        ends.append([mg.cycle(LOAD) for _ in range(4)][-1])
+    assert ends[1] < 0.2 * ends[0]
+
+
+def test_a_cycle_tells_the_largest_change_of_the_pressure():
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()))
+    mg.full_multigrid(LOAD)
+    for _ in range(4):
+        before = mg.finest.P.copy()
+        change = mg.cycle(LOAD)
+        assert change == max(abs(after - p) for after, p in zip(mg.finest.P.flat, before.flat, strict=True)) > 0.0
+
+
+def test_a_cycle_leaves_film_and_residual_of_its_pressure():
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()))
+    mg.full_multigrid(LOAD)
+    mg.cycle(LOAD)
+    H, r = mg.finest.H.copy(), mg.finest.r.copy()
+    mg.finest.update(mg.u)
+    np.testing.assert_array_equal((mg.finest.H, mg.finest.r), (H, r))
+
+
+@pytest.mark.parametrize("kappa", [0.19, 0.09])
+def test_coarsening_along_x_alone_ends_where_newton_ends(solve_by_newton, kappa):
+    """The same film from levels halved along X, both, and Y; the restricted equations lose nothing on the way."""
+    point = MoesPoint(20, 8, kappa)
+    level, u = solve_by_newton(point)
+    mg = Multigrid(point, Mesh(32, Domain()))
+    assert (mg.finest.nx, mg.finest.ny) == (level.nx, level.ny)
+    assert [(k.nx, k.ny) for k in mg.levels] == [(16, 8), (16, 16), (32, 16)]
+    mg.full_multigrid(LOAD)
+    for _ in range(25):
+        mg.cycle(LOAD)
+    assert residual_of(mg) < 1e-10
+    assert mg.u == pytest.approx(u, abs=1e-10)
+    np.testing.assert_allclose(mg.finest.P, level.P, atol=1e-9)
+
+
+@pytest.mark.parametrize("kappa", [0.05, 0.09, 0.3])
+def test_lines_far_apart_cost_no_cycles(kappa):
+    """Halved along X first, the change of the pressure falls fivefold a cycle, however far the lines lie apart."""
+    mg = Multigrid(MoesPoint(200, 10, kappa), Mesh(128, Domain()))
+    mg.full_multigrid(LOAD)
+    changes = [mg.cycle(LOAD) for _ in range(8)]
+    assert (changes[1] / changes[7]) ** (1.0 / 6.0) >= 5.0
 
 
 def test_initial_approach_is_bounded():

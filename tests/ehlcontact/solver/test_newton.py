@@ -10,7 +10,14 @@ from ehlcontact.solver import newton as newton_module
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.iterate import Goal, Track, iterate
 from ehlcontact.solver.kernels import linearise as lin
-from ehlcontact.solver.linear import NEIGHBOUR_OFFSETS, LinearFilm, Preconditioner, solve_linear, stencil_matrix
+from ehlcontact.solver.linear import (
+    NEIGHBOUR_OFFSETS,
+    CoarseCorrection,
+    LinearFilm,
+    Preconditioner,
+    solve_linear,
+    stencil_matrix,
+)
 from ehlcontact.solver.mesh import Mesh, default_domain
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
@@ -125,8 +132,37 @@ def test_right_hand_side_is_the_residual_of_the_equations(make_level, point):
     np.testing.assert_allclose(change, expected, atol=1e-6 * np.abs(expected).max(), rtol=1e-5)
 
 
+@pytest.mark.parametrize(
+    "ratios", [(4, 4), (8, 2), (2, 8), (4, 1), (1, 4)], ids="along {0[0]}, across {0[1]}".format
+)
+def test_coarse_correction_moves_between_grids_of_any_ratio(point, make_level, ratios):
+    """Up: bilinear. Down: its transpose by areas, so that a constant stays, and no force is lost."""
+    fine = make_level(point, nx=32, ny=16)
+    coarse = make_level(point, nx=32 // ratios[0], ny=16 // ratios[1])
+    inner = np.zeros(coarse.P.shape, dtype=bool)
+    inner[:-1, 1:-1] = True
+    free = np.zeros(fine.P.shape, dtype=bool)
+    free[:-1, 1:-1] = True
+    system = LinearFilm(fine, free, LOAD)
+    correction = CoarseCorrection(coarse, fine, system)
+    np.testing.assert_array_equal(coarse.P, fine.P[:: ratios[1], :: ratios[0]])
+    e = np.random.default_rng(6).normal(size=coarse.P.shape) * inner
+    up = (correction._up @ e[inner]).reshape(fine.P.shape)
+    along = np.array([np.interp(fine.X, coarse.X, line) for line in e])
+    expected = np.array([np.interp(fine.Y, coarse.Y, line) for line in along.T]).T
+    np.testing.assert_allclose(up, expected, atol=1e-13)
+    r = np.random.default_rng(7).normal(size=fine.P.shape)
+    down = correction._down @ r.ravel()
+    assert np.sum(coarse.force_weights[inner] * down * e[inner]) == pytest.approx(
+        np.sum(fine.force_weights * r * up), rel=1e-11, abs=1e-13
+    )
+    whole = np.zeros(coarse.P.shape)
+    whole[inner] = correction._down @ np.ones(fine.P.size)
+    np.testing.assert_allclose(whole[:-1, 1:-1], 1.0, rtol=1e-12)
+
+
 @pytest.mark.parametrize("n", [64, 128])
-@pytest.mark.parametrize(("M", "L", "kappa"), [(200, 10, 0.5), (2900, 19, 0.11), (200, 10, 2.0)])
+@pytest.mark.parametrize(("M", "L", "kappa"), [(200, 10, 0.5), (2900, 19, 0.11), (200, 10, 2.0), (500, 15, 0.05)])
 def test_preconditioner_makes_the_iterations_few(M, L, kappa, n):
     """Two digits in at most ten iterations at the solution, on either grid."""
     multigrid = cycled(M, L, kappa, n, 1e-4)
@@ -148,6 +184,18 @@ def test_agrees_with_the_cycle(M, L, kappa, n):
     assert multigrid.u == pytest.approx(other.u, abs=1e-9)
     np.testing.assert_allclose(multigrid.finest.H, other.finest.H, atol=1e-9)
     np.testing.assert_allclose(multigrid.finest.P, other.finest.P, atol=1e-8)
+
+
+def test_a_step_tells_the_largest_change_of_the_pressure():
+    multigrid, _ = started(200, 10, 0.5, 64)
+    solver, level = NewtonKrylov(multigrid), multigrid.finest
+    for _ in range(2):
+        before = level.P.copy()
+        change = solver.step(LOAD)
+        assert change == np.abs(level.P - before).max() > 0.0
+        H, r = level.H.copy(), level.r.copy()
+        level.update(multigrid.u)  # what belongs to the state it leaves
+        np.testing.assert_array_equal((level.H, level.r), (H, r))
 
 
 def test_steps_from_full_multigrid():
