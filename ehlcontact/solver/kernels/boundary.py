@@ -10,9 +10,9 @@ from ehlcontact.jit import jit, jit_node
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
 from ehlcontact.solver.kernels.reynolds import operator_at, update_across, update_along, update_node
 
-PASSES = 16
+PASSES = 16  # to and fro: these nodes are few, and a change has to cross REACH of them
 REACH = 8  # nodes on either side of the boundary; fine grids need it, where coarse corrections end so far from it
-UPDATED = 255  # mark
+UPDATED = 255  # mark: the largest byte, above REACH + 1
 DOMINANCE = 10.0  # flow term over wedge term,
 NEAREST = 3.0  # up to this distance from the boundary; as its cube more beyond, where smoother changes are relaxed
 SQUEEZE_DOMINANCE = 30.0  # flow term over squeeze term

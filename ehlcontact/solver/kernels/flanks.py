@@ -22,10 +22,12 @@ from ehlcontact.solver.kernels.relax import (
 )
 from ehlcontact.solver.kernels.reynolds import update_across, update_along, update_node
 
-JUMP = 2.7  # ratio of the flow factors of neighbours that makes a front
-FRONT_REACH = 2  # nodes on either side of it
-FRONT_PASSES = 3  # of both colours
-SOLVED, FELT = 2, 1  # marks
+JUMP = (
+    2.7  # ratio of the flow factors of neighbours that makes a front: smooth ones, which sweeps settle, have less
+)
+FRONT_REACH = 2  # nodes on either side of it, as many as the near film of a change there reaches
+FRONT_PASSES = 3  # of both colours: a front moves by a node or two between coarse corrections
+SOLVED, FELT = 2, 1  # marks: the larger one stands where both fall
 
 
 @jit

@@ -21,7 +21,7 @@ from ehlcontact.solver.kernels.linearise import linearise_at
 from ehlcontact.solver.kernels.reynolds import operator_at
 
 BAND_LOWER, BAND_UPPER = 4, 3  # WW neighbour with two near coefficients upstream; E with two downstream
-BAND = BAND_LOWER + BAND_UPPER + 1
+BAND = BAND_LOWER + BAND_UPPER + 1  # rows, the diagonal's with them
 PAD = max(BAND_LOWER, BAND_UPPER)
 NEAR = 2  # near influence coefficients kept on either side
 SHARE = 0.25  # part of a distributed change that each neighbour takes back
@@ -29,8 +29,8 @@ SWITCH = 6.0  # eps/hx^2 at which theta = 1/2 in steady flow (Venner and Lubrech
 # for meshes up to twice as fine along X as along Y, physically; in proportion more for finer ones
 SQUEEZE = 10.0  # how much more the squeeze term raises it than the wedge term
 FLOW_SLOPE = 0.75  # share of the derivatives of eps; see above
-FILM_CHANGE = 1.0
 LARGEST_CHANGE = 0.3  # of P in one sweep, along one line; far from the solution the linear model overshoots
+FILM_CHANGE = 1.0  # of the film there by the near coefficient alone, over the film: more would turn it negative
 
 
 @jit_node
