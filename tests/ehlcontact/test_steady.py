@@ -30,6 +30,7 @@ def test_convergence_promises(steady, case):
     assert result.status is Status.CONVERGED
     assert result.approach_changes[-1] < 1e-6
     assert abs(result.load_residual) < 1e-6
+    assert result.residuals[-1] < 1e-4 * result.dry_residual
     assert result.pressure_error <= 1e-5
     assert result.force == pytest.approx(1.0, abs=1e-6)
 

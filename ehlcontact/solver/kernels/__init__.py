@@ -6,6 +6,7 @@ module        responsibility
 ``reynolds``  the discrete Reynolds equation: flow factor and its mean, operator, residual
 ``linearise`` its derivatives; the dense Jacobian
 ``relax``     hybrid line relaxation
+``flanks``    passes along the steep flanks of the pressure
 ``boundary``  passes along the cavitation boundary
 ``transfer``  from grid to grid
 ``mlmi``      the direct sum of the deflection, and one coarsening of multi-integration

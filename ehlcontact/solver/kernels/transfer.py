@@ -5,6 +5,7 @@ from ehlcontact.jit import jit
 
 @jit
 def full_weighting(fine, coarse, sx, sy):
+    """Full weighting of a residual: sx, sy are 2 along directions that are halved, else 1; `coarse` written."""
     for j in range(coarse.shape[0] - 1):
         c = sy * j
         n, s = c + 1, c - 1 if j > 0 else 1
@@ -24,6 +25,7 @@ def full_weighting(fine, coarse, sx, sy):
 
 @jit
 def restrict_pressure(fine, coarse, sx, sy):
+    """The same of the pressure where all nodes around have some, else the node itself; `coarse` written."""
     rx, ry = sx - 1, sy - 1
     for j in range(coarse.shape[0] - 1):
         for i in range(1, coarse.shape[1] - 1):
@@ -43,6 +45,7 @@ def restrict_pressure(fine, coarse, sx, sy):
 
 @jit
 def add_correction(new, old, fine, sx, sy):
+    """Add to `fine`, where it has pressure, the change from `old` to `new`, bilinear between nodes with some."""
     for j in range(fine.shape[0] - 1):
         j0 = j // sy
         j1 = (j + sy - 1) // sy
