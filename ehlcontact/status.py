@@ -37,8 +37,8 @@ class Status(StrEnum):
 
 
 _ADVICE = {
-    Status.CONVERGED: "Both residuals are below tolerance.",
-    Status.STAGNATED: "The residual no longer falls: try a wider domain at light load, else a finer grid, "
+    Status.CONVERGED: "Residuals, and the changes still to come, are below tolerance.",
+    Status.STAGNATED: "The pressure no longer settles: try a wider domain at light load, else a finer grid, "
     "a smaller time step where there is one, or a tolerance above rounding (1e-9).",
     Status.DIVERGED: "The residual grows: use a finer grid; in a simulation also a smaller time step.",
     Status.NONFINITE: "NaN or infinity appeared: use a finer grid, or check that M, L and kappa are meant.",

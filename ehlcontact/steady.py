@@ -48,7 +48,8 @@ class Method(NamedTuple):
     effort: int  # of the cycles, and of those that lead to the start of Newton steps
 
 
-LAST_RESORT = Method(newton=True, effort=2)
+LAST_RESORT = Method(newton=True, effort=2)  # the effort of the attempt before, which made no worse a start
+# Twice the sweeps settle some films that single ones do not; a second attempt at once costs less than Newton.
 METHODS = {
     "automatic": (Method(False, 1), Method(False, 2), LAST_RESORT),
     "multigrid": (Method(False, 1),),
@@ -194,6 +195,8 @@ class _Attempt:
             residuals=np.array(track.residuals),
             load_residuals=np.array(track.balance_residuals),
             approach_changes=np.array(track.changes),
+            # Ctrl-C may have come within a cycle, before its residual was known
+            pressure_changes=np.array(track.pressure_changes[: max(track.iterations, 0)]),
             dry_residual=self.scale,
             status=status,
             seconds=seconds,

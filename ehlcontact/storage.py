@@ -54,7 +54,9 @@ def _shapes(result: Result) -> list[tuple[tuple[str, ...], tuple[int, ...]]]:
     nx, ny = result.n + 1, result.Y.size
     if isinstance(result, SteadyResult):
         cycles = max(result.residuals.size, 1)
-        return [(("X",), (nx,)), (("P", "H"), (nx, ny)), (("residuals", "load_residuals"), (cycles,))]
+        arrays = [(("X",), (nx,)), (("P", "H"), (nx, ny)), (("residuals", "load_residuals"), (cycles,))]
+        later = [(("pressure_changes",), (cycles - 1,))] if result.pressure_changes.size else []
+        return arrays + later
     steps, kept = max(result.T.size, 1), result.snapshot_T.size
     midplanes = ("h_midplane", "p_midplane"), (steps, nx)
     return [(("X",), (nx,)), (COLUMNS, (steps,)), midplanes, (("snapshot_H", "snapshot_P"), (kept, nx, ny))]

@@ -57,6 +57,8 @@ class SteadySI(View):
         Film in the centre, and the smallest [m].
     p_max : float
         Largest pressure [Pa].
+    pressure_error : float
+        Largest change of the pressure that further cycles would still make [Pa].
     """
 
     x: Array
@@ -68,6 +70,7 @@ class SteadySI(View):
     h_central: float
     h_min: float
     p_max: float
+    pressure_error: float
 
     @classmethod
     def of(cls, result: SteadyResult) -> Self:
@@ -83,11 +86,12 @@ class SteadySI(View):
             h_central=result.h_central * s.length,
             h_min=result.h_min * s.length,
             p_max=result.p_max * s.pressure,
+            pressure_error=result.pressure_error * s.pressure,
         )
 
     def summary(self) -> dict[str, Any]:
         """Its numbers, for JSON."""
-        names = ("approach", "force", "h_central", "h_min", "p_max")
+        names = ("approach", "force", "h_central", "h_min", "p_max", "pressure_error")
         return {name: getattr(self, name) for name in names}
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from math import nan
 from typing import Any
 
 import numpy as np
@@ -32,11 +33,14 @@ class SteadyResult(Origin):
     h_central, h_min : float
         Film at X = Y = 0 and the smallest, between the nodes too, over the dry approach.
     residuals : ndarray, shape (cycles + 1,)
-        Mean |residual| over P > 0: at the start after full multigrid, then after each cycle.
+        Mean |residual| over P > 0: at the start after full multigrid, then after each cycle. It weighs a node by
+        its flow factor, so it is most where pressure matters least: what is solved is judged by `pressure_error`.
     load_residuals : ndarray, shape (cycles + 1,)
         Of the load (or approach) equation, likewise.
     approach_changes : ndarray, shape (cycles,)
         Change of the approach in each cycle.
+    pressure_changes : ndarray, shape (cycles,)
+        Largest change of P in each cycle; empty in results that were stored before it was kept.
     dry_residual : float
         Mean |residual| of the dry Hertz start on this grid: the scale.
     status : Status
@@ -57,11 +61,24 @@ class SteadyResult(Origin):
     approach_changes: Array
     dry_residual: float
     status: Status
+    # files of earlier versions have none
+    pressure_changes: Array = field(default_factory=lambda: np.empty(0), metadata={"later": True})
 
     @property
     def si(self) -> SteadySI:
         """All of it in SI; raises `InputError` for a dimensionless point, which has no units."""
         return SteadySI.of(self)
+
+    @property
+    def pressure_error(self) -> float:
+        """Largest change of P that further cycles would still make: what `tol` of `solve_steady` is held against.
+
+        Infinite where the changes do not fall, NaN where `pressure_changes` is empty.
+        """
+        from ehlcontact.solver.iterate import pressure_error  # and all kernels, which a stored result needs not
+
+        changes = self.pressure_changes.tolist()
+        return pressure_error(changes) if changes else nan
 
     @property
     def residual(self) -> float:
@@ -91,6 +108,7 @@ class SteadyResult(Origin):
             "h_central": self.h_central,
             "h_min": self.h_min,
             "p_max": self.p_max,
+            "pressure_error": self.pressure_error,
             "residual": self.residual,
             "load_residual": self.load_residual,
             "cycles": self.cycles,

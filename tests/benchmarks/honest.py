@@ -2,7 +2,7 @@
 
 "Honest" is approach, central and smallest film within `RELATIVE` and P within `LARGEST` (largest difference over
 the grid) of the fully converged solution on the same grid; "full" is P within `FULL` of it. The converged solution
-is found first: cycles until the change of P stays at rounding, or, where they stagnate, cautious ones, or Newton
+is found first: cycles until the change of P stays at rounding, or, where they stagnate, thorough ones, or Newton
 steps. Then everything is done again from nothing against the clock, which stands still while errors are taken.
 """
 
@@ -32,7 +32,7 @@ RELATIVE, LARGEST, FULL = 1e-4, 1e-3, 1e-8
 ROUNDING = 1e-10  # change of P below which one that no longer falls is rounding
 MOST = 60  # cycles, or Newton steps
 PATIENCE, PROGRESS = 20, 0.7  # so many cycles have to bring the error to this share of the least before
-WAYS = ("cycles", "cautious cycles", "newton", "cautious newton")  # in this order the converged film is looked for
+WAYS = ("cycles", "thorough cycles", "newton", "thorough newton")  # in this order the converged film is looked for
 ALMOST_EVERY = 0.1  # of a tolerance: how well the converged solution must be known to judge by it
 
 
@@ -108,8 +108,8 @@ def is_full(errors: Errors) -> bool:
 
 def film_on(point: MoesPoint, mesh: Mesh, way: str = "cycles") -> tuple[Multigrid, Callable[[], None], Advance]:
     """Film, its start (full multigrid), and one iteration of `way` on it."""
-    knows_caution = "cautious" in inspect.signature(Multigrid).parameters
-    options = {"cautious": True} if knows_caution and way.startswith("cautious") else {}
+    knows_effort = "effort" in inspect.signature(Multigrid).parameters  # earlier versions, measured beside, do not
+    options = {"effort": 2} if knows_effort and way.startswith("thorough") else {}
     film = Multigrid(point, mesh, **options)
     if not way.endswith("newton"):
         return film, lambda: film.full_multigrid(LOAD), lambda: film.cycle(LOAD)

@@ -685,13 +685,14 @@ Every number at module level, by room: of what it is and why, and what half and 
 `python tests/benchmarks/vary.py --page` from `tests/benchmarks/numbers.json`; a number is measured again with
 `python tests/benchmarks/vary.py NAME --json tests/benchmarks/numbers.json`.
 
-Compared are the probes of its room (`tests/benchmarks/probes.py`): steady films over the box of rolling bearings,
-impedances, records of every motion, fits, atlas answers, rotors. In brackets stands the case that changed most;
-"work" is the size of all fast transforms together, `extent` the inlet end of the grid. Changes are relative to the
-largest of their kind, and told where they exceed what the runs are solved to (1e-4 of a steady film, 3e-3 of a
-record, 1e-5 of the rest); smaller ones are "hardly anything". `fallbacks` are two films on which plain cycles
-stagnate: which way they end, and after how many cycles, is chance. A number between 0.9 and 1.5 is a margin
-about 1: its distance from 1 is halved and doubled."""
+Compared are the probes of its room (`tests/benchmarks/probes.py`): steady films over the box of rolling
+bearings, impedances, records of every motion, fits, atlas answers, rotors. In brackets stands the case that
+changed most; "work" is the size of all fast transforms together, `extent` the inlet end of the grid. Changes
+are relative to the largest of their kind, and told where they exceed what the runs are solved to (1e-4 of a
+steady film, 3e-3 of a record, 1e-5 of the rest); smaller ones are "hardly anything". `fallbacks` are films on
+which cycles with single sweeps stagnate, or did: which way they end, and after how many cycles, is chance;
+`cautious` and `last resort` were two of them, solved by earlier versions. A number between 0.9 and 1.5 is a
+margin about 1: its distance from 1 is halved and doubled."""
 
 
 def page() -> str:

@@ -129,6 +129,8 @@ def test_films_and_records_in_the_results(again, results):
     assert found["p_max"] == film.P.max() and found["cycles"] == film.residuals.size - 1
     assert found["h_min"] <= film.H.min() and film.H.min() < 1.02 * found["h_min"]
     assert found["residual"] == film.residuals[-1] / film.dry_residual
+    before, last = film.pressure_changes[-2:]
+    assert found["pressure_error"] <= 1e-5 and found["pressure_error"] >= last * (last / before)
     for name, run in again.records.items():
         row = results["simulations"][name]
         assert row["static_approach"] == run.static_approach and row["steps"] == run.T.size - 1

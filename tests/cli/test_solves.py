@@ -11,9 +11,8 @@ from ehlcontact import SimulationResult, Status, SteadyResult, load
 from reduced_models import load_element
 
 STEADY_KEYS = (
-    "approach, force, h_central, h_min, p_max, residual, load_residual, cycles, seconds, status, n, domain".split(
-        ", "
-    )
+    "approach, force, h_central, h_min, p_max, pressure_error, residual, load_residual, cycles, seconds, status, "
+    "n, domain".split(", ")
 )
 SIMULATE_KEYS = "status, steps, seconds, T, approach, rate, force, h_central, h_min".split(", ")
 FIT_KEYS = "model, parameters, rms, e_f, root, tangent, valid, condition".split(", ")
@@ -24,9 +23,15 @@ def test_steady_json_on_stdout_is_alone_there(call, point, tmp_path):
     assert result.code == 0 and result.err == ""
     document = json.loads(result.out)
     assert set(STEADY_KEYS) <= set(document)
-    assert document["status"] == "converged" and document["n"] == 32 and document["domain"] == [-4.5, 1.5, 3.0]
+    assert (
+        document["status"] == "converged"
+        and 0.0 < document["pressure_error"] <= 1e-5
+        and document["n"] == 32
+        and document["domain"] == [-4.5, 1.5, 3.0]
+    )
     stored = load(tmp_path / "r.h5")
     assert isinstance(stored, SteadyResult) and stored.approach == document["approach"]
+    assert stored.pressure_error == document["pressure_error"]
 
 
 def test_steady_table_and_json_file(call, point, tmp_path):

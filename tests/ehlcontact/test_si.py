@@ -34,7 +34,7 @@ UNITS = {
     "y": ("Y", S.b),
     "p": ("P", S.pressure),
     "h": ("H", S.length),
-    "p_max": ("p_max", S.pressure),
+    **{name: (name, S.pressure) for name in ("p_max", "pressure_error")},
     "p_midplane": ("p_midplane", S.pressure),
     "snapshot_p": ("snapshot_P", S.pressure),
     "h_midplane": ("h_midplane", S.length),

@@ -31,6 +31,7 @@ def test_convergence_promises(steady, case):
     assert result.approach_changes[-1] < 1e-6
     assert abs(result.load_residual) < 1e-6
     assert result.residuals[-1] < 1e-4 * result.dry_residual
+    assert result.pressure_error <= 1e-5
     assert result.force == pytest.approx(1.0, abs=1e-6)
 
 
@@ -64,6 +65,7 @@ def test_shapes_and_symmetry_line(steady):
     assert result.h_central == pytest.approx(result.H[i, 0], rel=1e-2)
     assert result.p_max == result.P.max()
     assert result.cycles == len(result.residuals) - 1 == len(result.approach_changes)
+    assert result.pressure_changes.shape == result.approach_changes.shape
 
 
 def test_result_is_frozen(steady):
@@ -82,8 +84,31 @@ def test_summary_is_plain(steady):
 
     summary = steady(200, 10, 0.5, 64).summary()
     assert json.loads(json.dumps(summary)) == summary
-    wanted = "approach force h_central h_min p_max residual load_residual cycles seconds status n domain"
+    wanted = (
+        "approach force h_central h_min p_max pressure_error residual load_residual cycles seconds status n domain"
+    )
     assert set(wanted.split()) <= set(summary)
+
+
+def test_pressure_error_is_what_further_cycles_change():
+    """Ended early, a solve says how far its pressure still moves: within a factor of two here."""
+    end = solve_steady(POINT, n=64, tol=1e-10)
+    for cycles in range(3, end.cycles - 2):
+        early = solve_steady(POINT, n=64, tol=1e-10, max_cycles=cycles, throw=False, method="multigrid")
+        np.testing.assert_array_equal(early.pressure_changes, end.pressure_changes[:cycles])
+        moved = np.abs(end.P - early.P).max()
+        assert moved < 2.0 * early.pressure_error, cycles
+    assert cycles > 3
+    assert end.pressure_error <= 1e-10 < early.pressure_error
+
+
+def test_tol_is_of_the_pressure():
+    """The sharper solve goes on from where the looser one ended, which is as near as was asked."""
+    ends = {tol: solve_steady(POINT, n=64, tol=tol) for tol in (1e-3, 1e-5, 1e-10)}
+    assert ends[1e-3].cycles <= ends[1e-5].cycles < ends[1e-10].cycles  # the approach settles to 1e-7 in all
+    for tol in (1e-3, 1e-5):
+        assert ends[tol].pressure_error <= tol
+        assert np.abs(ends[tol].P - ends[1e-10].P).max() < tol
 
 
 def test_prescribed_approach_is_the_inverse(steady):

@@ -2,7 +2,7 @@
 
 import os
 from dataclasses import fields
-from math import pi
+from math import isnan, pi
 from pathlib import Path
 
 import h5py
@@ -98,6 +98,24 @@ def test_unconverged_result_is_stored_with_its_status(tmp_path):
     assert_same(result, load(save(result, tmp_path / "partial.h5")))
 
 
+def test_pressure_changes_fit_the_cycles(steady_si, tmp_path):
+    """They may be missing, as in files of before they were kept, but not be those of another solve."""
+    path = save(steady_si, tmp_path / "steady.h5")
+    with h5py.File(path, "a") as file:
+        del file["pressure_changes"]
+        file.create_dataset("pressure_changes", data=np.ones(steady_si.cycles + 1))
+    with pytest.raises(InputError, match=r"pressure_changes has the shape \(\d+,\), not"):
+        load(path)
+    with h5py.File(path, "a") as file:
+        del file["pressure_changes"]
+    old = load(path)
+    assert old.pressure_changes.shape == (0,) and isnan(old.pressure_error) and isnan(old.si.pressure_error)
+    with h5py.File(path, "a") as file:
+        del file["approach_changes"]
+    with pytest.raises(InputError, match="a complete HDF5 result"):
+        load(path)
+
+
 def content(path, number):
     """Form of every array, and every attribute, of a file of format `number`; names of frequencies apart."""
     with h5py.File(path) as file:
@@ -120,7 +138,10 @@ def test_steady_file_of_version_0_1_0(tmp_path):
     assert old.status is Status.UNRESOLVED
     assert old.force == pytest.approx(1.0, abs=1e-6)
     assert (old.n, old.version, old.P.shape) == (16, "0.1.0", (17, 9))
-    assert content(save(old, tmp_path / "again.h5"), 2) == content(DATA / "steady.h5", 1)
+    assert old.pressure_changes.size == 0 and isnan(old.pressure_error)
+    arrays, texts = content(save(old, tmp_path / "again.h5"), 2)
+    assert arrays.pop("pressure_changes") == ((0,), np.dtype(float), None)
+    assert (arrays, texts) == content(DATA / "steady.h5", 1)
     assert_same(old, load(tmp_path / "again.h5"))
 
 

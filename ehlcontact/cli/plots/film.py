@@ -76,21 +76,21 @@ def midplanes(result: SteadyResult) -> Figure:
 
 
 def convergence(result: SteadyResult) -> Figure:
-    """Residuals of the multigrid cycles."""
+    """Changes of the pressure, and residuals, of the multigrid cycles."""
     figure = new_figure(3.2, 6.5)
     axes = figure.subplots()
     cycles = np.arange(len(result.residuals))
     floor = 1e-17
-    axes.semilogy(
-        cycles, result.residuals / result.dry_residual, "o-", color=BLUE, label="Reynolds, over the dry start's"
-    )
-    axes.semilogy(
-        cycles, np.abs(result.load_residuals) + floor, "s-", color=ORANGE, label="load balance, over the load"
-    )
-    axes.semilogy(
-        cycles[1:], result.approach_changes + floor, "^-", color=GREY, label="change of approach, over the dry one"
-    )
-    axes.set(xlabel="V(2,1) cycle on the finest grid", ylabel="residual [-]", xlim=(0, None))
+    lines = [
+        ("residual of Reynolds, over the dry start's", "o-", BLUE, result.residuals / result.dry_residual),
+        ("residual of the load balance, over the load", "s-", ORANGE, np.abs(result.load_residuals) + floor),
+        ("change of approach, over the dry one", "^-", GREY, result.approach_changes + floor),
+        ("largest change of pressure, over Hertz's", "D-", RED, result.pressure_changes + floor),
+    ]
+    for label, style, colour, values in lines:
+        if values.size:  # files of earlier versions have no changes of pressure
+            axes.semilogy(cycles[-values.size :], values, style, color=colour, label=label)
+    axes.set(xlabel="cycle on the finest grid", ylabel="change or residual [-]", xlim=(0, None))
     axes.legend()
     return figure
 

@@ -13,7 +13,7 @@ from ehlcontact.solver.kernels.reynolds import operator_at, update_across, updat
 NODES_EACH = 64  # intervals along X per node of reach: coarse corrections end some way before the boundary, not some
 LEAST_REACH, MOST_REACH = 3, 8  # nodes before it
 PASSES_EACH = 2  # passes per node of reach
-UPDATED = 255  # mark
+UPDATED = 255  # mark: the largest byte, above every reach
 DOMINANCE = 10.0  # flow term over wedge term,
 NEAREST = 3.0  # up to this distance from the boundary; as its cube more beyond, where smoother changes are relaxed
 SQUEEZE_DOMINANCE = 30.0  # flow term over squeeze term

@@ -1,10 +1,10 @@
 """Local line relaxation along the steep flanks of the pressure.
 
-On the way out of the contact the flow factor falls by orders of magnitude within one cell: what relaxation solves for
-changes from plain to distributed changes there, and how far the flank has come is settled node by node. Everywhere
-else two or three sweeps suffice between corrections from coarser grids. So the few nodes along that front, some per
-cent of all, are relaxed several times before each sweep: segments of lines, in two colours, with the near film of what
-has changed.
+On the way out of the contact the flow factor falls by orders of magnitude within one cell: what relaxation solves
+for changes from plain to distributed changes there, and how far the flank has come is settled node by node.
+Everywhere else two or three sweeps suffice between corrections from coarser grids. So the few nodes along that
+front, some per cent of all, are relaxed several times after the sweeps: segments of lines, in two colours, with
+the near film of what has changed.
 """
 
 import numpy as np
@@ -22,15 +22,17 @@ from ehlcontact.solver.kernels.relax import (
 )
 from ehlcontact.solver.kernels.reynolds import update_across, update_along, update_node
 
-JUMP = 2.7  # ratio of the flow factors of neighbours that makes a front
-FRONT_REACH = 2  # nodes on either side of it
-FRONT_PASSES = 3  # of both colours
-SOLVED, FELT = 2, 1  # marks
+JUMP = (
+    2.7  # ratio of the flow factors of neighbours that makes a front: smooth ones, which sweeps settle, have less
+)
+FRONT_REACH = 2  # nodes on either side of it, as many as the near film of a change there reaches
+FRONT_PASSES = 3  # of both colours: a front moves by a node or two between coarse corrections
+SOLVED, FELT = 2, 1  # marks: the larger one stands where both fall
 
 
 @jit
 def mark_front(P, eps, marks):
-    """Mark the nodes within FRONT_REACH of a front, and those that feel their near film; `marks` (bytes) written."""
+    """Mark the nodes within FRONT_REACH of a front, and those that feel their film; `marks` (bytes) written."""
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
     marks[:] = 0
     for j in range(ny):

@@ -1,17 +1,18 @@
 """Hybrid line relaxation: one unknown line along X at a time, even lines first, then odd lines.
 
-Where flow through the gap dominates, this is Gauss-Seidel in P. Where the oil is stiff and mere transport is left, a
-change of P is taken back in equal shares by the four neighbours: the deflection of such a distributed change decays
-like 1/r^3 instead of 1/r, so a few near coefficients stand for all (distributive Jacobi; Venner and Lubrecht 2000,
-ch. 6). Two neighbours exchange ``SHARE min(theta, theta')``. The weight theta is a *smooth* function of the local
-ratio of flow and transport: a hard switch flips to and fro from sweep to sweep and leaves a limit cycle along the
-switch line. And the *smaller* of both weights counts: what a stiff node gave to a neighbour with a thousand times its
-flow factor, as there are on the flanks of the pressure, would leave a residual there a thousand times its own.
+Where flow through the gap dominates, this is Gauss-Seidel in P. Where the oil is stiff and mere transport is left,
+a change of P is taken back in equal shares by the four neighbours: the deflection of such a distributed change
+decays like 1/r^3 instead of 1/r, so a few near coefficients stand for all (distributive Jacobi; Venner and
+Lubrecht 2000, ch. 6). Two neighbours exchange ``SHARE min(theta, theta')``. The weight theta is a *smooth*
+function of the local ratio of flow and transport: a hard switch flips to and fro from sweep to sweep and leaves a
+limit cycle along the switch line. And the *smaller* of both weights counts: what a stiff node gave to a neighbour
+with a thousand times its flow factor, as there are on the flanks of the pressure, would leave a residual there a
+thousand times its own.
 
 The flow factor eps falls by orders of magnitude from one node to the next on those flanks. Taken as given, single
-nodes there never settle; with its full derivatives they overshoot. Three quarters of them serve everywhere. And the
-change of a whole line is cut where it is too large for its linear equations: cut node by node, it would no longer be
-distributed.
+nodes there never settle; with its full derivatives they overshoot. Three quarters of them serve everywhere. And
+the change of a whole line is cut where it is too large for its linear equations: cut node by node, it would no
+longer be distributed.
 """
 
 import numpy as np
@@ -21,7 +22,7 @@ from ehlcontact.solver.kernels.linearise import linearise_at
 from ehlcontact.solver.kernels.reynolds import operator_at
 
 BAND_LOWER, BAND_UPPER = 4, 3  # WW neighbour with two near coefficients upstream; E with two downstream
-BAND = BAND_LOWER + BAND_UPPER + 1
+BAND = BAND_LOWER + BAND_UPPER + 1  # rows, the diagonal's with them
 PAD = max(BAND_LOWER, BAND_UPPER)
 NEAR = 2  # near influence coefficients kept on either side
 SHARE = 0.25  # part of a distributed change that each neighbour takes back
@@ -29,8 +30,8 @@ SWITCH = 8.0  # eps/hx^2 at which theta = 1/2 in steady flow (Venner and Lubrech
 # for meshes up to twice as fine along X as along Y, physically; in proportion more for finer ones
 SQUEEZE = 10.0  # how much more the squeeze term raises it than the wedge term
 FLOW_SLOPE = 0.75  # share of the derivatives of eps; see above
-FILM_CHANGE = 1.0
 LARGEST_CHANGE = 0.3  # of P in one sweep, along one line; far from the solution the linear model overshoots
+FILM_CHANGE = 1.0  # of the film there by the near coefficient alone, over the film: more would turn it negative
 
 
 @jit_node
@@ -101,7 +102,7 @@ def shares_at(j, i, theta):
 
 @jit_node
 def response(line, shift, shares, near):
-    """Film that a distributed unit change causes `line` lines and `shift` nodes further, by the near coefficients."""
+    """Film by a distributed unit change, `line` lines and `shift` nodes further, from the near coefficients."""
     west, east, south, north = shares
     film = near[abs(line), abs(shift)] - west * near[abs(line), abs(shift + 1)]
     film -= east * near[abs(line), abs(shift - 1)]
@@ -219,7 +220,7 @@ def change_at(j, i, colour, P, theta, w):
 
 @jit
 def apply_lines(first, last, colour, fields, near):
-    """Add the distributed changes of one colour to P of lines `first` to `last` - 1, and to H of the other colour's.
+    """Add the distributed changes of one colour to P of lines `first` to `last` - 1, and to H of the other's.
 
     Only near coefficients, and neighbour lines, count for H.
     """
@@ -238,7 +239,7 @@ def apply_lines(first, last, colour, fields, near):
 
 @jit
 def near_film(H, w, films):
-    """Add to a line `H` of the film what the distributed changes `w` of a line cause there, by `films` of `responses`."""
+    """Add to a line `H` of film what the distributed changes `w` of a line cause there; `films` by `responses`."""
     nx = H.shape[0] - 1
     for i in range(1, nx):
         change = 0.0
