@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,9 +13,11 @@ from ehlcontact.checks import require_choice, require_finite, require_integer, r
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import MoesPoint, Point, Scales, require_solvable, scales_of
 from ehlcontact.results import SteadyResult
+from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
+from ehlcontact.solver.estimate import estimate_error
 from ehlcontact.solver.iterate import Goal, Track, iterate
 from ehlcontact.solver.mesh import (
     FAILED,
@@ -61,6 +64,7 @@ def solve_steady(
     max_cycles: int = MAX_CYCLES,
     method: str = "automatic",
     deflection: str = "fft",
+    refine: bool = True,
     throw: bool = True,
     callback: Callable[[int, float], None] | None = None,
 ) -> SteadyResult:
@@ -70,7 +74,9 @@ def solve_steady(
     ----------
     point : MoesPoint or OperatingPoint
     n : int
-        Intervals along X, a multiple of 16; by default as many as the film needs, 128 or more.
+        Intervals along X, a multiple of 16; by default as many as the film needs, 128 or more, and, until the
+        errors estimated are within 0.2 % of the dry approach, 1 % of the central and 3 % of the smallest film,
+        twice as many again: as far as a grid of a million nodes goes. ``result.error`` says what was reached.
     domain : Domain, optional
         Computed region; by default ``Domain()``, wider at light load, and with `n` left out narrower where the
         film is too thin for a grid of that extent.
@@ -88,6 +94,9 @@ def solve_steady(
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection: fast transforms, exact to rounding; multilevel multi-integration, as in
         the paper; the direct sum, slow. See `ehlcontact.solver.deflection`.
+    refine : bool
+        False, with `n` left out, stays on the first grid that carries a film, at a third of the time: the smallest
+        film may be off by a fifth. ``result.error`` says so.
     throw : bool
         Raise on failure; otherwise look at ``result.status``.
     callback : callable, optional
@@ -120,22 +129,36 @@ def solve_steady(
         if load > 1.0 and domain is None:
             domain = default_domain(moes, load)
     mesh = mesh_for(moes, Purpose.FILM, n=n, domain=domain)
-    for _ in range(LARGEST_ATTEMPTS):
-        for way in METHODS[method]:
-            if way is LAST_RESORT and not allows_newton(mesh, moes):
-                break
-            solved = _Attempt(moes, mesh, way, deflection)
-            status = solved.run(balance, tol, max_cycles, callback)
-            if status not in FAILED:
-                break
-        other = remedy(mesh, status, moes, n=n, domain=domain)
+    work = partial(_solve, moes, deflection=deflection, balance=balance, tol=tol, most=max_cycles, watch=callback)
+    solved, status = work(mesh, METHODS[method])
+    for _ in range(1, LARGEST_ATTEMPTS):
+        error = solved.error if refine else None
+        other = remedy(solved.mesh, status, moes, n=n, domain=domain, error=error)
         if other is None:
             break
-        mesh = other
+        attempt, ended = work(other, METHODS[method][: 1 if status.ok else None])
+        if status.ok and not ended.ok:  # a film that is solved stays, whatever becomes of a finer one
+            status = ended if ended is Status.INTERRUPTED else status
+            break
+        solved, status = attempt, ended
     result = solved.result(status, scales_of(point), time.perf_counter() - started)
     if throw and not status.ok and status is not Status.INTERRUPTED:
         raise ConvergenceError(f"steady solve {status}: {status.advice}", result)
     return result
+
+
+def _solve(
+    point: MoesPoint, mesh: Mesh, methods: Sequence[Method], *, deflection: str, **run: Any
+) -> tuple[_Attempt, Status]:
+    """The first of `methods` that solves the film on this mesh, or the last that could be tried."""
+    for way in methods:
+        if way is LAST_RESORT and not allows_newton(mesh, point):
+            break
+        attempt = _Attempt(point, mesh, way, deflection)
+        status = attempt.run(**run)
+        if status not in FAILED:
+            break
+    return attempt, status
 
 
 class _Attempt:
@@ -146,6 +169,7 @@ class _Attempt:
         self.multigrid = Multigrid(point, mesh, deflection=deflection, cautious=method.cautious)
         self.scale = self.multigrid.finest.dry_residual()
         self.track = Track()
+        self.error: ErrorEstimate | None = None
 
     def run(self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None) -> Status:
         """Cycle, or take Newton steps, until the residuals say how it ended."""
@@ -158,7 +182,10 @@ class _Attempt:
             if self.method.newton:
                 mg.cycle(balance)
             advance = NewtonKrylov(mg).step if self.method.newton else mg.cycle
-            return iterate(mg, balance, advance, goal, self.track, watch)
+            status = iterate(mg, balance, advance, goal, self.track, watch)
+            if status.ok:
+                self.error = estimate_error(mg, balance)
+            return status
         except KeyboardInterrupt:
             return Status.INTERRUPTED
 
@@ -183,5 +210,6 @@ class _Attempt:
             approach_changes=np.array(track.changes),
             dry_residual=self.scale,
             status=status,
+            error=self.error,
             seconds=seconds,
         )

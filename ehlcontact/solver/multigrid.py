@@ -86,6 +86,17 @@ class Multigrid:
             self.levels[k].update(self.u)
             self.u = self._cycle(k, self.u, balance)
 
+    def settle(self, k: int, u: float, balance: Balance, cycles: int) -> float:
+        """Cycles on level k by itself, from the pressure that it holds and approach `u`; returns the approach."""
+        level = self.levels[k]
+        level.rhs[...] = 0.0
+        level.film_shift = 0.0
+        level.update(u)
+        for _ in range(cycles):
+            u = self._cycle(k, u, balance)
+            level.update(u)
+        return u
+
     def cycle(self, balance: Balance) -> None:
         """One V cycle on the finest level."""
         self.u = self._cycle(len(self.levels) - 1, self.u, balance)

@@ -53,6 +53,7 @@ def measure(point: MoesPoint) -> dict[str, Any]:
         "h_central": result.h_central,
         "h_min": result.h_min,
         "residual": result.residual,
+        "error": result.summary()["error"],
         "seconds": result.seconds,
     }
 
