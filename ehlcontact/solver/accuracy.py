@@ -15,7 +15,7 @@ from typing import Self
 
 import numpy as np
 
-SLOWEST, FASTEST = 1.5, 3.5  # bounds of r: the estimate is 2 d at most and 0.4 d at least,
+SLOWEST, FASTEST = 1.5, 3.0  # bounds of r: the estimate is between d/2 and 2 d,
 FIRST_SHARE = 1.0 / 15.0  # but not less than this share of the difference before: second order over both halvings
 ALL = 1.0  # no error is given as larger: then nothing is known
 
@@ -40,13 +40,14 @@ class ErrorEstimate:
     def of(cls, found: Sequence[tuple[float, float, float]]) -> Self:
         """Errors of the first of these approaches, central and smallest films; each mesh is twice the one before.
 
-        From three meshes; of two, the difference.
+        From three meshes; of two, the difference. The smallest film is not known better than the central one.
         """
         if not np.isfinite(found).all():
             return cls(ALL, ALL, ALL)
         units = 1.0, *found[0][1:]
         errors = (regular_error(*values) for values in zip(*found, strict=True))
-        return cls(*(min(error / unit, ALL) for error, unit in zip(errors, units, strict=True)))
+        approach, central, smallest = (min(e / unit, ALL) for e, unit in zip(errors, units, strict=True))
+        return cls(approach, central, max(smallest, central))
 
     def within(self, limits: ErrorEstimate) -> bool:
         """Whether none of the three is above its limit."""

@@ -62,6 +62,8 @@ def simulate(
     error : float, optional
         Steps are not fixed but controlled: the estimated local error of each, in approach (dry approaches), force
         (static loads) and mean film, stays below `error`. Corners of the motion, snapshots and `until` are met.
+        Over a run they add up, to about ``error**(2/3)`` where bodies have inertia (docs/solver.md): for approach
+        and force within g all the way give ``error = g**1.5``.
     tol : float
         Residual at which a step counts as solved, relative to the central film at rest; force and approach then
         change by less than tol/30 in the last cycle. With `error`, at most ``3 error``.
