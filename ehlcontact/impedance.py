@@ -29,7 +29,7 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
-from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, remedy
+from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, widened
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
@@ -110,9 +110,10 @@ def _steady(point: Point, n: int | None, domain: Domain | None, deflection: str)
     """The film to linearise; on a wider region where that is left open and light load needs it."""
     moes = moes_point(point)
     mesh = mesh_for(moes, Purpose.DAMPING, n=n, domain=domain)
-    steady = solve_steady(point, n=mesh.n, domain=mesh.domain, deflection=deflection, throw=False)
-    if (wider := remedy(mesh, steady.status, moes, Purpose.DAMPING, n=n, domain=domain)) is not None:
-        steady = solve_steady(point, n=wider.n, domain=wider.domain, deflection=deflection, throw=False)
+    for tried in widened(mesh, moes, Purpose.DAMPING, n=n, domain=domain):
+        steady = solve_steady(point, n=tried.n, domain=tried.domain, deflection=deflection, throw=False)
+        if steady.status is not Status.OUT_OF_DOMAIN:
+            break
     if steady.status is Status.INTERRUPTED:
         raise KeyboardInterrupt  # there is nothing to keep: no frequency has been looked at
     if not steady.status.ok:

@@ -7,7 +7,7 @@ Mesh sizes below are in the longer semi-axis.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import exp, log
@@ -220,6 +220,28 @@ def remedy(
         return Mesh(mesh.n, NEAR_DOMAIN)
     finer = Mesh(2 * mesh.n, mesh.domain)
     return finer if finer.nodes(point.kappa) <= FINENESS[Purpose.FILM].largest else None
+
+
+def widened(
+    mesh: Mesh, point: MoesPoint, purpose: Purpose, *, n: int | None = None, domain: Domain | None = None
+) -> Iterator[Mesh]:
+    """Give `mesh`, and for whoever goes on because his film left its region, what `remedy` has for that.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        That of `mesh_for`.
+    point : MoesPoint
+    purpose : Purpose
+    n, domain
+        What the caller of `mesh_for` gave.
+    """
+    wider: Mesh | None = mesh
+    for _ in range(LARGEST_ATTEMPTS):
+        if wider is None:
+            return
+        yield wider
+        wider = remedy(wider, Status.OUT_OF_DOMAIN, point, purpose, n=n, domain=domain)
 
 
 def default_domain(point: MoesPoint, largest_load: float = 1.0) -> Domain:

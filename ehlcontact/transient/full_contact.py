@@ -8,7 +8,7 @@ from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.mesh import Purpose, mesh_for
+from ehlcontact.solver.mesh import Purpose, mesh_for, widened
 from ehlcontact.status import Status
 from ehlcontact.transient.film import FilmState, Step, TransientFilm
 from ehlcontact.transient.si import ContactSI
@@ -26,7 +26,8 @@ class FullContact:
     n : int, optional
         Intervals along X, a multiple of 16; by default as many as the inlet needs, 80 or more.
     domain : Domain, optional
-        Computed region; give `largest_load` instead if the load will rise.
+        Computed region; give `largest_load` instead if the load will rise. Left out, it is widened until it holds
+        the film at rest.
     largest_load : float
         Largest force to expect, in static loads.
     tol : float
@@ -54,11 +55,16 @@ class FullContact:
     ) -> None:
         load = require_positive("largest_load", largest_load)
         self.point, self.scales = require_solvable(point, load), scales_of(point)
-        mesh = mesh_for(self.point, Purpose.CONTACT, n=n, domain=domain, largest_load=load)
-        self.n, self.domain = mesh.n, mesh.domain
+        first = mesh_for(self.point, Purpose.CONTACT, n=n, domain=domain, largest_load=load)
         require_choice("deflection", deflection, tuple(ENGINES))
-        self._film = TransientFilm(self.point, mesh, require_positive("tol", tol), deflection)
-        self._check(self._film.start_steady(Balance.of_load()))
+        tol = require_positive("tol", tol)
+        for mesh in widened(first, self.point, Purpose.CONTACT, n=n, domain=domain):
+            self._film = TransientFilm(self.point, mesh, tol, deflection)
+            self.n, self.domain = mesh.n, mesh.domain
+            start = self._film.start_steady(Balance.of_load())
+            if start.status is not Status.OUT_OF_DOMAIN:
+                break
+        self._check(start)
         self.static_approach = self._film.u
         self.force = self._film.level.force()
 

@@ -14,7 +14,7 @@ from ehlcontact.checks import require_instance, require_nonnegative
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.mesh import Purpose, mesh_for
+from ehlcontact.solver.mesh import Purpose, mesh_for, widened
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError, Keeper, load_checkpoint, require_replaceable
@@ -55,7 +55,8 @@ def simulate(
     n : int, optional
         Intervals along X, a multiple of 16; by default as many as the inlet needs, 128 or more.
     domain : Domain, optional
-        Computed region; by default wide enough for the largest load of the motion.
+        Computed region; by default wide enough for the largest load of the motion. Where the film leaves that one,
+        the run begins again on a wider one.
     until, dT : float, optional
         End and (fixed) step of dimensionless time; the motion's own defaults otherwise. The step is shortened
         to divide `until` evenly. With `error`, `dT` is the step tried first.
@@ -113,14 +114,17 @@ def simulate(
     require_nonnegative("checkpoint_every", checkpoint_every)
     if checkpoint is not None:
         require_replaceable(checkpoint, restart)
-    film = TransientFilm(moes, mesh, steps.tol, deflection)
+    meshes = widened(mesh, moes, Purpose.RUN, n=n, domain=domain)
     earlier = None
     if restart is not None:
         earlier = load_checkpoint(restart)
-        earlier.check(settings, dT, surface, film.level, restart)
+        mesh = next((wider for wider in meshes if wider == earlier.settings.mesh), mesh)
+        film = TransientFilm(moes, mesh, steps.tol, deflection)
+        earlier.check(replace(settings, mesh=mesh), dT, surface, film.level, restart)
         started -= earlier.seconds
         steps = steps.going_on(earlier.settings.steps)
-        settings = replace(settings, steps=earlier.settings.steps)  # the step follows from the end first asked for
+        # the step follows from the end first asked for
+        settings = replace(settings, mesh=mesh, steps=earlier.settings.steps)
     keeper = Keeper(checkpoint, checkpoint_every, settings, started)
 
     def watch(run: Run) -> None:
@@ -129,16 +133,22 @@ def simulate(
             callback(run.state.T, steps.until)
 
     if earlier is None:
-        control = None if error is None else StepControl(error, steps.dT)
-        run = Run(film, motion, surface, History(settings.snapshots), control, watch)
-        end = RunEnd(run.start())
+        for wider in meshes:
+            settings = keeper.settings = replace(settings, mesh=wider)
+            film = TransientFilm(moes, wider, steps.tol, deflection)
+            control = None if error is None else StepControl(error, steps.dT)
+            run = Run(film, motion, surface, History(settings.snapshots), control, watch)
+            end = RunEnd(run.start())
+            if end.status.ok:
+                end = march(run, steps)
+            if end.status is not Status.OUT_OF_DOMAIN:
+                break
     else:
         run = Run(film, motion, surface, History.of(earlier.record, settings.snapshots), earlier.control, watch)
         run.resume(earlier.film, earlier.scale, earlier.static_approach)
-        end = RunEnd(Status.CONVERGED)
-    unkept = None
-    if end.status.ok:
         end = march(run, steps)
+    unkept = None
+    if run.history.entries[0].step.status.ok:  # there is a start to go on from
         try:
             keeper.write(run)
         except InputError as lost:

@@ -68,7 +68,7 @@ def test_error_falls_with_the_tolerance(pulse, pulse_reference):
 
 @pytest.mark.parametrize("motion", [FreeVibration(Omega_n=5.13), HarmonicLoad(Omega=pi, Omega_n=5.13)])
 def test_errors_of_a_run_are_what_is_said(motion):
-    """About error^(2/3) in force and two thirds of it in approach, where bodies have inertia: within a factor 3."""
+    """About error^(2/3) in force and two thirds of it in approach, of bodies with inertia: within a factor 3."""
     reference = simulate(POINT, motion, n=N, until=2.5, error=2e-6)
     for error in (1e-3, 1e-4):
         record = simulate(POINT, motion, n=N, until=2.5, error=error)
