@@ -58,13 +58,15 @@ class FullContact:
         first = mesh_for(self.point, Purpose.CONTACT, n=n, domain=domain, largest_load=load)
         require_choice("deflection", deflection, tuple(ENGINES))
         tol = require_positive("tol", tol)
+        left: Step | None = None
         for mesh in widened(first, self.point, Purpose.CONTACT, n=n, domain=domain):
             self._film = TransientFilm(self.point, mesh, tol, deflection)
             self.n, self.domain = mesh.n, mesh.domain
             start = self._film.start_steady(Balance.of_load())
             if start.status is not Status.OUT_OF_DOMAIN:
                 break
-        self._check(start)
+            left = left or start
+        self._check(start if start.status.ok else left or start)
         self.static_approach = self._film.u
         self.force = self._film.level.force()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -14,7 +14,7 @@ from ehlcontact.checks import require_instance, require_nonnegative
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.mesh import Purpose, mesh_for, widened
+from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, widened
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError, Keeper, load_checkpoint, require_replaceable
@@ -132,17 +132,17 @@ def simulate(
         if callback is not None and run.state.T > 0.0:
             callback(run.state.T, steps.until)
 
+    def from_rest(mesh: Mesh) -> tuple[Run, RunEnd]:
+        keeper.settings = replace(settings, mesh=mesh)
+        film = TransientFilm(moes, mesh, steps.tol, deflection)
+        control = None if error is None else StepControl(error, steps.dT)
+        run = Run(film, motion, surface, History(settings.snapshots), control, watch)
+        end = RunEnd(run.start())
+        return run, march(run, steps) if end.status.ok else end
+
     if earlier is None:
-        for wider in meshes:
-            settings = keeper.settings = replace(settings, mesh=wider)
-            film = TransientFilm(moes, wider, steps.tol, deflection)
-            control = None if error is None else StepControl(error, steps.dT)
-            run = Run(film, motion, surface, History(settings.snapshots), control, watch)
-            end = RunEnd(run.start())
-            if end.status.ok:
-                end = march(run, steps)
-            if end.status is not Status.OUT_OF_DOMAIN:
-                break
+        mesh, run, end = _first_inside(meshes, from_rest)
+        settings = keeper.settings = replace(settings, mesh=mesh)
     else:
         run = Run(film, motion, surface, History.of(earlier.record, settings.snapshots), earlier.control, watch)
         run.resume(earlier.film, earlier.scale, earlier.static_approach)
@@ -157,11 +157,25 @@ def simulate(
             end = RunEnd(Status.INTERRUPTED)
     result = _result(run, settings, scales_of(point), end.status, time.perf_counter() - started)
     if throw and not end.status.ok and end.status is not Status.INTERRUPTED:
-        G = surface_height(surface, film.level.X, film.level.Y, float(result.T[-1]))
+        G = surface_height(surface, result.X, result.Y, float(result.T[-1]))
         raise ConvergenceError(_message(result, end, -float(np.min(G))), result)
     if unkept is not None:
         raise CheckpointError(unkept, result)
     return result
+
+
+def _first_inside(
+    meshes: Iterator[Mesh], attempt: Callable[[Mesh], tuple[Run, RunEnd]]
+) -> tuple[Mesh, Run, RunEnd]:
+    """The run on the first mesh whose region holds the film; that on the very first where none helps."""
+    left: tuple[Mesh, Run, RunEnd] | None = None
+    for mesh in meshes:
+        run, end = attempt(mesh)
+        if end.status is not Status.OUT_OF_DOMAIN:
+            break
+        left = left or (mesh, run, end)
+    helped = end.status.ok or end.status is Status.INTERRUPTED
+    return left if left is not None and not helped else (mesh, run, end)
 
 
 def _result(
