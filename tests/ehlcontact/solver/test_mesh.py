@@ -1,5 +1,7 @@
 """Regions and grids chosen from the film to be expected; `tests/golden/meshes.json` has what is chosen where."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -183,3 +185,24 @@ def test_widened_ends_with_what_was_given():
     assert list(m.widened(first, LIGHT, Purpose.RUN, domain=given)) == [first]
     regions = [mesh.domain for mesh in m.widened(first, LIGHT, Purpose.RUN)]
     assert regions[1] == given.scaled(m.DOMAIN_GROWTH) and len(regions) == m.LARGEST_ATTEMPTS
+
+
+def test_the_page_of_notation_has_the_numbers_of_the_code():
+    """`docs/notation.md`, "Lengths that are inputs"."""
+    page = (Path(__file__).parents[3] / "docs" / "notation.md").read_text(encoding="utf-8")
+    text = " ".join(page[page.index("## Lengths that are inputs") :].split())
+    near, nearest, limits = m.NEAR_DOMAIN, m.NEAREST_DOMAIN, m.ACCURACY
+    for said in (
+        f"of {m.FINENESS[Purpose.FILM].share:g} of it at first",
+        f"{m.FINE_SIDES:g} or {m.FINE_THIN_SIDES:g} where side lobes are thinner",
+        f"kappa above {m.KAPPA_OF_SIDE_LOBES:g}; {m.MESH_OF_THIN_SIDES:g} of very",
+        f"{m.LARGEST_MESH:g} semi-axes at most",
+        f"above {limits.approach:g} dry approaches, {100 * limits.h_central:g} % of the central or "
+        f"{100 * limits.h_min:g} % of the smallest film",
+        f"[{near.x_in:g}, {near.x_out:g}] x [-{near.y_max:g}, {near.y_max:g}]",
+        f"[{nearest.x_in:g}, {nearest.x_out:g}] x [-{nearest.y_max:g}, {nearest.y_max:g}]",
+        f"Default [{Domain().x_in:g}, {Domain().x_out:g}] x [-{Domain().y_max:g}, {Domain().y_max:g}]",
+    ):
+        assert said in text, said
+    thirds = {m.FINENESS[p].share for p in (Purpose.DAMPING, Purpose.RUN, Purpose.CONTACT)}
+    assert "a third for damping and motion" in text and thirds == {1.0 / 3.0}
