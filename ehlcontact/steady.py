@@ -95,8 +95,8 @@ def solve_steady(
         Engine of the elastic deflection: fast transforms, exact to rounding; multilevel multi-integration, as in
         the paper; the direct sum, slow. See `ehlcontact.solver.deflection`.
     refine : bool
-        False, with `n` left out, stays on the first grid that carries a film, at a third of the time: the smallest
-        film may be off by a fifth. ``result.error`` says so.
+        False, with `n` left out, stays on the first grid that carries a film, with a quarter of the nodes or fewer
+        where it would not do: the smallest film may be off by a third. ``result.error`` says how far.
     throw : bool
         Raise on failure; otherwise look at ``result.status``.
     callback : callable, optional
