@@ -9,6 +9,7 @@ class with ``to_dict`` and ``from_dict``         attribute, JSON of that diction
 number, text, None, enum; what holds only these  attribute, JSON
 ================================================ =========================================================
 
+A field that is None by default, and None, is left out: so fields can be added, and files without them be read.
 The file names the class and a format number, which its owner raises when the fields change their meaning.
 """
 
@@ -17,7 +18,7 @@ from __future__ import annotations
 import json
 import os
 import uuid
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
 from enum import Enum
@@ -114,7 +115,7 @@ def read(
             number = None if cls is None else int(file.attrs["format"])
             oldest, newest = numbers
             if number is not None and oldest <= number <= newest:
-                return _build(cls, lambda name, hint: _take(file, name, hint))
+                return _build(cls, file)
     except InputError as error:  # of a member that its own class refuses
         raise InputError(f"{source}: {error.field}", error.value, error.allowed) from None
     except Exception:  # whatever h5py, numpy and classes raise on what is damaged, or not what it says it is
@@ -165,9 +166,10 @@ def text_of(group: h5py.Group, name: str) -> str:
 
 
 def _members(value: Any) -> Iterator[tuple[str, Any]]:
-    """Members of a dataclass by name, of a sequence by number."""
+    """Members of a dataclass by name, of a sequence by number; without those that are None because nobody said."""
     if is_dataclass(value):
-        return ((f.name, getattr(value, f.name)) for f in fields(value))
+        named = ((f, getattr(value, f.name)) for f in fields(value))
+        return ((f.name, member) for f, member in named if f.default is not None or member is not None)
     return ((str(k), member) for k, member in enumerate(value))
 
 
@@ -209,7 +211,7 @@ def _take(group: h5py.Group, name: str, hint: Any) -> Any:
         return take(item)
     kind = _kind(hint)
     if is_dataclass(kind):
-        return _build(kind, lambda key, inner: _take(item, key, inner))
+        return _build(kind, item)
     hints = _member_hints(kind, len(item) + len(item.attrs))
     return get_origin(kind)(_take(item, str(k), inner) for k, inner in enumerate(hints))
 
@@ -239,10 +241,11 @@ def _allows_array(hint: Any) -> bool:
     return any(kind is Any or get_origin(kind) is np.ndarray for kind in kinds)
 
 
-def _build(cls: Any, take: Callable[[str, Any], Any]) -> Any:
-    """Dataclass `cls` of what `take` finds for each field's name and annotation."""
+def _build(cls: Any, group: h5py.Group) -> Any:
+    """Dataclass `cls` of what the group holds for each field's name and annotation."""
     hints = get_type_hints(cls)
-    return cls(**{f.name: take(f.name, hints[f.name]) for f in fields(cls)})
+    there = (f.name for f in fields(cls) if f.default is not None or f.name in group or f.name in group.attrs)
+    return cls(**{name: _take(group, name, hints[name]) for name in there})
 
 
 def _kind(hint: Any) -> Any:

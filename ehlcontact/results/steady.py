@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.origin import Origin
 from ehlcontact.results.si import SteadySI
+from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.status import Status
 
 Array = NDArray[np.float64]
@@ -40,6 +41,9 @@ class SteadyResult(Origin):
     dry_residual : float
         Mean |residual| of the dry Hertz start on this grid: the scale.
     status : Status
+    error : ErrorEstimate or None
+        How far approach and films may be from those of an endless fine mesh on the same region; None of a film
+        that is not converged, and of files written before there were estimates.
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
@@ -57,6 +61,7 @@ class SteadyResult(Origin):
     approach_changes: Array
     dry_residual: float
     status: Status
+    error: ErrorEstimate | None = None
 
     @property
     def si(self) -> SteadySI:
@@ -95,6 +100,7 @@ class SteadyResult(Origin):
             "load_residual": self.load_residual,
             "cycles": self.cycles,
             "seconds": self.seconds,
+            "error": None if self.error is None else asdict(self.error),
             "status": str(self.status),
             "advice": self.status.advice,
             "n": self.n,

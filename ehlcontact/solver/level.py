@@ -207,10 +207,10 @@ def build_hierarchy(point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str
     # lines lie closer together than their nodes
     hy = hx * max(1.0, point.kappa)
     ny = max(4, round(domain.y_max / hy / 2**halvings)) * 2**halvings
-    sizes, coarsest = [(n, ny)], (n >> halvings, ny >> halvings)
-    while sizes[-1] != coarsest:
+    sizes, last = [(n, ny)], (n >> halvings, ny >> halvings)
+    while sizes[-1] != last:
         nx, ny = sizes[-1]
         apart = (domain.y_max / ny) / (point.kappa * (domain.x_out - domain.x_in) / nx)
-        both = apart < LINES_APART or nx == coarsest[0]
-        sizes.append((nx // 2 if nx > coarsest[0] else nx, ny // 2 if both and ny > coarsest[1] else ny))
-    return [Level(point, domain, *size, deflection) for size in reversed(sizes)]
+        both = apart < LINES_APART or nx == last[0]
+        sizes.append((nx // 2 if nx > last[0] else nx, ny // 2 if both and ny > last[1] else ny))
+    return [Level(point, domain, nx, ny, deflection) for nx, ny in reversed(sizes)]
