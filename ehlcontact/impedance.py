@@ -32,7 +32,7 @@ from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
 from ehlcontact.solver.memory import Solve
-from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, remedy, require_room
+from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, require_room, widened
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
@@ -120,10 +120,10 @@ def _steady(point: Point, n: int | None, domain: Domain | None, deflection: str,
     mesh = mesh_for(moes, Purpose.DAMPING, n=n, domain=domain)
     require_room(mesh, moes, Solve.IMPEDANCE)
     way: dict[str, Any] = {"deflection": deflection, "threads": threads, "throw": False}
-    steady = solve_steady(point, n=mesh.n, domain=mesh.domain, **way)
-    if (wider := remedy(mesh, steady.status, moes, Purpose.DAMPING, n=n, domain=domain)) is not None:
-        require_room(wider, moes, Solve.IMPEDANCE)
-        steady = solve_steady(point, n=wider.n, domain=wider.domain, **way)
+    for tried in widened(mesh, moes, Purpose.DAMPING, n=n, domain=domain, solve=Solve.IMPEDANCE):
+        steady = solve_steady(point, n=tried.n, domain=tried.domain, **way)
+        if steady.status is not Status.OUT_OF_DOMAIN:
+            break
     if steady.status is Status.INTERRUPTED:
         raise KeyboardInterrupt  # there is nothing to keep: no frequency has been looked at
     if not steady.status.ok:

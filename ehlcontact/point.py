@@ -31,7 +31,8 @@ class MoesPoint:
     """Dimensionless operating point: Moes load M, Moes lubricant L, ellipse ratio kappa = a/b.
 
     ``alpha`` [1/Pa] and ``eta0`` [Pa s] do not follow from M and L but set the Hertz pressure, hence the
-    compressibility and Roelands' departure from Barus. The defaults are Venner and Lubrecht's.
+    compressibility and Roelands' departure from Barus. The defaults are Venner and Lubrecht's. L = 0 is the limit
+    of small L, where that pressure goes to 0: the oil is incompressible and has the viscosity eta0 everywhere.
 
     Raises
     ------
@@ -74,8 +75,8 @@ class MoesPoint:
 
     @property
     def p_hertz(self) -> float:
-        """Hertz pressure [Pa] that M, L and alpha imply; 1 GPa by convention where L = 0 leaves it open."""
-        return self.alpha_bar / self.alpha if self.L > 0.0 else 1e9
+        """Hertz pressure [Pa] that M, L and alpha imply; 0 at L = 0, its limit."""
+        return self.alpha_bar / self.alpha
 
     @property
     def law(self) -> FluidLaw:

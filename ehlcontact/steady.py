@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,9 +15,11 @@ from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import MoesPoint, Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import SteadyResult
+from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
+from ehlcontact.solver.estimate import estimate_error
 from ehlcontact.solver.iterate import Goal, Track, iterate
 from ehlcontact.solver.memory import Solve
 from ehlcontact.solver.mesh import (
@@ -68,6 +71,7 @@ def solve_steady(
     max_cycles: int = MAX_CYCLES,
     method: str = "automatic",
     deflection: str = "fft",
+    refine: bool = True,
     threads: int | None = None,
     throw: bool = True,
     callback: Callable[[int, float], None] | None = None,
@@ -78,7 +82,9 @@ def solve_steady(
     ----------
     point : MoesPoint or OperatingPoint
     n : int
-        Intervals along X, a multiple of 16; by default as many as the film needs, 128 or more.
+        Intervals along X, a multiple of 16; by default as many as the film needs, 128 or more, and, until the
+        errors estimated are within 0.2 % of the dry approach, 1 % of the central and 3 % of the smallest film,
+        twice as many again: as far as a grid of a million nodes goes. ``result.error`` says what was reached.
     domain : Domain, optional
         Computed region; by default ``Domain()``, wider at light load, and with `n` left out narrower where the
         film is too thin for a grid of that extent.
@@ -97,6 +103,9 @@ def solve_steady(
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection: fast transforms, exact to rounding; multilevel multi-integration, as in
         the paper; the direct sum, slow. See `ehlcontact.solver.deflection`.
+    refine : bool
+        False, with `n` left out, stays on the first grid that carries a film, with a quarter of the nodes or fewer
+        where it would not do: the smallest film may be off by a third. ``result.error`` says how far.
     threads : int, optional
         Threads that share the work, at most the cores there are; by default all of them, within the present limits
         of BLAS, and one in the processes of a pool. Results are the same, bit for bit, for any number.
@@ -134,22 +143,45 @@ def solve_steady(
             domain = default_domain(moes, load)
     mesh = mesh_for(moes, Purpose.FILM, n=n, domain=domain)
     require_room(mesh, moes, Solve.NEWTON if method == "newton" else Solve.CYCLES)
-    for _ in range(LARGEST_ATTEMPTS):
-        for way in METHODS[method]:
-            if way is LAST_RESORT and not allows_newton(mesh, moes):
-                break
-            solved = _Attempt(moes, mesh, way, deflection, threads)
-            status = solved.run(balance, tol, max_cycles, callback)
-            if status not in FAILED:
-                break
-        other = remedy(mesh, status, moes, n=n, domain=domain)
+    work = partial(
+        _solve,
+        moes,
+        deflection=deflection,
+        threads=threads,
+        balance=balance,
+        tol=tol,
+        most=max_cycles,
+        watch=callback,
+    )
+    solved, status = work(mesh, METHODS[method])
+    for _ in range(1, LARGEST_ATTEMPTS):
+        error = solved.error if refine else None
+        other = remedy(solved.mesh, status, moes, n=n, domain=domain, error=error)
         if other is None:
             break
-        mesh = other
+        attempt, ended = work(other, METHODS[method][: 1 if status.ok else None])
+        if status.ok and not ended.ok:  # a film that is solved stays, whatever becomes of a finer one
+            status = ended if ended is Status.INTERRUPTED else status
+            break
+        solved, status = attempt, ended
     result = solved.result(status, scales_of(point), time.perf_counter() - started)
     if throw and not status.ok and status is not Status.INTERRUPTED:
         raise ConvergenceError(f"steady solve {status}: {status.advice}", result)
     return result
+
+
+def _solve(
+    point: MoesPoint, mesh: Mesh, methods: Sequence[Method], *, deflection: str, threads: int, **run: Any
+) -> tuple[_Attempt, Status]:
+    """The first of `methods` that solves the film on this mesh, or the last that could be tried."""
+    for way in methods:
+        if way is LAST_RESORT and not allows_newton(mesh, point):
+            break
+        attempt = _Attempt(point, mesh, way, deflection, threads)
+        status = attempt.run(**run)
+        if status not in FAILED:
+            break
+    return attempt, status
 
 
 class _Attempt:
@@ -160,6 +192,7 @@ class _Attempt:
         self.multigrid = Multigrid(point, mesh, deflection=deflection, effort=method.effort, threads=threads)
         self.scale = self.multigrid.finest.dry_residual()
         self.track = Track()
+        self.error: ErrorEstimate | None = None
 
     def run(self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None) -> Status:
         """Cycle, or take Newton steps, until the residuals say how it ended."""
@@ -172,7 +205,10 @@ class _Attempt:
             if self.method.newton:
                 mg.cycle(balance)
             advance = NewtonKrylov(mg).step if self.method.newton else mg.cycle
-            return iterate(mg, balance, advance, goal, self.track, watch)
+            status = iterate(mg, balance, advance, goal, self.track, watch)
+            if status.ok:
+                self.error = estimate_error(mg, balance)
+            return status
         except KeyboardInterrupt:
             return Status.INTERRUPTED
 
@@ -199,5 +235,6 @@ class _Attempt:
             pressure_changes=np.array(track.pressure_changes[: max(track.iterations, 0)]),
             dry_residual=self.scale,
             status=status,
+            error=self.error,
             seconds=seconds,
         )

@@ -61,7 +61,7 @@ def one_direction(contact: Contact, vibration: float | None) -> Assumption:
 
 def elastic(contact: Contact) -> Assumption:
     """Hertz pressure against what bearing steel bears."""
-    value, verdict = None, "not judged: L = 0 leaves the Hertz pressure open"
+    value, verdict = None, "not judged: L = 0 is the limit of small Hertz pressures"
     if contact.scales is not None or contact.moes.L > 0.0:
         value = contact.moes.p_hertz if contact.scales is None else contact.scales.pressure
         limit = FATIGUE_PRESSURE if value <= LARGEST_PRESSURE else LARGEST_PRESSURE

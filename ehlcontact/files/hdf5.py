@@ -166,9 +166,10 @@ def text_of(group: h5py.Group, name: str) -> str:
 
 
 def _members(value: Any) -> Iterator[tuple[str, Any]]:
-    """Members of a dataclass by name, of a sequence by number."""
+    """Members of a dataclass by name, of a sequence by number; without those that are None because nobody said."""
     if is_dataclass(value):
-        return ((f.name, getattr(value, f.name)) for f in fields(value))
+        named = ((f, getattr(value, f.name)) for f in fields(value))
+        return ((f.name, member) for f, member in named if f.default is not None or member is not None)
     return ((str(k), member) for k, member in enumerate(value))
 
 

@@ -135,16 +135,21 @@ class Lubricant:
         )
 
     def law(self, p_hertz: float, alpha_bar: float) -> FluidLaw:
-        """Laws in units of the Hertz pressure; `alpha_bar` = alpha p_h, both given for isoviscous oil."""
+        """Laws in units of the Hertz pressure; `alpha_bar` = alpha p_h.
+
+        Both go to 0 with L, by soft bodies: at L = 0 no pressure compresses the oil, or thickens it. `alpha_bar`
+        alone is 0 for an isoviscous oil between hard ones.
+        """
         q = math.log(self.eta0) + ROELANDS_LOG
+        pressed = p_hertz > 0.0
         return FluidLaw(
             roelands=self.viscosity == "roelands" and alpha_bar > 0.0,
             alpha_bar=alpha_bar,
             q=q,
             s=p_hertz / ROELANDS_P0,
             z=self.alpha * ROELANDS_P0 / q,
-            compressible=self.density == "dowson-higginson",
-            d=DOWSON_HIGGINSON_C1 / p_hertz,
+            compressible=self.density == "dowson-higginson" and pressed,
+            d=DOWSON_HIGGINSON_C1 / p_hertz if pressed else math.inf,
         )
 
 

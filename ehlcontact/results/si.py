@@ -5,7 +5,7 @@ m, N, Pa, N/m, N s/m; frequencies in rad/s and in Hz.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 from math import pi
 from typing import TYPE_CHECKING, Any, Self
 
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ehlcontact.errors import InputError
 from ehlcontact.origin import freeze
 from ehlcontact.point import Scales
+from ehlcontact.solver.accuracy import ErrorEstimate
 
 if TYPE_CHECKING:  # they import this module
     from ehlcontact.results.impedance import ImpedanceResult
@@ -59,6 +60,8 @@ class SteadySI(View):
         Largest pressure [Pa].
     pressure_error : float
         Largest change of the pressure that further cycles would still make [Pa].
+    error : ErrorEstimate or None
+        That of the result, its approach in m; films relative as there.
     """
 
     x: Array
@@ -71,6 +74,7 @@ class SteadySI(View):
     h_min: float
     p_max: float
     pressure_error: float
+    error: ErrorEstimate | None
 
     @classmethod
     def of(cls, result: SteadyResult) -> Self:
@@ -87,12 +91,14 @@ class SteadySI(View):
             h_min=result.h_min * s.length,
             p_max=result.p_max * s.pressure,
             pressure_error=result.pressure_error * s.pressure,
+            error=result.error and replace(result.error, approach=result.error.approach * s.length),
         )
 
     def summary(self) -> dict[str, Any]:
         """Its numbers, for JSON."""
         names = ("approach", "force", "h_central", "h_min", "p_max", "pressure_error")
-        return {name: getattr(self, name) for name in names}
+        error = None if self.error is None else asdict(self.error)
+        return {name: getattr(self, name) for name in names} | {"error": error}
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

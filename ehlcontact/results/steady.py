@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from math import nan
 from typing import Any
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.origin import Origin
 from ehlcontact.results.si import SteadySI
+from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.status import Status
 
 Array = NDArray[np.float64]
@@ -44,6 +45,9 @@ class SteadyResult(Origin):
     dry_residual : float
         Mean |residual| of the dry Hertz start on this grid: the scale.
     status : Status
+    error : ErrorEstimate or None
+        How far approach and films may be from those of an endless fine mesh on the same region; None of a film
+        that is not converged, and of files written before there were estimates.
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
@@ -61,8 +65,9 @@ class SteadyResult(Origin):
     approach_changes: Array
     dry_residual: float
     status: Status
-    # files of earlier versions have none
+    # files of earlier versions have neither
     pressure_changes: Array = field(default_factory=lambda: np.empty(0), metadata={"later": True})
+    error: ErrorEstimate | None = field(default=None, metadata={"later": True})
 
     @property
     def si(self) -> SteadySI:
@@ -113,6 +118,7 @@ class SteadyResult(Origin):
             "load_residual": self.load_residual,
             "cycles": self.cycles,
             "seconds": self.seconds,
+            "error": None if self.error is None else asdict(self.error),
             "status": str(self.status),
             "advice": self.status.advice,
             "n": self.n,

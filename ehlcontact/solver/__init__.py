@@ -10,6 +10,8 @@ room            responsibility
 ``deflection/`` the elastic deflection: fast transforms, multi-integration, direct sum
 ``kernels/``    the equations node by node, compiled: Reynolds residual, derivatives, relaxation, transfer
 ``lowest_film`` the smallest film between the nodes
+``accuracy``    `ErrorEstimate`: how far a film may be from that of an endless fine mesh
+``estimate``    that of a film solved, from grids of half and a quarter of its intervals
 ``balance``     `Balance`: the equation that closes a solve: load, approach, or Newmark's step of the motion
 ``coarse``      Newton with dense elasticity, on the coarsest grid
 ``multigrid``   full-approximation-scheme cycle and full multigrid

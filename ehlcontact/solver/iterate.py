@@ -21,7 +21,9 @@ STAGNATION_CYCLES = 6  # the last so many are held against all before them,
 STAGNATION_FACTOR = 0.7  # and have to bring the least residual down to this share
 DIVERGENCE_FACTOR = 1e3  # times the scale: a residual that large does not come back
 # Where changes hardly fall, coarse corrections spoil what too few sweeps have left rough.
-SLOW = 0.45  # change of the pressure over that of the iteration before, above which, twice, the sweeps are doubled,
+SLOW = (
+    0.45  # change of the pressure over that of the iteration before, above which, twice, the sweeps are doubled,
+)
 MOST_EFFORT = 4  # up to so many times: what does not fall then is left to the next attempt
 LEAST_FACTOR = 0.2  # assumed of what is to come: the first iterations fall faster
 BORDER_SLOPE = 0.1  # of the maximum per semi-axis, at inlet and sides

@@ -7,7 +7,7 @@ Mesh sizes below are in the longer semi-axis.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import exp, log
@@ -18,6 +18,7 @@ from scipy.optimize import brentq
 from ehlcontact.checks import require_instance
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
+from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.domain import MOST_INTERVALS, Domain, check_intervals
 from ehlcontact.solver.memory import Solve, fits, require_memory
 from ehlcontact.status import Status
@@ -76,10 +77,12 @@ FINENESS = {
     Purpose.CONTACT: Fineness(1.0 / 3.0, STEPPED, 70_000),
 }
 
-# What is tried after a failure? ---------------------------------------------------------------------------------
+# What is tried after a failure, or a film that is not yet exact? ------------------------------------------------
 FAILED = (Status.STAGNATED, Status.DIVERGED, Status.MAX_CYCLES, Status.NONFINITE)
 REFINED = (*FAILED, Status.UNRESOLVED)  # what a finer mesh may cure
 DOMAIN_GROWTH = 1.5  # of a region that pressure fills
+# Errors of a steady film (by their estimates) below which no finer mesh is tried where it is left open.
+ACCURACY = ErrorEstimate(approach=0.002, h_central=0.01, h_min=0.03)
 LARGEST_ATTEMPTS = 4  # meshes for one film, the first one included
 LARGEST_NEWTON = 300_000  # nodes for Newton as a last resort: sparse factors take minutes and gigabytes beyond
 
@@ -195,11 +198,13 @@ def remedy(
     *,
     n: int | None = None,
     domain: Domain | None = None,
+    error: ErrorEstimate | None = None,
 ) -> Mesh | None:
-    """Return the mesh to try after a solve on `mesh` ended with `status`: wider, nearer or finer; None to give up.
+    """Return the mesh to try after a solve on `mesh` ended with `status`: wider, nearer or finer; None to end.
 
     `n` and `domain` are what the caller of `mesh_for` gave: what was asked for is not changed. A steady film with
-    a given `n` is judged on the mesh it was asked for.
+    a given `n` is judged on the mesh it was asked for. `error` is that of a film solved, to be within `ACCURACY`;
+    None takes it as it is.
     """
     if purpose is Purpose.FILM and n is not None:
         return None
@@ -208,13 +213,47 @@ def remedy(
             return None
         wider = mesh.domain.scaled(DOMAIN_GROWTH)
         return Mesh(mesh.n, wider) if purpose is Purpose.FILM else mesh_for(point, purpose, n=n, domain=wider)
-    if purpose is not Purpose.FILM or status not in REFINED:
+    inexact = status.ok and error is not None and not error.within(ACCURACY)
+    if purpose is not Purpose.FILM or not (inexact or status in REFINED):
         return None
-    if domain is None and mesh.domain not in {NEAR_DOMAIN, NEAREST_DOMAIN} and point.inlet_width < INLET_NEAR:
+    far = domain is None and mesh.domain not in {NEAR_DOMAIN, NEAREST_DOMAIN}
+    if far and not inexact and point.inlet_width < INLET_NEAR:
         return Mesh(mesh.n, NEAR_DOMAIN)
     finer = Mesh(2 * mesh.n, mesh.domain)
     nodes = finer.nodes(point.kappa)
     return finer if nodes <= FINENESS[Purpose.FILM].largest and fits(nodes) else None
+
+
+def widened(
+    mesh: Mesh,
+    point: MoesPoint,
+    purpose: Purpose,
+    *,
+    n: int | None = None,
+    domain: Domain | None = None,
+    solve: Solve = Solve.CYCLES,
+) -> Iterator[Mesh]:
+    """Give `mesh`, and for whoever goes on because his film left its region, what `remedy` has for that.
+
+    It ends before a mesh that would not fit into memory.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        That of `mesh_for`.
+    point : MoesPoint
+    purpose : Purpose
+    n, domain
+        What the caller of `mesh_for` gave.
+    solve : Solve
+        What the mesh is solved with.
+    """
+    wider: Mesh | None = mesh
+    for _ in range(LARGEST_ATTEMPTS):
+        if wider is None or not (wider is mesh or fits(wider.nodes(point.kappa), solve)):
+            return
+        yield wider
+        wider = remedy(wider, Status.OUT_OF_DOMAIN, point, purpose, n=n, domain=domain)
 
 
 def default_domain(point: MoesPoint, largest_load: float = 1.0) -> Domain:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import ceil, log
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import RectBivariateSpline
@@ -38,7 +39,8 @@ class Multigrid:
     def __init__(
         self, point: MoesPoint, mesh: Mesh, *, deflection: str = "fft", effort: int = 1, threads: int = 1
     ) -> None:
-        self.point = point
+        self.point, self.mesh = point, mesh
+        self._options: dict[str, Any] = {"deflection": deflection, "effort": effort, "threads": threads}
         self.levels = build_hierarchy(point, mesh, coarsest_intervals(point, mesh.n), deflection)
         for level in self.levels:
             level.share(threads)
@@ -50,6 +52,10 @@ class Multigrid:
     def finest(self) -> Level:
         """The level on which the solution lives."""
         return self.levels[-1]
+
+    def halved(self) -> Multigrid:
+        """One on half the intervals, made as this one was; it holds no film yet."""
+        return Multigrid(self.point, replace(self.mesh, n=self.mesh.n // 2), **self._options)
 
     def set_time_coefficient(self, c_t: float) -> None:
         """Coefficient of rho H in the implicit part of the squeeze term, on all levels."""
@@ -91,6 +97,17 @@ class Multigrid:
         for _ in range(cycles):
             self.levels[k].update(self.u)
             self.u = self._cycle(k, self.u, balance)
+
+    def settle(self, k: int, u: float, balance: Balance, cycles: int) -> float:
+        """Cycles on level k by itself, from the pressure that it holds and approach `u`; returns the approach."""
+        level = self.levels[k]
+        level.rhs[...] = 0.0
+        level.film_shift = 0.0
+        level.update(u)
+        for _ in range(cycles):
+            u = self._cycle(k, u, balance)
+            level.update(u)
+        return u
 
     def cycle(self, balance: Balance) -> float:
         """One V cycle on the finest level; returns the largest change of P."""

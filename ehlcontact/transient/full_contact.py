@@ -10,7 +10,7 @@ from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.mesh import Purpose, mesh_for, require_room
+from ehlcontact.solver.mesh import Purpose, mesh_for, require_room, widened
 from ehlcontact.status import Status
 from ehlcontact.transient.film import FilmState, Step, TransientFilm
 from ehlcontact.transient.si import ContactSI
@@ -28,7 +28,8 @@ class FullContact:
     n : int, optional
         Intervals along X, a multiple of 16; by default as many as the inlet needs, 80 or more.
     domain : Domain, optional
-        Computed region; give `largest_load` instead if the load will rise.
+        Computed region; give `largest_load` instead if the load will rise. Left out, it is widened until it holds
+        the film at rest.
     largest_load : float
         Largest force to expect, in static loads.
     tol : float
@@ -60,13 +61,19 @@ class FullContact:
     ) -> None:
         load = require_positive("largest_load", largest_load)
         self.point, self.scales = require_solvable(point, load), scales_of(point)
-        mesh = mesh_for(self.point, Purpose.CONTACT, n=n, domain=domain, largest_load=load)
-        require_room(mesh, self.point)
-        self.n, self.domain = mesh.n, mesh.domain
+        first = mesh_for(self.point, Purpose.CONTACT, n=n, domain=domain, largest_load=load)
+        require_room(first, self.point)
         require_choice("deflection", deflection, tuple(ENGINES))
         tol, threads = require_positive("tol", tol), require_threads("threads", threads)
-        self._film = TransientFilm(self.point, mesh, tol, deflection, threads)
-        self._check(self._film.start_steady(Balance.of_load()))
+        left: Step | None = None
+        for mesh in widened(first, self.point, Purpose.CONTACT, n=n, domain=domain):
+            self._film = TransientFilm(self.point, mesh, tol, deflection, threads)
+            self.n, self.domain = mesh.n, mesh.domain
+            start = self._film.start_steady(Balance.of_load())
+            if start.status is not Status.OUT_OF_DOMAIN:
+                break
+            left = left or start
+        self._check(start if start.status.ok else left or start)
         self.static_approach = self._film.u
         self.force = self._film.level.force()
 

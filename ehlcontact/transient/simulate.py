@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -16,7 +16,7 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.mesh import Purpose, mesh_for, require_room
+from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, require_room, widened
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError, Keeper, load_checkpoint, require_replaceable
@@ -59,13 +59,16 @@ def simulate(
     n : int, optional
         Intervals along X, a multiple of 16; by default as many as the inlet needs, 128 or more.
     domain : Domain, optional
-        Computed region; by default wide enough for the largest load of the motion.
+        Computed region; by default wide enough for the largest load of the motion. Where the film leaves that one,
+        the run begins again on a wider one.
     until, dT : float, optional
         End and (fixed) step of dimensionless time; the motion's own defaults otherwise. The step is shortened
         to divide `until` evenly. With `error`, `dT` is the step tried first.
     error : float, optional
         Steps are not fixed but controlled: the estimated local error of each, in approach (dry approaches), force
         (static loads) and mean film, stays below `error`. Corners of the motion, snapshots and `until` are met.
+        Over a run they add up, to about ``error**(2/3)`` where bodies have inertia (docs/solver.md): for approach
+        and force within g all the way give ``error = g**1.5``.
     tol : float
         Residual at which a step counts as solved, relative to the central film at rest; force and approach then
         change by less than tol/30 in the last cycle. With `error`, at most ``3 error``.
@@ -118,14 +121,18 @@ def simulate(
     require_nonnegative("checkpoint_every", checkpoint_every)
     if checkpoint is not None:
         require_replaceable(checkpoint, restart)
-    film = TransientFilm(moes, mesh, steps.tol, deflection, require_threads("threads", threads))
+    threads = require_threads("threads", threads)
+    meshes = widened(mesh, moes, Purpose.RUN, n=n, domain=domain)
     earlier = None
     if restart is not None:
         earlier = load_checkpoint(restart)
-        earlier.check(settings, dT, surface, film.level, restart)
+        mesh = next((wider for wider in meshes if wider == earlier.settings.mesh), mesh)
+        film = TransientFilm(moes, mesh, steps.tol, deflection, threads)
+        earlier.check(replace(settings, mesh=mesh), dT, surface, film.level, restart)
         started -= earlier.seconds
         steps = steps.going_on(earlier.settings.steps)
-        settings = replace(settings, steps=earlier.settings.steps)  # the step follows from the end first asked for
+        # the step follows from the end first asked for
+        settings = replace(settings, mesh=mesh, steps=earlier.settings.steps)
     keeper = Keeper(checkpoint, checkpoint_every, settings, started)
 
     def watch(run: Run) -> None:
@@ -133,17 +140,23 @@ def simulate(
         if callback is not None and run.state.T > 0.0:
             callback(run.state.T, steps.until)
 
-    if earlier is None:
+    def from_rest(mesh: Mesh) -> tuple[Run, RunEnd]:
+        keeper.settings = replace(settings, mesh=mesh)
+        film = TransientFilm(moes, mesh, steps.tol, deflection, threads)
         control = None if error is None else StepControl(error, steps.dT)
         run = Run(film, motion, surface, History(settings.snapshots), control, watch)
         end = RunEnd(run.start())
+        return run, march(run, steps) if end.status.ok else end
+
+    if earlier is None:
+        mesh, run, end = _first_inside(meshes, from_rest)
+        settings = keeper.settings = replace(settings, mesh=mesh)
     else:
         run = Run(film, motion, surface, History.of(earlier.record, settings.snapshots), earlier.control, watch)
         run.resume(earlier.film, earlier.scale, earlier.static_approach)
-        end = RunEnd(Status.CONVERGED)
-    unkept = None
-    if end.status.ok:
         end = march(run, steps)
+    unkept = None
+    if run.history.entries[0].step.status.ok:  # there is a start to go on from
         try:
             keeper.write(run)
         except InputError as lost:
@@ -152,11 +165,25 @@ def simulate(
             end = RunEnd(Status.INTERRUPTED)
     result = _result(run, settings, scales_of(point), end.status, time.perf_counter() - started)
     if throw and not end.status.ok and end.status is not Status.INTERRUPTED:
-        G = surface_height(surface, film.level.X, film.level.Y, float(result.T[-1]))
+        G = surface_height(surface, result.X, result.Y, float(result.T[-1]))
         raise ConvergenceError(_message(result, end, -float(np.min(G))), result)
     if unkept is not None:
         raise CheckpointError(unkept, result)
     return result
+
+
+def _first_inside(
+    meshes: Iterator[Mesh], attempt: Callable[[Mesh], tuple[Run, RunEnd]]
+) -> tuple[Mesh, Run, RunEnd]:
+    """The run on the first mesh whose region holds the film; that on the very first where none helps."""
+    left: tuple[Mesh, Run, RunEnd] | None = None
+    for mesh in meshes:
+        run, end = attempt(mesh)
+        if end.status is not Status.OUT_OF_DOMAIN:
+            break
+        left = left or (mesh, run, end)
+    helped = end.status.ok or end.status is Status.INTERRUPTED
+    return left if left is not None and not helped else (mesh, run, end)
 
 
 def _result(

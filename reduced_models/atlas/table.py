@@ -40,7 +40,7 @@ class Box:
             value = getattr(point, name)
             if not low <= value <= high:
                 raise InputError(name, value, f"between {low:g} and {high:g}, the box of the atlas ({self})")
-        if point.L > 0.0 and point.p_hertz > self.p_hertz:
+        if point.p_hertz > self.p_hertz:
             allowed = f"at most {self.p_hertz / 1e9:g}e9 Pa, the limit of the atlas ({self})"
             raise InputError("Hertz pressure", f"{point.p_hertz:.4g} Pa", allowed)
 

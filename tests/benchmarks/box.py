@@ -70,6 +70,7 @@ def solve(M: float, L: float, kappa: float) -> Row:
         "h_central": result.h_central,
         "h_min": result.h_min,
         "residual": result.residual,
+        "error": result.summary()["error"],
         "seconds": result.seconds,
     }
 

@@ -136,11 +136,11 @@ def _film(result: Any) -> Figures:
 
 
 def steady(bench: Bench) -> None:
-    """Steady films over the box, with grid, domain and method left to the library."""
+    """Steady films over the box, with first grid, domain and method left to the library."""
     from ehlcontact import Domain, solve_steady
 
     for name in POINTS:
-        bench.case(name, lambda name=name: _film(solve_steady(_point(name), throw=False)))
+        bench.case(name, lambda name=name: _film(solve_steady(_point(name), refine=False, throw=False)))
     given = {
         "pressed": ("paper", {"n": 64, "approach": 1.3}),
         "few nodes": ("paper", {"n": 32, "domain": Domain(-1.2, 1.2, 1.2)}),
@@ -151,12 +151,27 @@ def steady(bench: Bench) -> None:
         bench.case(name, lambda p=point, o=options: _film(solve_steady(_point(p), throw=False, **o)))
 
 
+def accuracy(bench: Bench) -> None:
+    """Errors that results state, and the grids that are chosen by them."""
+    from ehlcontact import MoesPoint, solve_steady
+
+    points = {name: MoesPoint(*POINTS[name]) for name in ("paper", "circle", "6205")}
+    for name, point in (points | {"sides": MoesPoint(97.0, 10.56, 1.489)}).items():
+
+        def solved(point: Any = point) -> Figures:
+            film = solve_steady(point, throw=False)
+            error = film.summary()["error"] or {}
+            return _film(film) | {f"error of {k}": v for k, v in error.items()}
+
+        bench.case(name, solved)
+
+
 def fallbacks(bench: Bench) -> None:
-    """Films on which cycles with single sweeps stagnate or crawl, so so that more sweeps or Newton must finish."""
+    """Films on which cycles with single sweeps stagnate or crawl, so that more sweeps or Newton must finish."""
     from ehlcontact import MoesPoint, solve_steady
 
     for name, point in FALLBACKS.items():
-        options = {"n": COARSE.get(name), "throw": False}
+        options = {"n": COARSE.get(name), "refine": False, "throw": False}
         bench.case(name, lambda p=point, o=options: _film(solve_steady(MoesPoint(*p), **o)))
 
 
@@ -164,14 +179,14 @@ def near_domain(bench: Bench) -> None:
     """A film so thin that oil far out makes no difference."""
     from ehlcontact import MoesPoint, solve_steady
 
-    bench.case("very thin", lambda: _film(solve_steady(MoesPoint(20000, 11, 0.5), throw=False)))
+    bench.case("very thin", lambda: _film(solve_steady(MoesPoint(20000, 11, 0.5), refine=False, throw=False)))
 
 
 def thin_sides(bench: Bench) -> None:
     """A film whose side lobes set the mesh."""
     from ehlcontact import MoesPoint, solve_steady
 
-    bench.case("thin sides", lambda: _film(solve_steady(MoesPoint(12834, 3.2, 1.09), throw=False)))
+    bench.case("thin sides", lambda: _film(solve_steady(MoesPoint(12834, 3.2, 1.09), refine=False, throw=False)))
 
 
 def newton(bench: Bench) -> None:
@@ -180,7 +195,10 @@ def newton(bench: Bench) -> None:
 
     for name, options in {"paper": {"n": 64, "tol": 1e-8}, "6205": {"n": 128}, "thin": {}}.items():
         bench.case(
-            name, lambda n=name, o=options: _film(solve_steady(_point(n), method="newton", throw=False, **o))
+            name,
+            lambda n=name, o=options: _film(
+                solve_steady(_point(n), method="newton", refine=False, throw=False, **o)
+            ),
         )
 
 
@@ -789,6 +807,7 @@ PROBES: dict[str, Callable[[Bench], None]] = {
     function.__name__: function
     for function in (
         steady,
+        accuracy,
         fallbacks,
         near_domain,
         thin_sides,

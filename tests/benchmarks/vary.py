@@ -252,7 +252,7 @@ class Failed(Exception):
     """A run that gave no figures."""
 
 
-MESH = ("steady", "near_domain", "thin_sides", "impedances", "transient", "full_contact")
+MESH = ("steady", "accuracy", "near_domain", "thin_sides", "impedances", "transient", "full_contact")
 # Probes by the beginning of a module's name; the longest that fits counts.
 ROOMS: dict[str, tuple[str, ...]] = {
     "ehlcontact": ("steady", "impedances", "transient"),
@@ -262,11 +262,13 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "ehlcontact.film": ("wave",),
     "ehlcontact.impedance": ("impedances",),
     "ehlcontact.solver": ("steady", "fallbacks", "transient"),
+    "ehlcontact.solver.accuracy": ("accuracy",),
     "ehlcontact.solver.deflection": ("deflections", "steady", "transient"),
     "ehlcontact.solver.deflection.mlmi": ("deflections",),
     "ehlcontact.solver.domain": ("steady", "impedances", "transient"),
     "ehlcontact.solver.kernels.mlmi": ("deflections",),
     "ehlcontact.solver.kernels.lowest": ("lowest", "steady"),
+    "ehlcontact.solver.estimate": ("accuracy",),
     "ehlcontact.solver.linear": ("newton", "fallbacks", "impedances"),
     "ehlcontact.solver.linearised_contact": ("impedances",),
     "ehlcontact.solver.lowest_film": ("lowest", "steady"),

@@ -9,6 +9,7 @@ import pytest
 from ehlcontact import Geometry, InputError, Lubricant, MoesPoint, OperatingPoint
 from ehlcontact.formulas import nvm_central_film
 from ehlcontact.hertz import elliptic_integrals, shape_factor
+from ehlcontact.lubricant import density, log_viscosity
 from ehlcontact.point import moes_point, most_loaded_ball, scales_of
 
 NAN, INF = float("nan"), float("inf")
@@ -268,9 +269,18 @@ def test_isoviscous_operating_point_is_refused():
         OperatingPoint(Geometry(0.01, 0.02), Lubricant(alpha=0.0), 10.0, 1.0)
 
 
-def test_isoviscous_moes_point_has_a_conventional_pressure():
-    assert MoesPoint(200, 0, 1.0).p_hertz == 1e9
-    assert MoesPoint(200, 0, 1.0).alpha_bar == 0.0
+@pytest.mark.parametrize("viscosity", ["roelands", "barus"])
+@pytest.mark.parametrize("density_law", ["dowson-higginson", "incompressible"])
+def test_oil_at_l_0_is_the_limit_of_small_l(viscosity, density_law):
+    limit = MoesPoint(200, 0, 1.0, viscosity=viscosity, density=density_law)
+    assert limit.p_hertz == limit.alpha_bar == 0.0
+    for P in (0.0, 0.3, 1.0, 3.0):
+        assert density(P, limit.law) == (1.0, 0.0)
+        assert log_viscosity(P, limit.law) == (0.0, 0.0)
+        for L in (1e-6, 1e-3, 0.01):
+            law = replace(limit, L=L).law
+            assert density(P, law) == pytest.approx((1.0, 0.0), abs=0.3 * L)
+            assert log_viscosity(P, law) == pytest.approx((0.0, 0.0), abs=10.0 * L)
 
 
 def test_either_kind_of_point(operating_point):

@@ -58,7 +58,9 @@ def run():
 
 
 def test_every_field_in_its_unit(steady, run):
-    for result, beside in ((steady, set()), (run, {"static_load", "mass", "omega", "hz"})):
+    assert steady.si.error.approach == pytest.approx(steady.error.approach * S.length)
+    assert (steady.si.error.h_central, steady.si.error.h_min) == (steady.error.h_central, steady.error.h_min)
+    for result, beside in ((steady, {"error"}), (run, {"static_load", "mass", "omega", "hz"})):
         si = result.si
         for name in {f.name for f in fields(si)} - beside:
             ours, unit = UNITS[name]

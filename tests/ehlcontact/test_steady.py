@@ -214,3 +214,14 @@ def test_prescribed_approach_above_one_gets_room():
     assert result.status == "converged"
     assert result.domain.x_out > 2.0
     assert result.force > 11.0
+
+
+@pytest.mark.parametrize(("M", "kappa"), [(200, 1.0), (20, 0.2)])
+def test_film_at_l_0_is_the_limit_of_small_l(M, kappa):
+    """No jump: what is left of the difference falls with L, and with the viscosity at the Hertz pressure."""
+    limit, *others = (solve_steady(MoesPoint(M, L, kappa), n=64, tol=1e-8) for L in (0.0, 1e-6, 1e-3, 0.01))
+    for film in others:
+        far = 10.0 * film.point.alpha_bar
+        for name in ("approach", "h_central", "h_min"):
+            assert getattr(film, name) == pytest.approx(getattr(limit, name), rel=far), (film.point.L, name)
+    assert others[-1].h_central != limit.h_central

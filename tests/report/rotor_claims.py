@@ -27,7 +27,10 @@ def claim_headline(page, rotor):
         p.kappa,
         p.p_hertz * 1e-9,
     )
-    page.claim("an oil film of # um, # um at its thinnest", p.h_central_um, p.h_min_um)
+    page.claim(
+        "an oil film of # um (± # % of it), # um (± # % of it) at its thinnest",
+        *(p.h_central_um, 100.0 * p.h_central_error, p.h_min_um, 100.0 * p.h_min_error),
+    )
     page.claim("At the rotor's # Hz a contact is a spring of # N/um", rotor.hz, stiffness * 1e-6)
     page.claim("with a damper of # N s/m, by its impedance there", damping)
     interval = [end * unit for end in fitted.intervals["C1"]]

@@ -130,7 +130,12 @@ class TimeOptions:
     ] = None
     error: Annotated[
         float | None,
-        typer.Option("--error", help="Control the step: local error per step.", rich_help_panel=_TIME),
+        typer.Option(
+            "--error",
+            help="Control the step: local error of each. Over a run of bodies with inertia these "
+            "add up to about its power 2/3.",
+            rich_help_panel=_TIME,
+        ),
     ] = None
 
     def chosen(self) -> dict[str, float | None]:

@@ -26,11 +26,15 @@ def headline(found: Findings) -> str:
 def contact(found: Findings) -> str:
     """Load, pressure and film."""
     op, bearing = found.operating_point, found.study.bearing
+    central, smallest = (
+        "" if op[name] is None else f" (\N{PLUS-MINUS SIGN} {numeral(100.0 * op[name], 2)} % of it)"
+        for name in ("h_central_error", "h_min_error")
+    )
     return (
         f"The most loaded ball of this {bearing.name} presses {numeral(op['load'])} N on the {bearing.race} race "
         f"(M = {op['M']:.0f}, L = {op['L']:.1f}, kappa = {op['kappa']:.3f}, {op['p_hertz'] * 1e-9:.2f} GPa) and "
-        f"rolls on an oil film of {op['h_central_um']:.3f} \N{MICRO SIGN}m, {op['h_min_um']:.3f} "
-        f"\N{MICRO SIGN}m at its thinnest."
+        f"rolls on an oil film of {op['h_central_um']:.3f} \N{MICRO SIGN}m{central}, {op['h_min_um']:.3f} "
+        f"\N{MICRO SIGN}m{smallest} at its thinnest."
     )
 
 

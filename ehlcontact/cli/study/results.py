@@ -52,8 +52,9 @@ class Findings:
     seconds: Mapping[str, float]  # wall time by stage
 
     @property
-    def operating_point(self) -> dict[str, float]:
-        """Numbers of the contact, SI unless the name has a unit."""
+    def operating_point(self) -> dict[str, Any]:
+        """Numbers of the contact, SI unless the name has a unit; errors of films over the films, or None."""
+        error = self.steady.error
         moes, scales, oil = self.study.point.moes, self.study.point.scales, self.study.lubricant
         return {
             "M": moes.M,
@@ -73,6 +74,9 @@ class Findings:
             "approach_m": self.steady.approach * scales.length,
             "h_central_um": self.steady.h_central * scales.length * 1e6,
             "h_min_um": self.steady.h_min * scales.length * 1e6,
+            "approach_error": None if error is None else error.approach,
+            "h_central_error": None if error is None else error.h_central,
+            "h_min_error": None if error is None else error.h_min,
             "rotor_omega": self.study.rotor_omega,
         }
 

@@ -10,7 +10,9 @@ from ehlcontact.jit import jit, jit_node
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
 from ehlcontact.solver.kernels.reynolds import operator_at, update_across, update_along, update_node
 
-NODES_EACH = 64  # intervals along X per node of reach: coarse corrections end some way before the boundary, not some
+NODES_EACH = (
+    64  # intervals along X per node of reach: coarse corrections end some way before the boundary, not some
+)
 LEAST_REACH, MOST_REACH = 3, 8  # nodes before it
 PASSES_EACH = 2  # passes per node of reach
 UPDATED = 255  # mark: the largest byte, above every reach

@@ -152,7 +152,7 @@ def test_dimensionless_point_is_judged_as_far_as_it_goes():
     table = assumptions(MoesPoint(200, 10, 0.5), domain=Domain(), roughness=(1e-8, 1e-8), vibration=0.1)
     assert [a.name for a in table if a.holds] == ["fully flooded", "elastic"]
     assert len(table.not_judged) == 5 and table.headline == ""
-    assert assumptions(MoesPoint(200, 0, 0.5))["elastic"].holds is None  # L = 0: a convention, no pressure
+    assert assumptions(MoesPoint(200, 0, 0.5))["elastic"].holds is None  # L = 0: a limit, no pressure
 
 
 def test_table_is_json_and_short_is_short():

@@ -13,12 +13,13 @@ KERNELS = [boundary.relax_boundary, boundary.relax_boundary.py_func]
 
 @pytest.mark.parametrize("kernel", [boundary.mark_boundary, boundary.mark_boundary.py_func], ids=["jit", "python"])
 def test_marks(kernel):
-    """Against distances from the node before a change: one less per node, none beyond REACH of the node after it."""
+    """Against distances from the node before a change: one less per node, none beyond reach of the one after it."""
+    reach = 5
     P = np.zeros((13, 31))
     P[:5, 11:18] = 0.5
     P[:1, 14] = 0.0  # a hole on the symmetry line
     marks = np.full(P.shape, 7, dtype=np.uint8)
-    kernel(P, marks)
+    kernel(P, reach, marks)
     wet = P > 0.0
     changes = [
         (r, c)
@@ -30,10 +31,10 @@ def test_marks(kernel):
     for j in range(12):
         for i in range(1, 30):
             away = [max(abs(j - r), abs(i - c)) for r, c in changes]
-            reached = [max(j - r - 1, r - j, i - c - 1, c - i) <= boundary.REACH for r, c in changes]
-            expected = max(1, boundary.REACH + 1 - min(away)) if any(reached) else 0
+            reached = [max(j - r - 1, r - j, i - c - 1, c - i) <= reach for r, c in changes]
+            expected = max(1, reach + 1 - min(away)) if any(reached) else 0
             assert marks[j, i] == expected, (j, i)
-    assert 0 in marks[:12, 1:30] and boundary.REACH + 1 in marks
+    assert 0 in marks[:12, 1:30] and reach + 1 in marks
     assert (marks[:, [0, -1]] == 0).all()
 
 
@@ -55,7 +56,7 @@ def test_flow_at_marked_nodes_is_up_to_date(level, kernel):
     f = level.fields
     marks = np.zeros(f.P.shape, dtype=np.uint8)
     marks[0, 1:4] = marks[3:6, 8:10] = marks[-2, -2] = 1
-    marks[4, 8] = boundary.REACH + 1
+    marks[4, 8] = boundary.MOST_REACH + 1
     marked = [(j, i) for j, i in np.argwhere(marks)]
     around = {neighbour.py_func(q, j, i) for j, i in marked for q in range(1, NEIGHBOURS)} - set(marked)
     f.P[f.P > 0.0] *= 1.3
@@ -76,8 +77,8 @@ def test_solution_stays(solved, kernel):
 
 
 def least_flow(level, marks, self_deflection):
-    """Flow that a node needs so that a frozen film is safe there: ten wedge, thirty squeeze terms, more far away."""
-    away = np.maximum(1.0, (boundary.REACH + 1.0 - marks) / 3.0)
+    """Flow that a node needs so that a frozen film is safe there: ten wedge, thirty squeeze terms, more far."""
+    away = np.maximum(1.0, (boundary.reach_of(level.nx) + 1.0 - marks) / 3.0)
     return (10.0 * 1.5 / level.hx + 30.0 * level.c_t) * self_deflection * away**3
 
 
@@ -87,7 +88,7 @@ def test_only_where_flow_dominates(solved, kernel, c_t):
     """Of a residual everywhere, the passes see marked nodes whose flow exceeds wedge and squeeze, no others."""
     P, f, before = solved.P.copy(), solved.fields, solved.c_t
     marks = np.zeros(P.shape, dtype=np.uint8)
-    boundary.mark_boundary(P, marks)
+    boundary.mark_boundary(P, boundary.reach_of(solved.nx), marks)
     along, across = np.zeros_like(P), np.zeros_like(P)
     along[:, 1:-1] = solved.stencil.cx * (f.flow.along[:, :-2] + f.flow.along[:, 1:-1])
     across[1:-1] = solved.stencil.cy * (f.flow.across[:-2] + f.flow.across[1:-1])
@@ -95,18 +96,23 @@ def test_only_where_flow_dominates(solved, kernel, c_t):
     flow, own = along + across, 4.0 * solved.near[0, 0]
     solved.c_t = c_t
     expected = (marks > 0) & (flow > least_flow(solved, marks.astype(float), own))
-    near = (marks > 0) & (flow > least_flow(solved, boundary.REACH + 1.0, own))
-    assert 0 < np.count_nonzero(expected) < np.count_nonzero(near) < np.count_nonzero(marks)
+    near = (marks > 0) & (flow > least_flow(solved, boundary.reach_of(solved.nx) + 1.0, own))
+    assert 0 < np.count_nonzero(expected) <= np.count_nonzero(near) < np.count_nonzero(marks)
     solved.rhs[...] = -1e3  # asks every node for pressure
     passes(solved, kernel, own)
     np.testing.assert_array_equal(solved.P != P, expected)
     solved.P[...], solved.rhs[...], solved.c_t = P, 0.0, before
 
 
+def test_the_reach_grows_with_the_mesh():
+    """Coarse corrections end some way before the boundary: the same way on a mesh twice as fine, up to a limit."""
+    assert [boundary.reach_of(nx) for nx in (32, 128, 256, 512, 2048)] == [3, 3, 4, 8, 8]
+
+
 def test_disturbed_boundary_is_restored(solved):
     P, f = solved.P.copy(), solved.fields
     marks = np.zeros(P.shape, dtype=np.uint8)
-    boundary.mark_boundary(P, marks)
+    boundary.mark_boundary(P, boundary.reach_of(solved.nx), marks)
     tiny = (marks > 0) & (P > 0.0) & (P < 1e-3)
     assert tiny.sum() > 3
 

@@ -1,9 +1,25 @@
 """Regions and grids chosen from the film to be expected; `tests/golden/meshes.json` has what is chosen where."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, InputError, Mesh, MoesPoint, Purpose, Status, impedance, mesh_for, solve_steady
+from ehlcontact import (
+    ConvergenceError,
+    Domain,
+    FreeVibration,
+    FullContact,
+    InputError,
+    Mesh,
+    MoesPoint,
+    Purpose,
+    Status,
+    impedance,
+    mesh_for,
+    simulate,
+    solve_steady,
+)
 from ehlcontact.solver import mesh as m
 from ehlcontact.solver.domain import check_intervals
 
@@ -118,3 +134,75 @@ def test_damping_of_a_thin_film_within_a_few_per_cent():
     finer = impedance(point, Omega=omega, n=2 * chosen.n)
     assert np.abs(chosen.damping / finer.damping - 1.0).max() < 0.05
     assert np.abs(chosen.stiffness / finer.stiffness - 1.0).max() < 0.005
+
+
+LIGHT = MoesPoint(6.0748, 2.7586, 0.08827)  # pressure reaches beyond the default region
+
+
+def test_every_solve_widens_its_region_alike():
+    """The film at rest decides; of what is left open, all solvers take the same."""
+    film = solve_steady(LIGHT, n=128, throw=False)
+    assert film.status is Status.OUT_OF_DOMAIN  # a given n is judged as it is
+    wide = solve_steady(LIGHT, refine=False).domain
+    assert wide == m.default_domain(LIGHT).scaled(m.DOMAIN_GROWTH)
+    motion = FreeVibration(Omega_n=5.13)
+    run = simulate(LIGHT, motion, n=128, until=0.05, dT=0.025)
+    contact = FullContact(LIGHT, n=128)
+    response = impedance(LIGHT, Omega=1.0, n=128)
+    assert run.domain == contact.domain == response.domain == wide
+    assert run.static_approach == pytest.approx(contact.static_approach, abs=1e-6)
+    given = m.default_domain(LIGHT)
+    assert simulate(LIGHT, motion, n=128, domain=given, until=0.05, throw=False).status is Status.OUT_OF_DOMAIN
+    with pytest.raises(ConvergenceError, match="out_of_domain"):
+        FullContact(LIGHT, n=128, domain=given)
+
+
+def test_a_run_on_a_widened_region_goes_on(tmp_path):
+    """A restart leaves the region open as the run did, and finds that of the checkpoint."""
+    motion, path = FreeVibration(Omega_n=5.13), tmp_path / "run.h5"
+    simulate(LIGHT, motion, n=128, until=0.05, dT=0.025, checkpoint=path)
+    whole = simulate(LIGHT, motion, n=128, until=0.1, dT=0.025)
+    rest = simulate(LIGHT, motion, n=128, until=0.1, dT=0.025, restart=path)
+    np.testing.assert_array_equal(rest.approach, whole.approach)
+    assert rest.domain == whole.domain != m.default_domain(LIGHT)
+    with pytest.raises(InputError, match="domain"):
+        simulate(LIGHT, motion, n=128, domain=Domain(), until=0.1, dT=0.025, restart=path)
+
+
+def test_a_run_that_leaves_its_region_begins_again():
+    """At rest the film stays inside here, and leaves with the first step."""
+    point, motion = MoesPoint(5.5, 4.0, 0.15), FreeVibration(Omega_n=5.13)
+    inside = solve_steady(point, refine=False).domain
+    given = simulate(point, motion, n=64, domain=inside, until=0.2, throw=False)
+    assert given.status is Status.OUT_OF_DOMAIN and given.T[-1] > 0.0
+    run = simulate(point, motion, n=64, until=0.2)
+    assert run.domain == inside.scaled(m.DOMAIN_GROWTH) and run.T[-1] == 0.2
+
+
+def test_widened_ends_with_what_was_given():
+    given = Domain(-3.0, 1.4, 2.0)
+    first = Mesh(64, given)
+    assert list(m.widened(first, LIGHT, Purpose.RUN, domain=given)) == [first]
+    regions = [mesh.domain for mesh in m.widened(first, LIGHT, Purpose.RUN)]
+    assert regions[1] == given.scaled(m.DOMAIN_GROWTH) and len(regions) == m.LARGEST_ATTEMPTS
+
+
+def test_the_page_of_notation_has_the_numbers_of_the_code():
+    """`docs/notation.md`, "Lengths that are inputs"."""
+    page = (Path(__file__).parents[3] / "docs" / "notation.md").read_text(encoding="utf-8")
+    text = " ".join(page[page.index("## Lengths that are inputs") :].split())
+    near, nearest, limits = m.NEAR_DOMAIN, m.NEAREST_DOMAIN, m.ACCURACY
+    for said in (
+        f"of {m.FINENESS[Purpose.FILM].share:g} of it at first",
+        f"{m.FINE_SIDES:g} or {m.FINE_THIN_SIDES:g} where side lobes are thinner",
+        f"kappa above {m.KAPPA_OF_SIDE_LOBES:g}; {m.MESH_OF_THIN_SIDES:g} of very",
+        f"{m.LARGEST_MESH:g} semi-axes at most",
+        f"above {limits.approach:g} dry approaches, {100 * limits.h_central:g} % of the central or "
+        f"{100 * limits.h_min:g} % of the smallest film",
+        f"[{near.x_in:g}, {near.x_out:g}] x [-{near.y_max:g}, {near.y_max:g}]",
+        f"[{nearest.x_in:g}, {nearest.x_out:g}] x [-{nearest.y_max:g}, {nearest.y_max:g}]",
+        f"Default [{Domain().x_in:g}, {Domain().x_out:g}] x [-{Domain().y_max:g}, {Domain().y_max:g}]",
+    ):
+        assert said in text, said
+    thirds = {m.FINENESS[p].share for p in (Purpose.DAMPING, Purpose.RUN, Purpose.CONTACT)}
+    assert "a third for damping and motion" in text and thirds == {1.0 / 3.0}

@@ -66,6 +66,18 @@ def test_error_falls_with_the_tolerance(pulse, pulse_reference):
     assert errors[1e-3] / errors[1e-4] > 3.0
 
 
+@pytest.mark.parametrize("motion", [FreeVibration(Omega_n=5.13), HarmonicLoad(Omega=pi, Omega_n=5.13)])
+def test_errors_of_a_run_are_what_is_said(motion):
+    """About error^(2/3) in force and two thirds of it in approach, of bodies with inertia: within a factor 3."""
+    reference = simulate(POINT, motion, n=N, until=2.5, error=2e-6)
+    for error in (1e-3, 1e-4):
+        record = simulate(POINT, motion, n=N, until=2.5, error=error)
+        there = reference.at(record.T)
+        for name, share in (("approach", 2.0 / 3.0), ("force", 1.0)):
+            ratio = np.abs(getattr(record, name) - getattr(there, name)).max() / (share * error ** (2.0 / 3.0))
+            assert 1.0 / 3.0 < ratio < 3.0, (name, error, ratio)
+
+
 def test_fewer_steps_than_fixed_ones_of_the_same_accuracy(pulse, pulse_reference):
     controlled = pulse[1e-4]
     fixed = simulate(POINT, PULSE, n=N, until=3.0, dT=3.0 / (2 * controlled.steps), tol=3e-4)

@@ -1,0 +1,41 @@
+"""The film solved, on grids of half and a quarter of its intervals: what its `ErrorEstimate` is made of.
+
+Each starts from the film above it, restricted, and differs from its own solution by that film's error only: two
+cycles are enough.
+"""
+
+from __future__ import annotations
+
+from ehlcontact.solver.accuracy import ErrorEstimate
+from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.kernels import transfer
+from ehlcontact.solver.level import Level
+from ehlcontact.solver.multigrid import Multigrid
+
+CYCLES = 2  # on each of both grids: what is left is a hundredth of the difference
+
+
+def estimate_error(solved: Multigrid, balance: Balance) -> ErrorEstimate | None:
+    """Error of the film solved; the levels below the finest are written. None where there is none.
+
+    Where the level below has the same lines (`level.build_hierarchy`), it says nothing about theirs: the grid with
+    half of them is made.
+    """
+    multigrid, k, u = solved, len(solved.levels) - 1, solved.u
+    found = [_numbers(solved.finest, u)]
+    for _ in range(2):
+        fine, coarsest = multigrid.levels[k], multigrid.levels[0]
+        if fine.nx == coarsest.nx:
+            break
+        k -= 1
+        if multigrid.levels[k].ny == fine.ny:
+            multigrid = multigrid.halved()
+            k = len(multigrid.levels) - 1
+        transfer.restrict_pressure(fine.P, multigrid.levels[k].P, 2, 2)
+        u = multigrid.settle(k, u, balance, CYCLES)
+        found.append(_numbers(multigrid.levels[k], u))
+    return ErrorEstimate.of(found) if len(found) > 1 else None
+
+
+def _numbers(level: Level, u: float) -> tuple[float, float, float]:
+    return u, level.central_film(), level.lowest_film()
