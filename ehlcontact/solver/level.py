@@ -192,11 +192,11 @@ class Level:
 def build_hierarchy(point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str = "fft") -> list[Level]:
     """Levels coarse to fine, halving the mesh while at least `coarsest` intervals are left.
 
-    Physically, lines across a wide contact lie many node distances apart. The near coefficients of a line then stand
-    for too little of what a change that is smooth along X, but differs from line to line, does to the film: sweeps
-    leave such stripes (factor .96 each at kappa = .09, n = 512), and a grid with half the lines does not see them. One
-    with half the nodes on every line does. So these meshes are coarsened along X until lines lie less than
-    LINES_APART node distances apart.
+    Physically, lines across a wide contact lie many node distances apart. The near coefficients of a line then
+    stand for too little of what a change that is smooth along X, but differs from line to line, does to the film:
+    sweeps leave such stripes (factor .96 each at kappa = .09, n = 512), and a grid with half the lines does not
+    see them. One with half the nodes on every line does. So these meshes are coarsened along X until lines lie
+    less than LINES_APART node distances apart.
     """
     n, domain = mesh.n, mesh.domain
     halvings = 0
@@ -207,10 +207,10 @@ def build_hierarchy(point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str
     # lines lie closer together than their nodes
     hy = hx * max(1.0, point.kappa)
     ny = max(4, round(domain.y_max / hy / 2**halvings)) * 2**halvings
-    sizes, coarsest = [(n, ny)], (n >> halvings, ny >> halvings)
-    while sizes[-1] != coarsest:
+    sizes, smallest = [(n, ny)], (n >> halvings, ny >> halvings)
+    while sizes[-1] != smallest:
         nx, ny = sizes[-1]
         apart = (domain.y_max / ny) / (point.kappa * (domain.x_out - domain.x_in) / nx)
-        both = apart < LINES_APART or nx == coarsest[0]
-        sizes.append((nx // 2 if nx > coarsest[0] else nx, ny // 2 if both and ny > coarsest[1] else ny))
-    return [Level(point, domain, *size, deflection) for size in reversed(sizes)]
+        both = apart < LINES_APART or nx == smallest[0]
+        sizes.append((nx // 2 if nx > smallest[0] else nx, ny // 2 if both and ny > smallest[1] else ny))
+    return [Level(point, domain, nx, ny, deflection) for nx, ny in reversed(sizes)]

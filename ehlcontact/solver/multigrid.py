@@ -1,10 +1,10 @@
 """Full-approximation-scheme multigrid, with force balance or equation of motion inside the cycle.
 
-Venner and Lubrecht (2000), ch. 3 and 6, with changes that make its convergence independent of the mesh: the blend of
-both relaxations is smooth and gives nothing to nodes of the other kind (`kernels.relax`), the steep flanks of the
-pressure and the cavitation boundary get local passes (`kernels.flanks`, `kernels.boundary`), lines that lie far apart
-are coarsened along X first (`level.build_hierarchy`), and the coarsest grid is solved by Newton together with u
-(`coarse`) instead of being relaxed.
+Venner and Lubrecht (2000), ch. 3 and 6, with changes that make its convergence independent of the mesh: the blend
+of both relaxations is smooth and gives nothing to nodes of the other kind (`kernels.relax`), the steep flanks of
+the pressure and the cavitation boundary get local passes (`kernels.flanks`, `kernels.boundary`), lines that lie
+far apart are coarsened along X first (`level.build_hierarchy`), and the coarsest grid is solved by Newton together
+with u (`coarse`) instead of being relaxed.
 """
 
 from __future__ import annotations

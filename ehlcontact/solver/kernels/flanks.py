@@ -1,10 +1,10 @@
 """Local line relaxation along the steep flanks of the pressure.
 
-On the way out of the contact the flow factor falls by orders of magnitude within one cell: what relaxation solves for
-changes from plain to distributed changes there, and how far the flank has come is settled node by node. Everywhere
-else two or three sweeps suffice between corrections from coarser grids. So the few nodes along that front, some per
-cent of all, are relaxed several times before each sweep: segments of lines, in two colours, with the near film of what
-has changed.
+On the way out of the contact the flow factor falls by orders of magnitude within one cell: what relaxation solves
+for changes from plain to distributed changes there, and how far the flank has come is settled node by node.
+Everywhere else two or three sweeps suffice between corrections from coarser grids. So the few nodes along that
+front, some per cent of all, are relaxed several times before each sweep: segments of lines, in two colours, with
+the near film of what has changed.
 """
 
 import numpy as np
@@ -30,7 +30,7 @@ SOLVED, FELT = 2, 1  # marks
 
 @jit
 def mark_front(P, eps, marks):
-    """Mark the nodes within FRONT_REACH of a front, and those that feel their near film; `marks` (bytes) written."""
+    """Mark nodes within FRONT_REACH of a front, and those that feel their near film; `marks` (bytes) written."""
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
     marks[:] = 0
     for j in range(ny):

@@ -1,17 +1,18 @@
 """Hybrid line relaxation: one unknown line along X at a time, even lines first, then odd lines.
 
-Where flow through the gap dominates, this is Gauss-Seidel in P. Where the oil is stiff and mere transport is left, a
-change of P is taken back in equal shares by the four neighbours: the deflection of such a distributed change decays
-like 1/r^3 instead of 1/r, so a few near coefficients stand for all (distributive Jacobi; Venner and Lubrecht 2000,
-ch. 6). Two neighbours exchange ``SHARE min(theta, theta')``. The weight theta is a *smooth* function of the local
-ratio of flow and transport: a hard switch flips to and fro from sweep to sweep and leaves a limit cycle along the
-switch line. And the *smaller* of both weights counts: what a stiff node gave to a neighbour with a thousand times its
-flow factor, as there are on the flanks of the pressure, would leave a residual there a thousand times its own.
+Where flow through the gap dominates, this is Gauss-Seidel in P. Where the oil is stiff and mere transport is left,
+a change of P is taken back in equal shares by the four neighbours: the deflection of such a distributed change
+decays like 1/r^3 instead of 1/r, so a few near coefficients stand for all (distributive Jacobi; Venner and
+Lubrecht 2000, ch. 6). Two neighbours exchange ``SHARE min(theta, theta')``. The weight theta is a *smooth*
+function of the local ratio of flow and transport: a hard switch flips to and fro from sweep to sweep and leaves a
+limit cycle along the switch line. And the *smaller* of both weights counts: what a stiff node gave to a neighbour
+with a thousand times its flow factor, as there are on the flanks of the pressure, would leave a residual there a
+thousand times its own.
 
 The flow factor eps falls by orders of magnitude from one node to the next on those flanks. Taken as given, single
-nodes there never settle; with its full derivatives they overshoot. Three quarters of them serve everywhere. And the
-change of a whole line is cut where it is too large for its linear equations: cut node by node, it would no longer be
-distributed.
+nodes there never settle; with its full derivatives they overshoot. Three quarters of them serve everywhere. And
+the change of a whole line is cut where it is too large for its linear equations: cut node by node, it would no
+longer be distributed.
 """
 
 import numpy as np
@@ -101,7 +102,7 @@ def shares_at(j, i, theta):
 
 @jit_node
 def response(line, shift, shares, near):
-    """Film that a distributed unit change causes `line` lines and `shift` nodes further, by the near coefficients."""
+    """Film by a distributed unit change, `line` lines and `shift` nodes further, by the near coefficients."""
     west, east, south, north = shares
     film = near[abs(line), abs(shift)] - west * near[abs(line), abs(shift + 1)]
     film -= east * near[abs(line), abs(shift - 1)]
@@ -219,9 +220,10 @@ def change_at(j, i, colour, P, theta, w):
 
 @jit
 def apply_lines(first, last, colour, fields, near):
-    """Add the distributed changes of one colour to P of lines `first` to `last` - 1, and to H of the other colour's.
+    """Add the distributed changes of one colour to P of lines `first` to `last` - 1, and to H of the odd ones.
 
-    Only near coefficients, and neighbour lines, count for H.
+    H is for the odd lines, which are solved after the even ones (colour 0); only near coefficients, and neighbour
+    lines, count for it.
     """
     P, theta, w = fields.P, fields.theta, fields.w
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
@@ -238,7 +240,7 @@ def apply_lines(first, last, colour, fields, near):
 
 @jit
 def near_film(H, w, films):
-    """Add to a line `H` of the film what the distributed changes `w` of a line cause there, by `films` of `responses`."""
+    """Add to a line `H` of the film what the changes `w` of another cause there, by `films` of `responses`."""
     nx = H.shape[0] - 1
     for i in range(1, nx):
         change = 0.0

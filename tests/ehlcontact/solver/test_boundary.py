@@ -13,7 +13,7 @@ KERNELS = [boundary.relax_boundary, boundary.relax_boundary.py_func]
 
 @pytest.mark.parametrize("kernel", [boundary.mark_boundary, boundary.mark_boundary.py_func], ids=["jit", "python"])
 def test_marks(kernel):
-    """Against distances from the node before a change: one less per node, none beyond REACH of the node after it."""
+    """Against distances from the node before a change: one less per node, none beyond REACH of the one after."""
     P = np.zeros((13, 31))
     P[:5, 11:18] = 0.5
     P[:1, 14] = 0.0  # a hole on the symmetry line
@@ -76,7 +76,7 @@ def test_solution_stays(solved, kernel):
 
 
 def least_flow(level, marks, self_deflection):
-    """Flow that a node needs so that a frozen film is safe there: ten wedge, thirty squeeze terms, more far away."""
+    """Flow at which a frozen film is safe at a node: ten wedge, thirty squeeze terms, more far away."""
     away = np.maximum(1.0, (boundary.REACH + 1.0 - marks) / 3.0)
     return (10.0 * 1.5 / level.hx + 30.0 * level.c_t) * self_deflection * away**3
 

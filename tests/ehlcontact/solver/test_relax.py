@@ -215,7 +215,7 @@ def test_line_solves_its_linear_system(point, kernel, j, nodes):
 @pytest.mark.parametrize("film", [None, 1e-3, -1.0], ids=["as it is", "thin", "negative"])
 @pytest.mark.parametrize("size", [1e-6, 1e2])
 def test_too_large_changes_are_cut_all_alike(level, film, size):
-    """The whole line, so that it stays distributed: to 0.3 of P, and to the film over the node's own deflection."""
+    """The whole line, so that it stays distributed: to 0.3 of P, and a node's own deflection to its film."""
     f, j = level.fields, 2
     f.P[:-1, 1:-1] += 0.05  # all under pressure, so that the linear system is the same for any residual
     level.update_residual()
