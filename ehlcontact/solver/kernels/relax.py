@@ -222,7 +222,8 @@ def change_at(j, i, colour, P, theta, w):
 def apply_lines(first, last, colour, fields, near):
     """Add the distributed changes of one colour to P of lines `first` to `last` - 1, and to H of the other's.
 
-    Only near coefficients, and neighbour lines, count for H.
+    H is for the odd lines, which are solved after the even ones (colour 0); only near coefficients, and neighbour
+    lines, count for it.
     """
     P, theta, w = fields.P, fields.theta, fields.w
     ny, nx = P.shape[0] - 1, P.shape[1] - 1

@@ -197,11 +197,25 @@ def test_nothing_moves_beyond_what_feels_the_front(disturbed):
     assert (before[4] == f.flow.across)[~beside].all()
 
 
-def test_flow_and_weights_belong_to_the_state_left_behind(disturbed):
+def island(make_level, point):
+    """A level of even pressure and film, but for one place of thick film, away from symmetry line and border."""
+    level = make_level(point, nx=24, ny=24)
+    level.P[:-1, 1:-1] = 0.5
+    level.H[...] = 0.1
+    level.H[11:13, 12:14] = 0.2
+    level.update_residual()
+    level.rhs[...] = 0.01 * level.rhs - level.r
+    return level
+
+
+@pytest.mark.parametrize("state", ["film", "island"])
+def test_flow_and_weights_belong_to_the_state_left_behind(disturbed, make_level, point, state):
     """As if everything had been computed anew from P and H: at felt nodes, and on the faces around them."""
-    level, _ = disturbed
+    level = disturbed[0] if state == "film" else island(make_level, point)
     f = level.fields
     level.relax_flanks()
+    if state == "island":
+        assert not level.marks[:4].any() and not level.marks[-4:].any() and (level.marks == FELT).any()
     local = [a.copy() for a in f.flow] + [f.theta.copy()]
     level.update_residual()
     level._weigh()
