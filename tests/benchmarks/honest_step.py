@@ -71,12 +71,14 @@ class Middle:
         film, found = self.film.multigrid, []
         cycle = film.cycle
 
-        def watched(balance: Any) -> None:
+        def watched(balance: Any) -> float:
             if not found:
                 found.append(Errors.between(State.of(film), exact))
-            if not is_over([e.P for e in found]):
-                cycle(balance)
-                found.append(Errors.between(State.of(film), exact))
+            if is_over([e.P for e in found]):
+                return 0.0
+            change = cycle(balance)
+            found.append(Errors.between(State.of(film), exact))
+            return change
 
         with mock.patch.object(film, "cycle", watched), self.cycles(most):
             self.step()
