@@ -19,6 +19,7 @@ from ehlcontact.solver.mesh import Mesh
 
 Array = NDArray[np.float64]
 
+FLANK_SQUEEZE = 0.5  # squeeze term over wedge term, above which a step needs no passes along the flanks
 LINES_APART = 5.0  # physical distance of lines over that of nodes, from which a level is coarsened along X alone
 FORCE_FACTOR = 1.5 / np.pi  # eq. 4: force = 3/(2 pi) iint P
 SHARED_FROM = 8000  # nodes: on smaller levels threads wait longer for each other than they work
@@ -177,6 +178,11 @@ class Level:
         boundary.relax_boundary(
             f.P, f.H, f.flow, self.rhs, self.law, numbers, self.c_t, own, self.nodes, self.marks
         )
+
+    @property
+    def squeeze_dominates(self) -> bool:
+        """Whether a step in time is so short that its squeeze term holds the flanks: sweeps settle them then."""
+        return self.c_t > FLANK_SQUEEZE * 1.5 / self.hx
 
     def relax_flanks(self) -> None:
         """Local passes along the steep flanks, from the state of the last `update`; as `relax`."""

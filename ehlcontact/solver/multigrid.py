@@ -9,6 +9,7 @@ with u (`coarse`) instead of being relaxed.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import ceil, log
 from typing import Any
@@ -121,7 +122,7 @@ class Multigrid:
         fine = self.levels[k]
         if k == 0:
             return self.newton.correct(u, balance)
-        for move in (*(fine.relax,) * PRE_SWEEPS, fine.relax_flanks) * self.effort:
+        for move in self._moves(fine, PRE_SWEEPS):
             move()
             r = fine.update(u)
         coarse = self.levels[k - 1]
@@ -141,10 +142,15 @@ class Multigrid:
         shift = balance.weight * (coarse.force() - fine.force())
         u = self._cycle(k - 1, u, balance.shifted(shift))
         transfer.add_correction(coarse.P, start, fine.P, along, across)
-        for move in (*(fine.relax,) * POST_SWEEPS, fine.relax_flanks) * self.effort:
+        for move in self._moves(fine, POST_SWEEPS):
             fine.update(u)
             move()
         return u
+
+    def _moves(self, level: Level, sweeps: int) -> Sequence[Callable[[], None]]:
+        """Sweeps on a level before or after its coarse correction, and passes along its flanks if it has any."""
+        flanks = () if level.squeeze_dominates else (level.relax_flanks,)
+        return (*(level.relax,) * sweeps, *flanks) * self.effort
 
 
 def initial_approach(point: MoesPoint) -> float:

@@ -18,7 +18,7 @@ PASSES_EACH = 2  # passes per node of reach
 UPDATED = 255  # mark: the largest byte, above every reach
 DOMINANCE = 10.0  # flow term over wedge term,
 NEAREST = 3.0  # up to this distance from the boundary; as its cube more beyond, where smoother changes are relaxed
-SQUEEZE_DOMINANCE = 30.0  # flow term over squeeze term
+SQUEEZE_DOMINANCE = 300.0  # flow term over squeeze term: short steps fail by the passes where it is smaller
 
 
 @jit

@@ -13,7 +13,7 @@ KERNELS = [boundary.relax_boundary, boundary.relax_boundary.py_func]
 
 @pytest.mark.parametrize("kernel", [boundary.mark_boundary, boundary.mark_boundary.py_func], ids=["jit", "python"])
 def test_marks(kernel):
-    """Against distances from the node before a change: one less per node, none beyond reach of the one after it."""
+    """Against distances from the node before a change: one less per node, none beyond reach of the next."""
     reach = 5
     P = np.zeros((13, 31))
     P[:5, 11:18] = 0.5
@@ -77,13 +77,13 @@ def test_solution_stays(solved, kernel):
 
 
 def least_flow(level, marks, self_deflection):
-    """Flow that a node needs so that a frozen film is safe there: ten wedge, thirty squeeze terms, more far."""
+    """Flow that a node needs so that a frozen film is safe there: ten wedge, 300 squeeze terms, more far off."""
     away = np.maximum(1.0, (boundary.reach_of(level.nx) + 1.0 - marks) / 3.0)
-    return (10.0 * 1.5 / level.hx + 30.0 * level.c_t) * self_deflection * away**3
+    return (10.0 * 1.5 / level.hx + 300.0 * level.c_t) * self_deflection * away**3
 
 
 @pytest.mark.parametrize("kernel", KERNELS, ids=["jit", "python"])
-@pytest.mark.parametrize("c_t", [0.0, 2.0])
+@pytest.mark.parametrize("c_t", [0.0, 0.2])
 def test_only_where_flow_dominates(solved, kernel, c_t):
     """Of a residual everywhere, the passes see marked nodes whose flow exceeds wedge and squeeze, no others."""
     P, f, before = solved.P.copy(), solved.fields, solved.c_t
@@ -113,7 +113,7 @@ def test_disturbed_boundary_is_restored(solved):
     P, f = solved.P.copy(), solved.fields
     marks = np.zeros(P.shape, dtype=np.uint8)
     boundary.mark_boundary(P, boundary.reach_of(solved.nx), marks)
-    tiny = (marks > 0) & (P > 0.0) & (P < 1e-3)
+    tiny = (marks > 0) & (P > 0.0) & (P < 1e-2)
     assert tiny.sum() > 3
 
     def left():  # at frozen film, which is all these passes see
