@@ -36,7 +36,8 @@ def test_results_on_a_disk_of_16_kb(full_disk, point, option):
     command = "simulate" if motion else "steady"
     found = program(command, *point, "--n", "64", *motion, option, full_disk / name)
     assert found.returncode == 2
-    (line,) = [line for line in found.stderr.splitlines() if "so far" not in line]  # where kernels are compiled first
+    # progress is told where kernels have to be compiled first
+    (line,) = [line for line in found.stderr.splitlines() if "so far" not in line]
     assert line.startswith(f"ehlcontact: {option} = ")
     assert "No space left on device" in line
     assert ("converged" in found.stdout) == (option != "--checkpoint")  # the table is there all the same
