@@ -83,8 +83,6 @@ class Level:
         """Numbers that the kernels need at `point`, whose kappa must be that of the level."""
         self.M, self.law = point.M, point.law
         # On a mesh finer along X, smooth changes of P deflect the film further beyond the near coefficients.
-        # In a contact long along rolling the same P deflects it more too (kernel over hx goes like 1/K(kappa));
-        # that the value should rise like kappa itself is measured, not derived.
         switch = relax.SWITCH * max(1.0, 0.5 * self.hy / (point.kappa * self.hx))
         self.stencil = reynolds.Stencil(
             cx=self.hx**-2,

@@ -10,11 +10,10 @@ from ehlcontact.jit import jit, jit_node
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
 from ehlcontact.solver.kernels.reynolds import operator_at, update_across, update_along, update_node
 
-NODES_EACH = (
-    64  # intervals along X per node of reach: coarse corrections end some way before the boundary, not some
-)
-LEAST_REACH, MOST_REACH = 3, 8  # nodes before it
-PASSES_EACH = 2  # passes per node of reach
+# Coarse corrections end some way before the boundary, not some nodes: what is left to passes grows with the grid.
+NODES_EACH = 64  # intervals along X per node of reach,
+LEAST_REACH, MOST_REACH = 3, 8  # from so many nodes on either side of the boundary to so many
+PASSES_EACH = 2  # passes per node of reach, which a change has to cross
 UPDATED = 255  # mark: the largest byte, above every reach
 DOMINANCE = 10.0  # flow term over wedge term,
 NEAREST = 3.0  # up to this distance from the boundary; as its cube more beyond, where smoother changes are relaxed

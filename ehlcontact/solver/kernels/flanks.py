@@ -22,9 +22,7 @@ from ehlcontact.solver.kernels.relax import (
 )
 from ehlcontact.solver.kernels.reynolds import update_across, update_along, update_node
 
-JUMP = (
-    2.7  # ratio of the flow factors of neighbours that makes a front: smooth ones, which sweeps settle, have less
-)
+JUMP = 2.7  # ratio of the flow factors of neighbours that makes a front: what sweeps settle has less
 FRONT_REACH = 2  # nodes on either side of it, as many as the near film of a change there reaches
 FRONT_PASSES = 3  # of both colours: a front moves by a node or two between coarse corrections
 SOLVED, FELT = 2, 1  # marks: the larger one stands where both fall
@@ -116,7 +114,7 @@ def relax_flanks(fields, rhs, law, stencil, c_t, near, marks):
         for s in range(felt.shape[0]):
             j = felt[s, 0]
             for i in range(felt[s, 1], felt[s, 2]):
-                theta[j, i] = distribution_weight(j, i, P, flow, stencil, switch)
+                theta[j, i] = distribution_weight(j, i, flow, stencil, switch)
 
 
 @jit

@@ -35,7 +35,7 @@ FILM_CHANGE = 1.0  # of the film there by the near coefficient alone, over the f
 
 
 @jit_node
-def distribution_weight(j, i, P, flow, stencil, switch):
+def distribution_weight(j, i, flow, stencil, switch):
     """Weight theta of the distributed change at one interior node."""
     face = j - 1 if j > 0 else 0
     along = stencil.cx * max(flow.along[j, i - 1], flow.along[j, i])
@@ -60,7 +60,7 @@ def distribution_weights(first, last, P, flow, stencil, c_t, theta):
     switch = switch_value(stencil, c_t)
     for j in range(first, last):
         for i in range(1, P.shape[1] - 1):
-            theta[j, i] = distribution_weight(j, i, P, flow, stencil, switch)
+            theta[j, i] = distribution_weight(j, i, flow, stencil, switch)
 
 
 @jit

@@ -84,8 +84,11 @@ def least_flow(level, marks, self_deflection):
 
 @pytest.mark.parametrize("kernel", KERNELS, ids=["jit", "python"])
 @pytest.mark.parametrize("c_t", [0.0, 0.2])
-def test_only_where_flow_dominates(solved, kernel, c_t):
+def test_only_where_flow_dominates(solved, kernel, c_t, monkeypatch):
     """Of a residual everywhere, the passes see marked nodes whose flow exceeds wedge and squeeze, no others."""
+    far = kernel is boundary.relax_boundary.py_func  # on so coarse a grid only Python can be given a longer reach
+    if far:
+        monkeypatch.setattr(boundary, "reach_of", lambda nx: boundary.MOST_REACH)
     P, f, before = solved.P.copy(), solved.fields, solved.c_t
     marks = np.zeros(P.shape, dtype=np.uint8)
     boundary.mark_boundary(P, boundary.reach_of(solved.nx), marks)
@@ -97,7 +100,8 @@ def test_only_where_flow_dominates(solved, kernel, c_t):
     solved.c_t = c_t
     expected = (marks > 0) & (flow > least_flow(solved, marks.astype(float), own))
     near = (marks > 0) & (flow > least_flow(solved, boundary.reach_of(solved.nx) + 1.0, own))
-    assert 0 < np.count_nonzero(expected) <= np.count_nonzero(near) < np.count_nonzero(marks)
+    assert 0 < np.count_nonzero(expected) < np.count_nonzero(marks)
+    assert (np.count_nonzero(expected) < np.count_nonzero(near)) == far  # beyond NEAREST it takes more
     solved.rhs[...] = -1e3  # asks every node for pressure
     passes(solved, kernel, own)
     np.testing.assert_array_equal(solved.P != P, expected)
