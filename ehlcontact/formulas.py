@@ -11,10 +11,34 @@ from math import exp, log
 
 from ehlcontact.hertz import radius_ratio
 
+# Wijnant's load number below which the film holds the bodies apart by much of a dry approach, and the factor on it,
+# either way, over which that sets in.
+LIGHT_LOAD, LIGHT_BLEND = 3.0, 2.0
+
 
 def load_number(M: float, kappa: float) -> float:
     """N = sqrt(Rx/Ry) M, which tells thick films from thin ones at any kappa; Wijnant, thesis, Twente 1998."""
     return radius_ratio(kappa) ** 0.5 * M
+
+
+def lightness(log_load: float, light_load: float = LIGHT_LOAD, blend: float = LIGHT_BLEND) -> float:
+    """How far ln N lies below that of a light load; 0 for heavy ones, and smooth between.
+
+    ``max(0, ln(light_load/N))`` with its corner replaced, from N = light_load/blend to light_load blend, by the
+    quartic of the same ends, slopes and curvatures.
+
+    Parameters
+    ----------
+    log_load : float
+        ln N.
+    light_load : float
+        Load number of the corner.
+    blend : float
+        Ratio of load numbers, > 1.
+    """
+    half = log(blend)
+    t = min(max(0.5 * ((log(light_load) - log_load) / half + 1.0), 0.0), 1.0)
+    return max(log(light_load) - log_load, 0.0) if t in {0.0, 1.0} else 2.0 * half * t**3 * (1.0 - 0.5 * t)
 
 
 def nvm_central_film(M: float, L: float, kappa: float) -> float:

@@ -110,6 +110,7 @@ def impedance(
         approach=steady.approach,
         h_central=steady.h_central,
         h_min=steady.h_min,
+        moment=steady.moment,
         seconds=time.perf_counter() - started,
     )
 

@@ -205,6 +205,11 @@ class Scales:
         return self.force / self.length * self.time
 
     @property
+    def moment(self) -> float:
+        """f0 a [N m]."""
+        return self.force * self.a
+
+    @property
     def rate(self) -> float:
         """delta_H u_sum/(2a), unit of du/dT [m/s]."""
         return self.length / self.time

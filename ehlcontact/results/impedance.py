@@ -28,6 +28,8 @@ class ImpedanceResult(Origin):
         Relative residual of the linear system.
     approach, h_central, h_min : float
         Of the steady state, over the dry approach: mutual approach, film at X = Y = 0, smallest film.
+    moment : float
+        Of the steady pressure about the centre line, over load times a: `SteadyResult.moment`.
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
@@ -39,6 +41,7 @@ class ImpedanceResult(Origin):
     approach: float
     h_central: float
     h_min: float
+    moment: float
 
     @property
     def impedance(self) -> NDArray[np.complex128]:
@@ -67,6 +70,7 @@ class ImpedanceResult(Origin):
             "stiffness": self.stiffness.tolist(),
             "damping": self.damping.tolist(),
             "approach": self.approach,
+            "moment": self.moment,
             "residual": self.residual.tolist(),
             "seconds": self.seconds,
             "n": self.n,

@@ -1,6 +1,6 @@
 """Every quantity of a result at rest in SI: what ``.si`` gives, where the point is one in SI.
 
-m, N, Pa, N/m, N s/m; frequencies in rad/s and in Hz.
+m, N, N m, Pa, N/m, N s/m; frequencies in rad/s and in Hz.
 """
 
 from __future__ import annotations
@@ -58,6 +58,8 @@ class SteadySI(View):
         Film in the centre, and the smallest [m].
     p_max : float
         Largest pressure [Pa].
+    moment : float
+        Of the pressure about the centre line, the film's rolling resistance [N m].
     pressure_error : float
         Largest change of the pressure that further cycles would still make [Pa].
     error : ErrorEstimate or None
@@ -73,6 +75,7 @@ class SteadySI(View):
     h_central: float
     h_min: float
     p_max: float
+    moment: float
     pressure_error: float
     error: ErrorEstimate | None
 
@@ -90,13 +93,14 @@ class SteadySI(View):
             h_central=result.h_central * s.length,
             h_min=result.h_min * s.length,
             p_max=result.p_max * s.pressure,
+            moment=result.moment * s.moment,
             pressure_error=result.pressure_error * s.pressure,
             error=result.error and replace(result.error, approach=result.error.approach * s.length),
         )
 
     def summary(self) -> dict[str, Any]:
         """Its numbers, for JSON."""
-        names = ("approach", "force", "h_central", "h_min", "p_max", "pressure_error")
+        names = ("approach", "force", "h_central", "h_min", "p_max", "moment", "pressure_error")
         error = None if self.error is None else asdict(self.error)
         return {name: getattr(self, name) for name in names} | {"error": error}
 
@@ -117,6 +121,8 @@ class ImpedanceSI(View):
         Static load [N].
     h_central, h_min : float
         Film at rest, in the centre and the smallest [m].
+    moment : float
+        Of the pressure at rest about the centre line, the film's rolling resistance [N m].
     """
 
     omega: Array
@@ -127,6 +133,7 @@ class ImpedanceSI(View):
     force: float
     h_central: float
     h_min: float
+    moment: float
 
     @classmethod
     def of(cls, result: ImpedanceResult) -> Self:
@@ -142,6 +149,7 @@ class ImpedanceSI(View):
             force=s.force,
             h_central=result.h_central * s.length,
             h_min=result.h_min * s.length,
+            moment=result.moment * s.moment,
         )
 
     @property
@@ -158,4 +166,6 @@ class ImpedanceSI(View):
     def summary(self) -> dict[str, Any]:
         """All of it, for JSON."""
         arrays = {name: getattr(self, name).tolist() for name in ("omega", "hz", "stiffness", "damping")}
-        return arrays | {name: getattr(self, name) for name in ("approach", "force", "h_central", "h_min")}
+        return arrays | {
+            name: getattr(self, name) for name in ("approach", "force", "h_central", "h_min", "moment")
+        }

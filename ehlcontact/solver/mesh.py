@@ -17,6 +17,7 @@ from scipy.optimize import brentq
 
 from ehlcontact.checks import require_instance
 from ehlcontact.errors import InputError
+from ehlcontact.formulas import lightness
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.domain import MOST_INTERVALS, Domain, check_intervals
@@ -38,8 +39,9 @@ class Purpose(StrEnum):
 
 # Which region? --------------------------------------------------------------------------------------------------
 # Where the film holds the bodies apart by much of a dry approach, pressure reaches far beyond the Hertz ellipse:
-# below LIGHT_LOAD inlet and sides grow with a power of the load number, the outlet with a power of their growth.
-LIGHT_LOAD, LIGHT_GROWTH, LIGHT_OUTLET_GROWTH = 3.0, 0.6, 0.7
+# at light loads the inlet grows with a power of the load number, outlet and sides with a power of its growth. That
+# begins gently, from twice to half the load number of `formulas.LIGHT_LOAD`: answers have no kink there.
+LIGHT_GROWTH, LIGHT_SIDES_GROWTH = 0.6, 1.2
 MOST_LIGHT_GROWTH = 10.0
 NEAR_DOMAIN = Domain(-2.0, 1.35, 1.6)  # around a film so thin that oil further out makes no difference to it
 INLET_NEAR = 0.06  # inlet width below which that may be tried after a failure,
@@ -108,15 +110,18 @@ TABLE_MESHES = (
     TableMesh(0.09, 192, False),
     TableMesh(0.05, 192, True),
     TableMesh(0.025, 256, True),
+    TableMesh(0.0165, 384, True),
+    TableMesh(0.0115, 512, True),
 )
-TABLE_LIGHT_LOAD, TABLE_LIGHT_INTERVALS = 4.5, 64  # a load number below which few intervals resolve the thick film
+TABLE_LIGHT_LOAD, TABLE_LIGHT_INTERVALS = 4.5, 96  # a load number below which few intervals resolve the thick film
 # Below TABLE_FILM_INLET the film by itself is solved once more: on more intervals, if possible with all the oil.
 TABLE_FILM_INLET = 0.13
 TABLE_FILM_MESHES = (
     TableMesh(0.09, 256, False),
     TableMesh(0.05, 384, False),
     TableMesh(0.033, 512, False),
-    TableMesh(0.0, 512, True),
+    TableMesh(0.018, 512, True),
+    TableMesh(0.0, 768, True),
 )
 # Inlet widths at which both regions are solved, to learn what the oil further out adds.
 TABLE_BOTH_REGIONS, TABLE_NEAR_INTERVALS = (0.1, 0.16), 128
@@ -258,11 +263,12 @@ def widened(
 
 def default_domain(point: MoesPoint, largest_load: float = 1.0) -> Domain:
     """Return the default region, widened for a load that will rise and for a light one."""
-    domain, N = Domain.for_load(largest_load), point.load_number
-    if N >= LIGHT_LOAD:
+    domain, light = Domain.for_load(largest_load), lightness(log(point.load_number))
+    if light == 0.0:
         return domain
-    wider = min((LIGHT_LOAD / N) ** LIGHT_GROWTH, MOST_LIGHT_GROWTH)
-    return Domain(domain.x_in * wider, domain.x_out * wider**LIGHT_OUTLET_GROWTH, domain.y_max * wider)
+    wider = min(exp(light * LIGHT_GROWTH), MOST_LIGHT_GROWTH)
+    sides = wider**LIGHT_SIDES_GROWTH
+    return Domain(domain.x_in * wider, domain.x_out * sides, domain.y_max * sides)
 
 
 def thin_sides(point: MoesPoint) -> bool:

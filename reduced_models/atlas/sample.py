@@ -18,9 +18,9 @@ from reduced_models.atlas.table import Box
 
 OVERSHOOT = 0.08  # share of the cube by which draws reach beyond it, to be moved onto its faces
 PRESSURE_OVERSHOOT = 1.15  # likewise beyond the largest Hertz pressure
-SAMPLED = Box(M=(4.5, 33000.0), L=(0.002, 26.0), kappa=(0.077, 1.06), p_hertz=3.7e9)
-WARP_M, WARP_L = 1.2, 1.5  # powers of the draw, even in ln M and in L at 1: denser at small M and L
-INLET_SPARSE = 0.09  # inlet width below which every second draw is left out: dear to solve, and changing slowly
+SAMPLED = Box(M=(0.95, 33000.0), L=(0.002, 31.0), kappa=(0.0432, 1.06), p_hertz=4.25e9)
+WARP_M, WARP_L = 1.0, 1.5  # powers of the draw, even in ln M and in L at 1: denser at small L
+INLET_SPARSE = 0.05  # inlet width below which every second point is left out: dear to solve, and changing slowly
 LIGHT = 15.0  # load number up to which the second set reaches
 
 
@@ -43,14 +43,19 @@ def sample_points(draws: int, light_draws: int, seed: int, box: Box = SAMPLED) -
         engine = qmc.Sobol(3, seed=seed + light)
         drawn = engine.random_base2(math.ceil(math.log2(max(count, 1))))[:count]
         cube = np.clip(drawn * (1.0 + 2.0 * OVERSHOOT) - OVERSHOOT, 0.0, 1.0)
+        thin = 0
         for i, (u, v, w) in enumerate(cube.tolist()):
             kappa = _between(box.kappa, w)
             highest = LIGHT / load_number(1.0, kappa) if light else box.M[1]
             M = _between((box.M[0], highest), u if light else u**WARP_M)
             point = MoesPoint(M, box.L[0] + (box.L[1] - box.L[0]) * v**WARP_L, kappa)
             excess = point.p_hertz / box.p_hertz
-            if excess > PRESSURE_OVERSHOOT or (i % 2 and point.inlet_width < INLET_SPARSE):
+            if excess > PRESSURE_OVERSHOOT:
                 continue
+            if point.inlet_width < INLET_SPARSE:  # not by i: its parity tells in which half of the cube a draw is
+                thin += 1
+                if thin % 2 == 0:
+                    continue
             if excess > 1.0:  # pressure grows like M^(1/3)
                 point = replace(point, M=point.M * excess**-3.0)
             points[f"{name}-{i}"] = point

@@ -47,7 +47,7 @@ def build(
         Path | None,
         typer.Option("--work", metavar="FILE", help="Solved points, one line each; FILE.jsonl of the output."),
     ] = None,
-    draws: Annotated[int, typer.Option("--draws", help="Sample points over the box.")] = 384,
+    draws: Annotated[int, typer.Option("--draws", help="Sample points over the box.")] = 448,
     light_draws: Annotated[int, typer.Option("--light-draws", help="More of them at light loads.")] = 256,
     seed: Annotated[int, typer.Option("--seed", help="Of the sample.")] = 4,
     processes: Annotated[
