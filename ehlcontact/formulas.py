@@ -7,12 +7,12 @@ converges to on its grid does not depend on them. They take plain numbers: the i
 
 from __future__ import annotations
 
-from math import exp, log
+from math import exp, log, pi
 
-from ehlcontact.hertz import radius_ratio
+from ehlcontact.hertz import radius_ratio, scaled_axis, shape_factor
 
-# Wijnant's load number below which the film holds the bodies apart by much of a dry approach, and the factor on it,
-# either way, over which that sets in.
+# Wijnant's load number below which the film holds the bodies apart by much of a dry approach, and the factor on
+# it, either way, over which that sets in.
 LIGHT_LOAD, LIGHT_BLEND = 3.0, 2.0
 
 
@@ -59,6 +59,21 @@ def nvm_central_film(M: float, L: float, kappa: float) -> float:
     h_ep = 1.48 * shape ** (-7.0 / 20.0) * lam ** (-1.0 / 24.0) * M ** (-1.0 / 12.0) * L**0.75
     piezoviscous = (h_rp**-8 + h_ep**-8) ** (-1.0 / 8.0)
     return (isoviscous**s + piezoviscous**s) ** (1.0 / s)
+
+
+def film_to_moes(M: float, kappa: float) -> float:
+    """Factor from a film in dry approaches to the Moes film (h/Rx) sqrt(E' Rx/(eta0 u_sum))."""
+    return scaled_axis(M, kappa) ** 2 / (2.0 * shape_factor(kappa))
+
+
+def expected_film(M: float, L: float, kappa: float) -> float:
+    """Published central film (`nvm_central_film`) in dry approaches."""
+    return nvm_central_film(M, L, kappa) / film_to_moes(M, kappa)
+
+
+def moes_pressure(M: float, L: float, kappa: float) -> float:
+    """Alpha times the Hertz pressure."""
+    return 3.0 * L * kappa * M / (2.0 * pi * scaled_axis(M, kappa) ** 2)
 
 
 def wijnant_approach(M: float, L: float, kappa: float) -> float:

@@ -39,6 +39,12 @@ def radius_ratio(kappa: float) -> float:
     return kappa * kappa * (1.0 - S) / S
 
 
+def scaled_axis(M: float, kappa: float) -> float:
+    """A = a/(Rx U^(1/4)) under the Moes load M, with U = eta0 u_sum/(E' Rx)."""
+    K, _ = elliptic_integrals(kappa)
+    return (6.0 * kappa * shape_factor(kappa) * K * M / pi) ** (1.0 / 3.0)
+
+
 def ellipse_ratio(radius_x: float, radius_y: float) -> float:
     """Ellipse ratio kappa = a/b from the radii of relative curvature.
 

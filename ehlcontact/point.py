@@ -21,8 +21,8 @@ from math import cos, inf, pi, sqrt
 from ehlcontact.checks import require_finite, require_integer, require_nonnegative, require_positive
 from ehlcontact.checks.box import INPUTS, Given, require_in_box
 from ehlcontact.errors import InputError
-from ehlcontact.formulas import load_number, nvm_central_film
-from ehlcontact.hertz import HertzContact, ellipse_ratio, elliptic_integrals, hertz_contact, shape_factor
+from ehlcontact.formulas import expected_film, film_to_moes, load_number, moes_pressure
+from ehlcontact.hertz import HertzContact, ellipse_ratio, hertz_contact, scaled_axis, shape_factor
 from ehlcontact.lubricant import FluidLaw, Lubricant, log_viscosity
 
 
@@ -60,8 +60,7 @@ class MoesPoint:
     @property
     def scaled_axis(self) -> float:
         """A = a/(Rx U^(1/4)) with U = eta0 u_sum/(E' Rx)."""
-        K, _ = elliptic_integrals(self.kappa)
-        return (6.0 * self.kappa * shape_factor(self.kappa) * K * self.M / pi) ** (1.0 / 3.0)
+        return scaled_axis(self.M, self.kappa)
 
     @property
     def lam(self) -> float:
@@ -71,7 +70,7 @@ class MoesPoint:
     @property
     def alpha_bar(self) -> float:
         """Alpha times the Hertz pressure."""
-        return 3.0 * self.L * self.kappa * self.M / (2.0 * pi * self.scaled_axis**2)
+        return moes_pressure(self.M, self.L, self.kappa)
 
     @property
     def p_hertz(self) -> float:
@@ -87,7 +86,7 @@ class MoesPoint:
     @property
     def film_to_moes(self) -> float:
         """Factor from H to the Moes film (h/Rx) sqrt(E' Rx/(eta0 u_sum))."""
-        return self.scaled_axis**2 / (2.0 * shape_factor(self.kappa))
+        return film_to_moes(self.M, self.kappa)
 
     @property
     def load_number(self) -> float:
@@ -97,7 +96,7 @@ class MoesPoint:
     @property
     def expected_film(self) -> float:
         """Published central film (Nijenbanning, Venner and Moes) in dry approaches."""
-        return nvm_central_film(self.M, self.L, self.kappa) / self.film_to_moes
+        return expected_film(self.M, self.L, self.kappa)
 
     @property
     def inlet_width(self) -> float:

@@ -12,8 +12,10 @@ Symbols and units: `ehlcontact.point`.
 """
 
 from reduced_models.atlas.answer import AtlasAnswer as AtlasAnswer
+from reduced_models.atlas.answer import AtlasAnswers as AtlasAnswers
 from reduced_models.atlas.answer import AtlasSI as AtlasSI
 from reduced_models.atlas.atlas import Atlas as Atlas
+from reduced_models.atlas.frequency import AtlasImpedance as AtlasImpedance
 from reduced_models.elements.kinds import ContactElement as ContactElement
 from reduced_models.elements.kinds import CubicContact as CubicContact
 from reduced_models.elements.kinds import FilmMemoryContact as FilmMemoryContact

@@ -25,7 +25,7 @@ def solve(point: MoesPoint) -> dict[str, Any]:
     omega = np.array(OMEGAS)
     entry = {"M": point.M, "L": point.L, "kappa": point.kappa, "alpha": point.alpha, "eta0": point.eta0}
     entry |= {"version": "stub", "n": 64, "domain": list(Domain().as_tuple()), "approach": 1.0 - 1.2 * film}
-    entry |= {"h_central": film, "h_min": 0.7 * film, "seconds": 0.0}
+    entry |= {"h_central": film, "h_min": 0.7 * film, "moment": 0.3 * film, "seconds": 0.0}
     stiffness = 1.5 / (1.0 + 0.1 * film) * (1.0 + 0.02 * film * omega / (1.0 + omega))
     damping = film * (0.1 + 0.6 / (1.0 + (omega / 2.0) ** 2))
     entry |= {"stiffness": stiffness.tolist(), "damping": damping.tolist()}

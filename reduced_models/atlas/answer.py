@@ -1,4 +1,4 @@
-"""What the atlas says about one point, with its error bars; and the same in SI."""
+"""What the atlas says about one point, with its error bars; the same in SI; and about many points at once."""
 
 from __future__ import annotations
 
@@ -7,30 +7,36 @@ from math import pi
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.results import require_scales
+from reduced_models.atlas.frequency import AtlasImpedance, Between
 
 _Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
 class AtlasAnswer:
-    """One point, dimensionless; ``si`` has it in SI.
+    """One point, dimensionless; ``si`` has it in SI, ``impedance`` K and C at any frequency.
 
     Attributes
     ----------
     point : MoesPoint
     approach, h_central, h_min : float
         Mutual approach, film in the centre and the smallest, over the dry approach.
+    film_share : float
+        1 - approach: what the film takes from a dry approach.
+    moment : float
+        Of the pressure about the centre line, over load times a, > 0 where it resists rolling:
+        `ehlcontact.SteadyResult.moment`.
     Omega : ndarray, shape (k,)
         Angular frequencies, per unit 2a/u_sum of time.
     stiffness, damping : ndarray, shape (k,)
         K(Omega) in f0/delta_H, the static tangent at Omega = 0, and C(Omega) in that times 2a/u_sum.
     error : dict
-        Half widths of the error bars of approach, h_central, h_min, stiffness and damping, under these names and
-        in the same units and shapes.
+        Half widths of the error bars of all these, under these names and in the same units and shapes.
     scales : Scales or None
         Its units in SI; None for a dimensionless point.
     """
@@ -39,11 +45,42 @@ class AtlasAnswer:
     approach: float
     h_central: float
     h_min: float
+    film_share: float
+    moment: float
     Omega: _Floats
     stiffness: _Floats
     damping: _Floats
     error: dict[str, Any]
     scales: Scales | None = None
+
+    @by_name(1)
+    def impedance(
+        self,
+        *,
+        Omega: ArrayLike | None = None,
+        omega: ArrayLike | None = None,
+        hz: ArrayLike | None = None,
+        rpm: ArrayLike | None = None,
+    ) -> AtlasImpedance:
+        """K and C at any frequency from 0 up to the highest of ``Omega``, with error bars.
+
+        Parameters
+        ----------
+        Omega, omega, hz, rpm : float or sequence of float
+            Frequencies, in exactly one of these: dimensionless at every point; at an `OperatingPoint` also in
+            rad/s, Hz or rev/min. At 0 K is the static tangent.
+
+        Raises
+        ------
+        InputError
+            Frequencies not given in exactly one way, in SI at a dimensionless point, not finite, negative or above
+            the highest.
+        """
+        time = None if self.scales is None else self.scales.time
+        w = dimensionless(time, Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=float(self.Omega[-1]))
+        K, C = (Between(self.Omega, getattr(self, n), self.error[n]) for n in ("stiffness", "damping"))
+        error = {"stiffness": K.bars(w), "damping": C.bars(w)}
+        return AtlasImpedance(Omega=w, stiffness=K.at(w), damping=C.at(w), error=error, scales=self.scales)
 
     @property
     def si(self) -> AtlasSI:
@@ -63,6 +100,10 @@ class AtlasSI:
     ----------
     approach, h_central, h_min : float
         Mutual approach, film in the centre and the smallest [m].
+    film_share : float
+        What the film takes from a dry approach [m].
+    moment : float
+        Rolling resistance of the film: moment of the pressure about the centre line [N m].
     force : float
         Static load [N].
     omega, hz : ndarray, shape (k,)
@@ -70,12 +111,15 @@ class AtlasSI:
     stiffness, damping : ndarray, shape (k,)
         K [N/m] and C [N s/m] of a small vibration.
     error : dict
-        Half widths of the error bars of approach, h_central, h_min [m], stiffness [N/m] and damping [N s/m].
+        Half widths of the error bars of approach, h_central, h_min, film_share [m], moment [N m], stiffness [N/m]
+        and damping [N s/m].
     """
 
     approach: float
     h_central: float
     h_min: float
+    film_share: float
+    moment: float
     force: float
     omega: _Floats
     hz: _Floats
@@ -87,9 +131,37 @@ class AtlasSI:
     def of(cls, answer: AtlasAnswer) -> Self:
         """View of an answer; raises `InputError` if its point is dimensionless."""
         s = require_scales(answer.scales)
-        units = dict.fromkeys(("approach", "h_central", "h_min"), s.length)
-        units |= {"stiffness": s.stiffness, "damping": s.damping}
+        units = dict.fromkeys(("approach", "h_central", "h_min", "film_share"), s.length)
+        units |= {"moment": s.moment, "stiffness": s.stiffness, "damping": s.damping}
         values: dict[str, Any] = {name: getattr(answer, name) * unit for name, unit in units.items()}
         omega = answer.Omega / s.time
         error = {name: answer.error[name] * unit for name, unit in units.items()}
         return cls(**values, force=s.force, omega=omega, hz=omega / (2.0 * pi), error=error)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class AtlasAnswers:
+    """Many points at once, dimensionless: what `AtlasAnswer` has of one, with a first axis for the points.
+
+    Attributes
+    ----------
+    M, L, kappa : ndarray, shape (n,)
+    approach, h_central, h_min, film_share, moment : ndarray, shape (n,)
+    Omega : ndarray, shape (k,)
+    stiffness, damping : ndarray, shape (n, k)
+    error : dict
+        Half widths of the error bars, in the same units and shapes.
+    """
+
+    M: _Floats
+    L: _Floats
+    kappa: _Floats
+    approach: _Floats
+    h_central: _Floats
+    h_min: _Floats
+    film_share: _Floats
+    moment: _Floats
+    Omega: _Floats
+    stiffness: _Floats
+    damping: _Floats
+    error: dict[str, _Floats]

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
+from reduced_models.atlas.frequency import Between
 from reduced_models.elements.film_response import FilterRates
 from reduced_models.elements.kinds import CubicContact, FilmMemoryContact, WideRangeContact
 from reduced_models.elements.memory import film_and_exponent
@@ -90,10 +91,10 @@ def wide_element(at: Loads, scales: Scales | None) -> WideRangeContact:
     )
 
 
-def damper_band(Omega: _Floats, damping: _Floats, w: float) -> Band:
-    """The frequencies about `w` at which C(Omega), linear between its nodes, is C(w) within a twentieth."""
+def damper_band(Omega: _Floats, damping: Between, w: float) -> Band:
+    """The frequencies about `w`, from the first to the last of `Omega`, at which C is C(w) within a twentieth."""
     places = np.unique(np.concatenate([*(np.linspace(a, b, 65) for a, b in pairwise(Omega.tolist())), [w]]))
-    C, at = np.interp(places, Omega, damping), int(np.searchsorted(places, w))
+    C, at = damping.at(places), int(np.searchsorted(places, w))
     off = np.flatnonzero(np.abs(C - C[at]) > MARGIN * abs(C[at]))
     low, high = off[off < at], off[off > at]
     return (
@@ -124,7 +125,7 @@ def cubic_element(
         K1=k1,
         K2=k2,
         K3=k3,
-        C1=damping,
+        C1=max(damping, 0.0),
         low=low,
         high=high,
         load_range=LOAD_BAND,

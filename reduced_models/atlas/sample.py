@@ -1,13 +1,16 @@
 """Where the atlas is sampled: its box with a margin, and the points in it.
 
-Two sets of scrambled Sobol points: one over the whole box, one over the light loads, where the answers change
-most. In both, points are denser at small L.
+Three sets of scrambled Sobol points: over the whole box; over its light loads, where answers change more; and over
+those among them where the film turns from one that lifts rigid bodies to one between flattened ones, where they
+change most. The first two are denser at small L.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from scipy.stats import qmc
@@ -19,9 +22,19 @@ from reduced_models.atlas.table import Box
 OVERSHOOT = 0.08  # share of the cube by which draws reach beyond it, to be moved onto its faces
 PRESSURE_OVERSHOOT = 1.15  # likewise beyond the largest Hertz pressure
 SAMPLED = Box(M=(0.95, 33000.0), L=(0.002, 31.0), kappa=(0.0432, 1.06), p_hertz=4.25e9)
-WARP_M, WARP_L = 1.0, 1.5  # powers of the draw, even in ln M and in L at 1: denser at small L
+WARP_L = 1.5  # power of the draw, even in L at 1: denser at small L
 INLET_SPARSE = 0.05  # inlet width below which every second point is left out: dear to solve, and changing slowly
 LIGHT = 15.0  # load number up to which the second set reaches
+TURN = (0.8, 10.0)  # and from where to where the third
+
+
+class _Set(NamedTuple):
+    """One sequence of draws."""
+
+    name: str
+    draws: int
+    load_numbers: tuple[float, float] | None  # between which M is drawn; by default over the box
+    warp: float
 
 
 def sample_points(draws: int, light_draws: int, seed: int, box: Box = SAMPLED) -> dict[str, MoesPoint]:
@@ -33,22 +46,19 @@ def sample_points(draws: int, light_draws: int, seed: int, box: Box = SAMPLED) -
     Parameters
     ----------
     draws, light_draws : int
-        Over the whole box, and over the light loads.
+        Over the whole box, and over the light loads, with half as many again where the film turns.
     seed : int
         Of the scrambling.
     """
+    sets = (
+        _Set("all", draws, None, WARP_L),
+        _Set("light", light_draws, (0.0, LIGHT), WARP_L),
+        _Set("turn", light_draws // 2, TURN, 1.0),
+    )
     points: dict[str, MoesPoint] = {}
-    for name, count, light in (("all", draws, False), ("light", light_draws, True)):
-        # Sobol sequences are balanced by powers of 2, but any beginning will do here.
-        engine = qmc.Sobol(3, seed=seed + light)
-        drawn = engine.random_base2(math.ceil(math.log2(max(count, 1))))[:count]
-        cube = np.clip(drawn * (1.0 + 2.0 * OVERSHOOT) - OVERSHOOT, 0.0, 1.0)
+    for k, which in enumerate(sets):
         thin = 0
-        for i, (u, v, w) in enumerate(cube.tolist()):
-            kappa = _between(box.kappa, w)
-            highest = LIGHT / load_number(1.0, kappa) if light else box.M[1]
-            M = _between((box.M[0], highest), u if light else u**WARP_M)
-            point = MoesPoint(M, box.L[0] + (box.L[1] - box.L[0]) * v**WARP_L, kappa)
+        for i, point in enumerate(_drawn(which, seed + k, box)):
             excess = point.p_hertz / box.p_hertz
             if excess > PRESSURE_OVERSHOOT:
                 continue
@@ -56,10 +66,21 @@ def sample_points(draws: int, light_draws: int, seed: int, box: Box = SAMPLED) -
                 thin += 1
                 if thin % 2 == 0:
                     continue
-            if excess > 1.0:  # pressure grows like M^(1/3)
-                point = replace(point, M=point.M * excess**-3.0)
-            points[f"{name}-{i}"] = point
+            # pressure grows like M^(1/3)
+            points[f"{which.name}-{i}"] = replace(point, M=point.M * max(excess, 1.0) ** -3.0)
     return points
+
+
+def _drawn(which: _Set, seed: int, box: Box) -> Iterator[MoesPoint]:
+    """All draws of a set."""
+    # Sobol sequences are balanced by powers of 2, but any beginning will do here.
+    found = qmc.Sobol(3, seed=seed).random_base2(math.ceil(math.log2(max(which.draws, 1))))[: which.draws]
+    for u, v, w in np.clip(found * (1.0 + 2.0 * OVERSHOOT) - OVERSHOOT, 0.0, 1.0).tolist():
+        kappa, ends = _between(box.kappa, w), box.M
+        if which.load_numbers is not None:
+            low, high = (N / load_number(1.0, kappa) for N in which.load_numbers)
+            ends = max(box.M[0], low), high
+        yield MoesPoint(_between(ends, u), box.L[0] + (box.L[1] - box.L[0]) * v**which.warp, kappa)
 
 
 def _between(ends: tuple[float, float], share: float) -> float:

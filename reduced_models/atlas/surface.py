@@ -1,79 +1,78 @@
 """Interpolation over the atlas: smooth variables, radial basis functions, and the error bar.
 
-What is interpolated, per point: ln of 1 - u, of Hc and of C at the lowest frequency > 0, each over a published
-central film; ln(Hm/Hc); ln K at each frequency; asinh of every C over a small share of that one (C may touch 0).
+What is interpolated, per point: ln of 1 - u, of Hc, of C at the lowest frequency > 0 and of the moment, each over
+a published central film; ln(Hm/Hc); ln K at each frequency; asinh of every C over a small share of that one (C may
+touch 0).
 
-As coordinates serve Wijnant's load number N, which separates rigid from elastic films, L^(2/3), kappa, and how far
-N lies below 3: there the default domain starts to grow, and answers have a kink in the first three coordinates but
-none in all four.
+As coordinates serve Wijnant's load number N, which separates rigid from elastic films, L^(2/3), kappa; how far N
+lies below a light load, where the default domain grows with it (`formulas.lightness` is the rule of both); and the
+published film. Three would do, but answers bend more sharply in them than in all five.
 
 Every number of it is one of the atlas's `Interpolation`.
 """
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import RBFInterpolator
 from scipy.spatial.distance import cdist
 
+from ehlcontact.formulas import expected_film, lightness
 from ehlcontact.hertz import radius_ratio
-from ehlcontact.point import MoesPoint
-from reduced_models.atlas.table import AtlasTable, Interpolation
+from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Interpolation
 
 _Floats = NDArray[np.float64]
 
+BLOCK = 256  # points looked at together: their distances to all nodes stay in the cache
 
-def coordinates(points: _Floats, by: Interpolation) -> _Floats:
-    """Coordinates, shape (n, 4), of rows (M, L, kappa)."""
+
+def films(points: _Floats) -> _Floats:
+    """Published central film of rows (M, L, kappa) in dry approaches, shape (n,)."""
+    return np.array([expected_film(*row) for row in points.tolist()])
+
+
+def coordinates(points: _Floats, film: _Floats, by: Interpolation) -> _Floats:
+    """Coordinates, shape (n, 5), of rows (M, L, kappa) and their films."""
     M, L, kappa = points.T
     log_load = np.log(M) + 0.5 * np.log([radius_ratio(k) for k in kappa.tolist()])
-    light = np.maximum(math.log(by.light_load) - log_load, 0.0)
-    return np.column_stack([log_load, L ** (2.0 / 3.0), np.log(kappa), light]) * np.array(by.weights)
+    light = [lightness(N, by.light_load, by.light_blend) for N in log_load.tolist()]
+    return np.column_stack([log_load, L ** (2.0 / 3.0), np.log(kappa), light, np.log(film)]) * np.array(by.weights)
 
 
-def leading_film(points: _Floats, by: Interpolation) -> _Floats:
-    """Published central film in Hertz units, bounded where the film is thick; shape (n, 1)."""
-    film = [MoesPoint(*row).expected_film for row in points.tolist()]
-    return np.array([[h / (by.thick + h)] for h in film])
+def to_smooth(film: _Floats, answers: _Floats, by: Interpolation) -> _Floats:
+    """Smooth variables of answers, both shape (n, 5 + 2 k) and in the order of `AtlasTable.answers`."""
+    k = (answers.shape[1] - HEAD) // 2
+    u, central, least, low, moment = answers[:, :HEAD].T
+    expected = film / (by.thick + film)
+    head = np.log([(1.0 - u) / expected, central / expected, least / central, low / expected, moment / expected])
+    K, C = answers[:, HEAD : HEAD + k], answers[:, HEAD + k :]
+    return np.column_stack([head.T, np.log(K), np.arcsinh(C / (by.asinh * low[:, None]))])
 
 
-def to_smooth(
-    points: _Floats,
-    approach: _Floats,
-    h_central: _Floats,
-    h_min: _Floats,
-    K: _Floats,
-    C: _Floats,
-    by: Interpolation,
-) -> _Floats:
-    """Smooth variables, shape (n, 4 + 2 k)."""
-    low, expected = C[:, by.reference], leading_film(points, by)[:, 0]
-    films = [np.log(part / expected) for part in (1.0 - approach, h_central)]
-    films += [np.log(h_min / h_central), np.log(low / expected)]
-    return np.column_stack([*films, np.log(K), np.arcsinh(C / (by.asinh * low[:, None]))])
+def from_smooth(film: _Floats, t: _Floats, by: Interpolation) -> tuple[_Floats, _Floats]:
+    """Answers of rows of smooth variables; and their derivatives to these."""
+    k = (t.shape[1] - HEAD) // 2
+    grown = np.exp(t[:, : HEAD + k])
+    grown[:, [0, 1, LOW, HEAD - 1]] *= (film / (by.thick + film))[:, None]
+    grown[:, 2] *= grown[:, 1]
+    scale = by.asinh * grown[:, [LOW]]
+    C = scale * np.sinh(t[:, HEAD + k :])
+    slopes = np.column_stack([grown, np.hypot(scale, C)])  # cosh from sinh
+    grown[:, 0] = 1.0 - grown[:, 0]
+    return np.column_stack([grown, C]), slopes
 
 
-def from_smooth(points: _Floats, t: _Floats, by: Interpolation) -> tuple[_Floats, _Floats]:
-    """Answers u, Hc, Hm, C_low, K (k), C (k) of rows of smooth variables; and their derivatives to these."""
-    k, expected = (t.shape[1] - 4) // 2, leading_film(points, by)
-    film, h, low = (expected * np.exp(t[:, [i]]) for i in (0, 1, 3))
-    least, K = h * np.exp(t[:, [2]]), np.exp(t[:, 4 : 4 + k])
-    C = by.asinh * low * np.sinh(t[:, 4 + k :])
-    slopes = np.column_stack([film, h, least, low, K, by.asinh * low * np.cosh(t[:, 4 + k :])])
-    return np.column_stack([1.0 - film, h, least, low, K, C]), slopes
+def _system(x: _Floats) -> _Floats:
+    """Of cubic radial functions with a plane beside them."""
+    n, plane = len(x), np.column_stack([np.ones(len(x)), x])
+    corner = np.zeros((plane.shape[1], plane.shape[1]))
+    return np.block([[cdist(x, x) ** 3, plane], [plane.T, corner]]) if n else corner
 
 
 def left_out_errors(x: _Floats, t: _Floats) -> _Floats:
     """Error at every node of the interpolation without it, from one inverse (Rippa 1999)."""
     n = len(x)
-    polynomial = np.column_stack([np.ones(n), x])
-    system = np.block(
-        [[cdist(x, x) ** 3, polynomial], [polynomial.T, np.zeros((polynomial.shape[1], polynomial.shape[1]))]]
-    )
-    inverse = np.linalg.inv(system)
+    inverse = np.linalg.inv(_system(x))
     return (inverse[:n, :n] @ t) / np.diag(inverse)[:n, None]
 
 
@@ -87,36 +86,59 @@ def error_factor(x: _Floats, errors: _Floats, by: Interpolation) -> _Floats:
 
 
 class AtlasSurface:
-    """The table as a function."""
+    """The table as a function of rows (M, L, kappa)."""
 
     def __init__(self, table: AtlasTable) -> None:
         by = self._by = table.interpolation
-        self._x = coordinates(table.points, by)
-        films = table.approach, table.h_central, table.h_min
-        smooth = to_smooth(table.points, *films, table.stiffness, table.damping, by)
+        film = films(table.points)
+        self._x = coordinates(table.points, film, by)
+        smooth = to_smooth(film, table.answers, by)
         self._smooth = smooth.shape[1]
         values = np.hstack([smooth, table.gains])
-        self._interpolant = RBFInterpolator(self._x, values, kernel=by.kernel, degree=by.degree)
+        plane = np.zeros((1 + self._x.shape[1], values.shape[1]))
+        self._coefficients = np.linalg.solve(_system(self._x), np.vstack([values, plane]))
         self._squares, self._factor = table.left_out**2, table.factor
         reach = np.partition(cdist(self._x, self._x), by.nearest, axis=1)[:, by.nearest]
         self._usual_reach = float(np.median(reach))
 
-    def at(self, points: _Floats) -> tuple[_Floats, _Floats, _Floats]:
-        """Answers as by `from_smooth`, their slopes, and gains over the low-frequency damping."""
-        found = self._interpolant(coordinates(points, self._by))
-        return *from_smooth(points, found[:, : self._smooth], self._by), found[:, self._smooth :]
+    def at(self, points: _Floats) -> tuple[_Floats, _Floats]:
+        """Answers, shape (n, 5 + 2 k), and gains over the low-frequency damping."""
+        film = films(points)
+        x = coordinates(points, film, self._by)
+        found = self._interpolated(x, cdist(x, self._x), slice(None))
+        return from_smooth(film, found[:, : self._smooth], self._by)[0], found[:, self._smooth :]
 
-    def bars(self, point: _Floats, values: _Floats, slopes: _Floats, extra: _Floats) -> _Floats:
-        """Half widths of the error bars of the answers at one point, each shape (4 + 2 k,); `point` is (3,).
+    def with_bars(self, points: _Floats, extra: _Floats) -> tuple[_Floats, _Floats]:
+        """Answers and half widths of their error bars, both shape (n, 5 + 2 k).
 
-        Where points lie far apart the bars grow with the square of their distance. `extra` adds to the bars of the
-        smooth variables.
+        Where nodes lie far apart the bars grow with the square of their distance. `extra`, per unit of the film
+        1 - u up to 1 for K, adds to the bars of the smooth variables; shape (5 + 2 k,).
         """
-        distance = cdist(coordinates(point[None], self._by), self._x)[0]
-        nearest = np.argpartition(distance, self._by.nearest)[: self._by.nearest]
-        sparse = max(distance[nearest].max() / self._usual_reach, 1.0) ** 2
-        smooth = sparse * self._factor * np.sqrt(np.mean(self._squares[nearest], axis=0)) + extra
+        blocks = [self._block(points[i : i + BLOCK], extra) for i in range(0, len(points), BLOCK)]
+        values, bars = zip(*blocks, strict=True)
+        return np.concatenate(values), np.concatenate(bars)
+
+    def _block(self, points: _Floats, extra: _Floats) -> tuple[_Floats, _Floats]:
+        by, film = self._by, films(points)
+        x = coordinates(points, film, by)
+        distance = cdist(x, self._x)
+        values, slopes = from_smooth(film, self._interpolated(x, distance, slice(self._smooth)), by)
+        nearest = np.argpartition(distance, by.nearest, axis=1)[:, : by.nearest]
+        reach = np.take_along_axis(distance, nearest, axis=1).max(axis=1, keepdims=True)
+        local = np.sqrt(np.mean(self._squares[nearest], axis=1))
+        smooth = np.maximum(reach / self._usual_reach, 1.0) ** 2 * self._factor * local
+        k = (values.shape[1] - HEAD) // 2
+        stiffness, damping = slice(HEAD, HEAD + k), slice(HEAD + k, None)
+        if extra.any():
+            added = np.tile(extra, (len(points), 1))
+            added[:, stiffness] *= np.minimum(1.0 - values[:, :1], 1.0)
+            smooth += added
         bars = slopes * smooth
-        damping = slice(4 + (bars.size - 4) // 2, None)  # over the low-frequency one, whose error comes on top
-        bars[damping] = np.hypot(bars[damping], values[damping] * smooth[3])
-        return np.asarray(bars)
+        # over the low-frequency damping, whose error comes on top
+        bars[:, damping] = np.hypot(bars[:, damping], values[:, damping] * smooth[:, [LOW]])
+        return values, bars
+
+    def _interpolated(self, x: _Floats, distance: _Floats, columns: slice) -> _Floats:
+        """Smooth variables and gains."""
+        n, c = len(self._x), self._coefficients[:, columns]
+        return np.asarray((distance * distance * distance) @ c[:n] + c[n] + x @ c[n + 1 :])

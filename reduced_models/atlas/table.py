@@ -15,12 +15,15 @@ from numpy.typing import NDArray
 from ehlcontact.checks import require_choice
 from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json, write_bytes
+from ehlcontact.formulas import moes_pressure
 from ehlcontact.point import MoesPoint
 from reduced_models.elements.film_response import FilterRates
 
 _Floats = NDArray[np.float64]
 
-SCHEMA, VERSION = "ehlcontact-atlas", 1
+SCHEMA, VERSION = "ehlcontact-atlas", 2
+# Answers at a point stand in one row: approach, films, low-frequency C, moment; then K and C over frequency.
+LOW, HEAD = 3, 5
 KERNELS = {"cubic": 1}  # radial functions with the degree of the polynomial beside them
 
 
@@ -43,6 +46,15 @@ class Box:
         if point.p_hertz > self.p_hertz:
             allowed = f"at most {self.p_hertz / 1e9:g}e9 Pa, the limit of the atlas ({self})"
             raise InputError("Hertz pressure", f"{point.p_hertz:.4g} Pa", allowed)
+
+    def require_all_inside(self, points: _Floats, alpha: float) -> None:
+        """The same for the first of many, rows (M, L, kappa), that lies outside."""
+        low, high = np.transpose([self.M, self.L, self.kappa])
+        inside = np.all((low <= points) & (points <= high), axis=1)
+        inside[inside] = [moes_pressure(*row) <= self.p_hertz * alpha for row in points[inside].tolist()]
+        if not inside.all():
+            M, L, kappa = points[int(np.argmin(inside))].tolist()
+            self.require_inside(MoesPoint(M, L, kappa, alpha))
 
     def __str__(self) -> str:
         M, L, kappa = (f"{low:g}..{high:g}" for low, high in (self.M, self.L, self.kappa))
@@ -69,8 +81,9 @@ class Interpolation:
         A kernel, or a degree, that this library does not know.
     """
 
-    weights: tuple[float, ...]  # of the coordinates: ln N, L^(2/3), ln kappa, how far ln N is below `light_load`
-    light_load: float  # load number below which the default domain grew at the time of the build
+    weights: tuple[float, ...]  # of the coordinates, in the order of `surface.coordinates`
+    light_load: float  # load number about which the default domain began to grow at the time of the build
+    light_blend: float  # and the factor on it over which
     thick: float  # film, in dry approaches, beyond which the published one no longer leads
     asinh: float  # of the low-frequency damping: where asinh turns from ln to linear
     reference: int  # index of the frequency of the low-frequency damping
@@ -91,7 +104,7 @@ class OtherOil:
     """What is accepted of another oil, and what it may change.
 
     Beside M, L and kappa, alpha and eta0 enter through the Hertz pressure alone. The error bars widen by what ln
-    of films, K and C change at most per unit of ln alpha and of ln eta0.
+    of films, K, C and moment change at most per unit of ln alpha and of ln eta0.
     """
 
     alpha: tuple[float, float]  # range [1/Pa]
@@ -99,37 +112,11 @@ class OtherOil:
     film: tuple[float, float]
     stiffness: tuple[float, float]  # K changes the less the thinner the film
     damping: tuple[float, float]
+    moment: tuple[float, float]
 
     def __post_init__(self) -> None:
         for name, (first, second) in vars(self).items():
             object.__setattr__(self, name, (float(first), float(second)))
-
-
-# Numbers of the files written before these were recorded: `load` adds them there. A file read and saved again has
-# them beside the same arrays; so was the shipped one made. By `tune`, other weights lower its leave-one-out error
-# by less than 1 %, and the slopes for other oils cover what changes at light, middle and heavy load.
-FIRST_INTERPOLATION = Interpolation(
-    weights=(0.4, 0.114, 0.22, 1.2),
-    light_load=3.0,
-    thick=0.1,
-    asinh=0.02,
-    reference=1,
-    nearest=10,
-    covered=0.98,
-)
-FIRST_OIL = OtherOil(
-    alpha=(1e-8, 4e-8), eta0=(0.002, 1.0), film=(0.17, 0.015), stiffness=(0.12, 0.015), damping=(0.18, 0.02)
-)
-FIRST = json.loads(
-    json.dumps(
-        {
-            "interpolation": asdict(FIRST_INTERPOLATION),
-            "oil": asdict(FIRST_OIL),
-            "gain_fit": {"floor": 0.05, "ridge": 0.02},
-            "near_domain": [-2.0, 1.35, 1.6],
-        }
-    )
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,11 +128,12 @@ class AtlasTable:
     approach: _Floats  # (n,)
     h_central: _Floats  # (n,)
     h_min: _Floats  # (n,)
+    moment: _Floats  # (n,)
     stiffness: _Floats  # (n, k) K(Omega)
     damping: _Floats  # (n, k) C(Omega)
     gains: _Floats  # (n, 3 + lags) of the film memory, over the damping at the lowest frequency > 0
-    left_out: _Floats  # (n, 4 + 2 k) error at each point of an interpolation without it, see `surface`
-    factor: _Floats  # (4 + 2 k,) from the errors of the nearest points to the error bar
+    left_out: _Floats  # (n, 5 + 2 k) error at each point of an interpolation without it, see `surface`
+    factor: _Floats  # (5 + 2 k,) from the errors of the nearest points to the error bar
     metadata: dict[str, Any]  # box, rates, interpolation, oil; command, version, sample, meshes, failures
 
     @property
@@ -168,6 +156,13 @@ class AtlasTable:
         """Which other oils it answers for."""
         return OtherOil(**self.metadata["oil"])
 
+    @property
+    def answers(self) -> _Floats:
+        """What is interpolated, shape (n, 5 + 2 k)."""
+        low = self.damping[:, self.interpolation.reference]
+        head = self.approach, self.h_central, self.h_min, low, self.moment
+        return np.column_stack([*head, self.stiffness, self.damping])
+
     def require_complete(self) -> None:
         """Raise `ValueError`, or what else damaged metadata lead to, unless everything is there and fits.
 
@@ -178,8 +173,8 @@ class AtlasTable:
         """
         n, k = self.approach.size, self.omega.size
         gains = 3 + self.rates.lags
-        shapes = {"points": (n, 3), "omega": (k,), "left_out": (n, 4 + 2 * k), "factor": (4 + 2 * k,)}
-        shapes |= dict.fromkeys(("approach", "h_central", "h_min"), (n,)) | {"gains": (n, gains)}
+        shapes = {"points": (n, 3), "omega": (k,), "left_out": (n, HEAD + 2 * k), "factor": (HEAD + 2 * k,)}
+        shapes |= dict.fromkeys(("approach", "h_central", "h_min", "moment"), (n,)) | {"gains": (n, gains)}
         shapes |= dict.fromkeys(("stiffness", "damping"), (n, k))
         for name, shape in shapes.items():
             array = getattr(self, name)
@@ -205,7 +200,7 @@ class AtlasTable:
         Raises
         ------
         InputError
-            Missing, damaged, no atlas, or one of a newer library.
+            Missing, damaged, no atlas, or one of an older or newer library.
         """
         try:
             with path.open("rb") as stream, np.load(stream) as file:
@@ -215,7 +210,7 @@ class AtlasTable:
                 version = metadata["schema_version"]
                 if version == VERSION:
                     arrays = {f.name: file[f.name].astype(float) for f in fields(cls) if f.name != "metadata"}
-                    table = cls(**arrays, metadata={**FIRST, **metadata})
+                    table = cls(**arrays, metadata=metadata)
                     table.require_complete()
                     return table
         except OSError as error:
@@ -223,4 +218,5 @@ class AtlasTable:
         except Exception as error:  # whatever zip files, numpy and classes raise on what is damaged, or no atlas
             reason = "no npz file, or one of Python objects" if "pickle" in str(error) else str(error)
             raise InputError("atlas", str(path), f"a complete atlas file ({reason})") from None
-        raise InputError("atlas", f"version {version}", f"of version {VERSION}")
+        allowed = f"of version {VERSION}, which `ehlcontact atlas build` of this library makes"
+        raise InputError("atlas", f"{path}, of version {version}", allowed)

@@ -25,8 +25,8 @@ from ehlcontact import MoesPoint, Purpose, mesh_for
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.build import gain_equations, smooth_gains
 from reduced_models.atlas.solve import respond
-from reduced_models.atlas.surface import coordinates, left_out_errors, to_smooth
-from reduced_models.atlas.table import AtlasTable
+from reduced_models.atlas.surface import coordinates, films, left_out_errors, to_smooth
+from reduced_models.atlas.table import HEAD, AtlasTable
 from reduced_models.elements.film_response import FilterRates
 
 _Floats = NDArray[np.float64]
@@ -52,12 +52,11 @@ def weights_error(table: AtlasTable, weights: Sequence[float]) -> float:
 
     So every answer counts alike, whatever its scale: else the asinh of a damping near 0 would outweigh all.
     """
-    by = replace(table.interpolation, weights=tuple(weights))
-    films = table.approach, table.h_central, table.h_min
-    smooth = to_smooth(table.points, *films, table.stiffness, table.damping, by)
-    squares = np.mean(left_out_errors(coordinates(table.points, by), smooth) ** 2, axis=0)
+    by, film = replace(table.interpolation, weights=tuple(weights)), films(table.points)
+    smooth = to_smooth(film, table.answers, by)
+    squares = np.mean(left_out_errors(coordinates(table.points, film, by), smooth) ** 2, axis=0)
     # C at the reference frequency is its own measure: no error but rounding
-    squares = np.delete(squares, 4 + table.omega.size + by.reference)
+    squares = np.delete(squares, HEAD + table.omega.size + by.reference)
     return float(np.exp(0.5 * np.mean(np.log(squares))))
 
 
@@ -85,12 +84,12 @@ def best_rates(table: AtlasTable, most: int = 300) -> Found:
 
 
 def oil_slopes(points: Sequence[MoesPoint] = OIL_POINTS) -> dict[str, tuple[float, float]]:
-    """Largest change of ln of films, of K and of C per unit of ln alpha, and per unit of ln eta0.
+    """Largest change of ln of films, of K, of C and of the moment per unit of ln alpha, and per unit of ln eta0.
 
     That of K is over the film 1 - u, up to 1. C counts where it is above a tenth of its largest value; its bar has
     the slope twice, in C over the low-frequency damping and in that: a slope of 0.18 covers a change of 0.25.
     """
-    slopes = {name: [0.0, 0.0] for name in ("film", "stiffness", "damping")}
+    slopes = {name: [0.0, 0.0] for name in ("film", "stiffness", "damping", "moment")}
     for point in points:
         own = _answers(point)
         for i, name in enumerate(("alpha", "eta0")):
@@ -103,7 +102,7 @@ def oil_slopes(points: Sequence[MoesPoint] = OIL_POINTS) -> dict[str, tuple[floa
 
 
 def _answers(point: MoesPoint) -> dict[str, tuple[_Floats, _Floats]]:
-    """Films, K and C of a point solved, each with what its changes are divided by; 0 leaves one out."""
+    """Films, K, C and moment of a point solved, each with what its changes are divided by; 0 leaves one out."""
     found = respond(point, mesh_for(point, Purpose.TABLE))
     film = np.array([1.0 - found["approach"], found["h_central"], found["h_min"]])
     K, C = np.array(found["stiffness"]), np.array(found["damping"])
@@ -111,6 +110,7 @@ def _answers(point: MoesPoint) -> dict[str, tuple[_Floats, _Floats]]:
         "film": (film, np.ones(3)),
         "stiffness": (K, np.full(K.size, min(film[0], 1.0))),
         "damping": (C, (C > 0.1 * C.max()).astype(float)),
+        "moment": (np.array([found["moment"]]), np.ones(1)),
     }
 
 

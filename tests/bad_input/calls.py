@@ -258,7 +258,7 @@ CALLS = {
     "fit model": (lambda: rm.fit(record(), "quartic"), ("model", "one of linear, cubic, polynomial,")),
     "fit window": (lambda: rm.fit(record(), window=(1.0, 0.0)), ("start", "below end = 0.0")),
     "atlas point": (lambda: rm.Atlas().at((200, 10, 0.5)), ("point", "a MoesPoint or an OperatingPoint")),
-    "atlas light": (lambda: rm.Atlas().element(MoesPoint(1.0, 10, 0.5)), ("M", "between 5 and 30000, the box of")),
+    "atlas light": (lambda: rm.Atlas().element(MoesPoint(0.5, 10, 0.5)), ("M", "between 1 and 30000, the box of")),
     "atlas model": (lambda: rm.Atlas().element(point(), "linear"), ("model", "one of memory, wide, cubic")),
     "atlas oil": (
         lambda: rm.Atlas().element(MoesPoint(200, 10, 0.5, eta0=40.0)),

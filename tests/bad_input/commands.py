@@ -142,7 +142,7 @@ COMMANDS = [
     (("fit", RECORD, "--degree", "5"), ("--degree", "--model, --window")),
     # element
     (("element", *POINT[2:]), ("--M = None", "given")),
-    (at("element", M="2"), ("--M = 2.0", "between 5 and 30000", "box of the atlas")),
+    (at("element", M="0.5"), ("--M = 0.5", "between 1 and 30000", "box of the atlas")),
     (at("element", L="30"), ("--L = 30.0", "between 0 and 25")),
     (at("element", kappa="20"), ("--kappa = 20.0", "between 0.08 and 1")),
     (at("element", alpha="20"), ("--alpha = 20.0", "between 1e-08 and 4e-08 1/Pa", "in 1/GPa? then 2e-08")),

@@ -588,25 +588,25 @@ def atlas_surface(bench: Bench) -> None:
     """The shipped table interpolated anew: what each point is answered when it is left out."""
     table = _shipped_table()
     coordinates, to_smooth, from_smooth = home("coordinates"), home("to_smooth"), home("from_smooth")
+    films = home("films")
     left_out_errors, error_factor = home("left_out_errors"), home("error_factor")
 
     def figures() -> Figures:
-        smooth = to_smooth(
-            table.points, table.approach, table.h_central, table.h_min, table.stiffness, table.damping
-        )
-        x = coordinates(table.points)
+        by, film = table.interpolation, films(table.points)
+        smooth = to_smooth(film, table.answers, by)
+        x = coordinates(table.points, film, by)
         errors = left_out_errors(x, smooth)
-        truth, _ = from_smooth(table.points, smooth)
-        found, _ = from_smooth(table.points, smooth + errors)
+        truth, _ = from_smooth(film, smooth, by)
+        found, _ = from_smooth(film, smooth + errors, by)
         off = np.abs(found - truth) / np.maximum(np.abs(truth), 1e-12)
-        k = (smooth.shape[1] - 4) // 2
-        off[:, 4 + k :] = np.abs(found - truth)[:, 4 + k :] / truth[:, [3]]
-        columns = {"film": off[:, 1], "h_min": off[:, 2], "K": off[:, 4 : 4 + k], "C": off[:, 3 + k + 1 :]}
+        k = (smooth.shape[1] - 5) // 2
+        off[:, 5 + k :] = np.abs(found - truth)[:, 5 + k :] / truth[:, [3]]
+        columns = {"film": off[:, 1], "h_min": off[:, 2], "K": off[:, 5 : 5 + k], "C": off[:, 5 + k :]}
         parts = {f"left-out error of {name}, median": float(np.median(part)) for name, part in columns.items()}
         parts |= {
             f"left-out error of {name}, 95 %": float(np.quantile(part, 0.95)) for name, part in columns.items()
         }
-        factor = error_factor(x, errors)
+        factor = error_factor(x, errors, by)
         return parts | {"error bar over local error": float(np.median(factor))}
 
     bench.case("table", figures)
@@ -616,14 +616,22 @@ def atlas_samples(bench: Bench) -> None:
     """Which points a build would solve, and on which meshes."""
     from collections import Counter
 
-    sample, mesh_of, build = home("sample_points"), home("mesh_of"), home("build_atlas")
+    from ehlcontact import InputError, Purpose, mesh_for
+
+    sample, build = home("sample_points"), home("build_atlas")
     draws = [default for default in build.__defaults__ if isinstance(default, int)]
     seed = (build.__kwdefaults__ or {}).get("seed", 4)
+
+    def intervals(point: Any) -> int:
+        try:
+            return mesh_for(point, Purpose.TABLE).n
+        except InputError:  # too thin a film
+            return 0
 
     def samples() -> Figures:
         points = sample(*draws, seed)
         numbers = np.array([[p.M, p.L, p.kappa, p.p_hertz] for p in points.values()])
-        meshes = Counter(getattr(mesh_of(p), "n", 0) for p in points.values())
+        meshes = Counter(intervals(p) for p in points.values())
         found: Figures = {
             "points": len(points),
             "median M": float(np.median(numbers[:, 0])),

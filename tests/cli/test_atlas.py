@@ -27,9 +27,9 @@ def test_element_is_printed_saved_and_written(call, tmp_path, model):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("--M", "3", "--L", "19", "--kappa", "0.11"), ("M = 3.0", "between 5 and 30000", "kappa 0.08..1")),
-        (("--M", "2900", "--L", "19", "--kappa", "0.05"), ("kappa = 0.05", "between 0.08 and 1")),
-        (("--M", "20000", "--L", "25", "--kappa", "0.9"), ("Hertz pressure", "3.5")),
+        (("--M", "0.9", "--L", "19", "--kappa", "0.11"), ("M = 0.9", "between 1 and 30000", "kappa 0.045..1")),
+        (("--M", "2900", "--L", "19", "--kappa", "0.04"), ("kappa = 0.04", "between 0.045 and 1")),
+        (("--M", "20000", "--L", "25", "--kappa", "0.9"), ("Hertz pressure", "4.1")),
         ((*POINT, "--viscosity", "barus"), ("viscosity", "roelands")),
         ((*POINT, "--model", "quartic"), ("--model", "quartic", "wide")),
         ((*POINT, "--save", "e.txt"), ("--save", ".json")),

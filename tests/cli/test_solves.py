@@ -11,8 +11,8 @@ from ehlcontact import SimulationResult, Status, SteadyResult, load
 from reduced_models import load_element
 
 STEADY_KEYS = (
-    "approach, force, h_central, h_min, p_max, pressure_error, residual, load_residual, cycles, seconds, status, "
-    "n, domain".split(", ")
+    "approach, force, h_central, h_min, p_max, moment, pressure_error, residual, load_residual, cycles, seconds, "
+    "status, n, domain".split(", ")
 )
 SIMULATE_KEYS = "status, steps, seconds, T, approach, rate, force, h_central, h_min".split(", ")
 FIT_KEYS = "model, parameters, rms, e_f, root, tangent, valid, condition".split(", ")

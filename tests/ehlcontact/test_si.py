@@ -41,6 +41,7 @@ UNITS = {
     "snapshot_h": ("snapshot_H", S.length),
     **{name: (name, S.length) for name in ("approach", "h_central", "h_min", "static_approach")},
     **{name: (name, S.force) for name in ("force", "load")},
+    "moment": ("moment", S.force * S.a),
     "rate": ("rate", S.length / S.time),
     "acceleration": ("acceleration", S.length / S.time**2),
 }

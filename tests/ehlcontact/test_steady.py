@@ -16,6 +16,7 @@ from ehlcontact import (
     Status,
     solve_steady,
 )
+from ehlcontact.hertz import shape_factor
 from ehlcontact.solver.level import build_hierarchy
 from ehlcontact.solver.mesh import Mesh, coarsest_intervals
 
@@ -85,9 +86,24 @@ def test_summary_is_plain(steady):
     summary = steady(200, 10, 0.5, 64).summary()
     assert json.loads(json.dumps(summary)) == summary
     wanted = (
-        "approach force h_central h_min p_max pressure_error residual load_residual cycles seconds status n domain"
+        "approach force h_central h_min p_max moment pressure_error residual load_residual cycles seconds status "
+        "n domain"
     )
     assert set(wanted.split()) <= set(summary)
+
+
+@pytest.mark.parametrize("numbers", [(200, 10, 0.5), (20, 5, 0.3)])
+def test_moment_of_pressure_is_the_rolling_resistance(steady, numbers):
+    """It resists; the shear by the flow that pressure drives loses the power that the moment takes (docstring).
+
+    ``iint h dp/dx = moment f a/Rx`` is ``iint H dP/dX = 4 pi/3 S moment`` in Hertz units, over all of Y.
+    """
+    result = steady(*numbers, 128)
+    X, Y, P, H = result.X, result.Y, result.P, result.H
+    both = 2.0 * np.trapezoid(np.trapezoid(P * X[:, None], X, axis=0), Y)
+    assert 0.0 < result.moment == pytest.approx(-1.5 / np.pi * both, rel=1e-12)
+    drag = 2.0 * np.trapezoid(np.trapezoid(H * np.gradient(P, X, axis=0), X, axis=0), Y)
+    assert drag == pytest.approx(4.0 * np.pi / 3.0 * shape_factor(numbers[2]) * result.moment, rel=0.01)
 
 
 def test_pressure_error_is_what_further_cycles_change():

@@ -67,6 +67,7 @@ def element(
             ("approach", f"{answer.approach:.5f}", f"± {numeral(error['approach'], 1)} of the dry Hertz approach"),
             ("central film", f"{answer.h_central:.5f}", f"± {numeral(error['h_central'], 1)} likewise"),
             ("minimum film", f"{answer.h_min:.5f}", f"± {numeral(error['h_min'], 1)} likewise"),
+            ("moment of pressure", f"{answer.moment:.5f}", f"± {numeral(error['moment'], 1)} of load times a"),
             (
                 "static tangent",
                 f"{answer.stiffness[0]:.4f}",

@@ -70,6 +70,7 @@ def _rows(result: SteadyResult) -> list[tuple[str, str, str]]:
         ("central film", f"{result.h_central:.5f}", f"of the dry Hertz approach{central}"),
         ("minimum film", f"{result.h_min:.5f}", f"of the dry Hertz approach{smallest}"),
         ("maximum pressure", f"{result.p_max:.4f}", "of the Hertz pressure"),
+        ("moment of pressure", f"{result.moment:.5f}", "of load times semi-axis a: the film's rolling resistance"),
         ("pressure to come", f"{result.pressure_error:.1e}", "of the Hertz pressure, by further cycles"),
         ("residual", f"{result.residual:.1e}", "over the dry start's"),
         ("load balance", f"{result.load_residual:.1e}", "over the load"),

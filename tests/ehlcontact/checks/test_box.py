@@ -132,11 +132,11 @@ def test_formulas_take_points_outside():
 
 def test_the_measured_box_passes():
     """All corners of docs/solver.md whose Hertz pressure is within, and those of the atlas with its margin."""
-    for M in (*MEASURED.M, 4.5, 33000.0):
-        for L in (*MEASURED.L, 0.002, 26.0):
-            for kappa in (*MEASURED.kappa, 0.077, 1.06):
+    for M in (*MEASURED.M, 0.95, 33000.0):
+        for L in (*MEASURED.L, 0.002, 31.0):
+            for kappa in (*MEASURED.kappa, 0.0432, 1.06):
                 point = MoesPoint(M, L, kappa)
-                if point.p_hertz < 3.7e9:
+                if point.p_hertz < 4.25e9:
                     assert require_solvable(point) is point
 
 

@@ -20,6 +20,7 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
+from ehlcontact.formulas import LIGHT_BLEND, LIGHT_LOAD
 from ehlcontact.solver import mesh as m
 from ehlcontact.solver.domain import check_intervals
 
@@ -136,9 +137,35 @@ def test_damping_of_a_thin_film_within_a_few_per_cent():
     assert np.abs(chosen.stiffness / finer.stiffness - 1.0).max() < 0.005
 
 
-LIGHT = MoesPoint(6.0748, 2.7586, 0.08827)  # pressure reaches beyond the default region
+@pytest.mark.parametrize("kappa", [0.05, 0.3, 1.0])
+def test_default_region_grows_without_a_kink(kappa):
+    """Exactly the documented one for heavy loads; extents and their slopes over ln N are continuous below."""
+
+    def extents(log_load):
+        return np.log(np.abs(m.default_domain(MoesPoint(np.exp(log_load) / unit, 5.0, kappa)).as_tuple()))
+
+    unit = MoesPoint(1.0, 5.0, kappa).load_number
+    highest = np.log(LIGHT_LOAD * LIGHT_BLEND)
+    for log_load in (highest + 1e-9, highest + 0.1, highest + 5.0):
+        assert m.default_domain(MoesPoint(np.exp(log_load) / unit, 5.0, kappa)) == Domain()
+    at = np.arange(np.log(0.5), highest + 0.5, 0.01)
+    slopes = np.diff([extents(log_load) for log_load in at], axis=0) / 0.01
+    power = m.LIGHT_GROWTH * np.array([1.0, m.LIGHT_SIDES_GROWTH, m.LIGHT_SIDES_GROWTH])
+    np.testing.assert_allclose(slopes[0], -power, rtol=1e-9)
+    assert np.all(np.abs(np.diff(slopes, axis=0)) < 0.03 * power)  # a corner would change them by all of it
+    assert np.all(np.diff(slopes, axis=0) > -1e-9)
 
 
+LIGHT = MoesPoint(6.0748, 2.7586, 0.08827)
+
+
+@pytest.fixture
+def tight(monkeypatch):
+    """A default region that pressure reaches beyond: none is known that the real one does not hold."""
+    monkeypatch.setattr(m, "LIGHT_SIDES_GROWTH", 0.8)
+
+
+@pytest.mark.usefixtures("tight")
 def test_every_solve_widens_its_region_alike():
     """The film at rest decides; of what is left open, all solvers take the same."""
     film = solve_steady(LIGHT, n=128, throw=False)
@@ -157,6 +184,7 @@ def test_every_solve_widens_its_region_alike():
         FullContact(LIGHT, n=128, domain=given)
 
 
+@pytest.mark.usefixtures("tight")
 def test_a_run_on_a_widened_region_goes_on(tmp_path):
     """A restart leaves the region open as the run did, and finds that of the checkpoint."""
     motion, path = FreeVibration(Omega_n=5.13), tmp_path / "run.h5"
@@ -169,14 +197,22 @@ def test_a_run_on_a_widened_region_goes_on(tmp_path):
         simulate(LIGHT, motion, n=128, domain=Domain(), until=0.1, dT=0.025, restart=path)
 
 
-def test_a_run_that_leaves_its_region_begins_again():
+def test_a_run_that_leaves_its_region_begins_again(monkeypatch):
     """At rest the film stays inside here, and leaves with the first step."""
+    monkeypatch.setattr(m, "LIGHT_SIDES_GROWTH", 0.5)
     point, motion = MoesPoint(5.5, 4.0, 0.15), FreeVibration(Omega_n=5.13)
     inside = solve_steady(point, refine=False).domain
     given = simulate(point, motion, n=64, domain=inside, until=0.2, throw=False)
     assert given.status is Status.OUT_OF_DOMAIN and given.T[-1] > 0.0
     run = simulate(point, motion, n=64, until=0.2)
     assert run.domain == inside.scaled(m.DOMAIN_GROWTH) and run.T[-1] == 0.2
+
+
+@pytest.mark.parametrize("kappa", [0.05, 0.5, 4.0])
+@pytest.mark.parametrize("N", [0.5, 2.0, 5.0])
+def test_default_region_holds_the_pressure_of_light_loads(kappa, N):
+    point = MoesPoint(N / MoesPoint(1.0, 0.0, kappa).load_number, 5.0, kappa)
+    assert solve_steady(point, n=128, method="multigrid").status is Status.CONVERGED
 
 
 def test_widened_ends_with_what_was_given():
@@ -201,6 +237,9 @@ def test_the_page_of_notation_has_the_numbers_of_the_code():
         f"{100 * limits.h_min:g} % of the smallest film",
         f"[{near.x_in:g}, {near.x_out:g}] x [-{near.y_max:g}, {near.y_max:g}]",
         f"[{nearest.x_in:g}, {nearest.x_out:g}] x [-{nearest.y_max:g}, {nearest.y_max:g}]",
+        f"below Wijnant's load number N = {LIGHT_LOAD / LIGHT_BLEND:g} the inlet with ({LIGHT_LOAD:g}/N)^"
+        f"{m.LIGHT_GROWTH:g}, up to {m.MOST_LIGHT_GROWTH:g} times, outlet and sides with the power "
+        f"{m.LIGHT_SIDES_GROWTH:g} of that, and gently from N = {LIGHT_LOAD * LIGHT_BLEND:g} on",
         f"Default [{Domain().x_in:g}, {Domain().x_out:g}] x [-{Domain().y_max:g}, {Domain().y_max:g}]",
     ):
         assert said in text, said

@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import asdict
 
 import atlas_stub
 import numpy as np
@@ -18,18 +19,19 @@ from ehlcontact import (
     mesh_for,
     solve_steady,
 )
+from ehlcontact.point import most_loaded_ball
 from reduced_models import Atlas, load_element
 from reduced_models.atlas.atlas import MODELS, SHIPPED
 from reduced_models.atlas.build import BOX, INTERPOLATION, assemble
 from reduced_models.atlas.elements import LEAST_APPROACH
 from reduced_models.atlas.sample import sample_points
 from reduced_models.atlas.solve import OMEGAS, solve_point
-from reduced_models.atlas.table import FIRST
 
 CASE = MoesPoint(200.0, 10.0, 0.5)
 LIMITS = {"approach": 0.003, "tangent": 0.01, "film": 0.02, "damping": 0.05}  # relative errors
 AT = {"wide": {}, "memory": {}, "cubic": {"Omega": 2.0 * math.pi}}
 BEARING = MoesPoint(2900.0, 19.0, 0.11)
+AXES = BOX.M, BOX.L, BOX.kappa
 
 
 def random_points(count, seed):
@@ -99,7 +101,9 @@ def test_error_bars_cover_what_was_not_sampled(analytic):
 def test_answers_hit_the_sampled_points(analytic):
     entries = [(p, atlas_stub.solve(p)) for p in sample_points(128, 128, 2).values()]
     solved = [(p, e) for p, e in entries if e["status"] == "converged" and p.p_hertz < BOX.p_hertz]
-    inside = [(p, e) for p, e in solved if 5.0 < p.M < 3e4 and p.L < 25.0 and 0.08 < p.kappa < 1.0]
+    inside = [
+        (p, e) for p, e in solved if all(a < x < b for (a, b), x in zip(AXES, (p.M, p.L, p.kappa), strict=True))
+    ]
     assert len(inside) > 50
     for p, e in inside[:20]:
         assert analytic.at(p).h_central == pytest.approx(e["h_central"], rel=1e-5)
@@ -108,12 +112,12 @@ def test_answers_hit_the_sampled_points(analytic):
 @pytest.mark.parametrize(
     ("point", "words"),
     [
-        (MoesPoint(4.0, 10.0, 0.5), ("M", "5 and 30000")),
-        (MoesPoint(31000.0, 1.0, 0.5), ("M", "5 and 30000")),
-        (MoesPoint(200.0, 25.1, 0.5), ("L", "0 and 25")),
-        (MoesPoint(200.0, 10.0, 0.07), ("kappa", "0.08 and 1")),
-        (MoesPoint(200.0, 10.0, 1.5), ("kappa", "0.08 and 1")),
-        (MoesPoint(20000.0, 25.0, 0.9), ("Hertz pressure", "3.5")),
+        (MoesPoint(0.9, 10.0, 0.5), ("M", "1 and 30000")),
+        (MoesPoint(31000.0, 1.0, 0.5), ("M", "1 and 30000")),
+        (MoesPoint(200.0, 30.1, 0.5), ("L", "0 and 30")),
+        (MoesPoint(200.0, 10.0, 0.04), ("kappa", "0.045 and 1")),
+        (MoesPoint(200.0, 10.0, 1.5), ("kappa", "0.045 and 1")),
+        (MoesPoint(20000.0, 25.0, 0.9), ("Hertz pressure", "4.1")),
         (MoesPoint(200.0, 10.0, 0.5, viscosity="barus"), ("viscosity", "roelands")),
         (MoesPoint(200.0, 10.0, 0.5, alpha=5e-8), ("alpha", "4e-08")),
         (MoesPoint(200.0, 10.0, 0.5, eta0=3.0), ("eta0", "0.002 and 1")),
@@ -138,9 +142,10 @@ def test_error_bars_widen_by_what_the_oil_may_change(shipped, alpha, eta0):
     meta = shipped.metadata
     own, other = shipped.at(CASE), shipped.at(MoesPoint(200.0, 10.0, 0.5, alpha=alpha, eta0=eta0))
     away = abs(math.log(alpha / meta["alpha"])), abs(math.log(eta0 / meta["eta0"]))
-    film, K, C = (np.dot(meta["oil"][name], away) for name in ("film", "stiffness", "damping"))
+    film, K, C, m = (np.dot(meta["oil"][name], away) for name in ("film", "stiffness", "damping", "moment"))
     K *= 1.0 - own.approach  # the thinner the film, the less
     changes = {"h_central": film * own.h_central, "h_min": film * own.h_min, "stiffness": K * own.stiffness}
+    changes["moment"] = m * own.moment
     for name, change in (changes | {"approach": film * (1.0 - own.approach)}).items():
         np.testing.assert_allclose(np.subtract(other.error[name], own.error[name]), change, rtol=1e-9)
     assert (other.error["damping"] > np.hypot(own.error["damping"], C * own.damping)).all()
@@ -184,7 +189,7 @@ def test_wide_range_follows_the_atlas_over_the_load(shipped):
 @pytest.mark.parametrize(
     ("point", "end", "expected"),
     [
-        (MoesPoint(50.0, 10.0, 0.5), 0, 0.1),  # M = 5
+        (MoesPoint(50.0, 10.0, 0.5), 0, 0.02),  # M = 1
         (MoesPoint(20000.0, 5.0, 0.2), 1, 1.5),  # M = 30000
         (MoesPoint(3000.0, 20.0, 0.3), 1, None),  # Hertz pressure
     ],
@@ -205,7 +210,8 @@ def test_bars_are_wide_where_films_are_too_thin_to_be_solved(shipped):
 def test_every_point_of_the_box_gives_elements(shipped):
     """Passive, rising, positive: the elements check all that when they are made."""
     made = 0
-    for point in [*random_points(120, 11), MoesPoint(5.0, 0.0, 0.08), MoesPoint(30000.0, 0.0, 1.0)]:
+    corners = MoesPoint(1.0, 0.0, 0.045), MoesPoint(1.0, 30.0, 0.045), MoesPoint(30000.0, 0.0, 1.0)
+    for point in [*random_points(120, 11), *corners]:
         for model in MODELS:
             if model == "cubic" and shipped.at(point).approach < LEAST_APPROACH:
                 with pytest.raises(InputError, match="cubic"):
@@ -247,7 +253,9 @@ def test_answers_in_si_have_their_error_bars_in_si(shipped):
     si = answer.si
     np.testing.assert_allclose(si.hz, answer.Omega / (2.0 * math.pi * s.time))
     np.testing.assert_allclose(si.damping, answer.damping * s.force / s.length * s.time)
-    for name, unit in (("approach", s.length), ("h_min", s.length), ("stiffness", s.force / s.length)):
+    lengths = ("approach", "h_min", "film_share")
+    units = dict.fromkeys(lengths, s.length) | {"stiffness": s.force / s.length, "moment": s.force * s.a}
+    for name, unit in units.items():
         np.testing.assert_allclose(getattr(si, name), np.asarray(getattr(answer, name)) * unit)
         np.testing.assert_allclose(si.error[name], np.asarray(answer.error[name]) * unit)
     assert set(si.error) == set(answer.error) and answer.to_dict()["si"]["force"] == 60.0
@@ -264,8 +272,7 @@ def test_a_cubic_is_asked_for_its_frequency(shipped):
         shipped.element(point, "cubic")
     slow, same = shipped.element(point, "cubic", hz=50.0), shipped.element(point, "cubic", rpm=3000.0)
     assert slow.C1 == pytest.approx(same.C1, rel=1e-12)
-    answer = shipped.at(point).si
-    assert pytest.approx(np.interp(50.0, answer.hz, answer.damping), rel=1e-6) == slow.C1
+    assert pytest.approx(shipped.at(point).impedance(hz=50.0).si.damping[0], rel=1e-12) == slow.C1
     for model in ("wide", "memory"):
         with pytest.raises(
             InputError, match=rf"^hz = 50: must be left out with model '{model}', which serves every"
@@ -285,8 +292,8 @@ def test_cubic_of_another_frequency(shipped):
 
 
 def test_what_is_shipped(shipped):
-    assert SHIPPED.stat().st_size < 5e6
-    assert shipped.box == BOX and BOX.M == (5.0, 30000.0) and BOX.L == (0.0, 25.0) and BOX.kappa == (0.08, 1.0)
+    assert SHIPPED.stat().st_size < 7e5
+    assert shipped.box == BOX and BOX.M == (1.0, 30000.0) and BOX.L == (0.0, 30.0) and BOX.kappa == (0.045, 1.0)
     meta = shipped.metadata
     assert meta["command"].startswith("ehlcontact atlas build --draws") and meta["version"] == __version__
     assert meta["points"] > 500 and sum(meta["meshes"].values()) == meta["points"]
@@ -304,20 +311,25 @@ def changed(path, target, **entries):
 
 
 def test_numbers_of_the_interpolation_travel_with_the_file(shipped, tmp_path):
-    """Files of the first library lack them and answer as they did; others answer by their own."""
+    """Each file answers by its own."""
     header = json.loads(str(np.load(SHIPPED)["metadata"]))
-    assert set(FIRST) <= set(header) and header["interpolation"]["weights"] == list(INTERPOLATION.weights)
-    first = Atlas(changed(SHIPPED, tmp_path / "first.npz", **dict.fromkeys(FIRST)))
-    assert first.metadata == shipped.metadata
-    other = {**header["interpolation"], "weights": [0.4, 0.114, 0.22, 0.6]}
+    assert header["interpolation"] == json.loads(json.dumps(asdict(INTERPOLATION)))
+    weights = header["interpolation"]["weights"]
+    other = {**header["interpolation"], "weights": [*weights[:3], 0.5 * weights[3]]}
     heavier = Atlas(changed(SHIPPED, tmp_path / "other.npz", interpolation=other))
     narrow = Atlas(changed(SHIPPED, tmp_path / "oil.npz", oil={**header["oil"], "alpha": [2e-8, 3e-8]}))
     for point in random_points(5, 3):
-        own, same, not_own = (atlas.at(point) for atlas in (shipped, first, heavier))
-        assert same.approach == own.approach and np.array_equal(same.error["damping"], own.error["damping"])
-        assert not_own.h_central != own.h_central
+        assert heavier.at(point).h_central != shipped.at(point).h_central
     with pytest.raises(InputError, match="alpha = 1e-08: must be between 2e-08 and 3e-08"):
         narrow.at(MoesPoint(200.0, 10.0, 0.5, alpha=1e-8))
+
+
+def test_a_file_of_the_first_library_is_refused_in_one_line(tmp_path):
+    """It has no moment, and its default region had a kink."""
+    with pytest.raises(
+        InputError, match=r"^atlas = '.*old.npz, of version 1': must be of version 2, which `ehlcon"
+    ):
+        Atlas(changed(SHIPPED, tmp_path / "old.npz", schema_version=1))
 
 
 @pytest.mark.parametrize(
@@ -336,12 +348,65 @@ def test_shipped_answers_against_fresh_solves(shipped, point):
     assert all(found[name] < limit for name, limit in LIMITS.items())
 
 
+@pytest.mark.parametrize("race", ["inner", "outer"])
+@pytest.mark.parametrize("conformity", [0.505, 0.51, 0.52, 0.53])
+@pytest.mark.parametrize("speed", [300.0, 3000.0, 12000.0])
+def test_the_6205_on_vg_68_from_idling_to_its_limit(shipped, race, conformity, speed):
+    """20 N to 3 kN per ball at 50 C: within the box but for the heaviest at creep; no bar swamps its answer."""
+    oil = Lubricant.iso_vg(68, temperature=50.0, viscosity_index=98)
+    loads = (20.0, 100.0, 500.0, 3000.0) if speed >= 3000.0 else (20.0, 100.0, 500.0)
+    for load in loads:
+        point = OperatingPoint.ball_bearing(
+            oil,
+            ball_diameter=7.94e-3,
+            pitch_diameter=39.04e-3,
+            conformity=conformity,
+            speed_rpm=speed,
+            load=load,
+            race=race,
+        )
+        answer = shipped.at(point)
+        assert answer.error["approach"] < 0.01 * max(1.0, answer.film_share)
+        assert answer.error["h_central"] < 0.1 * answer.h_central
+        assert 0.0 < answer.si.moment < 0.01 * load * point.scales.a * 100.0
+        assert shipped.element(point, "memory").rest(1.0) is not None
+
+
+@pytest.mark.parametrize(("speed", "load"), [(3000.0, 1000.0), (3000.0, 300.0), (1000.0, 1000.0)])
+def test_rolling_resistance_of_a_6205_against_its_maker(shipped, speed, load):
+    """SKF, Rolling Bearings (catalogue), rolling frictional moment of the 62 series: within a fifth.
+
+    ``R1 dm^1.96 F^0.54 (nu n)^0.6`` N mm with R1 = 3.9e-7, mm, N, mm2/s and rev/min. Ours loses moment u/Rx in
+    every contact of balls that share the load as `most_loaded_ball` has it, without clearance.
+    """
+    oil, heaviest = Lubricant(0.0367, 2e-8), most_loaded_ball(load, 9)
+    lost = 0.0
+    for race in ("inner", "outer"):
+        for angle in (0.0, 40.0, 40.0, 80.0, 80.0):
+            point = OperatingPoint.ball_bearing(
+                oil,
+                ball_diameter=7.94e-3,
+                pitch_diameter=39.04e-3,
+                conformity=0.52,
+                speed_rpm=speed,
+                load=heaviest * math.cos(math.radians(angle)) ** 1.5,
+                race=race,
+            )
+            lost += shipped.at(point).si.moment * 0.5 * point.u_sum / point.geometry.radius_x
+    torque = 1e3 * lost / (speed * math.pi / 30.0)
+    assert torque == pytest.approx(3.9e-7 * 38.5**1.96 * load**0.54 * (42.9 * speed) ** 0.6, rel=0.2)
+
+
 @pytest.mark.slow
-@pytest.mark.xfail(
-    strict=True,
-    reason="M 5.59, L 12.3, kappa .368 is 1.9 % off in tangent and 8.1 % in damping, within its error bars: near "
-    "Wijnant's N = 3 the default domain begins to grow, which puts a kink into both",
-)
+def test_thin_film_of_a_narrow_contact(shipped):
+    """Once 4.4 % off in the central film at 2.7 times its bar, where no mesh of a build resolved the film."""
+    point = MoesPoint(17241.0, 0.49, 0.149)
+    answer, film = shipped.at(point), solve_point(point)["film"]
+    for name in ("approach", "h_central", "h_min", "moment"):
+        assert abs(getattr(answer, name) - film[name]) <= answer.error[name], name
+
+
+@pytest.mark.slow
 def test_sixty_random_points_of_the_box(shipped):
     """Must-show of issue 4. Damping is compared where the default domain was solved, of which the atlas speaks."""
     found, covered = {name: [] for name in LIMITS}, []

@@ -18,6 +18,7 @@ from reduced_models import (
     simulate_rotor,
 )
 from reduced_models.atlas.elements import damper_band
+from reduced_models.atlas.frequency import Between
 from reduced_models.elements.made_for import MadeFor
 
 RACE = {"ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3, "conformity": 0.52}
@@ -160,9 +161,9 @@ def test_reasons_are_told_one_by_one(atlas):
 def test_band_of_a_damper_is_where_it_is_right(atlas):
     answer = atlas.at(POINT)
     for w in (0.0, 0.012, 1.0, 6.0, 60.0):
-        low, high = damper_band(answer.Omega, answer.damping, w)
+        low, high = damper_band(answer.Omega, Between(answer.Omega, answer.damping), w)
         inside = np.linspace(low, high, 50)
-        C = np.interp(inside, answer.Omega, answer.damping) / np.interp(w, answer.Omega, answer.damping)
+        C = answer.impedance(Omega=inside).damping / answer.impedance(Omega=w).damping
         assert low <= w <= high and np.all(np.abs(C - 1.0) <= 0.05)
     si = atlas.element(POINT, "cubic", rpm=3000)
     assert si.omega_range[0] == 0.0 and si.omega_range[1] > 2.0 * 100 * math.pi
