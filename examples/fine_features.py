@@ -149,7 +149,9 @@ def draw_rough(run: SimulationResult, surface: Roughness, path: Path) -> None:
         maps.colorbar(image, ax=panel, label=label, shrink=0.95)
     upper, lower = lines.subplots(2, 1, sharex=True)
     heights = surface(film.X[None, :], np.zeros((1, 1)), T)[0]
-    upper.plot(film.X, heights / central, color=COLOURS["grey"], linewidth=0.9, label="roughness, undeformed")
+    upper.plot(
+        film.X, heights / central, color=COLOURS["grey"], linewidth=0.9, label="roughness, undeformed, valleys up"
+    )
     change = (film.along.H - run.h_midplane[0]) / central
     upper.plot(film.X, change, color=COLOURS["blue"], linewidth=1.2, label="change of the film")
     upper.set(ylabel="height/film", ylim=(-0.65, 0.65))

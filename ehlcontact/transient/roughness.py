@@ -23,7 +23,7 @@ Taps = tuple[NDArray[np.intp], Array]  # samples beside each place, and their we
 FEWEST_NODES = 4.0  # of the mesh to the shortest wave: with fewer the film does not follow it
 SAMPLES = 8.0  # of a made map to its shortest wave: the spline between them is then off by 3e-4 of sigma at most
 FEWEST_SAMPLES = 4  # of a map along either direction, which a cubic spline needs
-MOST_SAMPLES = 20_000_000  # of a made map: 160 MB
+MOST_SAMPLES = 20_000_000  # of a made map: 160 MB, and three times that while it is made
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,5 +1,8 @@
 """Dents through a contact, rolling and sliding: what they do to the film, and that fine grids carry them."""
 
+import importlib.util
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -61,7 +64,7 @@ def test_a_rolling_dent_is_carried_as_it_is(passages):
     assert now[np.abs(X - centre) < 0.15].max() == pytest.approx(
         before[np.abs(X - centre_before) < 0.15].max(), rel=0.02
     )
-    around = np.abs(X - centre) < 0.5  # ahead of it the film is thinner by 4 %, and stays so
+    around = np.abs(X - centre) < 0.5  # ahead of it the film is thinner, and stays so
     shifted = np.roll(before, round(0.25 / (X[1] - X[0])))
     assert np.abs(now - shifted)[around].max() < 0.02
     assert np.abs(now[contact & ~around]).max() < 0.01
@@ -84,6 +87,26 @@ def test_on_the_faster_surface_it_stays_behind(passages):
     change, centre, contact = passage.at(1.25)
     assert crest(passage.X, change, contact & (passage.X < centre - 0.3))[0] > 0.1
     assert np.abs(change[contact & (passage.X > centre + 0.4)]).max() < 0.02
+
+
+def test_example_draws_both_passages(tmp_path, capsys):
+    """The oil that ran ahead is told and drawn; M and L are those of the rolling dimple in `dimple.py`."""
+    path = Path(__file__).parents[3] / "examples" / "fine_features.py"
+    spec = importlib.util.spec_from_file_location("fine_features", path)
+    example = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(example)
+    assert example.BALL_ON_DISC.moes.M == pytest.approx(MOURIER.M, rel=1e-3)
+    assert example.BALL_ON_DISC.moes.L == pytest.approx(MOURIER.L, rel=1e-3)
+    runs = {name: example.roll(speed, start, 64) for name, (speed, start) in example.SPEEDS.items()}
+    for name, run in runs.items():
+        assert run.snapshot_T.size == len(example.PLACES)
+        example.report_dent(name, *example.SPEEDS[name], run)
+    ahead = [
+        float(line.split("at most ")[1].split(" nm")[0]) for line in capsys.readouterr().out.splitlines()[1::2]
+    ]
+    assert ahead[1] > 1.2 * ahead[0]
+    example.draw_dents(runs, tmp_path / "dents.png")
+    assert (tmp_path / "dents.png").stat().st_size > 20_000
 
 
 @pytest.mark.slow
