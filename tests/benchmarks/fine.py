@@ -32,7 +32,7 @@ MOURIER, ROUGH = MoesPoint(63.7817, 5.78819, 1.0), MoesPoint(200.0, 10.0, 1.0)
 FILM = 0.08168  # central one at ROUGH, n = 128
 WITHIN = 0.85  # of the Hertz radius
 CASES: dict[str, tuple[MoesPoint, Surface, float]] = {
-    "rolling": (MOURIER, Dent(0.11699, 0.13602, -1.5), 1.5),
+    "rolling": (MOURIER, Dent(0.11699, 0.13602, -1.5), 1.875),
     "sliding": (MOURIER, Dent(0.10696, 0.18868, -1.375, speed=0.5), 2.0),
     "rough": (ROUGH, Roughness.synthetic(0.1 * FILM, 0.5, 1 / 16, length=4, width=2, seed=1, start=-1.25), 1.0),
     "finer": (ROUGH, Roughness.synthetic(0.1 * FILM, 0.5, 1 / 32, length=4, width=2, seed=1, start=-1.25), 1.25),
