@@ -282,7 +282,7 @@ def transient(bench: Bench) -> None:
 
 def surfaces(bench: Bench) -> None:
     """Features that pass through the contact, one of them too small for the grid, one not even in Y."""
-    from ehlcontact import Dent, HarmonicLoad, Waviness, simulate
+    from ehlcontact import Dent, HarmonicLoad, Roughness, Waviness, simulate
 
     cases = {
         "dent": Dent(0.05, 0.8, speed=1.2),
@@ -292,6 +292,8 @@ def surfaces(bench: Bench) -> None:
         "small dent": Dent(0.01, 0.1, start=0.0),
         "aslant": lambda X, Y, T: 0.01 * np.sin(2.0 * X + Y),
         "faint": Waviness(1.2e-9, 0.12),
+        "rough": Roughness.synthetic(0.01, 2.0, 0.8, kappa=0.5, start=0.0),
+        "rougher": Roughness.synthetic(0.01, 2.0, 0.5, kappa=0.5, start=0.0),
     }
     for name, surface in cases.items():
         bench.case(
