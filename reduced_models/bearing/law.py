@@ -32,7 +32,7 @@ from reduced_models.elements.film_law import DIRECT, FilmLaw, films, static
 
 _Floats = NDArray[np.float64]
 
-CELLS = 128  # cubics between two nodes: g within 1e-10 of Newton's method
+CELLS = 128  # cubics between two nodes: g within 1e-9 of Newton's method in gaps, 1e-10 where surfaces meet
 WIDEST_GAP = 4e-3  # [m] to which the table goes; beyond, g falls as it should but its slope is not matched
 SPACING = 0.35  # of ln F, at most, between nodes: a film in a wide gap doubles
 OVERLOAD = 64.0  # times the load of the last node, to which the table goes

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
-from reduced_models.bearing.file import plain, read, write
+from reduced_models.bearing.file import plain, write
+from reduced_models.bearing.file import read as read_entries
 
 _Floats = NDArray[np.float64]
 
@@ -107,6 +108,6 @@ class BearingState:
         return write(path, SCHEMA, self.to_dict())
 
     @classmethod
-    def load_file(cls, path: str | os.PathLike[str]) -> Self:
+    def read(cls, path: str | os.PathLike[str]) -> Self:
         """Read what `save` wrote; raises `InputError` for anything else."""
-        return cls(**read(path, SCHEMA, cls))
+        return cls(**read_entries(path, SCHEMA, cls))

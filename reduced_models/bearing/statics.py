@@ -15,6 +15,7 @@ from reduced_models.rotor.equilibrium import equilibrium
 _Floats = NDArray[np.float64]
 
 STILL = np.zeros(2)  # velocity of a ring at rest
+SEATED = 1e-9  # least product of the two stiffnesses of a ring over the square of their sum: below is rounding
 
 
 class StaticBalls:
@@ -78,7 +79,7 @@ def stand(balls: Balls, turn: Turn, load: _Floats, angle: float) -> Standing:
     still = StaticBalls(balls, turn, angle)
     q = np.zeros(2) if not load.any() else equilibrium(still, load)  # type: ignore[arg-type]
     stiffness = still.tangent(q)
-    if not np.linalg.det(stiffness) > 0.0:
+    if not np.linalg.det(stiffness) > SEATED * np.trace(stiffness) ** 2:
         allowed = "one that presses balls on both sides of its direction; or preload the bearing (clearance < 0)"
         raise InputError("load", load.tolist(), allowed)
     w = still.films.w[:, 0]
