@@ -12,6 +12,9 @@
 | statics | where the ring stands under a load |
 | linear | stiffness and damping over frequency |
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
+| rotor | `MatrixRotor`: any linear rotor on bearings, at rest |
+| loop | compiled: generalised-alpha steps of rotor, bearings and balls |
+| run | `simulate_on_bearings`: such a rotor over time, speed constant or not |
 | state | `BearingState`: a bearing at rest, ball by ball; its file |
 | picture | figures |
 | file | JSON of bearings and states |

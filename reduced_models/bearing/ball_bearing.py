@@ -23,7 +23,7 @@ from ehlcontact.checks import (
 from ehlcontact.checks.box import INPUTS
 from ehlcontact.checks.frequency import by_name, radians_per_second
 from ehlcontact.errors import InputError
-from reduced_models.bearing.balls import Balls, turning
+from reduced_models.bearing.balls import Balls, Turn, turning
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
 from reduced_models.bearing.file import plain, read, write
 from reduced_models.bearing.kinematics import (
@@ -183,7 +183,7 @@ class BallBearing:
 
     def element(self, race: str, speed_rpm: float) -> WideRangeContact:
         """Element of a ball's contact with one race [SI], for all loads that the atlas has at this speed."""
-        contact, speed = self.race(race), self._speed(speed_rpm)
+        contact, speed = self.race(race), self.speed(speed_rpm)
         if self.oil is None:
             raise InputError("oil", None, "given, for a film")
         if (race, speed) not in self._known:
@@ -231,7 +231,7 @@ class BallBearing:
         InputError
             A load that is not radial, that does not seat the bearing or is beyond the atlas; a speed beyond it.
         """
-        force, speed = _radial(load), self._speed(speed_rpm)
+        force, speed = _radial(load), self.speed(speed_rpm)
         angle = direction_of(force) if cage_angle is None else _radians(cage_angle)
         at = self._stand(force, speed, angle)
         return BearingState(
@@ -275,18 +275,18 @@ class BallBearing:
         -------
         BearingCoefficients
         """
-        force, speed = _radial(load), self._speed(speed_rpm)
+        force, speed = _radial(load), self.speed(speed_rpm)
         w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
         first = direction_of(force) if cage_angle is None else _radians(cage_angle)
         steps = np.arange(POSITIONS) / POSITIONS if cage_angle is None else np.zeros(1)
         angles = first + 2.0 * pi / self.balls * steps
         kernel = self.kernel(speed)
         standings = [self._stand(force, speed, angle) for angle in angles.tolist()]
-        mean = np.mean([impedances(kernel, self._turn(speed), standing, w) for standing in standings], axis=0)
+        mean = np.mean([impedances(kernel, self.turn(speed), standing, w) for standing in standings], axis=0)
         return BearingCoefficients.of(force, speed, cage_angle, w, mean, standings)
 
     def _stand(self, load: _Floats, speed: float, angle: float) -> Standing:
-        standing = stand(self.kernel(speed), self._turn(speed), load, angle)
+        standing = stand(self.kernel(speed), self.turn(speed), load, angle)
         if self.oil is not None:
             for name, most in zip(RACES, standing.force.max(axis=0).tolist(), strict=True):
                 highest = self.race(name).loads(speed)[1]
@@ -298,7 +298,9 @@ class BallBearing:
                     )
         return standing
 
-    def _turn(self, speed: float) -> Any:
+    def turn(self, speed_rpm: float) -> Turn:
+        """Films, cage and centrifugal force at a speed, as the kernels have them."""
+        speed = self.speed(speed_rpm)
         return turning(self.kernel(speed), speed * RADIANS)
 
     def _films(self, at: Standing, speed: float) -> dict[str, _Floats]:
@@ -332,7 +334,8 @@ class BallBearing:
         rolling = rolling_radius(self.pitch_diameter, self.gamma)
         return Race(name, body, self.ball_diameter, conformity, self.oil, rolling, self.atlas)
 
-    def _speed(self, speed_rpm: float) -> float:
+    def speed(self, speed_rpm: float) -> float:
+        """The speed [rev/min] where the bearing can run at it; raises `InputError` where not."""
         speed = require_nonnegative("speed_rpm", speed_rpm)
         if self.oil is None:
             return speed

@@ -26,7 +26,7 @@ _Floats = NDArray[np.float64]
 
 # Imbalance of a ball, over its forces and 1 N, from which one step of Newton's method to first order ends the
 # search: what that leaves is of its square
-NEARLY = 1e-8
+NEARLY = 1e-7
 MOST_STEPS = 60  # of that search: a handful, but where a ball lands
 FIRST_STEP = 1e-7  # [m], to a ball that nothing touches; doubled until a race is met
 FILM_GROWTH = 0.67  # of the film with speed (Hamrock and Dowson 1977): between two speeds of a law, films add so
@@ -89,7 +89,7 @@ def begin_step(balls, turn, dt, films):
     """Begin a step of length `dt`, as long as the one before; returns the gain from w to its rate (BDF 2)."""
     for k in range(balls.number):
         now, before = films.w[k, 2], films.w[k, 3]
-        films.w[k, 0], films.w[k, 1] = 2.0 * now - before, (4.0 * now - before) / 3.0
+        films.w[k, 1] = (4.0 * now - before) / 3.0
         begin(balls.inner, turn.inner, turn.spin, dt, films, 2 * k)
         begin(balls.outer, turn.outer, turn.spin, dt, films, 2 * k + 1)
     return 1.5 / dt
@@ -105,7 +105,8 @@ def begin_rest(films):
 @jit_exact_node
 def _ball(balls, turn, films, k, delta, rate, gain):
     """Balance ball `k`; returns the force on the ring and its derivatives by delta and by the rate of delta."""
-    w, history = films.w[k, 0], films.w[k, 1]
+    history, last = films.w[k, 1], films.w[k]
+    w = last[0] + last[6] * (delta - last[4]) + last[7] * (rate - last[5])
     low, high, reach = -inf, inf, FIRST_STEP
     for _ in range(MOST_STEPS):
         v = gain * (w - history)
@@ -117,8 +118,9 @@ def _ball(balls, turn, films, k, delta, rate, gain):
             if tangent > 0.0:
                 step = -balance / tangent
                 w, fi, fo = w + step, fi - inner * step, fo + outer * step
+                last[6], last[7] = ki / tangent, di / tangent
                 ki, di = ki * outer / tangent, di * outer / tangent
-            films.w[k, 0], films.force[k, 0], films.force[k, 1] = w, fi, fo
+            last[0], last[4], last[5], films.force[k, 0], films.force[k, 1] = w, delta, rate, fi, fo
             return fi, ki, di
         if balance > 0.0:
             high = w
@@ -135,11 +137,13 @@ def _ball(balls, turn, films, k, delta, rate, gain):
 
 
 @jit_exact_loop
-def press_balls(balls, turn, films, normals, q, v, gain, force, stiffness, damping):
-    """Force that the ring at `q`, moving at `v`, exerts on the balls, and its derivatives; those are (2, 2).
+def press_balls(balls, turn, films, normals, q, v, gain, out):
+    """Force that the ring at `q`, moving at `v`, exerts on the balls, and its derivatives by both.
 
-    The step is that begun last, with its `gain`. Not a number where a ball finds no balance.
+    They are written into `out`, arrays of shape (2,), (2, 2) and (2, 2). The step is that begun last, with its
+    `gain`. Not a number where a ball finds no balance.
     """
+    force, stiffness, damping = out
     force[:], stiffness[:], damping[:] = 0.0, 0.0, 0.0
     for k in range(balls.number):
         x, y = normals[k]

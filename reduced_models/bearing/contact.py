@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.jit import jit_exact_loop, jit_exact_node
 from reduced_models.bearing.law import carried, curve
-from reduced_models.elements.film_law import DIRECT, residence
+from reduced_models.elements.film_law import DIRECT
 
 _Floats = NDArray[np.float64]
 
@@ -53,7 +53,7 @@ def begin(law, transit, spin, dt, films, c):
     work[c, HUMP] = -(s_a - inlet) / (p * span) - 0.5 * (inlet + s_a)
     work[c, HUMP + 1], work[c, HUMP + 2] = -s_e * both, 1.0 / span - s_t * both
     mu, lags = law.lag_rate * span, law.gains.shape[2] - DIRECT
-    residence(mu, lags + 2, poisson, share)
+    _shares(mu, lags + 2, poisson, share)
     per_mu = 1.0 / mu
     for j in range(lags):
         r1 = (j + 1) * share[j + 2] * per_mu
@@ -72,7 +72,7 @@ def _lag(old, start, rate, span):
     """One lag after the input start + (e - start) s + 6 bump s (1 - s) of integral t: sums of 1, e and t."""
     mu = rate * span
     still = exp(-mu)
-    if mu < FEW:  # the shares of Poisson's law from their far end, or small ones would drown in rounding
+    if mu < FEW:
         term, third = still * mu * mu * mu / 6.0, 0.0
         for k in range(4, TERMS):
             third += term
@@ -88,25 +88,58 @@ def _lag(old, start, rate, span):
     return old * still + start * (r1 - 3.0 * hump), r0 - r1 - 3.0 * hump, 6.0 * hump / span
 
 
-@jit_exact_loop
-def _weigh(law, spin, row, work, c, at):
-    """Sums of one row of gains over all filters."""
+@jit_exact_node
+def _shares(mu, n, poisson, share):
+    """Poisson's weights of mean `mu`, and the share of what entered that k lags have passed on, to k = n.
+
+    As `_residence` of the elements, whose care for shares too small to be seen takes twice the time.
+    """
+    weight, passed = exp(-mu), 1.0
+    for k in range(n + 1):
+        poisson[k], share[k] = weight, passed
+        passed -= weight
+        weight *= mu / (k + 1)
+    if mu < FEW:  # from the far end, or shares that are divided by mu would drown in rounding
+        passed, k = 0.0, n
+        while weight > 1e-17 * passed:
+            passed += weight
+            k += 1
+            weight *= mu / (k + 1)
+        for k in range(n, -1, -1):
+            passed += poisson[k]
+            share[k] = passed
+
+
+@jit_exact_node
+def _weigh(law, spin, row, work, c):
+    """Sums of the gains of `row` and of the next over all filters."""
     gains, speed, weight = law.gains, spin[0], spin[1]
-    next_speed = speed + 1 if weight > 0.0 else speed
+    other = speed + 1 if weight > 0.0 else speed
     held, ends, humps, lags = 0.0, 0.0, 0.0, gains.shape[2] - DIRECT
-    for j in range(DIRECT, gains.shape[2]):
-        below = gains[speed, row, j]
-        gain = below + weight * (gains[next_speed, row, j] - below)
-        if gain != 0.0:
-            lag = HELD + j - DIRECT
-            held += gain * work[c, lag]
-            ends += gain * work[c, lag + lags]
-            humps += gain * work[c, lag + 2 * lags]
-    viscous = gains[speed, row, 0] + weight * (gains[next_speed, row, 0] - gains[speed, row, 0])
-    inlet = gains[speed, row, 1] + weight * (gains[next_speed, row, 1] - gains[speed, row, 1])
-    fast = gains[speed, row, 2] + weight * (gains[next_speed, row, 2] - gains[speed, row, 2])
+    next_held, next_ends, next_humps = 0.0, 0.0, 0.0
+    for j in range(lags):
+        gain, after = gains[speed, row, DIRECT + j], gains[speed, row + 1, DIRECT + j]
+        if weight > 0.0:
+            gain += weight * (gains[other, row, DIRECT + j] - gain)
+            after += weight * (gains[other, row + 1, DIRECT + j] - after)
+        holds, end, hump = work[c, HELD + j], work[c, HELD + lags + j], work[c, HELD + 2 * lags + j]
+        held, next_held = held + gain * holds, next_held + after * holds
+        ends, next_ends = ends + gain * end, next_ends + after * end
+        humps, next_humps = humps + gain * hump, next_humps + after * hump
+    _add(gains, (speed, other, weight, row), work, c, ROW, (held, ends, humps))
+    _add(gains, (speed, other, weight, row + 1), work, c, NEXT, (next_held, next_ends, next_humps))
+
+
+@jit_exact_node
+def _add(gains, of, work, c, at, chain):
+    """Sums of one row from those of its chain."""
+    speed, other, weight, row = of
+    held, ends, humps = chain
+    viscous = gains[speed, row, 0] + weight * (gains[other, row, 0] - gains[speed, row, 0])
+    inlet = gains[speed, row, 1] + weight * (gains[other, row, 1] - gains[speed, row, 1]) + ends
+    fast = gains[speed, row, 2] + weight * (gains[other, row, 2] - gains[speed, row, 2])
     for k in range(3):
-        work[c, at + k] = (inlet + ends) * work[c, S + k] + fast * work[c, Y + k] + humps * work[c, HUMP + k]
+        work[c, at + k] = inlet * work[c, S + k] + fast * work[c, Y + k] + humps * work[c, HUMP + k]
     work[c, at] += held
     work[c, at + 1] += viscous
 
@@ -126,8 +159,7 @@ def press(law, transit, spin, films, c, u, v):
     while k < law.x.size - 2 and x > law.x[k + 1]:
         k += 1
     if k != films.place[c, 1]:
-        _weigh(law, spin, k, work, c, ROW)
-        _weigh(law, spin, k + 1, work, c, NEXT)
+        _weigh(law, spin, k, work, c)
         films.place[c, 1] = k
     per_x = 1.0 / (law.x[k + 1] - law.x[k])
     weight = (x - law.x[k]) * per_x
@@ -181,7 +213,7 @@ class Films(NamedTuple):
     place: NDArray[np.int64]  # (contacts, 2): interval of the curve used last, rows of gains that `work` has
     poisson: _Floats  # room for `begin`
     share: _Floats
-    w: _Floats  # (balls, 4) see `balls`
+    w: _Floats  # (balls, 8) as `balls` has it
     force: _Floats  # (balls, 2) at the inner and at the outer race [N]
 
 
@@ -194,6 +226,6 @@ def new_films(balls: int, lags: int) -> Films:
         place=np.zeros((contacts, 2), np.int64),
         poisson=np.zeros(lags + 3),
         share=np.zeros(lags + 3),
-        w=np.zeros((balls, 4)),
+        w=np.zeros((balls, 8)),
         force=np.zeros((balls, 2)),
     )

@@ -129,7 +129,7 @@ class BearingMotion:
 
     def _press(self, turn: Turn, q: _Floats, v: _Floats, gain: float) -> tuple[_Floats, _Floats, _Floats]:
         force, stiffness, damping = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
-        press_balls(self.balls, turn, self.films, self._normals, q, v, gain, force, stiffness, damping)
+        press_balls(self.balls, turn, self.films, self._normals, q, v, gain, (force, stiffness, damping))
         if not np.isfinite(force).all():
             raise ConvergenceError(f"a ball finds no balance with the ring at {q.tolist()} m", None)
         return force, stiffness, damping
@@ -139,11 +139,11 @@ class BearingMotion:
 def _drive(balls, turn, films, motion, arrays, out):
     """Steps along a motion; the first has not begun."""
     dt, angles, q, v = motion
-    normals, force, stiffness, damping = arrays
+    normals, force = arrays[0], arrays[1]
     for i in range(angles.size):
         directions(balls, angles[i], normals)
         gain = begin_step(balls, turn, dt, films)
-        press_balls(balls, turn, films, normals, q[i], v[i], gain, force, stiffness, damping)
+        press_balls(balls, turn, films, normals, q[i], v[i], gain, arrays[1:])
         accept_balls(balls, turn, films, normals, q[i], v[i], gain)
         out[0][i, 0], out[0][i, 1] = force[0], force[1]
         for k in range(balls.number):

@@ -5,16 +5,11 @@ from __future__ import annotations
 import os
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ehlcontact.files import write_bytes
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from reduced_models.bearing.state import BearingState
 
 INNER, OUTER, LOAD, GREY = "#0072b2", "#e69f00", "#d55e00", "#7f7f7f"  # Okabe and Ito, for colour-blind eyes
 SIZE, DPI = (9.0, 4.4), 130  # inches; of files
@@ -22,8 +17,8 @@ BAR = 0.5  # width of a bar over the angle between two balls
 ROOM = 1.25  # radius of the load zone over its longest bar
 
 
-def draw_state(state: BearingState, path: str | os.PathLike[str] | None = None) -> Figure:
-    """Load zone as a polar picture beside the films of every ball; the file's ending gives its format."""
+def draw_state(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
+    """Load zone of a `BearingState` beside the films of every ball; the file's ending gives its format."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=SIZE, layout="constrained")
@@ -40,7 +35,7 @@ def draw_state(state: BearingState, path: str | os.PathLike[str] | None = None) 
     return figure
 
 
-def _load_zone(axes: Any, state: BearingState) -> None:
+def _load_zone(axes: Any, state: Any) -> None:
     """Force of every ball, outward from the centre, and the load."""
     width = BAR * 2.0 * np.pi / state.angles.size
     most = float(state.force.max())
@@ -58,14 +53,14 @@ def _load_zone(axes: Any, state: BearingState) -> None:
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.06), ncols=2, frameon=False, fontsize=8)
 
 
-def _free_angle(state: BearingState) -> float:
+def _free_angle(state: Any) -> float:
     """Direction [degrees] for the numbers, away from the load and between two balls."""
     away = np.angle(-np.exp(1j * np.arctan2(state.load[1], state.load[0])))
     gaps = np.exp(1j * (state.angles + np.pi / state.angles.size))
     return float(np.degrees(np.angle(gaps[np.argmax((gaps * np.exp(-1j * away)).real)])))
 
 
-def _films(axes: Any, state: BearingState) -> None:
+def _films(axes: Any, state: Any) -> None:
     """Smallest film of every ball over its place, or the approaches of a dry bearing."""
     turned = np.degrees((state.angles - np.arctan2(state.load[1], state.load[0]) + np.pi) % (2.0 * np.pi) - np.pi)
     order = np.argsort(turned)

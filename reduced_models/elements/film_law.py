@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.jit import jit_exact, jit_exact_node
+from ehlcontact.jit import jit_exact
 from reduced_models.elements.jet import Jet, half, minus, over, plus, root, through, through3, times
 
 _Floats = NDArray[np.float64]
@@ -112,8 +112,8 @@ def static(u, law):
     return x, g, 2.0 / 3.0 * g / (2.0 / 3.0 * g - _film(x, law)[1])
 
 
-@jit_exact_node
-def residence(mu, n, poisson, share):
+@jit_exact
+def _residence(mu, n, poisson, share):
     """Poisson weights of mean `mu`, and the share of what entered within mu that j lags have passed on."""
     poisson[0] = exp(-mu)
     for k in range(1, n + 1):
@@ -133,8 +133,8 @@ def residence(mu, n, poisson, share):
             share[k] = share[k - 1] - poisson[k - 1]
 
 
-@jit_exact_node
-def moments(j, mu, poisson, share):
+@jit_exact
+def _moments(j, mu, poisson, share):
     """Response of j lags to inputs 1, t and t^2 of age t (1 at the start of the step), and d/d mu of each."""
     r1 = j * share[j + 1] / mu
     r2 = j * (j + 1) * share[j + 2] / (mu * mu)
@@ -147,8 +147,8 @@ def moments(j, mu, poisson, share):
 def _one_lag(old, start, end, bump, rate, span, poisson, share):
     """Jet of one lag after input start + (end - start) s + 6 bump s (1 - s); end, bump and span are jets."""
     mu = rate * span.x
-    residence(mu, 3, poisson, share)
-    r0, r1, r2, d0, d1, d2 = moments(1, mu, poisson, share)
+    _residence(mu, 3, poisson, share)
+    r0, r1, r2, d0, d1, d2 = _moments(1, mu, poisson, share)
     value = old * poisson[0] + start * r1 + end.x * (r0 - r1) + 6.0 * bump.x * (r1 - r2)
     slope = -old * poisson[0] + start * d1 + end.x * (d0 - d1) + 6.0 * bump.x * (d1 - d2)
     return through3(value, slope * rate, span, r0 - r1, end, 6.0 * (r1 - r2), bump)
@@ -232,10 +232,10 @@ def film_step(law, old, new, dt, u, v):
     m = plus(m, _weighed(1, s, law, between, x_u))
     m = plus(m, _weighed(2, y, law, between, x_u))
     mu = through(law.lag_rate * span.x, law.lag_rate, span)
-    residence(mu.x, lags + 2, poisson, share)
+    _residence(mu.x, lags + 2, poisson, share)
     for j in range(1, lags + 1):
         held, held_before = _passed_on(j, old, poisson)
-        r0, r1, r2, d0, d1, d2 = moments(j, mu.x, poisson, share)
+        r0, r1, r2, d0, d1, d2 = _moments(j, mu.x, poisson, share)
         value = held + f0 * r1 + f * (r0 - r1) + 6.0 * hump.x * (r1 - r2)
         slope = held_before - held + f0 * d1 + f * (d0 - d1) + 6.0 * hump.x * (d1 - d2)
         q = through3(value, slope, mu, (r0 - r1) * f_s, s, 6.0 * (r1 - r2), hump)

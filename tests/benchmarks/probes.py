@@ -754,7 +754,8 @@ def rotor(bench: Bench) -> None:
 def bearing(bench: Bench) -> None:
     """Ball bearings at rest, vibrating, and moved."""
     from ehlcontact import Lubricant
-    from reduced_models import BallBearing, BearingMotion
+    from reduced_models import BallBearing, BearingMotion, BearingMount, MatrixRotor, SpeedCourse, Unbalance
+    from reduced_models import simulate_on_bearings as simulate
 
     oil = Lubricant.iso_vg(68, temperature=50.0)
     films = {
@@ -788,6 +789,29 @@ def bearing(bench: Bench) -> None:
         bench.case(f"{name} vibrating", lambda b=made: vibrating(b), 2)
         for dt in (1e-6, 2e-5):
             bench.case(f"{name} moved, {dt:g}", lambda b=made, h=dt: moved(b, [3000.0], h), 2)
+
+    def turning(speeds: list[float], until: float) -> Figures:
+        """A disc that tilts, on one bearing."""
+        G, K = np.zeros((4, 4)), np.zeros((4, 4))
+        G[2, 3], G[3, 2] = 0.02, -0.02
+        K[2, 2] = K[3, 3] = 2e4
+        K[0, 3] = K[3, 0] = 1e4
+        K[0, 0] = 1e5
+        rotor = MatrixRotor(
+            mass=np.diag([3.0, 3.0, 0.01, 0.01]),
+            stiffness=K,
+            gyroscopic=G,
+            load=np.array([0.0, -500.0, 0.0, 0.0]),
+            mounts=(BearingMount(bearing=films["film"], x=0, y=1),),
+            unbalances=(Unbalance(x=0, y=1, amount=2e-4),),
+        )
+        course = SpeedCourse(np.array([0.0, until]), np.array(speeds))
+        run = simulate(rotor, speed_rpm=course, dt=2e-5, until=until)
+        found: Figures = {"status": str(run.status), "iterations": int(run.iterations.sum())}
+        return found | {"tilt": run.displacement[::50, 2], "force": np.ravel(run.force[::50])}
+
+    bench.case("steady rotor", lambda: turning([3000.0, 3000.0], 0.04), 2)
+    bench.case("run-up", lambda: turning([2000.0, 8000.0], 0.1), 2)
     bench.case("between speeds", lambda: moved(films["film"], [2500.0, 3500.0], 2e-5), 2)
     dry = BallBearing.catalogue("6205", clearance=2e-5)
     bench.case("dry", lambda: at_rest(dry, 0.0, None), 2)

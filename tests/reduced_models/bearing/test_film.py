@@ -28,7 +28,7 @@ def as_the_prototype(bearing, rpm):
 
 @pytest.mark.parametrize(("rpm", "expected"), list(zip(SPEEDS, (285.0, 188.0, 140.0), strict=True)))
 def test_damping_in_the_direction_of_the_load(film, rpm, expected):
-    kernel, turn = as_the_prototype(film, rpm), film._turn(rpm)
+    kernel, turn = as_the_prototype(film, rpm), film.turn(rpm)
     at = [stand(kernel, turn, DOWN, ON + 2.0 * pi / 9.0 * k / 4.0) for k in range(4)]
     prototype = np.mean([impedances(kernel, turn, s, np.array([50.0]))[0, 1, 1].imag for s in at])
     assert prototype == pytest.approx(expected, rel=0.02)

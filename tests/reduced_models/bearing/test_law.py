@@ -120,7 +120,7 @@ def test_compiled_and_plain_are_twins(film, monkeypatch):
     turn = turning(kernel, 3000.0 * RADIANS)
     names = {
         law_room: ("_at", "curve", "carried"),
-        contact_room: ("_lag", "_weigh", "begin", "press", "accept", "curve", "carried", "residence"),
+        contact_room: ("_lag", "_weigh", "_add", "begin", "press", "accept", "curve", "carried", "_shares"),
         balls_room: ("_ball", "begin_step", "press_balls", "accept_balls", "begin", "press", "accept"),
     }
     normals = np.array([[0.0, -1.0]] * 9)
@@ -130,7 +130,7 @@ def test_compiled_and_plain_are_twins(film, monkeypatch):
         films, out = new_films(9, 14), (np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2)))
         for _ in range(2):
             gain = balls_room.begin_step(kernel, turn, 2e-5, films)
-            balls_room.press_balls(kernel, turn, films, normals, q, v, gain, *out)
+            balls_room.press_balls(kernel, turn, films, normals, q, v, gain, out)
             balls_room.accept_balls(kernel, turn, films, normals, q, v, gain)
         return copy.deepcopy((*out, films.state))
 

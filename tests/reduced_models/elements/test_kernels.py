@@ -50,8 +50,8 @@ CASES = {
     film_law: {
         "_film": [(x, FILM) for x in (-9.0, -1.0, 0.3, 4.0)],
         "static": [(u, FILM) for u in (-1e9, -3.0, 0.0, 0.9, 5.0)],
-        "residence": [(mu, 4, np.zeros(5), np.zeros(5)) for mu in (0.1, 2.0, 9.0)],
-        "moments": [(j, 0.4, POISSON, SHARE) for j in (1, 3)],
+        "_residence": [(mu, 4, np.zeros(5), np.zeros(5)) for mu in (0.1, 2.0, 9.0)],
+        "_moments": [(j, 0.4, POISSON, SHARE) for j in (1, 3)],
         "_one_lag": [(0.1, 0.2, A, B, 3.0, C, np.zeros(6), np.zeros(6))],
         "squeezed": [(0.3, 0.2), (-0.3, 0.2)],
         "_made": [(A, 0.2)],
