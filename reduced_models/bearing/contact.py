@@ -213,7 +213,9 @@ class Films(NamedTuple):
     place: NDArray[np.int64]  # (contacts, 2): interval of the curve used last, rows of gains that `work` has
     poisson: _Floats  # room for `begin`
     share: _Floats
-    w: _Floats  # (balls, 8) as `balls` has it
+    # (balls, 8) approaches at the outer race: as tried; what the rate is reckoned from; at the last two ends of
+    # steps; then delta and its rate where that was tried, and the slopes by both
+    w: _Floats
     force: _Floats  # (balls, 2) at the inner and at the outer race [N]
 
 

@@ -24,6 +24,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_exact, jit_exact_node
 from ehlcontact.point import Scales
 from reduced_models.elements.film_curve import RIGID_SLOPE
@@ -65,6 +66,11 @@ def dry_law(kn: float) -> RaceLaw:
 
 def film_law(elements: Sequence[FilmContact], fade: float = inf) -> RaceLaw:
     """Law of elements in SI that stand for one contact at one speed each, their units of any load."""
+    for element in elements:
+        if element.squeeze != 0.0:
+            raise InputError(
+                "squeeze", element.squeeze, "0 in a bearing, whose filters are worked out once per step"
+            )
     nodes = np.unique(np.concatenate([element.law.x + log(scales_of(element).force) for element in elements]))
     x = _lengthened(nodes[np.append(True, np.diff(nodes) > ALIKE)], elements)
     rows = [_rows(element, x) for element in elements]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from math import ceil
-from typing import Any
+from pathlib import Path
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +14,7 @@ from numpy.typing import NDArray
 from ehlcontact import Status
 from ehlcontact.checks import as_column, require_nonnegative, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.files import hdf5
 from reduced_models.bearing.balls import begin_rest, directions, films_of, press_balls, rest_balls, turning
 from reduced_models.bearing.contact import Films
 from reduced_models.bearing.kinematics import RADIANS
@@ -54,6 +57,16 @@ class BearingRun:
     force: _Floats
     iterations: NDArray[np.int64]
     status: Status
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write as HDF5; raises `InputError` where the file cannot be written."""
+        return hdf5.write(self, path, "path")
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Self:
+        """Read what `save` wrote; raises `InputError` for anything else."""
+        run: Self = hdf5.read(path, {cls.__name__: cls}, "file", "run of a rotor on ball bearings")
+        return run
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,7 +187,7 @@ class _Run:
         self.angles = np.column_stack(
             [m.cage_angle + k.cage * angle for m, k in zip(mounts, self.balls, strict=True)]
         )
-        self.turned, self.at = _turning(rotor, self.omega, angle, rise)
+        self.turned, self.at = turning_forces(rotor, self.omega, angle, rise)
         self._begin(start)
         load = max(float(np.linalg.norm(rotor.load)), float(np.abs(self.turned).max(initial=0.0)))
         self.limits = tolerance * max(load, 1.0), FARTHEST * min(m.bearing.ball_diameter for m in mounts)
@@ -295,7 +308,7 @@ def _speeds(rpm: _Floats) -> _Floats:
     return np.geomspace(low, high, count + 1)
 
 
-def _turning(rotor: MatrixRotor, omega: _Floats, angle: _Floats, rise: _Floats) -> tuple[_Floats, _Floats]:
+def turning_forces(rotor: MatrixRotor, omega: _Floats, angle: _Floats, rise: _Floats) -> tuple[_Floats, _Floats]:
     """Forces of all unbalances over time, shape (k, 2 unbalances), and where they act, shape (N, 2 unbalances)."""
     forces = np.zeros((omega.size, 2 * len(rotor.unbalances)))
     at = np.zeros((rotor.size, 2 * len(rotor.unbalances)))

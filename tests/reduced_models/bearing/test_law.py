@@ -1,12 +1,14 @@
 """Tabulated laws against the elements that they are made of, and the atlas behind those."""
 
 import copy
+from dataclasses import replace
 from math import inf
 
 import numba
 import numpy as np
 import pytest
 
+from ehlcontact.errors import InputError
 from reduced_models.bearing import balls as balls_room
 from reduced_models.bearing import contact as contact_room
 from reduced_models.bearing import law as law_room
@@ -99,6 +101,11 @@ def test_between_speeds_films_grow_as_they_should(film):
         begin(many.inner, turn.inner, turn.spin, 2e-5, films, 0)
         pressed.append(press(many.inner, turn.inner, turn.spin, films, 0, 5.1e-6, 3e-3))
     np.testing.assert_allclose(pressed[0], pressed[1], rtol=1e-6)
+
+
+def test_films_that_squeeze_are_refused(film):
+    with pytest.raises(InputError, match=r"squeeze = 0.2: must be 0"):
+        film_law([replace(film.element("inner", 3000.0), squeeze=0.2)])
 
 
 def test_fading():

@@ -12,12 +12,14 @@ from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import (
     BallBearing,
     BearingMount,
+    BearingRun,
     MatrixRotor,
     SpeedCourse,
     Unbalance,
     log_decrement,
     simulate_on_bearings,
 )
+from reduced_models.bearing.run import turning_forces
 
 RPM, DT = 3000.0, 2e-5
 M, K, G = shaft([0.05] * 6, 0.04, [(3, 0.28, 0.07)])
@@ -142,6 +144,26 @@ def test_mean_deflection_does_not_depend_on_the_step(film):
     np.testing.assert_allclose(means, means[-1], rtol=1e-3)
 
 
+def test_balls_are_heard_as_they_pass(film):
+    """Without unbalance the ring swings at the number of balls times the cage's frequency, 179.2 Hz."""
+    run = simulate_on_bearings(beam(film), speed_rpm=RPM, dt=5e-5, until=0.8)
+    y = run.ring[run.t >= 0.3, 0, 1]
+    heard = np.abs(np.fft.rfft((y - y.mean()) * np.hanning(y.size)))
+    hz = np.fft.rfftfreq(y.size, 5e-5)[np.argmax(heard)]
+    assert film.frequencies(RPM).bpfo == pytest.approx(179.24, abs=0.01)
+    assert hz == pytest.approx(179.24, abs=1.0)  # lines are 2 Hz apart
+
+
+def test_files_of_runs(film, tmp_path):
+    run = simulate_on_bearings(block(film), speed_rpm=RPM, dt=DT, until=0.002)
+    again = BearingRun.read(run.save(tmp_path / "run.h5"))
+    for name, values in vars(run).items():
+        np.testing.assert_array_equal(getattr(again, name), values)
+    (tmp_path / "none.h5").write_text("nothing")
+    with pytest.raises(InputError, match="run of a rotor on ball bearings"):
+        BearingRun.read(tmp_path / "none.h5")
+
+
 def test_a_course_of_one_speed_is_that_speed(film):
     rotor = beam(film, unbalance=1e-4)
     one = simulate_on_bearings(rotor, speed_rpm=RPM, dt=DT, until=0.01)
@@ -157,6 +179,18 @@ def test_speed_and_angle_of_a_course():
     np.testing.assert_allclose(omega, np.interp(t, course.t, course.speed_rpm) * pi / 30.0)
     np.testing.assert_allclose(angle[1:], np.cumsum(0.5 * (omega[1:] + omega[:-1])) * 1e-4, atol=1e-5)
     assert angle[0] == 0.0 and rise[2000] == pytest.approx(600.0 * pi / 30.0 / 0.2) and rise[-1] == 0.0
+
+
+def test_unbalance_of_a_shaft_that_gains_speed():
+    """Mass times the acceleration of its circle."""
+    rotor = block(BallBearing.catalogue("6205"), unbalances=(Unbalance(x=0, y=1, amount=2e-4, phase=0.3),))
+    t = np.linspace(0.0, 0.1, 20001)
+    omega, angle, rise = SpeedCourse(np.array([0.0, 0.1]), np.array([1000.0, 9000.0])).at(t)
+    forces, at = turning_forces(rotor, omega, angle, rise)
+    circle = 2e-4 * np.column_stack([np.cos(angle + 0.3), np.sin(angle + 0.3)])
+    thrown = -(circle[2:] - 2.0 * circle[1:-1] + circle[:-2]) / (t[1] - t[0]) ** 2
+    np.testing.assert_allclose(forces[1:-1], thrown, atol=1e-4 * np.abs(thrown).max())
+    np.testing.assert_array_equal(at, np.eye(2))
 
 
 def test_run_up(film):
