@@ -16,6 +16,7 @@ from reduced_models.atlas.answer import AtlasAnswer as AtlasAnswer
 from reduced_models.atlas.answer import AtlasSI as AtlasSI
 from reduced_models.atlas.atlas import Atlas as Atlas
 from reduced_models.bearing.ball_bearing import BallBearing as BallBearing
+from reduced_models.bearing.course import SpeedCourse as SpeedCourse
 from reduced_models.bearing.kinematics import DefectFrequencies as DefectFrequencies
 from reduced_models.bearing.linear import BearingCoefficients as BearingCoefficients
 from reduced_models.bearing.motion import BearingMotion as BearingMotion
@@ -23,7 +24,6 @@ from reduced_models.bearing.rotor import BearingMount as BearingMount
 from reduced_models.bearing.rotor import MatrixRotor as MatrixRotor
 from reduced_models.bearing.rotor import Unbalance as Unbalance
 from reduced_models.bearing.run import BearingRun as BearingRun
-from reduced_models.bearing.run import SpeedCourse as SpeedCourse
 from reduced_models.bearing.run import simulate_on_bearings as simulate_on_bearings
 from reduced_models.bearing.state import BearingState as BearingState
 from reduced_models.elements.kinds import ContactElement as ContactElement

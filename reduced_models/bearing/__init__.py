@@ -13,6 +13,7 @@
 | linear | stiffness and damping over frequency |
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
 | rotor | `MatrixRotor`: any linear rotor on bearings, at rest |
+| course | `SpeedCourse`: the speed of a shaft over time, and the forces that turn with it |
 | loop | compiled: generalised-alpha steps of rotor, bearings and balls |
 | run | `simulate_on_bearings`: such a rotor over time, speed constant or not |
 | state | `BearingState`: a bearing at rest, ball by ball; its file |

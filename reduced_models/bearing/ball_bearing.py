@@ -11,7 +11,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact import Geometry, Lubricant
+from ehlcontact import Lubricant
 from ehlcontact.checks import (
     as_column,
     require_finite,
@@ -36,9 +36,9 @@ from reduced_models.bearing.kinematics import (
 )
 from reduced_models.bearing.law import dry_law, film_law
 from reduced_models.bearing.linear import BearingCoefficients, impedances
-from reduced_models.bearing.race import Race
+from reduced_models.bearing.race import Race, race_of
 from reduced_models.bearing.state import BearingState
-from reduced_models.bearing.statics import Standing, direction_of, stand
+from reduced_models.bearing.statics import Standing, angle_of, direction_of, radial_load, stand
 from reduced_models.elements.kinds import WideRangeContact
 
 _Floats = NDArray[np.float64]
@@ -114,7 +114,7 @@ class BallBearing:
         if self.film_limit is not None:
             require_positive("film_limit", self.film_limit)
         require_positive("density", self.density)
-        races = {name: self._race(name) for name in RACES}
+        races = {name: race_of(self, name) for name in RACES}
         self._known["races"] = races
         room = self.pitch_diameter * sin(pi / self.balls)
         if self.ball_diameter >= room:
@@ -231,8 +231,8 @@ class BallBearing:
         InputError
             A load that is not radial, that does not seat the bearing or is beyond the atlas; a speed beyond it.
         """
-        force, speed = _radial(load), self.speed(speed_rpm)
-        angle = direction_of(force) if cage_angle is None else _radians(cage_angle)
+        force, speed = radial_load(load), self.speed(speed_rpm)
+        angle = direction_of(force) if cage_angle is None else angle_of(cage_angle)
         at = self._stand(force, speed, angle)
         return BearingState(
             name=self.name,
@@ -275,9 +275,9 @@ class BallBearing:
         -------
         BearingCoefficients
         """
-        force, speed = _radial(load), self.speed(speed_rpm)
+        force, speed = radial_load(load), self.speed(speed_rpm)
         w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
-        first = direction_of(force) if cage_angle is None else _radians(cage_angle)
+        first = direction_of(force) if cage_angle is None else angle_of(cage_angle)
         steps = np.arange(POSITIONS) / POSITIONS if cage_angle is None else np.zeros(1)
         angles = first + 2.0 * pi / self.balls * steps
         kernel = self.kernel(speed)
@@ -321,19 +321,6 @@ class BallBearing:
         limit = inf if self.film_limit is None else self.film_limit
         return film_law([self.element(race, speed) for speed in speeds.tolist()], limit)
 
-    def _race(self, name: str) -> Race:
-        """Contact with one race; what is wrong with its conformity is said of that race's."""
-        conformity = getattr(self, f"conformity_{name}")
-        material = {"e1": self.youngs_modulus, "e2": self.youngs_modulus}
-        material |= {"nu1": self.poisson_ratio, "nu2": self.poisson_ratio}
-        try:
-            body = Geometry.ball_bearing(self.ball_diameter, self.pitch_diameter, conformity, name, **material)
-        except InputError as error:
-            own = {"conformity": f"conformity_{name}", "e1": "youngs_modulus", "nu1": "poisson_ratio"}
-            raise InputError(own.get(error.field, error.field), error.value, error.allowed) from None
-        rolling = rolling_radius(self.pitch_diameter, self.gamma)
-        return Race(name, body, self.ball_diameter, conformity, self.oil, rolling, self.atlas)
-
     def speed(self, speed_rpm: float) -> float:
         """The speed [rev/min] where the bearing can run at it; raises `InputError` where not."""
         speed = require_nonnegative("speed_rpm", speed_rpm)
@@ -369,18 +356,3 @@ class BallBearing:
                 )
             entries["oil"] = Lubricant(**entries["oil"])
         return cls(**entries)
-
-
-def _radial(load: ArrayLike) -> _Floats:
-    """The load; whoever gives a third component wants another bearing."""
-    size = np.size(load) if isinstance(load, tuple | list | np.ndarray) else 0
-    if size != 2:
-        allowed = "a pair (Fx, Fy) [N]: this bearing is planar and takes no axial load, moment or tilt"
-        raise InputError("load", load, allowed)
-    return as_column("load", load, size=2)
-
-
-def _radians(angle: float) -> float:
-    if abs(require_finite("cage_angle", angle)) > 2.0 * pi:
-        raise InputError("cage_angle", angle, "between -2 pi and 2 pi; angles are in radians")
-    return float(angle)

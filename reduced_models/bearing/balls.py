@@ -175,6 +175,8 @@ def accept_balls(balls, turn, films, normals, q, v, gain):
         accept(balls.inner, turn.inner, turn.spin, films, 2 * k, delta - w, rate - own)
         accept(balls.outer, turn.outer, turn.spin, films, 2 * k + 1, w, own)
         films.w[k, 3], films.w[k, 2] = films.w[k, 2], w
+        films.largest[0] = max(films.largest[0], films.force[k, 0])
+        films.largest[1] = max(films.largest[1], films.force[k, 1])
 
 
 @jit_exact_loop

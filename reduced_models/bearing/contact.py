@@ -217,6 +217,7 @@ class Films(NamedTuple):
     # steps; then delta and its rate where that was tried, and the slopes by both
     w: _Floats
     force: _Floats  # (balls, 2) at the inner and at the outer race [N]
+    largest: _Floats  # (2,) force that any ball has had at either race [N]
 
 
 def new_films(balls: int, lags: int) -> Films:
@@ -230,4 +231,5 @@ def new_films(balls: int, lags: int) -> Films:
         share=np.zeros(lags + 3),
         w=np.zeros((balls, 8)),
         force=np.zeros((balls, 2)),
+        largest=np.zeros(2),
     )

@@ -16,7 +16,7 @@ from ehlcontact import Geometry, Lubricant, OperatingPoint
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import hertz_contact, radius_ratio
 from reduced_models.atlas.atlas import LOADS, NEIGHBOURS, Atlas
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RADIANS, rolling_radius
 from reduced_models.bearing.law import scales_of
 from reduced_models.elements.kinds import WideRangeContact
 
@@ -117,6 +117,20 @@ class Race:
             allowed = f"{between}: its ellipse, a/b = {self.geometry.kappa:.4g}, lies outside the atlas"
             raise InputError(f"conformity_{self.name}", self.conformity, f"{allowed} ({low:g} to {high:g})")
         self.element(min(self.highest_speed, SOME_SPEED))  # raises where the oil is none of the atlas
+
+
+def race_of(bearing: Any, name: str) -> Race:
+    """Contact of a `BallBearing` with one race; what is wrong with its conformity is said of that race's."""
+    conformity = getattr(bearing, f"conformity_{name}")
+    material = {"e1": bearing.youngs_modulus, "e2": bearing.youngs_modulus}
+    material |= {"nu1": bearing.poisson_ratio, "nu2": bearing.poisson_ratio}
+    try:
+        body = Geometry.ball_bearing(bearing.ball_diameter, bearing.pitch_diameter, conformity, name, **material)
+    except InputError as error:
+        own = {"conformity": f"conformity_{name}", "e1": "youngs_modulus", "nu1": "poisson_ratio"}
+        raise InputError(own.get(error.field, error.field), error.value, error.allowed) from None
+    rolling = rolling_radius(bearing.pitch_diameter, bearing.gamma)
+    return Race(name, body, bearing.ball_diameter, conformity, bearing.oil, rolling, bearing.atlas)
 
 
 def _joined(pieces: Sequence[WideRangeContact]) -> WideRangeContact:

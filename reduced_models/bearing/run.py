@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from dataclasses import dataclass
 from math import ceil
 from pathlib import Path
@@ -12,20 +13,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact import Status
-from ehlcontact.checks import as_column, require_nonnegative, require_positive
+from ehlcontact.checks import as_column, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import hdf5
+from reduced_models.bearing.ball_bearing import RACES
 from reduced_models.bearing.balls import begin_rest, directions, films_of, press_balls, rest_balls, turning
 from reduced_models.bearing.contact import Films
+from reduced_models.bearing.course import SpeedCourse, law_speeds, turning_forces
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.loop import LOST, NO_BALANCE, Journals, Steps, journals_at, run_block, steps_of
 from reduced_models.bearing.rotor import MatrixRotor
+from reduced_models.elements.validity import OutsideValidityWarning
 
 _Floats = NDArray[np.float64]
 
 LONGEST_BLOCK = 4096  # steps between two looks at Ctrl-C
 SPEED_PER_BLOCK = 2e-3  # change of the speed, over the highest, at which gyroscopic forces are renewed
-SPEED_RATIO = 1.25  # of neighbouring speeds at which laws are made
 LEAST_STEPS = 16  # per turn of the shaft and per ball passage
 FARTHEST = 0.05  # of a ball diameter, that a ring may go from the middle: no clearance is as large
 
@@ -46,6 +49,8 @@ class BearingRun:
         Of the inner rings on the balls [N].
     iterations : ndarray, shape (k,)
         Evaluations of the bearings in the step.
+    largest_load : ndarray, shape (bearings, 2)
+        Largest force that any ball had, on the inner and on the outer race [N].
     status : Status
     """
 
@@ -56,6 +61,7 @@ class BearingRun:
     ring: _Floats
     force: _Floats
     iterations: NDArray[np.int64]
+    largest_load: _Floats
     status: Status
 
     def save(self, path: str | os.PathLike[str]) -> Path:
@@ -69,45 +75,6 @@ class BearingRun:
         return run
 
 
-@dataclass(frozen=True, eq=False)
-class SpeedCourse:
-    """Speed of the shaft over time, straight between given times.
-
-    Parameters
-    ----------
-    t : array_like, shape (k,), k >= 2
-        Increasing, from 0 on [s].
-    speed_rpm : array_like, shape (k,)
-        Speeds [rev/min], >= 0; constant before the first and after the last time.
-    """
-
-    t: _Floats
-    speed_rpm: _Floats
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "t", as_column("t", self.t, least=2, increasing=True))
-        object.__setattr__(self, "speed_rpm", as_column("speed_rpm", self.speed_rpm, size=self.t.size))
-        for k, speed in enumerate(self.speed_rpm.tolist()):
-            require_nonnegative(f"speed_rpm[{k}]", speed)
-        require_nonnegative("t[0]", float(self.t[0]))
-
-    @classmethod
-    def constant(cls, speed_rpm: float) -> SpeedCourse:
-        """One speed all the time."""
-        return cls(np.array([0.0, 1.0]), np.full(2, require_nonnegative("speed_rpm", speed_rpm)))
-
-    def at(self, t: _Floats) -> tuple[_Floats, _Floats, _Floats]:
-        """Speed [rad/s], angle of the shaft [rad] and angular acceleration [rad/s2]."""
-        knots = np.concatenate([[0.0], self.t, [np.inf]]) if self.t[0] > 0.0 else np.append(self.t, np.inf)
-        speeds = np.interp(knots, self.t, self.speed_rpm) * RADIANS
-        turned = np.concatenate([[0.0], np.cumsum(0.5 * (speeds[1:-1] + speeds[:-2]) * np.diff(knots[:-1]))])
-        rise = np.append(np.diff(speeds[:-1]) / np.diff(knots[:-1]), 0.0)
-        k = np.clip(np.searchsorted(knots, t, side="right") - 1, 0, len(rise) - 1)
-        since = t - knots[k]
-        omega = speeds[k] + rise[k] * since
-        return omega, turned[k] + since * (speeds[k] + 0.5 * rise[k] * since), rise[k]
-
-
 def simulate_on_bearings(
     rotor: MatrixRotor,
     *,
@@ -119,6 +86,8 @@ def simulate_on_bearings(
     rho_inf: float = 0.8,
 ) -> BearingRun:
     """Integrate a rotor on ball bearings from t = 0 to `until` in steps of `dt`, compiled.
+
+    After the run an `OutsideValidityWarning` tells of a ball that carried more than the atlas knows.
 
     Generalised-alpha steps, second order: rotor, bearings, balls and films in one loop, Newton's method on the
     rings with exact tangents.
@@ -182,7 +151,7 @@ class _Run:
         self.omega, angle, rise = course.at(t)
         self.t, mounts = t, rotor.mounts
         self._require_short_steps()
-        grid = _speeds(self.omega / RADIANS)
+        grid = law_speeds(self.omega / RADIANS)
         self.balls = tuple(m.bearing.kernel([m.bearing.speed(s) for s in grid.tolist()]) for m in mounts)
         self.angles = np.column_stack(
             [m.cage_angle + k.cage * angle for m, k in zip(mounts, self.balls, strict=True)]
@@ -206,7 +175,20 @@ class _Run:
                     raise ConvergenceError(f"rotor at t = {self.t[at]:.6g} s: {why}", run)
         except KeyboardInterrupt:
             status = Status.INTERRUPTED
+        self._warn_of_overload()
         return self._result(at, status)
+
+    def _warn_of_overload(self) -> None:
+        """Tell of balls that carried more than the atlas knows."""
+        slowest = float(self.omega.min() / RADIANS)
+        for b, (mount, films) in enumerate(zip(self.rotor.mounts, self.films, strict=True)):
+            for name, load in zip(RACES, films.largest.tolist(), strict=True):
+                most = np.inf if mount.bearing.oil is None else mount.bearing.race(name).loads(slowest)[1]
+                if load > most:
+                    message = (
+                        f"a ball of bearing {b} carried {load:.4g} N on the {name} race (atlas up to {most:.4g} N)"
+                    )
+                    warnings.warn(message, OutsideValidityWarning, stacklevel=4)
 
     def _block(self, first: int, end: int) -> tuple[int, int]:
         middle = 0.5 * (self.omega[first] + self.omega[end])
@@ -294,27 +276,6 @@ class _Run:
             ring=ring[kept].reshape(pairs),
             force=force[kept].reshape(pairs),
             iterations=iterations[kept],
+            largest_load=np.array([films.largest for films in self.films]),
             status=status,
         )
-
-
-def _speeds(rpm: _Floats) -> _Floats:
-    """Speeds at which laws are made for a course."""
-    low, high = float(rpm.min()), float(rpm.max())
-    if low == high:
-        return np.array([low])
-    low = max(low, 1e-3 * high)
-    count = max(ceil(np.log(high / low) / np.log(SPEED_RATIO)), 1)
-    return np.geomspace(low, high, count + 1)
-
-
-def turning_forces(rotor: MatrixRotor, omega: _Floats, angle: _Floats, rise: _Floats) -> tuple[_Floats, _Floats]:
-    """Forces of all unbalances over time, shape (k, 2 unbalances), and where they act, shape (N, 2 unbalances)."""
-    forces = np.zeros((omega.size, 2 * len(rotor.unbalances)))
-    at = np.zeros((rotor.size, 2 * len(rotor.unbalances)))
-    for i, u in enumerate(rotor.unbalances):
-        c, s = np.cos(angle + u.phase), np.sin(angle + u.phase)
-        forces[:, 2 * i] = u.amount * (omega**2 * c + rise * s)
-        forces[:, 2 * i + 1] = u.amount * (omega**2 * s - rise * c)
-        at[u.x, 2 * i] = at[u.y, 2 * i + 1] = 1.0
-    return forces, at

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2
+from math import atan2, pi
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact.checks import as_column, require_finite
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.bearing.balls import Balls, Turn, begin_rest, directions, films_of, press_balls
 from reduced_models.rotor.equilibrium import equilibrium
@@ -90,3 +91,19 @@ def stand(balls: Balls, turn: Turn, load: _Floats, angle: float) -> Standing:
 def direction_of(load: _Floats) -> float:
     """Angle of a load [rad]; that of gravity where there is none."""
     return atan2(load[1], load[0]) if load.any() else atan2(-1.0, 0.0)
+
+
+def radial_load(load: ArrayLike) -> _Floats:
+    """The load; whoever gives a third component wants another bearing."""
+    size = np.size(load) if isinstance(load, tuple | list | np.ndarray) else 0
+    if size != 2:
+        allowed = "a pair (Fx, Fy) [N]: this bearing is planar and takes no axial load, moment or tilt"
+        raise InputError("load", load, allowed)
+    return as_column("load", load, size=2)
+
+
+def angle_of(angle: float) -> float:
+    """An angle of the cage [rad]; raises `InputError` for one in degrees."""
+    if abs(require_finite("cage_angle", angle)) > 2.0 * pi:
+        raise InputError("cage_angle", angle, "between -2 pi and 2 pi; angles are in radians")
+    return float(angle)

@@ -14,12 +14,13 @@ from reduced_models import (
     BearingMount,
     BearingRun,
     MatrixRotor,
+    OutsideValidityWarning,
     SpeedCourse,
     Unbalance,
     log_decrement,
     simulate_on_bearings,
 )
-from reduced_models.bearing.run import turning_forces
+from reduced_models.bearing.course import turning_forces
 
 RPM, DT = 3000.0, 2e-5
 M, K, G = shaft([0.05] * 6, 0.04, [(3, 0.28, 0.07)])
@@ -231,6 +232,17 @@ def test_two_bearings_of_different_kinds(film, oil):
     assert run.force.shape == (201, 2, 2)
     np.testing.assert_allclose(run.force[0].sum(axis=0), [0.0, -1000.0], atol=1e-6)
     assert abs(run.ring[0, 0, 1] - run.ring[0, 1, 1]) > 1e-6
+
+
+def test_balls_that_carry_more_than_the_atlas_knows(film):
+    fast = {"speed_rpm": RPM, "dt": DT, "until": 0.001}
+    quiet = simulate_on_bearings(block(film), **fast)
+    alone = film.equilibrium((0.0, -300.0), speed_rpm=RPM, cage_angle=-pi / 2.0)
+    np.testing.assert_allclose(quiet.largest_load, [alone.force.max(axis=0)], rtol=1e-3)
+    with pytest.warns(
+        OutsideValidityWarning, match=r"a ball of bearing 0 carried .* N on the inner race \(atlas up"
+    ):
+        simulate_on_bearings(block(film, load=(0.0, -8000.0)), **fast)
 
 
 def test_a_ring_that_leaves_its_bearing(dry):
