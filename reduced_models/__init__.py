@@ -5,15 +5,27 @@
 | elements | the elements: law, validity, units, file; `load_element` |
 | fitting | elements from data: `ContactRecord`, `fit`, `fit_memory`, `sensitivity` |
 | atlas | elements without a solve: `Atlas`, from contacts solved beforehand, with error bars |
+| bearing | ball bearings of such contacts: `BallBearing` |
 | rotor | what runs on elements and full films: `simulate_rotor`, `LinearRotor`, `log_decrement`, `compare` |
 
-To come: bearing (geometry, ball bearing, excitation) and adapters (to other programs' rotors and controllers).
+To come: adapters (to other programs' rotors and controllers).
 Symbols and units: `ehlcontact.point`.
 """
 
 from reduced_models.atlas.answer import AtlasAnswer as AtlasAnswer
 from reduced_models.atlas.answer import AtlasSI as AtlasSI
 from reduced_models.atlas.atlas import Atlas as Atlas
+from reduced_models.bearing.ball_bearing import BallBearing as BallBearing
+from reduced_models.bearing.course import SpeedCourse as SpeedCourse
+from reduced_models.bearing.kinematics import DefectFrequencies as DefectFrequencies
+from reduced_models.bearing.linear import BearingCoefficients as BearingCoefficients
+from reduced_models.bearing.motion import BearingMotion as BearingMotion
+from reduced_models.bearing.rotor import BearingMount as BearingMount
+from reduced_models.bearing.rotor import MatrixRotor as MatrixRotor
+from reduced_models.bearing.rotor import Unbalance as Unbalance
+from reduced_models.bearing.run import BearingRun as BearingRun
+from reduced_models.bearing.run import simulate_on_bearings as simulate_on_bearings
+from reduced_models.bearing.state import BearingState as BearingState
 from reduced_models.elements.kinds import ContactElement as ContactElement
 from reduced_models.elements.kinds import CubicContact as CubicContact
 from reduced_models.elements.kinds import FilmMemoryContact as FilmMemoryContact

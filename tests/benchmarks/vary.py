@@ -299,6 +299,8 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "reduced_models.atlas.build": ("atlas_samples",),
     "reduced_models.atlas.workers": (),
     "reduced_models.rotor": ("rotor",),
+    "reduced_models.rotor.equilibrium": ("rotor", "bearing"),
+    "reduced_models.bearing": ("bearing",),
     "fmu": ("exported",),
     "fmu.build": (),
 }
