@@ -26,8 +26,8 @@ from ehlcontact.solver.mesh import Mesh, coarsest_intervals, resolved_load
 
 PRE_SWEEPS, POST_SWEEPS = 2, 1
 CYCLES_PER_LEVEL = 1  # of full multigrid, before the finest level
-LARGEST_LOADING = 4.0  # factor by which the load of a level rises at once
-CYCLES_AFTER_LOADING = 4  # on a level that carries more load than the one below
+LARGEST_LOADING = 5.0  # factor by which the load of a level rises at once
+CYCLES_AFTER_LOADING = 3  # on a level that carries more load than the one below
 
 
 class Multigrid:
