@@ -145,14 +145,16 @@ def test_a_linked_node_is_the_housing(program, film):
     own = program.ross.BearingElement
     linked = [own(n=n, kxx=1e8, cxx=0.0, n_link=h) for n, h in zip(NODES, (7, 8), strict=True)]
     feet = [own(n=h, kxx=5e7, cxx=100.0) for h in (7, 8)]
-    rotor = from_ross(
-        program.rotor(*linked, *feet, masses=[(7, 5.0), (8, 5.0)]), {1: film, 5: film}, replace=True, loads=MORE
-    )
+    whole = program.rotor(*linked, *feet, masses=[(7, 5.0), (8, 5.0)])
+    rotor = from_ross(whole, {1: film, 5: film}, replace=True, loads=MORE)
     assert rotor.size == 32 and [m.housing for m in rotor.mounts] == [(28, 29), (30, 31)]
     q = rotor.equilibrium(RPM)
     rigid = from_ross(program.rotor(), {1: film, 5: film}, loads=MORE)
     np.testing.assert_allclose((rotor.rings @ q)[1::2], (rigid.rings @ rigid.equilibrium(RPM))[1::2], rtol=1e-4)
     np.testing.assert_allclose(q[[29, 31]], -(500.0 + 5.0 * 9.81) / 5e7, rtol=2e-3)
+    force = RossCallback(whole, {1: film, 5: film}, speed_rpm=RPM, replace=True, loads=MORE)
+    np.testing.assert_allclose(force.rest[[7, 43]], q[[5, 29]], rtol=1e-9)
+    assert force.rotor.K(SPEED)[7, 43] == pytest.approx(-8.4e7, rel=0.02)
 
 
 @pytest.fixture
