@@ -20,6 +20,8 @@ from reduced_models.bearing.course import SpeedCourse as SpeedCourse
 from reduced_models.bearing.kinematics import DefectFrequencies as DefectFrequencies
 from reduced_models.bearing.linear import BearingCoefficients as BearingCoefficients
 from reduced_models.bearing.motion import BearingMotion as BearingMotion
+from reduced_models.bearing.ross import RossCallback as RossCallback
+from reduced_models.bearing.ross import from_ross as from_ross
 from reduced_models.bearing.rotor import BearingMount as BearingMount
 from reduced_models.bearing.rotor import MatrixRotor as MatrixRotor
 from reduced_models.bearing.rotor import Unbalance as Unbalance

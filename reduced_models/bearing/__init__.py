@@ -17,6 +17,7 @@
 | loop | compiled: generalised-alpha steps of rotor, bearings and balls |
 | run | `simulate_on_bearings`: such a rotor over time, speed constant or not |
 | state | `BearingState`: a bearing at rest, ball by ball; its file |
+| ross | bearings in rotors of ROSS, and its rotors on bearings: `from_ross`, `RossCallback` |
 | picture | figures |
 | file | JSON of bearings and states |
 """

@@ -285,6 +285,43 @@ class BallBearing:
         mean = np.mean([impedances(kernel, self.turn(speed), standing, w) for standing in standings], axis=0)
         return BearingCoefficients.of(force, speed, cage_angle, w, mean, standings)
 
+    @by_name(2)
+    def to_ross(
+        self,
+        node: int,
+        *,
+        speeds_rpm: ArrayLike,
+        load: ArrayLike,
+        omega: float | None = None,
+        hz: float | None = None,
+        rpm: float | None = None,
+        **options: Any,
+    ) -> Any:
+        """Stiffness and damping as a plain ``ross.BearingElement``, means over a ball passage.
+
+        Parameters
+        ----------
+        node : int
+        speeds_rpm : float or sequence of float
+            Speeds of the shaft [rev/min], increasing. ROSS goes on beyond their ends by its splines, so they
+            should cover the whole range; from four on they meet damping within 1 N s/m rms only.
+        load : float or (float, float)
+            Force on the inner ring [N]; a number is a weight, in -y.
+        omega, hz, rpm : float, optional
+            Frequency of the vibration; by default that of the shaft at each speed.
+        **options
+            Of ``ross.BearingElement``, as ``tag`` or ``n_link``.
+
+        Raises
+        ------
+        InputError
+            ROSS is not installed; a load or a speed that the bearing does not take.
+        """
+        from reduced_models.bearing.ross import bearing_element
+
+        frequency = {"omega": omega, "hz": hz, "rpm": rpm}
+        return bearing_element(self, node, speeds_rpm, load, frequency, **options)
+
     def _stand(self, load: _Floats, speed: float, angle: float) -> Standing:
         standing = stand(self.kernel(speed), self.turn(speed), load, angle)
         if self.oil is not None:

@@ -23,9 +23,9 @@ def draw_state(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
 
     figure = Figure(figsize=SIZE, layout="constrained")
     zone = figure.add_subplot(1, 2, 1, projection="polar")
-    _load_zone(zone, state)
+    load_zone(zone, state)
     beside = figure.add_subplot(1, 2, 2)
-    _films(beside, state)
+    films(beside, state)
     speed = f"{state.speed_rpm:g} rev/min" if state.speed_rpm else "at rest"
     figure.suptitle(f"{state.name or 'ball bearing'}, {np.hypot(*state.load):.4g} N, {speed}")
     if path is not None:
@@ -35,7 +35,7 @@ def draw_state(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
     return figure
 
 
-def _load_zone(axes: Any, state: Any) -> None:
+def load_zone(axes: Any, state: Any) -> None:
     """Force of every ball, outward from the centre, and the load."""
     width = BAR * 2.0 * np.pi / state.angles.size
     most = float(state.force.max())
@@ -60,7 +60,7 @@ def _free_angle(state: Any) -> float:
     return float(np.degrees(np.angle(gaps[np.argmax((gaps * np.exp(-1j * away)).real)])))
 
 
-def _films(axes: Any, state: Any) -> None:
+def films(axes: Any, state: Any) -> None:
     """Smallest film of every ball over its place, or the approaches of a dry bearing."""
     turned = np.degrees((state.angles - np.arctan2(state.load[1], state.load[0]) + np.pi) % (2.0 * np.pi) - np.pi)
     order = np.argsort(turned)

@@ -13,5 +13,6 @@ def test_public_names_are_there():
         "simulate_oscillator", "ScaledContact", "BallBearing", "BearingState", "BearingCoefficients",
         "BearingMotion", "DefectFrequencies", "MatrixRotor", "BearingMount", "Unbalance", "SpeedCourse",
         "simulate_on_bearings", "BearingRun", "Atlas", "AtlasAnswer", "AtlasSI",
+        "from_ross", "RossCallback",
     ):  # fmt: skip
         assert hasattr(reduced_models, name)
