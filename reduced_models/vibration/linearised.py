@@ -1,0 +1,189 @@
+"""A rotor on ball bearings about rest at one speed: modes, responses, stability."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Unpack
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.checks import require_instance, require_integer, require_nonnegative
+from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
+from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.rotor import MatrixRotor
+from reduced_models.bearing.statics import StaticBalls
+from reduced_models.vibration.balls import SmallBalls
+from reduced_models.vibration.mode import Matrices, WhirlMode, close, eigenvectors, shaped
+
+_Floats = NDArray[np.float64]
+_Complex = NDArray[np.complex128]
+
+SHOWN = 8  # modes, unless another number is asked for
+SLOW = 1e-3  # rad/s, stands for rest where damping is asked for: films forget in less than a second
+FREE = 1e-9  # of the largest stiffness, what rounding leaves where a rotor is free
+UNLOADED = 1e-9  # of its heaviest ball, the load of a preloaded bearing that is the rounding of none
+
+
+@dataclass(frozen=True, eq=False)
+class LinearisedRotor:
+    """A rotor about rest under its load, `linearise` makes it.
+
+    Films are those of the speed and remember. Balls stand still while the rotor vibrates, at the angle of their
+    mount or, over a ball passage, at all positions of the cage: then the impedance of a bearing is the mean of
+    those, each with the ring where the bearing's share of the load puts it.
+
+    Attributes
+    ----------
+    rotor : MatrixRotor
+    speed_rpm : float
+        Of the shaft.
+    passage : bool
+        Mean over a ball passage, or at the angles of the mounts.
+    rest : ndarray, shape (N,)
+        Displacements at rest, balls at the angles of the mounts [m].
+    loads : ndarray, shape (bearings, 2)
+        Forces on the inner rings at rest [N].
+    """
+
+    rotor: MatrixRotor
+    speed_rpm: float
+    passage: bool
+    rest: _Floats
+    loads: _Floats
+    balls: tuple[SmallBalls, ...]
+
+    @cached_property
+    def matrices(self) -> Matrices:
+        """Mass, damping with the gyroscopic part, and stiffness, without the bearings."""
+        rotor = self.rotor
+        return rotor.mass, rotor.damping + self.speed_rpm * RADIANS * rotor.gyroscopic, rotor.stiffness
+
+    def bearing_impedance(self, s: complex) -> _Complex:
+        """What the bearings add to the dynamic stiffness, shape (N, N) [N/m], at s [1/s] of exp(s t)."""
+        rings = self._rings
+        Z = np.zeros((len(rings), len(rings)), complex)
+        for b, balls in enumerate(self.balls):
+            at = slice(2 * b, 2 * b + 2)
+            Z[at, at] = balls.impedance(s)
+        return np.asarray(rings.T @ Z @ rings)
+
+    def dynamic_stiffness(self, s: complex) -> _Complex:
+        """Forces over displacements, shape (N, N), at s [1/s] of exp(s t)."""
+        M, C, K = self.matrices
+        return np.asarray(s * s * M + s * C + K + self.bearing_impedance(s))
+
+    def modes(self, count: int | None = SHOWN) -> tuple[WhirlMode, ...]:
+        """Modes that oscillate, the slowest first; None: all.
+
+        Raises
+        ------
+        ConvergenceError
+            A mode that was there with bearings of one stiffness and damping was not found with their memory.
+        """
+        if count is not None:
+            require_integer("count", count, "a whole number >= 1", 1)
+        start, _ = self._frozen(SLOW)
+        found = [self._mode(s) for s in start[:count]]
+        return tuple(sorted(found, key=lambda mode: mode.omega))
+
+    @property
+    def growth(self) -> float:
+        """Largest real part [1/s] of all modes that oscillate; below 0 they all die away."""
+        return max((mode.eigenvalue.real for mode in self.modes(None)), default=-np.inf)
+
+    @property
+    def stable(self) -> bool:
+        """Whether all vibrations die away, and no direction has a negative static stiffness."""
+        _, _, K = self.matrices
+        static = K + self.bearing_impedance(SLOW).real
+        slopes = np.linalg.eigvalsh(0.5 * (static + static.T))
+        return self.growth < 0.0 and bool(slopes[0] > -FREE * slopes[-1])
+
+    @by_name(1)
+    def receptance(self, **frequency: Unpack[Frequency]) -> _Complex:
+        """Displacements over forces, shape (k, N, N) [m/N].
+
+        Parameters
+        ----------
+        **frequency
+            Exactly one of omega [rad/s], hz and rpm, shape (k,).
+        """
+        w = radians_per_second(None, **frequency)
+        return np.array([np.linalg.inv(self.dynamic_stiffness(1j * one)) for one in w.tolist()])
+
+    @by_name(1)
+    def unbalance_response(self, **frequency: Unpack[Frequency]) -> _Complex:
+        """Complex amplitudes [m], shape (k, N), of q(t) = Re(q exp(i w t)); the angle of the shaft is w t.
+
+        Parameters
+        ----------
+        **frequency
+            At which the unbalances turn, films, cage and gyroscopic forces being those of `speed_rpm` all the
+            same: exactly one of omega [rad/s], hz and rpm, shape (k,).
+        """
+        w = radians_per_second(None, **frequency)
+        out = np.zeros((w.size, self.rotor.size), complex)
+        for k, one in enumerate(w.tolist()):
+            out[k] = np.linalg.solve(self.dynamic_stiffness(1j * one), one * one * self._turning)
+        return out
+
+    @cached_property
+    def _rings(self) -> _Floats:
+        return self.rotor.rings
+
+    @cached_property
+    def _turning(self) -> _Complex:
+        force = np.zeros(self.rotor.size, complex)
+        for unbalance in self.rotor.unbalances:
+            force[[unbalance.x, unbalance.y]] += (
+                unbalance.amount * np.exp(1j * unbalance.phase) * np.array([1.0, -1j])
+            )
+        return force
+
+    def _frozen(self, omega: float) -> tuple[_Complex, _Complex]:
+        return eigenvectors(self.matrices, self.bearing_impedance(1j * omega), omega)
+
+    def _mode(self, guess: complex) -> WhirlMode:
+        values, vectors = self._frozen(guess.imag)
+        nearest = int(np.argmin(np.abs(values - guess)))
+        s, q = close(self.dynamic_stiffness, complex(values[nearest]), vectors[:, nearest])
+        pairs = [(m.x, m.y) for m in self.rotor.mounts] + [(u.x, u.y) for u in self.rotor.unbalances]
+        return shaped(s, q, pairs)
+
+
+def linearise(rotor: MatrixRotor, speed_rpm: float, *, passage: bool = True) -> LinearisedRotor:
+    """Linearise a rotor on ball bearings about rest under its load.
+
+    Parameters
+    ----------
+    rotor : MatrixRotor
+    speed_rpm : float
+        Of the shaft, for films, centrifugal and gyroscopic forces.
+    passage : bool
+        Bearings as means over a ball passage (as in `BallBearing.coefficients`, the load of a bearing being that
+        with the balls as mounted); or with the balls as mounted.
+
+    Raises
+    ------
+    InputError
+        A speed or a load that a bearing does not take.
+    ConvergenceError
+        The bearings do not hold the rotor.
+    """
+    require_instance("rotor", rotor, MatrixRotor, "a MatrixRotor")
+    speed = require_nonnegative("speed_rpm", speed_rpm)
+    rest = rotor.equilibrium(speed)
+    rings, loads, balls = rotor.rings @ rest, [], []
+    for b, mount in enumerate(rotor.mounts):
+        bearing, ring = mount.bearing, rings[2 * b : 2 * b + 2]
+        kernel, turn = bearing.kernel(bearing.speed(speed)), bearing.turn(speed)
+        held = StaticBalls(kernel, turn, mount.cage_angle)
+        force = held.force(ring)
+        if np.linalg.norm(force) < UNLOADED * held.films.force.max():
+            force = np.zeros(2)
+        found = bearing.standings(force, speed, None if passage else mount.cage_angle)
+        loads.append(force)
+        balls.append(SmallBalls.of(kernel, turn, found))
+    return LinearisedRotor(rotor, speed, passage, rest, np.array(loads), tuple(balls))
