@@ -76,6 +76,7 @@ from reduced_models.rotor.settled import settling as settling
 from reduced_models.rotor.simulate import RotorResult as RotorResult
 from reduced_models.rotor.simulate import RotorStatus as RotorStatus
 from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor
+from reduced_models.vibration.block import rotor_to_control as rotor_to_control
 from reduced_models.vibration.campbell import Campbell as Campbell
 from reduced_models.vibration.campbell import CriticalSpeed as CriticalSpeed
 from reduced_models.vibration.campbell import campbell as campbell

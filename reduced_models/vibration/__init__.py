@@ -7,4 +7,7 @@
 | mode | `WhirlMode`: damped vibrations, exact with the memory |
 | campbell | `campbell`: modes over the speed, critical speeds |
 | unbalance | `unbalance_response`: amplitudes over the speed |
+| states | the same rotor as matrices of first order, films as states |
+| rates | compiled: balls and films in continuous time |
+| block | python-control: `rotor_to_control`, and the state space of a `LinearisedRotor` |
 """

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Unpack
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,7 @@ from reduced_models.vibration.mode import Matrices, WhirlMode, close, eigenvecto
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
+Signals = Mapping[str, int] | Sequence[int] | None
 
 SHOWN = 8  # modes, unless another number is asked for
 SLOW = 1e-3  # rad/s, stands for rest where damping is asked for: films forget in less than a second
@@ -128,6 +130,28 @@ class LinearisedRotor:
         for k, one in enumerate(w.tolist()):
             out[k] = np.linalg.solve(self.dynamic_stiffness(1j * one), one * one * self._turning)
         return out
+
+    def to_control(self, inputs: Signals = None, outputs: Signals = None, name: str = "rotor") -> Any:
+        """Exact python-control ``StateSpace``, films' memory included, from forces [N] to displacements [m].
+
+        Its states are those of `rotor_to_control`, and their units. With means over a ball passage all positions
+        of all balls are states: better linearise with ``passage=False`` here.
+
+        Parameters
+        ----------
+        inputs, outputs : mapping of str to int, or sequence of int, optional
+            Degrees of freedom by name; without names they are F0, F1, ... and q0, q1, ... By default all.
+        name : str
+            Of the system.
+
+        Raises
+        ------
+        InputError
+            A degree of freedom that is not there.
+        """
+        from reduced_models.vibration.block import linear_block
+
+        return linear_block(self, inputs, outputs, name)
 
     @cached_property
     def _rings(self) -> _Floats:

@@ -13,6 +13,7 @@ def test_public_names_are_there():
         "simulate_oscillator", "ScaledContact", "BallBearing", "BearingState", "BearingCoefficients",
         "BearingMotion", "DefectFrequencies", "MatrixRotor", "BearingMount", "Unbalance", "SpeedCourse",
         "simulate_on_bearings", "BearingRun", "linearise", "LinearisedRotor", "WhirlMode", "campbell", "Campbell",
-        "CriticalSpeed", "unbalance_response", "UnbalanceResponse", "Atlas", "AtlasAnswer", "AtlasSI",
+        "CriticalSpeed", "unbalance_response", "rotor_to_control", "UnbalanceResponse",
+        "Atlas", "AtlasAnswer", "AtlasSI",
     ):  # fmt: skip
         assert hasattr(reduced_models, name)
