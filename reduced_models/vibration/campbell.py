@@ -13,10 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
 from ehlcontact.checks import as_column, require_integer, require_positive
+from ehlcontact.errors import ConvergenceError
 from ehlcontact.files import hdf5
 from reduced_models.bearing.rotor import MatrixRotor
 from reduced_models.vibration.linearised import SHOWN, linearise
-from reduced_models.vibration.mode import WhirlMode
+from reduced_models.vibration.mode import WhirlMode, unlike
 
 _Floats = NDArray[np.float64]
 
@@ -122,12 +123,17 @@ def campbell(rotor: MatrixRotor, speeds_rpm: ArrayLike, *, count: int = SHOWN, p
     ------
     InputError
         A speed that a bearing does not take.
+    ConvergenceError
+        A mode was not found, or is damped so much at one of the speeds that it does not oscillate.
     """
     speeds = as_column("speeds_rpm", speeds_rpm, increasing=True)
     count = require_integer("count", count, "a whole number >= 1", 1)
     rows: list[list[WhirlMode]] = []
     for speed in speeds.tolist():
         found = list(linearise(rotor, speed, passage=passage).modes(count + BESIDE))
+        if rows and len(found) < len(rows[-1]):
+            what = f"{len(found)} of {len(rows[-1])} modes oscillate at {speed:g} rev/min: ask for fewer (count)"
+            raise ConvergenceError(f"Campbell diagram: only {what}", None)
         rows.append(_followed(rows[-1], found) if rows else found[:count])
     modes = np.array([[(m.omega, m.eigenvalue.real, m.whirl) for m in row] for row in rows])
     return Campbell(speed_rpm=speeds, omega=modes[..., 0], growth=modes[..., 1], whirl=modes[..., 2])
@@ -135,12 +141,6 @@ def campbell(rotor: MatrixRotor, speeds_rpm: ArrayLike, *, count: int = SHOWN, p
 
 def _followed(before: list[WhirlMode], found: list[WhirlMode]) -> list[WhirlMode]:
     """Of the modes `found`, those that continue the ones before, in their order."""
-    cost = np.array([[_unlike(old, new) for new in found] for old in before])
+    values, shapes = np.array([m.eigenvalue for m in found]), np.array([m.shape for m in found]).T
+    cost = [unlike(old.eigenvalue, old.shape, values, shapes) for old in before]
     return [found[column] for column in linear_sum_assignment(cost)[1].tolist()]
-
-
-def _unlike(old: WhirlMode, new: WhirlMode) -> float:
-    """What the shapes do not share, and by how much the frequencies differ in logarithm."""
-    squares = np.vdot(old.shape, old.shape).real * np.vdot(new.shape, new.shape).real
-    shared = abs(np.vdot(old.shape, new.shape)) ** 2 / squares
-    return float(1.0 - shared + abs(np.log(new.omega / old.omega)))

@@ -12,11 +12,21 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_instance, require_integer, require_nonnegative
 from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
+from ehlcontact.errors import ConvergenceError
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.rotor import MatrixRotor
 from reduced_models.bearing.statics import StaticBalls
 from reduced_models.vibration.balls import SmallBalls
-from reduced_models.vibration.mode import Matrices, WhirlMode, close, eigenvectors, shaped
+from reduced_models.vibration.mode import (
+    CANDIDATES,
+    Matrices,
+    WhirlMode,
+    close,
+    eigenvectors,
+    is_new,
+    shaped,
+    unlike,
+)
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -86,9 +96,14 @@ class LinearisedRotor:
         """
         if count is not None:
             require_integer("count", count, "a whole number >= 1", 1)
-        start, _ = self._frozen(SLOW)
-        found = [self._mode(s) for s in start[:count]]
-        return tuple(sorted(found, key=lambda mode: mode.omega))
+        undamped = self.bearing_impedance(SLOW)  # at a real s, real
+        values, vectors = eigenvectors(self.matrices, undamped, SLOW)
+        found: list[tuple[complex, _Complex]] = []
+        for s, q in zip(values[:count], vectors.T[:count], strict=True):
+            found += self._root(complex(s), q, found)
+        pairs = [(m.x, m.y) for m in self.rotor.mounts] + [(u.x, u.y) for u in self.rotor.unbalances]
+        modes = [shaped(s, q, pairs) for s, q in found if s.imag > 0.0]
+        return tuple(sorted(modes, key=lambda mode: mode.omega))
 
     @property
     def growth(self) -> float:
@@ -166,15 +181,18 @@ class LinearisedRotor:
             )
         return force
 
-    def _frozen(self, omega: float) -> tuple[_Complex, _Complex]:
-        return eigenvectors(self.matrices, self.bearing_impedance(1j * omega), omega)
-
-    def _mode(self, guess: complex) -> WhirlMode:
-        values, vectors = self._frozen(guess.imag)
-        nearest = int(np.argmin(np.abs(values - guess)))
-        s, q = close(self.dynamic_stiffness, complex(values[nearest]), vectors[:, nearest])
-        pairs = [(m.x, m.y) for m in self.rotor.mounts] + [(u.x, u.y) for u in self.rotor.unbalances]
-        return shaped(s, q, pairs)
+    def _root(
+        self, s: complex, q: _Complex, found: list[tuple[complex, _Complex]]
+    ) -> list[tuple[complex, _Complex]]:
+        """The root near a mode without damping, none of those found; nothing where damping leaves fewer modes."""
+        values, vectors = eigenvectors(self.matrices, self.bearing_impedance(1j * s.imag), s.imag)
+        for k in np.argsort(unlike(s, q, values, vectors))[:CANDIDATES].tolist():
+            root, shape = close(self.dynamic_stiffness, complex(values[k]), vectors[:, k])
+            if is_new(root, shape, found):
+                return [(root, shape)]
+        if len(values) < self.rotor.size:
+            return []
+        raise ConvergenceError(f"mode near {s.imag / (2.0 * np.pi):.4g} Hz not found", None)
 
 
 def linearise(rotor: MatrixRotor, speed_rpm: float, *, passage: bool = True) -> LinearisedRotor:

@@ -2,13 +2,14 @@
 
     T(s) = s^2 M + s (C + omega G) + K + B^T Z(s) B
 
-Each is found from the eigenvectors of the matrices that the bearings have at a frequency, first 0, then its own,
-and closed by Newton's method on (q, s) together: what memory and damping make of Z off the imaginary axis is in.
+Each is found from the eigenvectors of the matrices that the bearings have at a frequency, first 0 (without their
+damping, which may be large there), then its own, and closed by Newton's method on (q, s) together: what memory and
+damping make of Z off the imaginary axis is in. What was found already is not taken again: the next best is tried.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import hypot, pi
 
@@ -25,6 +26,9 @@ Matrices = tuple[_Floats, _Floats, _Floats]
 CLOSED = 1e-8  # relative change of an eigenvalue that ends Newton's method: what it leaves is of its square
 MOST_ROUNDS = 50  # of it: five, in a rotor whose bearings damp it little
 PROBE = 1e-5  # of |s|: difference quotients of Z, which only steer Newton's method
+SAME = 1e-6  # relative difference of eigenvalues that may be one
+NEW = 1e-3  # least singular value of the shapes that have one eigenvalue: below, one of them is not its own
+CANDIDATES = 6  # that are tried for a mode
 NO_OSCILLATION = 1e-7  # of the fastest mode: below, a frequency is the rounding of none
 
 
@@ -97,6 +101,20 @@ def close(dynamic: Callable[[complex], _Complex], s: complex, q: _Complex) -> tu
         if abs(change[size]) <= CLOSED * abs(s):
             return s, q
     raise ConvergenceError(f"mode near {s.imag / (2.0 * pi):.4g} Hz not found", None)
+
+
+def unlike(s: complex, q: _Complex, others: _Complex, shapes: _Complex) -> _Floats:
+    """What the shape of a mode does not share with others (columns), and by how much frequencies differ in ln."""
+    squares = np.vdot(q, q).real * (np.abs(shapes) ** 2).sum(axis=0)
+    shared = np.abs(q.conj() @ shapes) ** 2 / squares
+    return np.asarray(1.0 - shared + np.abs(np.log(others.imag / s.imag)))
+
+
+def is_new(s: complex, q: _Complex, found: Sequence[tuple[complex, _Complex]]) -> bool:
+    """Whether a root is none of those found: at another place, or a further direction at a multiple one."""
+    beside = [shape / np.linalg.norm(shape) for other, shape in found if abs(other - s) <= SAME * abs(s)]
+    shapes = np.array([*beside, q / np.linalg.norm(q)])
+    return bool(np.linalg.svd(shapes, compute_uv=False)[-1] > NEW) if len(shapes) <= q.size else False
 
 
 def shaped(s: complex, q: _Complex, pairs: list[tuple[int, int]]) -> WhirlMode:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlcontact.errors import InputError
+from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import (
     Campbell,
     SpeedCourse,
@@ -145,6 +145,16 @@ def test_bad_figures(film, block):
     short = simulate_on_bearings(block(film), speed_rpm=3000.0, dt=5e-5, until=2e-4)
     with pytest.raises(InputError, match="at least 16"):
         short.plot()
+
+
+def test_a_mode_that_stops_to_oscillate(film, block):
+    """Damping that grows with the speed."""
+    rotor = block(film, gyroscopic=np.diag([0.0, 500.0]))
+    assert len(linearise(rotor, 300.0).modes()) == 2
+    (left,) = linearise(rotor, 3000.0).modes()
+    assert abs(left.shape[0]) == 1.0
+    with pytest.raises(ConvergenceError, match=r"only 1 of 2 modes oscillate at 3000 rev/min: ask for fewer"):
+        campbell(rotor, [300.0, 3000.0])
 
 
 def test_no_unbalance(film, block):

@@ -118,6 +118,17 @@ def test_unbalance_response_in_time(film, block):
     np.testing.assert_allclose(seen, expected, rtol=0.0, atol=2e-3 * np.abs(expected).max())
 
 
+def test_modes_of_one_frequency_are_all_found(film, beam):
+    """A shaft that does not turn on round bearings: all modes come in pairs; films that remember for long."""
+    round_ = BallBearing.catalogue("6205", oil=film.oil, clearance=-2e-6)
+    at = linearise(beam(round_, load=np.zeros(28), gyroscopic=None), 1.0)
+    modes = at.modes(None)
+    assert len(modes) == 28
+    omega = np.array([mode.omega for mode in modes])
+    np.testing.assert_allclose(omega[::2], omega[1::2], rtol=1e-5)
+    assert np.all(omega[2::2] > 1.00002 * omega[1:-1:2])
+
+
 def test_whirl_tells_the_direction(block):
     """A preloaded bearing and a gyroscopic block: of exp(i w t) (1, -i), a circle from x to y, w is known."""
     tight, turning = BallBearing.catalogue("6205", clearance=-2e-5), 20000.0 * pi / 30.0
