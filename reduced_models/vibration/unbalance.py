@@ -24,6 +24,9 @@ _Complex = NDArray[np.complex128]
 class UnbalanceResponse:
     """Amplitudes over the speed, about rest: q(t) = cosine cos(w t) + sine sin(w t), the shaft's angle being w t.
 
+    They are linear in the unbalance, however large; what a ring does that moves as far as its balls are pressed in
+    by the load is for `simulate_on_bearings`.
+
     Attributes
     ----------
     speed_rpm : ndarray, shape (k,)

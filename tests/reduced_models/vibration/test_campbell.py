@@ -53,6 +53,19 @@ def test_critical_speeds_lie_where_a_mode_has_the_frequency_of_the_order(film, b
     assert diagram.critical_speeds(0.01) == ()
 
 
+def test_a_run_up_resonates_where_balls_pass_at_the_frequency_of_a_mode(film, beam, diagram):
+    """Faster and faster balls: the largest swing comes a little after the crossing."""
+    rotor, window = beam(film, unbalances=()), np.ones(400) / 400.0
+    course = SpeedCourse(np.array([0.0, 2.0]), np.array([3000.0, 5000.0]))
+    run = simulate_on_bearings(rotor, speed_rpm=course, dt=5e-5, until=2.0)
+    for direction, one in enumerate(diagram.critical_speeds(film.orders.bpfo)[:2]):
+        swing = run.displacement[:, 12 + direction]
+        swing = np.convolve((swing - np.convolve(swing, window, "same")) ** 2, window, "same")[1000:-1000]
+        peak = run.speed_rpm[1000:-1000][np.argmax(swing)]
+        assert swing.max() > 6.0 * np.median(swing)
+        assert 1.0 < peak / one.speed_rpm < 1.04
+
+
 def test_unbalance_peaks_at_the_critical_speed(dry, block):
     """A block that its bearing lets swing at about 100 Hz."""
     rotor = block(dry, mass=200.0, damping=1e3 * np.eye(2))
