@@ -8,6 +8,7 @@ import pytest
 
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingMount, MatrixRotor, linearise, log_decrement, simulate_on_bearings
+from reduced_models.vibration.mode import is_new
 
 RPM = 3000.0
 DISC = 12
@@ -127,6 +128,16 @@ def test_modes_of_one_frequency_are_all_found(film, beam):
     omega = np.array([mode.omega for mode in modes])
     np.testing.assert_allclose(omega[::2], omega[1::2], rtol=1e-5)
     assert np.all(omega[2::2] > 1.00002 * omega[1:-1:2])
+
+
+def test_a_root_is_new_at_another_place_or_in_another_direction():
+    x, y, z = np.eye(3, dtype=complex)
+    found = [(-1.0 + 100.0j, x), (-1.0 + 100.0j, y)]
+    assert is_new(-1.0 + 101.0j, x, found)
+    assert is_new(-1.0 + 100.0j, x + z, found)
+    assert not is_new(-1.0 + 100.0j, 1j * x, found)
+    assert not is_new(-1.0 + 100.0j, x - 2.0 * y, found)  # of a double root, both are found
+    assert is_new(-1.0 + 100.0j, x, [])
 
 
 def test_whirl_tells_the_direction(block):
