@@ -6,6 +6,7 @@
 | fitting | elements from data: `ContactRecord`, `fit`, `fit_memory`, `sensitivity` |
 | atlas | elements without a solve: `Atlas`, from contacts solved beforehand, with error bars |
 | bearing | ball bearings of such contacts: `BallBearing` |
+| vibration | linear answers of rotors on such bearings: `linearise`, `campbell`, `unbalance_response` |
 | rotor | what runs on elements and full films: `simulate_rotor`, `LinearRotor`, `log_decrement`, `compare` |
 
 To come: adapters (to other programs' rotors and controllers).
@@ -77,3 +78,12 @@ from reduced_models.rotor.settled import settling as settling
 from reduced_models.rotor.simulate import RotorResult as RotorResult
 from reduced_models.rotor.simulate import RotorStatus as RotorStatus
 from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor
+from reduced_models.vibration.block import rotor_to_control as rotor_to_control
+from reduced_models.vibration.campbell import Campbell as Campbell
+from reduced_models.vibration.campbell import CriticalSpeed as CriticalSpeed
+from reduced_models.vibration.campbell import campbell as campbell
+from reduced_models.vibration.linearised import LinearisedRotor as LinearisedRotor
+from reduced_models.vibration.linearised import linearise as linearise
+from reduced_models.vibration.mode import WhirlMode as WhirlMode
+from reduced_models.vibration.unbalance import UnbalanceResponse as UnbalanceResponse
+from reduced_models.vibration.unbalance import unbalance_response as unbalance_response

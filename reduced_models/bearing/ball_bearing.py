@@ -277,13 +277,17 @@ class BallBearing:
         """
         force, speed = radial_load(load), self.speed(speed_rpm)
         w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
+        standings, kernel = self.standings(force, speed, cage_angle), self.kernel(speed)
+        mean = np.mean([impedances(kernel, self.turn(speed), standing, w) for standing in standings], axis=0)
+        return BearingCoefficients.of(force, speed, cage_angle, w, mean, standings)
+
+    def standings(self, load: ArrayLike, speed_rpm: float, cage_angle: float | None = None) -> list[Standing]:
+        """The ring at rest under a load [N], at positions of the cage over a ball passage or at one [rad]."""
+        force, speed = radial_load(load), self.speed(speed_rpm)
         first = direction_of(force) if cage_angle is None else angle_of(cage_angle)
         steps = np.arange(POSITIONS) / POSITIONS if cage_angle is None else np.zeros(1)
         angles = first + 2.0 * pi / self.balls * steps
-        kernel = self.kernel(speed)
-        standings = [self._stand(force, speed, angle) for angle in angles.tolist()]
-        mean = np.mean([impedances(kernel, self.turn(speed), standing, w) for standing in standings], axis=0)
-        return BearingCoefficients.of(force, speed, cage_angle, w, mean, standings)
+        return [self._stand(force, speed, angle) for angle in angles.tolist()]
 
     @by_name(2)
     def to_ross(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,20 +99,37 @@ def impedances(balls: Balls, turn: Turn, standing: Standing, omega: _Floats) -> 
 TINY_OMEGA = 1e-3  # rad/s, stands for 0: films forget in less than a second
 
 
-def contact_impedance(law: RaceLaw, transit: float, spin: tuple[int, float], u: float, omega: _Floats) -> _Complex:
-    """K + i w C of one contact at rest at approach `u`, shape (k,)."""
-    g, slope, _ = curve(u, spin[0], spin[1], law, 0)
+class SmallContact(NamedTuple):
+    """A contact about rest: dF = stiffness du + slope dm, with dm the response of the filters to tau u'."""
+
+    stiffness: float  # of the static force [N/m]
+    slope: float  # dF/dm [N/m]
+    tau: float  # its own time [s]
+    gains: _Floats  # (DIRECT + lags,); none in a dry contact
+    rates: FilterRates | None  # in own time; None in a dry contact
+
+
+def small_contact(law: RaceLaw, transit: float, spin: tuple[int, float], u: float) -> SmallContact:
+    """What a contact at rest at approach `u` does with a small motion."""
+    g, by_u, _ = curve(u, spin[0], spin[1], law, 0)
     root = np.sqrt(g)
-    static = 1.5 * law.kn * root * slope
     if law.x.size == 0:
-        return np.full(omega.size, static, complex)
+        return SmallContact(1.5 * law.kn * root * by_u, 0.0, 0.0, np.zeros(0), None)
     rows = law.gains[spin[0]]
     if spin[1] > 0.0:
         rows = rows + spin[1] * (law.gains[spin[0] + 1] - rows)
     x = law.log_kn + 1.5 * np.log(g)
     gains = np.array([np.interp(x, law.x, column) for column in rows.T])
     rates = FilterRates(gains.size - DIRECT, law.lag_rate, law.inlet_rate, law.fast_rate)
-    tau = transit * root
     share, share_u = carried(u, law.fade)
-    memory = 1j * omega * tau * (rates.basis(omega * tau) @ gains)
-    return np.asarray(share * (static + 1.5 * law.kn * root * memory) + share_u * law.kn * g * root)
+    slope = share * 1.5 * law.kn * root
+    return SmallContact(slope * by_u + share_u * law.kn * g * root, slope, transit * root, gains, rates)
+
+
+def contact_impedance(law: RaceLaw, transit: float, spin: tuple[int, float], u: float, omega: _Floats) -> _Complex:
+    """K + i w C of one contact at rest at approach `u`, shape (k,)."""
+    small = small_contact(law, transit, spin, u)
+    if small.rates is None:
+        return np.full(omega.size, small.stiffness, complex)
+    own = omega * small.tau
+    return np.asarray(small.stiffness + small.slope * 1j * own * (small.rates.basis(own) @ small.gains))

@@ -30,6 +30,8 @@ _Floats = NDArray[np.float64]
 LONGEST_BLOCK = 4096  # steps between two looks at Ctrl-C
 SPEED_PER_BLOCK = 2e-3  # change of the speed, over the highest, at which gyroscopic forces are renewed
 LEAST_STEPS = 16  # per turn of the shaft and per ball passage
+KINDS = ("orbit", "spectrum", "waterfall")  # of figures
+ORDERS_SHOWN = 20.0  # multiples of the speed, to which spectra go
 FARTHEST = 0.05  # of a ball diameter, that a ring may go from the middle: no clearance is as large
 
 
@@ -73,6 +75,38 @@ class BearingRun:
         """Read what `save` wrote; raises `InputError` for anything else."""
         run: Self = hdf5.read(path, {cls.__name__: cls}, "file", "run of a rotor on ball bearings")
         return run
+
+    def plot(
+        self, path: str | os.PathLike[str] | None = None, *, kind: str = "orbit", most_hz: float | None = None
+    ) -> Any:
+        """Matplotlib figure of the rings' motion; into a file too where a path is given.
+
+        Parameters
+        ----------
+        path : path, optional
+            The ending gives the format.
+        kind : {"orbit", "spectrum", "waterfall"}
+            Paths over the last turns; amplitudes over frequency, of the second half of the run; such amplitudes
+            of y piece by piece, over the speed or, where that is constant, the time.
+        most_hz : float, optional
+            End of the frequencies shown; by default 20 times the highest speed, as far as the steps resolve it.
+
+        Raises
+        ------
+        InputError
+            Another kind, a run of fewer than 16 steps, or the file cannot be written.
+        """
+        from reduced_models.bearing.picture import draw_run
+
+        if kind not in KINDS:
+            raise InputError("kind", kind, f"one of {', '.join(KINDS)}")
+        if self.t.size <= LEAST_STEPS:
+            raise InputError("steps of the run", self.t.size - 1, f"at least {LEAST_STEPS}, for a figure")
+        highest = 0.5 / float(self.t[1] - self.t[0])
+        if most_hz is None:
+            turning = float(self.speed_rpm.max()) / 60.0
+            most_hz = min(ORDERS_SHOWN * turning, highest) if turning > 0.0 else highest
+        return draw_run(self, path, kind, min(require_positive("most_hz", most_hz), highest))
 
 
 def simulate_on_bearings(

@@ -12,7 +12,9 @@ def test_public_names_are_there():
         "JeffcottRotor", "ContactMount", "RotorState", "RotorResult", "RotorStatus", "simulate_rotor", "compare",
         "simulate_oscillator", "ScaledContact", "BallBearing", "BearingState", "BearingCoefficients",
         "BearingMotion", "DefectFrequencies", "MatrixRotor", "BearingMount", "Unbalance", "SpeedCourse",
-        "simulate_on_bearings", "BearingRun", "Atlas", "AtlasAnswer", "AtlasSI",
         "from_ross", "RossCallback",
+        "simulate_on_bearings", "BearingRun", "linearise", "LinearisedRotor", "WhirlMode", "campbell", "Campbell",
+        "CriticalSpeed", "unbalance_response", "rotor_to_control", "UnbalanceResponse",
+        "Atlas", "AtlasAnswer", "AtlasSI",
     ):  # fmt: skip
         assert hasattr(reduced_models, name)
