@@ -55,6 +55,7 @@ from ehlcontact.transient.full_contact import FullContact
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 from ehlcontact.transient.prescribed import PrescribedApproach, PrescribedLoad
 from ehlcontact.transient.result import Instants, SimulationResult
+from ehlcontact.transient.roughness import Roughness
 from ehlcontact.transient.si import ContactSI, SimulationSI
 from ehlcontact.transient.simulate import simulate
 from ehlcontact.transient.surface import Dent, TransverseRidge, Waviness
@@ -86,6 +87,7 @@ __all__ = [
     "PrescribedLoad",
     "Purpose",
     "RampLoad",
+    "Roughness",
     "Scales",
     "SimulationResult",
     "SimulationSI",

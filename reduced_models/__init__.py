@@ -5,9 +5,11 @@
 | elements | the elements: law, validity, units, file; `load_element` |
 | fitting | elements from data: `ContactRecord`, `fit`, `fit_memory`, `sensitivity` |
 | atlas | elements without a solve: `Atlas`, from contacts solved beforehand, with error bars |
+| bearing | ball bearings of such contacts: `BallBearing` |
+| vibration | linear answers of rotors on such bearings: `linearise`, `campbell`, `unbalance_response` |
 | rotor | what runs on elements and full films: `simulate_rotor`, `LinearRotor`, `log_decrement`, `compare` |
 
-To come: bearing (geometry, ball bearing, excitation) and adapters (to other programs' rotors and controllers).
+To come: adapters (to other programs' rotors and controllers).
 Symbols and units: `ehlcontact.point`.
 """
 
@@ -16,6 +18,19 @@ from reduced_models.atlas.answer import AtlasAnswers as AtlasAnswers
 from reduced_models.atlas.answer import AtlasSI as AtlasSI
 from reduced_models.atlas.atlas import Atlas as Atlas
 from reduced_models.atlas.frequency import AtlasImpedance as AtlasImpedance
+from reduced_models.bearing.ball_bearing import BallBearing as BallBearing
+from reduced_models.bearing.course import SpeedCourse as SpeedCourse
+from reduced_models.bearing.kinematics import DefectFrequencies as DefectFrequencies
+from reduced_models.bearing.linear import BearingCoefficients as BearingCoefficients
+from reduced_models.bearing.motion import BearingMotion as BearingMotion
+from reduced_models.bearing.ross import RossCallback as RossCallback
+from reduced_models.bearing.ross import from_ross as from_ross
+from reduced_models.bearing.rotor import BearingMount as BearingMount
+from reduced_models.bearing.rotor import MatrixRotor as MatrixRotor
+from reduced_models.bearing.rotor import Unbalance as Unbalance
+from reduced_models.bearing.run import BearingRun as BearingRun
+from reduced_models.bearing.run import simulate_on_bearings as simulate_on_bearings
+from reduced_models.bearing.state import BearingState as BearingState
 from reduced_models.elements.kinds import ContactElement as ContactElement
 from reduced_models.elements.kinds import CubicContact as CubicContact
 from reduced_models.elements.kinds import FilmMemoryContact as FilmMemoryContact
@@ -65,3 +80,12 @@ from reduced_models.rotor.settled import settling as settling
 from reduced_models.rotor.simulate import RotorResult as RotorResult
 from reduced_models.rotor.simulate import RotorStatus as RotorStatus
 from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor
+from reduced_models.vibration.block import rotor_to_control as rotor_to_control
+from reduced_models.vibration.campbell import Campbell as Campbell
+from reduced_models.vibration.campbell import CriticalSpeed as CriticalSpeed
+from reduced_models.vibration.campbell import campbell as campbell
+from reduced_models.vibration.linearised import LinearisedRotor as LinearisedRotor
+from reduced_models.vibration.linearised import linearise as linearise
+from reduced_models.vibration.mode import WhirlMode as WhirlMode
+from reduced_models.vibration.unbalance import UnbalanceResponse as UnbalanceResponse
+from reduced_models.vibration.unbalance import unbalance_response as unbalance_response

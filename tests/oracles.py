@@ -186,7 +186,7 @@ def distribution_weight(eps, j, i, hx, hy, kappa, c_t):
     below = eps[1, i] if j == 0 else eps[j - 1, i]
     along = max(flow_mean(eps[j, i], other) for other in (eps[j, i - 1], eps[j, i + 1])) / hx**2
     across = max(flow_mean(eps[j, i], other) for other in (below, eps[j + 1, i])) * kappa**2 / hy**2
-    switch = 8.0 * max(1.0, 0.5 * hy / (kappa * hx)) * (1.0 + 10.0 * c_t * hx / 1.5)
+    switch = 5.0 * max(1.0, 0.5 * hy / (kappa * hx)) * (1.0 + 10.0 * c_t * hx / 1.5)
     ratio = max(along, across) / switch
     return 1.0 / (1.0 + ratio**4)
 

@@ -20,7 +20,7 @@ def tools():
     sys.path.insert(0, str(FOLDER))
     yield
     sys.path.remove(str(FOLDER))
-    for name in ("box", "conv", "cycles", "honest", "honest_step", "ledger", "page", "run"):
+    for name in ("box", "conv", "cycles", "honest", "honest_step", "ledger", "modes", "page", "run"):
         sys.modules.pop(name, None)
 
 
@@ -296,3 +296,19 @@ def test_numbers_in_tables(value, text):
     import page
 
     assert page.number(value, 2 if value is None or value < 100 else 4) == text
+
+
+def test_sweeps_smooth_whatever_the_oil():
+    """By local mode analysis, where lines lie up to four node distances apart; two nodes along one do not do."""
+    import modes
+
+    for apart in (1.0, 2.0, 4.0):
+        assert max(modes.smoothing_factor(flow, apart) for flow in modes.FLOWS) < 0.5
+    assert modes.smoothing_factor(0.01, 4.0, along=2) > 0.9
+
+
+def test_local_modes_without_film_are_gauss_seidel_by_lines():
+    """Where flow is all there is, the zebra factor of Poisson's equation: 1/4 on squares (Trottenberg 2001)."""
+    import modes
+
+    assert modes.smoothing_factor(1e6, 1.0) == pytest.approx(0.25, rel=0.02)

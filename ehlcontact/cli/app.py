@@ -11,6 +11,7 @@ import typer
 
 from ehlcontact.cli.commands import (
     atlas,
+    bearing,
     element,
     export,
     fit,
@@ -58,7 +59,7 @@ def _program(
     """Transient elastohydrodynamic rolling contacts, reduced to elements for rotordynamics."""
 
 
-for module in (steady, simulate, impedance, fit, element, export, validate, run, reproduce, atlas):
+for module in (steady, simulate, impedance, fit, element, export, validate, run, reproduce, bearing, atlas):
     module.register(app)
 
 

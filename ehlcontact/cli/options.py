@@ -77,6 +77,10 @@ JsonTo = Annotated[
         rich_help_panel=_FILES,
     ),
 ]
+FigureTo = Annotated[
+    Path | None,
+    typer.Option("--figure", metavar="FILE", help="Draw the result as PNG, SVG or PDF.", rich_help_panel=_FILES),
+]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,12 +166,7 @@ class Files:
         Path | None,
         typer.Option("--save", metavar="FILE", help="Save the result as HDF5.", rich_help_panel=_FILES),
     ] = None
-    figure: Annotated[
-        Path | None,
-        typer.Option(
-            "--figure", metavar="FILE", help="Draw the result as PNG, SVG or PDF.", rich_help_panel=_FILES
-        ),
-    ] = None
+    figure: FigureTo = None
     json_to: JsonTo = None
 
     def check(self, beside: Mapping[str, Path | None] = MappingProxyType({}), read: Path | None = None) -> None:

@@ -54,7 +54,7 @@ class Level:
         self.gap = S * self.X**2 + (1.0 - S) * self.Y[:, None] ** 2
         self.team = ALONE
         self.deflection = make_deflection(nx, ny, self.hx, self.hy, point.kappa, deflection)
-        self.near = self.deflection.kernel[: relax.NEAR + 2, : relax.NEAR + 2].copy()
+        self.near = self.deflection.kernel[: relax.NEAR + 2, : relax.ALONG + 2].copy()
         shape = (ny + 1, nx + 1)
         self.fields = Fields(
             P=np.zeros(shape),
@@ -82,14 +82,13 @@ class Level:
     def set_point(self, point: MoesPoint) -> None:
         """Numbers that the kernels need at `point`, whose kappa must be that of the level."""
         self.M, self.law = point.M, point.law
-        # On a mesh finer along X, smooth changes of P deflect the film further beyond the near coefficients.
-        switch = relax.SWITCH * max(1.0, 0.5 * self.hy / (point.kappa * self.hx))
         self.stencil = reynolds.Stencil(
             cx=self.hx**-2,
             cy=point.kappa**2 * self.hy**-2,
             inv_hx=1.0 / self.hx,
             lam=point.lam,
-            switch=switch,
+            # On a mesh finer along X, smooth changes of P deflect the film further beyond the near coefficients.
+            crowding=max(1.0, 0.5 * self.hy / (point.kappa * self.hx)),
         )
 
     @property
@@ -183,10 +182,15 @@ class Level:
         return self.c_t > FLANK_SQUEEZE * 1.5 / self.hx
 
     def relax_flanks(self) -> None:
-        """Local passes along the steep flanks, from the state of the last `update`; as `relax`."""
+        """Passes along the steep flanks from the state of the last `update`; P, H and flow written there."""
         self._weigh()
         f = self.fields
         flanks.relax_flanks(f, self.rhs, self.law, self.stencil, self.c_t, self.near, self.marks)
+
+    def relax_flanks_first(self) -> None:
+        """`relax_flanks`, then `relax`: away from them the film hardly feels their distributed changes."""
+        self.relax_flanks()
+        self.relax()
 
     def _weigh(self) -> None:
         """Weights of the distributed changes, from the state of the last `update`."""

@@ -24,10 +24,10 @@ from ehlcontact.solver.kernels import transfer
 from ehlcontact.solver.level import Level, build_hierarchy
 from ehlcontact.solver.mesh import Mesh, coarsest_intervals, resolved_load
 
-PRE_SWEEPS, POST_SWEEPS = 2, 1  # then the flanks
+PRE_SWEEPS, POST_SWEEPS = 2, 1
 CYCLES_PER_LEVEL = 1  # of full multigrid, before the finest level
-LARGEST_LOADING = 4.0  # factor by which the load of a level rises at once
-CYCLES_AFTER_LOADING = 4  # on a level that carries more load than the one below
+LARGEST_LOADING = 5.0  # factor by which the load of a level rises at once
+CYCLES_AFTER_LOADING = 3  # on a level that carries more load than the one below
 
 
 class Multigrid:
@@ -122,8 +122,8 @@ class Multigrid:
         fine = self.levels[k]
         if k == 0:
             return self.newton.correct(u, balance)
-        for move in self._moves(fine, PRE_SWEEPS):
-            move()
+        for sweep in self._sweeps(fine, PRE_SWEEPS):
+            sweep()
             r = fine.update(u)
         coarse = self.levels[k - 1]
         along, across = fine.nx // coarse.nx, fine.ny // coarse.ny
@@ -142,15 +142,15 @@ class Multigrid:
         shift = balance.weight * (coarse.force() - fine.force())
         u = self._cycle(k - 1, u, balance.shifted(shift))
         transfer.add_correction(coarse.P, start, fine.P, along, across)
-        for move in self._moves(fine, POST_SWEEPS):
+        for sweep in self._sweeps(fine, POST_SWEEPS):
             fine.update(u)
-            move()
+            sweep()
         return u
 
-    def _moves(self, level: Level, sweeps: int) -> Sequence[Callable[[], None]]:
-        """Sweeps on a level before or after its coarse correction, and passes along its flanks if it has any."""
-        flanks = () if level.squeeze_dominates else (level.relax_flanks,)
-        return (*(level.relax,) * sweeps, *flanks) * self.effort
+    def _sweeps(self, level: Level, count: int) -> Sequence[Callable[[], None]]:
+        """Sweeps on a level before or after its coarse correction, the last of them along its flanks first."""
+        last = level.relax if level.squeeze_dominates else level.relax_flanks_first
+        return (*(level.relax,) * (count - 1), last) * self.effort
 
 
 def initial_approach(point: MoesPoint) -> float:

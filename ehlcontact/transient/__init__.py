@@ -7,6 +7,7 @@ module           responsibility
 ``motion``       free vibration, harmonic load, ramp
 ``prescribed``   loads and approaches given by a table
 ``surface``      what travels through: `Dent`, `TransverseRidge`, `Waviness`
+``roughness``    `Roughness`: likewise, made or measured
 ``film``         `TransientFilm`: one implicit step of the film
 ``record``       what is recorded: an entry per step, whole fields at the wanted times
 ``step``         error and length of a time step

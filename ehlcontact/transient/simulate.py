@@ -23,6 +23,7 @@ from ehlcontact.transient.checkpoint import CheckpointError, Keeper, load_checkp
 from ehlcontact.transient.film import TransientFilm
 from ehlcontact.transient.record import History
 from ehlcontact.transient.result import SimulationResult
+from ehlcontact.transient.roughness import Roughness
 from ehlcontact.transient.run import Run, RunEnd, march
 from ehlcontact.transient.settings import RunSettings, TimeSteps
 from ehlcontact.transient.step import StepControl
@@ -75,7 +76,8 @@ def simulate(
     snapshots : sequence of float
         Times whose whole fields are kept.
     surface : callable, optional
-        Feature G(X, Y, T) added to the gap, even in Y; see `surface`. At rest for T <= 0.
+        Feature G(X, Y, T) added to the gap, even in Y: `Dent`, `TransverseRidge`, `Waviness`, `Roughness`, or a
+        function of one's own. At rest for T <= 0.
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection, as in `solve_steady`.
     threads : int, optional
@@ -123,11 +125,18 @@ def simulate(
         require_replaceable(checkpoint, restart)
     threads = require_threads("threads", threads)
     meshes = widened(mesh, moes, Purpose.RUN, n=n, domain=domain)
+
+    def film_on(mesh: Mesh) -> TransientFilm:
+        film = TransientFilm(moes, mesh, steps.tol, deflection, threads)
+        if isinstance(surface, Roughness):
+            surface.require_fit(film.level.X, film.level.Y, steps.until)
+        return film
+
     earlier = None
     if restart is not None:
         earlier = load_checkpoint(restart)
         mesh = next((wider for wider in meshes if wider == earlier.settings.mesh), mesh)
-        film = TransientFilm(moes, mesh, steps.tol, deflection, threads)
+        film = film_on(mesh)
         earlier.check(replace(settings, mesh=mesh), dT, surface, film.level, restart)
         started -= earlier.seconds
         steps = steps.going_on(earlier.settings.steps)
@@ -142,7 +151,7 @@ def simulate(
 
     def from_rest(mesh: Mesh) -> tuple[Run, RunEnd]:
         keeper.settings = replace(settings, mesh=mesh)
-        film = TransientFilm(moes, mesh, steps.tol, deflection, threads)
+        film = film_on(mesh)
         control = None if error is None else StepControl(error, steps.dT)
         run = Run(film, motion, surface, History(settings.snapshots), control, watch)
         end = RunEnd(run.start())

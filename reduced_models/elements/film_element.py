@@ -247,6 +247,29 @@ class FilmContact(ContactElement):
         states = ["s", "y", *(f"q{k}" for k in range(1, self.lags + 1))]
         return control.nlsys(update, output, inputs=["u", "v"], outputs=["F"], states=states, name=name)
 
+    def to_ss(self, load: float | None = None, name: str = "contact") -> Any:
+        """Exact python-control ``StateSpace`` about rest under `load`, its reference load by default.
+
+        Inputs u, v, output F and states are those of `to_control`, as differences from rest.
+        """
+        import control
+
+        f, length, time = self._units
+        own = (1.0 if load is None else require_positive("load", load) / f) ** (1.0 / 3.0)
+        gains = np.array([np.interp(3.0 * math.log(own), self.law.gain_x, column) for column in self.law.gains.T])
+        law, size = self.law, self.state_count
+        A = np.diag([-law.inlet_rate, -law.fast_rate, *[-law.lag_rate] * self.lags]) / own
+        for j in range(DIRECT - 1, size):
+            A[j, 0 if j == DIRECT - 1 else j - 1] = law.lag_rate / own
+        fed = np.zeros((size, 2))
+        fed[:2, 1] = law.inlet_rate / length, law.fast_rate / length
+        held = DRY * own * f * gains
+        tangent = self.spring_tangent(self.approach_at(own**3 * f))
+        through = np.array([[tangent, held[0] * own * time / length]])
+        states = ["s", "y", *(f"q{k}" for k in range(1, self.lags + 1))]
+        names = {"inputs": ["u", "v"], "outputs": ["F"], "states": states, "name": name}
+        return control.ss(A / time, fed, held[None, 1:], through, **names)
+
     def _si_coefficients(self, scales: Scales) -> dict[str, Any]:
         return {"scales": scales}  # the coefficients stay dimensionless
 

@@ -59,7 +59,11 @@ class FilterRates:
 
     def basis(self, omega: ArrayLike) -> _Complex:
         """Response of every filter, shape (number of omegas, 3 + lags)."""
-        s = 1j * np.maximum(np.asarray(omega, float), SMALL_OMEGA)[:, None]
+        return self.transfer(1j * np.maximum(np.asarray(omega, float), SMALL_OMEGA))
+
+    def transfer(self, s: ArrayLike) -> _Complex:
+        """Transfer function of every filter at complex `s`, shape (number of s, 3 + lags)."""
+        s = np.asarray(s, complex)[:, None]
         inlet = 1.0 / (1.0 + s / self.inlet_rate)
         chain = (1.0 / (1.0 + s / self.lag_rate)) ** np.arange(1, self.lags + 1)
         return np.hstack([np.ones_like(s), inlet, 1.0 / (1.0 + s / self.fast_rate), inlet * chain])

@@ -332,6 +332,18 @@ class MemorylessContact(ContactElement):
 
         return control.nlsys(None, output, inputs=["u", "v"], outputs=["F"], name=name)
 
+    def to_ss(self, load: float | None = None, name: str = "contact") -> Any:
+        """Exact python-control ``StateSpace`` about rest under `load`, without states: F = K u + C v.
+
+        Inputs and output are those of `to_control`, as differences from rest.
+        """
+        import control
+
+        Z = complex(self._response(np.ones(1), load)[0])
+        through = np.array([[Z.real, Z.imag]])
+        none = np.zeros((0, 0)), np.zeros((0, 2)), np.zeros((1, 0))
+        return control.ss(*none, through, inputs=["u", "v"], outputs=["F"], name=name)
+
     def _value(self, index: int, approach: ArrayLike, rate: ArrayLike) -> float | _Floats:
         if isinstance(approach, float) and isinstance(rate, float):
             return contact(approach, rate, self.law)[index]

@@ -3,6 +3,7 @@
 POINT = ("--M", "200", "--L", "10", "--kappa", "0.5")
 # Files of the folder that they are run in: `good` makes sound ones of each kind.
 RECORD, OTHER, FILM, ELEMENT, STUDY = "record.h5", "other.h5", "film.h5", "element.json", "study.toml"
+OIL = {"grade": "68", "temperature": "50"}
 ATLAS = ("atlas", "build", "-o", "new.npz")
 
 
@@ -18,6 +19,12 @@ def steady(*more, **changes):
 
 def free(*more, **changes):
     return at("simulate", "--free", "5", *more, **changes)
+
+
+def bearing(name, *more, **changes):
+    """A bearing by its name, dry at 1000 N and 1000 rpm but for the changes."""
+    options = {"load": "1000", "speed": "1000"} | changes
+    return ("bearing", name, *(part for key, value in options.items() for part in (f"--{key}", value)), *more)
 
 
 COMMANDS = [
@@ -207,4 +214,25 @@ COMMANDS = [
     ((*ATLAS, "--work", STUDY), ("work file = 'study.toml'", "work file of an atlas build")),
     ((*ATLAS, "--scheduler", "nowhere"), ("--scheduler = 'nowhere'", "address of a Dask scheduler")),
     ((*ATLAS, "--scheduler", "tcp://127.0.0.1:1"), ("--scheduler", "refused")),
+    # bearing
+    (("bearing",), ("NAME|FILE.toml = None", "given")),
+    (bearing("6025"), ("bearing = '6025'", "6205", "nearest", "examples/bearing_6205.toml")),
+    (("bearing", "6205", "--speed", "1000"), ("--load = None", "given")),
+    (("bearing", "6205", "--load", "1000"), ("--speed = None", "given")),
+    (bearing("6205", load="-5"), ("--load = -5.0", ">= 0")),
+    (bearing("6205", load="1e6", **OIL), ("--load = 1000000.0", "a ball carries at most", "atlas")),
+    (bearing("6205", load="0"), ("--load = 0.0", "preload the bearing")),
+    (bearing("6205", speed="nan"), ("--speed = nan", "finite")),
+    (bearing("6205", speed="0", **OIL), ("--speed = 0.0", "without rolling there is no film")),
+    (bearing("6205", speed="90000", **OIL), ("--speed = 90000.0", "at most 10427")),
+    (bearing("6205", grade="68"), ("--temperature = None", "--grade and --temperature")),
+    (bearing("6205", grade="70", temperature="50"), ("--grade = 70", "one of 10, 15")),
+    (bearing("6205", grade="68", temperature="323"), ("--temperature = 323.0", "between 20 and 120")),
+    (bearing("6205", clearance="5000"), ("--clearance = 5000", "given in um")),
+    (bearing("6205", load="0", clearance="-300", **OIL), ("--clearance = -300", "a ball carries at most")),
+    (bearing("6205", rq="0"), ("--rq = 0.0", "between 0.001 and 100")),
+    (bearing("6205", figure="x.txt"), ("--figure = 'x.txt'", ".png")),
+    (bearing("none.toml"), ("file = 'none.toml'", "readable TOML")),
+    (bearing("study.toml"), ("study.toml", "left out")),
+    (("bearing", "6205", "--axial", "5"), ("--axial", "--load, --speed")),
 ]

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 from bad_input.calls import CALLS, full_contact
-from bad_input.commands import COMMANDS, ELEMENT, FILM, OTHER, RECORD, STUDY, at, steady
+from bad_input.commands import COMMANDS, ELEMENT, FILM, OTHER, RECORD, STUDY, at, bearing, steady
 from bad_input.studies import SMALL, STUDIES
 from cli.test_bad_files import CASES
 
@@ -38,6 +38,7 @@ SAMPLE = [
     ("run", STUDY, "--jobs", "0"),
     ("reproduce", "--table", "7"),
     ("atlas", "build", "-o", "new.npz", "--scheduler", "nowhere"),
+    bearing("6205", load="0"),
 ]
 
 

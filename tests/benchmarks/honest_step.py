@@ -24,6 +24,7 @@ from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.film import TransientFilm
 from ehlcontact.transient.record import History
 from ehlcontact.transient.run import Run, march_fixed
+from ehlcontact.transient.surface import Surface
 
 MOTIONS: dict[str, Motion] = {"free": FreeVibration(Omega_n=5.13), "harmonic": HarmonicLoad(Omega=2.0 * pi)}
 DEFAULT_TOL = 3e-3  # of `simulate`
@@ -34,10 +35,19 @@ OUT_OF_REACH = 1e-16  # a tolerance that is never met: the number of cycles ends
 class Middle:
     """A run stopped in its middle, and its next step, to be repeated at will."""
 
-    def __init__(self, point: MoesPoint, motion: Motion, mesh: Mesh, steps: int) -> None:
-        self.dT = motion.default_step
+    def __init__(
+        self,
+        point: MoesPoint,
+        motion: Motion,
+        mesh: Mesh,
+        steps: int,
+        *,
+        dT: float | None = None,
+        surface: Surface | None = None,
+    ) -> None:
+        self.dT = motion.default_step if dT is None else dT
         self.film = TransientFilm(point, mesh, DEFAULT_TOL)
-        self.run = Run(self.film, motion, None, History(()), None, lambda run: None)
+        self.run = Run(self.film, motion, surface, History(()), None, lambda run: None)
         self.status = self.run.start()
         if self.status.ok:
             self.status = march_fixed(self.run, steps, self.dT).status

@@ -282,7 +282,7 @@ def transient(bench: Bench) -> None:
 
 def surfaces(bench: Bench) -> None:
     """Features that pass through the contact, one of them too small for the grid, one not even in Y."""
-    from ehlcontact import Dent, HarmonicLoad, Waviness, simulate
+    from ehlcontact import Dent, HarmonicLoad, Roughness, Waviness, simulate
 
     cases = {
         "dent": Dent(0.05, 0.8, speed=1.2),
@@ -292,6 +292,8 @@ def surfaces(bench: Bench) -> None:
         "small dent": Dent(0.01, 0.1, start=0.0),
         "aslant": lambda X, Y, T: 0.01 * np.sin(2.0 * X + Y),
         "faint": Waviness(1.2e-9, 0.12),
+        "rough": Roughness.synthetic(0.01, 2.0, 0.8, kappa=0.5, start=0.0),
+        "rougher": Roughness.synthetic(0.01, 2.0, 0.5, kappa=0.5, start=0.0),
     }
     for name, surface in cases.items():
         bench.case(
@@ -759,6 +761,73 @@ def rotor(bench: Bench) -> None:
     bench.case("oscillator", swing)
 
 
+def bearing(bench: Bench) -> None:
+    """Ball bearings at rest, vibrating, and moved."""
+    from ehlcontact import Lubricant
+    from reduced_models import BallBearing, BearingMotion, BearingMount, MatrixRotor, SpeedCourse, Unbalance
+    from reduced_models import simulate_on_bearings as simulate
+
+    oil = Lubricant.iso_vg(68, temperature=50.0)
+    films = {
+        "film": BallBearing.catalogue("6205", oil=oil),
+        "play": BallBearing.catalogue("6205", oil=oil, clearance=2e-5, film_limit=5e-6),
+        "preload": BallBearing.catalogue("6010", oil=oil, clearance=-1e-5),
+    }
+
+    def at_rest(made: Any, rpm: float, angle: float | None) -> Figures:
+        state = made.equilibrium((300.0, -1000.0), speed_rpm=rpm, cage_angle=angle)
+        found: Figures = {"displacement": state.displacement, "force": np.ravel(state.force)}
+        return found | {"stiffness": np.ravel(state.stiffness)}
+
+    def vibrating(made: Any) -> Figures:
+        found = made.coefficients((0.0, -1000.0), speed_rpm=3000.0, hz=[10.0, 5000.0])
+        return {"stiffness": np.ravel(found.stiffness), "damping": np.ravel(found.damping), "swing": found.swing}
+
+    def moved(made: Any, speeds: list[float], dt: float) -> Figures:
+        run = BearingMotion(made.kernel(speeds), 3000.0, dt)
+        run.rest((1e-6, -1.2e-5))
+        w, t = 2e3, dt * np.arange(1, round(4e-3 / dt) + 1)
+        q = np.column_stack([1e-6 + 2e-6 * np.sin(w * t) ** 2, -1.2e-5 + 4e-6 * np.sin(0.7 * w * t) ** 2])
+        v = np.column_stack([2e-6 * w * np.sin(2.0 * w * t), 2.8e-6 * w * np.sin(1.4 * w * t)])
+        force, balls = run.drive(q, v)
+        return {"force": np.ravel(force[:: len(t) // 20]), "balls": np.ravel(balls[:: len(t) // 5])}
+
+    for name, made in films.items():
+        for rpm in (500.0, 3000.0, 7000.0):
+            bench.case(f"{name} at rest, {rpm:g}", lambda b=made, n=rpm: at_rest(b, n, None))
+        bench.case(f"{name} turned", lambda b=made: at_rest(b, 3000.0, 1.0), 2)
+        bench.case(f"{name} vibrating", lambda b=made: vibrating(b), 2)
+        for dt in (1e-6, 2e-5):
+            bench.case(f"{name} moved, {dt:g}", lambda b=made, h=dt: moved(b, [3000.0], h), 2)
+
+    def turning(speeds: list[float], until: float) -> Figures:
+        """A disc that tilts, on one bearing."""
+        G, K = np.zeros((4, 4)), np.zeros((4, 4))
+        G[2, 3], G[3, 2] = 0.02, -0.02
+        K[2, 2] = K[3, 3] = 2e4
+        K[0, 3] = K[3, 0] = 1e4
+        K[0, 0] = 1e5
+        rotor = MatrixRotor(
+            mass=np.diag([3.0, 3.0, 0.01, 0.01]),
+            stiffness=K,
+            gyroscopic=G,
+            load=np.array([0.0, -500.0, 0.0, 0.0]),
+            mounts=(BearingMount(bearing=films["film"], x=0, y=1),),
+            unbalances=(Unbalance(x=0, y=1, amount=2e-4),),
+        )
+        course = SpeedCourse(np.array([0.0, until]), np.array(speeds))
+        run = simulate(rotor, speed_rpm=course, dt=2e-5, until=until)
+        found: Figures = {"status": str(run.status), "iterations": int(run.iterations.sum())}
+        return found | {"tilt": run.displacement[::50, 2], "force": np.ravel(run.force[::50])}
+
+    bench.case("steady rotor", lambda: turning([3000.0, 3000.0], 0.04), 2)
+    bench.case("run-up", lambda: turning([2000.0, 8000.0], 0.1), 2)
+    bench.case("between speeds", lambda: moved(films["film"], [2500.0, 3500.0], 2e-5), 2)
+    dry = BallBearing.catalogue("6205", clearance=2e-5)
+    bench.case("dry", lambda: at_rest(dry, 0.0, None), 2)
+    bench.case("dry, spinning", lambda: at_rest(dry, 9000.0, None), 2)
+
+
 def study(bench: Bench) -> None:
     """The small study of the examples."""
     from ehlcontact.cli.app import execute
@@ -838,6 +907,7 @@ PROBES: dict[str, Callable[[Bench], None]] = {
         atlas_build,
         atlas_gains,
         rotor,
+        bearing,
         study,
         exported,
     )

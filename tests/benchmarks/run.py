@@ -22,9 +22,9 @@ from honest import measure
 from honest_step import MOTIONS, measure_step
 from ledger import Ledger, Row, Task, work_through
 
-from ehlcontact import FreeVibration, MoesPoint, impedance, simulate
+from ehlcontact import FreeVibration, Lubricant, MoesPoint, impedance, simulate
 from ehlcontact.solver.deflection import make_deflection
-from reduced_models import ContactRecord, fit
+from reduced_models import BallBearing, BearingMotion, ContactRecord, fit
 
 POINT = MoesPoint(200, 10, 0.5)
 TEXTBOOK = {"viscosity": "barus", "density": "incompressible"}  # of Venner and Lubrecht
@@ -39,6 +39,7 @@ STEADY = {
 GRIDS, LARGEST_STEP_GRID = (128, 256, 512, 1024, 2048), 1024
 DEFAULT_GRIDS = (128, 256, 512)
 LARGEST_DIRECT = 512  # intervals: the direct sum takes 16 times as long with every doubling
+BEARING_STEPS, BEARING_DT = 1000, 2e-5  # s
 NEWTON_NODES = 40_000  # grids on which cycles are compared with Newton steps: n = 256 of `Domain()`
 
 
@@ -69,6 +70,20 @@ def impedance_of_twelve() -> Row:
     """Impedance at twelve frequencies."""
     omega = np.concatenate([[0.0], np.geomspace(0.05, 30.0, 11)])
     return _timed(lambda: impedance(POINT, Omega=omega), 3) | {"n": impedance(POINT, Omega=omega).n}
+
+
+def bearing(kernel: str) -> Row:
+    """A thousand steps of a moved 6205, its 18 contacts with memory: by its kernel, or one element each."""
+    made = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
+    t = BEARING_DT * np.arange(BEARING_STEPS + 1)
+    q = np.column_stack([1e-6 + 2e-6 * np.sin(2e3 * t) ** 2, -1.2e-5 + 4e-6 * np.sin(1.4e3 * t) ** 2])
+    v = np.gradient(q, BEARING_DT, axis=0)
+    if kernel == "elements":  # once per step: an iteration asks several times
+        elements = [made.element(race, 3000.0) for race in ("inner", "outer")] * made.balls
+        return _timed(lambda: [element.drive(t, -0.5 * q[:, 1], -0.5 * v[:, 1]) for element in elements], 5)
+    run = BearingMotion(made.kernel(3000.0), 3000.0, BEARING_DT)
+    run.rest(q[0])
+    return _timed(lambda: run.drive(q[1:], v[1:]), 5)
 
 
 def deflection(engine: str, n: int) -> Row:
@@ -102,6 +117,7 @@ def tasks(grids: tuple[int, ...], repeat: int | None = None) -> list[Task]:
     ]
     found.append(Task("fitted cubic element", fitted_element, (), 5.0))
     found.append(Task("impedance, 12 frequencies", impedance_of_twelve, (), 5.0))
+    found += [Task(f"bearing, 1000 steps, {kernel}", bearing, (kernel,), 5.0) for kernel in ("kernel", "elements")]
     return found + [
         Task(f"deflection {engine} {n}", deflection, (engine, n), 3.0)
         for n in grids

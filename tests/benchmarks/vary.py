@@ -280,6 +280,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "ehlcontact.transient": ("transient", "full_contact"),
     "ehlcontact.transient.full_contact": ("full_contact",),
     "ehlcontact.transient.surface": ("surfaces",),
+    "ehlcontact.transient.roughness": ("surfaces",),
     "ehlcontact.cli.study": ("study",),
     "ehlcontact.cli.study.runner": (),
     "reduced_models": ("elements", "fits", "memory_fits", "wide", "gains", "atlas", "rotor"),
@@ -298,6 +299,8 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "reduced_models.atlas.build": ("atlas_samples",),
     "reduced_models.atlas.workers": (),
     "reduced_models.rotor": ("rotor",),
+    "reduced_models.rotor.equilibrium": ("rotor", "bearing"),
+    "reduced_models.bearing": ("bearing",),
     "fmu": ("exported",),
     "fmu.build": (),
 }

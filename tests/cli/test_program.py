@@ -8,7 +8,8 @@ import pytest
 import ehlcontact
 
 SUBCOMMANDS = (
-    "steady", "simulate", "impedance", "fit", "element", "export", "validate", "run", "reproduce", "atlas"
+    "steady", "simulate", "impedance", "fit", "element", "export", "validate", "run", "reproduce",
+    "bearing", "atlas",
 )  # fmt: skip
 
 

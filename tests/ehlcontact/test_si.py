@@ -82,7 +82,8 @@ def test_motion_in_si(run):
 def test_full_contact_in_si():
     contact = FullContact(POINT, n=32)
     si = contact.si
-    assert si.force == pytest.approx(POINT.load, rel=1e-6)
+    assert si.force == contact.force * S.force
+    assert contact.force == pytest.approx(1.0, rel=1e-5)  # a film at rest, solved to 1e-5 of its pressure
     assert si.static_approach == contact.static_approach * S.length
     assert (si.h_central, si.h_min) == (contact.h_central * S.length, contact.h_min * S.length)
     with pytest.raises(InputError, match=r"^scales = None"):

@@ -10,6 +10,11 @@ def test_public_names_are_there():
         "WideRangeContact", "wide_range_contact", "wide_range_from_solves",
         "load_element", "ContactElement", "OutsideValidityWarning",
         "JeffcottRotor", "ContactMount", "RotorState", "RotorResult", "RotorStatus", "simulate_rotor", "compare",
-        "simulate_oscillator", "ScaledContact", "Atlas", "AtlasAnswer", "AtlasSI",
+        "simulate_oscillator", "ScaledContact", "BallBearing", "BearingState", "BearingCoefficients",
+        "BearingMotion", "DefectFrequencies", "MatrixRotor", "BearingMount", "Unbalance", "SpeedCourse",
+        "from_ross", "RossCallback",
+        "simulate_on_bearings", "BearingRun", "linearise", "LinearisedRotor", "WhirlMode", "campbell", "Campbell",
+        "CriticalSpeed", "unbalance_response", "rotor_to_control", "UnbalanceResponse",
+        "Atlas", "AtlasAnswer", "AtlasSI",
     ):  # fmt: skip
         assert hasattr(reduced_models, name)

@@ -12,6 +12,7 @@ module         what it does
 ``validate``   what a study will do, and its cost, without doing it
 ``run``        a study file to elements, FMU, rotor comparison and report
 ``reproduce``  the paper's tables and figures, ours beside them
+``bearing``    a ball bearing: loads, films, stiffness and damping over speed
 ``atlas``      building the atlas
 =============  ==================================================================
 

@@ -12,6 +12,7 @@ module         shows
 ``impedance``  stiffness and damping over frequency, and what the elements have of them
 ``rotor``      the rotor under its unbalance: orbit, time response, spectrum
 ``vibration``  the rotor's own vibrations: free decay, and unbalance over frequency
+``bearing``    a ball bearing: load zone, films, stiffness and damping over speed
 ``paper``      histories, approaches and springs as the paper shows them
 =============  ======================================================================================
 """

@@ -18,5 +18,6 @@ module           responsibility
 ``headline``     what was found, in one paragraph
 ``results``      everything in numbers: ``results.json``
 ``report``       ``report.html``
+``bearing``      the file of ``ehlcontact bearing``, and what its options change of it
 ===============  ======================================================================================
 """

@@ -40,12 +40,14 @@ Roughness = Annotated[float, Field(ge=1e-3, le=100.0, allow_inf_nan=False)]  # u
 Periods = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
 
 
-class _Section(BaseModel):
+class Section(BaseModel):
+    """A section of a file: unknown keys are refused."""
+
     # strict: in a study `true` is no length of 1 mm, and "7.94" no number. A whole number is a number still.
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
-class Bearing(_Section):
+class Bearing(Section):
     """A radial ball bearing; the contact is that of its most loaded ball."""
 
     name: str = "ball bearing"
@@ -60,7 +62,7 @@ class Bearing(_Section):
     speed_rpm: Positive
 
 
-class Oil(_Section):
+class Oil(Section):
     """Oil at the temperature of the inlet: its numbers, or its grade and that temperature."""
 
     name: str = "oil"
@@ -103,14 +105,14 @@ class Oil(_Section):
             raise InputError(f"oil.{error.field}", error.value, error.allowed) from None
 
 
-class Surface(_Section):
+class Surface(Section):
     """Roughness of ball and race, for the lambda ratio alone: films are solved between smooth surfaces."""
 
     rq_ball_um: Roughness | None = None
     rq_race_um: Roughness | None = None
 
 
-class Solver(_Section):
+class Solver(Section):
     """Grids and region."""
 
     n: Grid = 128  # of the steady film
@@ -118,7 +120,7 @@ class Solver(_Section):
     domain: Annotated[tuple[Finite, Finite, Finite], Field(strict=False)] = (-4.5, 1.5, 3.0)  # TOML has lists
 
 
-class Free(_Section):
+class Free(Section):
     """Free vibration of a mass on the contact, by its Omega_n or the frequency of small dry vibrations."""
 
     Omega_n: Frequency | None = None  # dimensionless; 2.56 where neither is given
@@ -127,7 +129,7 @@ class Free(_Section):
     steps_per_period: Steps = 80
 
 
-class Harmonic(_Section):
+class Harmonic(Section):
     """Harmonic load in the band of the contact's own vibrations."""
 
     Omega: Frequency | None = None  # dimensionless; pi where neither is given
@@ -137,7 +139,7 @@ class Harmonic(_Section):
     steps_per_period: Steps = 80
 
 
-class Rotor(_Section):
+class Rotor(Section):
     """Jeffcott rotor in two such bearings, and the harmonic load at its speed that its element is fitted to."""
 
     arrangement: Literal["vee", "vertical"] = "vee"
@@ -158,7 +160,7 @@ class Rotor(_Section):
     fit_steps_per_period: Steps = 40
 
 
-class Study(_Section):
+class Study(Section):
     """Everything that a study file says."""
 
     title: str = "contact study"

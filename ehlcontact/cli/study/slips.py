@@ -45,6 +45,7 @@ PLAIN_WORDS = {
     "string_type": "text in quotes",
     "model_type": "a section, written [{field}]",
     "tuple_type": LIST,
+    "list_type": "a list of numbers, as [1000, 3000]",
     "too_long": LIST,
 }
 

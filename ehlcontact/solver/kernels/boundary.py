@@ -15,7 +15,7 @@ NODES_EACH = 64  # intervals along X per node of reach,
 LEAST_REACH, MOST_REACH = 3, 8  # from so many nodes on either side of the boundary to so many
 PASSES_EACH = 2  # passes per node of reach, which a change has to cross
 UPDATED = 255  # mark: the largest byte, above every reach
-DOMINANCE = 10.0  # flow term over wedge term,
+DOMINANCE = 10.0  # flow term over wedge term, in proportion more on meshes finer along X,
 NEAREST = 3.0  # up to this distance from the boundary; as its cube more beyond, where smoother changes are relaxed
 SQUEEZE_DOMINANCE = 300.0  # flow term over squeeze term: short steps fail by the passes where it is smaller
 
@@ -85,7 +85,7 @@ def relax_boundary(P, H, flow, rhs, law, stencil, c_t, self_deflection, nodes, m
     reach = reach_of(width - 1)
     mark_boundary(P, reach, marks)
     update_marked(P, H, law, stencil, flow, marks)
-    transport = DOMINANCE * 1.5 * stencil.inv_hx + SQUEEZE_DOMINANCE * c_t
+    transport = DOMINANCE * stencil.crowding * 1.5 * stencil.inv_hx + SQUEEZE_DOMINANCE * c_t
     count = 0
     for j in range(P.shape[0] - 1):
         for i in range(1, width - 1):

@@ -24,7 +24,10 @@ from ehlcontact.solver.kernels.reynolds import update_across, update_along, upda
 
 JUMP = 2.7  # ratio of the flow factors of neighbours that makes a front: what sweeps settle has less
 FRONT_REACH = 2  # nodes on either side of it, as many as the near film of a change there reaches
-FRONT_PASSES = 3  # of both colours: a front moves by a node or two between coarse corrections
+# Passes of both colours: a front moves by a node or two between coarse corrections, and what it moves is exchanged
+# along it, which is as many nodes long as the grid has.
+INTERVALS_EACH = 64  # intervals along X per pass,
+LEAST_PASSES, MOST_PASSES = 6, 16  # from so many to so many
 SOLVED, FELT = 2, 1  # marks: the larger one stands where both fall
 
 
@@ -99,7 +102,7 @@ def relax_flanks(fields, rhs, law, stencil, c_t, near, marks):
     w[:] = 0.0
     work = line_work(P.shape[1])
     switch = switch_value(stencil, c_t)
-    for _ in range(FRONT_PASSES):
+    for _ in range(min(max((P.shape[1] - 1) // INTERVALS_EACH, LEAST_PASSES), MOST_PASSES)):
         for colour in range(2):
             for s in range(solved.shape[0]):
                 j = solved[s, 0]

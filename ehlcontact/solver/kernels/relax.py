@@ -21,12 +21,15 @@ from ehlcontact.jit import jit, jit_node
 from ehlcontact.solver.kernels.linearise import linearise_at
 from ehlcontact.solver.kernels.reynolds import operator_at
 
-BAND_LOWER, BAND_UPPER = 4, 3  # WW neighbour with two near coefficients upstream; E with two downstream
+ALONG = 6  # nodes on either side whose film by a change counts in the equations of its line: with 2, sweeps
+# diverge in stiff oil on lines 4 and more node distances apart, by local mode analysis and indeed
+BAND_LOWER, BAND_UPPER = ALONG + 2, ALONG + 1  # the WW neighbour with all of them upstream, E with them downstream
 BAND = BAND_LOWER + BAND_UPPER + 1  # rows, the diagonal's with them
 PAD = max(BAND_LOWER, BAND_UPPER)
-NEAR = 2  # near influence coefficients kept on either side
+FILM_MARGIN = 3  # zeros on either side of those films, so that no row has to look where they end
+NEAR = 2  # lines and nodes on either side that feel a change in the film of other lines
 SHARE = 0.25  # part of a distributed change that each neighbour takes back
-SWITCH = 8.0  # eps/hx^2 at which theta = 1/2 in steady flow (Venner and Lubrecht's hard switch: 0.3),
+SWITCH = 5.0  # eps/hx^2 at which theta = 1/2 in steady flow (Venner and Lubrecht's hard switch: 0.3),
 # for meshes up to twice as fine along X as along Y, physically; in proportion more for finer ones
 SQUEEZE = 10.0  # how much more the squeeze term raises it than the wedge term
 FLOW_SLOPE = 0.75  # share of the derivatives of eps; see above
@@ -51,7 +54,7 @@ def switch_value(stencil, c_t):
     The squeeze term, unlike the wedge term, does not vanish for smooth changes. Plain changes of P, whose
     smooth part deflects the film far beyond the near coefficients, are then safe only at larger eps.
     """
-    return stencil.switch * (1.0 + SQUEEZE * c_t / (1.5 * stencil.inv_hx))
+    return SWITCH * stencil.crowding * (1.0 + SQUEEZE * c_t / (1.5 * stencil.inv_hx))
 
 
 @jit
@@ -110,19 +113,20 @@ def response(line, shift, shares, near):
 
 
 @jit
-def responses(line, j, start, stop, theta, near, films):
-    """`response` of nodes `start` to `stop` - 1 of line j, `line` lines further.
+def responses(line, j, start, stop, theta, near, reach, films):
+    """`response` of nodes `start` to `stop` - 1 of line j, `line` lines further and up to `reach` nodes aside.
 
-    ``films[i, NEAR + shift]`` written, and 0 for `PAD` nodes beside them.
+    ``films[i, centre + shift]`` written, and 0 for `PAD` nodes beside them.
     """
+    centre = films.shape[1] // 2
     for i in range(max(start - PAD, 0), start):
         films[i, :] = 0.0
     for i in range(stop, min(stop + PAD, films.shape[0])):
         films[i, :] = 0.0
     for i in range(start, stop):
         shares = shares_at(j, i, theta)
-        for shift in range(-NEAR, NEAR + 1):
-            films[i, NEAR + shift] = response(line, shift, shares, near)
+        for shift in range(-reach, reach + 1):
+            films[i, centre + shift] = response(line, shift, shares, near)
 
 
 @jit_node
@@ -134,28 +138,26 @@ def assemble_at(j, i, P, flow, theta, stencil, c_t, films, band, r):
     """
     pc, pw, pe, ps, pn, pww, hc, hw, he, _, _, hww = linearise_at(j, i, P, flow, stencil, c_t, FLOW_SLOPE)
     last = P.shape[1] - 1
-    k = max(i - 4, 0)
-    band[0, r] = hww * films[k, 4]
-    k = max(i - 3, 0)
-    band[1, r] = hww * films[k, 3] + hw * films[k, 4] - pww * SHARE * min(theta[j, k], theta[j, max(i - 2, 0)])
-    k = max(i - 2, 0)
-    west = SHARE * min(theta[j, k], theta[j, i - 1])
-    band[2, r] = hww * films[k, 2] + hw * films[k, 3] + hc * films[k, 4] + pww - pw * west
-    own, k = theta[j, i], i - 1
-    near_west = SHARE * min(theta[j, k], own)
-    flow_part = pw - pww * west - pc * near_west
-    band[3, r] = hww * films[k, 1] + hw * films[k, 2] + hc * films[k, 3] + he * films[k, 4] + flow_part
-    near_east = SHARE * min(own, theta[j, i + 1])
+    centre = ALONG + FILM_MARGIN
+    for o in range(-BAND_LOWER, BAND_UPPER + 1):
+        k, at = min(max(i + o, 0), last), centre - o
+        film = hc * films[k, at] + hw * films[k, at - 1] + hww * films[k, at - 2] + he * films[k, at + 1]
+        band[BAND_LOWER + o, r] = film
+    own = theta[j, i]
+    far_west = SHARE * min(theta[j, max(i - 3, 0)], theta[j, max(i - 2, 0)])
+    west = SHARE * min(theta[j, max(i - 2, 0)], theta[j, i - 1])
+    near_west, near_east = SHARE * min(theta[j, i - 1], own), SHARE * min(own, theta[j, i + 1])
+    east = SHARE * min(theta[j, i + 1], theta[j, min(i + 2, last)])
     south = SHARE * min(own, theta[j - 1 if j > 0 else 1, i])
     north = SHARE * min(own, theta[j + 1, i])
+    band[BAND_LOWER - 3, r] -= pww * far_west
+    band[BAND_LOWER - 2, r] += pww - pw * west
+    band[BAND_LOWER - 1, r] += pw - pww * west - pc * near_west
     # line 1 gives to the symmetry line twice: itself and its image
-    flow_part = pc - pw * near_west - pe * near_east - pn * north - (2.0 * ps if j == 1 else ps) * south
-    band[4, r] = hww * films[i, 0] + hw * films[i, 1] + hc * films[i, 2] + he * films[i, 3] + flow_part
-    k = i + 1
-    band[5, r] = hw * films[k, 0] + hc * films[k, 1] + he * films[k, 2] + pe - pc * near_east
-    k = min(i + 2, last)
-    band[6, r] = hc * films[k, 0] + he * films[k, 1] - pe * SHARE * min(theta[j, i + 1], theta[j, k])
-    band[7, r] = he * films[min(i + 3, last), 0]
+    across = pn * north + (2.0 * ps if j == 1 else ps) * south
+    band[BAND_LOWER, r] += pc - pw * near_west - pe * near_east - across
+    band[BAND_LOWER + 1, r] += pe - pc * near_east
+    band[BAND_LOWER + 2, r] -= pe * east
 
 
 @jit
@@ -167,7 +169,7 @@ def relax_line(j, start, stop, fields, rhs, stencil, c_t, near, work):
     """
     P, flow, theta, w = fields.P, fields.flow, fields.theta, fields.w
     films, band, b = work
-    responses(0, j, start, stop, theta, near, films)
+    responses(0, j, start, stop, theta, near, ALONG, films)
     for i in range(start, stop):
         r = i - start
         b[r] = rhs[j, i] - operator_at(j, i, P, flow, stencil, c_t)
@@ -191,7 +193,7 @@ def relax_line(j, start, stop, fields, rhs, stencil, c_t, near, work):
 @jit
 def line_work(nodes):
     """Work arrays of `relax_line` for lines of so many nodes."""
-    return np.zeros((nodes, 2 * NEAR + 1)), np.empty((BAND, nodes + PAD)), np.empty(nodes + PAD)
+    return np.zeros((nodes, 2 * (ALONG + FILM_MARGIN) + 1)), np.empty((BAND, nodes + PAD)), np.empty(nodes + PAD)
 
 
 @jit
@@ -234,7 +236,7 @@ def apply_lines(first, last, colour, fields, near):
         if colour == 0 and j % 2 == 1:
             for source in (j - 1, j + 1):
                 if source < ny:
-                    responses(j - source, source, 1, nx, theta, near, films)
+                    responses(j - source, source, 1, nx, theta, near, NEAR, films)
                     near_film(fields.H[j], w[source], films)
 
 

@@ -28,7 +28,7 @@ class Stencil(NamedTuple):
     cy: float  # kappa^2/hy^2
     inv_hx: float  # 1/hx
     lam: float  # Reynolds coefficient lambda
-    switch: float  # eps/hx^2 at which both relaxations have equal parts, in steady flow
+    crowding: float  # 1, and more where nodes lie closer along X than the lines: half the ratio of their distances
 
 
 class Flow(NamedTuple):

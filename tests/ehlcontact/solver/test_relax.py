@@ -20,8 +20,8 @@ def relax_line(level, j, rhs, start=1, stop=None, kernel=relax.relax_line):
     """Solve a line of a level, by default all of it, and return its changes."""
     nodes = level.nx + 1
     work = relax.line_work(nodes)
-    for array in work:
-        array[...] = 1e6  # left over from some other line
+    for array in (work[0][:, relax.FILM_MARGIN : -relax.FILM_MARGIN], *work[1:]):
+        array[...] = 1e6  # left over from some other line; the margins stay zero
     kernel(j, start, stop or nodes - 1, level.fields, rhs, level.stencil, level.c_t, level.near, work)
     return level.fields.w[j].copy()
 
@@ -165,7 +165,7 @@ def line_matrix(level, j):
         for row in {ny + j, ny - j}:
             for node, part in oracles.nodes_of_a_distributed_change(row, c, theta).items():
                 dP[node] += part
-        for i in range(max(c - NEAR, 0), min(c + NEAR, nx) + 1):
+        for i in range(max(c - relax.ALONG, 0), min(c + relax.ALONG, nx) + 1):
             for node, part in oracles.nodes_of_a_distributed_change(ny + j, c, theta).items():
                 dH[i] += K[abs(node[0] - ny - j), abs(node[1] - i)] * part
         for i in range(1, nx):

@@ -21,6 +21,7 @@ from ehlcontact import (
     PrescribedApproach,
     PrescribedLoad,
     RampLoad,
+    Roughness,
     Status,
     Waviness,
     load,
@@ -38,6 +39,10 @@ CONTROLLED = dict(n=N, until=0.8, error=1e-3, snapshots=(0.1, 0.52))
 RUNS = {
     "free": (FreeVibration(Omega_n=5.13), FIXED),
     "harmonic over waviness": (HarmonicLoad(Omega=3.0), FIXED | dict(surface=Waviness(0.05, 0.5))),
+    "load over roughness": (
+        PrescribedLoad([0.0, 0.3, 0.6, 0.8], [1.0, 1.0, 1.0, 1.0]),
+        FIXED | dict(surface=Roughness.synthetic(0.01, 2.0, 1.5, kappa=0.5, speed=0.7)),
+    ),
     "ramp, controlled": (RampLoad(1.3, 0.3, Omega_n=5.13), CONTROLLED),
     "pulse, controlled": (PrescribedLoad([0.0, 0.3, 0.4, 0.5, 0.8], [1.0, 1.0, 1.3, 1.0, 1.0]), CONTROLLED),
     "approach, controlled": (PrescribedApproach([0.0, 0.3, 0.6, 0.8], [0.88, 0.95, 0.90, 0.88]), CONTROLLED),

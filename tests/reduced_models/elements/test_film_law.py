@@ -155,3 +155,28 @@ def test_fit_of_gains_is_exact_on_its_own_data_and_enforces_passivity(memory):
     enforced = fit_gains(rates, w, 1.4 - 1.5 * w * G.imag, 1.5 * G.real, 1.4)
     assert enforced.gains[0] > 0.0
     assert rates.least_dissipation(enforced.gains) >= 0.0
+
+
+@pytest.mark.parametrize("load", [None, 0.6, 1.4])
+@pytest.mark.parametrize("si", [False, True])
+def test_state_space_is_the_impedance(memory, scales, load, si):
+    """F over u of `to_ss`, with v = i w u, at any load; and of `to_control` by differences."""
+    control = pytest.importorskip("control")
+    element = memory.to_si(scales) if si else memory
+    f, time = (scales.force, scales.time) if si else (1.0, 1.0)
+    at = None if load is None else load * f
+    block = element.to_ss(at)
+    omega = np.geomspace(0.01, 30.0, 7) / time
+    names = {"omega" if si else "Omega": omega}
+    found = control.frequency_response(block, omega).frdata[0]
+    np.testing.assert_allclose(found[0] + 1j * omega * found[1], element.impedance(load=at, **names), rtol=1e-9)
+    nonlinear = element.to_control()
+    assert nonlinear.state_labels == block.state_labels and nonlinear.input_labels == block.input_labels
+    point = [element.approach_at(f if load is None else at), 0.0]
+    length = scales.length if si else 1.0
+    step = 1e-6 * length
+    up, down = (nonlinear.output(0.0, np.zeros(block.nstates), [point[0] + d, 0.0])[0] for d in (step, -step))
+    assert (up - down) / (2.0 * step) == pytest.approx(block.D[0, 0], rel=1e-5)
+    quick = 1e-6 * length / time
+    moved = nonlinear.dynamics(0.0, np.zeros(block.nstates), [point[0], quick])
+    np.testing.assert_allclose(moved / quick, block.B[:, 1], rtol=1e-9)

@@ -1,0 +1,198 @@
+"""``ehlcontact bearing``: a ball bearing under a load: balls, films, stiffness and damping over speed."""
+
+from __future__ import annotations
+
+import math
+import sys
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from ehlcontact.cli import options as o
+from ehlcontact.cli.numerals import numeral, spelled
+from ehlcontact.cli.output import (
+    STDOUT,
+    check_apart,
+    check_file,
+    check_json,
+    deliver,
+    show_table,
+    write_json,
+    write_to,
+)
+from ehlcontact.errors import InputError
+
+if TYPE_CHECKING:
+    from ehlcontact.cli.study.bearing import BearingJob
+    from reduced_models import BallBearing, BearingCoefficients, BearingState, DefectFrequencies
+
+CURVE = 15  # speeds of the curves of a figure
+BESIDE = (0.5, 2.0)  # over a single speed: where its curves begin and end
+_OIL, _BEARING = "Oil", "Bearing"
+
+
+@dataclass(frozen=True)
+class BearingReport:
+    """A bearing at several speeds: rest with a ball under the load; K and C at the frequency of the shaft."""
+
+    job: BearingJob
+    states: tuple[BearingState, ...]
+    coefficients: tuple[BearingCoefficients, ...]
+
+    def summary(self) -> dict[str, Any]:
+        """For JSON; SI units and rev/min, arrays over balls with inner and outer race."""
+        bearing = self.job.bearing
+        return {
+            "bearing": bearing.to_dict(),
+            "load": self.job.load,
+            "highest_speed_rpm": bearing.highest_speed,
+            "orders": asdict(bearing.orders),
+            "speed_rpm": list(self.job.speeds),
+            "stiffness": [c.stiffness[0] for c in self.coefficients],
+            "damping": [c.damping[0] for c in self.coefficients],
+            "displacement": [c.displacement for c in self.coefficients],
+            "frequencies_hz": [asdict(bearing.frequencies(speed)) for speed in self.job.speeds],
+            "states": [state.to_dict() for state in self.states],
+        }
+
+
+def register(app: typer.Typer) -> None:
+    """Add the subcommand."""
+    app.command("bearing")(bearing)
+
+
+def bearing(
+    source: Annotated[str, typer.Argument(metavar="NAME|FILE.toml", help="As 6205; or a file with dimensions.")],
+    load: Annotated[float | None, typer.Option("--load", help="Radial load, N; >= 0.")] = None,
+    speed: Annotated[
+        list[float] | None, typer.Option("--speed", help="Of the shaft, rev/min; give it once per speed.")
+    ] = None,
+    grade: Annotated[
+        int | None, typer.Option("--grade", help="ISO VG of the oil; without an oil: dry.", rich_help_panel=_OIL)
+    ] = None,
+    temperature: Annotated[
+        float | None, typer.Option("--temperature", help="Of the oil, C; 20 to 120.", rich_help_panel=_OIL)
+    ] = None,
+    clearance: Annotated[
+        float | None,
+        typer.Option("--clearance", help="Radial internal, µm; below 0: preload.", rich_help_panel=_BEARING),
+    ] = None,
+    rq: Annotated[
+        float | None,
+        typer.Option("--rq", help="Roughness of ball and race together, µm.", rich_help_panel=_BEARING),
+    ] = None,
+    figure: o.FigureTo = None,
+    json_to: o.JsonTo = None,
+) -> None:
+    """Look at a ball bearing: loads, films and lambda of its balls, stiffness and damping over speed."""
+    from ehlcontact.cli.study.bearing import load_job
+
+    check_file("--figure", figure, o.PICTURES)
+    check_json(json_to)
+    check_apart({"--figure": figure, "--json": json_to}, (Path(source),))
+    options = {"--load": load, "--speed": speed or None, "--grade": grade, "--temperature": temperature}
+    job = load_job(source, options | {"--clearance": clearance, "--rq": rq})
+    with job.called():
+        report = _computed(job)
+
+    def draw(path: Path) -> None:
+        from ehlcontact.cli.plots.bearing import bearing_figure
+        from ehlcontact.cli.plots.style import write_figure
+
+        write_figure(lambda found: bearing_figure(found, curve(found)), report, path)
+
+    deliver(
+        lambda: write_to("--figure", figure, draw),
+        lambda: write_json(report.summary(), json_to),
+        lambda: _show(report, json_to),
+    )
+
+
+def _computed(job: BearingJob) -> BearingReport:
+    weight = (0.0, -job.load)
+    return BearingReport(
+        job,
+        tuple(job.bearing.equilibrium(weight, speed_rpm=speed) for speed in job.speeds),
+        tuple(job.bearing.coefficients(weight, speed_rpm=speed, rpm=speed) for speed in job.speeds),
+    )
+
+
+def curve(report: BearingReport) -> list[BearingCoefficients]:
+    """K and C over speed between those given, as far as the atlas has them."""
+    low, high = report.job.speeds[0], report.job.speeds[-1]
+    if low == high:
+        low, high = BESIDE[0] * low, min(BESIDE[1] * high, report.job.bearing.highest_speed)
+    found = []
+    for k in range(CURVE):
+        share = k / (CURVE - 1)
+        speed = low * (high / low) ** share if low > 0.0 else share * high
+        try:
+            found.append(report.job.bearing.coefficients((0.0, -report.job.load), speed_rpm=speed, rpm=speed))
+        except InputError:  # slower, the atlas has no films under such loads
+            continue
+    return found
+
+
+def _show(report: BearingReport, json_to: str | None) -> None:
+    if json_to == STDOUT:
+        return
+    bearing = report.job.bearing
+    show_table(f"{bearing.name or 'ball bearing'}, {numeral(report.job.load)} N", _rows(bearing), json_to)
+    for state, found in zip(report.states, report.coefficients, strict=True):
+        show_table(f"at {numeral(state.speed_rpm)} rpm", _at_speed(bearing, found), json_to)
+        Console().print(_balls(state))
+
+
+def _rows(b: BallBearing) -> list[tuple[str, str, str]]:
+    """What bearing it is."""
+    oil = [("oil", "none: dry", "")]
+    if b.oil is not None:
+        oil = [
+            ("oil", f"{numeral(b.oil.eta0)} Pa s", f"alpha {numeral(b.oil.alpha)} 1/Pa"),
+            ("highest speed", f"{numeral(b.highest_speed, 5)} rpm", "where the atlas ends"),
+        ]
+    conformity = f"{numeral(b.conformity_inner)}, {numeral(b.conformity_outer)}"
+    return [
+        ("balls", f"{b.balls} x {numeral(b.ball_diameter * 1e3)} mm", f"on {numeral(b.pitch_diameter * 1e3)} mm"),
+        ("conformity", conformity, "inner, outer"),
+        ("clearance", f"{numeral(b.clearance * 1e6)} µm", "below 0: preload"),
+        *oil,
+        *_defects(b.orders, 5, "per turn"),
+    ]
+
+
+def _at_speed(b: BallBearing, at: BearingCoefficients) -> list[tuple[str, str, str]]:
+    """How it stands and vibrates at a speed."""
+    K, C = at.stiffness[0] * 1e-6, at.damping[0]
+    down, swing = -at.displacement[1] * 1e6, at.swing[1] * 1e9
+    return [
+        ("deflection", f"{numeral(down)} µm", f"{numeral(swing, 3)} nm up and down as a ball passes"),
+        ("along the load", f"{numeral(K[1, 1])} N/µm", f"{numeral(C[1, 1])} N s/m"),
+        ("across it", f"{numeral(K[0, 0])} N/µm", f"{numeral(C[0, 0])} N s/m"),
+        *_defects(b.frequencies(at.speed_rpm), 4, "Hz"),
+    ]
+
+
+def _defects(found: DefectFrequencies, digits: int, unit: str) -> list[tuple[str, str, str]]:
+    names = (("cage, ball", found.ftf, found.bsf), ("on outer, inner race", found.bpfo, found.bpfi))
+    return [(name, f"{numeral(a, digits)}, {numeral(b, digits)}", unit) for name, a, b in names]
+
+
+def _balls(state: BearingState) -> Table:
+    """Every ball of a bearing at rest, from the one under the load on."""
+    table = Table(pad_edge=False, box=None)
+    names = ["ball", "force [N]", *(["smallest film [µm]"] if state.h_min is not None else [])]
+    names += ["lambda"] if state.lambda_ratio is not None else []
+    for name in names:
+        table.add_column(spelled(name, sys.stdout), justify="right")
+    turned = [math.degrees(angle - state.angles[0]) for angle in state.angles.tolist()]
+    for k, degrees in enumerate(turned):
+        columns = [state.force[k], *([state.h_min[k] * 1e6] if state.h_min is not None else [])]
+        columns += [state.lambda_ratio[k]] if state.lambda_ratio is not None else []
+        cells = (f"{numeral(inner)}, {numeral(outer)}" for inner, outer in columns)
+        table.add_row(spelled(f"{degrees:.0f}°", sys.stdout), *cells)
+    return table

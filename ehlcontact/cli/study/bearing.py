@@ -1,0 +1,195 @@
+"""The file of ``ehlcontact bearing``: a ball bearing, its oil, load and speeds; options replace its entries."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import Field, ValidationError
+
+from ehlcontact.cli.study.schema import Finite, NotNegative, Oil, Positive, Roughness, Section
+from ehlcontact.cli.study.slips import QUANTITIES, broken_line, first_error
+from ehlcontact.errors import InputError
+from ehlcontact.files import read_text
+from reduced_models import BallBearing
+
+OPTIONS = {
+    "--load": "operation.radial_load",
+    "--speed": "operation.speed_rpm",
+    "--grade": "oil.iso_vg",
+    "--temperature": "oil.temperature",
+    "--clearance": "bearing.clearance_um",
+    "--rq": "surface.rq_um",
+}
+# What the library calls some entries.
+ENTRIES = {
+    "load": "operation.radial_load",
+    "speed_rpm": "operation.speed_rpm",
+    "name": "bearing.catalogue",
+    "balls": "bearing.balls",
+    "conformity_inner": "bearing.conformity_inner",
+    "conformity_outer": "bearing.conformity_outer",
+    "clearance": "bearing.clearance_um",
+}
+NEEDED = ("balls", "ball_diameter_mm", "pitch_diameter_mm")  # of a bearing without a name
+
+Conformity = Annotated[float, Field(gt=0.5, le=10.0, allow_inf_nan=False)]
+
+
+class Bearing(Section):
+    """A bearing of the catalogue, with other values where they are given; or its dimensions."""
+
+    catalogue: str | None = None
+    name: str | None = None
+    balls: Annotated[int, Field(ge=3, le=200, strict=True)] | None = None
+    ball_diameter_mm: Positive | None = None
+    pitch_diameter_mm: Positive | None = None
+    conformity_inner: Conformity | None = None
+    conformity_outer: Conformity | None = None
+    clearance_um: Finite | None = None  # below 0: preload
+    film_limit_um: Positive | None = None
+    youngs_modulus: Positive | None = None
+    poisson_ratio: Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)] | None = None
+
+
+class Surface(Section):
+    """Roughness for the lambda ratio: of ball and race, or of both together."""
+
+    rq_ball_um: Roughness | None = None
+    rq_race_um: Roughness | None = None
+    rq_um: Roughness | None = None
+
+
+class Operation(Section):
+    """What the bearing carries, and how fast the shaft turns."""
+
+    radial_load: NotNegative  # N, downwards
+    speed_rpm: Annotated[list[NotNegative], Field(min_length=1)]
+
+
+class BearingFile(Section):
+    """Everything that the file says; without [oil] the bearing is dry."""
+
+    bearing: Bearing
+    oil: Oil = Oil()
+    surface: Surface = Surface()
+    operation: Operation
+
+
+@dataclass(frozen=True)
+class BearingJob:
+    """What is asked: a bearing under a load [N], in -y, at speeds [rev/min]."""
+
+    bearing: BallBearing
+    load: float
+    speeds: tuple[float, ...]
+    source: str
+    given: frozenset[str]
+
+    @contextmanager
+    def called(self) -> Iterator[None]:
+        """Let an `InputError` of the library name the option or the entry of the file."""
+        with _called(self.source, self.given, {"load": self.load}):
+            yield
+
+
+def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
+    """Read what stands in a file, or a bearing by its name, with the options that are given.
+
+    Parameters
+    ----------
+    source : str
+        A TOML file, or a name of the catalogue.
+    options : mapping
+        Values by option, of `OPTIONS`; None where it is not given.
+
+    Raises
+    ------
+    InputError
+        No such file or name; an unknown, missing or impossible entry or option; no bearing. The line names it.
+    """
+    given = frozenset(option for option, value in options.items() if value is not None)
+    is_file = source.lower().endswith(".toml") or Path(source).is_file()
+    document = _read(source) if is_file else {"bearing": {"catalogue": source}}
+    for option in given:
+        section, _, key = OPTIONS[option].partition(".")
+        entries = document.setdefault(section, {})
+        if isinstance(entries, dict):
+            entries[key] = options[option]
+    origin = source if is_file else ""
+    with _called(origin, given, {}):
+        try:
+            found = BearingFile.model_validate(document)
+        except ValidationError as error:
+            plain = first_error(Path(), error, BearingFile)
+            raise InputError(plain.field.removeprefix(".: "), plain.value, plain.allowed) from None
+        bearing = _bearing(found)
+    speeds = tuple(sorted(set(found.operation.speed_rpm)))
+    return BearingJob(bearing, found.operation.radial_load, speeds, origin, given)
+
+
+def _read(path: str) -> dict[str, Any]:
+    text = ""
+    try:
+        text = read_text(path)
+        return tomllib.loads(text)
+    except OSError as error:
+        raise InputError("file", path, f"a readable TOML file ({error.strerror})") from None
+    except (ValueError, RecursionError) as error:
+        raise InputError("file", path, f"complete TOML ({broken_line(text, error)})") from None
+
+
+def _bearing(found: BearingFile) -> BallBearing:
+    b, surface = found.bearing, found.surface
+    for name in ("ball_diameter_mm", "pitch_diameter_mm", "youngs_modulus"):
+        if (value := getattr(b, name)) is not None:
+            QUANTITIES[f"bearing.{name}"].require(f"bearing.{name}", value)
+    in_m = {"ball_diameter": (b.ball_diameter_mm, 1e-3), "pitch_diameter": (b.pitch_diameter_mm, 1e-3),
+            "clearance": (b.clearance_um, 1e-6), "film_limit": (b.film_limit_um, 1e-6),
+            "rq_ball": (surface.rq_ball_um, 1e-6), "rq_race": (surface.rq_race_um, 1e-6)}  # fmt: skip
+    lengths = {name: value * unit for name, (value, unit) in in_m.items() if value is not None}
+    if surface.rq_um is not None:
+        both = [name for name in ("rq_ball", "rq_race") if name in lengths]
+        if both:
+            raise InputError(f"surface.{both[0]}_um", lengths[both[0]] * 1e6, "left out where rq_um is given")
+        lengths["rq_race"] = surface.rq_um * 1e-6
+    names = ("name", "balls", "conformity_inner", "conformity_outer", "youngs_modulus", "poisson_ratio")
+    others = {name: getattr(b, name) for name in names if getattr(b, name) is not None}
+    oil = found.oil.lubricant if "oil" in found.model_fields_set else None
+    arguments = {**others, **lengths, "oil": oil}
+    if b.catalogue is not None:
+        return BallBearing.catalogue(b.catalogue, **arguments)
+    for name in NEEDED:
+        if getattr(b, name) is None:
+            raise InputError(f"bearing.{name}", None, "given, or bearing.catalogue in place of all dimensions")
+    return BallBearing(**arguments)
+
+
+@contextmanager
+def _called(file: str, given: frozenset[str], values: Mapping[str, Any]) -> Iterator[None]:
+    """Name what was given as it was given: an option, an entry of the file, or the name."""
+    try:
+        yield
+    except InputError as error:
+        entry, value = ENTRIES.get(error.field, error.field), values.get(error.field, error.value)
+        allowed = error.allowed.partition("; any other bearing")[0]
+        if error.field == "clearance":
+            value, allowed = error.value * 1e6, f"{allowed} (it is given in um)"  # type: ignore[operator]
+        if allowed != error.allowed:
+            allowed += "; any other by its dimensions, in a file as examples/bearing_6205.toml"
+        option = next((name for name, known in OPTIONS.items() if entry.startswith(known)), None)
+        if option is not None and (option in given or not file):
+            entry = option
+        elif file:
+            entry = f"{file}: {entry}"
+        elif entry == "bearing.catalogue":
+            entry = "bearing"
+        if value is None and option is not None:
+            if option in ("--grade", "--temperature"):
+                allowed = "given: an oil has --grade and --temperature"
+            allowed += f", or {option}" if file else ""
+        raise InputError(entry, value, allowed) from None

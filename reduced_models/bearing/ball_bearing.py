@@ -1,0 +1,399 @@
+"""`BallBearing`: a deep-groove ball bearing in its plane, a film under every ball."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field, fields
+from math import hypot, inf, pi, sin
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ehlcontact import Lubricant
+from ehlcontact.checks import (
+    as_column,
+    require_finite,
+    require_instance,
+    require_integer,
+    require_nonnegative,
+    require_positive,
+)
+from ehlcontact.checks.box import INPUTS
+from ehlcontact.checks.frequency import by_name, radians_per_second
+from ehlcontact.errors import InputError
+from reduced_models.bearing.balls import Balls, Turn, turning
+from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
+from reduced_models.bearing.file import plain, read, write
+from reduced_models.bearing.kinematics import (
+    HERTZ,
+    RADIANS,
+    DefectFrequencies,
+    ball_swing,
+    cage_ratio,
+    rolling_radius,
+)
+from reduced_models.bearing.law import dry_law, film_law
+from reduced_models.bearing.linear import BearingCoefficients, impedances
+from reduced_models.bearing.race import Race, race_of
+from reduced_models.bearing.state import BearingState
+from reduced_models.bearing.statics import Standing, angle_of, direction_of, radial_load, stand
+from reduced_models.elements.kinds import WideRangeContact
+
+_Floats = NDArray[np.float64]
+
+SCHEMA = "ehlcontact-bearing"
+RACES = ("inner", "outer")
+LARGEST_PLAY = 0.05  # clearance or preload over ball diameter: five times what C5 or a heavy fit has
+POSITIONS = 12  # of the cage over a ball passage for means: those of 6205 are within 1e-3 of those of 48
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallBearing:
+    """Deep-groove ball bearing under radial load, the outer ring standing still. SI units, y upwards.
+
+    Every ball has a contact with either race, each with a film and its memory; both carry the ball in series, the
+    outer one its centrifugal force too. Rings are rigid, balls roll without slip at zero contact angle and do not
+    vibrate on their contacts themselves (for a 6205 that begins near 30 kHz).
+
+    Parameters
+    ----------
+    balls : int
+        At least 3.
+    ball_diameter, pitch_diameter : float
+        In m.
+    conformity_inner, conformity_outer : float
+        Groove radius over ball diameter.
+    clearance : float
+        Radial internal clearance, the play across the bearing [m]; below 0 it is preloaded by so much.
+    oil : Lubricant, optional
+        Flooded contacts, by the atlas. None is dry: Hertz' contacts without film or damping.
+    rq_ball, rq_race : float, optional
+        Roughness Rq [m], for the lambda ratio.
+    film_limit : float, optional
+        Gap [m] beyond which the film of an unloaded ball carries nothing. By default it is flooded there too, and
+        its force falls slowly, like gap^-1/2.
+    youngs_modulus, poisson_ratio, density : float
+        Of balls and rings [Pa], [-], of balls [kg/m3].
+    name : str
+    atlas : str, optional
+        File of an atlas; by default the one that comes with the library.
+
+    Raises
+    ------
+    InputError
+        What is no ball bearing: balls that overlap, a conformity of a half or less; a conformity or an oil that
+        the atlas does not have.
+    """
+
+    balls: int
+    ball_diameter: float
+    pitch_diameter: float
+    conformity_inner: float = USUAL_CONFORMITY
+    conformity_outer: float = USUAL_CONFORMITY
+    clearance: float = 0.0
+    oil: Lubricant | None = None
+    rq_ball: float | None = None
+    rq_race: float | None = None
+    film_limit: float | None = None
+    youngs_modulus: float = 2.06e11
+    poisson_ratio: float = 0.3
+    density: float = 7800.0
+    name: str = ""
+    atlas: str | None = None
+    _known: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
+
+    def __post_init__(self) -> None:
+        require_integer("balls", self.balls, "a whole number >= 3", 3)
+        if self.oil is not None:
+            require_instance("oil", self.oil, Lubricant, "a Lubricant, as Lubricant.iso_vg(68, temperature=50.0)")
+        for name in ("rq_ball", "rq_race"):
+            if getattr(self, name) is not None:
+                require_nonnegative(name, getattr(self, name))
+        if self.film_limit is not None:
+            require_positive("film_limit", self.film_limit)
+        require_positive("density", self.density)
+        races = {name: race_of(self, name) for name in RACES}
+        self._known["races"] = races
+        room = self.pitch_diameter * sin(pi / self.balls)
+        if self.ball_diameter >= room:
+            most = int(pi / np.arcsin(self.ball_diameter / self.pitch_diameter))
+            raise InputError("balls", self.balls, f"at most {most} on this pitch circle: they overlap")
+        play = LARGEST_PLAY * self.ball_diameter
+        if not abs(require_finite("clearance", self.clearance)) <= play:
+            raise InputError("clearance", self.clearance, f"between {-play:.3g} and {play:.3g} m")
+        if self.oil is not None:
+            for race in races.values():
+                race.require_in_atlas()
+
+    @classmethod
+    def catalogue(cls, name: str, **changes: Any) -> Self:
+        """Bearing by its name, as ``BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))``.
+
+        `reduced_models.bearing.catalogue` has the table, and where each row is from.
+
+        Parameters
+        ----------
+        name : str
+        **changes
+            Any other argument of the bearing, or another value than that of the table.
+
+        Raises
+        ------
+        InputError
+            A name that is not in the table; it names the nearest.
+        """
+        known, row = catalogue_row(name)
+        dimensions = {"balls": row.balls, "ball_diameter": row.ball_diameter, "pitch_diameter": row.pitch_diameter}
+        grooves = {"conformity_inner": row.conformity, "conformity_outer": row.conformity}
+        return cls(**{"name": known, **dimensions, **grooves, **changes})
+
+    @property
+    def gamma(self) -> float:
+        """Ball over pitch diameter."""
+        return self.ball_diameter / self.pitch_diameter
+
+    @property
+    def orders(self) -> DefectFrequencies:
+        """Defect frequencies per turn of the shaft."""
+        return DefectFrequencies.of(self.balls, self.gamma)
+
+    def frequencies(self, speed_rpm: float) -> DefectFrequencies:
+        """Defect frequencies [Hz] at a speed of the shaft [rev/min]."""
+        return DefectFrequencies.of(self.balls, self.gamma, require_nonnegative("speed_rpm", speed_rpm) * HERTZ)
+
+    @property
+    def roughness(self) -> float | None:
+        """Composite roughness of ball and race [m]; None where none is given."""
+        given = [rq for rq in (self.rq_ball, self.rq_race) if rq is not None]
+        return hypot(*given) if given else None
+
+    @property
+    def highest_speed(self) -> float:
+        """Speed [rev/min] up to which the atlas has films for it; infinite where it is dry."""
+        return inf if self.oil is None else min(race.highest_speed for race in self._known["races"].values())
+
+    def race(self, name: str) -> Race:
+        """The contact with the "inner" or the "outer" race."""
+        if name not in RACES:
+            raise InputError("race", name, f"one of {', '.join(RACES)}")
+        race: Race = self._known["races"][name]
+        return race
+
+    def element(self, race: str, speed_rpm: float) -> WideRangeContact:
+        """Element of a ball's contact with one race [SI], for all loads that the atlas has at this speed."""
+        contact, speed = self.race(race), self.speed(speed_rpm)
+        if self.oil is None:
+            raise InputError("oil", None, "given, for a film")
+        if (race, speed) not in self._known:
+            self._known[race, speed] = contact.element(speed)
+        element: WideRangeContact = self._known[race, speed]
+        return element
+
+    def kernel(self, speeds_rpm: ArrayLike) -> Balls:
+        """What the compiled kernels know of it, over increasing speeds [rev/min]: `reduced_models.bearing.balls`.
+
+        Between two speeds films grow as with the speed to the power of 0.67; outside them the kernels do not ask.
+        """
+        speeds = as_column("speeds_rpm", np.atleast_1d(np.asarray(speeds_rpm, float)), increasing=True)
+        key = ("kernel", *speeds.tolist())
+        if key not in self._known:
+            self._known[key] = Balls(
+                inner=self._law("inner", speeds),
+                outer=self._law("outer", speeds),
+                number=self.balls,
+                half_clearance=0.5 * self.clearance,
+                cage=cage_ratio(self.gamma),
+                swing=ball_swing(self.ball_diameter, self.pitch_diameter, self.density),
+                rolling=rolling_radius(self.pitch_diameter, self.gamma),
+                speeds=speeds * RADIANS,
+            )
+        kernel: Balls = self._known[key]
+        return kernel
+
+    def equilibrium(
+        self, load: ArrayLike, *, speed_rpm: float = 0.0, cage_angle: float | None = None
+    ) -> BearingState:
+        """State at rest under a load on the shaft.
+
+        Parameters
+        ----------
+        load : (float, float)
+            Force on the inner ring (Fx, Fy) [N].
+        speed_rpm : float
+            Speed of the shaft [rev/min], for the films and the centrifugal force; 0 for a dry bearing only.
+        cage_angle : float, optional
+            Angle of the first ball from the x axis [rad]; by default it stands under the load.
+
+        Raises
+        ------
+        InputError
+            A load that is not radial, that does not seat the bearing or is beyond the atlas; a speed beyond it.
+        """
+        force, speed = radial_load(load), self.speed(speed_rpm)
+        angle = direction_of(force) if cage_angle is None else angle_of(cage_angle)
+        at = self._stand(force, speed, angle)
+        return BearingState(
+            name=self.name,
+            load=force,
+            speed_rpm=speed,
+            cage_angle=angle,
+            displacement=at.displacement,
+            stiffness=at.stiffness,
+            angles=np.asarray(angle + 2.0 * pi / self.balls * np.arange(self.balls)),
+            force=at.force,
+            approach=at.approach,
+            **self._films(at, speed),
+        )
+
+    @by_name(2)
+    def coefficients(
+        self,
+        load: ArrayLike,
+        *,
+        speed_rpm: float = 0.0,
+        cage_angle: float | None = None,
+        omega: ArrayLike | None = None,
+        hz: ArrayLike | None = None,
+        rpm: ArrayLike | None = None,
+    ) -> BearingCoefficients:
+        """Stiffness and damping of a small vibration about rest under a load.
+
+        Parameters
+        ----------
+        load : (float, float)
+            Force on the inner ring [N].
+        speed_rpm : float
+            Speed of the shaft [rev/min].
+        cage_angle : float, optional
+            Of the first ball [rad]; by default the mean over a ball passage is given.
+        omega, hz, rpm : float or sequence of float
+            Frequency of the vibration, in exactly one of these.
+
+        Returns
+        -------
+        BearingCoefficients
+        """
+        force, speed = radial_load(load), self.speed(speed_rpm)
+        w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
+        standings, kernel = self.standings(force, speed, cage_angle), self.kernel(speed)
+        mean = np.mean([impedances(kernel, self.turn(speed), standing, w) for standing in standings], axis=0)
+        return BearingCoefficients.of(force, speed, cage_angle, w, mean, standings)
+
+    def standings(self, load: ArrayLike, speed_rpm: float, cage_angle: float | None = None) -> list[Standing]:
+        """The ring at rest under a load [N], at positions of the cage over a ball passage or at one [rad]."""
+        force, speed = radial_load(load), self.speed(speed_rpm)
+        first = direction_of(force) if cage_angle is None else angle_of(cage_angle)
+        steps = np.arange(POSITIONS) / POSITIONS if cage_angle is None else np.zeros(1)
+        angles = first + 2.0 * pi / self.balls * steps
+        return [self._stand(force, speed, angle) for angle in angles.tolist()]
+
+    @by_name(2)
+    def to_ross(
+        self,
+        node: int,
+        *,
+        speeds_rpm: ArrayLike,
+        load: ArrayLike,
+        omega: float | None = None,
+        hz: float | None = None,
+        rpm: float | None = None,
+        **options: Any,
+    ) -> Any:
+        """Stiffness and damping as a plain ``ross.BearingElement``, means over a ball passage.
+
+        Parameters
+        ----------
+        node : int
+        speeds_rpm : float or sequence of float
+            Speeds of the shaft [rev/min], increasing. ROSS goes on beyond their ends by its splines, so they
+            should cover the whole range; from four on they meet damping within 1 N s/m rms only.
+        load : float or (float, float)
+            Force on the inner ring [N]; a number is a weight, in -y.
+        omega, hz, rpm : float, optional
+            Frequency of the vibration; by default that of the shaft at each speed.
+        **options
+            Of ``ross.BearingElement``, as ``tag`` or ``n_link``.
+
+        Raises
+        ------
+        InputError
+            ROSS is not installed; a load or a speed that the bearing does not take.
+        """
+        from reduced_models.bearing.ross import bearing_element
+
+        frequency = {"omega": omega, "hz": hz, "rpm": rpm}
+        return bearing_element(self, node, speeds_rpm, load, frequency, **options)
+
+    def _stand(self, load: _Floats, speed: float, angle: float) -> Standing:
+        standing = stand(self.kernel(speed), self.turn(speed), load, angle)
+        if self.oil is not None:
+            for name, most in zip(RACES, standing.force.max(axis=0).tolist(), strict=True):
+                highest = self.race(name).loads(speed)[1]
+                if most > highest:
+                    what, value = ("load", load.tolist()) if load.any() else ("clearance", self.clearance)
+                    allowed = f"such that a ball carries at most {highest:.4g} N on the {name} race"
+                    raise InputError(
+                        what, value, f"{allowed}, the end of the atlas at this speed (here {most:.4g} N)"
+                    )
+        return standing
+
+    def turn(self, speed_rpm: float) -> Turn:
+        """Films, cage and centrifugal force at a speed, as the kernels have them."""
+        speed = self.speed(speed_rpm)
+        return turning(self.kernel(speed), speed * RADIANS)
+
+    def _films(self, at: Standing, speed: float) -> dict[str, _Floats]:
+        """Films of all balls, and their lambda ratios."""
+        if self.oil is None:
+            return {}
+        films = []
+        for column, name in enumerate(RACES):
+            race, load = self.race(name), at.force[:, column]
+            films.append(race.films(speed, load, (load / race.kn) ** (2.0 / 3.0) - at.approach[:, column]))
+        h_central, h_min = (np.column_stack(parts) for parts in zip(*films, strict=True))
+        found = {"h_central": h_central, "h_min": h_min}
+        return found | ({} if not self.roughness else {"lambda_ratio": h_min / self.roughness})
+
+    def _law(self, race: str, speeds: _Floats) -> Any:
+        if self.oil is None:
+            return dry_law(self.race(race).kn)
+        limit = inf if self.film_limit is None else self.film_limit
+        return film_law([self.element(race, speed) for speed in speeds.tolist()], limit)
+
+    def speed(self, speed_rpm: float) -> float:
+        """The speed [rev/min] where the bearing can run at it; raises `InputError` where not."""
+        speed = require_nonnegative("speed_rpm", speed_rpm)
+        if self.oil is None:
+            return speed
+        if speed == 0.0:
+            raise InputError("speed_rpm", speed, "> 0 for a bearing with oil: without rolling there is no film")
+        INPUTS["speed_rpm"].require("speed_rpm", speed)
+        if speed > self.highest_speed:
+            allowed = f"at most {self.highest_speed:.5g}, where the atlas ends for this bearing and oil"
+            raise InputError("speed_rpm", speed, allowed)
+        return speed
+
+    def to_dict(self) -> dict[str, Any]:
+        """All arguments, ready for JSON."""
+        return {f.name: plain(getattr(self, f.name)) for f in fields(self) if f.init}
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write as JSON; raises `InputError` where the file cannot be written."""
+        return write(path, SCHEMA, self.to_dict())
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Self:
+        """Read what `save` wrote; raises `InputError` for anything else."""
+        entries = read(path, SCHEMA, cls)
+        if entries["oil"] is not None:
+            require_instance("oil", entries["oil"], dict, "an object, or null")
+            known = [f.name for f in fields(Lubricant)]
+            strange = [name for name in entries["oil"] if name not in known]
+            if strange:
+                raise InputError(
+                    f"{path}: oil.{strange[0]}", entries["oil"][strange[0]], f"one of {', '.join(known)}"
+                )
+            entries["oil"] = Lubricant(**entries["oil"])
+        return cls(**entries)

@@ -1,0 +1,190 @@
+"""All balls of a bearing as one force on the shaft, compiled: an inner and an outer contact in series on each.
+
+The inner ring is at q, the outer one stands still; ball k at the angle psi_k with n = (cos, sin) psi_k lets both
+rings come closer by
+
+    delta = n . q - clearance/2,    of which w at the outer race and delta - w at the inner one.
+
+Balls have no inertia along n: F_o(w) = F_i(delta - w) + F_c with the centrifugal force F_c. So w is found from one
+scalar equation per ball, and the ring sees F = sum F_i n. Balls travel with the cage, which is a part of delta'.
+"""
+
+from __future__ import annotations
+
+from math import copysign, cos, inf, nan, pi, sin
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.jit import jit_exact_loop, jit_exact_node
+from reduced_models.bearing.contact import Films, accept, begin, new_films, press, still
+from reduced_models.bearing.law import RaceLaw
+from reduced_models.elements.film_law import DIRECT
+
+_Floats = NDArray[np.float64]
+
+# Imbalance of a ball, over its forces and 1 N, from which one step of Newton's method to first order ends the
+# search: what that leaves is of its square
+NEARLY = 1e-7
+MOST_STEPS = 60  # of that search: a handful, but where a ball lands
+FIRST_STEP = 1e-7  # [m], to a ball that nothing touches; doubled until a race is met
+FILM_GROWTH = 0.67  # of the film with speed (Hamrock and Dowson 1977): between two speeds of a law, films add so
+
+
+class Balls(NamedTuple):
+    """What the kernels know of a bearing. Angular speeds in rad/s."""
+
+    inner: RaceLaw
+    outer: RaceLaw
+    number: int
+    half_clearance: float  # m
+    cage: float  # speed of the cage over that of the shaft
+    swing: float  # F_c over the square of the cage's speed [kg m]
+    rolling: float  # u_sum over the speed of the shaft [m]
+    speeds: _Floats  # (rows of the laws,) of the shaft, increasing
+
+
+class Turn(NamedTuple):
+    """One speed of the shaft."""
+
+    spin: tuple[int, float]  # row of the laws, and weight of the next
+    inner: float  # 2a/u_sum over sqrt(g) [s/m^0.5]
+    outer: float
+    cage: float  # rad/s
+    centrifugal: float  # N
+
+
+def films_of(balls: Balls) -> Films:
+    """Memory for all its contacts, of nothing yet."""
+    return new_films(balls.number, max(law.gains.shape[2] for law in (balls.inner, balls.outer)) - DIRECT)
+
+
+@jit_exact_loop
+def turning(balls, omega):
+    """Laws, cage and centrifugal force at the shaft speed `omega`, which lies within those of the laws."""
+    row, weight = 0, 0.0
+    if balls.speeds.size > 1:
+        last = balls.speeds.size - 2
+        row = min(max(np.searchsorted(balls.speeds, omega) - 1, 0), last)
+        low, high = balls.speeds[row] ** FILM_GROWTH, balls.speeds[row + 1] ** FILM_GROWTH
+        weight = (omega**FILM_GROWTH - low) / (high - low)
+    cage = balls.cage * omega
+    u_sum = balls.rolling * omega
+    inner = balls.inner.reach / u_sum if u_sum > 0.0 else 0.0
+    outer = balls.outer.reach / u_sum if u_sum > 0.0 else 0.0
+    return Turn((row, weight), inner, outer, cage, balls.swing * cage * cage)
+
+
+@jit_exact_loop
+def directions(balls, angle, normals):
+    """Unit vectors to the balls, the first at `angle` [rad]."""
+    for k in range(balls.number):
+        psi = angle + 2.0 * pi * k / balls.number
+        normals[k, 0], normals[k, 1] = cos(psi), sin(psi)
+
+
+@jit_exact_loop
+def begin_step(balls, turn, dt, films):
+    """Begin a step of length `dt`, as long as the one before; returns the gain from w to its rate (BDF 2)."""
+    for k in range(balls.number):
+        now, before = films.w[k, 2], films.w[k, 3]
+        films.w[k, 1] = (4.0 * now - before) / 3.0
+        begin(balls.inner, turn.inner, turn.spin, dt, films, 2 * k)
+        begin(balls.outer, turn.outer, turn.spin, dt, films, 2 * k + 1)
+    return 1.5 / dt
+
+
+@jit_exact_loop
+def begin_rest(films):
+    """Let `press_balls` give the static law; returns the gain from w to its rate, 0."""
+    still(films)
+    return 0.0
+
+
+@jit_exact_node
+def _ball(balls, turn, films, k, delta, rate, gain):
+    """Balance ball `k`; returns the force on the ring and its derivatives by delta and by the rate of delta."""
+    history, last = films.w[k, 1], films.w[k]
+    w = last[0] + last[6] * (delta - last[4]) + last[7] * (rate - last[5])
+    low, high, reach = -inf, inf, FIRST_STEP
+    for _ in range(MOST_STEPS):
+        v = gain * (w - history)
+        fi, ki, di = press(balls.inner, turn.inner, turn.spin, films, 2 * k, delta - w, rate - v)
+        fo, ko, do = press(balls.outer, turn.outer, turn.spin, films, 2 * k + 1, w, v)
+        inner, outer = ki + gain * di, ko + gain * do
+        balance, tangent = fo - fi - turn.centrifugal, inner + outer
+        if abs(balance) <= NEARLY * (1.0 + fo + fi + turn.centrifugal):
+            if tangent > 0.0:
+                step = -balance / tangent
+                w, fi, fo = w + step, fi - inner * step, fo + outer * step
+                last[6], last[7] = ki / tangent, di / tangent
+                ki, di = ki * outer / tangent, di * outer / tangent
+            last[0], last[4], last[5], films.force[k, 0], films.force[k, 1] = w, delta, rate, fi, fo
+            return fi, ki, di
+        if balance > 0.0:
+            high = w
+        else:
+            low = w
+        if tangent > 0.0:
+            w -= balance / tangent
+        else:  # nothing touches it
+            w -= copysign(reach, balance)
+            reach *= 2.0
+        if low > -inf and high < inf and not low < w < high:
+            w = 0.5 * (low + high)
+    return nan, nan, nan
+
+
+@jit_exact_loop
+def press_balls(balls, turn, films, normals, q, v, gain, out):
+    """Force that the ring at `q`, moving at `v`, exerts on the balls, and its derivatives by both.
+
+    They are written into `out`, arrays of shape (2,), (2, 2) and (2, 2). The step is that begun last, with its
+    `gain`. Not a number where a ball finds no balance.
+    """
+    force, stiffness, damping = out
+    force[:], stiffness[:], damping[:] = 0.0, 0.0, 0.0
+    for k in range(balls.number):
+        x, y = normals[k]
+        delta = x * q[0] + y * q[1] - balls.half_clearance
+        rate = x * v[0] + y * v[1] + turn.cage * (x * q[1] - y * q[0])
+        f, by_delta, by_rate = _ball(balls, turn, films, k, delta, rate, gain)
+        force[0] += f * x
+        force[1] += f * y
+        by_x, by_y = by_delta * x - by_rate * turn.cage * y, by_delta * y + by_rate * turn.cage * x
+        stiffness[0, 0] += x * by_x
+        stiffness[0, 1] += x * by_y
+        stiffness[1, 0] += y * by_x
+        stiffness[1, 1] += y * by_y
+        damping[0, 0] += by_rate * x * x
+        damping[0, 1] += by_rate * x * y
+        damping[1, 0] += by_rate * x * y
+        damping[1, 1] += by_rate * y * y
+
+
+@jit_exact_loop
+def accept_balls(balls, turn, films, normals, q, v, gain):
+    """Move all films and balls to the end of the step, at the ring's place that `press_balls` was asked last."""
+    for k in range(balls.number):
+        x, y = normals[k]
+        delta = x * q[0] + y * q[1] - balls.half_clearance
+        rate = x * v[0] + y * v[1] + turn.cage * (x * q[1] - y * q[0])
+        w = films.w[k, 0]
+        own = gain * (w - films.w[k, 1])
+        accept(balls.inner, turn.inner, turn.spin, films, 2 * k, delta - w, rate - own)
+        accept(balls.outer, turn.outer, turn.spin, films, 2 * k + 1, w, own)
+        films.w[k, 3], films.w[k, 2] = films.w[k, 2], w
+        films.largest[0] = max(films.largest[0], films.force[k, 0])
+        films.largest[1] = max(films.largest[1], films.force[k, 1])
+
+
+@jit_exact_loop
+def rest_balls(balls, films, normals, q):
+    """Put all films at rest where `press_balls` was asked last, the ring at `q`."""
+    films.state[:] = 0.0
+    for k in range(balls.number):
+        w = films.w[k, 0]
+        films.state[2 * k, 0] = normals[k, 0] * q[0] + normals[k, 1] * q[1] - balls.half_clearance - w
+        films.state[2 * k + 1, 0] = w
+        films.w[k, 2:] = w

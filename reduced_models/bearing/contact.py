@@ -1,0 +1,235 @@
+"""One contact over a step: what its filters make of any motion, once; then the force of the motion that is tried.
+
+The equations are those of `reduced_models.elements.film_law` with squeeze 0. Its filters are then linear in what a
+step brings, the own rate e at its end and the travel t of the approach. `begin` therefore works them out once per
+step, down to three numbers for each of two rows of gains,
+
+    m = m_0 + m_e e + m_t t,
+
+and `press`, which an iteration calls, is left with the curve g(u) and a few products. For that the own time of the
+step has to be known before its end is: it is that of its middle, foreseen from its start, where `film_step` takes
+the mean of both ends. Both are of second order.
+"""
+
+from __future__ import annotations
+
+from math import exp, log, sqrt
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.jit import jit_exact_loop, jit_exact_node
+from reduced_models.bearing.law import carried, curve
+from reduced_models.elements.film_law import DIRECT
+
+_Floats = NDArray[np.float64]
+
+APPROACH, RATE, OWN, INLET, FAST, CHAIN = range(6)  # entries of a state; the chain is the rest
+# Entries of the work of a step: inlet, fast and hump as sums of 1, e and t; the sums of two rows of gains; then,
+# of all lags, what they hold, what they make of the film at the end, and of the hump.
+S, Y, HUMP, ROW, NEXT, HELD = 0, 3, 6, 9, 12, 15
+FEW, TERMS = 0.5, 16  # mean of Poisson's law below which its shares are summed, and how many then are enough
+
+
+@jit_exact_node
+def begin(law, transit, spin, dt, films, c):
+    """Work out a step of length `dt` for contact `c`.
+
+    `transit` is 2a/u_sum over sqrt(g), `spin` the row of speeds and the weight of the next.
+    """
+    state, work, poisson, share = films.state, films.work, films.poisson, films.share
+    if law.x.size == 0:
+        return
+    ahead = state[c, APPROACH] + 0.5 * dt * state[c, RATE]
+    middle, _, films.place[c, 0] = curve(ahead, spin[0], spin[1], law, films.place[c, 0])
+    span = dt / (transit * sqrt(middle))
+    p, start, inlet = law.inlet_rate, state[c, OWN], state[c, INLET]
+    s_a, s_e, s_t = _lag(inlet, start, p, span)
+    work[c, S], work[c, S + 1], work[c, S + 2] = s_a, s_e, s_t
+    work[c, Y], work[c, Y + 1], work[c, Y + 2] = _lag(state[c, FAST], start, law.fast_rate, span)
+    # the film that enters is that of both ends, and a hump that keeps its mean: (t - (s - s_0)/p)/span
+    both = 1.0 / (p * span) + 0.5
+    work[c, HUMP] = -(s_a - inlet) / (p * span) - 0.5 * (inlet + s_a)
+    work[c, HUMP + 1], work[c, HUMP + 2] = -s_e * both, 1.0 / span - s_t * both
+    mu, lags = law.lag_rate * span, law.gains.shape[2] - DIRECT
+    _shares(mu, lags + 2, poisson, share)
+    per_mu = 1.0 / mu
+    for j in range(lags):
+        r1 = (j + 1) * share[j + 2] * per_mu
+        work[c, HELD + j] = inlet * r1
+        work[c, HELD + lags + j] = share[j + 1] - r1
+        work[c, HELD + 2 * lags + j] = 6.0 * (r1 - (j + 1) * (j + 2) * share[j + 3] * per_mu * per_mu)
+    for i in range(lags):  # not lag by lag: sums of their own do not wait for each other
+        held = state[c, CHAIN + i]
+        for j in range(lags - i):
+            work[c, HELD + i + j] += poisson[j] * held
+    films.place[c, 1] = -1
+
+
+@jit_exact_node
+def _lag(old, start, rate, span):
+    """One lag after the input start + (e - start) s + 6 bump s (1 - s) of integral t: sums of 1, e and t."""
+    mu = rate * span
+    still = exp(-mu)
+    if mu < FEW:
+        term, third = still * mu * mu * mu / 6.0, 0.0
+        for k in range(4, TERMS):
+            third += term
+            term *= mu / k
+        second = third + 0.5 * still * mu * mu
+        r0 = second + still * mu
+    else:
+        r0 = 1.0 - still
+        second = r0 - still * mu
+        third = second - 0.5 * still * mu * mu
+    r1 = second / mu
+    hump = r1 - 2.0 * third / (mu * mu)
+    return old * still + start * (r1 - 3.0 * hump), r0 - r1 - 3.0 * hump, 6.0 * hump / span
+
+
+@jit_exact_node
+def _shares(mu, n, poisson, share):
+    """Poisson's weights of mean `mu`, and the share of what entered that k lags have passed on, to k = n.
+
+    As `_residence` of the elements, whose care for shares too small to be seen takes twice the time.
+    """
+    weight, passed = exp(-mu), 1.0
+    for k in range(n + 1):
+        poisson[k], share[k] = weight, passed
+        passed -= weight
+        weight *= mu / (k + 1)
+    if mu < FEW:  # from the far end, or shares that are divided by mu would drown in rounding
+        passed, k = 0.0, n
+        while weight > 1e-17 * passed:
+            passed += weight
+            k += 1
+            weight *= mu / (k + 1)
+        for k in range(n, -1, -1):
+            passed += poisson[k]
+            share[k] = passed
+
+
+@jit_exact_node
+def _weigh(law, spin, row, work, c):
+    """Sums of the gains of `row` and of the next over all filters."""
+    gains, speed, weight = law.gains, spin[0], spin[1]
+    other = speed + 1 if weight > 0.0 else speed
+    held, ends, humps, lags = 0.0, 0.0, 0.0, gains.shape[2] - DIRECT
+    next_held, next_ends, next_humps = 0.0, 0.0, 0.0
+    for j in range(lags):
+        gain, after = gains[speed, row, DIRECT + j], gains[speed, row + 1, DIRECT + j]
+        if weight > 0.0:
+            gain += weight * (gains[other, row, DIRECT + j] - gain)
+            after += weight * (gains[other, row + 1, DIRECT + j] - after)
+        holds, end, hump = work[c, HELD + j], work[c, HELD + lags + j], work[c, HELD + 2 * lags + j]
+        held, next_held = held + gain * holds, next_held + after * holds
+        ends, next_ends = ends + gain * end, next_ends + after * end
+        humps, next_humps = humps + gain * hump, next_humps + after * hump
+    _add(gains, (speed, other, weight, row), work, c, ROW, (held, ends, humps))
+    _add(gains, (speed, other, weight, row + 1), work, c, NEXT, (next_held, next_ends, next_humps))
+
+
+@jit_exact_node
+def _add(gains, of, work, c, at, chain):
+    """Sums of one row from those of its chain."""
+    speed, other, weight, row = of
+    held, ends, humps = chain
+    viscous = gains[speed, row, 0] + weight * (gains[other, row, 0] - gains[speed, row, 0])
+    inlet = gains[speed, row, 1] + weight * (gains[other, row, 1] - gains[speed, row, 1]) + ends
+    fast = gains[speed, row, 2] + weight * (gains[other, row, 2] - gains[speed, row, 2])
+    for k in range(3):
+        work[c, at + k] = inlet * work[c, S + k] + fast * work[c, Y + k] + humps * work[c, HUMP + k]
+    work[c, at] += held
+    work[c, at + 1] += viscous
+
+
+@jit_exact_node
+def press(law, transit, spin, films, c, u, v):
+    """Force [N] at approach `u` [m] and rate `v` [m/s] of the end of the step, dF/du and dF/dv."""
+    work = films.work
+    g, g_u, k = curve(u, spin[0], spin[1], law, films.place[c, 0])
+    films.place[c, 0] = k
+    root = sqrt(g)
+    if law.x.size == 0:
+        return law.kn * g * root, 1.5 * law.kn * root * g_u, 0.0
+    x = law.log_kn + 1.5 * log(g)
+    while k > 0 and x < law.x[k]:
+        k -= 1
+    while k < law.x.size - 2 and x > law.x[k + 1]:
+        k += 1
+    if k != films.place[c, 1]:
+        _weigh(law, spin, k, work, c)
+        films.place[c, 1] = k
+    per_x = 1.0 / (law.x[k + 1] - law.x[k])
+    weight = (x - law.x[k]) * per_x
+    tau = transit * root
+    e, t = tau * v, u - films.state[c, APPROACH]
+    m0, me, mt = work[c, ROW], work[c, ROW + 1], work[c, ROW + 2]
+    step_e, step_t = work[c, NEXT + 1] - me, work[c, NEXT + 2] - mt
+    step = work[c, NEXT] - m0 + step_e * e + step_t * t
+    me, mt = me + weight * step_e, mt + weight * step_t
+    w = g + m0 + weight * (work[c, NEXT] - m0) + me * e + mt * t
+    if w <= 0.0:
+        return 0.0, 0.0, 0.0
+    w_u = g_u + mt + (0.5 * me * e + 1.5 * per_x * step) * g_u / g
+    root = sqrt(w)
+    force, slope = law.kn * w * root, 1.5 * law.kn * root
+    share, share_u = carried(u, law.fade)
+    return share * force, share * slope * w_u + share_u * force, share * slope * me * tau
+
+
+@jit_exact_node
+def accept(law, transit, spin, films, c, u, v):
+    """Move contact `c` to the end of the step that `begin` has worked out."""
+    state, work = films.state, films.work
+    t = u - state[c, APPROACH]
+    state[c, APPROACH], state[c, RATE] = u, v
+    if law.x.size == 0:
+        return
+    g, _, films.place[c, 0] = curve(u, spin[0], spin[1], law, films.place[c, 0])
+    e = transit * sqrt(g) * v
+    s = work[c, S] + work[c, S + 1] * e + work[c, S + 2] * t
+    hump = work[c, HUMP] + work[c, HUMP + 1] * e + work[c, HUMP + 2] * t
+    state[c, OWN], state[c, INLET] = e, s
+    state[c, FAST] = work[c, Y] + work[c, Y + 1] * e + work[c, Y + 2] * t
+    lags = law.gains.shape[2] - DIRECT
+    for j in range(HELD, HELD + lags):
+        state[c, CHAIN + j - HELD] = work[c, j] + work[c, j + lags] * s + work[c, j + 2 * lags] * hump
+
+
+@jit_exact_loop
+def still(films):
+    """Make the step one in which nothing moves: `press` then gives the static law."""
+    films.work[:] = 0.0
+    films.place[:, 1] = -1
+
+
+class Films(NamedTuple):
+    """Memory of all contacts of a bearing, of ball k at 2 k (inner race) and 2 k + 1; and where its balls are."""
+
+    state: _Floats
+    work: _Floats
+    place: NDArray[np.int64]  # (contacts, 2): interval of the curve used last, rows of gains that `work` has
+    poisson: _Floats  # room for `begin`
+    share: _Floats
+    # (balls, 8) approaches at the outer race: as tried; what the rate is reckoned from; at the last two ends of
+    # steps; then delta and its rate where that was tried, and the slopes by both
+    w: _Floats
+    force: _Floats  # (balls, 2) at the inner and at the outer race [N]
+    largest: _Floats  # (2,) force that any ball has had at either race [N]
+
+
+def new_films(balls: int, lags: int) -> Films:
+    """Memory for the contacts of so many balls, of nothing yet."""
+    contacts = 2 * balls
+    return Films(
+        state=np.zeros((contacts, CHAIN + lags)),
+        work=np.zeros((contacts, HELD + 3 * lags)),
+        place=np.zeros((contacts, 2), np.int64),
+        poisson=np.zeros(lags + 3),
+        share=np.zeros(lags + 3),
+        w=np.zeros((balls, 8)),
+        force=np.zeros((balls, 2)),
+        largest=np.zeros(2),
+    )

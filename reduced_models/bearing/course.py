@@ -1,0 +1,78 @@
+"""The speed of a shaft over time, and what follows: angles, turning forces, the speeds that laws are made at."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.checks import as_column, require_nonnegative
+from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.rotor import MatrixRotor
+
+_Floats = NDArray[np.float64]
+
+SPEED_RATIO = 1.25  # of neighbouring speeds at which laws are made
+
+
+@dataclass(frozen=True, eq=False)
+class SpeedCourse:
+    """Speed of the shaft over time, straight between given times.
+
+    Parameters
+    ----------
+    t : array_like, shape (k,), k >= 2
+        Increasing, from 0 on [s].
+    speed_rpm : array_like, shape (k,)
+        Speeds [rev/min], >= 0; constant before the first and after the last time.
+    """
+
+    t: _Floats
+    speed_rpm: _Floats
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "t", as_column("t", self.t, least=2, increasing=True))
+        object.__setattr__(self, "speed_rpm", as_column("speed_rpm", self.speed_rpm, size=self.t.size))
+        for k, speed in enumerate(self.speed_rpm.tolist()):
+            require_nonnegative(f"speed_rpm[{k}]", speed)
+        require_nonnegative("t[0]", float(self.t[0]))
+
+    @classmethod
+    def constant(cls, speed_rpm: float) -> SpeedCourse:
+        """One speed all the time."""
+        return cls(np.array([0.0, 1.0]), np.full(2, require_nonnegative("speed_rpm", speed_rpm)))
+
+    def at(self, t: _Floats) -> tuple[_Floats, _Floats, _Floats]:
+        """Speed [rad/s], angle of the shaft [rad] and angular acceleration [rad/s2]."""
+        knots = np.concatenate([[0.0], self.t, [np.inf]]) if self.t[0] > 0.0 else np.append(self.t, np.inf)
+        speeds = np.interp(knots, self.t, self.speed_rpm) * RADIANS
+        turned = np.concatenate([[0.0], np.cumsum(0.5 * (speeds[1:-1] + speeds[:-2]) * np.diff(knots[:-1]))])
+        rise = np.append(np.diff(speeds[:-1]) / np.diff(knots[:-1]), 0.0)
+        k = np.clip(np.searchsorted(knots, t, side="right") - 1, 0, len(rise) - 1)
+        since = t - knots[k]
+        omega = speeds[k] + rise[k] * since
+        return omega, turned[k] + since * (speeds[k] + 0.5 * rise[k] * since), rise[k]
+
+
+def law_speeds(rpm: _Floats) -> _Floats:
+    """Speeds at which laws are made for a course."""
+    low, high = float(rpm.min()), float(rpm.max())
+    if low == high:
+        return np.array([low])
+    low = max(low, 1e-3 * high)
+    count = max(ceil(np.log(high / low) / np.log(SPEED_RATIO)), 1)
+    return np.geomspace(low, high, count + 1)
+
+
+def turning_forces(rotor: MatrixRotor, omega: _Floats, angle: _Floats, rise: _Floats) -> tuple[_Floats, _Floats]:
+    """Forces of all unbalances over time, shape (k, 2 unbalances), and where they act, shape (N, 2 unbalances)."""
+    forces = np.zeros((omega.size, 2 * len(rotor.unbalances)))
+    at = np.zeros((rotor.size, 2 * len(rotor.unbalances)))
+    for i, u in enumerate(rotor.unbalances):
+        c, s = np.cos(angle + u.phase), np.sin(angle + u.phase)
+        forces[:, 2 * i] = u.amount * (omega**2 * c + rise * s)
+        forces[:, 2 * i + 1] = u.amount * (omega**2 * s - rise * c)
+        at[u.x, 2 * i] = at[u.y, 2 * i + 1] = 1.0
+    return forces, at

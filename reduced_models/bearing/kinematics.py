@@ -1,0 +1,55 @@
+"""How fast cage and balls go round, and at which frequencies a spot on one of them is met."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+HERTZ, RADIANS = 1.0 / 60.0, pi / 30.0  # per second, of one turn per minute
+
+
+@dataclass(frozen=True, slots=True)
+class DefectFrequencies:
+    """Frequencies of a ball bearing whose outer ring stands still, balls rolling without slip.
+
+    Per turn of the shaft they are the orders; at a speed they are in Hz.
+
+    Attributes
+    ----------
+    ftf : float
+        Fundamental train frequency: turns of the cage.
+    bpfo, bpfi : float
+        Balls that pass a spot on the outer and on the inner race.
+    bsf : float
+        Turns of a ball. A spot on it meets a race twice per turn: what some tables print as the ball's is 2 BSF.
+    """
+
+    ftf: float
+    bpfo: float
+    bpfi: float
+    bsf: float
+
+    @classmethod
+    def of(cls, balls: int, gamma: float, turns: float = 1.0) -> DefectFrequencies:
+        """Of `balls` with ball over pitch diameter `gamma`, the shaft making so many `turns` per unit of time."""
+        return cls(
+            ftf=cage_ratio(gamma) * turns,
+            bpfo=balls * cage_ratio(gamma) * turns,
+            bpfi=balls * 0.5 * (1.0 + gamma) * turns,
+            bsf=0.5 * (1.0 - gamma * gamma) / gamma * turns,
+        )
+
+
+def cage_ratio(gamma: float) -> float:
+    """Speed of the cage over that of the shaft; `gamma` is ball over pitch diameter."""
+    return 0.5 * (1.0 - gamma)
+
+
+def rolling_radius(pitch_diameter: float, gamma: float) -> float:
+    """Sum of the surface speeds in either contact over the angular speed of the shaft [m]."""
+    return 0.5 * pitch_diameter * (1.0 - gamma * gamma)
+
+
+def ball_swing(ball_diameter: float, pitch_diameter: float, density: float) -> float:
+    """Centrifugal force on a ball over the square of the cage's angular speed [kg m]."""
+    return density * pi / 6.0 * ball_diameter**3 * 0.5 * pitch_diameter

@@ -1,0 +1,190 @@
+"""The film law of a race in SI, compiled: one for all balls, at one speed of the shaft or over several.
+
+It is `reduced_models.elements.film_law` with the reference load taken out: F = (g + m)^(3/2) in the units of any
+one load is
+
+    F = k_n (g(u) + m)_+^(3/2),    g = (F_s/k_n)^(2/3) = u + h_s
+
+in N and m, with the dry stiffness k_n of Hertz; the contact's own time runs at 1/tau, tau = 2a/u_sum, and its
+half-axis a = reach/2 sqrt(g) grows with the load it carries. g(u), which the elements find by Newton's method, is
+tabulated: cubics between equidistant approaches from node to node of the static curve, so that its kinks stay
+where they are.
+
+Where a film is left to fade as if the inlet were flooded for ever, a ball is never free: F falls like h^-1/2 only.
+With a `fade` of h, a film carries all of F up to a gap of h/2, and nothing beyond h.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from math import ceil, inf, log, sqrt
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.errors import InputError
+from ehlcontact.jit import jit_exact, jit_exact_node
+from ehlcontact.point import Scales
+from reduced_models.elements.film_curve import RIGID_SLOPE
+from reduced_models.elements.film_element import FilmContact
+from reduced_models.elements.film_law import DIRECT, FilmLaw, films, static
+
+_Floats = NDArray[np.float64]
+
+CELLS = 128  # cubics between two nodes: g within 1e-9 of Newton's method in gaps, 1e-10 where surfaces meet
+WIDEST_GAP = 4e-3  # [m] to which the table goes; beyond, g falls as it should but its slope is not matched
+SPACING = 0.35  # of ln F, at most, between nodes: a film in a wide gap doubles
+OVERLOAD = 64.0  # times the load of the last node, to which the table goes
+ALIKE = 1e-6  # of ln F: nodes of two speeds closer than this are one
+
+
+class RaceLaw(NamedTuple):
+    """Static curve, and gains of the film's memory, over approach and speed. Speeds are rows; one is enough."""
+
+    kn: float  # N/m^1.5, dry
+    log_kn: float
+    reach: float  # 2a over sqrt(g) [m^0.5]
+    x: _Floats  # (n,) ln F_s at the nodes, increasing; none for a dry contact
+    u: _Floats  # (speeds, n) approach at the nodes [m]
+    cells: _Floats  # (speeds, n - 1, CELLS, 4) coefficients of g between them
+    gains: _Floats  # (speeds, n, DIRECT + lags)
+    lag_rate: float
+    inlet_rate: float
+    fast_rate: float
+    fade: float  # gap [m] beyond which a film carries nothing; inf: it is never let go
+
+
+def dry_law(kn: float) -> RaceLaw:
+    """Hertz' law, without a film."""
+    none = np.zeros((1, 0))
+    return RaceLaw(
+        kn, log(kn), 0.0, none[0], none, np.zeros((1, 0, CELLS, 4)), np.zeros((1, 0, DIRECT)), 1.0, 1.0, 1.0, inf
+    )
+
+
+def film_law(elements: Sequence[FilmContact], fade: float = inf) -> RaceLaw:
+    """Law of elements in SI that stand for one contact at one speed each, their units of any load."""
+    for element in elements:
+        if element.squeeze != 0.0:
+            raise InputError(
+                "squeeze", element.squeeze, "0 in a bearing, whose filters are worked out once per step"
+            )
+    nodes = np.unique(np.concatenate([element.law.x + log(scales_of(element).force) for element in elements]))
+    x = _lengthened(nodes[np.append(True, np.diff(nodes) > ALIKE)], elements)
+    rows = [_rows(element, x) for element in elements]
+    scales, law = scales_of(elements[0]), elements[0].law
+    kn = scales.force / scales.length**1.5
+    return RaceLaw(
+        kn=kn,
+        log_kn=log(kn),
+        reach=2.0 * scales.a / sqrt(scales.length),
+        x=x,
+        u=np.array([row[0] for row in rows]),
+        cells=np.array([row[1] for row in rows]),
+        gains=np.array([row[2] for row in rows]),
+        lag_rate=law.lag_rate,
+        inlet_rate=law.inlet_rate,
+        fast_rate=law.fast_rate,
+        fade=fade,
+    )
+
+
+def scales_of(element: FilmContact) -> Scales:
+    """Units of an element, which here is always one in SI."""
+    assert element.scales is not None
+    return element.scales
+
+
+def _lengthened(x: _Floats, elements: Sequence[FilmContact]) -> _Floats:
+    """Nodes of ln F with others between them, and beyond: down to the widest gap, up to the overload."""
+    lowest, highest = x[0], x[-1] + log(OVERLOAD)
+    while min(_film(element, np.array([lowest]))[0] for element in elements) < WIDEST_GAP:
+        lowest -= SPACING
+    ends = np.concatenate([[lowest], x, [highest]])
+    parts = [np.linspace(a, b, ceil((b - a) / SPACING) + 1)[:-1] for a, b in pairwise(ends.tolist()) if b > a]
+    return np.append(np.concatenate(parts), highest)
+
+
+def _film(element: FilmContact, x: _Floats) -> _Floats:
+    """Film h_s [m] at loads e^x [N]."""
+    h, slope = np.empty((2, x.size))
+    films(element.law, x - log(scales_of(element).force), h, slope)
+    return h * scales_of(element).length
+
+
+def _rows(element: FilmContact, x: _Floats) -> tuple[_Floats, _Floats, _Floats]:
+    """Approaches, cells and gains of one speed at the nodes `x`."""
+    law, length = element.law, scales_of(element).length
+    own = x - log(scales_of(element).force)
+    u = np.exp(2.0 / 3.0 * own) - _film(element, x) / length
+    share = np.arange(CELLS + 1) / CELLS
+    places = u[:-1, None] + share * np.diff(u)[:, None]
+    places[:, -1] = u[1:]
+    g, slope = np.empty((2, *places.shape))
+    _fill(law, own, places, g, slope)
+    rise, width = np.diff(g, axis=1), np.diff(u)[:, None] / CELLS
+    start, end = slope[:, :-1] * width, slope[:, 1:] * width
+    cells = np.stack([g[:, :-1], start, 3.0 * rise - 2.0 * start - end, start + end - 2.0 * rise], axis=-1)
+    gains = np.array([np.interp(own, law.gain_x, column) for column in law.gains.T]).T
+    return u * length, cells * length, gains
+
+
+@jit_exact
+def _fill(law: FilmLaw, x, u, g, slope):
+    """Curve g and its slope at the approaches `u` of every interval, whose ends belong to ln F = x."""
+    for k in range(u.shape[0]):
+        for j in range(u.shape[1]):
+            _, g[k, j], slope[k, j] = static(u[k, j], law)
+
+
+@jit_exact_node
+def curve(u, row, weight, law, k):
+    """Dry compression g [m] at approach `u` and its slope, `weight` from one `row` of speeds to the next.
+
+    `k` is where to begin to look for the interval of u; that found is returned too.
+    """
+    if law.x.size == 0:
+        return max(u, 0.0), 1.0 if u > 0.0 else 0.0, 0
+    g, slope, k = _at(u, law, row, k)
+    if weight > 0.0:
+        other, other_slope, _ = _at(u, law, row + 1, k)
+        g += weight * (other - g)
+        slope += weight * (other_slope - slope)
+    return g, slope, k
+
+
+@jit_exact_node
+def _at(u, law, row, k):
+    """Table of one speed."""
+    nodes, cells, last = law.u, law.cells, law.x.size - 2
+    while k > 0 and u < nodes[row, k]:
+        k -= 1
+    while k < last and u >= nodes[row, k + 1]:
+        k += 1
+    start = nodes[row, k]
+    if u < start:  # wider than the table: F like h^-1/2
+        g = cells[row, 0, 0, 0] * (u / start) ** (2.0 / 3.0 / RIGID_SLOPE)
+        return g, g / u * (2.0 / 3.0 / RIGID_SLOPE), k
+    per_u = CELLS / (nodes[row, k + 1] - start)
+    t = (u - start) * per_u
+    j = min(int(t), CELLS - 1)
+    t -= j
+    a, b, c, d = cells[row, k, j, 0], cells[row, k, j, 1], cells[row, k, j, 2], cells[row, k, j, 3]
+    if t > 1.0 and k == last:  # an iteration went too far: straight on
+        slope = b + 2.0 * c + 3.0 * d
+        return a + b + c + d + slope * (t - 1.0), slope * per_u, k
+    return a + t * (b + t * (c + t * d)), (b + t * (2.0 * c + 3.0 * d * t)) * per_u, k
+
+
+@jit_exact_node
+def carried(u, fade):
+    """Share of its force that a film carries at approach `u`, and its slope."""
+    gap = -u / fade
+    if gap <= 0.5:
+        return 1.0, 0.0
+    if gap >= 1.0:
+        return 0.0, 0.0
+    t = 2.0 * gap - 1.0
+    return 1.0 - t * t * (3.0 - 2.0 * t), 12.0 * t * (1.0 - t) / fade

@@ -1,0 +1,262 @@
+"""Generalised-alpha steps of a linear rotor on bearings, compiled: rotor, bearings and balls in one loop.
+
+Chung and Hulbert, J. Appl. Mech. 60 (1993) 371. Everything linear is condensed onto the displacements r = B q of
+the inner rings against the outer ones: the end of a step has
+
+    D (r - r_free) + weight F(r, r') = 0,    r' = gain r + B v_history,    q = q_free - weight S^-1 B^T F,
+
+and Newton's method works on r alone, with the exact tangents of the bearings. q_free depends on the start of the
+step by one matrix, and on the forces by a few columns.
+"""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.jit import jit_exact_loop
+from reduced_models.bearing.balls import accept_balls, begin_step, directions, press_balls, turning
+
+_Floats = NDArray[np.float64]
+
+MOST_ITERATIONS = 30  # of a step: two or three, but where balls land
+OVERSHOOT = 2.0  # growth of the imbalance that halves the way to the last place: a ball lands or leaves
+DONE, NO_BALANCE, LOST = 0, 1, 2  # how a block of steps ends
+
+
+class Steps(NamedTuple):
+    """The linear part of a rotor for steps of one length, at one speed."""
+
+    past: _Floats  # (3, N, N): what each displacement, velocity and acceleration at the start makes of q_free
+    constant: _Floats  # (N,) q_free of the constant forces
+    columns: _Floats  # (2 bearings, N): of unit forces at the bearings, (S^-1 B^T)^T
+    turning: _Floats  # (2 unbalances, N): of unit forces where the unbalances are
+    D: _Floats  # (2 bearings, 2 bearings)
+    B: _Floats  # (2 bearings, N)
+    dt: float
+    weight: float  # of forces at the end of a step, 1 - alpha_f
+    velocity: tuple[float, float, float, float]  # gain, then what d, v and a at the start make of v at the end
+    acceleration: tuple[float, float, float, float]
+
+
+def steps_of(
+    matrices: tuple[_Floats, _Floats, _Floats],
+    to_rings: _Floats,
+    at: _Floats,
+    constant: _Floats,
+    dt: float,
+    rho_inf: float,
+) -> Steps:
+    """Condense mass, damping and stiffness, shape (N, N), for steps of `dt` [s]; forces turn `at` (N, k)."""
+    M, C, K = matrices
+    alpha_m, alpha_f = (2.0 * rho_inf - 1.0) / (rho_inf + 1.0), rho_inf / (rho_inf + 1.0)
+    gamma, beta = 0.5 - alpha_m + alpha_f, 0.25 * (1.0 - alpha_m + alpha_f) ** 2
+    weight, ratio = 1.0 - alpha_f, gamma / beta
+    velocity = ratio / dt, -ratio / dt, 1.0 - ratio, dt * (1.0 - 0.5 * ratio)
+    acceleration = 1.0 / (beta * dt * dt), -1.0 / (beta * dt * dt), -1.0 / (beta * dt), 1.0 - 0.5 / beta
+    S = (1.0 - alpha_m) * acceleration[0] * M + weight * (velocity[0] * C + K)
+    past = [-weight * velocity[k] * C - (1.0 - alpha_m) * acceleration[k] * M for k in (1, 2, 3)]
+    past[0] -= alpha_f * K
+    past[1] -= alpha_f * C
+    past[2] -= alpha_m * M
+    inverse = np.linalg.inv(S)
+    columns = inverse @ to_rings.T
+    D: _Floats = np.asarray(np.linalg.inv(to_rings @ columns), np.float64)
+    return Steps(
+        np.array([(inverse @ part).T for part in past]), inverse @ constant, np.ascontiguousarray(columns.T),
+        np.ascontiguousarray((inverse @ at).T), D, to_rings, dt, weight, velocity, acceleration,
+    )  # fmt: skip
+
+
+class Journals(NamedTuple):
+    """State and work of a run at its bearings, n = 2 per bearing in the order x, y."""
+
+    r: _Floats  # (3, n) at the last three ends of steps, the newest first
+    force: _Floats  # (n,) of the rings on the balls, at the last end
+    tried: _Floats  # (6, n), see below
+    system: _Floats  # (n, n + 1) slopes of the imbalance, and the step
+    turned: _Floats  # (k,) turning forces at the last end
+    normals: _Floats  # (bearings, balls of the largest, 2)
+    pushed: tuple[_Floats, _Floats, _Floats]  # of one bearing: force, stiffness, damping
+
+
+R, RATE, FORCE, IMBALANCE, FREE, HISTORY = range(6)  # rows of `tried`: r, r', F, imbalance, r_free, B v_history
+
+
+def journals_at(r: _Floats, force: _Floats, turned: _Floats, balls: int) -> Journals:
+    """Start of a run with the rings at rest at `r`."""
+    n = r.size
+    pushed = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
+    return Journals(
+        np.tile(r, (3, 1)), force.copy(), np.zeros((6, n)), np.zeros((n, n + 1)), turned.copy(),
+        np.zeros((n // 2, balls, 2)), pushed,
+    )  # fmt: skip
+
+
+@jit_exact_loop
+def run_block(steps, balls, films, journals, state, course, limits, out):
+    """Steps along `course`; returns how many were made and how it ended.
+
+    Parameters
+    ----------
+    steps : Steps
+    balls, films : tuple
+        `Balls` and `Films` of every bearing.
+    journals : Journals
+    state : ndarray, shape (4, N)
+        Displacement, velocity and acceleration; room.
+    course : tuple of ndarray
+        At the end of every step: speed [rad/s], shape (k,); angle of the first ball of every bearing [rad], shape
+        (k, bearings); turning forces [N], shape (k, turning).
+    limits : (float, float)
+        Imbalance allowed [N], and how far a ring may go [m].
+    out : tuple of ndarray
+        Displacement and velocity (k, N), displacement and force of the rings (k, n), iterations (k,).
+    """
+    speed, angles, forces = course
+    for i in range(speed.size):
+        _foresee(steps, journals, state, forces[i])
+        for b in range(len(balls)):
+            directions(balls[b], angles[i, b], journals.normals[b])
+            begin_step(balls[b], turning(balls[b], speed[i]), steps.dt, films[b])
+        count = _balance(steps, balls, films, journals, speed[i], limits[0])
+        if count == 0:
+            return i, NO_BALANCE
+        _finish(steps, journals, state, forces[i])
+        farthest = 0.0
+        for b in range(len(balls)):
+            q, v = journals.tried[R, 2 * b : 2 * b + 2], journals.tried[RATE, 2 * b : 2 * b + 2]
+            turn = turning(balls[b], speed[i])
+            accept_balls(balls[b], turn, films[b], journals.normals[b], q, v, 1.5 / steps.dt)
+        for k in range(state.shape[1]):
+            out[0][i, k], out[1][i, k] = state[0, k], state[1, k]
+        for k in range(journals.force.size):
+            out[2][i, k], out[3][i, k] = journals.r[0, k], journals.force[k]
+            farthest = max(farthest, abs(journals.r[0, k]))
+        out[4][i] = count
+        if farthest > limits[1]:
+            return i + 1, LOST
+    return speed.size, DONE
+
+
+@jit_exact_loop
+def _foresee(steps, journals, state, forces):
+    """Where the step would end without forces of the bearings at its end, and where it is expected to."""
+    size, share = state.shape[1], 1.0 - steps.weight
+    for k in range(size):
+        state[3, k] = steps.constant[k]
+    for i in range(3):  # not row by row: sums of their own do not wait for each other
+        for j in range(size):
+            moved = state[i, j]
+            for k in range(size):
+                state[3, k] += steps.past[i, j, k] * moved
+    for j in range(forces.size):
+        pushed = steps.weight * forces[j] + share * journals.turned[j]
+        for k in range(size):
+            state[3, k] += steps.turning[j, k] * pushed
+    for j in range(journals.force.size):
+        pushed = share * journals.force[j]
+        for k in range(size):
+            state[3, k] -= steps.columns[j, k] * pushed
+    tried, r = journals.tried, journals.r
+    _, by_d, by_v, by_a = steps.velocity
+    for j in range(journals.force.size):
+        free, history = 0.0, 0.0
+        for k in range(size):
+            free += steps.B[j, k] * state[3, k]
+            history += steps.B[j, k] * (by_d * state[0, k] + by_v * state[1, k] + by_a * state[2, k])
+        tried[FREE, j], tried[HISTORY, j] = free, history
+        tried[R, j] = 3.0 * (r[0, j] - r[1, j]) + r[2, j]
+
+
+@jit_exact_loop
+def _balance(steps, balls, films, journals, speed, allowed):
+    """Newton's method for D (r - r_free) + weight F = 0; returns how often it asked, 0 where it does not end."""
+    tried, system, n = journals.tried, journals.system, journals.force.size
+    force, stiffness, damping = journals.pushed
+    previous = inf
+    for count in range(1, MOST_ITERATIONS + 1):
+        error = 0.0
+        for j in range(n):
+            tried[RATE, j] = steps.velocity[0] * tried[R, j] + tried[HISTORY, j]
+            for k in range(n):
+                system[j, k] = steps.D[j, k]
+        for b in range(len(balls)):
+            q, v = tried[R, 2 * b : 2 * b + 2], tried[RATE, 2 * b : 2 * b + 2]
+            turn = turning(balls[b], speed)
+            press_balls(balls[b], turn, films[b], journals.normals[b], q, v, 1.5 / steps.dt, journals.pushed)
+            for j in range(2):
+                tried[FORCE, 2 * b + j] = force[j]
+                for k in range(2):
+                    slope = stiffness[j, k] + steps.velocity[0] * damping[j, k]
+                    system[2 * b + j, 2 * b + k] += steps.weight * slope
+        for j in range(n):
+            imbalance = steps.weight * tried[FORCE, j]
+            for k in range(n):
+                imbalance += steps.D[j, k] * (tried[R, k] - tried[FREE, k])
+            tried[IMBALANCE, j] = imbalance
+            error += imbalance * imbalance
+        error = sqrt(error)
+        if error <= allowed:
+            return count
+        if not error < inf:
+            return 0
+        back = error > OVERSHOOT * previous  # a kink lies between
+        if not back:
+            previous = error
+            for j in range(n):
+                system[j, n] = -tried[IMBALANCE, j]
+            _solve(system)
+        for j in range(n):
+            if back:
+                system[j, n] *= 0.5
+                tried[R, j] -= system[j, n]
+            else:
+                tried[R, j] += system[j, n]
+    return 0
+
+
+@jit_exact_loop
+def _solve(system):
+    """Gauss with pivots: the last column becomes the solution."""
+    n = system.shape[0]
+    for k in range(n):
+        pivot = k
+        for j in range(k + 1, n):
+            if abs(system[j, k]) > abs(system[pivot, k]):
+                pivot = j
+        for i in range(n + 1):
+            system[k, i], system[pivot, i] = system[pivot, i], system[k, i]
+        for j in range(k + 1, n):
+            factor = system[j, k] / system[k, k]
+            for i in range(k, n + 1):
+                system[j, i] -= factor * system[k, i]
+    for k in range(n - 1, -1, -1):
+        for i in range(k + 1, n):
+            system[k, n] -= system[k, i] * system[i, n]
+        system[k, n] /= system[k, k]
+
+
+@jit_exact_loop
+def _finish(steps, journals, state, forces):
+    """Move rotor and rings to the end of the step."""
+    tried, r = journals.tried, journals.r
+    v0, v1, v2, v3 = steps.velocity
+    a0, a1, a2, a3 = steps.acceleration
+    for j in range(journals.force.size):
+        pushed = steps.weight * tried[FORCE, j]
+        for k in range(state.shape[1]):
+            state[3, k] -= steps.columns[j, k] * pushed
+    for k in range(state.shape[1]):
+        d, v, a, new = state[0, k], state[1, k], state[2, k], state[3, k]
+        state[0, k] = new
+        state[1, k] = v0 * new + v1 * d + v2 * v + v3 * a
+        state[2, k] = a0 * new + a1 * d + a2 * v + a3 * a
+    for j in range(journals.force.size):
+        r[2, j], r[1, j], r[0, j] = r[1, j], r[0, j], tried[R, j]
+        journals.force[j] = tried[FORCE, j]
+    for j in range(forces.size):
+        journals.turned[j] = forces[j]

@@ -1,0 +1,267 @@
+"""Figures of bearings. Matplotlib is imported where one is drawn."""
+
+from __future__ import annotations
+
+import os
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ehlcontact.files import write_bytes
+
+INNER, OUTER, LOAD, GREY = "#0072b2", "#e69f00", "#d55e00", "#7f7f7f"  # Okabe and Ito, for colour-blind eyes
+SIZE, DPI = (9.0, 4.4), 130  # inches; of files
+BAR = 0.5  # width of a bar over the angle between two balls
+ROOM = 1.25  # radius of the load zone over its longest bar
+COLOURS = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9"  # of bearings and modes, in turn
+LAST_TURNS = 20.0  # of the shaft, that orbits show
+ROWS, SPREAD = 120, 4.0  # spectra of a waterfall; its colours: decades below the highest
+LINE = 0.045  # height of a name over that of the diagram
+STRAIGHT = 0.1  # |whirl| below which a mode is called so
+DECADES = 6.0  # that spectra show
+MICRO = 1e6  # um in a metre
+
+
+def draw_state(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
+    """Load zone of a `BearingState` beside the films of every ball; the file's ending gives its format."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=SIZE, layout="constrained")
+    zone = figure.add_subplot(1, 2, 1, projection="polar")
+    load_zone(zone, state)
+    beside = figure.add_subplot(1, 2, 2)
+    films(beside, state)
+    speed = f"{state.speed_rpm:g} rev/min" if state.speed_rpm else "at rest"
+    figure.suptitle(f"{state.name or 'ball bearing'}, {np.hypot(*state.load):.4g} N, {speed}")
+    return _written(figure, path)
+
+
+def _written(figure: Any, path: str | os.PathLike[str] | None) -> Any:
+    if path is not None:
+        buffer = BytesIO()
+        figure.savefig(buffer, format=Path(path).suffix[1:] or "png", dpi=DPI)
+        write_bytes(path, buffer.getvalue())
+    return figure
+
+
+def load_zone(axes: Any, state: Any) -> None:
+    """Force of every ball, outward from the centre, and the load."""
+    width = BAR * 2.0 * np.pi / state.angles.size
+    most = float(state.force.max())
+    axes.bar(state.angles, state.force[:, 1], width=width, color=OUTER, label="outer race")
+    axes.bar(state.angles, state.force[:, 0], width=0.6 * width, color=INNER, label="inner race")
+    axes.set_rlim(0.0, ROOM * most)
+    axes.set_rlabel_position(_free_angle(state))
+    axes.grid(color="#dddddd", linewidth=0.6)
+    axes.set_axisbelow(True)
+    if state.load.any():
+        angle = float(np.arctan2(state.load[1], state.load[0]))
+        arrow = {"arrowstyle": "-|>", "color": LOAD, "linewidth": 1.6}
+        axes.annotate("", xy=(angle, 1.22 * most), xytext=(angle, 1.02 * most), arrowprops=arrow)
+    axes.set_title("force on the balls [N]")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.06), ncols=2, frameon=False, fontsize=8)
+
+
+def _free_angle(state: Any) -> float:
+    """Direction [degrees] for the numbers, away from the load and between two balls."""
+    away = np.angle(-np.exp(1j * np.arctan2(state.load[1], state.load[0])))
+    gaps = np.exp(1j * (state.angles + np.pi / state.angles.size))
+    return float(np.degrees(np.angle(gaps[np.argmax((gaps * np.exp(-1j * away)).real)])))
+
+
+def films(axes: Any, state: Any) -> None:
+    """Smallest film of every ball over its place, or the approaches of a dry bearing."""
+    turned = np.degrees((state.angles - np.arctan2(state.load[1], state.load[0]) + np.pi) % (2.0 * np.pi) - np.pi)
+    order = np.argsort(turned)
+    if state.h_min is None:
+        shown, title = state.approach * 1e6, "approach of the surfaces [um]; below 0 a gap"
+    else:
+        shown, title = state.h_min * 1e6, "smallest film [um]"
+        axes.set_yscale("log")
+    for column, (race, colour) in enumerate((("inner race", INNER), ("outer race", OUTER))):
+        axes.plot(turned[order], shown[order, column], "o-", color=colour, label=race)
+    axes.set_title(title)
+    axes.set_xlabel("angle from the load [degrees]")
+    axes.set_xticks(np.arange(-180, 181, 60))
+    axes.grid(color="#dddddd", linewidth=0.6)
+    if state.lambda_ratio is not None and state.h_min is not None:
+        least = float(np.nanmin(state.lambda_ratio))
+        roughness = float(state.h_min.flat[0] / state.lambda_ratio.flat[0])
+        axes.axhline(roughness * 1e6, color=GREY, linewidth=1.0, linestyle="--")
+        axes.annotate(
+            f"composite roughness; least lambda {least:.3g}",
+            xy=(0.02, roughness * 1e6),
+            xycoords=("axes fraction", "data"),
+            va="bottom",
+            fontsize=8,
+            color=GREY,
+        )
+    axes.legend(frameon=False, fontsize=8)
+
+
+def draw_run(run: Any, path: str | os.PathLike[str] | None, kind: str, most_hz: float) -> Any:
+    """Orbits, spectra or waterfalls of all rings of a `BearingRun`, side by side."""
+    from matplotlib.figure import Figure
+
+    bearings = run.ring.shape[1]
+    figure = Figure(figsize=(max(4.6 * bearings, SIZE[0]), SIZE[1]), layout="constrained")
+    draw = {"orbit": _orbit, "spectrum": _spectrum, "waterfall": _waterfall}[kind]
+    for b in range(bearings):
+        axes = figure.add_subplot(1, bearings, b + 1)
+        draw(axes, run, b, most_hz)
+        axes.set_title(f"bearing {b}", fontsize=10)
+    low, high = float(run.speed_rpm.min()), float(run.speed_rpm.max())
+    speed = f"{low:g} rev/min" if low == high else f"{low:g} to {high:g} rev/min"
+    figure.suptitle(f"{kind} of the inner ring, {speed}")
+    return _written(figure, path)
+
+
+def _orbit(axes: Any, run: Any, b: int, most_hz: float) -> None:
+    """Path of a ring over its last turns; a dot where it ends."""
+    turned = (
+        np.concatenate([[0.0], np.cumsum(0.5 * (run.speed_rpm[1:] + run.speed_rpm[:-1]) * np.diff(run.t))]) / 60.0
+    )
+    x, y = run.ring[turned >= turned[-1] - LAST_TURNS, b].T * MICRO
+    axes.plot(x, y, color=COLOURS[b % len(COLOURS)], linewidth=0.7)
+    axes.plot(x[-1], y[-1], "o", color="black", markersize=4)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.ticklabel_format(useOffset=False)
+    axes.locator_params(nbins=6)
+    axes.set_xlabel("x [um]")
+    axes.set_ylabel("y [um]")
+    axes.grid(color="#dddddd", linewidth=0.6)
+
+
+def _amplitudes(signal: Any, dt: float) -> tuple[Any, Any]:
+    """Frequencies [Hz] and amplitudes of the lines, by a Hann window; the mean is left out."""
+    window = np.hanning(signal.size)
+    lines = 2.0 * np.abs(np.fft.rfft((signal - signal.mean()) * window)) / window.sum()
+    return np.fft.rfftfreq(signal.size, dt), lines
+
+
+def _spectrum(axes: Any, run: Any, b: int, most_hz: float) -> None:
+    """Amplitudes of the second half of a run, when its start is forgotten."""
+    half, dt = run.t.size // 2, float(run.t[1] - run.t[0])
+    for k, (name, colour) in enumerate((("x", OUTER), ("y", INNER))):
+        hz, lines = _amplitudes(run.ring[half:, b, k], dt)
+        shown = (hz > 0.0) & (hz <= most_hz)
+        axes.semilogy(hz[shown], lines[shown] * MICRO, color=colour, linewidth=0.9, label=name)
+    top = 2.0 * max(float(line.get_ydata().max()) for line in axes.lines)
+    if top > 0.0:
+        axes.set_ylim(top / 10.0**DECADES, top)
+    axes.set_xlim(0.0, most_hz)
+    axes.set_xlabel("frequency [Hz]")
+    axes.set_ylabel("amplitude [um]")
+    axes.grid(color="#dddddd", linewidth=0.6)
+    axes.legend(frameon=False, fontsize=8)
+
+
+def _waterfall(axes: Any, run: Any, b: int, most_hz: float) -> None:
+    """Spectra of y piece by piece, over the time, or over the speed where it changes one way."""
+    dt, count = float(run.t[1] - run.t[0]), run.t.size
+    piece = max(int(2.0 * count / (np.sqrt(count) + 1.0)), 16) if count < ROWS**2 else 4 * count // ROWS
+    starts = np.unique(np.linspace(0, max(count - piece, 0), ROWS).astype(int))
+    middle = np.minimum(starts + piece // 2, count - 1)
+    rows = [_amplitudes(run.ring[start : start + piece, b, 1], dt) for start in starts.tolist()]
+    hz = rows[0][0]
+    shown = hz <= most_hz
+    level = np.log10(np.array([row[1][shown] for row in rows]) * MICRO + 1e-12)
+    rises = np.diff(run.speed_rpm)
+    over_speed = bool(rises.any() and (np.all(rises >= 0.0) or np.all(rises <= 0.0)))
+    over = run.speed_rpm[middle] if over_speed else run.t[middle]
+    most = float(level.max())
+    mesh = axes.pcolormesh(
+        hz[shown], over, level, vmin=most - SPREAD, vmax=most, cmap="viridis", shading="nearest", rasterized=True
+    )
+    axes.figure.colorbar(mesh, ax=axes, label="lg(amplitude of y / um)")
+    axes.plot(run.speed_rpm[middle] / 60.0, over, color="white", linewidth=0.8, linestyle="--")
+    axes.annotate(
+        "1x",
+        xy=(run.speed_rpm[middle][-1] / 60.0, over[-1]),
+        xytext=(3, -10),
+        textcoords="offset points",
+        color="white",
+        fontsize=8,
+    )
+    axes.set_xlim(0.0, hz[shown][-1])
+    axes.set_xlabel("frequency [Hz]")
+    axes.set_ylabel("speed [rev/min]" if over_speed else "time [s]")
+
+
+def draw_campbell(campbell: Any, path: str | os.PathLike[str] | None) -> Any:
+    """Frequencies over the speed with the critical speeds, above the decrements."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(SIZE[0], 1.4 * SIZE[1]), layout="constrained")
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.0, 1.0))
+    rpm, hz = campbell.speed_rpm, campbell.hz
+    for k in range(hz.shape[1]):
+        colour, style = COLOURS[k % len(COLOURS)], ("-", "--", ":")[k // len(COLOURS) % 3]
+        above.plot(rpm, hz[:, k], style, color=colour, linewidth=1.3)
+        below.plot(rpm, campbell.decrement[:, k], style, color=colour, linewidth=1.3)
+    above.plot(rpm, rpm / 60.0, color=GREY, linewidth=1.0, linestyle="-.", label="1x")
+    critical = campbell.critical_speeds()
+    if critical:
+        at = [one.speed_rpm for one in critical], [one.hz for one in critical]
+        above.plot(*at, "o", color="black", markersize=5, fillstyle="none", label="critical speeds")
+    most = 1.08 * float(hz.max())
+    above.set_ylim(0.0, most)
+    _name_modes(above, campbell, most)
+    above.set_ylabel("damped frequency [Hz]")
+    above.legend(fontsize=8, loc="best", edgecolor="none")
+    below.set_yscale("log" if campbell.decrement.min() > 0.0 else "linear")
+    below.set_ylabel("decrement")
+    below.set_xlabel("speed [rev/min]")
+    for axes in (above, below):
+        axes.margins(x=0.0)
+        axes.grid(color="#dddddd", linewidth=0.6)
+    figure.suptitle("Campbell diagram")
+    return _written(figure, path)
+
+
+def _name_modes(axes: Any, campbell: Any, most: float) -> None:
+    """Names at the ends of the lines, one above the other where lines end together."""
+    ends, last = campbell.hz[-1] / most, -1.0
+    for k in np.argsort(ends).tolist():
+        last = max(float(ends[k]), last + LINE)
+        axes.annotate(
+            f"{k + 1} {_whirl(float(campbell.whirl[-1, k]))}",
+            xy=(1.01, last),
+            xycoords="axes fraction",
+            va="center",
+            fontsize=8,
+            color=COLOURS[k % len(COLOURS)],
+        )
+
+
+def _whirl(whirl: float) -> str:
+    if abs(whirl) < STRAIGHT:
+        return "straight"
+    return "forward" if whirl > 0.0 else "backward"
+
+
+def draw_unbalance(response: Any, path: str | os.PathLike[str] | None) -> Any:
+    """Largest displacement on the orbit of every node over the speed, and phases of x below."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(SIZE[0], 1.4 * SIZE[1]), layout="constrained")
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.0, 1.0))
+    rpm, major = response.speed_rpm, response.major
+    for k, (x, y) in enumerate(response.nodes.tolist()):
+        colour, style = COLOURS[k % len(COLOURS)], ("-", "--", ":")[k % 3]
+        above.semilogy(
+            rpm, major[:, k] * MICRO, style, color=colour, linewidth=1.3, label=f"degrees of freedom {x}, {y}"
+        )
+        phase = np.degrees(np.unwrap(np.angle(response.amplitude[:, x])))
+        below.plot(rpm, phase, style, color=colour, linewidth=1.3)
+    above.set_ylabel("half axis of the orbit [um]")
+    above.legend(frameon=False, fontsize=8)
+    below.set_ylabel("phase of x [degrees]")
+    below.set_xlabel("speed [rev/min]")
+    for axes in (above, below):
+        axes.margins(x=0.0)
+        axes.grid(color="#dddddd", linewidth=0.6)
+    figure.suptitle("unbalance response")
+    return _written(figure, path)

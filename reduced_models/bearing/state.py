@@ -1,0 +1,113 @@
+"""`BearingState`: a bearing at rest under a load, ball by ball."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.errors import InputError
+from reduced_models.bearing.file import plain, write
+from reduced_models.bearing.file import read as read_entries
+
+_Floats = NDArray[np.float64]
+
+SCHEMA = "ehlcontact-bearing-state"
+# Arrays by their shape: of the plane, over balls, over balls and races
+SHAPES: dict[str, tuple[int | None, ...]] = {
+    "load": (2,), "displacement": (2,), "stiffness": (2, 2), "angles": (None,), "force": (None, 2),
+    "approach": (None, 2), "h_central": (None, 2), "h_min": (None, 2), "lambda_ratio": (None, 2),
+}  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BearingState:
+    """A bearing at rest; arrays over the balls have two columns, inner and outer race.
+
+    Attributes
+    ----------
+    name : str
+        Of the bearing.
+    load : ndarray, shape (2,)
+        Force on the inner ring [N].
+    speed_rpm, cage_angle : float
+        Of the shaft [rev/min], of the first ball [rad].
+    displacement : ndarray, shape (2,)
+        Of the inner ring [m].
+    stiffness : ndarray, shape (2, 2)
+        Slope of the static force [N/m].
+    angles : ndarray, shape (balls,)
+        Of the balls [rad].
+    force : ndarray, shape (balls, 2)
+        Normal force [N]; at the outer race with the centrifugal force.
+    approach : ndarray, shape (balls, 2)
+        Mutual approach [m]; below 0 there is a gap.
+    h_central, h_min : ndarray, shape (balls, 2), or None
+        Central and smallest film [m]; None in a dry bearing.
+    lambda_ratio : ndarray, shape (balls, 2), or None
+        Smallest film over composite roughness; None where no roughness is given, or no film.
+    """
+
+    name: str
+    load: _Floats
+    speed_rpm: float
+    cage_angle: float
+    displacement: _Floats
+    stiffness: _Floats
+    angles: _Floats
+    force: _Floats
+    approach: _Floats
+    h_central: _Floats | None = None
+    h_min: _Floats | None = None
+    lambda_ratio: _Floats | None = None
+
+    def __post_init__(self) -> None:
+        balls = np.asarray(self.angles).size
+        for name, shape in SHAPES.items():
+            if getattr(self, name) is None and name in ("h_central", "h_min", "lambda_ratio"):
+                continue
+            array = np.array(getattr(self, name), dtype=np.float64)
+            wanted = tuple(balls if size is None else size for size in shape)
+            if array.shape != wanted:
+                raise InputError(f"shape of {name}", array.shape, str(wanted))
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+
+    @property
+    def loaded(self) -> int:
+        """How many balls are pressed together by both rings, their approaches together above 0."""
+        return int(np.count_nonzero(self.approach.sum(axis=1) > 0.0))
+
+    @property
+    def heaviest(self) -> int:
+        """Index of the ball that carries most."""
+        return int(np.argmax(self.force[:, 0]))
+
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """Matplotlib figure of the load zone and the films; into a file too where a path is given.
+
+        Raises
+        ------
+        InputError
+            The file cannot be written.
+        """
+        from reduced_models.bearing.picture import draw_state
+
+        return draw_state(self, path)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        return {f.name: plain(getattr(self, f.name)) for f in fields(self)}
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write as JSON; raises `InputError` where the file cannot be written."""
+        return write(path, SCHEMA, self.to_dict())
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Self:
+        """Read what `save` wrote; raises `InputError` for anything else."""
+        return cls(**read_entries(path, SCHEMA, cls))

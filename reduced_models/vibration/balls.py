@@ -1,0 +1,77 @@
+"""Impedance of a bearing at complex frequencies: a rational function, for every gain is one of a filter.
+
+A ball has Z = Z_i Z_o/(Z_i + Z_o) of its two contacts in series, each of them
+
+    Z(s) = k + s tau (dF/dm) G(s tau)
+
+with the transfer function G of the film's filters. Balls stand still while the ring vibrates: what they see change
+as they travel is no part of it. Over a ball passage Z is the mean of positions of the cage, each with the ring
+where the same load puts it: on the imaginary axis that is `BallBearing.coefficients`, to rounding.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reduced_models.bearing.balls import Balls, Turn
+from reduced_models.bearing.linear import SmallContact, small_contact
+from reduced_models.bearing.statics import Standing
+from reduced_models.elements.film_response import FilterRates
+
+_Floats = NDArray[np.float64]
+_Complex = NDArray[np.complex128]
+
+
+class Contacts(NamedTuple):
+    """Contacts of many balls with one race about rest, arrays over the balls as in `SmallContact`."""
+
+    stiffness: _Floats
+    slope: _Floats
+    tau: _Floats
+    gains: _Floats  # (balls, DIRECT + lags)
+    rates: FilterRates | None  # None: dry
+
+    @classmethod
+    def of(cls, found: Sequence[SmallContact]) -> Contacts:
+        """Contacts, which have one law, as arrays."""
+        stiffness, slope, tau, gains, rates = zip(*found, strict=True)
+        return cls(np.array(stiffness), np.array(slope), np.array(tau), np.array(gains), rates[0])
+
+    def impedance(self, s: complex) -> _Complex:
+        """Z(s) of all of them [N/m]."""
+        if self.rates is None:
+            return self.stiffness.astype(complex)
+        own = s * self.tau
+        return np.asarray(self.stiffness + self.slope * own * (self.rates.transfer(own) * self.gains).sum(axis=1))
+
+
+class SmallBalls(NamedTuple):
+    """All balls of a bearing about rest, at one position of the cage or at several."""
+
+    inner: Contacts
+    outer: Contacts
+    normals: _Floats  # (positions * balls, 2)
+    positions: int
+
+    @classmethod
+    def of(cls, balls: Balls, turn: Turn, standings: Sequence[Standing]) -> SmallBalls:
+        """From where the ring stands at each position."""
+        approach = np.concatenate([standing.approach for standing in standings])
+        inner, outer = (
+            Contacts.of([small_contact(law, transit, turn.spin, u) for u in column.tolist()])
+            for law, transit, column in zip(
+                (balls.inner, balls.outer), (turn.inner, turn.outer), approach.T, strict=True
+            )
+        )
+        return cls(inner, outer, np.concatenate([at.normals for at in standings]), len(standings))
+
+    def impedance(self, s: complex) -> _Complex:
+        """Of the ring, shape (2, 2) [N/m], at a frequency s [1/s] of exp(s t)."""
+        inner, outer = self.inner.impedance(s), self.outer.impedance(s)
+        both = inner + outer
+        series = np.divide(inner * outer, both, out=np.zeros_like(both), where=both != 0.0)
+        return np.asarray((self.normals.T * series) @ self.normals / self.positions)

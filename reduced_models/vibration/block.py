@@ -1,0 +1,187 @@
+"""Rotors on ball bearings as systems of python-control: forces on degrees of freedom in, displacements out.
+
+States are differences from rest in um (um/s, urad), the films' memory among them, and their start is 0: so the
+absolute tolerance of python-control's solvers, 1e-6, is a picometre. Films are fast: of the solvers, take one
+for stiff equations (``solve_ivp_method="BDF"``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.checks import require_instance, require_integer, require_nonnegative
+from ehlcontact.errors import InputError
+from reduced_models.bearing.balls import Balls, Turn, begin_rest, directions, films_of, press_balls
+from reduced_models.bearing.rotor import BearingMount, MatrixRotor
+from reduced_models.bearing.statics import StaticBalls
+from reduced_models.vibration.linearised import LinearisedRotor, Signals
+from reduced_models.vibration.rates import bearing_rates
+from reduced_models.vibration.states import bearing_system, rotor_system
+
+_Floats = NDArray[np.float64]
+
+UNIT = 1e-6  # m, of the states
+
+
+def linear_block(at: LinearisedRotor, inputs: Signals, outputs: Signals, name: str) -> Any:
+    """`LinearisedRotor.to_control`."""
+    import control
+
+    size = at.rotor.size
+    ins, outs = _signals("inputs", inputs, "F", size), _signals("outputs", outputs, "q", size)
+    A, driven = rotor_system(at.matrices, at.rotor.rings, [bearing_system(balls) for balls in at.balls])
+    C = np.zeros((len(outs), len(A)))
+    C[range(len(outs)), list(outs.values())] = UNIT
+    lags = [[0 if c.rates is None else c.rates.lags for c in (b.inner, b.outer)] for b in at.balls]
+    states = _states(size, [(len(b.normals), *n) for b, n in zip(at.balls, lags, strict=True)])
+    return control.ss(
+        A,
+        driven[:, list(ins.values())] / UNIT,
+        C,
+        0.0,
+        inputs=list(ins),
+        outputs=list(outs),
+        states=states,
+        name=name,
+    )
+
+
+def rotor_to_control(
+    rotor: MatrixRotor,
+    speed_rpm: float,
+    *,
+    inputs: Signals = None,
+    outputs: Signals = None,
+    cage_turns: bool = True,
+    name: str = "rotor",
+) -> Any:
+    """Rotor on ball bearings as one nonlinear python-control system, in continuous time.
+
+    Forces in and displacements out are differences from rest under the rotor's own load: with no input and the
+    cage held, it stays at 0. States: see `reduced_models.vibration.block`.
+
+    Parameters
+    ----------
+    rotor : MatrixRotor
+        Its unbalances are not in it: they are forces, to be put in.
+    speed_rpm : float
+        Of the shaft.
+    inputs, outputs : mapping of str to int, or sequence of int, optional
+        Degrees of freedom by name; without names they are F0, F1, ... [N] and q0, q1, ... [m]. By default all.
+    cage_turns : bool
+        Whether balls go round with the cage as time goes on; they start at the angles of the mounts.
+    name : str
+        Of the system.
+
+    Raises
+    ------
+    InputError
+        A degree of freedom that is not there, a speed that a bearing does not take.
+    """
+    import control
+
+    require_instance("rotor", rotor, MatrixRotor, "a MatrixRotor")
+    ins, outs = _signals("inputs", inputs, "F", rotor.size), _signals("outputs", outputs, "q", rotor.size)
+    motion = _Motion(rotor, require_nonnegative("speed_rpm", speed_rpm), cage_turns)
+    pushed, seen = list(ins.values()), list(outs.values())
+
+    def update(t: float, x: _Floats, u: _Floats, params: object) -> _Floats:
+        force = np.zeros(rotor.size)
+        np.add.at(force, pushed, u)
+        return motion.rates(t, np.asarray(x, float) * UNIT, force) / UNIT
+
+    def output(t: float, x: _Floats, u: _Floats, params: object) -> _Floats:
+        return np.asarray(x, float)[seen] * UNIT
+
+    states = _states(rotor.size, [(ring.balls.number, *ring.lags) for ring in motion.rings])
+    return control.nlsys(update, output, inputs=list(ins), outputs=list(outs), states=states, name=name)
+
+
+def _signals(field: str, given: Signals, letter: str, size: int) -> dict[str, int]:
+    chosen = range(size) if given is None else given
+    named = dict(chosen) if isinstance(chosen, Mapping) else {f"{letter}{one}": one for one in chosen}
+    allowed = f"degrees of freedom from 0 to {size - 1}, each once"
+    if not named or (not isinstance(chosen, Mapping) and len(named) != len(chosen)):
+        raise InputError(field, given, allowed)
+    for name, value in named.items():
+        if require_integer(f"{field}[{name!r}]", value, allowed, 0) >= size:
+            raise InputError(f"{field}[{name!r}]", value, allowed)
+    return named
+
+
+def _states(size: int, bearings: Sequence[tuple[int, ...]]) -> list[str]:
+    """Names, in order; of each bearing the number of balls, and the lags of both films: none where it is dry."""
+    names = [f"q{k}" for k in range(size)] + [f"v{k}" for k in range(size)]
+    for b, (balls, *lags) in enumerate(bearings):
+        for k in range(balls if lags[0] else 0):
+            names.append(f"b{b}_{k}_w")
+            for race, count in zip(("i", "o"), lags, strict=True):
+                names += [f"b{b}_{k}_{race}_{one}" for one in ("s", "y", *(f"q{j}" for j in range(1, count + 1)))]
+    return names
+
+
+class _Ring:
+    """One bearing: its balls about rest, with the ring at `r`."""
+
+    def __init__(self, mount: BearingMount, speed: float, r: _Floats, cage_turns: bool) -> None:
+        bearing = mount.bearing
+        self.balls: Balls = bearing.kernel(bearing.speed(speed))
+        self._laws: Turn = bearing.turn(speed)
+        self._turn = self._laws if cage_turns else self._laws._replace(cage=0.0)
+        self._angle, self._normals = mount.cage_angle, np.zeros((self.balls.number, 2))
+        held = StaticBalls(self.balls, self._laws, mount.cage_angle)
+        self.force = held.force(r)
+        gains = [law.gains.shape[2] - 1 for law in (self.balls.inner, self.balls.outer)]
+        wet = self.balls.inner.x.size > 0
+        self.lags = [count - 2 if wet else 0 for count in gains]
+        each = 1 + sum(gains) if wet else 0
+        self.rest = np.zeros(self.balls.number * each)
+        if wet:
+            self.rest[::each] = held.films.w[:, 0]
+        self._films, self._force = films_of(self.balls), np.zeros(2)
+        begin_rest(self._films)
+
+    def rates(self, t: float, x: _Floats, r: _Floats, v: _Floats) -> tuple[_Floats, _Floats]:
+        """Rates of the states `x`, which are differences from rest; force of the ring on the balls."""
+        directions(self.balls, self._angle + self._turn.cage * t, self._normals)
+        rates = np.zeros(x.size)
+        if x.size:
+            bearing_rates(self.balls, self._turn, self._normals, self.rest + x, r, v, rates, self._force)
+        else:
+            out = self._force, np.zeros((2, 2)), np.zeros((2, 2))
+            press_balls(self.balls, self._turn, self._films, self._normals, r, v, 0.0, out)
+        return rates, self._force
+
+
+class _Motion:
+    """Rates of all states, which are differences from rest [m]."""
+
+    def __init__(self, rotor: MatrixRotor, speed: float, cage_turns: bool) -> None:
+        self._rest, self._to_rings = rotor.equilibrium(speed), rotor.rings
+        self._r = self._to_rings @ self._rest
+        self._size = rotor.size
+        self._inverse = np.linalg.inv(rotor.mass)
+        self._damping = rotor.damping + speed * np.pi / 30.0 * rotor.gyroscopic
+        self._stiffness = rotor.stiffness
+        self.rings = [
+            _Ring(mount, speed, self._r[2 * b : 2 * b + 2], cage_turns) for b, mount in enumerate(rotor.mounts)
+        ]
+
+    def rates(self, t: float, x: _Floats, force: _Floats) -> _Floats:
+        """Of q, q' and the states of the bearings, under a force beside the load [N]."""
+        size, out = self._size, np.empty(x.size)
+        q, v = x[:size], x[size : 2 * size]
+        r, r_rate = self._r + self._to_rings @ q, self._to_rings @ v
+        net = force - self._damping @ v - self._stiffness @ q
+        at = 2 * size
+        for b, ring in enumerate(self.rings):
+            here, pair = slice(at, at + ring.rest.size), slice(2 * b, 2 * b + 2)
+            out[here], pushed = ring.rates(t, x[here], r[pair], r_rate[pair])
+            net -= self._to_rings[pair].T @ (pushed - ring.force)
+            at = here.stop
+        out[:size], out[size : 2 * size] = v, self._inverse @ net
+        return out

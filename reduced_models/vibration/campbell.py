@@ -1,0 +1,146 @@
+"""Modes of a rotor on ball bearings over its speed, each followed from speed to speed; critical speeds."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from math import pi
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import linear_sum_assignment
+
+from ehlcontact.checks import as_column, require_integer, require_positive
+from ehlcontact.errors import ConvergenceError
+from ehlcontact.files import hdf5
+from reduced_models.bearing.rotor import MatrixRotor
+from reduced_models.vibration.linearised import SHOWN, linearise
+from reduced_models.vibration.mode import WhirlMode, unlike
+
+_Floats = NDArray[np.float64]
+
+BESIDE = 4  # modes beyond those that are followed, among which these may turn up at another speed
+
+
+@dataclass(frozen=True)
+class CriticalSpeed:
+    """A speed at which a multiple of the speed meets a mode."""
+
+    speed_rpm: float
+    hz: float
+    mode: int  # column of the diagram
+    decrement: float
+    whirl: float  # as in `WhirlMode`; an unbalance hardly excites one near -1
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Campbell:
+    """Modes over the speed of the shaft; a column of an array is one mode, followed from speed to speed.
+
+    Attributes
+    ----------
+    speed_rpm : ndarray, shape (k,)
+        In rev/min.
+    omega, growth : ndarray, shape (k, n)
+        Imaginary and real part of the eigenvalues: damped angular frequency [rad/s], rate of growth [1/s].
+    whirl : ndarray, shape (k, n)
+        1 forward, -1 backward, 0 on straight lines.
+    """
+
+    speed_rpm: _Floats
+    omega: _Floats
+    growth: _Floats
+    whirl: _Floats
+
+    @property
+    def hz(self) -> _Floats:
+        """Damped frequencies [Hz]."""
+        return np.asarray(self.omega / (2.0 * pi))
+
+    @property
+    def decrement(self) -> _Floats:
+        """Logarithmic decrements."""
+        return np.asarray(-2.0 * pi * self.growth / self.omega)
+
+    def critical_speeds(self, order: float = 1.0) -> tuple[CriticalSpeed, ...]:
+        """Where `order` times the speed meets a mode, in the order of speeds; straight between the speeds given.
+
+        Parameters
+        ----------
+        order : float
+            1 for unbalance; ``bearing.orders.bpfo`` for the balls that pass.
+        """
+        off = self.hz - require_positive("order", order) * self.speed_rpm[:, None] / 60.0
+        found = []
+        for k, mode in zip(*np.nonzero((off[:-1] > 0.0) != (off[1:] > 0.0)), strict=True):
+            share = off[k, mode] / (off[k, mode] - off[k + 1, mode])
+            rpm, hz, decrement, whirl = (
+                float(values[k] + share * (values[k + 1] - values[k]))
+                for values in (self.speed_rpm, self.hz[:, mode], self.decrement[:, mode], self.whirl[:, mode])
+            )
+            found.append(CriticalSpeed(rpm, hz, int(mode), decrement, whirl))
+        return tuple(sorted(found, key=lambda one: one.speed_rpm))
+
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """Matplotlib figure; into a file too where a path is given.
+
+        Raises
+        ------
+        InputError
+            The file cannot be written.
+        """
+        from reduced_models.bearing.picture import draw_campbell
+
+        return draw_campbell(self, path)
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write as HDF5; raises `InputError` where the file cannot be written."""
+        return hdf5.write(self, path, "path")
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Self:
+        """Read what `save` wrote; raises `InputError` for anything else."""
+        diagram: Self = hdf5.read(path, {cls.__name__: cls}, "file", "Campbell diagram")
+        return diagram
+
+
+def campbell(rotor: MatrixRotor, speeds_rpm: ArrayLike, *, count: int = SHOWN, passage: bool = True) -> Campbell:
+    """Modes of a rotor on ball bearings at increasing speeds.
+
+    Parameters
+    ----------
+    rotor : MatrixRotor
+    speeds_rpm : array_like, shape (k,)
+        In rev/min.
+    count : int
+        Modes: the slowest at the first speed, which are then followed by frequency and shape.
+    passage : bool
+        Bearings as means over a ball passage, as in `linearise`.
+
+    Raises
+    ------
+    InputError
+        A speed that a bearing does not take.
+    ConvergenceError
+        A mode was not found, or is damped so much at one of the speeds that it does not oscillate.
+    """
+    speeds = as_column("speeds_rpm", speeds_rpm, increasing=True)
+    count = require_integer("count", count, "a whole number >= 1", 1)
+    rows: list[list[WhirlMode]] = []
+    for speed in speeds.tolist():
+        found = list(linearise(rotor, speed, passage=passage).modes(count + BESIDE))
+        if rows and len(found) < len(rows[-1]):
+            what = f"{len(found)} of {len(rows[-1])} modes oscillate at {speed:g} rev/min: ask for fewer (count)"
+            raise ConvergenceError(f"Campbell diagram: only {what}", None)
+        rows.append(_followed(rows[-1], found) if rows else found[:count])
+    modes = np.array([[(m.omega, m.eigenvalue.real, m.whirl) for m in row] for row in rows])
+    return Campbell(speed_rpm=speeds, omega=modes[..., 0], growth=modes[..., 1], whirl=modes[..., 2])
+
+
+def _followed(before: list[WhirlMode], found: list[WhirlMode]) -> list[WhirlMode]:
+    """Of the modes `found`, those that continue the ones before, in their order."""
+    values, shapes = np.array([m.eigenvalue for m in found]), np.array([m.shape for m in found]).T
+    cost = [unlike(old.eigenvalue, old.shape, values, shapes) for old in before]
+    return [found[column] for column in linear_sum_assignment(cost)[1].tolist()]

@@ -1,0 +1,110 @@
+"""The balls of a bearing in continuous time, compiled: rates of the states of `states`, whatever the motion.
+
+    F = share k_n (g(u) + c tau u' + sum g_j x_j)_+^(3/2)
+
+in both contacts of a ball, and F_o = F_i + F_c for w', which is found between the rate at which the outer film
+would let go and that at which the inner one would, or the outer one carries F_c alone.
+"""
+
+from __future__ import annotations
+
+from math import log, nan, sqrt
+
+import numpy as np
+
+from ehlcontact.jit import jit_exact
+from reduced_models.bearing.law import carried, curve
+from reduced_models.elements.film_law import DIRECT
+
+SMALL_STEP = 1e-14  # of the rates, that ends the search for w': rounding
+MOST_STEPS = 60  # of it: a handful
+
+
+@jit_exact
+def _held(law, transit, spin, u, states, first):
+    """Film without its dashpot [m], dashpot c tau [s], k_n that the film carries, own time [s]."""
+    g, _, _ = curve(u, spin[0], spin[1], law, 0)
+    tau, x, last = transit * sqrt(g), law.log_kn + 1.5 * log(g), law.x.size - 2
+    row = min(max(np.searchsorted(law.x, x) - 1, 0), last)
+    weight = min(max((x - law.x[row]) / (law.x[row + 1] - law.x[row]), 0.0), 1.0)
+    film, dashpot = g, 0.0
+    for j in range(law.gains.shape[2]):
+        gain = law.gains[spin[0], row, j] + weight * (law.gains[spin[0], row + 1, j] - law.gains[spin[0], row, j])
+        if spin[1] > 0.0:
+            low, high = law.gains[spin[0] + 1, row, j], law.gains[spin[0] + 1, row + 1, j]
+            gain += spin[1] * (low + weight * (high - low) - gain)
+        if j == 0:
+            dashpot = gain * tau
+        else:
+            film += gain * states[first + j - 1]
+    return film, dashpot, law.kn * carried(u, law.fade)[0], tau
+
+
+@jit_exact
+def _pushed(kn, film):
+    """Force and slope."""
+    if film <= 0.0:
+        return 0.0, 0.0
+    root = sqrt(film)
+    return kn * film * root, 1.5 * kn * root
+
+
+@jit_exact
+def _balance(inner, outer, rate, centrifugal):
+    """Force on the ring and w' of a ball whose contacts are (film, dashpot, k_n, own time)."""
+    (ai, di, ki, _), (ao, do, ko, _) = inner, outer
+    if ko <= 0.0:  # nothing at the outer race: the ball stays where it is if nothing presses it outward
+        force = _pushed(ki, ai + di * rate)[0]
+        return (0.0, 0.0) if force + centrifugal == 0.0 else (nan, nan)
+    low = -ao / do
+    high = max(rate + ai / di, ((centrifugal / ko) ** (2.0 / 3.0) - ao) / do)
+    alike = (ki / ko) ** (2.0 / 3.0)
+    z = (alike * (ai + di * rate) - ao) / (do + alike * di)
+    scale = SMALL_STEP * (abs(ao) / do + abs(ai) / di)
+    for _ in range(MOST_STEPS):
+        z = min(max(z, low), high)
+        fi, si = _pushed(ki, ai + di * (rate - z))
+        fo, so = _pushed(ko, ao + do * z)
+        off, slope = fo - fi - centrifugal, so * do + si * di
+        if off > 0.0:
+            high = z
+        else:
+            low = z
+        step = -off / slope if slope > 0.0 else 0.5 * (high - low)
+        if not low <= z + step <= high:
+            step = 0.5 * (low + high) - z
+        z += step
+        if abs(step) <= scale:
+            break
+    return _pushed(ki, ai + di * (rate - z))[0], z
+
+
+@jit_exact
+def _filter(law, tau, v, states, first, rates):
+    """Rates of one film's states."""
+    rates[first] = law.inlet_rate * (v - states[first] / tau)
+    rates[first + 1] = law.fast_rate * (v - states[first + 1] / tau)
+    fed = states[first]
+    for j in range(first + DIRECT - 1, first + law.gains.shape[2] - 1):
+        rates[j] = law.lag_rate * (fed - states[j]) / tau
+        fed = states[j]
+
+
+@jit_exact
+def bearing_rates(balls, turn, normals, states, r, v, rates, force):
+    """Fill the rates of all balls' states [m/s] and the force of the ring at `r`, moving at `v`, on the balls."""
+    size_i, size_o = balls.inner.gains.shape[2] - 1, balls.outer.gains.shape[2] - 1
+    force[:] = 0.0
+    for k in range(balls.number):
+        x, y, at = normals[k, 0], normals[k, 1], k * (1 + size_i + size_o)
+        delta = x * r[0] + y * r[1] - balls.half_clearance
+        rate = x * v[0] + y * v[1] + turn.cage * (x * r[1] - y * r[0])
+        w, second = states[at], at + 1 + size_i
+        inner = _held(balls.inner, turn.inner, turn.spin, delta - w, states, at + 1)
+        outer = _held(balls.outer, turn.outer, turn.spin, w, states, second)
+        pushed, own = _balance(inner, outer, rate, turn.centrifugal)
+        rates[at] = own
+        _filter(balls.inner, inner[3], rate - own, states, at + 1, rates)
+        _filter(balls.outer, outer[3], own, states, second, rates)
+        force[0] += pushed * x
+        force[1] += pushed * y

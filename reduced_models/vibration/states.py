@@ -1,0 +1,116 @@
+"""A rotor on ball bearings as matrices of first order, the films' memory as states: x' = A x + B u.
+
+A ball between two films has its place w at the outer race as a state, for both films damp: with the forces
+
+    F = k u + H (c tau u' + sum g_j x_j)
+
+of both contacts (u = delta - w at the inner one, w at the outer one), F_i = F_o gives w'. Beside it are those of
+the filters, x' = (what feeds it - x) rate/tau. Dry balls have none. A bearing at several positions of the cage has
+all balls of all positions, each with its share of the force: the mean, with so many times the states.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reduced_models.elements.film_law import DIRECT
+from reduced_models.vibration.balls import Contacts, SmallBalls
+from reduced_models.vibration.mode import Matrices
+
+_Floats = NDArray[np.float64]
+
+FILTERS = DIRECT - 1  # states of a film before those of its chain: inlet and fast
+
+
+class System(NamedTuple):
+    """States of ball after ball, driven by place and velocity of the ring: force f = C x + D (r, r')."""
+
+    A: _Floats  # (n, n)
+    B: _Floats  # (n, 4)
+    C: _Floats  # (2, n)
+    D: _Floats  # (2, 4)
+
+
+def filters(contacts: Contacts, k: int) -> tuple[_Floats, _Floats, _Floats, float]:
+    """Film of ball `k`: x' = A x + b u', and the force per state and per u'."""
+    rates, tau = contacts.rates, float(contacts.tau[k])
+    assert rates is not None
+    size = FILTERS + rates.lags
+    A = np.diag(np.array([-rates.inlet_rate, -rates.fast_rate, *[-rates.lag_rate] * rates.lags]) / tau)
+    for j in range(FILTERS, size):
+        A[j, 0 if j == FILTERS else j - 1] = rates.lag_rate / tau
+    b = np.zeros(size)
+    b[:FILTERS] = rates.inlet_rate, rates.fast_rate
+    slope, gains = float(contacts.slope[k]), contacts.gains[k]
+    return A, b, slope * gains[1:], slope * float(gains[0]) * tau
+
+
+def ball_system(inner: Contacts, outer: Contacts, k: int) -> tuple[_Floats, _Floats]:
+    """Rates of a ball's states, and its force, as rows over these states, delta and delta'."""
+    ki, ko = float(inner.stiffness[k]), float(outer.stiffness[k])
+    if inner.rates is None:
+        return np.zeros((0, 2)), np.array([ki * ko / (ki + ko) if ki + ko > 0.0 else 0.0, 0.0])
+    own_i, bi, held_i, di = filters(inner, k)
+    own_o, bo, held_o, do = filters(outer, k)
+    n = 1 + len(bi) + len(bo)
+    at_i, at_o = slice(1, 1 + len(bi)), slice(1 + len(bi), n)
+    own = np.zeros(n + 2)  # w'
+    if di + do > 0.0:
+        own[0], own[at_i], own[at_o], own[n], own[n + 1] = -(ki + ko), held_i, -held_o, ki, di
+        own /= di + do
+    other = -own  # delta' - w'
+    other[n + 1] += 1.0
+    rows = np.zeros((n, n + 2))
+    rows[0], rows[at_i, at_i], rows[at_o, at_o] = own, own_i, own_o
+    rows[at_i] += np.outer(bi, other)
+    rows[at_o] += np.outer(bo, own)
+    force = di * other
+    force[0] -= ki
+    force[n] += ki
+    force[at_i] += held_i
+    return rows, force
+
+
+def bearing_system(balls: SmallBalls) -> System:
+    """All balls of a bearing."""
+    parts = [ball_system(balls.inner, balls.outer, k) for k in range(len(balls.normals))]
+    size = sum(len(rows) for rows, _ in parts)
+    A, driven = np.zeros((size, size)), np.zeros((size, 4))
+    C, D = np.zeros((2, size)), np.zeros((2, 4))
+    at = 0
+    for normal, (rows, force) in zip(balls.normals, parts, strict=True):
+        n = len(rows)
+        here, share = slice(at, at + n), normal / balls.positions
+        A[here, here], C[:, here] = rows[:, :n], np.outer(share, force[:n])
+        for j in range(2):  # delta = n . r, then delta'
+            driven[here, 2 * j : 2 * j + 2] = np.outer(rows[:, n + j], normal)
+            D[:, 2 * j : 2 * j + 2] += np.outer(share, normal) * force[n + j]
+        at += n
+    return System(A, driven, C, D)
+
+
+def rotor_system(matrices: Matrices, to_rings: _Floats, bearings: list[System]) -> tuple[_Floats, _Floats]:
+    """A, and B of forces on all degrees of freedom, for the states q, q' and those of the bearings."""
+    M, damping, K = matrices
+    size = len(M)
+    total = 2 * size + sum(len(bearing.A) for bearing in bearings)
+    A, driven = np.zeros((total, total)), np.zeros((total, size))
+    A[:size, size : 2 * size] = np.eye(size)
+    pull = np.zeros((size, total))  # forces that act on the masses
+    pull[:, :size], pull[:, size : 2 * size] = -K, -damping
+    at = 2 * size
+    for b, bearing in enumerate(bearings):
+        ring, here = to_rings[2 * b : 2 * b + 2], slice(at, at + len(bearing.A))
+        both = np.zeros((4, total))
+        both[:2, :size], both[2:, size : 2 * size] = ring, ring
+        A[here] += bearing.B @ both
+        A[here, here] += bearing.A
+        pull -= ring.T @ bearing.D @ both
+        pull[:, here] -= ring.T @ bearing.C
+        at = here.stop
+    A[size : 2 * size] = np.linalg.solve(M, pull)
+    driven[size : 2 * size] = np.linalg.inv(M)
+    return A, driven

@@ -1,0 +1,111 @@
+"""Response of a rotor on ball bearings to its unbalances, over the speed."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ehlcontact.checks import as_column
+from ehlcontact.errors import InputError
+from ehlcontact.files import hdf5
+from reduced_models.bearing.rotor import MatrixRotor
+from reduced_models.vibration.linearised import linearise
+
+_Floats = NDArray[np.float64]
+_Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class UnbalanceResponse:
+    """Amplitudes over the speed, about rest: q(t) = cosine cos(w t) + sine sin(w t), the shaft's angle being w t.
+
+    They are linear in the unbalance, however large; what a ring does that moves as far as its balls are pressed in
+    by the load is for `simulate_on_bearings`.
+
+    Attributes
+    ----------
+    speed_rpm : ndarray, shape (k,)
+        In rev/min.
+    cosine, sine : ndarray, shape (k, N)
+        Of all degrees of freedom [m], or rad where they turn.
+    nodes : ndarray, shape (n, 2)
+        Degrees of freedom x, y of the nodes with bearings and unbalances.
+    """
+
+    speed_rpm: _Floats
+    cosine: _Floats
+    sine: _Floats
+    nodes: NDArray[np.int64]
+
+    @property
+    def amplitude(self) -> _Complex:
+        """Complex amplitudes, shape (k, N): q(t) = Re(amplitude exp(i w t))."""
+        return np.asarray(self.cosine - 1j * self.sine)
+
+    @property
+    def major(self) -> _Floats:
+        """Larger half axis of the orbits of the nodes, shape (k, n) [m]."""
+        x, y = self.amplitude[:, self.nodes[:, 0]], self.amplitude[:, self.nodes[:, 1]]
+        return np.asarray(0.5 * (np.abs(x + 1j * y) + np.abs(x - 1j * y)))  # forward and backward circle
+
+    def peaks(self, node: int = 0) -> _Floats:
+        """Speeds [rev/min] at which the orbit of a node is larger than at the speeds beside."""
+        if not 0 <= node < len(self.nodes):
+            raise InputError("node", node, f"from 0 to {len(self.nodes) - 1}")
+        size = self.major[:, node]
+        top = (size[1:-1] > size[:-2]) & (size[1:-1] > size[2:])
+        return self.speed_rpm[1:-1][top]
+
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """Matplotlib figure; into a file too where a path is given.
+
+        Raises
+        ------
+        InputError
+            The file cannot be written.
+        """
+        from reduced_models.bearing.picture import draw_unbalance
+
+        return draw_unbalance(self, path)
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write as HDF5; raises `InputError` where the file cannot be written."""
+        return hdf5.write(self, path, "path")
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Self:
+        """Read what `save` wrote; raises `InputError` for anything else."""
+        response: Self = hdf5.read(path, {cls.__name__: cls}, "file", "unbalance response")
+        return response
+
+
+def unbalance_response(rotor: MatrixRotor, speeds_rpm: ArrayLike, *, passage: bool = True) -> UnbalanceResponse:
+    """Steady response of a rotor on ball bearings to its unbalances, at increasing speeds, films those of each.
+
+    Parameters
+    ----------
+    rotor : MatrixRotor
+    speeds_rpm : array_like, shape (k,)
+        In rev/min, > 0.
+    passage : bool
+        Bearings as means over a ball passage, as in `linearise`.
+
+    Raises
+    ------
+    InputError
+        A rotor without unbalance, a speed that a bearing does not take.
+    """
+    speeds = as_column("speeds_rpm", speeds_rpm, increasing=True)
+    if not rotor.unbalances:
+        raise InputError("unbalances", (), "at least one Unbalance")
+    if speeds[0] <= 0.0:
+        raise InputError("speeds_rpm[0]", float(speeds[0]), "> 0")
+    found = [linearise(rotor, s, passage=passage).unbalance_response(rpm=s)[0] for s in speeds.tolist()]
+    places = [(m.x, m.y) for m in rotor.mounts] + [(u.x, u.y) for u in rotor.unbalances]
+    q, nodes = np.array(found), np.array(list(dict.fromkeys(places)), np.int64)
+    return UnbalanceResponse(speed_rpm=speeds, cosine=q.real.copy(), sine=-q.imag, nodes=nodes)

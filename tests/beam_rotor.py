@@ -1,0 +1,80 @@
+"""Rotors of Timoshenko beams and discs, the obvious way: matrices for the bearing runs of the tests.
+
+Every node has x, y, and the turns about x and y; a node's shaft bends in x-z with the turn about y.
+"""
+
+import numpy as np
+
+RHO, E, G_S = 7810.0, 211e9, 81.2e9  # steel
+
+
+def element(length, diameter):
+    """Mass, stiffness and gyroscopic matrix of a beam in one plane, with shear and turning inertia."""
+    area, inertia = np.pi / 4.0 * diameter**2, np.pi / 64.0 * diameter**4
+    nu = 0.5 * E / G_S - 1.0
+    kappa = 6.0 * (1.0 + nu) ** 2 / (7.0 + 12.0 * nu + 4.0 * nu * nu)
+    phi = 12.0 * E * inertia / (G_S * kappa * area * length**2)
+    L = length
+    k = E * inertia / ((1.0 + phi) * L**3) * np.array(
+        [
+            [12.0, 6.0 * L, -12.0, 6.0 * L],
+            [6.0 * L, (4.0 + phi) * L**2, -6.0 * L, (2.0 - phi) * L**2],
+            [-12.0, -6.0 * L, 12.0, -6.0 * L],
+            [6.0 * L, (2.0 - phi) * L**2, -6.0 * L, (4.0 + phi) * L**2],
+        ]
+    )  # fmt: skip
+    p = phi
+    a, b, c = (
+        312.0 + 588.0 * p + 280.0 * p**2,
+        (44.0 + 77.0 * p + 35.0 * p**2) * L,
+        108.0 + 252.0 * p + 140.0 * p**2,
+    )
+    d, e, f = (
+        -(26.0 + 63.0 * p + 35.0 * p**2) * L,
+        (8.0 + 14.0 * p + 7.0 * p**2) * L**2,
+        -(6.0 + 14.0 * p + 7.0 * p**2) * L**2,
+    )
+    m = RHO * area * L / (840.0 * (1.0 + p) ** 2) * np.array(
+        [[a, b, c, d], [b, e, -d, f], [c, -d, a, -b], [d, f, -b, e]]
+    )  # fmt: skip
+    g, h = 36.0, (3.0 - 15.0 * p) * L
+    i, j = (4.0 + 5.0 * p + 10.0 * p**2) * L**2, (-1.0 - 5.0 * p + 5.0 * p**2) * L**2
+    turning = RHO * inertia / (30.0 * (1.0 + p) ** 2 * L) * np.array(
+        [[g, h, -g, h], [h, i, -h, j], [-g, -h, g, -h], [h, j, -h, i]]
+    )  # fmt: skip
+    return m + turning, k, 2.0 * turning
+
+
+def planes(one_plane, across=None):
+    """Both planes of bending from one: x with the turn about y, y with minus that about x."""
+    out = np.zeros((8, 8))
+    xz, yz = [0, 3, 4, 7], [1, 2, 5, 6]
+    sign = np.array([1.0, -1.0, 1.0, -1.0])
+    if across is None:
+        out[np.ix_(xz, xz)] = one_plane
+        out[np.ix_(yz, yz)] = one_plane * np.outer(sign, sign)
+    else:  # gyroscopic: couples the planes
+        out[np.ix_(xz, yz)] = across * sign
+        out[np.ix_(yz, xz)] = -(across * sign).T
+    return out
+
+
+def shaft(lengths, diameter, discs=()):
+    """Mass, stiffness and gyroscopic matrix; `discs` are (node, diameter, width)."""
+    size = 4 * (len(lengths) + 1)
+    M, K, G = np.zeros((3, size, size))
+    for n, length in enumerate(lengths):
+        m, k, g = element(length, diameter)
+        at = np.ix_(range(4 * n, 4 * n + 8), range(4 * n, 4 * n + 8))
+        M[at] += planes(m)
+        K[at] += planes(k)
+        G[at] += planes(None, g)
+    for node, outer, width in discs:
+        mass = RHO * np.pi / 4.0 * (outer**2 - diameter**2) * width
+        polar = mass * (outer**2 + diameter**2) / 8.0
+        across = 0.5 * polar + mass * width**2 / 12.0
+        at = 4 * node
+        M[range(at, at + 4), range(at, at + 4)] += [mass, mass, across, across]
+        G[at + 2, at + 3] += polar
+        G[at + 3, at + 2] -= polar
+    return M, K, G

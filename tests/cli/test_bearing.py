@@ -1,0 +1,152 @@
+"""``ehlcontact bearing``: what it says is what the library says; files and options; mistakes in one line."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ehlcontact import Lubricant
+from reduced_models import BallBearing
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "bearing_6205.toml"
+OIL = ("--grade", "68", "--temperature", "50")
+
+NAME = 'catalogue = "6205"'
+SIZES = "balls = {}\nball_diameter_mm = {}\npitch_diameter_mm = 39"
+
+
+@pytest.fixture
+def file(tmp_path):
+    """``file(**{old: new})``: the example with some of its text changed."""
+
+    def write(changes=()):
+        text = EXAMPLE.read_text()
+        for old, new in dict(changes).items():
+            assert old in text
+            text = text.replace(old, new)
+        path = tmp_path / "b.toml"
+        path.write_text(text)
+        return path
+
+    return write
+
+
+def test_json_is_what_the_library_has(call):
+    result = call(
+        "bearing",
+        "6205",
+        *OIL,
+        "--rq",
+        "0.1",
+        "--load",
+        "1000",
+        "--speed",
+        "3000",
+        "--speed",
+        "1000",
+        "--json",
+        "-",
+    )
+    assert result.code == 0 and result.err == ""
+    found = json.loads(result.out)
+    bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0), rq_race=0.1e-6)
+    assert found["speed_rpm"] == [1000.0, 3000.0] and found["highest_speed_rpm"] == bearing.highest_speed
+    for k, speed in enumerate(found["speed_rpm"]):
+        at = bearing.coefficients((0.0, -1000.0), speed_rpm=speed, rpm=speed)
+        np.testing.assert_array_equal(found["stiffness"][k], at.stiffness[0])
+        np.testing.assert_array_equal(found["damping"][k], at.damping[0])
+        state = bearing.equilibrium((0.0, -1000.0), speed_rpm=speed)
+        for name in ("force", "h_min", "lambda_ratio", "angles"):
+            np.testing.assert_array_equal(found["states"][k][name], getattr(state, name))
+        assert found["frequencies_hz"][k]["bpfo"] == bearing.frequencies(speed).bpfo
+    assert found["orders"]["bpfi"] == pytest.approx(5.4152, abs=1e-4)
+
+
+def test_the_table_says_the_same(call):
+    result = call("bearing", "6205", *OIL, "--rq", "0.1", "--load", "1000", "--speed", "3000")
+    assert result.code == 0
+    bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
+    at = bearing.coefficients((0.0, -1000.0), speed_rpm=3000.0, rpm=3000.0)
+    for number in (at.stiffness[0, 1, 1] * 1e-6, at.damping[0, 0, 0], bearing.frequencies(3000.0).bpfo):
+        assert f"{number:.4g}" in result.out
+    assert "lambda" in result.out and "320" in result.out and "10427 rpm" in result.out
+
+
+def test_a_dry_bearing_has_no_film_and_no_highest_speed(call):
+    result = call("bearing", "209", "--load", "8900", "--speed", "0", "--clearance", "15")
+    assert result.code == 0 and "none: dry" in result.out and "film" not in result.out
+    result = call("bearing", "209", "--load", "8900", "--speed", "0", "--clearance", "15", "--json", "-")
+    found = json.loads(result.out)
+    # Harris, Rolling Bearing Analysis, ch. 7
+    loads = np.array(found["states"][0]["force"])[:3, 0]
+    np.testing.assert_allclose(loads, [4527.0, 2840.0, 61.0], rtol=0.01)
+    assert found["highest_speed_rpm"] is None and not np.any(found["damping"])
+
+
+def test_a_file_and_options_that_stand_in_for_its_entries(call, file):
+    alone = json.loads(call("bearing", EXAMPLE, "--json", "-").out)
+    assert alone["load"] == 1000.0 and alone["speed_rpm"] == [1000.0, 3000.0, 6000.0]
+    assert alone["states"][0]["lambda_ratio"] is not None
+    hot = json.loads(call("bearing", EXAMPLE, "--temperature", "80", "--load", "500", "--json", "-").out)
+    assert hot["load"] == 500.0 and hot["bearing"]["oil"]["eta0"] < 0.5 * alone["bearing"]["oil"]["eta0"]
+    sizes = 'balls = 9\nball_diameter_mm = 7.94004\npitch_diameter_mm = 39.0398\nname = "mine"'
+    own = json.loads(call("bearing", file({'catalogue = "6205"': sizes}), "--json", "-").out)
+    np.testing.assert_allclose(own["stiffness"], alone["stiffness"], rtol=1e-6, atol=1.0)
+    assert own["bearing"]["name"] == "mine"
+
+
+@pytest.mark.parametrize(("speeds", "oil"), [(("3000",), OIL), (("500", "6000"), OIL), (("0",), ())])
+def test_a_figure(call, tmp_path, speeds, oil):
+    chosen = [part for speed in speeds for part in ("--speed", speed)]
+    result = call("bearing", "6205", *oil, "--load", "500", *chosen, "--figure", tmp_path / "b.png")
+    assert result.code == 0 and (tmp_path / "b.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_curves_pass_through_what_was_asked_for():
+    from ehlcontact.cli.commands.bearing import BearingReport, curve
+    from ehlcontact.cli.plots.bearing import bearing_figure
+    from ehlcontact.cli.study.bearing import load_job
+
+    job = load_job("6205", {"--load": 500.0, "--speed": [1000.0, 4000.0], "--grade": 68, "--temperature": 50.0})
+    at = tuple(job.bearing.coefficients((0, -500), speed_rpm=s, rpm=s) for s in job.speeds)
+    report = BearingReport(job, tuple(job.bearing.equilibrium((0, -500), speed_rpm=s) for s in job.speeds), at)
+    panels = bearing_figure(report, curve(report)).axes
+    lines = panels[3].get_lines()
+    for curve_of, points in (lines[:2], lines[2:4]):
+        np.testing.assert_allclose(curve_of.get_ydata()[[0, -1]], points.get_ydata(), rtol=1e-9)
+    np.testing.assert_allclose(lines[0].get_ydata()[0], at[0].damping[0, 1, 1])
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [  # of the text of the example
+        ({NAME: SIZES.format(20, 7.94)}, ("bearing.balls = 20", "at most 15", "overlap")),
+        ({NAME: SIZES.format(9, 0.0079)}, ("bearing.ball_diameter_mm", "in m? then 7.9 mm")),
+        ({NAME: ""}, ("bearing.balls = None", "bearing.catalogue")),
+        ({NAME: 'catalogue = "620"'}, ("bearing.catalogue = '620'", "nearest", "6205")),
+        ({"inner = 0.52": "inner = 0.5"}, ("bearing.conformity_inner = 0.5", "above 0.5")),
+        ({"inner = 0.52": "inner = 0.502"}, ("bearing.conformity_inner = 0.502", "outside the atlas")),
+        ({"clearance_um": "clearance"}, ("bearing.clearance = 0.0", "clearance_um?")),
+        ({"e_um = 0.0": "e_um = -500"}, ("bearing.clearance_um = -500", "between -0.000397", "given in um")),
+        ({"[1000, 3000, 6000]": "3000"}, ("operation.speed_rpm = 3000", "a list of numbers")),
+        ({"[1000, 3000, 6000]": "[]"}, ("operation.speed_rpm", "at least 1")),
+        ({"[1000, 3000, 6000]": "[0]"}, ("operation.speed_rpm = 0.0", "no film")),
+        ({"[1000, 3000, 6000]": "[20000]"}, ("operation.speed_rpm = 20000.0", "at most 10427")),
+        ({"radial_load = 1000.0 ": ""}, ("operation.radial_load = None", "or --load")),
+        ({"radial_load": "axial_load"}, ("operation.axial_load = 1000.0", "left out")),
+        ({"radial_load = 1000.0": "radial_load = true"}, ("operation.radial_load = True", "a number")),
+        ({"radial_load = 1000.0": "radial_load = 1e7"}, ("operation.radial_load = 10000000.0", "the atlas")),
+        ({"iso_vg = 68": "iso_vg = 68\neta0 = 0.03"}, ("oil.iso_vg = 68", "by its grade")),
+        ({"rq_ball_um = 0.02": "rq_um = 0.1"}, ("surface.rq_race_um", "left out where rq_um")),
+        ({"[operation]": "[operation"}, ("file", "complete TOML")),
+    ],
+)  # fmt: skip
+def test_mistakes_in_a_file(refused, file, changes, words):
+    refused(("b.toml", *words), "bearing", file(changes))
+
+
+def test_nothing_takes_the_place_of_the_file(refused, file):
+    path = file()
+    refused(("--json", "which is read"), "bearing", path, "--json", path)
+    assert path.read_text() == EXAMPLE.read_text()

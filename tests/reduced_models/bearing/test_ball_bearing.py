@@ -1,0 +1,196 @@
+"""What a bearing is made of, what it refuses, its states and files."""
+
+import json
+import re
+from math import pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ehlcontact import Lubricant
+from ehlcontact.errors import InputError
+from reduced_models import BallBearing, BearingMotion, BearingState
+from reduced_models.bearing.catalogue import ROWS
+
+DOWN = (0.0, -1000.0)
+SIZES = {"balls": 9, "ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3}
+
+
+def refused(match, call):
+    with pytest.raises(InputError, match=match) as caught:
+        call()
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def test_every_row_says_where_it_is_from():
+    for name, row in ROWS.items():
+        assert row.source
+        assert row.sourced == ("no source" not in row.source)
+        assert BallBearing.catalogue(name).name == name
+
+
+def test_catalogue_and_dimensions_are_the_same():
+    named, row = BallBearing.catalogue(" 6205 ", clearance=1e-5), ROWS["6205"]
+    by_hand = BallBearing(
+        balls=row.balls, ball_diameter=row.ball_diameter, pitch_diameter=row.pitch_diameter, clearance=1e-5
+    )
+    assert named.equilibrium(DOWN).displacement[1] == by_hand.equilibrium(DOWN).displacement[1]
+    assert BallBearing.catalogue("6205", balls=8).balls == 8
+
+
+@pytest.mark.parametrize(
+    ("match", "changes"),
+    [
+        ("balls = 2: must be a whole number >= 3", {"balls": 2}),
+        ("balls = 16: must be at most 15 on this pitch circle: they overlap", {"balls": 16}),
+        ("conformity_outer = 0.5: must be above 0.5", {"conformity_outer": 0.5}),
+        ("conformity_inner = 52.0: .*0.52", {"conformity_inner": 52.0}),
+        ("ball_diameter = 7.94: .*mm", {"ball_diameter": 7.94}),
+        ("pitch_diameter = 0.005: must be above ball_diameter", {"pitch_diameter": 5e-3}),
+        ("clearance = 0.01: must be between -0.000397 and 0.000397 m", {"clearance": 0.01}),
+        ("clearance = nan: must be a finite number", {"clearance": float("nan")}),
+        ("oil = 'int': must be a Lubricant", {"oil": 68}),
+        ("rq_ball = -1.0: must be a finite number >= 0", {"rq_ball": -1.0}),
+        ("film_limit = 0.0: must be a finite number > 0", {"film_limit": 0.0}),
+        ("youngs_modulus = 206.0: .*GPa", {"youngs_modulus": 206.0}),
+        ("poisson_ratio = 0.6: must be between 0 and 0.5", {"poisson_ratio": 0.6}),
+    ],
+)
+def test_what_is_no_bearing(match, changes):
+    refused(match, lambda: BallBearing(**{**SIZES, **changes}))
+
+
+def test_a_conformity_outside_the_atlas_is_told_its_limit(oil):
+    said = refused("conformity_inner = 0.505", lambda: BallBearing(**SIZES, oil=oil, conformity_inner=0.505))
+    limit = float(said.split("at least ")[1].split(":")[0].split()[0])
+    assert limit > 0.505
+    assert BallBearing(**SIZES, oil=oil, conformity_inner=limit + 1e-3).highest_speed > 0.0
+    assert BallBearing(**SIZES, conformity_inner=0.505).equilibrium(DOWN).displacement[1] < 0.0  # dry
+    said = refused("conformity_outer = 9", lambda: BallBearing(**SIZES, oil=oil, conformity_outer=9.0))
+    widest = float(said.split(" and ")[1].split(":")[0])
+    assert BallBearing(**SIZES, oil=oil, conformity_outer=widest - 1e-3).highest_speed > 0.0
+
+
+def test_an_oil_that_is_none_of_the_atlas():
+    refused("viscosity", lambda: BallBearing(**SIZES, oil=Lubricant(0.04, viscosity="barus")))
+
+
+def test_unknown_names_are_told_the_near_ones():
+    refused("name = '6250': must be one of 6206, 6205, 6204 .nearest", lambda: BallBearing.catalogue("6250"))
+
+
+def test_speeds(film, dry):
+    refused("speed_rpm = 0.0: must be > 0 for a bearing with oil", lambda: film.equilibrium(DOWN))
+    said = refused("speed_rpm = 30000.0: must be at most", lambda: film.equilibrium(DOWN, speed_rpm=30000.0))
+    highest = float(said.split("at most ")[1].split(",")[0])
+    assert film.equilibrium(DOWN, speed_rpm=0.999 * highest).displacement[1] < 0.0
+    refused("speed_rpm = -1.0", lambda: dry.equilibrium(DOWN, speed_rpm=-1.0))
+    assert dry.equilibrium(DOWN, speed_rpm=30000.0).displacement[1] < 0.0
+    refused("speed_rpm = 3000.0: must be between", lambda: BearingMotion(film.kernel([4e3, 5e3]), 3000.0, 1e-5))
+
+
+@pytest.mark.parametrize("load", [(0.0, -1000.0, 50.0), (-1000.0,), 1000.0, "down", None])
+def test_only_radial_loads(film, load):
+    refused("load = .*must be a pair .Fx, Fy. .N.: this bearing is planar", lambda: film.equilibrium(load))
+
+
+def test_loads_that_are_no_numbers(film):
+    refused(r"load\[1\] = nan", lambda: film.equilibrium((0.0, float("nan")), speed_rpm=3000.0))
+
+
+def test_loads_and_preloads_beyond_the_atlas(film, oil):
+    said = refused(r"load = \[0.0, -20000.0\]", lambda: film.equilibrium((0.0, -2e4), speed_rpm=3000.0))
+    assert "a ball carries at most" in said and "here 9" in said
+    tight = BallBearing.catalogue("6205", oil=oil, clearance=-1.5e-4)
+    refused("clearance = -0.00015: must be such that a ball", lambda: tight.equilibrium((0, 0), speed_rpm=3000.0))
+    assert BallBearing.catalogue("6205").equilibrium((0.0, -2e4)).force.max() > 9000.0  # dry
+
+
+def test_loads_that_seat_no_bearing():
+    loose = BallBearing.catalogue("6205", clearance=1e-5)
+    refused(r"load = \[0.0, 0.0\]: must be", lambda: loose.equilibrium((0.0, 0.0)))
+    # two balls carry it, one on each side; a single ball would leave the ring free to roll off
+    three = BallBearing(balls=3, ball_diameter=7.94e-3, pitch_diameter=39.04e-3, clearance=1e-5)
+    refused("load = .*on both sides", lambda: three.equilibrium((0.0, -10.0)))
+    assert three.equilibrium((0.0, -10.0), cage_angle=-pi / 6.0).loaded == 2
+    preloaded = BallBearing.catalogue("6205", clearance=-1e-5)
+    assert preloaded.equilibrium((0.0, 0.0)).loaded == 9
+
+
+def test_angles_are_in_radians(film):
+    refused("cage_angle = 90.0: .*radians", lambda: film.equilibrium(DOWN, speed_rpm=3000.0, cage_angle=90.0))
+
+
+def test_other_questions(film, dry):
+    refused("race = 'middle'", lambda: film.element("middle", 3000.0))
+    refused("oil = None", lambda: dry.element("inner", 3000.0))
+    assert film.roughness is None
+    assert BallBearing.catalogue("6205", rq_ball=3e-8, rq_race=4e-8).roughness == pytest.approx(5e-8)
+
+
+def test_lambda_ratio_is_film_over_roughness(oil):
+    state = BallBearing.catalogue("6205", oil=oil, rq_race=1e-7).equilibrium(DOWN, speed_rpm=3000.0)
+    np.testing.assert_allclose(state.lambda_ratio, state.h_min / 1e-7)
+    assert np.all(state.h_min[0] < state.h_central[0])
+
+
+def test_files(tmp_path, oil):
+    bearing = BallBearing.catalogue("6203", oil=oil, clearance=5e-6, rq_race=1e-7, film_limit=1e-5)
+    again = BallBearing.load(bearing.save(tmp_path / "bearing.json"))
+    assert again == bearing
+    state = bearing.equilibrium(DOWN, speed_rpm=2000.0)
+    back = BearingState.read(state.save(tmp_path / "state.json"))
+    assert back.to_dict() == state.to_dict()
+    assert again.equilibrium(DOWN, speed_rpm=2000.0).to_dict() == state.to_dict()
+    dry = BallBearing.catalogue("209").equilibrium(DOWN)
+    assert BearingState.read(dry.save(tmp_path / "dry.json")).to_dict() == dry.to_dict()
+
+
+def test_files_that_are_none(tmp_path, oil):
+    path = tmp_path / "bearing.json"
+    refused("file = .*readable", lambda: BallBearing.load(path))
+    path.write_text("{")
+    refused("file = .*readable", lambda: BallBearing.load(path))
+    document = json.loads(BallBearing.catalogue("6203", oil=oil).save(path).read_text())
+    for changes, match in (
+        ({"schema": "other"}, "schema = 'other'"),
+        ({"version": 2}, "version = 2"),
+        ({"blls": 9}, "blls = 9: must be left out"),
+        ({"balls": 90}, "balls = 90"),
+        ({"oil": {"eta0": 0.04, "colour": 1}}, "oil.colour = 1: must be one of eta0"),
+        ({"oil": 5}, "oil = 'int'"),
+    ):
+        path.write_text(json.dumps(document | changes))
+        refused(match, lambda: BallBearing.load(path))
+    path.write_text(json.dumps({key: value for key, value in document.items() if key != "balls"}))
+    refused("balls = None", lambda: BallBearing.load(path))
+    path.write_text(json.dumps(document | {"schema": "ehlcontact-bearing-state"}))
+    refused("left out", lambda: BearingState.read(path))
+
+
+def test_the_snippet_of_the_readme(tmp_path):
+    """It runs as it stands, and its numbers are those that the change log and the issue speak of."""
+    text = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
+    code = next(c for c in re.findall(r"```python\n(.*?)```", text, flags=re.S) if "BallBearing" in c)
+    found = {}
+    exec(code.replace('"load_zone.png"', repr(str(tmp_path / "load_zone.png"))), found)
+    assert (tmp_path / "load_zone.png").exists()
+    assert found["K"][1, 1] == pytest.approx(1.06e8, rel=0.01)
+    assert found["C"][1, 1] == pytest.approx(188.0, rel=0.02)
+    assert found["state"].lambda_ratio[0].min() > 1.0
+
+
+@pytest.mark.parametrize("ending", ["png", "svg"])
+def test_pictures(tmp_path, film, dry, ending):
+    wet = film.equilibrium((700.0, -700.0), speed_rpm=3000.0)
+    figure = wet.plot(tmp_path / f"state.{ending}")
+    assert (tmp_path / f"state.{ending}").stat().st_size > 5000
+    zone, films = figure.axes
+    longest = max(bar.get_height() for bar in zone.patches)
+    assert longest == wet.force.max()
+    assert len(films.lines) == 2
+    assert "1000" not in films.get_title() and "989.9 N, 3000 rev/min" in figure.get_suptitle()
+    assert "below 0 a gap" in dry.equilibrium(DOWN).plot().axes[1].get_title()
+    refused("path", lambda: wet.plot(tmp_path / "nowhere" / "state.png"))

@@ -1,0 +1,140 @@
+"""The compiled bearing against slow twins, and its tangents against differences."""
+
+from math import pi
+
+import numpy as np
+import pytest
+from bearing_twins import SlowBearing, SlowContact, SlowElement
+
+from reduced_models import BallBearing
+from reduced_models.bearing.motion import BearingMotion
+
+RPM = 3000.0
+PLACE = np.array([1e-6, -12e-6])
+
+# the elements of light balls say what the bearing does not: that they are below the lightest load of the atlas
+light = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
+
+
+def motion(bearing, dt, rpm=RPM, angle=-pi / 2.0):
+    return BearingMotion(bearing.kernel(rpm), rpm, dt, angle)
+
+
+@pytest.mark.parametrize("clearance", [0.0, 2e-5, -5e-6])
+@pytest.mark.parametrize("rpm", [RPM, 9000.0])
+def test_at_rest_it_is_two_elements_in_series(oil, clearance, rpm):
+    bearing = BallBearing.catalogue("6205", oil=oil, clearance=clearance)
+    fast = motion(bearing, 1e-5, rpm, 0.3)
+    force = fast.rest(PLACE)
+    forces, net = SlowBearing(bearing, rpm, SlowElement, 0.3).rest(PLACE)
+    np.testing.assert_allclose(fast.films.force, forces, rtol=0.0, atol=1e-10 * forces.max())
+    np.testing.assert_allclose(force, net, rtol=0.0, atol=1e-10 * forces.max())
+
+
+@pytest.mark.parametrize("dt", [1e-6, 2e-5, 1e-4])
+def test_in_motion_it_is_its_twin(film, shake, dt):
+    q, v = shake(dt, 12)
+    fast, slow = motion(film, dt), SlowBearing(film, RPM, SlowContact)
+    fast.rest(PLACE)
+    slow.rest(PLACE)
+    _, balls = fast.drive(q, v)
+    for place, rate, found in zip(q, v, balls, strict=True):
+        forces, _ = slow.step(dt, place, rate)
+        np.testing.assert_allclose(found, forces, rtol=0.0, atol=1e-10 * forces.max())
+
+
+def test_films_that_stop_carrying(oil, shake):
+    """A limit at which some films carry all, some a part and some nothing."""
+    limited = BallBearing.catalogue("6205", oil=oil, film_limit=8e-6)
+    q, v = shake(2e-5, 8)
+    fast, slow = motion(limited, 2e-5), SlowBearing(limited, RPM, lambda e: SlowContact(e, 8e-6))
+    fast.rest(PLACE)
+    forces, _ = slow.rest(PLACE)
+    np.testing.assert_allclose(fast.films.force, forces, rtol=0.0, atol=1e-10 * forces.max())
+    assert 0 < np.count_nonzero(forces == 0.0) < forces.size
+    _, balls = fast.drive(q, v)
+    for place, rate, found in zip(q, v, balls, strict=True):
+        forces, _ = slow.step(2e-5, place, rate)
+        np.testing.assert_allclose(found, forces, rtol=0.0, atol=1e-10 * forces.max())
+
+
+@light
+def test_small_motions_are_those_of_two_elements(film):
+    """Where the contacts keep their size, that own time is foreseen makes no difference."""
+    dt, size = 2e-5, 1e-12
+    t = dt * np.arange(1, 9)
+    q = PLACE + size * np.column_stack([np.sin(4e3 * t), np.cos(3e3 * t)])
+    v = size * np.column_stack([4e3 * np.cos(4e3 * t), -3e3 * np.sin(3e3 * t)])
+    kernel = film.kernel(RPM)._replace(cage=0.0, swing=0.0)
+    fast, slow = BearingMotion(kernel, RPM, dt), SlowBearing(film, RPM, SlowElement)
+    slow.cage = slow.centrifugal = 0.0
+    fast.rest(PLACE)
+    slow.rest(PLACE)
+    _, balls = fast.drive(q, v)
+    for place, rate, found in zip(q, v, balls, strict=True):
+        forces, _ = slow.step(dt, place, rate)
+        np.testing.assert_allclose(found, forces, rtol=0.0, atol=1e-10 * forces.max())
+
+
+@light
+def test_large_motions_are_nearly_those_of_two_elements(film, shake):
+    """That own time is foreseen at the start of a step, and not the mean of both ends, is hardly felt."""
+    worst = []
+    for dt in (2e-5, 1e-5):
+        q, v = shake(dt, round(8e-4 / dt))
+        fast, slow = motion(film, dt), SlowBearing(film, RPM, SlowElement)
+        fast.rest(PLACE)
+        slow.rest(PLACE)
+        force, _ = fast.drive(q, v)
+        net = np.array([slow.step(dt, place, rate)[1] for place, rate in zip(q, v, strict=True)])
+        worst.append(np.abs(force - net).max() / np.ptp(net[:, 1]))
+    assert worst[0] < 1e-6  # of the swing; own time frozen at the start costs 3e-5
+    assert worst[1] < 0.7 * worst[0]
+
+
+@pytest.mark.parametrize("film_limit", [None, 8e-6])
+@pytest.mark.parametrize("dt", [1e-6, 2e-5, 1e-3])
+def test_tangents_are_those_of_differences(oil, shake, dt, film_limit):
+    bearing = BallBearing.catalogue("6205", oil=oil, film_limit=film_limit, clearance=3e-6)
+    q, v = shake(dt, 6)
+    it = motion(bearing, dt, angle=0.2)
+    it.rest(PLACE)
+    it.drive(q[:5], v[:5])
+    _, stiffness, damping = it.forces(q[5], v[5])
+    for k in range(2):
+        for matrix, size, moves in ((stiffness, 1e-9, (1.0, 0.0)), (damping, 1e-2 * np.abs(v).max(), (0.0, 1.0))):
+
+            def at(steps, size=size, moves=moves, k=k):
+                move = steps * size * np.eye(2)[k]
+                return it.forces(q[5] + moves[0] * move, v[5] + moves[1] * move)[0]
+
+            slope = (8.0 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12.0 * size)
+            np.testing.assert_allclose(slope, matrix[:, k], rtol=0.0, atol=1e-6 * np.abs(matrix).max())
+
+
+def test_trying_does_not_move(film, shake):
+    q, v = shake(2e-5, 3)
+    once, often = motion(film, 2e-5), motion(film, 2e-5)
+    for it in (once, often):
+        it.rest(PLACE)
+    for place, rate in zip(q, v, strict=True):
+        for _ in range(2):
+            often.forces(place + 1e-6, rate - 1e-3)
+        often.forces(place, rate)
+        often.accept()
+    once.drive(q, v)
+    np.testing.assert_allclose(often.films.state, once.films.state, rtol=1e-9, atol=1e-20)
+    assert often.cage_angle == once.cage_angle
+
+
+def test_dry_balls_in_motion_are_hertzian(dry, shake):
+    q, v = shake(2e-5, 5)
+    it = motion(dry, 2e-5, 0.0)
+    it.rest(PLACE)
+    force, balls = it.drive(q, v)
+    kn = [dry.race(race).kn ** (-2.0 / 3.0) for race in ("inner", "outer")]
+    psi = -pi / 2.0 + 2.0 * pi / 9.0 * np.arange(9)
+    delta = np.maximum(np.outer(q[:, 0], np.cos(psi)) + np.outer(q[:, 1], np.sin(psi)), 0.0)
+    expected = (delta / sum(kn)) ** 1.5
+    np.testing.assert_allclose(balls, np.repeat(expected[:, :, None], 2, axis=2), atol=1e-7)
+    np.testing.assert_allclose(force[:, 1], expected @ np.sin(psi), rtol=1e-9)

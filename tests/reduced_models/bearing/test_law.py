@@ -1,0 +1,149 @@
+"""Tabulated laws against the elements that they are made of, and the atlas behind those."""
+
+import copy
+from dataclasses import replace
+from math import inf
+
+import numba
+import numpy as np
+import pytest
+
+from ehlcontact.errors import InputError
+from reduced_models.bearing import balls as balls_room
+from reduced_models.bearing import contact as contact_room
+from reduced_models.bearing import law as law_room
+from reduced_models.bearing.balls import turning
+from reduced_models.bearing.contact import APPROACH, begin, new_films, press
+from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.law import carried, curve, film_law
+from reduced_models.bearing.race import shared_atlas
+from reduced_models.elements.film_law import static
+
+SPEEDS = (1000.0, 3000.0, 9000.0)
+
+
+def exact(element, u):
+    """g [m] and its slope by Newton's method."""
+    _, g, slope = static(u / element.scales.length, element.law)
+    return g * element.scales.length, slope
+
+
+@pytest.mark.parametrize("race", ["inner", "outer"])
+def test_the_table_is_the_curve(film, race):
+    """From a gap of 3 mm to eight times the heaviest load of the atlas."""
+    element = film.element(race, 3000.0)
+    law, last = film_law([element]), 0
+    highest = element.approach_at(8.0 * element.load_range[1])
+    for u in np.concatenate([-np.geomspace(3e-3, 1e-9, 3000), np.linspace(0.0, highest, 3000)]):
+        g, slope, last = curve(u, 0, 0.0, law, last)
+        wanted, wanted_slope = exact(element, u)
+        assert abs(g - wanted) < (1e-9 if u < 0.0 else 1e-10) * wanted
+        assert abs(slope - wanted_slope) < 1e-6 * wanted_slope
+    assert last == law.x.size - 2 or law.u[0, last + 1] > highest
+
+
+def test_beyond_the_table_it_goes_on(film):
+    law = film_law([film.element("inner", 3000.0)])
+    for end, step in ((law.u[0, 0], -1e-12), (law.u[0, -1], 1e-12)):
+        inside, outside = (curve(end + s, 0, 0.0, law, 0) for s in (-step, step))
+        assert outside[0] == pytest.approx(inside[0], rel=1e-6)
+    assert 0.0 < curve(2.0 * law.u[0, 0], 0, 0.0, law, 0)[0] < law.cells[0, 0, 0, 0]
+    far, farther = (curve(law.u[0, -1] + s, 0, 0.0, law, 0)[0] for s in (1e-4, 2e-4))
+    assert farther - far == pytest.approx(1e-4, rel=0.01)
+
+
+def test_an_element_of_all_loads_is_near_those_of_each(film):
+    """Damping at rest against the atlas's own element about the load, stiffness against the atlas."""
+    race, atlas = film.race("inner"), shared_atlas(None)
+    whole = film.element("inner", 3000.0)
+    for load in (10.0, 50.0, 200.0, 1000.0):
+        own = atlas.element(race.point(load, 3000.0), "wide")
+        ours, theirs = (e.impedance(load=load, hz=200.0)[0] for e in (whole, own))
+        assert ours.imag == pytest.approx(theirs.imag, rel=0.04)
+        at = atlas.at(race.point(load, 3000.0)).si
+        assert whole.approach_at(load) == pytest.approx(at.approach, abs=2e-9)
+        assert ours.real == pytest.approx(at.stiffness[0], rel=0.12 if load < 30.0 else 0.02)
+
+
+def test_elements_of_one_race_hold_all_its_loads(film):
+    for speed in SPEEDS:
+        low, high = film.race("outer").loads(speed)
+        found = film.element("outer", speed).load_range
+        np.testing.assert_allclose(found, (low, high), rtol=1e-6)
+
+
+def test_at_its_own_speeds_a_law_of_many_is_that_of_one(film):
+    many = film.kernel(SPEEDS)
+    u = np.array([-5e-6, 0.0, 3e-6, 8e-6])
+    for row, speed in enumerate(SPEEDS):
+        turn = turning(many, speed * RADIANS)
+        assert sum(turn.spin) == row
+        one = film.kernel(speed)
+        for approach in u:
+            ours = curve(approach, *turn.spin, many.inner, 0)[0]
+            assert ours == pytest.approx(curve(approach, 0, 0.0, one.inner, 0)[0], rel=1e-9)
+
+
+def test_between_speeds_films_grow_as_they_should(film):
+    """Half way between two speeds of a law it is within 1 % of the law of that speed, and nowhere does it jump."""
+    coarse = film.kernel((2500.0, 3500.0))
+    turn, own = turning(coarse, 3000.0 * RADIANS), film.kernel(3000.0)
+    for u in (2e-6, 5e-6, 8e-6):
+        film_there = curve(u, *turn.spin, coarse.inner, 0)[0] - u
+        assert film_there == pytest.approx(curve(u, 0, 0.0, own.inner, 0)[0] - u, rel=0.01)
+    many = film.kernel(SPEEDS)
+    below, above = (turning(many, 3000.0 * RADIANS * (1.0 + s)) for s in (-1e-9, 1e-9))
+    assert below.spin[0] == 0 and above.spin[0] == 1
+    pressed = []
+    for turn in (below, above):
+        films = new_films(9, many.inner.gains.shape[2] - 3)
+        films.state[0, APPROACH] = 5e-6
+        begin(many.inner, turn.inner, turn.spin, 2e-5, films, 0)
+        pressed.append(press(many.inner, turn.inner, turn.spin, films, 0, 5.1e-6, 3e-3))
+    np.testing.assert_allclose(pressed[0], pressed[1], rtol=1e-6)
+
+
+def test_films_that_squeeze_are_refused(film):
+    with pytest.raises(InputError, match=r"squeeze = 0.2: must be 0"):
+        film_law([replace(film.element("inner", 3000.0), squeeze=0.2)])
+
+
+def test_fading():
+    assert carried(-1.0, inf) == (1.0, 0.0)
+    assert carried(-0.4e-6, 1e-6) == (1.0, 0.0)
+    assert carried(-1.1e-6, 1e-6) == (0.0, 0.0)
+    for u in (-0.6e-6, -0.9e-6):
+        share, slope = carried(u, 1e-6)
+        assert 0.0 < share < 1.0
+        assert slope == pytest.approx(
+            (carried(u + 1e-12, 1e-6)[0] - carried(u - 1e-12, 1e-6)[0]) / 2e-12, rel=1e-5
+        )
+
+
+@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="kernels are plain Python already")
+def test_compiled_and_plain_are_twins(film, monkeypatch):
+    """A ball over two steps, all its kernels as plain Python."""
+    kernel = film.kernel(3000.0)
+    turn = turning(kernel, 3000.0 * RADIANS)
+    names = {
+        law_room: ("_at", "curve", "carried"),
+        contact_room: ("_lag", "_weigh", "_add", "begin", "press", "accept", "curve", "carried", "_shares"),
+        balls_room: ("_ball", "begin_step", "press_balls", "accept_balls", "begin", "press", "accept"),
+    }
+    normals = np.array([[0.0, -1.0]] * 9)
+    q, v = np.array([0.0, -9e-6]), np.array([0.0, 2e-3])
+
+    def run():
+        films, out = new_films(9, 14), (np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2)))
+        for _ in range(2):
+            gain = balls_room.begin_step(kernel, turn, 2e-5, films)
+            balls_room.press_balls(kernel, turn, films, normals, q, v, gain, out)
+            balls_room.accept_balls(kernel, turn, films, normals, q, v, gain)
+        return copy.deepcopy((*out, films.state))
+
+    compiled = run()
+    for room, kernels in names.items():
+        for name in kernels:
+            monkeypatch.setattr(room, name, getattr(room, name).py_func)
+    for ours, plain in zip(compiled, run(), strict=True):
+        np.testing.assert_allclose(ours, plain, rtol=1e-11, atol=1e-15)

@@ -1,0 +1,91 @@
+"""Stiffness and damping over frequency: against elements, against motions in time."""
+
+from math import pi
+
+import numpy as np
+import pytest
+
+from ehlcontact.errors import InputError
+from reduced_models import BallBearing, BearingMotion
+from reduced_models.bearing.balls import turning
+from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.linear import contact_impedance, impedances
+from reduced_models.bearing.statics import stand
+
+RPM = 3000.0
+
+
+@pytest.mark.parametrize("race", ["inner", "outer"])
+@pytest.mark.parametrize("load", [2.0, 60.0, 900.0])
+def test_a_contact_has_the_impedance_of_its_element(film, race, load):
+    element, kernel = film.element(race, RPM), film.kernel(RPM)
+    turn, omega = turning(kernel, RPM * RADIANS), np.array([10.0, 1e3, 1e5])
+    law, transit = getattr(kernel, race), getattr(turn, race)
+    found = contact_impedance(law, transit, turn.spin, element.approach_at(load), omega)
+    expected = element.impedance(load=load, omega=omega)
+    np.testing.assert_allclose(found, expected, rtol=1e-6)
+
+
+@pytest.mark.parametrize("film_limit", [None, 8e-6])
+def test_small_motions_in_time(oil, film_limit):
+    """A ring that swings a little, its balls standing still: amplitude and phase of the force."""
+    bearing = BallBearing.catalogue("6205", oil=oil, film_limit=film_limit)
+    kernel = bearing.kernel(RPM)._replace(cage=0.0, swing=0.0)
+    turn = turning(kernel, RPM * RADIANS)
+    at = stand(kernel, turn, np.array([200.0, -1000.0]), 0.4)
+    hz, dt, size = 2000.0, 1e-6, 1e-10
+    omega, periods = 2.0 * pi * hz, 4
+    steps = round(periods / (hz * dt))
+    t = dt * np.arange(1, steps + 1)
+    Z = impedances(kernel, turn, at, np.array([omega]))[0]
+    Z = Z.real + 1j * omega * Z.imag
+    for k in range(2):
+        direction = np.eye(2)[k]
+        run = BearingMotion(kernel, RPM, dt, 0.4)
+        start = run.rest(at.displacement)
+        q = at.displacement + size * np.sin(omega * t)[:, None] * direction
+        force, _ = run.drive(q, size * omega * np.cos(omega * t)[:, None] * direction)
+        last = slice(steps - round(1.0 / (hz * dt)), None)
+        swing = 2.0 * np.mean((force[last] - start) * np.exp(-1j * omega * t[last])[:, None], axis=0) * 1j / size
+        np.testing.assert_allclose(swing, Z[:, k], rtol=0.0, atol=2e-4 * abs(Z[k, k]))
+
+
+def test_damping_falls_with_frequency_and_stiffness_rises(film):
+    found = film.coefficients((0.0, -1000.0), speed_rpm=RPM, hz=[0.0, 100.0, 1e3, 1e4])
+    assert np.all(np.diff(found.damping[:, 1, 1]) < 0.0)
+    assert np.all(np.diff(found.stiffness[:, 1, 1]) > -1e3)
+    np.testing.assert_allclose(found.hz, [0.0, 100.0, 1e3, 1e4])
+    np.testing.assert_allclose(found.stiffness, found.stiffness.swapaxes(1, 2), rtol=1e-12, atol=1.0)
+
+
+def test_stiffness_at_rest_is_the_slope_of_the_static_force(film):
+    state = film.equilibrium((300.0, -1000.0), speed_rpm=RPM, cage_angle=0.1)
+    at_zero = film.coefficients((300.0, -1000.0), speed_rpm=RPM, cage_angle=0.1, hz=0.0)
+    np.testing.assert_allclose(at_zero.stiffness[0], state.stiffness, rtol=1e-6)
+    np.testing.assert_allclose(at_zero.swing, 0.0)
+    more = [
+        film.equilibrium((300.0, -1000.0 + d), speed_rpm=RPM, cage_angle=0.1).displacement for d in (-1.0, 1.0)
+    ]
+    np.testing.assert_allclose(state.stiffness @ (more[1] - more[0]), [0.0, 2.0], atol=2e-4)
+
+
+def test_turned_loads_turn_the_matrices(film):
+    down = film.coefficients((0.0, -800.0), speed_rpm=RPM, hz=300.0)
+    across = film.coefficients((800.0, 0.0), speed_rpm=RPM, hz=300.0)
+    for name in ("stiffness", "damping"):
+        np.testing.assert_allclose(
+            getattr(across, name)[0], getattr(down, name)[0][::-1, ::-1], rtol=1e-6, atol=1e-6 * 1e8
+        )
+
+
+def test_dry_bearings_do_not_damp(dry):
+    found = dry.coefficients((0.0, -800.0), hz=[1.0, 1e4])
+    assert np.all(found.damping == 0.0)
+    np.testing.assert_allclose(found.stiffness[0], found.stiffness[1])
+
+
+def test_a_frequency_needs_its_unit(film):
+    with pytest.raises(InputError, match="frequency"):
+        film.coefficients((0.0, -800.0), speed_rpm=RPM)
+    with pytest.raises(InputError, match="frequency"):
+        film.coefficients((0.0, -800.0), 50.0, speed_rpm=RPM)

@@ -1,0 +1,152 @@
+"""Rotors as blocks of python-control: against the linearised rotor, against each other, against runs in time."""
+
+import numpy as np
+import pytest
+
+from ehlcontact.errors import InputError
+from reduced_models import BallBearing, linearise, rotor_to_control, simulate_on_bearings
+from reduced_models.bearing import ball_bearing
+
+control = pytest.importorskip("control")
+
+RPM, DISC = 3000.0, 12
+
+
+def response(block, w):
+    return block.C @ np.linalg.solve(1j * w * np.eye(block.nstates) - block.A, block.B)
+
+
+def test_states_have_the_frequency_response_of_the_impedances(film, beam):
+    at = linearise(beam(film), RPM, passage=False)
+    block = at.to_control()
+    omega = np.geomspace(10.0, 1e6, 6)
+    for w, expected in zip(omega, at.receptance(omega=omega), strict=True):
+        np.testing.assert_allclose(response(block, w), expected, rtol=0.0, atol=1e-9 * abs(expected).max())
+
+
+def test_bode_is_the_impedance(film, block):
+    """Without the mass, forces over displacements are K + i w C of `coefficients`."""
+    at = linearise(block(film), RPM, passage=False)
+    omega = np.geomspace(10.0, 1e5, 5)
+    found = control.frequency_response(at.to_control(), omega).frdata
+    angle = at.rotor.mounts[0].cage_angle
+    c = film.coefficients(at.loads[0], speed_rpm=RPM, cage_angle=angle, omega=omega)
+    for k, w in enumerate(omega):
+        Z = c.stiffness[k] + 1j * w * c.damping[k]
+        np.testing.assert_allclose(
+            np.linalg.inv(found[:, :, k]) + 2.0 * w * w * np.eye(2), Z, rtol=0.0, atol=1e-9 * abs(Z).max()
+        )
+
+
+def test_eigenvalues_of_the_states_are_the_modes(film, beam):
+    at = linearise(beam(film), RPM, passage=False)
+    values = np.linalg.eigvals(at.to_control().A)
+    modes = at.modes(None)
+    for mode in modes:
+        assert np.abs(values - mode.eigenvalue).min() < 1e-9 * abs(mode.eigenvalue)
+    assert values.real.max() == pytest.approx(at.growth, rel=1e-3)
+    # and there are no others that oscillate slowly
+    slow = values[(values.imag > 1.0) & (values.imag < 1.1 * modes[7].omega)]
+    weak = slow[-slow.real < 0.5 * slow.imag]
+    assert len(weak) == 8
+
+
+def test_means_over_a_passage_have_all_positions_as_states(film, block, monkeypatch):
+    monkeypatch.setattr(ball_bearing, "POSITIONS", 2)
+    at = linearise(block(film), RPM)
+    found = at.to_control()
+    assert found.nstates == 4 + 2 * 9 * (1 + 2 * (film.element("inner", RPM).lags + 2))
+    for w in (100.0, 1e4):
+        expected = at.receptance(omega=w)[0]
+        np.testing.assert_allclose(response(found, w), expected, rtol=0.0, atol=1e-9 * abs(expected).max())
+
+
+@pytest.mark.parametrize("film_limit", [None, 2e-6])
+def test_linearize_is_the_state_space(film, block, film_limit):
+    """The nonlinear block, by differences of 1e-5 um (and um/s)."""
+    rotor = block(BallBearing.catalogue("6205", oil=film.oil, film_limit=film_limit))
+    at = linearise(rotor, RPM, passage=False)
+    assert (film_limit is None) == bool(np.all(at.balls[0].inner.slope > 0.0))  # the top balls are let go
+    exact, moving = at.to_control(), rotor_to_control(rotor, RPM, cage_turns=False)
+    rest = np.zeros(moving.nstates)
+    rates = moving.dynamics(0.0, rest, np.zeros(2))
+    assert np.abs(rates[2:4]).max() < 1e-3  # um/s2
+    found = control.linearize(moving, rest, np.zeros(2), eps=1e-5)
+    assert moving.state_labels == exact.state_labels
+    for name in "ABCD":
+        one, other = getattr(found, name), getattr(exact, name)
+        scale = np.abs(other).max(axis=1, keepdims=True) if name in "AB" else np.abs(other).max()
+        assert np.all(np.abs(one - other) <= 1e-4 * scale)
+    for w in (10.0, 1e3, 1e4, 1e5):
+        expected = response(exact, w)
+        np.testing.assert_allclose(response(found, w), expected, rtol=0.0, atol=1e-4 * abs(expected).max())
+
+
+def test_linearize_of_a_beam(film, beam):
+    rotor = beam(film)
+    exact = linearise(rotor, RPM, passage=False).to_control([DISC], [DISC, 4])
+    moving = rotor_to_control(rotor, RPM, inputs=[DISC], outputs=[DISC, 4], cage_turns=False)
+    found = control.linearize(moving, np.zeros(moving.nstates), [0.0], eps=1e-5)
+    for w in (10.0, 1e3, 1e4):
+        expected = response(exact, w)
+        np.testing.assert_allclose(response(found, w), expected, rtol=0.0, atol=1e-4 * abs(expected).max())
+
+
+def test_block_in_time_is_the_run(film, block):
+    """A block that is pushed while balls go round, with the tolerances of python-control, against our own run."""
+    rotor = block(film, damping=500.0 * np.eye(2), unbalances=())
+    moving = rotor_to_control(rotor, RPM, inputs={"across": 0, "up": 1}, outputs={"x": 0, "y": 1})
+    t = np.linspace(0.0, 0.004, 81)
+    push = np.array([np.full(t.size, 20.0), np.zeros(t.size)])
+    seen = control.input_output_response(moving, t, push, solve_ivp_method="BDF")
+    assert seen.output_labels == ["x", "y"] and seen.input_labels == ["across", "up"]
+    # the run is pushed by its load, from the block's rest
+    start = rotor.equilibrium(RPM), np.zeros(2)
+    pushed = block(film, damping=500.0 * np.eye(2), unbalances=(), load=np.array([20.0, -300.0]))
+    run = simulate_on_bearings(pushed, speed_rpm=RPM, dt=1e-6, until=0.004, start=start)
+    expected = (run.displacement[::50] - start[0]).T
+    np.testing.assert_allclose(seen.outputs, expected, rtol=0.0, atol=0.01 * np.ptp(expected))
+
+
+def test_dry_bearings_have_no_states(dry, block):
+    rotor = block(dry)
+    moving = rotor_to_control(rotor, RPM, cage_turns=False)
+    exact = linearise(rotor, RPM, passage=False).to_control()
+    assert moving.nstates == exact.nstates == 4
+    found = control.linearize(moving, np.zeros(4), np.zeros(2), eps=1e-5)
+    np.testing.assert_allclose(found.A, exact.A, rtol=1e-4, atol=1e-4 * np.abs(exact.A).max())
+
+
+def test_names(film, block):
+    moving, exact = (
+        rotor_to_control(block(film), RPM),
+        linearise(block(film), RPM, passage=False).to_control(name="r"),
+    )
+    for one in (moving, exact):
+        assert one.input_labels == ["F0", "F1"] and one.output_labels == ["q0", "q1"]
+        assert one.state_labels[:6] == ["q0", "q1", "v0", "v1", "b0_0_w", "b0_0_i_s"]
+        assert one.nstates == len(one.state_labels) == 4 + 9 * (1 + 2 * (film.element("inner", RPM).lags + 2))
+    assert (moving.name, exact.name) == ("rotor", "r")
+
+
+@pytest.mark.parametrize(
+    ("given", "match"),
+    [
+        ({"inputs": [2]}, r"inputs\['F2'\] = 2: must be degrees of freedom from 0 to 1"),
+        ({"outputs": {"up": -1}}, r"outputs\['up'\] = -1: must be degrees of freedom from 0 to 1"),
+        ({"outputs": [0, 0]}, r"outputs = \[0, 0\]: must be degrees of freedom from 0 to 1, each once"),
+        ({"inputs": []}, r"inputs = \[\]: must be"),
+    ],
+)
+def test_bad_signals(film, block, given, match):
+    with pytest.raises(InputError, match=match):
+        rotor_to_control(block(film), RPM, **given)
+    with pytest.raises(InputError, match=match):
+        linearise(block(film), RPM, passage=False).to_control(**given)
+
+
+def test_bad_speeds(film, block):
+    with pytest.raises(InputError, match=r"speed_rpm = 20000.0: must be at most"):
+        rotor_to_control(block(film), 2e4)
+    with pytest.raises(InputError, match=r"rotor = 'int': must be a MatrixRotor"):
+        rotor_to_control(3, RPM)

@@ -1,0 +1,175 @@
+"""Modes and responses over the speed; their files and figures."""
+
+import numpy as np
+import pytest
+
+from ehlcontact.errors import ConvergenceError, InputError
+from reduced_models import (
+    Campbell,
+    SpeedCourse,
+    UnbalanceResponse,
+    campbell,
+    linearise,
+    simulate_on_bearings,
+    unbalance_response,
+)
+
+SPEEDS = np.linspace(2000.0, 10000.0, 5)
+PNG = b"\x89PNG"
+
+
+@pytest.fixture(scope="module")
+def diagram(film, beam):
+    return campbell(beam(film), SPEEDS, count=4)
+
+
+def test_columns_are_modes_of_the_speed(film, beam, diagram):
+    assert diagram.omega.shape == diagram.growth.shape == diagram.whirl.shape == (5, 4)
+    modes = linearise(beam(film), SPEEDS[3]).modes(8)
+    for hz, decrement, whirl in zip(diagram.hz[3], diagram.decrement[3], diagram.whirl[3], strict=True):
+        same = min(modes, key=lambda mode: abs(mode.hz - hz))
+        assert (same.hz, same.decrement) == pytest.approx((hz, decrement), rel=1e-9)
+        assert same.whirl == pytest.approx(whirl, abs=1e-9)
+
+
+def test_modes_are_followed_through_crossings(diagram):
+    """The disc's backward whirl falls through both modes of bending, its forward whirl rises."""
+    order = [np.argsort(row).tolist() for row in diagram.hz]
+    assert order[0] == [0, 1, 2, 3] and order[-1] == [2, 0, 1, 3]
+    assert np.all(np.diff(diagram.hz[:, 2]) < 0.0) and np.all(np.diff(diagram.hz[:, 3]) > 0.0)
+    assert np.abs(diagram.whirl[:, :2]).max() < 0.05  # these bend to and fro, hardly changed by the speed
+    assert diagram.whirl[-1, 2] < -0.9 and diagram.whirl[-1, 3] > 0.9
+
+
+def test_critical_speeds_lie_where_a_mode_has_the_frequency_of_the_order(film, beam, diagram):
+    bpfo = film.orders.bpfo
+    found = diagram.critical_speeds(bpfo)
+    assert [one.mode for one in found[:2]] == [0, 1]
+    assert [one.speed_rpm for one in found] == sorted(one.speed_rpm for one in found)
+    for one in found:
+        assert one.hz == pytest.approx(bpfo * one.speed_rpm / 60.0, rel=1e-9)
+    at = linearise(beam(film), found[0].speed_rpm).modes(1)[0]
+    assert at.hz == pytest.approx(found[0].hz, rel=2e-3)  # straight between speeds 2000 rev/min apart
+    assert diagram.critical_speeds(0.01) == ()
+
+
+def test_a_run_up_resonates_where_balls_pass_at_the_frequency_of_a_mode(film, beam, diagram):
+    """Faster and faster balls: the largest swing comes a little after the crossing."""
+    rotor, window = beam(film, unbalances=()), np.ones(400) / 400.0
+    course = SpeedCourse(np.array([0.0, 2.0]), np.array([3000.0, 5000.0]))
+    run = simulate_on_bearings(rotor, speed_rpm=course, dt=5e-5, until=2.0)
+    for direction, one in enumerate(diagram.critical_speeds(film.orders.bpfo)[:2]):
+        swing = run.displacement[:, 12 + direction]
+        swing = np.convolve((swing - np.convolve(swing, window, "same")) ** 2, window, "same")[1000:-1000]
+        peak = run.speed_rpm[1000:-1000][np.argmax(swing)]
+        assert swing.max() > 6.0 * np.median(swing)
+        assert 1.0 < peak / one.speed_rpm < 1.04
+
+
+def test_unbalance_peaks_at_the_critical_speed(dry, block):
+    """A block that its bearing lets swing at about 100 Hz."""
+    rotor = block(dry, mass=200.0, damping=1e3 * np.eye(2))
+    speeds = np.linspace(3000.0, 12000.0, 121)
+    peak = unbalance_response(rotor, speeds)
+    critical = campbell(rotor, speeds[::10], count=2).critical_speeds()
+    assert len(critical) == 2
+    places = peak.peaks()
+    assert len(places) == 2
+    np.testing.assert_allclose(places, [one.speed_rpm for one in critical], rtol=0.015)
+
+
+def test_response_over_the_speed_is_that_at_each_speed(film, beam):
+    rotor = beam(film)
+    found = unbalance_response(rotor, [2000.0, 3000.0])
+    at = linearise(rotor, 3000.0).unbalance_response(rpm=3000.0)[0]
+    np.testing.assert_allclose(found.amplitude[1], at, rtol=1e-12)
+    assert found.nodes.tolist() == [[4, 5], [20, 21], [12, 13]]
+    t = np.linspace(0.0, 0.02, 2001)  # a turn
+    q = np.real(at[[12, 13], None] * np.exp(1j * 100.0 * np.pi * t))
+    assert found.major[1, 2] == pytest.approx(np.hypot(*q).max(), rel=1e-4)
+    w = 3000.0 * np.pi / 30.0
+    shown = found.cosine[1, 12] * np.cos(w * t) + found.sine[1, 12] * np.sin(w * t)
+    np.testing.assert_allclose(shown, q[0], atol=1e-12 * np.abs(q[0]).max())
+
+
+def test_files(film, block, diagram, tmp_path):
+    again = Campbell.read(diagram.save(tmp_path / "c.h5"))
+    response = unbalance_response(block(film), [2000.0, 3000.0, 4000.0])
+    back = UnbalanceResponse.read(response.save(tmp_path / "u.h5"))
+    for one, two in ((diagram, again), (response, back)):
+        for name, values in vars(one).items():
+            np.testing.assert_array_equal(getattr(two, name), values)
+    with pytest.raises(InputError, match="Campbell diagram"):
+        Campbell.read(tmp_path / "u.h5")
+
+
+def test_figures(film, block, diagram, tmp_path):
+    diagram.plot(tmp_path / "c.png")
+    unbalance_response(block(film), [2000.0, 3000.0, 4000.0]).plot(tmp_path / "u.png")
+    course = SpeedCourse(np.array([0.0, 0.05]), np.array([2000.0, 4000.0]))
+    for speed in (3000.0, course):
+        run = simulate_on_bearings(block(film), speed_rpm=speed, dt=5e-5, until=0.05)
+        for kind in ("orbit", "spectrum", "waterfall"):
+            figure = run.plot(tmp_path / f"{kind}.png", kind=kind)
+            assert kind in figure.get_suptitle()
+            assert (tmp_path / f"{kind}.png").read_bytes().startswith(PNG)
+    for name in ("c", "u"):
+        assert (tmp_path / f"{name}.png").read_bytes().startswith(PNG)
+
+
+def test_lines_of_a_spectrum_are_the_amplitudes(film, block):
+    """A ring that is made to swing by 2 um at 400 Hz."""
+    run = simulate_on_bearings(block(film), speed_rpm=3000.0, dt=5e-5, until=0.1)
+    swing = np.zeros_like(run.ring)
+    swing[:, 0, 0] = 2e-6 * np.sin(2.0 * np.pi * 400.0 * run.t)
+    figure = type(run)(**(vars(run) | {"ring": swing + 1e-5})).plot(kind="spectrum")
+    line = figure.axes[0].lines[0]
+    top = np.argmax(line.get_ydata())
+    assert line.get_xdata()[top] == pytest.approx(400.0, abs=20.0)
+    assert line.get_ydata()[top] == pytest.approx(2.0, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("call", "match"),
+    [
+        (lambda rotor, path: campbell(rotor, [3e3, 2e3]), r"speeds_rpm\[1\] = 2000.0: must be above"),
+        (lambda rotor, path: campbell(rotor, [3000.0], count=0), r"count = 0: must be a whole number >= 1"),
+        (lambda rotor, path: campbell(rotor, [3000.0], count=3).plot(path / "no" / "c.png"), "no"),
+        (lambda rotor, path: unbalance_response(rotor, [2e4]), r"speed_rpm = 20000.0: must be at most"),
+        (lambda rotor, path: unbalance_response(rotor, [0.0, 1e3]), r"speeds_rpm\[0\] = 0.0: must be > 0"),
+        (lambda rotor, path: unbalance_response(rotor, [2e3]).peaks(5), r"node = 5: must be from 0 to 0"),
+        (
+            lambda rotor, path: campbell(rotor, [2e3]).critical_speeds(0.0),
+            r"order = 0.0: must be a finite number > 0",
+        ),
+    ],
+)
+def test_bad_input(film, block, tmp_path, call, match):
+    with pytest.raises(InputError, match=match):
+        call(block(film), tmp_path)
+
+
+def test_bad_figures(film, block):
+    run = simulate_on_bearings(block(film), speed_rpm=3000.0, dt=5e-5, until=2e-3)
+    with pytest.raises(InputError, match=r"kind = 'orbits': must be one of orbit, spectrum, waterfall"):
+        run.plot(kind="orbits")
+    with pytest.raises(InputError, match="most_hz"):
+        run.plot(kind="spectrum", most_hz=0.0)
+    short = simulate_on_bearings(block(film), speed_rpm=3000.0, dt=5e-5, until=2e-4)
+    with pytest.raises(InputError, match="at least 16"):
+        short.plot()
+
+
+def test_a_mode_that_stops_to_oscillate(film, block):
+    """Damping that grows with the speed."""
+    rotor = block(film, gyroscopic=np.diag([0.0, 500.0]))
+    assert len(linearise(rotor, 300.0).modes()) == 2
+    (left,) = linearise(rotor, 3000.0).modes()
+    assert abs(left.shape[0]) == 1.0
+    with pytest.raises(ConvergenceError, match=r"only 1 of 2 modes oscillate at 3000 rev/min: ask for fewer"):
+        campbell(rotor, [300.0, 3000.0])
+
+
+def test_no_unbalance(film, block):
+    with pytest.raises(InputError, match=r"unbalances = \(\): must be at least one"):
+        unbalance_response(block(film, unbalances=()), [2e3])
