@@ -114,15 +114,14 @@ TABLE_MESHES = (
     TableMesh(0.0115, 512, True),
 )
 TABLE_LIGHT_LOAD, TABLE_LIGHT_INTERVALS = 4.5, 96  # a load number below which few intervals resolve the thick film
-# Below TABLE_FILM_INLET the film by itself is solved once more, if possible with all the oil, on a mesh of about a
-# fifth of the inlet width, by which side lobes are within a few per cent.
-TABLE_FILM_INLET = 0.3
+# Below TABLE_FILM_INLET the film by itself is solved once more: on more intervals, if possible with all the oil.
+TABLE_FILM_INLET = 0.13
 TABLE_FILM_MESHES = (
-    TableMesh(0.13, 256, False),
-    TableMesh(0.09, 384, False),
-    TableMesh(0.05, 768, False),
-    TableMesh(0.033, 1024, False),
-    TableMesh(0.0, 1024, True),
+    TableMesh(0.09, 256, False),
+    TableMesh(0.05, 384, False),
+    TableMesh(0.033, 512, False),
+    TableMesh(0.018, 512, True),
+    TableMesh(0.0, 768, True),
 )
 # Inlet widths at which both regions are solved, to learn what the oil further out adds.
 TABLE_BOTH_REGIONS, TABLE_NEAR_INTERVALS = (0.1, 0.16), 128

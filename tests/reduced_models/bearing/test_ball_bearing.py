@@ -63,11 +63,12 @@ def test_what_is_no_bearing(match, changes):
 
 
 def test_a_conformity_outside_the_atlas_is_told_its_limit(oil):
-    said = refused("conformity_inner = 0.505", lambda: BallBearing(**SIZES, oil=oil, conformity_inner=0.505))
+    assert BallBearing(**SIZES, oil=oil, conformity_inner=0.505).highest_speed > 0.0
+    said = refused("conformity_inner = 0.503", lambda: BallBearing(**SIZES, oil=oil, conformity_inner=0.503))
     limit = float(said.split("at least ")[1].split(":")[0].split()[0])
-    assert limit > 0.505
+    assert 0.503 < limit < 0.505
     assert BallBearing(**SIZES, oil=oil, conformity_inner=limit + 1e-3).highest_speed > 0.0
-    assert BallBearing(**SIZES, conformity_inner=0.505).equilibrium(DOWN).displacement[1] < 0.0  # dry
+    assert BallBearing(**SIZES, conformity_inner=0.503).equilibrium(DOWN).displacement[1] < 0.0  # dry
     said = refused("conformity_outer = 9", lambda: BallBearing(**SIZES, oil=oil, conformity_outer=9.0))
     widest = float(said.split(" and ")[1].split(":")[0])
     assert BallBearing(**SIZES, oil=oil, conformity_outer=widest - 1e-3).highest_speed > 0.0
@@ -178,7 +179,7 @@ def test_the_snippet_of_the_readme(tmp_path):
     exec(code.replace('"load_zone.png"', repr(str(tmp_path / "load_zone.png"))), found)
     assert (tmp_path / "load_zone.png").exists()
     assert found["K"][1, 1] == pytest.approx(1.06e8, rel=0.01)
-    assert found["C"][1, 1] == pytest.approx(188.0, rel=0.02)
+    assert found["C"][1, 1] == pytest.approx(171.0, rel=0.02)
     assert found["state"].lambda_ratio[0].min() > 1.0
 
 

@@ -17,28 +17,37 @@ SPEEDS = (1000.0, 3000.0, 6000.0)
 ON = -pi / 2.0
 
 
-def as_the_prototype(bearing, rpm):
-    """Laws of elements about the heaviest ball alone, as the prototype had; light balls are beyond them."""
+def as_the_prototype(bearing, rpm, load, omega):
+    """K + i omega C, mean over a ball passage, with laws of elements about the heaviest ball alone.
+
+    So had it the prototype: light balls are beyond these laws, which hold their gains there.
+    """
     elements = [
         shared_atlas(None).element(bearing.race(race).point(487.0, rpm), "wide") for race in ("inner", "outer")
     ]
-    laws = [film_law([element]) for element in elements]
-    return Balls(*laws, *bearing.kernel(rpm)[2:])
+    kernel = Balls(*(film_law([element]) for element in elements), *bearing.kernel(rpm)[2:])
+    turn = bearing.turn(rpm)
+    at = [stand(kernel, turn, load, ON + 2.0 * pi / 9.0 * k / 4.0) for k in range(4)]
+    return np.mean([impedances(kernel, turn, s, np.array([omega]))[0] for s in at], axis=0)
 
 
 @pytest.mark.parametrize(("rpm", "expected"), list(zip(SPEEDS, (285.0, 188.0, 140.0), strict=True)))
-def test_damping_in_the_direction_of_the_load(film, rpm, expected):
-    kernel, turn = as_the_prototype(film, rpm), film.turn(rpm)
-    at = [stand(kernel, turn, DOWN, ON + 2.0 * pi / 9.0 * k / 4.0) for k in range(4)]
-    prototype = np.mean([impedances(kernel, turn, s, np.array([50.0]))[0, 1, 1].imag for s in at])
+def test_damping_in_the_direction_of_the_load(film, oil, rpm, expected):
+    prototype = as_the_prototype(film, rpm, DOWN, 50.0)[1, 1].imag
     assert prototype == pytest.approx(expected, rel=0.02)
-    # our laws go on to the lightest load of the atlas, which changes what the unloaded half of the balls damps
+    # Our laws go on to the lightest loads of the atlas, where films damp less than about the heaviest ball: so the
+    # unloaded half of the balls, which held a tenth of the prototype's damping, hardly counts.
     ours = film.coefficients(DOWN, speed_rpm=rpm, hz=50.0).damping[0, 1, 1]
-    assert ours == pytest.approx(prototype, rel=0.025)
+    assert 0.9 * prototype < ours < 0.93 * prototype
+    loaded = BallBearing.catalogue("6205", oil=oil, film_limit=5e-6)
+    assert 0.96 * ours < loaded.coefficients(DOWN, speed_rpm=rpm, hz=50.0).damping[0, 1, 1] < ours
 
 
 def test_damping_at_five_kilohertz(film):
-    assert film.coefficients(DOWN, speed_rpm=3000.0, hz=5000.0).damping[0, 1, 1] == pytest.approx(94.0, rel=0.02)
+    prototype = as_the_prototype(film, 3000.0, DOWN, 1e4 * pi)[1, 1].imag
+    assert prototype == pytest.approx(94.0, rel=0.02)
+    ours = film.coefficients(DOWN, speed_rpm=3000.0, hz=5000.0).damping[0, 1, 1]
+    assert 0.84 * prototype < ours < 0.9 * prototype  # without what light balls had of it
 
 
 @pytest.mark.parametrize(("rpm", "lateral"), list(zip(SPEEDS, (1.029, 1.062, 1.10), strict=True)))
@@ -58,16 +67,21 @@ def test_static_swing_of_a_ball_passage(film, dry):
 
 
 def test_means_under_half_a_kilonewton(film):
+    prototype = as_the_prototype(film, 3000.0, 0.5 * DOWN, 1256.0)
+    np.testing.assert_allclose(prototype.real.diagonal(), (6.50e7, 8.36e7), rtol=0.02)
     found = film.coefficients(0.5 * DOWN, speed_rpm=3000.0, hz=200.0)
     np.testing.assert_allclose(np.diag(found.stiffness[0]), (6.50e7, 8.36e7), rtol=0.02)
-    np.testing.assert_allclose(np.diag(found.damping[0]), (196.0, 189.0), rtol=0.02)
+    assert prototype[1, 1].imag == pytest.approx(189.0, rel=0.02)
+    assert 0.88 < found.damping[0, 1, 1] / prototype[1, 1].imag < 0.92
     assert abs(found.stiffness[0, 0, 1]) < 1e-6 * found.stiffness[0, 0, 0]
 
 
 def test_damping_over_stiffness(film):
     """ROSS has 1.25e-5 s for any bearing; ours leaves out all that is no film: fits, housing, seals, grease."""
+    prototype = as_the_prototype(film, 3000.0, DOWN, 50.0)[1, 1]
+    assert prototype.imag / prototype.real == pytest.approx(1.8e-6, abs=0.05e-6)
     found = film.coefficients(DOWN, speed_rpm=3000.0, hz=50.0)
-    assert found.damping[0, 1, 1] / found.stiffness[0, 1, 1] == pytest.approx(1.8e-6, abs=0.05e-6)
+    assert 1.55e-6 < found.damping[0, 1, 1] / found.stiffness[0, 1, 1] < 1.65e-6
 
 
 @pytest.mark.parametrize("race", ["inner", "outer"])
