@@ -191,7 +191,7 @@ def test_wide_range_follows_the_atlas_over_the_load(shipped):
     [
         (MoesPoint(50.0, 10.0, 0.5), 0, 0.02),  # M = 1
         (MoesPoint(20000.0, 5.0, 0.2), 1, 1.5),  # M = 30000
-        (MoesPoint(3000.0, 20.0, 0.3), 1, None),  # Hertz pressure
+        (MoesPoint(4000.0, 22.0, 0.3), 1, None),  # Hertz pressure
     ],
 )
 def test_wide_range_ends_where_the_box_ends(shipped, point, end, expected):
@@ -315,7 +315,7 @@ def test_numbers_of_the_interpolation_travel_with_the_file(shipped, tmp_path):
     header = json.loads(str(np.load(SHIPPED)["metadata"]))
     assert header["interpolation"] == json.loads(json.dumps(asdict(INTERPOLATION)))
     weights = header["interpolation"]["weights"]
-    other = {**header["interpolation"], "weights": [*weights[:3], 0.5 * weights[3]]}
+    other = {**header["interpolation"], "weights": [*weights[:3], 0.5 * weights[3], *weights[4:]]}
     heavier = Atlas(changed(SHIPPED, tmp_path / "other.npz", interpolation=other))
     narrow = Atlas(changed(SHIPPED, tmp_path / "oil.npz", oil={**header["oil"], "alpha": [2e-8, 3e-8]}))
     for point in random_points(5, 3):
@@ -366,9 +366,13 @@ def test_the_6205_on_vg_68_from_idling_to_its_limit(shipped, race, conformity, s
             race=race,
         )
         answer = shipped.at(point)
-        assert answer.error["approach"] < 0.01 * max(1.0, answer.film_share)
+        # an oil of another alpha than the atlas's widens the bars; those of the atlas alone are narrow
+        assert shipped.at(MoesPoint(answer.point.M, answer.point.L, answer.point.kappa)).error["approach"] < 0.01
+        assert answer.error["approach"] < 0.03 * max(1.0, answer.film_share)
         assert answer.error["h_central"] < 0.1 * answer.h_central
-        assert 0.0 < answer.si.moment < 0.01 * load * point.scales.a * 100.0
+        assert (
+            0.0 < answer.si.moment < 2.0 * load * point.scales.a
+        )  # of a thick film, pressed well ahead of the centre
         assert shipped.element(point, "memory").rest(1.0) is not None
 
 

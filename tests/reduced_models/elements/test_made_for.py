@@ -121,11 +121,11 @@ def test_a_rotor_tells_its_speed_before_it_runs(atlas):
                   lambda: rotor().check([fast.copy()]),
                   lambda: rotor().static_equilibrium([fast.copy()])):  # fmt: skip
         with pytest.warns(
-            OutsideValidityWarning, match=r": 50 Hz \(fitted 20590 to 29510 Hz\); it is for the band"
+            OutsideValidityWarning, match=r": 50 Hz \(fitted 23570 to 25940 Hz\); it is for the band"
         ):
             start()
     wrapped = ScaledContact(atlas.element(POINT.moes, "cubic", Omega=6.0), POINT.scales)
-    with pytest.warns(OutsideValidityWarning, match=r": Omega 0\.01187 \(fitted Omega 4\."):
+    with pytest.warns(OutsideValidityWarning, match=r": Omega 0\.01187 \(fitted Omega 5\."):
         rotor().check([wrapped])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
