@@ -51,7 +51,7 @@ def test_shipped_rates_fit_nearly_best(shipped):
         for name in ("lag_rate", "inlet_rate", "fast_rate"):
             assert tune.rates_error(shipped, replace(rates, **{name: factor * getattr(rates, name)})) > own
     found = tune.best_rates(shipped, most=20)
-    assert 0.95 * own < found.least <= own
+    assert 0.95 * own < found.least <= own * (1.0 + 1e-12)
     assert found.least == tune.rates_error(shipped, FilterRates(rates.lags, *found.best))
 
 
