@@ -110,7 +110,7 @@ def test_free_decay_is_that_of_the_matrices(film):
     first = np.argmin(np.where(values.imag > 1.0, values.imag, np.inf))
     hz, decrement = values[first].imag / (2.0 * pi), -2.0 * pi * values[first].real / values[first].imag
     assert hz == pytest.approx(224.8, rel=2e-3)  # of ROSS's matrices with these K and C
-    assert decrement == pytest.approx(0.0069, rel=0.01)  # 0.0073 where light balls damp as about the heaviest
+    assert decrement == pytest.approx(0.0068, rel=0.01)  # 0.0073 where light balls damp as about the heaviest
     # one run with the mode and one without: what balls do as they pass is in both
     mode, rest = vectors[:size, first] / vectors[DISC, first] * 2e-8, rotor.equilibrium(RPM)
     moving = (rest + mode.real, (values[first] * mode).real), (rest, np.zeros(size))

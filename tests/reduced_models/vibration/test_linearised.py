@@ -44,7 +44,7 @@ def test_first_mode_of_the_beam(film, beam):
     """224.8 Hz with K and C of an independent prototype in ROSS, and 0.0073, light balls damping as heavy ones."""
     first = linearise(beam(film), RPM).modes(2)[0]
     assert first.hz == pytest.approx(224.8, rel=1e-3)
-    assert first.decrement == pytest.approx(0.0069, rel=0.01)
+    assert first.decrement == pytest.approx(0.0068, rel=0.01)
     assert first.damping_ratio == pytest.approx(first.decrement / (2.0 * pi), rel=1e-4)
 
 
