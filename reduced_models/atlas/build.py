@@ -166,6 +166,8 @@ def assemble(entries: Sequence[Entry], made_by: Mapping[str, Any]) -> AtlasTable
     InputError
         Too few converged.
     """
+    if not all(isinstance(e["status"], str) for e in entries):
+        raise TypeError("a status that is no word")
     good = [e for e in entries if e["status"] == "converged"]
     if len(good) < FEWEST:
         raise InputError("converged points", len(good), f"at least {FEWEST} (more draws)")

@@ -327,8 +327,8 @@ BAD = {
         "a point without an answer": line(
             5, lambda old: '{"point": ' + json.dumps(json.loads(old)["point"]) + "}"
         ),
-        "an answer in words": line(5, lambda old: json.dumps(json.loads(old) | {"stiffness": "soft"})),
-        "a status of others": line(5, lambda old: json.dumps(json.loads(old) | {"status": ["converged"]})),
+        "an answer in words": line(6, lambda old: json.dumps(json.loads(old) | {"stiffness": "soft"})),
+        "a status of others": line(6, lambda old: json.dumps(json.loads(old) | {"status": ["converged"]})),
         "HDF5": of("result"),
     },
 }
