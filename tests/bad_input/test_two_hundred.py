@@ -18,9 +18,9 @@ from bad_input.commands import COMMANDS, ELEMENT, FILM, OTHER, RECORD, STUDY, at
 from bad_input.studies import SMALL, STUDIES
 from cli.test_bad_files import CASES
 
-from ehlcontact import HarmonicLoad, InputError, MoesPoint, save, simulate, solve_steady
+from ehlcontact import HarmonicLoad, InputError, Lubricant, MoesPoint, save, simulate, solve_steady
 from ehlcontact.cli import main
-from reduced_models import CubicContact
+from reduced_models import BallBearing, CubicContact
 
 ROOT = Path(__file__).parents[2]
 SECONDS = 2.0  # of the processor
@@ -59,8 +59,15 @@ def good(tmp_path_factory):
     return folder
 
 
+@pytest.fixture(scope="module")
+def compiled():
+    """Kernels of bearings: what is told soon is not told while they are compiled."""
+    oil = Lubricant.iso_vg(68, temperature=50.0)
+    BallBearing.catalogue("6205", oil=oil).equilibrium((0.0, -500.0), speed_rpm=1000.0)
+
+
 @pytest.fixture
-def refused(good, capsys, monkeypatch):
+def refused(good, compiled, capsys, monkeypatch):
     """``refused(arguments, words)``: exit 2, one line that holds the words, soon, and not a byte is changed."""
     monkeypatch.chdir(good)
 
