@@ -86,7 +86,7 @@ def test_a_table_is_over_the_speed_of_the_shaft_in_radians_per_second(program, f
 def test_the_first_mode_on_our_bearings(program, film):
     """224.8 Hz and a decrement of 0.0073 by the issue's prototype; ROSS's own element says 202.7 and 0.0316."""
     found = program.rotor(*(film.to_ross(n, speeds_rpm=RPM, load=500.0) for n in NODES)).run_modal(SPEED)
-    assert found.wn[0] / (2.0 * np.pi) == pytest.approx(224.8, abs=0.3)
+    assert found.wn[0] / (2.0 * np.pi) == pytest.approx(224.8, rel=2e-3)
     assert found.log_dec[0] == pytest.approx(0.0068, abs=1e-4)  # light balls damp less than in the prototype
     rotor = from_ross(program.rotor(), dict.fromkeys(NODES, film))
     w, decrement = modes(rotor, film.coefficients((0.0, -500.0), speed_rpm=RPM, rpm=RPM))
