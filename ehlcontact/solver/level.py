@@ -15,12 +15,11 @@ from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.kernels import boundary, flanks, relax, reynolds
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS
 from ehlcontact.solver.lowest_film import lowest_film
-from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh import LINES_APART, Mesh
 
 Array = NDArray[np.float64]
 
 FLANK_SQUEEZE = 0.5  # squeeze term over wedge term, above which a step needs no passes along the flanks
-LINES_APART = 5.0  # physical distance of lines over that of nodes, from which a level is coarsened along X alone
 FORCE_FACTOR = 1.5 / np.pi  # eq. 4: force = 3/(2 pi) iint P
 SHARED_FROM = 8000  # nodes: on smaller levels threads wait longer for each other than they work
 

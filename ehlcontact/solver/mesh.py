@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from math import exp, log
+from math import exp, floor, log, log2
 from typing import NamedTuple
 
 from scipy.optimize import brentq
@@ -89,6 +89,7 @@ LARGEST_ATTEMPTS = 4  # meshes for one film, the first one included
 LARGEST_NEWTON = 300_000  # nodes for Newton as a last resort: sparse factors take minutes and gigabytes beyond
 
 # How is a film built up from coarse grids? ----------------------------------------------------------------------
+LINES_APART = 5.0  # physical distance of lines over that of nodes, from which a level is coarsened along X alone
 NEGATIVE_FILM = 0.8  # mesh over inlet width above which a film comes out negative: a level carries less load then,
 LOADING_MESH = 0.4  # as much as it resolves this well
 HIGH_LOAD = 1000.0  # M from which the coarsest grid has to see more of the inlet
@@ -115,13 +116,13 @@ TABLE_MESHES = (
 )
 TABLE_LIGHT_LOAD, TABLE_LIGHT_INTERVALS = 4.5, 96  # a load number below which few intervals resolve the thick film
 # Below TABLE_FILM_INLET the film by itself is solved once more: on more intervals, if possible with all the oil.
-TABLE_FILM_INLET = 0.13
+TABLE_FILM_INLET = 0.3
 TABLE_FILM_MESHES = (
-    TableMesh(0.09, 256, False),
-    TableMesh(0.05, 384, False),
-    TableMesh(0.033, 512, False),
-    TableMesh(0.018, 512, True),
-    TableMesh(0.0, 768, True),
+    TableMesh(0.13, 256, False),
+    TableMesh(0.09, 384, False),
+    TableMesh(0.05, 768, False),
+    TableMesh(0.033, 1024, False),
+    TableMesh(0.0, 1024, True),
 )
 # Inlet widths at which both regions are solved, to learn what the oil further out adds.
 TABLE_BOTH_REGIONS, TABLE_NEAR_INTERVALS = (0.1, 0.16), 128
@@ -139,6 +140,15 @@ class Mesh:
         if self.n > MOST_INTERVALS:
             return float("inf")
         return self.n * self.n * self.domain.y_max / (self._length * max(1.0, kappa))
+
+    def levels(self, kappa: float) -> float:
+        """Nodes of all levels over those of this grid, about: at first wide contacts halve their lines alone."""
+        halvings = max(floor(log2(max(1.0, 1.0 / kappa) / LINES_APART)) + 1, 0)
+        return 2.0 - 2.0 / 3.0 * 0.5**halvings
+
+    def fits(self, kappa: float, solve: Solve = Solve.CYCLES) -> bool:
+        """Whether there is memory for it."""
+        return fits(self.nodes(kappa), solve, self.levels(kappa))
 
     def size(self, kappa: float) -> float:
         """Mesh size over the longer semi-axis."""
@@ -225,8 +235,8 @@ def remedy(
     if far and not inexact and point.inlet_width < INLET_NEAR:
         return Mesh(mesh.n, NEAR_DOMAIN)
     finer = Mesh(2 * mesh.n, mesh.domain)
-    nodes = finer.nodes(point.kappa)
-    return finer if nodes <= FINENESS[Purpose.FILM].largest and fits(nodes) else None
+    affordable = finer.nodes(point.kappa) <= FINENESS[Purpose.FILM].largest
+    return finer if affordable and finer.fits(point.kappa) else None
 
 
 def widened(
@@ -255,7 +265,7 @@ def widened(
     """
     wider: Mesh | None = mesh
     for _ in range(LARGEST_ATTEMPTS):
-        if wider is None or not (wider is mesh or fits(wider.nodes(point.kappa), solve)):
+        if wider is None or not (wider is mesh or wider.fits(point.kappa, solve)):
             return
         yield wider
         wider = remedy(wider, Status.OUT_OF_DOMAIN, point, purpose, n=n, domain=domain)
@@ -278,13 +288,12 @@ def thin_sides(point: MoesPoint) -> bool:
 
 def allows_newton(mesh: Mesh, point: MoesPoint) -> bool:
     """Whether the factors of Newton steps on this mesh are affordable."""
-    nodes = mesh.nodes(point.kappa)
-    return nodes <= LARGEST_NEWTON and fits(nodes, Solve.NEWTON)
+    return mesh.nodes(point.kappa) <= LARGEST_NEWTON and mesh.fits(point.kappa, Solve.NEWTON)
 
 
 def require_room(mesh: Mesh, point: MoesPoint, solve: Solve = Solve.CYCLES) -> None:
     """Raise `InputError` for a mesh that would not fit into memory."""
-    require_memory(mesh.n, mesh.nodes(point.kappa), solve)
+    require_memory(mesh.n, mesh.nodes(point.kappa), solve, mesh.levels(point.kappa))
 
 
 def coarsest_intervals(point: MoesPoint, n: int) -> int:

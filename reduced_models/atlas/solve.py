@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -35,9 +36,7 @@ def solve_point(point: MoesPoint) -> dict[str, Any]:
         return entry
     try:
         entry |= respond(point, mesh)
-        if of_film != mesh:
-            found = solve_steady(point, n=of_film.n, domain=of_film.domain)
-            entry["film"] = _film(found, of_film)
+        entry |= fine_film(point, of_film, mesh)
         entry["status"] = str(Status.CONVERGED)
     except ConvergenceError as error:
         entry["status"] = "unknown" if error.result is None else str(error.result.status)
@@ -45,6 +44,16 @@ def solve_point(point: MoesPoint) -> dict[str, Any]:
         with suppress(ConvergenceError):
             entry["close"] = respond(point, near)
     return entry | {"seconds": time.perf_counter() - started}
+
+
+def fine_film(point: MoesPoint, wanted: Mesh, coarse: Mesh) -> dict[str, Any]:
+    """The film on the mesh wanted, or on half its intervals where that fails; nothing if `coarse` is as fine."""
+    for mesh in (wanted, replace(wanted, n=wanted.n // 2)):
+        if mesh.domain == coarse.domain and mesh.n <= coarse.n:
+            break
+        with suppress(ConvergenceError):
+            return {"film": _film(solve_steady(point, n=mesh.n, domain=mesh.domain), mesh)}
+    return {}
 
 
 def respond(point: MoesPoint, mesh: Mesh) -> dict[str, Any]:

@@ -8,6 +8,7 @@ import pytest
 
 from ehlcontact import Domain, FreeVibration, FullContact, InputError, MoesPoint, impedance, simulate, solve_steady
 from ehlcontact.solver import memory
+from ehlcontact.solver.level import build_hierarchy
 from ehlcontact.solver.memory import Solve, fits, needed_bytes, require_memory
 from ehlcontact.solver.mesh import Mesh, Purpose, allows_newton, remedy
 from ehlcontact.status import Status
@@ -19,7 +20,7 @@ from pathlib import Path
 from ehlcontact import FreeVibration, MoesPoint, impedance, simulate, solve_steady
 
 def solve(n):
-    point, settings = MoesPoint(200, 10, 0.5), dict(n=n, threads=1)
+    point, settings = MoesPoint(200, 10, {kappa}), dict(n=n, threads=1)
     if {what!r} == "run":
         simulate(point, FreeVibration(Omega_n=5.13), until=0.03, dT=0.01, throw=False, **settings)
     elif {what!r} == "impedance":
@@ -46,24 +47,36 @@ def free(monkeypatch):
 
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="not told here")
 @pytest.mark.parametrize(
-    ("what", "n"),
+    ("what", "n", "kappa"),
     [
-        ("cycles", 512),
-        ("newton", 256),
-        pytest.param("impedance", 256, marks=pytest.mark.slow),
-        pytest.param("cycles", 1024, marks=pytest.mark.slow),
-        pytest.param("run", 512, marks=pytest.mark.slow),
-        pytest.param("run", 1024, marks=pytest.mark.slow),
-        pytest.param("newton", 512, marks=pytest.mark.slow),
+        ("cycles", 512, 0.5),
+        ("cycles", 512, 0.05),
+        ("newton", 256, 0.5),
+        pytest.param("impedance", 256, 0.5, marks=pytest.mark.slow),
+        pytest.param("cycles", 1024, 0.5, marks=pytest.mark.slow),
+        pytest.param("cycles", 1024, 0.1, marks=pytest.mark.slow),
+        pytest.param("run", 512, 0.5, marks=pytest.mark.slow),
+        pytest.param("run", 1024, 0.5, marks=pytest.mark.slow),
+        pytest.param("newton", 512, 0.5, marks=pytest.mark.slow),
     ],
 )
-def test_estimate_is_within_30_percent_of_what_is_taken(what, n):
-    script = SCRIPT.format(what=what, n=n)
+def test_estimate_is_within_30_percent_of_what_is_taken(what, n, kappa):
+    script = SCRIPT.format(what=what, n=n, kappa=kappa)
     for _ in range(2):  # compiling takes memory too: what it did is read the second time
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     solve = Solve.CYCLES if what == "run" else Solve(what)
-    assert needed_bytes(Mesh(n, Domain()).nodes(0.5), solve) == pytest.approx(float(done.stdout), rel=0.3)
+    mesh = Mesh(n, Domain())
+    told = needed_bytes(mesh.nodes(kappa), solve, mesh.levels(kappa))
+    assert told == pytest.approx(float(done.stdout), rel=0.3)
+
+
+@pytest.mark.parametrize("kappa", [0.046, 0.11, 0.21, 1.0, 3.0])
+def test_nodes_of_all_levels(kappa):
+    """Against the hierarchy itself: levels of wide contacts keep their lines at first."""
+    mesh = Mesh(256, Domain())
+    sizes = [level.gap.size for level in build_hierarchy(MoesPoint(200, 10, kappa), mesh, 32)]
+    assert mesh.levels(kappa) == pytest.approx(sum(sizes) / sizes[-1], rel=0.05)
 
 
 def test_in_a_small_memory(free):
