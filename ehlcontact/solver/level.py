@@ -184,7 +184,7 @@ class Level:
         """Passes along the steep flanks from the state of the last `update`; P, H and flow written there."""
         self._weigh()
         f = self.fields
-        flanks.relax_flanks(f, self.rhs, self.law, self.stencil, self.c_t, self.near, self.marks)
+        flanks.relax_flanks(f, self.rhs, self.law, self.stencil, self.c_t, self.near, self.marks, self.team)
 
     def relax_flanks_first(self) -> None:
         """`relax_flanks`, then `relax`: away from them the film hardly feels their distributed changes."""

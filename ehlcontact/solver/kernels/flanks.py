@@ -92,42 +92,33 @@ def film_at(j, i, colour, theta, w, near):
 
 
 @jit
-def relax_flanks(fields, rhs, law, stencil, c_t, near, marks):
-    """Relax along the fronts of ``fields.theta``; P, and near them H, flow and theta of `fields` written."""
-    P, H, flow, theta, w = fields.P, fields.H, fields.flow, fields.theta, fields.w
-    mark_front(P, flow.eps, marks)
-    solved, felt = segments(marks, SOLVED), segments(marks, FELT)
-    if solved.shape[0] == 0:
-        return
-    w[:] = 0.0
-    work = line_work(P.shape[1])
-    switch = switch_value(stencil, c_t)
-    for _ in range(min(max((P.shape[1] - 1) // INTERVALS_EACH, LEAST_PASSES), MOST_PASSES)):
-        for colour in range(2):
-            for s in range(solved.shape[0]):
-                j = solved[s, 0]
-                if j % 2 == colour:
-                    relax_line(j, solved[s, 1], solved[s, 2], fields, rhs, stencil, c_t, near, work)
-            for s in range(felt.shape[0]):
-                j = felt[s, 0]
-                for i in range(felt[s, 1], felt[s, 2]):
-                    P[j, i] = max(P[j, i] + change_at(j, i, colour, P, theta, w), 0.0)
-                    H[j, i] += film_at(j, i, colour, theta, w, near)
-            update_segments(felt, P, H, law, stencil, flow)
-        for s in range(felt.shape[0]):
-            j = felt[s, 0]
-            for i in range(felt[s, 1], felt[s, 2]):
-                theta[j, i] = distribution_weight(j, i, flow, stencil, switch)
+def solve_segments(first, last, solved, colour, fields, rhs, stencil, c_t, near):
+    """`relax_line` on those of segments `first` to `last` - 1 that lie on lines of one colour."""
+    work = line_work(fields.P.shape[1])
+    for s in range(first, last):
+        if solved[s, 0] % 2 == colour:
+            relax_line(solved[s, 0], solved[s, 1], solved[s, 2], fields, rhs, stencil, c_t, near, work)
 
 
 @jit
-def update_segments(felt, P, H, law, stencil, flow):
-    """Flow at the nodes of segments, and between those and their neighbours."""
-    for s in range(felt.shape[0]):
+def spread_segments(first, last, felt, colour, fields, law, stencil, near):
+    """P, film and flow at nodes of segments `first` to `last` - 1 by the changes of the lines of one colour."""
+    P, H, flow, theta, w = fields.P, fields.H, fields.flow, fields.theta, fields.w
+    for s in range(first, last):
         j = felt[s, 0]
         for i in range(felt[s, 1], felt[s, 2]):
+            P[j, i] = max(P[j, i] + change_at(j, i, colour, P, theta, w), 0.0)
+            H[j, i] += film_at(j, i, colour, theta, w, near)
             update_node(j, i, P, H, law, stencil, flow)
-    for s in range(felt.shape[0]):
+
+
+@jit
+def update_between_segments(first, last, felt, flow):
+    """Flow between the nodes of segments `first` to `last` - 1 and all their neighbours.
+
+    Faces between two segments are done by both, which write the same.
+    """
+    for s in range(first, last):
         j = felt[s, 0]
         for i in range(felt[s, 1] - 1, felt[s, 2]):
             update_along(j, i, flow)
@@ -135,3 +126,52 @@ def update_segments(felt, P, H, law, stencil, flow):
             update_across(j, i, flow)
             if j > 0:
                 update_across(j - 1, i, flow)
+
+
+@jit
+def weigh_segments(first, last, felt, fields, stencil, c_t):
+    """Weights of the distributed changes at the nodes of segments `first` to `last` - 1."""
+    switch = switch_value(stencil, c_t)
+    for s in range(first, last):
+        j = felt[s, 0]
+        for i in range(felt[s, 1], felt[s, 2]):
+            fields.theta[j, i] = distribution_weight(j, i, fields.flow, stencil, switch)
+
+
+@jit
+def passes_of(nx):
+    """Passes of both colours on a grid of `nx` intervals."""
+    return min(max(nx // INTERVALS_EACH, LEAST_PASSES), MOST_PASSES)
+
+
+def relax_flanks(fields, rhs, law, stencil, c_t, near, marks, team):
+    """Relax along the fronts of ``fields.theta``; P, and near them H, flow and theta of `fields` written.
+
+    The work is that of `relax_flanks_alone`, shared by a `team` of threads.
+    """
+    if team.threads == 1:
+        relax_flanks_alone(fields, rhs, law, stencil, c_t, near, marks)
+        return
+    mark_front(fields.P, fields.flow.eps, marks)
+    solved, felt = segments(marks, SOLVED), segments(marks, FELT)
+    fields.w[:] = 0.0
+    for _ in range(passes_of(fields.P.shape[1] - 1)):
+        for colour in range(2):
+            team.run(solve_segments, len(solved), solved, colour, fields, rhs, stencil, c_t, near)
+            team.run(spread_segments, len(felt), felt, colour, fields, law, stencil, near)
+            team.run(update_between_segments, len(felt), felt, fields.flow)
+        team.run(weigh_segments, len(felt), felt, fields, stencil, c_t)
+
+
+@jit
+def relax_flanks_alone(fields, rhs, law, stencil, c_t, near, marks):
+    """`relax_flanks` by one thread, compiled as a whole: small grids have no time for calls."""
+    mark_front(fields.P, fields.flow.eps, marks)
+    solved, felt = segments(marks, SOLVED), segments(marks, FELT)
+    fields.w[:] = 0.0
+    for _ in range(passes_of(fields.P.shape[1] - 1)):
+        for colour in range(2):
+            solve_segments(0, len(solved), solved, colour, fields, rhs, stencil, c_t, near)
+            spread_segments(0, len(felt), felt, colour, fields, law, stencil, near)
+            update_between_segments(0, len(felt), felt, fields.flow)
+        weigh_segments(0, len(felt), felt, fields, stencil, c_t)
