@@ -21,9 +21,9 @@ from scipy.optimize import nnls
 from ehlcontact import Domain, Mesh, MoesPoint, __version__
 from ehlcontact.errors import InputError
 from ehlcontact.formulas import LIGHT_BLEND, LIGHT_LOAD
+from reduced_models.atlas import surface
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import FILM, OMEGAS, solve_point
-from reduced_models.atlas.surface import coordinates, error_factor, films, left_out_errors, to_smooth
 from reduced_models.atlas.table import AtlasTable, Box, Interpolation, OtherOil
 from reduced_models.atlas.work import Job, Solve, Solved, WorkFile, on_cluster, on_processes, require_scheduler
 from reduced_models.elements.film_response import DRY, WEIGHT_C, WEIGHT_K, FilterRates
@@ -38,6 +38,7 @@ BOX = Box(M=(1.0, 30000.0), L=(0.0, 30.0), kappa=(0.045, 1.0), p_hertz=4.1e9)
 # what changes at light, middle and heavy load.
 INTERPOLATION = Interpolation(
     weights=(0.4, 0.16, 0.33, 0.905, 0.476),
+    lobe_weights=(0.112, 0.083, 0.223, 2.78),
     light_load=LIGHT_LOAD,
     light_blend=LIGHT_BLEND,
     thick=0.1,
@@ -199,10 +200,8 @@ def assemble(entries: Sequence[Entry], made_by: Mapping[str, Any]) -> AtlasTable
 
 def judged(table: AtlasTable) -> AtlasTable:
     """The table with what its error bars are made of: how well it gives each point from the others."""
-    by, film = table.interpolation, films(table.points)
-    x = coordinates(table.points, film, by)
-    errors = left_out_errors(x, to_smooth(film, table.answers, by))
-    return replace(table, left_out=errors, factor=error_factor(x, errors, by))
+    left_out, factor = surface.judge(table.points, table.answers, table.interpolation)
+    return replace(table, left_out=left_out, factor=factor)
 
 
 def _metadata(entries: Sequence[Entry], good: Sequence[Entry]) -> dict[str, Any]:

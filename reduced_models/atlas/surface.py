@@ -6,7 +6,8 @@ touch 0).
 
 As coordinates serve Wijnant's load number N, which separates rigid from elastic films, L^(2/3), kappa; how far N
 lies below a light load, where the default domain grows with it (`formulas.lightness` is the rule of both); and the
-published film. Three would do, but answers bend more sharply in them than in all five.
+published film. Three would do, but answers bend more sharply in them than in all five. Hm/Hc follows the side
+lobes and bends elsewhere than the others: it has weights of its own, of the first four.
 
 Every number of it is one of the atlas's `Interpolation`.
 """
@@ -23,6 +24,7 @@ from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Interpolation
 
 _Floats = NDArray[np.float64]
 
+LOBE = 2  # column of ln(Hm/Hc)
 BLOCK = 256  # points looked at together: their distances to all nodes stay in the cache
 
 
@@ -31,12 +33,13 @@ def films(points: _Floats) -> _Floats:
     return np.array([expected_film(*row) for row in points.tolist()])
 
 
-def coordinates(points: _Floats, film: _Floats, by: Interpolation) -> _Floats:
-    """Coordinates, shape (n, 5), of rows (M, L, kappa) and their films."""
+def coordinates(points: _Floats, film: _Floats, by: Interpolation) -> tuple[_Floats, _Floats]:
+    """Coordinates of rows (M, L, kappa) and their films: shape (n, 5), and for Hm/Hc (n, 4)."""
     M, L, kappa = points.T
     log_load = np.log(M) + 0.5 * np.log([radius_ratio(k) for k in kappa.tolist()])
     light = [lightness(N, by.light_load, by.light_blend) for N in log_load.tolist()]
-    return np.column_stack([log_load, L ** (2.0 / 3.0), np.log(kappa), light, np.log(film)]) * np.array(by.weights)
+    plain = np.column_stack([log_load, L ** (2.0 / 3.0), np.log(kappa), light, np.log(film)])
+    return plain * np.array(by.weights), plain[:, :4] * np.array(by.lobe_weights)
 
 
 def to_smooth(film: _Floats, answers: _Floats, by: Interpolation) -> _Floats:
@@ -76,6 +79,15 @@ def left_out_errors(x: _Floats, t: _Floats) -> _Floats:
     return (inverse[:n, :n] @ t) / np.diag(inverse)[:n, None]
 
 
+def judge(points: _Floats, answers: _Floats, by: Interpolation) -> tuple[_Floats, _Floats]:
+    """Errors of all smooth variables at every point without it, shape (n, 5 + 2 k), and their `error_factor`."""
+    film = films(points)
+    smooth, (x, lobe) = to_smooth(film, answers, by), coordinates(points, film, by)
+    errors = left_out_errors(x, smooth)
+    errors[:, [LOBE]] = left_out_errors(lobe, smooth[:, [LOBE]])
+    return errors, error_factor(x, errors, by)
+
+
 def error_factor(x: _Floats, errors: _Floats, by: Interpolation) -> _Floats:
     """Factor on the local error with which a share of the nodes lies within, judged by their neighbours alone."""
     distance = cdist(x, x)
@@ -85,27 +97,38 @@ def error_factor(x: _Floats, errors: _Floats, by: Interpolation) -> _Floats:
     return np.quantile(np.abs(errors) / local, by.covered, axis=0)
 
 
+class _Radial:
+    """Cubic radial functions through `values`, shape (n, m), at the nodes `x`, with a plane beside them."""
+
+    def __init__(self, x: _Floats, values: _Floats) -> None:
+        self.x = x
+        plane = np.zeros((1 + x.shape[1], values.shape[1]))
+        self._coefficients = np.linalg.solve(_system(x), np.vstack([values, plane]))
+
+    def at(self, x: _Floats, distance: _Floats, columns: slice = slice(None)) -> _Floats:
+        """Some columns at places `x` that lie so far from the nodes."""
+        n, c = len(self.x), self._coefficients[:, columns]
+        return np.asarray((distance * distance * distance) @ c[:n] + c[n] + x @ c[n + 1 :])
+
+
 class AtlasSurface:
     """The table as a function of rows (M, L, kappa)."""
 
     def __init__(self, table: AtlasTable) -> None:
         by = self._by = table.interpolation
         film = films(table.points)
-        self._x = coordinates(table.points, film, by)
+        x, lobe = coordinates(table.points, film, by)
         smooth = to_smooth(film, table.answers, by)
         self._smooth = smooth.shape[1]
-        values = np.hstack([smooth, table.gains])
-        plane = np.zeros((1 + self._x.shape[1], values.shape[1]))
-        self._coefficients = np.linalg.solve(_system(self._x), np.vstack([values, plane]))
+        self._all, self._lobe = _Radial(x, np.hstack([smooth, table.gains])), _Radial(lobe, smooth[:, [LOBE]])
         self._squares, self._factor = table.left_out**2, table.factor
-        reach = np.partition(cdist(self._x, self._x), by.nearest, axis=1)[:, by.nearest]
+        reach = np.partition(cdist(x, x), by.nearest, axis=1)[:, by.nearest]
         self._usual_reach = float(np.median(reach))
 
     def at(self, points: _Floats) -> tuple[_Floats, _Floats]:
         """Answers, shape (n, 5 + 2 k), and gains over the low-frequency damping."""
         film = films(points)
-        x = coordinates(points, film, self._by)
-        found = self._interpolated(x, cdist(x, self._x), slice(None))
+        found, _ = self._interpolated(points, film, slice(None))
         return from_smooth(film, found[:, : self._smooth], self._by)[0], found[:, self._smooth :]
 
     def with_bars(self, points: _Floats, extra: _Floats) -> tuple[_Floats, _Floats]:
@@ -120,9 +143,8 @@ class AtlasSurface:
 
     def _block(self, points: _Floats, extra: _Floats) -> tuple[_Floats, _Floats]:
         by, film = self._by, films(points)
-        x = coordinates(points, film, by)
-        distance = cdist(x, self._x)
-        values, slopes = from_smooth(film, self._interpolated(x, distance, slice(self._smooth)), by)
+        found, distance = self._interpolated(points, film, slice(self._smooth))
+        values, slopes = from_smooth(film, found, by)
         nearest = np.argpartition(distance, by.nearest, axis=1)[:, : by.nearest]
         reach = np.take_along_axis(distance, nearest, axis=1).max(axis=1, keepdims=True)
         local = np.sqrt(np.mean(self._squares[nearest], axis=1))
@@ -138,7 +160,10 @@ class AtlasSurface:
         bars[:, damping] = np.hypot(bars[:, damping], values[:, damping] * smooth[:, [LOW]])
         return values, bars
 
-    def _interpolated(self, x: _Floats, distance: _Floats, columns: slice) -> _Floats:
-        """Smooth variables and gains."""
-        n, c = len(self._x), self._coefficients[:, columns]
-        return np.asarray((distance * distance * distance) @ c[:n] + c[n] + x @ c[n + 1 :])
+    def _interpolated(self, points: _Floats, film: _Floats, columns: slice) -> tuple[_Floats, _Floats]:
+        """Smooth variables and gains, and the distances from all nodes."""
+        x, lobe = coordinates(points, film, self._by)
+        distance = cdist(x, self._all.x)
+        found = self._all.at(x, distance, columns)
+        found[:, [LOBE]] = self._lobe.at(lobe, cdist(lobe, self._lobe.x))
+        return found, distance

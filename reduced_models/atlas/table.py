@@ -21,7 +21,7 @@ from reduced_models.elements.film_response import FilterRates
 
 _Floats = NDArray[np.float64]
 
-SCHEMA, VERSION = "ehlcontact-atlas", 2
+SCHEMA, VERSION = "ehlcontact-atlas", 3
 # Answers at a point stand in one row: approach, films, low-frequency C, moment; then K and C over frequency.
 LOW, HEAD = 3, 5
 KERNELS = {"cubic": 1}  # radial functions with the degree of the polynomial beside them
@@ -82,6 +82,7 @@ class Interpolation:
     """
 
     weights: tuple[float, ...]  # of the coordinates, in the order of `surface.coordinates`
+    lobe_weights: tuple[float, ...]  # of the first four of them, for Hm/Hc
     light_load: float  # load number about which the default domain began to grow at the time of the build
     light_blend: float  # and the factor on it over which
     thick: float  # film, in dry approaches, beyond which the published one no longer leads
@@ -93,7 +94,8 @@ class Interpolation:
     degree: int = 1
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "weights", tuple(float(weight) for weight in self.weights))
+        for name in ("weights", "lobe_weights"):
+            object.__setattr__(self, name, tuple(float(weight) for weight in getattr(self, name)))
         require_choice("kernel of the atlas", self.kernel, tuple(KERNELS))
         if self.degree != KERNELS[self.kernel]:
             raise InputError("degree of the atlas", self.degree, f"{KERNELS[self.kernel]} beside {self.kernel!r}")

@@ -1,6 +1,6 @@
 """How the numbers of a build were found, and how good they are today.
 
-    python -m reduced_models.atlas.tune --weights --rates --oil [--atlas FILE]
+    python -m reduced_models.atlas.tune --weights --lobes --rates --oil [--atlas FILE]
 
 Weights of the coordinates and rates of the filters are varied from those of the atlas to where its own points are
 interpolated best, each from the others, and fitted best. What another oil changes is solved for anew. It prints
@@ -25,7 +25,7 @@ from ehlcontact import MoesPoint, Purpose, mesh_for
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.build import gain_equations, smooth_gains
 from reduced_models.atlas.solve import respond
-from reduced_models.atlas.surface import coordinates, films, left_out_errors, to_smooth
+from reduced_models.atlas.surface import LOBE, coordinates, films, left_out_errors, to_smooth
 from reduced_models.atlas.table import HEAD, AtlasTable
 from reduced_models.elements.film_response import FilterRates
 
@@ -54,9 +54,9 @@ def weights_error(table: AtlasTable, weights: Sequence[float]) -> float:
     """
     by, film = replace(table.interpolation, weights=tuple(weights)), films(table.points)
     smooth = to_smooth(film, table.answers, by)
-    squares = np.mean(left_out_errors(coordinates(table.points, film, by), smooth) ** 2, axis=0)
-    # C at the reference frequency is its own measure: no error but rounding
-    squares = np.delete(squares, HEAD + table.omega.size + by.reference)
+    squares = np.mean(left_out_errors(coordinates(table.points, film, by)[0], smooth) ** 2, axis=0)
+    # C at the reference frequency is its own measure: no error but rounding; Hm/Hc has its own weights
+    squares = np.delete(squares, [LOBE, HEAD + table.omega.size + by.reference])
     return float(np.exp(0.5 * np.mean(np.log(squares))))
 
 
@@ -64,6 +64,19 @@ def best_weights(table: AtlasTable, most: int = 300) -> Found:
     """Weights of least error; the first is held, since only their ratios count."""
     first, *others = table.interpolation.weights
     return _least(lambda rest: weights_error(table, (first, *rest)), others, most, (first,))
+
+
+def lobe_error(table: AtlasTable, weights: Sequence[float]) -> float:
+    """Error of points that are left out: rms of ln(Hm/Hc)."""
+    by, film = replace(table.interpolation, lobe_weights=tuple(weights)), films(table.points)
+    ratio = to_smooth(film, table.answers, by)[:, [LOBE]]
+    return float(np.sqrt(np.mean(left_out_errors(coordinates(table.points, film, by)[1], ratio) ** 2)))
+
+
+def best_lobe_weights(table: AtlasTable, most: int = 300) -> Found:
+    """Weights for Hm/Hc of least error; the first is held, since only their ratios count."""
+    first, *others = table.interpolation.lobe_weights
+    return _least(lambda rest: lobe_error(table, (first, *rest)), others, most, (first,))
 
 
 def rates_error(table: AtlasTable, rates: FilterRates) -> float:
@@ -140,12 +153,12 @@ def _least(
 def main(arguments: Sequence[str] | None = None) -> None:
     """The command line."""
     parser = argparse.ArgumentParser("python -m reduced_models.atlas.tune", description="Numbers of a build.")
-    for name in ("weights", "rates", "oil"):
+    for name in ("weights", "lobes", "rates", "oil"):
         parser.add_argument(f"--{name}", action="store_true")
     parser.add_argument("--atlas", type=Path, default=SHIPPED)
     asked = parser.parse_args(arguments)
     table = AtlasTable.load(asked.atlas)
-    for name, search in (("weights", best_weights), ("rates", best_rates)):
+    for name, search in (("weights", best_weights), ("lobes", best_lobe_weights), ("rates", best_rates)):
         if getattr(asked, name):
             found = search(table)
             sys.stdout.write(f"{name}: {_row(found.used)} error {found.error:.4g}\n")

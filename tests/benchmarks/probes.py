@@ -589,15 +589,12 @@ def _shipped_table() -> Any:
 def atlas_surface(bench: Bench) -> None:
     """The shipped table interpolated anew: what each point is answered when it is left out."""
     table = _shipped_table()
-    coordinates, to_smooth, from_smooth = home("coordinates"), home("to_smooth"), home("from_smooth")
-    films = home("films")
-    left_out_errors, error_factor = home("left_out_errors"), home("error_factor")
+    films, to_smooth, from_smooth, judge = home("films"), home("to_smooth"), home("from_smooth"), home("judge")
 
     def figures() -> Figures:
         by, film = table.interpolation, films(table.points)
         smooth = to_smooth(film, table.answers, by)
-        x = coordinates(table.points, film, by)
-        errors = left_out_errors(x, smooth)
+        errors, factor = judge(table.points, table.answers, by)
         truth, _ = from_smooth(film, smooth, by)
         found, _ = from_smooth(film, smooth + errors, by)
         off = np.abs(found - truth) / np.maximum(np.abs(truth), 1e-12)
@@ -608,7 +605,6 @@ def atlas_surface(bench: Bench) -> None:
         parts |= {
             f"left-out error of {name}, 95 %": float(np.quantile(part, 0.95)) for name, part in columns.items()
         }
-        factor = error_factor(x, errors, by)
         return parts | {"error bar over local error": float(np.median(factor))}
 
     bench.case("table", figures)

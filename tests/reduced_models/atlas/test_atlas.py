@@ -327,7 +327,7 @@ def test_numbers_of_the_interpolation_travel_with_the_file(shipped, tmp_path):
 def test_a_file_of_the_first_library_is_refused_in_one_line(tmp_path):
     """It has no moment, and its default region had a kink."""
     with pytest.raises(
-        InputError, match=r"^atlas = '.*old.npz, of version 1': must be of version 2, which `ehlcon"
+        InputError, match=r"^atlas = '.*old.npz, of version 1': must be of version 3, which `ehlcon"
     ):
         Atlas(changed(SHIPPED, tmp_path / "old.npz", schema_version=1))
 

@@ -33,6 +33,16 @@ def test_half_and_twice_a_shipped_weight_are_worse(shipped, which):
         assert tune.weights_error(shipped, other) > own
 
 
+@pytest.mark.parametrize("which", range(1, 4))
+def test_half_and_twice_a_shipped_weight_are_worse_for_side_lobes(shipped, which):
+    weights = list(shipped.interpolation.lobe_weights)
+    own = tune.lobe_error(shipped, weights)
+    assert own < 0.8 * tune.lobe_error(shipped, shipped.interpolation.weights[:4])
+    for factor in (0.5, 2.0):
+        other = [w * (factor if i == which else 1.0) for i, w in enumerate(weights)]
+        assert tune.lobe_error(shipped, other) > own
+
+
 def test_only_ratios_of_weights_count(few):
     own = tune.weights_error(few, few.interpolation.weights)
     assert tune.weights_error(few, [3.0 * w for w in few.interpolation.weights]) == pytest.approx(own, rel=1e-4)
@@ -43,6 +53,13 @@ def test_search_for_weights(few):
     assert found.used == few.interpolation.weights and found.best[0] == found.used[0]
     assert found.error == tune.weights_error(few, found.used)
     assert found.least == tune.weights_error(few, found.best) < found.error
+
+
+def test_search_for_weights_of_side_lobes(few):
+    found = tune.best_lobe_weights(few, most=30)
+    assert found.used == few.interpolation.lobe_weights and found.best[0] == found.used[0]
+    assert found.error == tune.lobe_error(few, found.used)
+    assert found.least == tune.lobe_error(few, found.best) < found.error
 
 
 def test_shipped_rates_fit_nearly_best(shipped):
