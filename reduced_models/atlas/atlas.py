@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.assumptions import assumptions
-from ehlcontact.checks import require_choice
+from ehlcontact.checks import as_column, require_choice, require_positive
 from ehlcontact.checks.box import INPUTS
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.errors import InputError
@@ -30,7 +30,7 @@ from reduced_models.atlas.elements import (
 from reduced_models.atlas.frequency import Between
 from reduced_models.atlas.surface import AtlasSurface
 from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Box
-from reduced_models.elements.film_response import DRY
+from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
 from reduced_models.elements.kinds import CubicContact, FilmMemoryContact, WideRangeContact
 
 _Floats = NDArray[np.float64]
@@ -158,20 +158,49 @@ class Atlas:
         require_choice("model", model, MODELS)
         moes, scales = self._inside(point), scales_of(point)
         w = self._frequency(model, scales, Omega=Omega, omega=omega, hz=hz, rpm=rpm)
-        loads = self._loads(moes) if model == "wide" else np.ones(1)
-        rows = _rows(moes, loads)
-        values, shapes = self._surface.at(rows)
-        source = self._source(self.at(moes))
-        source["scales"] = None if scales is None else asdict(scales)
-        source["assumptions"] = assumptions(point).short()
-        k = self._table.omega.size
         if w is not None:
-            at, nodes = np.array([w]), self._table.omega
-            K, C = Between(nodes, values[0, HEAD : HEAD + k]), Between(nodes, values[0, HEAD + k :])
-            tangent, damper = float(K.at(at)[0]), float(C.at(at)[0])
-            cubic = cubic_element(float(values[0, 0]), tangent, damper, damper_band(nodes, C, w), source)
-            return cubic if scales is None else cubic.to_si(scales)
+            return self._cubic(point, w)
+        return self._remembering(point, self._loads(moes) if model == "wide" else None)
+
+    def wide(self, point: Point, loads: ArrayLike) -> WideRangeContact:
+        """Wide element through loads of one's own choice, in units of the point's, which is the reference load.
+
+        As `element` gives it, but as fine as wanted and as far as the box goes.
+
+        Parameters
+        ----------
+        point : MoesPoint or OperatingPoint
+        loads : array_like, shape (n,), n >= 2
+            Increasing.
+
+        Raises
+        ------
+        InputError
+            A point or a load outside the box: it names the axis and the box.
+        """
+        at, moes = as_column("loads", loads, least=2, increasing=True), self._inside(point)
+        require_positive("loads[0]", float(at[0]))
+        self.box.require_all_inside(_rows(moes, at), moes.alpha)
+        element = self._remembering(point, at)
+        assert isinstance(element, WideRangeContact)
+        return element
+
+    def _cubic(self, point: Point, w: float) -> CubicContact:
+        moes, scales, k = self._inside(point), scales_of(point), self._table.omega.size
+        values, _ = self._surface.at(_rows(moes, np.ones(1)))
+        at, nodes = np.array([w]), self._table.omega
+        K, C = Between(nodes, values[0, HEAD : HEAD + k]), Between(nodes, values[0, HEAD + k :])
+        tangent, damper, band = float(K.at(at)[0]), float(C.at(at)[0]), damper_band(nodes, C, w)
+        cubic = cubic_element(float(values[0, 0]), tangent, damper, band, self._whence(point))
+        return cubic if scales is None else cubic.to_si(scales)
+
+    def _remembering(self, point: Point, given: _Floats | None) -> FilmMemoryContact | WideRangeContact:
+        """Wide element of the loads that are given, or the memory about the point's own."""
+        moes, scales, k = self._inside(point), scales_of(point), self._table.omega.size
+        loads = np.ones(1) if given is None else given
+        values, shapes = self._surface.at(_rows(moes, loads))
         gains = np.maximum(shapes * values[:, [LOW]], 0.0)
+        gains[:, 0] = np.maximum(gains[:, 0], LEAST_VISCOUS / DRY * values[:, LOW])  # as fitted: rates need it
         made_of = Loads(
             loads=loads,
             approach=values[:, 0],
@@ -180,13 +209,19 @@ class Atlas:
             rates=self._table.rates,
             highest_omega=float(self._table.metadata["highest_omega"]),
             fit=self._fit(gains, values[:, HEAD + k :]),
-            source=source,
+            source=self._whence(point),
         )
-        make = wide_element if model == "wide" else memory_element
+        make = memory_element if given is None else wide_element
         try:
             return make(made_of, scales)
         except InputError:  # rarely: interpolated gains that would feed energy back
             return make(replace(made_of, gains=passive_gains(made_of.rates, gains)), scales)
+
+    def _whence(self, point: Point) -> dict[str, Any]:
+        """Origin of an element at a point."""
+        scales, source = scales_of(point), self._source(self.at(point))
+        source["scales"] = None if scales is None else asdict(scales)
+        return source | {"assumptions": assumptions(point).short()}
 
     @cached_property
     def _basis(self) -> _Floats:

@@ -9,6 +9,7 @@
 | law | compiled: static curve of a race, tabulated over approach and speed, and its gains |
 | contact | compiled: one contact over a step, its filters once, its force as often as asked |
 | balls | compiled: all balls, two contacts in series on each, as one force with tangents |
+| loss | loss factor of rings and fits: filters of the force, in time and over frequency |
 | statics | where the ring stands under a load |
 | linear | stiffness and damping over frequency |
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |

@@ -36,7 +36,8 @@ from reduced_models.bearing.kinematics import (
 )
 from reduced_models.bearing.law import dry_law, film_law
 from reduced_models.bearing.linear import BearingCoefficients, impedances
-from reduced_models.bearing.race import Race, race_of
+from reduced_models.bearing.loss import loss_of
+from reduced_models.bearing.race import RACES, Race, films_under, race_of
 from reduced_models.bearing.state import BearingState
 from reduced_models.bearing.statics import Standing, angle_of, direction_of, radial_load, stand
 from reduced_models.elements.kinds import WideRangeContact
@@ -44,8 +45,8 @@ from reduced_models.elements.kinds import WideRangeContact
 _Floats = NDArray[np.float64]
 
 SCHEMA = "ehlcontact-bearing"
-RACES = ("inner", "outer")
 LARGEST_PLAY = 0.05  # clearance or preload over ball diameter: five times what C5 or a heavy fit has
+LARGEST_LOSS = 0.2  # twice that of joints of steel; beyond, the filters would not follow
 POSITIONS = 12  # of the cage over a ball passage for means: those of 6205 are within 1e-3 of those of 48
 
 
@@ -76,6 +77,9 @@ class BallBearing:
         its force falls slowly, like gap^-1/2.
     youngs_modulus, poisson_ratio, density : float
         Of balls and rings [Pa], [-], of balls [kg/m3].
+    loss_factor : float
+        Of rings and fits, for vibrations of 5 Hz to 5 kHz: what else than films damps, in linear answers and in
+        time alike. It needs a measurement, and is nothing to hide a gap behind. See `reduced_models.bearing.loss`.
     name : str
     atlas : str, optional
         File of an atlas; by default the one that comes with the library.
@@ -100,6 +104,7 @@ class BallBearing:
     youngs_modulus: float = 2.06e11
     poisson_ratio: float = 0.3
     density: float = 7800.0
+    loss_factor: float = 0.0
     name: str = ""
     atlas: str | None = None
     _known: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
@@ -114,6 +119,8 @@ class BallBearing:
         if self.film_limit is not None:
             require_positive("film_limit", self.film_limit)
         require_positive("density", self.density)
+        if require_nonnegative("loss_factor", self.loss_factor) > LARGEST_LOSS:
+            raise InputError("loss_factor", self.loss_factor, f"at most {LARGEST_LOSS:g}")
         races = {name: race_of(self, name) for name in RACES}
         self._known["races"] = races
         room = self.pitch_diameter * sin(pi / self.balls)
@@ -208,6 +215,7 @@ class BallBearing:
                 swing=ball_swing(self.ball_diameter, self.pitch_diameter, self.density),
                 rolling=rolling_radius(self.pitch_diameter, self.gamma),
                 speeds=speeds * RADIANS,
+                loss=loss_of(self.loss_factor),
             )
         kernel: Balls = self._known[key]
         return kernel
@@ -244,7 +252,7 @@ class BallBearing:
             angles=np.asarray(angle + 2.0 * pi / self.balls * np.arange(self.balls)),
             force=at.force,
             approach=at.approach,
-            **self._films(at, speed),
+            **({} if self.oil is None else films_under(self, speed, at.force, at.approach)),
         )
 
     @by_name(2)
@@ -343,18 +351,6 @@ class BallBearing:
         """Films, cage and centrifugal force at a speed, as the kernels have them."""
         speed = self.speed(speed_rpm)
         return turning(self.kernel(speed), speed * RADIANS)
-
-    def _films(self, at: Standing, speed: float) -> dict[str, _Floats]:
-        """Films of all balls, and their lambda ratios."""
-        if self.oil is None:
-            return {}
-        films = []
-        for column, name in enumerate(RACES):
-            race, load = self.race(name), at.force[:, column]
-            films.append(race.films(speed, load, (load / race.kn) ** (2.0 / 3.0) - at.approach[:, column]))
-        h_central, h_min = (np.column_stack(parts) for parts in zip(*films, strict=True))
-        found = {"h_central": h_central, "h_min": h_min}
-        return found | ({} if not self.roughness else {"lambda_ratio": h_min / self.roughness})
 
     def _law(self, race: str, speeds: _Floats) -> Any:
         if self.oil is None:

@@ -7,6 +7,7 @@ rings come closer by
 
 Balls have no inertia along n: F_o(w) = F_i(delta - w) + F_c with the centrifugal force F_c. So w is found from one
 scalar equation per ball, and the ring sees F = sum F_i n. Balls travel with the cage, which is a part of delta'.
+Rings and fits that lose something (`reduced_models.bearing.loss`) have the last word on F.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from numpy.typing import NDArray
 from ehlcontact.jit import jit_exact_loop, jit_exact_node
 from reduced_models.bearing.contact import Films, accept, begin, new_films, press, still
 from reduced_models.bearing.law import RaceLaw
+from reduced_models.bearing.loss import Loss, accept_seat, begin_seat, hold_still, press_seat, rest_seat
 from reduced_models.elements.film_law import DIRECT
 
 _Floats = NDArray[np.float64]
@@ -43,6 +45,7 @@ class Balls(NamedTuple):
     swing: float  # F_c over the square of the cage's speed [kg m]
     rolling: float  # u_sum over the speed of the shaft [m]
     speeds: _Floats  # (rows of the laws,) of the shaft, increasing
+    loss: Loss  # of rings and fits
 
 
 class Turn(NamedTuple):
@@ -57,7 +60,8 @@ class Turn(NamedTuple):
 
 def films_of(balls: Balls) -> Films:
     """Memory for all its contacts, of nothing yet."""
-    return new_films(balls.number, max(law.gains.shape[2] for law in (balls.inner, balls.outer)) - DIRECT)
+    lags = max(law.gains.shape[2] for law in (balls.inner, balls.outer)) - DIRECT
+    return new_films(balls.number, lags, balls.loss)
 
 
 @jit_exact_loop
@@ -92,6 +96,7 @@ def begin_step(balls, turn, dt, films):
         films.w[k, 1] = (4.0 * now - before) / 3.0
         begin(balls.inner, turn.inner, turn.spin, dt, films, 2 * k)
         begin(balls.outer, turn.outer, turn.spin, dt, films, 2 * k + 1)
+    begin_seat(balls.loss, dt, films.seat)
     return 1.5 / dt
 
 
@@ -99,6 +104,7 @@ def begin_step(balls, turn, dt, films):
 def begin_rest(films):
     """Let `press_balls` give the static law; returns the gain from w to its rate, 0."""
     still(films)
+    hold_still(films.seat)
     return 0.0
 
 
@@ -161,6 +167,7 @@ def press_balls(balls, turn, films, normals, q, v, gain, out):
         damping[0, 1] += by_rate * x * y
         damping[1, 0] += by_rate * x * y
         damping[1, 1] += by_rate * y * y
+    press_seat(films.seat, force, stiffness, damping)
 
 
 @jit_exact_loop
@@ -177,6 +184,7 @@ def accept_balls(balls, turn, films, normals, q, v, gain):
         films.w[k, 3], films.w[k, 2] = films.w[k, 2], w
         films.largest[0] = max(films.largest[0], films.force[k, 0])
         films.largest[1] = max(films.largest[1], films.force[k, 1])
+    accept_seat(films.seat)
 
 
 @jit_exact_loop
@@ -188,3 +196,4 @@ def rest_balls(balls, films, normals, q):
         films.state[2 * k, 0] = normals[k, 0] * q[0] + normals[k, 1] * q[1] - balls.half_clearance - w
         films.state[2 * k + 1, 0] = w
         films.w[k, 2:] = w
+    rest_seat(films.seat)

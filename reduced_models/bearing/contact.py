@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.jit import jit_exact_loop, jit_exact_node
 from reduced_models.bearing.law import carried, curve
+from reduced_models.bearing.loss import Loss, Seat, seat_of
 from reduced_models.elements.film_law import DIRECT
 
 _Floats = NDArray[np.float64]
@@ -206,7 +207,7 @@ def still(films):
 
 
 class Films(NamedTuple):
-    """Memory of all contacts of a bearing, of ball k at 2 k (inner race) and 2 k + 1; and where its balls are."""
+    """Memory of all contacts of a bearing, of ball k at 2 k (inner race) and 2 k + 1; of balls and seat."""
 
     state: _Floats
     work: _Floats
@@ -218,10 +219,11 @@ class Films(NamedTuple):
     w: _Floats
     force: _Floats  # (balls, 2) at the inner and at the outer race [N]
     largest: _Floats  # (2,) force that any ball has had at either race [N]
+    seat: Seat
 
 
-def new_films(balls: int, lags: int) -> Films:
-    """Memory for the contacts of so many balls, of nothing yet."""
+def new_films(balls: int, lags: int, loss: Loss) -> Films:
+    """Memory for the contacts of so many balls and for their seat, of nothing yet."""
     contacts = 2 * balls
     return Films(
         state=np.zeros((contacts, CHAIN + lags)),
@@ -232,4 +234,5 @@ def new_films(balls: int, lags: int) -> Films:
         w=np.zeros((balls, 8)),
         force=np.zeros((balls, 2)),
         largest=np.zeros(2),
+        seat=seat_of(loss),
     )

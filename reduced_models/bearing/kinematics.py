@@ -5,6 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
+import numpy as np
+from numpy.typing import NDArray
+
+_Floats = NDArray[np.float64]
+
 HERTZ, RADIANS = 1.0 / 60.0, pi / 30.0  # per second, of one turn per minute
 
 
@@ -48,6 +53,29 @@ def cage_ratio(gamma: float) -> float:
 def rolling_radius(pitch_diameter: float, gamma: float) -> float:
     """Sum of the surface speeds in either contact over the angular speed of the shaft [m]."""
     return 0.5 * pitch_diameter * (1.0 - gamma * gamma)
+
+
+def rolling_torque(inner: _Floats, outer: _Floats, ball_diameter: float, pitch_diameter: float) -> float:
+    """Torque on the inner ring [N m] that the films' rolling resistance takes, outer ring still.
+
+    By the power that is lost. Both films of a ball are entrained at the same u = u_sum/2 (`rolling_radius`), and a
+    film whose pressure has the moment m about its centre line loses m u/Rx (`ehlcontact.SteadyResult.moment`). So
+
+        T omega = u sum (m_i/Rx_i + m_o/Rx_o),    Rx = D/2 (1 -+ D/dm)
+        2 T = sum m_i (dm/D + 1) + m_o (dm/D - 1):
+
+    the moment at one race acts with the radius of the other over the diameter of the ball. Tractions that keep a
+    ball in balance do no work as long as it rolls without slip; the tests have them, in the balance of forces.
+
+    Parameters
+    ----------
+    inner, outer : ndarray, shape (balls,)
+        Moments of the pressure at both races [N m].
+    ball_diameter, pitch_diameter : float
+        D and dm, in one unit.
+    """
+    ratio = pitch_diameter / ball_diameter
+    return float(0.5 * ((ratio + 1.0) * inner.sum() + (ratio - 1.0) * outer.sum()))
 
 
 def ball_swing(ball_diameter: float, pitch_diameter: float, density: float) -> float:

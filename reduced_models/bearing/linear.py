@@ -1,7 +1,7 @@
 """Small vibrations of a bearing about rest: stiffness and damping over frequency, film memory included.
 
 Every contact has the impedance Z = k + i w (dF/dm) tau G(w tau) of `reduced_models.elements.film_response`; those
-of a ball are in series, and those of all balls add along their directions.
+of a ball are in series, and those of all balls add along their directions. Rings and fits may lose more.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from reduced_models.bearing.balls import Balls, Turn
 from reduced_models.bearing.law import RaceLaw, carried, curve
+from reduced_models.bearing.loss import response
 from reduced_models.bearing.statics import Standing
 from reduced_models.elements.film_law import DIRECT
 from reduced_models.elements.film_response import FilterRates
@@ -93,6 +94,7 @@ def impedances(balls: Balls, turn: Turn, standing: Standing, omega: _Floats) -> 
         both = inner + outer
         series = np.divide(inner * outer, both, out=np.zeros_like(both), where=both != 0.0)
         total += series[:, None, None] * np.outer(n, n)
+    total *= np.array([response(balls.loss, 1j * one) for one in w.tolist()])[:, None, None]
     return np.asarray(total.real + 1j * total.imag / w[:, None, None])
 
 

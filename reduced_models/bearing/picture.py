@@ -34,7 +34,9 @@ def draw_state(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
     beside = figure.add_subplot(1, 2, 2)
     films(beside, state)
     speed = f"{state.speed_rpm:g} rev/min" if state.speed_rpm else "at rest"
-    figure.suptitle(f"{state.name or 'ball bearing'}, {np.hypot(*state.load):.4g} N, {speed}")
+    torque = state.rolling_torque
+    resists = "" if torque is None else f"; films resist rolling by {torque * 1e3:.3g} N mm"
+    figure.suptitle(f"{state.name or 'ball bearing'}, {np.hypot(*state.load):.4g} N, {speed}{resists}")
     return _written(figure, path)
 
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from math import log
-from operator import itemgetter
+from math import ceil, log10
 from typing import Any
 
 import numpy as np
@@ -15,15 +13,17 @@ from numpy.typing import NDArray
 from ehlcontact import Geometry, Lubricant, OperatingPoint
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import hertz_contact, radius_ratio
-from reduced_models.atlas.atlas import LOADS, NEIGHBOURS, Atlas
-from reduced_models.bearing.kinematics import RADIANS, rolling_radius
-from reduced_models.bearing.law import scales_of
+from reduced_models.atlas.atlas import Atlas
+from reduced_models.bearing.kinematics import RADIANS, rolling_radius, rolling_torque
+from reduced_models.bearing.law import carried
 from reduced_models.elements.kinds import WideRangeContact
 
 _Floats = NDArray[np.float64]
 
+RACES = ("inner", "outer")
 INSIDE = 1e-9  # relative, that points asked for keep from the ends of the atlas: those are rounded
-APART = 10.0  # ratio of the loads that elements are put together of
+PER_DECADE = 7.0  # loads that elements go through
+NEAR = 1e-3  # of a step in ln F, within which one is left out beside an end: nothing may jump where that happens
 POWER_OF_SPEED = 4.0  # L is the fourth root of a speed
 SOME_SPEED = 1000.0  # rev/min, at which an oil is tried
 
@@ -88,25 +88,30 @@ class Race:
     def element(self, speed_rpm: float) -> WideRangeContact:
         """Contact element of all loads that the atlas knows at this speed, in SI.
 
-        The atlas gives a wide element about one load, best there; several, `APART` in load, are put together.
+        It goes through the same loads in N at every speed, but for its ends: so K and C change smoothly with it.
         """
-        atlas, (low, high) = shared_atlas(self.atlas), self.loads(speed_rpm)
-        steps = max(int(np.ceil(log(high / LOADS[-1] / low) / log(APART))), 1)
-        at = np.geomspace(low, high / LOADS[-1], steps + 1)
-        found = [atlas.element(self.point(load, speed_rpm), "wide") for load in at.tolist()]
-        return _joined([element for element in found if isinstance(element, WideRangeContact)])
+        low, high = self.loads(speed_rpm)
+        first, last = PER_DECADE * log10(low) + NEAR, PER_DECADE * log10(high) - NEAR
+        inside = 10.0 ** (np.arange(ceil(first), ceil(last)) / PER_DECADE)
+        loads = np.concatenate([[low], inside, [high]])
+        reference = float(np.sqrt(low * high))
+        return shared_atlas(self.atlas).wide(self.point(reference, speed_rpm), loads / reference)
 
-    def films(self, speed_rpm: float, load: _Floats, gap: _Floats) -> tuple[_Floats, _Floats]:
-        """Central and smallest film [m] under loads [N] at this speed.
+    def films(self, speed_rpm: float, load: _Floats, gap: _Floats) -> tuple[_Floats, _Floats, _Floats]:
+        """Central and smallest film [m], and moment of the pressure [N m], under loads [N] at this speed.
 
-        Below the lightest load that the atlas has, the bodies are as good as rigid: both are the `gap`.
+        Below the lightest load that the atlas has, the bodies are as good as rigid: both films are the `gap`, and
+        the moment is that of the lightest load: of rigid surfaces in a flooded inlet it hardly depends on load,
+        for pressures grow as fast as what they press on shrinks.
         """
         atlas, lightest = shared_atlas(self.atlas), self.loads(speed_rpm)[0]
-        central, smallest = gap.copy(), gap.copy()
-        for k in np.flatnonzero(load >= lightest).tolist():
-            answer = atlas.at(self.point(float(load[k]), speed_rpm)).si
-            central[k], smallest[k] = answer.h_central, answer.h_min
-        return central, smallest
+        central, smallest, moment = gap.copy(), gap.copy(), np.zeros(load.size)
+        for k, one in enumerate(load.tolist()):
+            answer = atlas.at(self.point(max(one, lightest), speed_rpm)).si
+            moment[k] = answer.moment
+            if one >= lightest:
+                central[k], smallest[k] = answer.h_central, answer.h_min
+        return central, smallest, moment
 
     def require_in_atlas(self) -> None:
         """Raise `InputError` for a conformity whose ellipse, or an oil, that the atlas does not have."""
@@ -133,35 +138,21 @@ def race_of(bearing: Any, name: str) -> Race:
     return Race(name, body, bearing.ball_diameter, conformity, bearing.oil, rolling, bearing.atlas)
 
 
-def _joined(pieces: Sequence[WideRangeContact]) -> WideRangeContact:
-    """One element of those about one load each: near every load, what the element nearest to it says."""
-    unit = scales_of(pieces[-1])
-    rows = []
-    for piece in pieces:
-        force, length = scales_of(piece).force / unit.force, scales_of(piece).length / unit.length
-        for load, u, gain in zip(piece.loads, piece.approach, piece.gains, strict=True):
-            rows.append((abs(log(load)), log(load * force), u * length, gain))
-    taken: list[Any] = []
-    for row in sorted(rows, key=itemgetter(0)):
-        if all(abs(row[1] - other[1]) > log(NEIGHBOURS) for other in taken):
-            taken.append(row)
-    _, x, approach, gains = zip(*sorted(taken, key=itemgetter(1)), strict=True)
-    loads = tuple(np.exp(x).tolist())
-    return WideRangeContact(
-        loads=loads,
-        approach=approach,
-        gain_loads=loads,
-        gains=gains,
-        squeeze=0.0,
-        lag_rate=pieces[0].lag_rate,
-        inlet_rate=pieces[0].inlet_rate,
-        fast_rate=pieces[0].fast_rate,
-        omega_range=pieces[0].omega_range,
-        units="SI",
-        scales=unit,
-        fit=pieces[-1].fit,
-        source=pieces[-1].source,
-    )
+def films_under(bearing: Any, speed_rpm: float, force: _Floats, approach: _Floats) -> dict[str, Any]:
+    """Films of all balls of a `BallBearing` at rest, and what they resist, by the names of `BearingState`.
+
+    `force` and `approach` have shape (balls, 2): columns for inner and outer race.
+    """
+    films = []
+    for column, name in enumerate(RACES):
+        race, load = bearing.race(name), force[:, column]
+        films.append(race.films(speed_rpm, load, (load / race.kn) ** (2.0 / 3.0) - approach[:, column]))
+    h_central, h_min, moment = (np.column_stack(parts) for parts in zip(*films, strict=True))
+    if bearing.film_limit is not None:
+        moment *= np.array([[carried(u, bearing.film_limit)[0] for u in row] for row in approach.tolist()])
+    torque = rolling_torque(moment[:, 0], moment[:, 1], bearing.ball_diameter, bearing.pitch_diameter)
+    found = {"h_central": h_central, "h_min": h_min, "moment": moment, "rolling_torque": torque}
+    return found | ({} if not bearing.roughness else {"lambda_ratio": h_min / bearing.roughness})
 
 
 def _conformity(race: Race, kappa: float) -> float | None:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ehlcontact.errors import InputError
 from reduced_models.bearing.file import plain, write
 from reduced_models.bearing.file import read as read_entries
+from reduced_models.bearing.kinematics import RADIANS
 
 _Floats = NDArray[np.float64]
 
@@ -21,7 +22,9 @@ SCHEMA = "ehlcontact-bearing-state"
 SHAPES: dict[str, tuple[int | None, ...]] = {
     "load": (2,), "displacement": (2,), "stiffness": (2, 2), "angles": (None,), "force": (None, 2),
     "approach": (None, 2), "h_central": (None, 2), "h_min": (None, 2), "lambda_ratio": (None, 2),
+    "moment": (None, 2),
 }  # fmt: skip
+OF_FILMS = "h_central", "h_min", "lambda_ratio", "moment"  # arrays that a dry bearing does not have
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -50,6 +53,13 @@ class BearingState:
         Central and smallest film [m]; None in a dry bearing.
     lambda_ratio : ndarray, shape (balls, 2), or None
         Smallest film over composite roughness; None where no roughness is given, or no film.
+    moment : ndarray, shape (balls, 2), or None
+        Rolling resistance of every film: moment of its pressure about the centre line [N m]. Contacts lighter than
+        the atlas knows have that of its lightest load, as long as their film carries.
+    rolling_torque : float or None
+        Torque on the inner ring [N m] that these moments take: `reduced_models.bearing.kinematics.rolling_torque`.
+        The hydrodynamic rolling resistance alone. Not in it: sliding, spin and the slip within curved contacts;
+        cage, seals and churned oil; hysteresis of the steel; that a hot or starved inlet resists less.
     """
 
     name: str
@@ -64,11 +74,13 @@ class BearingState:
     h_central: _Floats | None = None
     h_min: _Floats | None = None
     lambda_ratio: _Floats | None = None
+    moment: _Floats | None = None
+    rolling_torque: float | None = None
 
     def __post_init__(self) -> None:
         balls = np.asarray(self.angles).size
         for name, shape in SHAPES.items():
-            if getattr(self, name) is None and name in ("h_central", "h_min", "lambda_ratio"):
+            if getattr(self, name) is None and name in OF_FILMS:
                 continue
             array = np.array(getattr(self, name), dtype=np.float64)
             wanted = tuple(balls if size is None else size for size in shape)
@@ -86,6 +98,11 @@ class BearingState:
     def heaviest(self) -> int:
         """Index of the ball that carries most."""
         return int(np.argmax(self.force[:, 0]))
+
+    @property
+    def rolling_loss(self) -> float | None:
+        """Power [W] that `rolling_torque` takes from the shaft."""
+        return None if self.rolling_torque is None else self.rolling_torque * self.speed_rpm * RADIANS
 
     def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
         """Matplotlib figure of the load zone and the films; into a file too where a path is given.

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from reduced_models.bearing.balls import Balls, Turn
 from reduced_models.bearing.linear import SmallContact, small_contact
+from reduced_models.bearing.loss import Loss, response
 from reduced_models.bearing.statics import Standing
 from reduced_models.elements.film_response import FilterRates
 
@@ -56,6 +57,7 @@ class SmallBalls(NamedTuple):
     outer: Contacts
     normals: _Floats  # (positions * balls, 2)
     positions: int
+    loss: Loss
 
     @classmethod
     def of(cls, balls: Balls, turn: Turn, standings: Sequence[Standing]) -> SmallBalls:
@@ -67,11 +69,11 @@ class SmallBalls(NamedTuple):
                 (balls.inner, balls.outer), (turn.inner, turn.outer), approach.T, strict=True
             )
         )
-        return cls(inner, outer, np.concatenate([at.normals for at in standings]), len(standings))
+        return cls(inner, outer, np.concatenate([at.normals for at in standings]), len(standings), balls.loss)
 
     def impedance(self, s: complex) -> _Complex:
         """Of the ring, shape (2, 2) [N/m], at a frequency s [1/s] of exp(s t)."""
         inner, outer = self.inner.impedance(s), self.outer.impedance(s)
         both = inner + outer
         series = np.divide(inner * outer, both, out=np.zeros_like(both), where=both != 0.0)
-        return np.asarray((self.normals.T * series) @ self.normals / self.positions)
+        return np.asarray((self.normals.T * series) @ self.normals * (response(self.loss, s) / self.positions))

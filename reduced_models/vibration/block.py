@@ -20,7 +20,7 @@ from reduced_models.bearing.rotor import BearingMount, MatrixRotor
 from reduced_models.bearing.statics import StaticBalls
 from reduced_models.vibration.linearised import LinearisedRotor, Signals
 from reduced_models.vibration.rates import bearing_rates
-from reduced_models.vibration.states import bearing_system, rotor_system
+from reduced_models.vibration.states import PER_METRE, bearing_system, rotor_system
 
 _Floats = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ def linear_block(at: LinearisedRotor, inputs: Signals, outputs: Signals, name: s
     C = np.zeros((len(outs), len(A)))
     C[range(len(outs)), list(outs.values())] = UNIT
     lags = [[0 if c.rates is None else c.rates.lags for c in (b.inner, b.outer)] for b in at.balls]
-    states = _states(size, [(len(b.normals), *n) for b, n in zip(at.balls, lags, strict=True)])
+    states = _states(size, [(len(b.normals), *n, b.loss.gains.size) for b, n in zip(at.balls, lags, strict=True)])
     return control.ss(
         A,
         driven[:, list(ins.values())] / UNIT,
@@ -97,7 +97,9 @@ def rotor_to_control(
     def output(t: float, x: _Floats, u: _Floats, params: object) -> _Floats:
         return np.asarray(x, float)[seen] * UNIT
 
-    states = _states(rotor.size, [(ring.balls.number, *ring.lags) for ring in motion.rings])
+    states = _states(
+        rotor.size, [(ring.balls.number, *ring.lags, ring.balls.loss.gains.size) for ring in motion.rings]
+    )
     return control.nlsys(update, output, inputs=list(ins), outputs=list(outs), states=states, name=name)
 
 
@@ -114,13 +116,14 @@ def _signals(field: str, given: Signals, letter: str, size: int) -> dict[str, in
 
 
 def _states(size: int, bearings: Sequence[tuple[int, ...]]) -> list[str]:
-    """Names, in order; of each bearing the number of balls, and the lags of both films: none where it is dry."""
+    """Names, in order; of each bearing the balls, the lags of both films (none: dry), and those of its seat."""
     names = [f"q{k}" for k in range(size)] + [f"v{k}" for k in range(size)]
-    for b, (balls, *lags) in enumerate(bearings):
+    for b, (balls, *lags, seat) in enumerate(bearings):
         for k in range(balls if lags[0] else 0):
             names.append(f"b{b}_{k}_w")
             for race, count in zip(("i", "o"), lags, strict=True):
                 names += [f"b{b}_{k}_{race}_{one}" for one in ("s", "y", *(f"q{j}" for j in range(1, count + 1)))]
+        names += [f"b{b}_seat_{one}{k}" for k in range(1, seat + 1) for one in "xy"]
     return names
 
 
@@ -139,22 +142,27 @@ class _Ring:
         wet = self.balls.inner.x.size > 0
         self.lags = [count - 2 if wet else 0 for count in gains]
         each = 1 + sum(gains) if wet else 0
-        self.rest = np.zeros(self.balls.number * each)
+        seat = self.balls.loss.gains.size
+        self.films = self.balls.number * each
+        self.rest = np.concatenate([np.zeros(self.films), np.tile(self.force / PER_METRE, seat)])
         if wet:
-            self.rest[::each] = held.films.w[:, 0]
+            self.rest[: self.films : each] = held.films.w[:, 0]
         self._films, self._force = films_of(self.balls), np.zeros(2)
         begin_rest(self._films)
 
     def rates(self, t: float, x: _Floats, r: _Floats, v: _Floats) -> tuple[_Floats, _Floats]:
         """Rates of the states `x`, which are differences from rest; force of the ring on the balls."""
         directions(self.balls, self._angle + self._turn.cage * t, self._normals)
-        rates = np.zeros(x.size)
-        if x.size:
-            bearing_rates(self.balls, self._turn, self._normals, self.rest + x, r, v, rates, self._force)
+        states, rates = self.rest + x, np.zeros(x.size)
+        if self.films:
+            bearing_rates(self.balls, self._turn, self._normals, states, r, v, rates, self._force)
         else:
             out = self._force, np.zeros((2, 2)), np.zeros((2, 2))
             press_balls(self.balls, self._turn, self._films, self._normals, r, v, 0.0, out)
-        return rates, self._force
+        gains, poles = self.balls.loss
+        lost = self._force - PER_METRE * states[self.films :].reshape(-1, 2)
+        rates[self.films :] = (poles[:, None] * lost).ravel() / PER_METRE
+        return rates, self._force + gains @ lost
 
 
 class _Motion:

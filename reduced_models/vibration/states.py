@@ -6,7 +6,9 @@ A ball between two films has its place w at the outer race as a state, for both 
 
 of both contacts (u = delta - w at the inner one, w at the outer one), F_i = F_o gives w'. Beside it are those of
 the filters, x' = (what feeds it - x) rate/tau. Dry balls have none. A bearing at several positions of the cage has
-all balls of all positions, each with its share of the force: the mean, with so many times the states.
+all balls of all positions, each with its share of the force: the mean, with so many times the states. Rings and
+fits that lose something have theirs after those of the balls: the forces y_k of `reduced_models.bearing.loss`, x
+before y, over `PER_METRE`, so that they are as small as the other states.
 """
 
 from __future__ import annotations
@@ -16,12 +18,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from reduced_models.bearing.loss import Loss
 from reduced_models.elements.film_law import DIRECT
 from reduced_models.vibration.balls import Contacts, SmallBalls
 from reduced_models.vibration.mode import Matrices
 
 _Floats = NDArray[np.float64]
 
+PER_METRE = 1e8  # N/m, of a bearing: turns the forces of a seat into displacements
 FILTERS = DIRECT - 1  # states of a film before those of its chain: inlet and fast
 
 
@@ -89,7 +93,21 @@ def bearing_system(balls: SmallBalls) -> System:
             driven[here, 2 * j : 2 * j + 2] = np.outer(rows[:, n + j], normal)
             D[:, 2 * j : 2 * j + 2] += np.outer(share, normal) * force[n + j]
         at += n
-    return System(A, driven, C, D)
+    return seated(System(A, driven, C, D), balls.loss)
+
+
+def seated(bare: System, loss: Loss) -> System:
+    """The same with the filters of its seat."""
+    states, added = len(bare.A), 2 * loss.gains.size
+    A, driven = np.zeros((states + added, states + added)), np.zeros((states + added, 4))
+    C = np.zeros((2, states + added))
+    A[:states, :states], driven[:states] = bare.A, bare.B
+    rates = np.kron(loss.rates[:, None], np.eye(2)) / PER_METRE  # of all y by the force
+    A[states:, :states], driven[states:] = rates @ bare.C, rates @ bare.D
+    A[states:, states:] = -np.diag(np.repeat(loss.rates, 2))
+    lift = 1.0 + loss.gains.sum()
+    C[:, :states], C[:, states:] = lift * bare.C, -PER_METRE * np.kron(loss.gains, np.eye(2))
+    return System(A, driven, C, lift * bare.D)
 
 
 def rotor_system(matrices: Matrices, to_rings: _Floats, bearings: list[System]) -> tuple[_Floats, _Floats]:

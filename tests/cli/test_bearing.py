@@ -57,7 +57,8 @@ def test_json_is_what_the_library_has(call):
         np.testing.assert_array_equal(found["stiffness"][k], at.stiffness[0])
         np.testing.assert_array_equal(found["damping"][k], at.damping[0])
         state = bearing.equilibrium((0.0, -1000.0), speed_rpm=speed)
-        for name in ("force", "h_min", "lambda_ratio", "angles"):
+        assert found["states"][k]["rolling_torque"] == state.rolling_torque
+        for name in ("force", "h_min", "lambda_ratio", "angles", "moment"):
             np.testing.assert_array_equal(found["states"][k][name], getattr(state, name))
         assert found["frequencies_hz"][k]["bpfo"] == bearing.frequencies(speed).bpfo
     assert found["orders"]["bpfi"] == pytest.approx(5.4152, abs=1e-4)
@@ -71,6 +72,9 @@ def test_the_table_says_the_same(call):
     for number in (at.stiffness[0, 1, 1] * 1e-6, at.damping[0, 0, 0], bearing.frequencies(3000.0).bpfo):
         assert f"{number:.4g}" in result.out
     assert "lambda" in result.out and "320" in result.out and "21622 rpm" in result.out
+    state = bearing.equilibrium((0.0, -1000.0), speed_rpm=3000.0)
+    line = next(line for line in result.out.splitlines() if "films resist rolling" in line)
+    assert f"{state.rolling_torque * 1e3:.4g} N mm" in line and f"{state.rolling_loss:.4g} W" in line
 
 
 def test_a_dry_bearing_has_no_film_and_no_highest_speed(call):
@@ -128,6 +132,7 @@ def test_curves_pass_through_what_was_asked_for():
         ({"inner = 0.52": "inner = 0.5"}, ("bearing.conformity_inner = 0.5", "above 0.5")),
         ({"inner = 0.52": "inner = 0.502"}, ("bearing.conformity_inner = 0.502", "outside the atlas")),
         ({"clearance_um": "clearance"}, ("bearing.clearance = 0.0", "clearance_um?")),
+        ({"clearance_um = 0.0": "loss_factor = 0.3"}, ("bearing.loss_factor = 0.3", "at most 0.2")),
         ({"e_um = 0.0": "e_um = -500"}, ("bearing.clearance_um = -500", "between -0.000397", "given in um")),
         ({"[1000, 3000, 6000]": "3000"}, ("operation.speed_rpm = 3000", "a list of numbers")),
         ({"[1000, 3000, 6000]": "[]"}, ("operation.speed_rpm", "at least 1")),

@@ -88,7 +88,7 @@ def bearing(
     figure: o.FigureTo = None,
     json_to: o.JsonTo = None,
 ) -> None:
-    """Look at a ball bearing: loads, films and lambda of its balls, stiffness and damping over speed."""
+    """Look at a ball bearing: loads, films, lambda and rolling resistance, stiffness and damping over speed."""
     from ehlcontact.cli.study.bearing import load_job
 
     check_file("--figure", figure, o.PICTURES)
@@ -143,7 +143,7 @@ def _show(report: BearingReport, json_to: str | None) -> None:
     bearing = report.job.bearing
     show_table(f"{bearing.name or 'ball bearing'}, {numeral(report.job.load)} N", _rows(bearing), json_to)
     for state, found in zip(report.states, report.coefficients, strict=True):
-        show_table(f"at {numeral(state.speed_rpm)} rpm", _at_speed(bearing, found), json_to)
+        show_table(f"at {numeral(state.speed_rpm)} rpm", _at_speed(bearing, state, found), json_to)
         Console().print(_balls(state))
 
 
@@ -165,16 +165,25 @@ def _rows(b: BallBearing) -> list[tuple[str, str, str]]:
     ]
 
 
-def _at_speed(b: BallBearing, at: BearingCoefficients) -> list[tuple[str, str, str]]:
-    """How it stands and vibrates at a speed."""
+def _at_speed(b: BallBearing, state: BearingState, at: BearingCoefficients) -> list[tuple[str, str, str]]:
+    """How it stands, rolls and vibrates at a speed."""
     K, C = at.stiffness[0] * 1e-6, at.damping[0]
     down, swing = -at.displacement[1] * 1e6, at.swing[1] * 1e9
     return [
         ("deflection", f"{numeral(down)} µm", f"{numeral(swing, 3)} nm up and down as a ball passes"),
         ("along the load", f"{numeral(K[1, 1])} N/µm", f"{numeral(C[1, 1])} N s/m"),
         ("across it", f"{numeral(K[0, 0])} N/µm", f"{numeral(C[0, 0])} N s/m"),
+        *_resistance(state),
         *_defects(b.frequencies(at.speed_rpm), 4, "Hz"),
     ]
+
+
+def _resistance(state: BearingState) -> list[tuple[str, str, str]]:
+    """Of the films of a bearing that has any."""
+    if state.rolling_torque is None or state.rolling_loss is None:
+        return []
+    loss = f"takes {numeral(state.rolling_loss)} W; no sliding, cage, seals or churning"
+    return [("films resist rolling", f"{numeral(state.rolling_torque * 1e3)} N mm", loss)]
 
 
 def _defects(found: DefectFrequencies, digits: int, unit: str) -> list[tuple[str, str, str]]:

@@ -34,6 +34,7 @@ ENTRIES = {
     "conformity_inner": "bearing.conformity_inner",
     "conformity_outer": "bearing.conformity_outer",
     "clearance": "bearing.clearance_um",
+    "loss_factor": "bearing.loss_factor",
 }
 NEEDED = ("balls", "ball_diameter_mm", "pitch_diameter_mm")  # of a bearing without a name
 
@@ -52,6 +53,7 @@ class Bearing(Section):
     conformity_outer: Conformity | None = None
     clearance_um: Finite | None = None  # below 0: preload
     film_limit_um: Positive | None = None
+    loss_factor: NotNegative | None = None  # of rings and fits
     youngs_modulus: Positive | None = None
     poisson_ratio: Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)] | None = None
 
@@ -157,7 +159,8 @@ def _bearing(found: BearingFile) -> BallBearing:
         if both:
             raise InputError(f"surface.{both[0]}_um", lengths[both[0]] * 1e6, "left out where rq_um is given")
         lengths["rq_race"] = surface.rq_um * 1e-6
-    names = ("name", "balls", "conformity_inner", "conformity_outer", "youngs_modulus", "poisson_ratio")
+    names = ["name", "balls", "conformity_inner", "conformity_outer", "loss_factor"]
+    names += ["youngs_modulus", "poisson_ratio"]
     others = {name: getattr(b, name) for name in names if getattr(b, name) is not None}
     oil = found.oil.lubricant if "oil" in found.model_fields_set else None
     arguments = {**others, **lengths, "oil": oil}

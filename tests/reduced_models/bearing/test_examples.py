@@ -45,3 +45,32 @@ def test_ross_drop_in():
     alone = held.equilibrium((0.0, -drop_in.LOAD), speed_rpm=drop_in.RPM)
     np.testing.assert_allclose(run.ring[0, :, 1], alone.displacement[1], rtol=1e-3)
     np.testing.assert_allclose(run.ring[:, :, 1].mean(axis=0), alone.displacement[1], rtol=0.02)
+
+
+def test_a_control_loop(tmp_path):
+    """Must-show of issue 12: linearised by differences within 1e-4, Bode is the impedance; and the damper damps."""
+    control = pytest.importorskip("control")
+    loop = example("control_loop")
+    held = loop.bearing()
+    line = loop.rotor(held)
+    exact, moving = loop.linear(line), loop.nonlinear(line)
+    found = control.linearize(moving, np.zeros(moving.nstates), np.zeros(2), eps=1e-5)
+    omega = np.geomspace(30.0, 1e5, 9)
+    one, other = (control.frequency_response(system, omega).frdata for system in (found, exact))
+    worst = np.abs(one - other).max(axis=(0, 1)) / np.abs(other).max(axis=(0, 1))
+    assert worst.max() < 1e-4
+    # force on the disc over the ring's place is what shaft and masses pass on, less what the ring pushes back with
+    load = (0.0, -9.81 * (loop.JOURNAL + loop.DISC))
+    c = held.coefficients(load, speed_rpm=loop.RPM, cage_angle=line.mounts[0].cage_angle, omega=omega)
+    for k, w in enumerate(omega):
+        disc, ring = other[:2, :, k], other[2:, :, k]
+        pushed = loop.SHAFT * (disc - ring) + loop.JOURNAL * w * w * ring
+        Z = c.stiffness[k] + 1j * w * c.damping[k]
+        np.testing.assert_allclose(pushed @ np.linalg.inv(ring), Z, rtol=0.0, atol=1e-6 * abs(Z).max())
+    alone, damped = loop.first_mode(exact), loop.first_mode(loop.looped(exact))
+    assert damped[1] > 10.0 * alone[1] and abs(damped[0] - alone[0]) < 0.2 * alone[0]
+    t = np.linspace(0.0, 0.005, 101)
+    after = [loop.blown(loop.looped(system), loop.looped(exact), t) for system in (exact, moving)]
+    np.testing.assert_allclose(after[1], after[0], rtol=0.0, atol=0.03 * np.abs(after[0]).max())
+    loop.picture(tmp_path / "loop.png", exact, line, t)
+    assert (tmp_path / "loop.png").read_bytes().startswith(b"\x89PNG")

@@ -12,8 +12,8 @@ from ehlcontact.errors import InputError
 from reduced_models.bearing import balls as balls_room
 from reduced_models.bearing import contact as contact_room
 from reduced_models.bearing import law as law_room
-from reduced_models.bearing.balls import turning
-from reduced_models.bearing.contact import APPROACH, begin, new_films, press
+from reduced_models.bearing.balls import films_of, turning
+from reduced_models.bearing.contact import APPROACH, begin, press
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.law import carried, curve, film_law
 from reduced_models.bearing.race import shared_atlas
@@ -96,7 +96,7 @@ def test_between_speeds_films_grow_as_they_should(film):
     assert below.spin[0] == 0 and above.spin[0] == 1
     pressed = []
     for turn in (below, above):
-        films = new_films(9, many.inner.gains.shape[2] - 3)
+        films = films_of(many)
         films.state[0, APPROACH] = 5e-6
         begin(many.inner, turn.inner, turn.spin, 2e-5, films, 0)
         pressed.append(press(many.inner, turn.inner, turn.spin, films, 0, 5.1e-6, 3e-3))
@@ -134,7 +134,7 @@ def test_compiled_and_plain_are_twins(film, monkeypatch):
     q, v = np.array([0.0, -9e-6]), np.array([0.0, 2e-3])
 
     def run():
-        films, out = new_films(9, 14), (np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2)))
+        films, out = films_of(kernel), (np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2)))
         for _ in range(2):
             gain = balls_room.begin_step(kernel, turn, 2e-5, films)
             balls_room.press_balls(kernel, turn, films, normals, q, v, gain, out)

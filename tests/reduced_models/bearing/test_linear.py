@@ -89,3 +89,27 @@ def test_a_frequency_needs_its_unit(film):
         film.coefficients((0.0, -800.0), speed_rpm=RPM)
     with pytest.raises(InputError, match="frequency"):
         film.coefficients((0.0, -800.0), 50.0, speed_rpm=RPM)
+
+
+@pytest.mark.parametrize(
+    ("load", "low", "high"), [(1000.0, 3000.0, 3300.0), (1000.0, 3300.0, 4000.0), (500.0, 7800.0, 8100.0)]
+)
+@pytest.mark.parametrize("name", ["stiffness", "damping"])
+def test_nothing_jumps_over_the_speed(film, load, low, high, name):
+    """Elements go through the same loads at every speed: where the curve bends most, that is followed down."""
+
+    def at(speed):
+        found = film.coefficients((0.0, -load), speed_rpm=speed, cage_angle=0.3, hz=200.0)
+        return np.log(np.diag(getattr(found, name)[0]))
+
+    speeds = np.linspace(low, high, 16)
+    values = np.array([at(speed) for speed in speeds.tolist()])
+    k, way = np.unravel_index(np.argmax(np.abs(np.diff(values, n=2, axis=0))), (14, 2))
+    ends = [(speeds[k + i], values[k + i, way]) for i in (0, 2)]
+    slope = abs(ends[1][1] - ends[0][1]) / (ends[1][0] - ends[0][0])
+    for _ in range(11):
+        middle = 0.5 * (ends[0][0] + ends[1][0])
+        ends.insert(1, (middle, at(middle)[way]))
+        del ends[0 if abs(ends[2][1] - ends[1][1]) > abs(ends[1][1] - ends[0][1]) else 2]
+    assert ends[1][0] - ends[0][0] < 0.1
+    assert abs(ends[1][1] - ends[0][1]) < 3.0 * slope * (ends[1][0] - ends[0][0]) + 1e-7

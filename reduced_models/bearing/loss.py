@@ -1,0 +1,124 @@
+"""Loss factor of rings and fits: a bearing's force through filters that turn its phase by one angle in a band.
+
+A loss factor eta makes stiffness K into K (1 + i eta) in the linear answers that know nothing else. No motion in
+time has that: what loses the same share of its energy at every frequency has to stiffen with it (Kramers and
+Kronig). So here, in frequency and in time alike,
+
+    F_seat = F + sum g_k (F - y_k),    y_k' = p_k (F - y_k),
+
+with poles p_k evenly over the decades and the gains g_k >= 0 by least squares such that within `BAND` the
+imaginary part is eta times the real part. It is within 0.3 % for eta up to 0.1, 1 % at 0.2 (the tests hold it to
+that). What is held still is left as it is; K is higher by 1.4 eta at 5 Hz, 3.8 eta at 200 Hz and 5.9 eta at 5 kHz.
+
+F is the force of all balls on the ring, as a vector, so balls that pass lose nothing by it. It does not turn: the
+seat is that of the ring that stands still. What is lost in parts that turn with the shaft drives whirl above a
+critical speed instead; nothing here does. No vibration gains energy by positive gains.
+"""
+
+from __future__ import annotations
+
+from math import exp, expm1, pi
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import nnls
+
+from ehlcontact.jit import jit_exact_loop
+
+_Floats = NDArray[np.float64]
+
+BAND = (5.0, 5000.0)  # Hz, within which the loss factor holds
+FILTERS, BEYOND = 8, 3.0  # poles, and by which ratio they go beyond the ends of the band
+SAMPLES = 200  # frequencies at which the gains are fitted
+RAW, BEFORE, PAST, HELD = 0, 1, 2, 3  # rows of a seat: force tried, that of the last end, of the past; all y_k
+
+
+class Loss(NamedTuple):
+    """Filters of a seat; none where nothing is lost."""
+
+    gains: _Floats  # (n,) g_k
+    rates: _Floats  # (n,) p_k [1/s]
+
+
+class Seat(NamedTuple):
+    """Memory of a seat."""
+
+    rows: _Floats  # (3 + n, 2) forces [N]; see above
+    lift: _Floats  # (1,) what a force at the end of the step becomes, over it
+    step: _Floats  # (3, n) of a step: what is left of y_k, and what the forces at both ends make of it
+
+
+def loss_of(factor: float) -> Loss:
+    """Filters for a loss factor."""
+    if factor == 0.0:
+        return Loss(np.zeros(0), np.zeros(0))
+    rates = 2.0 * pi * np.geomspace(BAND[0] / BEYOND, BAND[1] * BEYOND, FILTERS)
+    s = 2j * pi * np.geomspace(*BAND, SAMPLES)[:, None]
+    filters = s / (s + rates)
+    gains, _ = nnls(filters.imag / factor - filters.real, np.ones(SAMPLES))
+    return Loss(gains, rates)
+
+
+def seat_of(loss: Loss) -> Seat:
+    """Memory of nothing yet."""
+    n = loss.gains.size
+    return Seat(np.zeros((HELD + n, 2)), np.ones(1), np.zeros((3, n)))
+
+
+def response(loss: Loss, s: complex) -> complex:
+    """What a force of exp(s t) becomes, over it."""
+    return complex(1.0 + (loss.gains * s / (s + loss.rates)).sum())
+
+
+@jit_exact_loop
+def begin_seat(loss, dt, seat):
+    """Work out a step: the force runs straight from its start to its end."""
+    rows, step = seat.rows, seat.step
+    seat.lift[0], rows[PAST, 0], rows[PAST, 1] = 1.0, 0.0, 0.0
+    for k in range(loss.gains.size):
+        mu = loss.rates[k] * dt
+        left = exp(-mu)
+        mean = -expm1(-mu) / mu
+        step[0, k], step[1, k], step[2, k] = left, mean - left, 1.0 - mean
+        seat.lift[0] += loss.gains[k] * mean
+        for j in range(2):
+            rows[PAST, j] += loss.gains[k] * (left * rows[HELD + k, j] + step[1, k] * rows[BEFORE, j])
+
+
+@jit_exact_loop
+def rest_seat(seat):
+    """Put its filters at rest under the force tried last."""
+    for k in range(BEFORE, seat.rows.shape[0]):
+        for j in range(2):
+            seat.rows[k, j] = 0.0 if k == PAST else seat.rows[RAW, j]
+
+
+@jit_exact_loop
+def hold_still(seat):
+    """Make the step one in which nothing is lost."""
+    seat.lift[0], seat.rows[PAST, 0], seat.rows[PAST, 1] = 1.0, 0.0, 0.0
+
+
+@jit_exact_loop
+def press_seat(seat, force, stiffness, damping):
+    """Turn the force of the balls at the end of the step, and its tangents, into those of the seat."""
+    if seat.step.shape[1] == 0:
+        return
+    for j in range(2):
+        seat.rows[RAW, j] = force[j]
+        force[j] = seat.lift[0] * force[j] - seat.rows[PAST, j]
+        for k in range(2):
+            stiffness[j, k] *= seat.lift[0]
+            damping[j, k] *= seat.lift[0]
+
+
+@jit_exact_loop
+def accept_seat(seat):
+    """Move on to the end of the step, with the force that was tried last."""
+    rows, step = seat.rows, seat.step
+    for k in range(step.shape[1]):
+        for j in range(2):
+            fed = step[1, k] * rows[BEFORE, j] + step[2, k] * rows[RAW, j]
+            rows[HELD + k, j] = step[0, k] * rows[HELD + k, j] + fed
+    rows[BEFORE, 0], rows[BEFORE, 1] = rows[RAW, 0], rows[RAW, 1]

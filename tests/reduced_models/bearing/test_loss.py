@@ -1,0 +1,198 @@
+"""Loss factor of rings and fits: what the filters are, and that time and frequency have the same ones."""
+
+from itertools import pairwise
+from math import pi
+
+import numba
+import numpy as np
+import pytest
+
+from ehlcontact.errors import InputError
+from reduced_models import (
+    BallBearing,
+    BearingMotion,
+    BearingMount,
+    MatrixRotor,
+    linearise,
+    log_decrement,
+    rotor_to_control,
+    simulate_on_bearings,
+)
+from reduced_models.bearing import loss as loss_room
+from reduced_models.bearing.balls import turning
+from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.linear import impedances
+from reduced_models.bearing.loss import BAND, loss_of, response, seat_of
+from reduced_models.bearing.statics import stand
+
+RPM = 3000.0
+
+
+def block(bearing, mass=2.0, **changes):
+    given = {"mass": mass * np.eye(2), "stiffness": np.zeros((2, 2)), "load": np.array([0.0, -300.0])}
+    return MatrixRotor(**(given | {"mounts": (BearingMount(bearing=bearing, x=0, y=1),)} | changes))
+
+
+@pytest.mark.parametrize("factor", [1e-3, 0.02, 0.1, 0.2])
+def test_one_loss_factor_in_the_band(factor):
+    loss = loss_of(factor)
+    assert np.all(loss.gains > 0.0) and response(loss, 0.0) == 1.0
+    s = 2j * pi * np.geomspace(*BAND, 200)
+    found = np.array([response(loss, one) for one in s])
+    np.testing.assert_allclose(found.imag / found.real, factor, rtol=3e-3 if factor <= 0.1 else 0.01)
+    if factor == 1e-3:  # the stiffening that belongs to it, as the docstring has it
+        rise = [abs(response(loss, 2j * pi * hz)) - 1.0 for hz in (5.0, 200.0, 5000.0)]
+        np.testing.assert_allclose(rise, [1.4e-3, 3.8e-3, 5.9e-3], atol=0.06e-3)
+
+
+def test_a_step_is_the_filters_over_a_straight_force():
+    """Against a fine Euler walk of y' = p (F - y)."""
+    loss, dt, ends = loss_of(0.2), 3e-4, np.array([[10.0, -20.0], [25.0, 4.0], [21.0, 9.0]])
+    seat = seat_of(loss)
+    seat.rows[0] = ends[0]
+    loss_room.rest_seat(seat)
+    y = np.tile(ends[0], (loss.rates.size, 1))
+    for start, end in pairwise(ends):
+        loss_room.begin_seat(loss, dt, seat)
+        force, K, C = end.copy(), np.eye(2), 2.0 * np.eye(2)
+        loss_room.press_seat(seat, force, K, C)
+        loss_room.accept_seat(seat)
+        fine = 20000
+        for share in (np.arange(fine) + 0.5) / fine:
+            y += dt / fine * loss.rates[:, None] * (start + share * (end - start) - y)
+        np.testing.assert_allclose(force, end + loss.gains @ (end - y), rtol=1e-4)
+        np.testing.assert_allclose((K, C), (seat.lift[0] * np.eye(2), 2.0 * seat.lift[0] * np.eye(2)))
+
+
+@pytest.mark.parametrize("oiled", [True, False])
+def test_small_motions_in_time_have_the_impedance(oil, oiled):
+    bearing = BallBearing.catalogue("6205", oil=oil if oiled else None, loss_factor=0.05)
+    kernel = bearing.kernel(RPM)._replace(cage=0.0, swing=0.0)
+    turn = turning(kernel, RPM * RADIANS)
+    at = stand(kernel, turn, np.array([200.0, -1000.0]), 0.4)
+    hz, size, periods, per_period = 400.0, 1e-10, 200, 200
+    omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
+    t = dt * np.arange(1, periods * per_period + 1)
+    Z = impedances(kernel, turn, at, np.array([omega]))[0]
+    Z = Z.real + 1j * omega * Z.imag
+    run = BearingMotion(kernel, RPM, dt, 0.4)
+    start = run.rest(at.displacement)
+    q = at.displacement + size * np.sin(omega * t)[:, None] * [0.0, 1.0]
+    force, _ = run.drive(q, size * omega * np.cos(omega * t)[:, None] * [0.0, 1.0])
+    last = slice(-per_period, None)
+    swing = 2.0 * np.mean((force[last] - start) * np.exp(-1j * omega * t[last])[:, None], axis=0) * 1j / size
+    np.testing.assert_allclose(swing, Z[:, 1], rtol=0.0, atol=3e-4 * abs(Z[1, 1]))
+
+
+def test_coefficients_lose_what_is_asked_for(dry, oil):
+    """C = eta K/omega beside that of the films; statics and the balls' loads stay."""
+    lossy = BallBearing.catalogue("6205", loss_factor=0.03)
+    hz = np.array([10.0, 50.0, 1000.0])
+    found = lossy.coefficients((0.0, -800.0), hz=hz)
+    for k, one in enumerate(found.omega):
+        np.testing.assert_allclose(one * np.diag(found.damping[k]), 0.03 * np.diag(found.stiffness[k]), rtol=0.01)
+    bare, same = dry.equilibrium((0.0, -800.0)), lossy.equilibrium((0.0, -800.0))
+    np.testing.assert_array_equal(same.stiffness, bare.stiffness)
+    films, both = (
+        BallBearing.catalogue("6205", oil=oil, **more).coefficients((0.0, -800.0), speed_rpm=RPM, hz=50.0)
+        for more in ({}, {"loss_factor": 0.03})
+    )
+    added = both.damping[0, 1, 1] - films.damping[0, 1, 1]
+    assert added == pytest.approx(0.03 * both.stiffness[0, 1, 1] / films.omega[0], rel=0.015)
+
+
+def test_tangents_are_those_of_differences(oil, shake):
+    bearing = BallBearing.catalogue("6205", oil=oil, loss_factor=0.2)
+    q, v = shake(2e-5, 6)
+    it = BearingMotion(bearing.kernel(RPM), RPM, 2e-5)
+    it.rest(np.array([1e-6, -12e-6]))
+    it.drive(q[:5], v[:5])
+    _, stiffness, damping = it.forces(q[5], v[5])
+    for k in range(2):
+        step = 1e-10 * np.eye(2)[k]
+        slope = (it.forces(q[5] + step, v[5])[0] - it.forces(q[5] - step, v[5])[0]) / 2e-10
+        np.testing.assert_allclose(slope, stiffness[:, k], rtol=0.0, atol=1e-6 * np.abs(stiffness).max())
+        step = 1e-5 * np.eye(2)[k]
+        slope = (it.forces(q[5], v[5] + step)[0] - it.forces(q[5], v[5] - step)[0]) / 2e-5
+        np.testing.assert_allclose(slope, damping[:, k], rtol=0.0, atol=1e-6 * np.abs(damping).max())
+
+
+@pytest.mark.parametrize("factor", [0.01, 0.05])
+def test_a_block_dies_away_with_pi_times_the_loss_factor(factor):
+    """Dry, balls standing still: in time as in the modes, and as K s^a with the same loss factor has it."""
+    bearing = BallBearing.catalogue("6205", loss_factor=factor)
+    rotor = block(bearing)
+    mode = linearise(rotor, 0.0, passage=False).modes()[1]
+    power = 2.0 / pi * np.arctan(factor)  # m s^2 + K s^a = 0: the angle of s is pi/(2 - a)
+    expected = 2.0 * pi * np.tan(pi / (2.0 - power) - 0.5 * pi)
+    assert mode.decrement == pytest.approx(expected, rel=5e-3) == pytest.approx(pi * factor, rel=0.02)
+    rest = rotor.equilibrium(0.0)
+    run = simulate_on_bearings(
+        rotor, speed_rpm=0.0, dt=1e-5, until=0.03, start=(rest + np.array([0.0, 1e-9]), np.zeros(2)), rho_inf=1.0
+    )
+    seen = log_decrement(run.t, run.displacement[:, 1] - rest[1], omega=mode.omega)
+    assert seen.hz == pytest.approx(mode.hz, rel=1e-3)
+    assert seen.decrement == pytest.approx(mode.decrement, rel=0.02)
+
+
+def test_large_motions_lose_energy_too():
+    """Round trips of a ring through contact and lift-off: a dry bearing gives back all, a lossy one never all."""
+    t = np.arange(1, 4001) * 1e-5
+    q = 1e-6 * np.column_stack([8.0 * np.sin(2.0 * pi * 300.0 * t), -6.0 + 10.0 * np.cos(2.0 * pi * 100.0 * t)])
+    v = np.gradient(q, 1e-5, axis=0)
+    work = []
+    for factor in (0.0, 0.05):
+        kernel = BallBearing.catalogue("6205", clearance=4e-6, loss_factor=factor).kernel(RPM)
+        it = BearingMotion(kernel._replace(cage=0.0, swing=0.0), RPM, 1e-5)
+        it.rest(q[0])
+        force, _ = it.drive(q, v)
+        mean, step = 0.5 * (force[1:] + force[:-1]), np.diff(q, axis=0)
+        work.append(np.einsum("ij,ij->i", mean, step))
+    trips = slice(1000, 1000 + 3 * 1000)  # three periods of the whole motion
+    put_in = np.abs(work[0][trips]).sum()
+    assert abs(work[0][trips].sum()) < 1e-3 * put_in
+    assert 0.02 * put_in < work[1][trips].sum() < 0.2 * put_in
+
+
+@pytest.mark.parametrize("oiled", [True, False])
+def test_blocks_of_control_have_its_states(oil, oiled):
+    control = pytest.importorskip("control")
+    rotor = block(BallBearing.catalogue("6205", oil=oil if oiled else None, loss_factor=0.05))
+    at = linearise(rotor, RPM, passage=False)
+    exact, moving = at.to_control(), rotor_to_control(rotor, RPM, cage_turns=False)
+    assert exact.state_labels == moving.state_labels
+    assert exact.state_labels[-2:] == ["b0_seat_x8", "b0_seat_y8"]
+    found = control.linearize(moving, np.zeros(moving.nstates), np.zeros(2), eps=1e-5)
+    for w in (30.0, 1e3, 2e4):
+        expected = at.receptance(omega=w)[0]
+        for block_of in (exact, found):
+            inner = np.linalg.solve(1j * w * np.eye(exact.nstates) - block_of.A, block_of.B)
+            np.testing.assert_allclose(block_of.C @ inner, expected, rtol=0.0, atol=1e-4 * abs(expected).max())
+
+
+@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="kernels are plain Python already")
+def test_compiled_and_plain_are_twins():
+    loss, force = loss_of(0.1), np.array([30.0, -100.0])
+    ends = []
+    for plain in (False, True):
+        names = ("rest_seat", "begin_seat", "press_seat", "accept_seat", "hold_still")
+        kernels = {n: getattr(loss_room, n).py_func if plain else getattr(loss_room, n) for n in names}
+        seat, at = seat_of(loss), (force.copy(), np.eye(2), np.eye(2))
+        kernels["hold_still"](seat)
+        kernels["press_seat"](seat, *at)
+        np.testing.assert_array_equal(at[0], force)
+        kernels["rest_seat"](seat)
+        for _ in range(3):
+            kernels["begin_seat"](loss, 1e-4, seat)
+            at = (1.1 * force, np.eye(2), np.eye(2))
+            kernels["press_seat"](seat, *at)
+            kernels["accept_seat"](seat)
+        ends.append((*at, seat.rows))
+    for one, other in zip(*ends, strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-12, atol=1e-13)
+
+
+@pytest.mark.parametrize("factor", [-0.01, 0.3, float("nan")])
+def test_what_is_no_loss_factor(factor):
+    with pytest.raises(InputError, match=r"loss_factor = "):
+        BallBearing.catalogue("6205", loss_factor=factor)
