@@ -5,7 +5,8 @@
 | elements | the elements: law, validity, units, file; `load_element` |
 | fitting | elements from data: `ContactRecord`, `fit`, `fit_memory`, `sensitivity` |
 | atlas | elements without a solve: `Atlas`, from contacts solved beforehand, with error bars |
-| bearing | ball bearings of such contacts: `BallBearing` |
+| bearing | ball bearings of such contacts: `BallBearing`; rotors on them over time |
+| shaft | such rotors by shaft, discs and supports: `rotor_on_bearings` |
 | vibration | linear answers of rotors on such bearings: `linearise`, `campbell`, `unbalance_response` |
 | rotor | what runs on elements and full films: `simulate_rotor`, `LinearRotor`, `log_decrement`, `compare` |
 
@@ -80,6 +81,10 @@ from reduced_models.rotor.settled import settling as settling
 from reduced_models.rotor.simulate import RotorResult as RotorResult
 from reduced_models.rotor.simulate import RotorStatus as RotorStatus
 from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor
+from reduced_models.shaft.assembly import rotor_on_bearings as rotor_on_bearings
+from reduced_models.shaft.parts import Disc as Disc
+from reduced_models.shaft.parts import Shaft as Shaft
+from reduced_models.shaft.parts import Support as Support
 from reduced_models.vibration.block import rotor_to_control as rotor_to_control
 from reduced_models.vibration.campbell import Campbell as Campbell
 from reduced_models.vibration.campbell import CriticalSpeed as CriticalSpeed

@@ -35,4 +35,8 @@ decay_periods = 4
 decay_steps_per_period = 20
 fit_steps_per_period = 20
 fit_amplitude = 0.1
+[whole_bearing]
+clearance_um = -1.0
+revolutions = 10
+steps_per_revolution = 200
 """

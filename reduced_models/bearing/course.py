@@ -8,7 +8,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column, require_nonnegative
+from ehlcontact.checks import as_column, require_nonnegative, require_positive
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.rotor import MatrixRotor
 
@@ -43,6 +43,12 @@ class SpeedCourse:
     def constant(cls, speed_rpm: float) -> SpeedCourse:
         """One speed all the time."""
         return cls(np.array([0.0, 1.0]), np.full(2, require_nonnegative("speed_rpm", speed_rpm)))
+
+    @classmethod
+    def ramp(cls, first_rpm: float, last_rpm: float, seconds: float) -> SpeedCourse:
+        """From one speed to another at a constant rate: a run-up, or a coast-down."""
+        ends = require_nonnegative("first_rpm", first_rpm), require_nonnegative("last_rpm", last_rpm)
+        return cls(np.array([0.0, require_positive("seconds", seconds)]), np.array(ends))
 
     def at(self, t: _Floats) -> tuple[_Floats, _Floats, _Floats]:
         """Speed [rad/s], angle of the shaft [rad] and angular acceleration [rad/s2]."""

@@ -17,6 +17,7 @@ BAR = 0.5  # width of a bar over the angle between two balls
 ROOM = 1.25  # radius of the load zone over its longest bar
 COLOURS = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9"  # of bearings and modes, in turn
 LAST_TURNS = 20.0  # of the shaft, that orbits show
+WINDOW, FEWEST = 2.0, 5  # length of the pieces of a waterfall, see there; and that many at least side by side
 ROWS, SPREAD = 120, 4.0  # spectra of a waterfall; its colours: decades below the highest
 LINE = 0.045  # height of a name over that of the diagram
 STRAIGHT = 0.1  # |whirl| below which a mode is called so
@@ -103,30 +104,36 @@ def films(axes: Any, state: Any) -> None:
     axes.legend(frameon=False, fontsize=8)
 
 
-def draw_run(run: Any, path: str | os.PathLike[str] | None, kind: str, most_hz: float) -> Any:
-    """Orbits, spectra or waterfalls of all rings of a `BearingRun`, side by side."""
+def draw_run(
+    run: Any, path: str | os.PathLike[str] | None, kind: str, most_hz: float, node: tuple[int, int] | None
+) -> Any:
+    """Orbits, spectra or waterfalls of all rings of a `BearingRun` side by side, or of one node of the rotor."""
     from matplotlib.figure import Figure
 
     bearings = run.ring.shape[1]
-    figure = Figure(figsize=(max(4.6 * bearings, SIZE[0]), SIZE[1]), layout="constrained")
+    if node is None:
+        shown = [(f"bearing {b}", run.ring[:, b]) for b in range(bearings)]
+    else:
+        shown = [(f"degrees of freedom {node[0]}, {node[1]}", run.displacement[:, list(node)])]
+    figure = Figure(figsize=(max(4.6 * len(shown), SIZE[0]), SIZE[1]), layout="constrained")
     draw = {"orbit": _orbit, "spectrum": _spectrum, "waterfall": _waterfall}[kind]
-    for b in range(bearings):
-        axes = figure.add_subplot(1, bearings, b + 1)
-        draw(axes, run, b, most_hz)
-        axes.set_title(f"bearing {b}", fontsize=10)
+    for k, (name, motion) in enumerate(shown):
+        axes = figure.add_subplot(1, len(shown), k + 1)
+        draw(axes, run, motion, most_hz, COLOURS[k % len(COLOURS)])
+        axes.set_title(name, fontsize=10)
     low, high = float(run.speed_rpm.min()), float(run.speed_rpm.max())
     speed = f"{low:g} rev/min" if low == high else f"{low:g} to {high:g} rev/min"
-    figure.suptitle(f"{kind} of the inner ring, {speed}")
+    figure.suptitle(f"{kind} of the {'inner ring' if node is None else 'rotor'}, {speed}")
     return _written(figure, path)
 
 
-def _orbit(axes: Any, run: Any, b: int, most_hz: float) -> None:
-    """Path of a ring over its last turns; a dot where it ends."""
+def _orbit(axes: Any, run: Any, motion: Any, most_hz: float, colour: str) -> None:
+    """Path over the last turns; a dot where it ends."""
     turned = (
         np.concatenate([[0.0], np.cumsum(0.5 * (run.speed_rpm[1:] + run.speed_rpm[:-1]) * np.diff(run.t))]) / 60.0
     )
-    x, y = run.ring[turned >= turned[-1] - LAST_TURNS, b].T * MICRO
-    axes.plot(x, y, color=COLOURS[b % len(COLOURS)], linewidth=0.7)
+    x, y = motion[turned >= turned[-1] - LAST_TURNS].T * MICRO
+    axes.plot(x, y, color=colour, linewidth=0.7)
     axes.plot(x[-1], y[-1], "o", color="black", markersize=4)
     axes.set_aspect("equal", adjustable="datalim")
     axes.ticklabel_format(useOffset=False)
@@ -143,11 +150,11 @@ def _amplitudes(signal: Any, dt: float) -> tuple[Any, Any]:
     return np.fft.rfftfreq(signal.size, dt), lines
 
 
-def _spectrum(axes: Any, run: Any, b: int, most_hz: float) -> None:
+def _spectrum(axes: Any, run: Any, motion: Any, most_hz: float, _: str) -> None:
     """Amplitudes of the second half of a run, when its start is forgotten."""
     half, dt = run.t.size // 2, float(run.t[1] - run.t[0])
     for k, (name, colour) in enumerate((("x", OUTER), ("y", INNER))):
-        hz, lines = _amplitudes(run.ring[half:, b, k], dt)
+        hz, lines = _amplitudes(motion[half:, k], dt)
         shown = (hz > 0.0) & (hz <= most_hz)
         axes.semilogy(hz[shown], lines[shown] * MICRO, color=colour, linewidth=0.9, label=name)
     top = 2.0 * max(float(line.get_ydata().max()) for line in axes.lines)
@@ -160,13 +167,16 @@ def _spectrum(axes: Any, run: Any, b: int, most_hz: float) -> None:
     axes.legend(frameon=False, fontsize=8)
 
 
-def _waterfall(axes: Any, run: Any, b: int, most_hz: float) -> None:
+def _waterfall(axes: Any, run: Any, motion: Any, most_hz: float, _: str) -> None:
     """Spectra of y piece by piece, over the time, or over the speed where it changes one way."""
     dt, count = float(run.t[1] - run.t[0]), run.t.size
-    piece = max(int(2.0 * count / (np.sqrt(count) + 1.0)), 16) if count < ROWS**2 else 4 * count // ROWS
+    # a line that moves by r Hz/s is sharpest in pieces of 1/sqrt(r) s; the window sees half of one
+    rate = np.ptp(run.speed_rpm) / 60.0 / (dt * count)
+    piece = min(int(WINDOW / np.sqrt(rate) / dt), count // FEWEST) if rate > 0.0 else count // FEWEST
+    piece = max(piece, min(16, count))
     starts = np.unique(np.linspace(0, max(count - piece, 0), ROWS).astype(int))
     middle = np.minimum(starts + piece // 2, count - 1)
-    rows = [_amplitudes(run.ring[start : start + piece, b, 1], dt) for start in starts.tolist()]
+    rows = [_amplitudes(motion[start : start + piece, 1], dt) for start in starts.tolist()]
     hz = rows[0][0]
     shown = hz <= most_hz
     level = np.log10(np.array([row[1][shown] for row in rows]) * MICRO + 1e-12)
@@ -244,6 +254,12 @@ def _whirl(whirl: float) -> str:
     return "forward" if whirl > 0.0 else "backward"
 
 
+def _place(response: Any, k: int) -> str:
+    x, y = response.nodes[k].tolist()
+    name = response.names[k] if response.names else ""
+    return name or f"degrees of freedom {x}, {y}"
+
+
 def draw_unbalance(response: Any, path: str | os.PathLike[str] | None) -> Any:
     """Largest displacement on the orbit of every node over the speed, and phases of x below."""
     from matplotlib.figure import Figure
@@ -251,11 +267,9 @@ def draw_unbalance(response: Any, path: str | os.PathLike[str] | None) -> Any:
     figure = Figure(figsize=(SIZE[0], 1.4 * SIZE[1]), layout="constrained")
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.0, 1.0))
     rpm, major = response.speed_rpm, response.major
-    for k, (x, y) in enumerate(response.nodes.tolist()):
+    for k, x in enumerate(response.nodes[:, 0].tolist()):
         colour, style = COLOURS[k % len(COLOURS)], ("-", "--", ":")[k % 3]
-        above.semilogy(
-            rpm, major[:, k] * MICRO, style, color=colour, linewidth=1.3, label=f"degrees of freedom {x}, {y}"
-        )
+        above.semilogy(rpm, major[:, k] * MICRO, style, color=colour, linewidth=1.3, label=_place(response, k))
         phase = np.degrees(np.unwrap(np.angle(response.amplitude[:, x])))
         below.plot(rpm, phase, style, color=colour, linewidth=1.3)
     above.set_ylabel("half axis of the orbit [um]")

@@ -7,8 +7,10 @@ Where the matrices come from does not matter: own beams, ROSS, a reduction that 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from math import pi
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -89,6 +91,8 @@ class MatrixRotor:
     load : array_like, shape (N,), optional
         Constant forces [N], weight for one.
     unbalances : tuple of Unbalance
+    nodes : mapping of str to (int, int), optional
+        Names for degrees of freedom x, y, as "disc".
 
     Raises
     ------
@@ -103,6 +107,7 @@ class MatrixRotor:
     gyroscopic: _Floats = None  # type: ignore[assignment]
     load: _Floats = None  # type: ignore[assignment]
     unbalances: tuple[Unbalance, ...] = ()
+    nodes: Mapping[str, tuple[int, int]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         size = len(np.atleast_1d(np.asarray(self.mass, float)))
@@ -133,6 +138,9 @@ class MatrixRotor:
             taken.append(ends[0])
         for i, unbalance in enumerate(self.unbalances):
             self._require_there(f"unbalances[{i}]", (unbalance.x, unbalance.y))
+        object.__setattr__(self, "nodes", MappingProxyType({name: tuple(at) for name, at in self.nodes.items()}))
+        for name, pair in self.nodes.items():
+            self._require_there(f"nodes[{name!r}]", pair)
 
     def _require_there(self, field: str, pair: Any) -> None:
         allowed = f"two different degrees of freedom from 0 to {self.size - 1}"

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact import Status
-from ehlcontact.checks import as_column, require_positive
+from ehlcontact.checks import as_column, require_integer, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import hdf5
 from reduced_models.bearing.ball_bearing import RACES
@@ -77,9 +77,14 @@ class BearingRun:
         return run
 
     def plot(
-        self, path: str | os.PathLike[str] | None = None, *, kind: str = "orbit", most_hz: float | None = None
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        kind: str = "orbit",
+        most_hz: float | None = None,
+        node: tuple[int, int] | None = None,
     ) -> Any:
-        """Matplotlib figure of the rings' motion; into a file too where a path is given.
+        """Matplotlib figure of the rings' motion, or of another node's; into a file too where a path is given.
 
         Parameters
         ----------
@@ -90,11 +95,13 @@ class BearingRun:
             of y piece by piece, over the speed or, where that is constant, the time.
         most_hz : float, optional
             End of the frequencies shown; by default 20 times the highest speed, as far as the steps resolve it.
+        node : (int, int), optional
+            Degrees of freedom x, y of the rotor that are shown in place of the rings, as ``rotor.nodes["disc"]``.
 
         Raises
         ------
         InputError
-            Another kind, a run of fewer than 16 steps, or the file cannot be written.
+            Another kind, a run of fewer than 16 steps, a node that is not there, or the file cannot be written.
         """
         from reduced_models.bearing.picture import draw_run
 
@@ -106,7 +113,13 @@ class BearingRun:
         if most_hz is None:
             turning = float(self.speed_rpm.max()) / 60.0
             most_hz = min(ORDERS_SHOWN * turning, highest) if turning > 0.0 else highest
-        return draw_run(self, path, kind, min(require_positive("most_hz", most_hz), highest))
+        if node is not None:
+            most = self.displacement.shape[1] - 1
+            if len(node) != 2 or not all(
+                0 <= require_integer("node", at, "whole numbers", 0) <= most for at in node
+            ):
+                raise InputError("node", node, f"two degrees of freedom from 0 to {most}")
+        return draw_run(self, path, kind, min(require_positive("most_hz", most_hz), highest), node)
 
 
 def simulate_on_bearings(

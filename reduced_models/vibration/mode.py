@@ -29,6 +29,7 @@ PROBE = 1e-5  # of |s|: difference quotients of Z, which only steer Newton's met
 SAME = 1e-6  # relative difference of eigenvalues that may be one
 NEW = 1e-3  # least singular value of the shapes that have one eigenvalue: below, one of them is not its own
 CANDIDATES = 6  # that are tried for a mode
+CREEPING = 0.01  # imaginary over real part, below which what dies away is no vibration: e^-600 in a period
 NO_OSCILLATION = 1e-7  # of the fastest mode: below, a frequency is the rounding of none
 
 
@@ -73,7 +74,7 @@ class WhirlMode:
 
 
 def eigenvectors(matrices: Matrices, impedance: _Complex, omega: float) -> tuple[_Complex, _Complex]:
-    """Oscillating modes with K + i w C of the bearings frozen, slowest first: eigenvalues, vectors as columns."""
+    """Vibrations with K + i w C of the bearings frozen, slowest first: eigenvalues, vectors as columns."""
     M, C, K = matrices
     size = len(M)
     A = np.zeros((2 * size, 2 * size))
@@ -83,6 +84,7 @@ def eigenvectors(matrices: Matrices, impedance: _Complex, omega: float) -> tuple
     values, vectors = linalg.eig(A)
     order = np.argsort(values.imag)
     order = order[values.imag[order] > NO_OSCILLATION * np.abs(values).max()]
+    order = order[values.imag[order] > CREEPING * np.abs(values.real[order])]
     return values[order], vectors[:size, order]
 
 

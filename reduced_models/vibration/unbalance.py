@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Self
 
@@ -35,12 +35,15 @@ class UnbalanceResponse:
         Of all degrees of freedom [m], or rad where they turn.
     nodes : ndarray, shape (n, 2)
         Degrees of freedom x, y of the nodes with bearings and unbalances.
+    names : tuple of str
+        Of those nodes, "" where the rotor has none.
     """
 
     speed_rpm: _Floats
     cosine: _Floats
     sine: _Floats
     nodes: NDArray[np.int64]
+    names: tuple[str, ...] = field(default=(), metadata={"later": True})
 
     @property
     def amplitude(self) -> _Complex:
@@ -106,6 +109,9 @@ def unbalance_response(rotor: MatrixRotor, speeds_rpm: ArrayLike, *, passage: bo
     if speeds[0] <= 0.0:
         raise InputError("speeds_rpm[0]", float(speeds[0]), "> 0")
     found = [linearise(rotor, s, passage=passage).unbalance_response(rpm=s)[0] for s in speeds.tolist()]
-    places = [(m.x, m.y) for m in rotor.mounts] + [(u.x, u.y) for u in rotor.unbalances]
-    q, nodes = np.array(found), np.array(list(dict.fromkeys(places)), np.int64)
-    return UnbalanceResponse(speed_rpm=speeds, cosine=q.real.copy(), sine=-q.imag, nodes=nodes)
+    places = list(dict.fromkeys([(m.x, m.y) for m in rotor.mounts] + [(u.x, u.y) for u in rotor.unbalances]))
+    known = {pair: name for name, pair in rotor.nodes.items()}
+    q, names = np.array(found), tuple(known.get(pair, "") for pair in places)
+    return UnbalanceResponse(
+        speed_rpm=speeds, cosine=q.real.copy(), sine=-q.imag, nodes=np.array(places, np.int64), names=names
+    )

@@ -4,10 +4,11 @@ import json
 
 import numpy as np
 import pytest
-from report import contact_claims, rotor_claims
+from report import contact_claims, rotor_claims, whole_claims
 from report.contact import MODELS, RECORDS, Recomputed
 from report.page import PageNumbers
 from report.rotor import RecomputedRotor
+from report.whole import RecomputedWhole
 from tiny_study import STUDY
 
 from ehlcontact.cli.study.forecast import cautions
@@ -50,6 +51,11 @@ def again(made):
 @pytest.fixture(scope="module")
 def rotor(made, results):
     return RecomputedRotor(*made, results)
+
+
+@pytest.fixture(scope="module")
+def whole(made):
+    return RecomputedWhole(*made)
 
 
 @pytest.fixture(scope="module")
@@ -124,6 +130,35 @@ def test_rotor_in_the_results(rotor, results):
                 assert [theirs[key] for key in ("lift_offs", "impacts", "lost_share")] == ours[2:5]
 
 
+def test_whole_bearings_in_the_results(whole, results):
+    """Runs, modes, films and critical speeds."""
+    found = results["whole_bearing"]
+    assert found["ball_passage_hz"] == pytest.approx(whole.passage, rel=1e-9)
+    assert found["failed"] == {} and found["no_diagram"] is None and found["critical_speeds_rpm"] == []
+    for name, theirs in found["runs"].items():
+        ours = whole.row(name)
+        for key, other in (("ring_swing", "ring"), ("disc_swing", "disc"), ("at_speed", "once")):
+            assert theirs[key] == pytest.approx(ours[other], rel=1e-6)
+        assert theirs["largest_load"] == ours["load"]
+        if ours["passing"] is None:
+            assert theirs["at_ball_passage"] is None and theirs["deflection"] is None
+        else:
+            assert theirs["at_ball_passage"] == pytest.approx(ours["passing"], rel=1e-5)
+            assert theirs["deflection"] == pytest.approx(-whole.shown(name)[1][:, 1].mean(), rel=1e-9)
+        for way in ("vertical", "horizontal"):
+            hz, decrement = ours[way]
+            assert theirs[way]["hz"] == pytest.approx(hz, rel=1e-6)
+            assert theirs[way]["decrement"] == pytest.approx(decrement, rel=1e-4)
+    for k, ball in enumerate(found["balls"]):
+        assert ball["degrees"] == pytest.approx(k * 40.0)
+        assert ball["force"] == pytest.approx(whole.state.force[k], rel=1e-9)
+        assert ball["h_min"] == pytest.approx(whole.state.h_min[k], rel=1e-9)
+    carried = sum(ball["force"][0] * np.cos(np.radians(ball["degrees"])) for ball in found["balls"])
+    assert carried == pytest.approx(whole.study["bearing"]["radial_load"])
+    for name, pair in found["constants"].items():
+        assert (pair["stiffness"], pair["damping"]) == pytest.approx([c[1] for c in whole.constants[name]])
+
+
 def test_films_and_records_in_the_results(again, results):
     film, found = again.steady, results["steady"]
     assert found["p_max"] == film.P.max() and found["cycles"] == film.residuals.size - 1
@@ -138,8 +173,8 @@ def test_films_and_records_in_the_results(again, results):
         assert row["largest_load_residual"] == np.abs(run.load_residuals).max()
 
 
-def test_every_number_of_the_page(made, again, rotor, results, refused):
-    """Whoever adds a number to the page says in `contact_claims` or `rotor_claims` how it is computed."""
+def test_every_number_of_the_page(made, again, rotor, whole, results, refused):
+    """Whoever adds a number to the page says in one of the `claims` how it is computed."""
     page = PageNumbers((made[1] / "report.html").read_text())
     contact_claims.claim_operating_point(page, again)
     contact_claims.claim_assumptions(page, again, rotor, results)
@@ -149,10 +184,12 @@ def test_every_number_of_the_page(made, again, rotor, results, refused):
     contact_claims.claim_fmu(page, made[1])
     contact_claims.claim_origin(page, results)
     rotor_claims.claim_headline(page, rotor)
+    whole_claims.claim_headline(page, whole)
     for told in cautions(load_study(made[1] / "study.toml")):  # `validate` has tests of its own
         page.claim(told)
     rotor_claims.claim_rotor(page, rotor)
     rotor_claims.claim_decay(page, rotor)
     rotor_claims.claim_unbalance(page, rotor)
     rotor_claims.claim_events(page, rotor)
+    whole_claims.claim_table(page, whole, results)
     assert page.left == [], "\n".join(page.left)

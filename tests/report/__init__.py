@@ -8,5 +8,7 @@ room               responsibility
 ``rotor``          runs, decays, events and linear model of the rotor, likewise
 ``contact_claims`` which number of the page is which of ``contact``
 ``rotor_claims``   which is which of ``rotor``
+``whole``          the rotor on whole bearings, likewise
+``whole_claims``   which is which of ``whole``
 ================== ================================================================================================
 """

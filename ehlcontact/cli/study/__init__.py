@@ -15,6 +15,7 @@ module           responsibility
 ``kick``         the rotor kicked, its decay and decrement
 ``bode``         its response to unbalance over frequency
 ``differences``  full films beside elements, and beside what there is without them
+``whole``        the rotor on two whole bearings, with film memory under every ball
 ``headline``     what was found, in one paragraph
 ``results``      everything in numbers: ``results.json``
 ``report``       ``report.html``

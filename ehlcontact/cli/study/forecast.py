@@ -33,6 +33,8 @@ COST = {
 STEADY_COST = 3.5  # likewise per thousand nodes, of a whole steady solve
 CONV = 2.3e-3  # seconds of one when those studies were run
 REST = 10.0 / CONV  # fits, impedance, FMU, reduced rotors and report, of either study
+# Convolutions of the rotor on whole bearings, with films and dry: its diagram, and each of its steps.
+WHOLE, WHOLE_STEP = 470.0, 0.016
 REFERENCE_RUNS = 15  # convolutions timed, of which the fastest counts
 # What too coarse a mesh does, measured against finer grids: the 6205 at n = 64, and solver/mesh.py.
 FILM_TOO_THIN = "it comes out a fifth too thin, or negative"
@@ -84,7 +86,10 @@ class Forecast:
         for plan in self.plans:
             if not plan.kept:
                 loads[int(np.argmin(loads))] += plan.seconds or 0.0
-        return max(loads) + REST * self.conv
+        whole = self.study.whole_bearing
+        steps = whole.revolutions * whole.steps_per_revolution
+        asked = "whole_bearing" in self.study.model_fields_set
+        return max(loads) + (REST + (WHOLE + WHOLE_STEP * steps if asked else 0.0)) * self.conv
 
     @property
     def operating_point(self) -> dict[str, Any]:

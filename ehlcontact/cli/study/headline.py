@@ -9,6 +9,7 @@ from ehlcontact.cli.numerals import numeral, percent
 from ehlcontact.cli.study.differences import Events
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.reduction import CHOSEN, CONTACTS, DRY, FULL, MEMORY, UNDAMPED, WRONG
+from ehlcontact.cli.study.whole import NAMES
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.results import Findings
@@ -19,7 +20,7 @@ STEP_TOLD = 0.01
 
 def headline(found: Findings) -> str:
     """The paragraph."""
-    parts = (contact, damper, decay, unbalance, unsettled, step_check, grids, happenings, failures, assumed)
+    parts = (contact, damper, decay, unbalance, whole, unsettled, step_check, grids, happenings, failures, assumed)
     return " ".join(text for text in (part(found) for part in parts) if text)
 
 
@@ -91,6 +92,30 @@ def unbalance(found: Findings) -> str:
         f"Under its unbalance ({part}) vibrations and contact forces, about their mean, differ from those on the "
         f"full film, rms over standard deviation of the signal, by at most: {'; '.join(said)}."
     )
+
+
+def whole(found: Findings) -> str:
+    """The rotor on whole bearings, where the study has them: its decrements, and how balls that pass move it."""
+    if found.whole is None:
+        return ""
+    rows, parts = found.whole.rows, []
+    slowest = [(name, row["vertical"]) for name, row in rows.items() if row["vertical"] is not None]
+    if slowest:
+        said = (f"with {NAMES[name]} {numeral(m['decrement'], 3)} at {numeral(m['hz'])} Hz" for name, m in slowest)
+        parts.append(
+            f"On two whole bearings its slowest vertical vibration has a decrement of: {'; '.join(said)}."
+        )
+    heard = [(name, row["at_ball_passage"]) for name, row in rows.items() if row["at_ball_passage"] is not None]
+    if heard:
+        said = (f"{numeral(size * 1e9, 3)} nm with {NAMES[name]}" for name, size in heard)
+        hz = numeral(found.whole.passage_hz)
+        parts.append(f"Balls that pass, at {hz} Hz, move the disc up and down by {', '.join(said)}.")
+    if found.whole.failed:
+        said = (f"{NAMES[name]} ({reason})" for name, reason in found.whole.failed.items())
+        parts.append(f"The rotor could not be run on whole bearings with: {'; '.join(said)}.")
+    if found.whole.said:
+        parts.append(f"NOTE, whole bearings: {'; '.join(found.whole.said)}.")
+    return " ".join(parts)
 
 
 def unsettled(found: Findings) -> str:

@@ -8,11 +8,12 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from ehlcontact.cli.page import write_page
-from ehlcontact.cli.plots import film, motion, rotor, vibration
+from ehlcontact.cli.plots import film, motion, rotor, vibration, whole
 from ehlcontact.cli.plots.fringes import three_lights
 from ehlcontact.cli.plots.impedance import impedance
 from ehlcontact.cli.study.reduction import CONTACTS, FULL, MEMORY, RECORDS
 from ehlcontact.cli.study.results import Findings
+from ehlcontact.cli.study.whole import NAMES, USUAL_DAMPING
 from reduced_models.rotor.events import LOST
 from reduced_models.rotor.settled import MOST_REVOLUTIONS
 
@@ -32,6 +33,8 @@ def write_report(found: Findings, path: Path) -> Path:
         names=CONTACTS,
         lost=LOST,
         most_revolutions=MOST_REVOLUTIONS,
+        bearings=NAMES,
+        usual_damping=USUAL_DAMPING,
     )
 
 
@@ -43,7 +46,8 @@ def drawings(found: Findings) -> dict[str, Callable[[], Figure]]:
     turning = {FULL: rotors.unbalance.full, **rotors.unbalance.reduced}
     how = rotors.unbalance.settling[FULL]
     free, frequencies = found.simulations["free"], (found.study.rotor_omega, found.at_kicked_mode["Omega"])
-    return {
+    found_whole = {} if found.whole is None else whole.drawings(found.whole, NAMES)
+    return found_whole | {
         "film_maps": lambda: film.film_maps(found.steady),
         "midplane": lambda: film.midplanes(found.steady),
         "interferogram": lambda: three_lights(found.steady),

@@ -29,6 +29,7 @@ from ehlcontact.cli.study.reduction import (
 )
 from ehlcontact.cli.study.response import at_rotor_speed, film_response
 from ehlcontact.cli.study.schema import Study
+from ehlcontact.cli.study.whole import WholeFindings, run_whole
 from ehlcontact.errors import InputError
 from ehlcontact.origin import __version__
 from ehlcontact.results import SteadyResult
@@ -48,6 +49,7 @@ class Findings:
     simulations: Mapping[str, SimulationResult]
     reduction: Reduction
     rotors: RotorFindings
+    whole: WholeFindings | None  # where the study has whole bearings
     fmu: Mapping[str, Any]
     seconds: Mapping[str, float]  # wall time by stage
 
@@ -223,6 +225,7 @@ class Findings:
             "spectrum_resolution": self.spectrum_resolution,
             "warnings": self.warnings,
             "rotor": self.rotors.to_dict(),
+            "whole_bearing": None if self.whole is None else self.whole.to_dict(),
             "seconds": self.seconds,
             "versions": self.versions,
         }
@@ -245,4 +248,8 @@ def evaluate(study: Study, folder: Path, ledger: Mapping[str, Mapping[str, Any]]
     rotors = compare_rotors(study, response, reduction.rotor_elements, folder)
     seconds = {name: float(note["seconds"]) for name, note in ledger.items()}
     seconds["elements, FMU, reduced rotors"] = time.perf_counter() - started
-    return Findings(study, steady, histories, reduction, rotors, exported, seconds)
+    started = time.perf_counter()
+    whole = run_whole(study, folder)
+    if whole is not None:
+        seconds["rotor on whole bearings"] = time.perf_counter() - started
+    return Findings(study, steady, histories, reduction, rotors, whole, exported, seconds)

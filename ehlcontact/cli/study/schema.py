@@ -160,6 +160,15 @@ class Rotor(Section):
     fit_steps_per_period: Steps = 40
 
 
+class WholeBearing(Section):
+    """The rotor on two whole bearings, two films with memory on every ball; left out, it is not run on them."""
+
+    conformity_other: Annotated[float, Field(gt=0.5, le=10.0, allow_inf_nan=False)] | None = None  # None: the same
+    clearance_um: Finite = 0.0  # radial internal clearance; below 0 the bearing is preloaded
+    revolutions: Annotated[int, Field(ge=10, le=1000, strict=True)] = 30  # the second half of them is shown
+    steps_per_revolution: Annotated[int, Field(ge=200, le=10000, strict=True)] = 500
+
+
 class Study(Section):
     """Everything that a study file says."""
 
@@ -171,6 +180,7 @@ class Study(Section):
     free: Free = Free()
     harmonic: Harmonic = Harmonic()
     rotor: Rotor = Rotor()
+    whole_bearing: WholeBearing = WholeBearing()
 
     @property
     def ball_load(self) -> float:
@@ -307,6 +317,10 @@ def load_study(path: Path) -> Study:
         for name in ("domain", "point", "roughness", "free_motion", "harmonic_motion", "rotor_motion"):
             getattr(study, name)  # made here once, so that what the library refuses is refused now
         require_solvable(study.point, study.largest_load, given)
+        if "whole_bearing" in study.model_fields_set:
+            from ehlcontact.cli.study.whole import require_whole_bearing
+
+            require_whole_bearing(study)
     except InputError as error:
         raise InputError(f"{path}: {ENTRIES.get(error.field, error.field)}", error.value, error.allowed) from None
     return study

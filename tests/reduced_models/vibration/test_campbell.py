@@ -81,6 +81,7 @@ def test_unbalance_peaks_at_the_critical_speed(dry, block):
 def test_response_over_the_speed_is_that_at_each_speed(film, beam):
     rotor = beam(film)
     found = unbalance_response(rotor, [2000.0, 3000.0])
+    assert found.names == ("", "", "")
     at = linearise(rotor, 3000.0).unbalance_response(rpm=3000.0)[0]
     np.testing.assert_allclose(found.amplitude[1], at, rtol=1e-12)
     assert found.nodes.tolist() == [[4, 5], [20, 21], [12, 13]]
@@ -127,6 +128,36 @@ def test_lines_of_a_spectrum_are_the_amplitudes(film, block):
     top = np.argmax(line.get_ydata())
     assert line.get_xdata()[top] == pytest.approx(400.0, abs=20.0)
     assert line.get_ydata()[top] == pytest.approx(2.0, rel=0.05)
+
+
+def test_a_line_that_follows_the_speed_is_sharp_in_a_waterfall(film, block):
+    """Unit amplitude once per turn: it stands at the speed of its row, most of it in four lines."""
+    course = SpeedCourse.ramp(2000.0, 5000.0, 1.0)
+    run = simulate_on_bearings(block(film), speed_rpm=course, dt=1e-4, until=1.0)
+    swing = np.zeros_like(run.ring)
+    swing[:, 0, 1] = 1e-6 * np.sin(course.at(run.t)[1])
+    mesh = type(run)(**(vars(run) | {"ring": swing})).plot(kind="waterfall").axes[0].collections[0]
+    rows, (speeds, hz) = (
+        10.0 ** mesh.get_array(),
+        (mesh.get_coordinates()[0, :, 0], mesh.get_coordinates()[:, 0, 1]),
+    )
+    middle, frequency = 0.5 * (hz[1:] + hz[:-1]), 0.5 * (speeds[1:] + speeds[:-1])
+    line = frequency[1] - frequency[0]
+    assert line < 10.0
+    np.testing.assert_allclose(frequency[rows.argmax(axis=1)], middle / 60.0, atol=line)
+    assert np.all(rows.max(axis=1) > 0.6)
+    assert np.all((rows > 0.3 * rows.max(axis=1, keepdims=True)).sum(axis=1) <= 4)
+
+
+def test_another_node_than_the_rings(film, beam, tmp_path):
+    run = simulate_on_bearings(beam(film), speed_rpm=3000.0, dt=5e-5, until=0.02)
+    figure = run.plot(tmp_path / "disc.png", node=(12, 13))
+    (axes,) = figure.axes
+    assert axes.get_title() == "degrees of freedom 12, 13"
+    np.testing.assert_allclose(axes.lines[0].get_xydata()[-1], run.displacement[-1, 12:14] * 1e6)
+    for node in ((12, 28), (12,), (12, 13.5)):
+        with pytest.raises(InputError, match="node"):
+            run.plot(node=node)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,140 @@
+"""The rotor on whole bearings: load zone, orbits, spectra, K and C over frequency, Campbell diagram."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ehlcontact.cli.plots.rotor import MICRO
+from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, RED, new_figure
+from reduced_models.bearing.picture import draw_campbell, films, load_zone
+
+if TYPE_CHECKING:
+    from ehlcontact.cli.study.whole import Ran, WholeFindings
+
+LOOKS: dict[str, dict[str, Any]] = {
+    "memory": {"color": BLUE, "linestyle": "-"},
+    "dry": {"color": GREY, "linestyle": "-"},
+    "constant": {"color": GREEN, "linestyle": "--"},
+    "usual": {"color": RED, "linestyle": "-."},
+}
+ORDER = ("dry", "memory", "usual", "constant")  # in which they are drawn: lines over clouds
+ORDERS = 12.0  # multiples of the speed, that a spectrum shows
+DEEPEST = 1e-5  # of its largest line, the smallest that it shows
+TURNS = 5.0  # of the shaft, on the orbits
+
+Names = Mapping[str, str]
+
+
+def drawings(found: WholeFindings, names: Names) -> dict[str, Callable[[], Figure]]:
+    """The figures by name, not drawn yet."""
+    figures = {
+        "whole_balls": lambda: balls(found),
+        "whole_orbits": lambda: orbits(found, names),
+        "whole_spectra": lambda: spectra(found, names),
+        "whole_coefficients": lambda: coefficients(found, names),
+        "whole_response": lambda: response(found, names),
+    }
+    if not isinstance(found.diagram, str):
+        diagram = found.diagram
+        figures["whole_campbell"] = lambda: draw_campbell(diagram, None)
+    return figures
+
+
+def balls(found: WholeFindings) -> Figure:
+    """Load zone, and the smallest film under every ball."""
+    figure = new_figure(4.6)
+    load_zone(figure.add_subplot(1, 2, 1, projection="polar"), found.state)
+    films(figure.add_subplot(1, 2, 2), found.state)
+    return figure
+
+
+def orbits(found: WholeFindings, names: Names) -> Figure:
+    """Paths of the left ring and of the disc, each about its mean."""
+    figure = new_figure(4.8)
+    for axes, body in zip(figure.subplots(1, 2), ("ring", "disc"), strict=True):
+        for name in [name for name in ORDER if name in found.ran]:
+            run = found.ran[name]
+            last = run.t >= run.t[-1] - TURNS * 60.0 / found.speed_rpm
+            path = getattr(run, body)[last]
+            x, y = ((path - path.mean(axis=0)) * 1e6).T
+            axes.plot(x, y, **LOOKS[name], label=names[name], linewidth=1.0)
+        axes.set(
+            title="inner ring, left" if body == "ring" else body, xlabel=f"x [{MICRO}]", ylabel=f"y [{MICRO}]"
+        )
+        axes.set_aspect("equal", adjustable="datalim")
+    figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return figure
+
+
+def spectra(found: WholeFindings, names: Names) -> Figure:
+    """Amplitudes of ring and disc up and down; dotted, the speed and the passage of the balls."""
+    figure = new_figure(4.0)
+    speed = found.speed_rpm / 60.0
+    for axes, body in zip(figure.subplots(1, 2), ("ring", "disc"), strict=True):
+        highest = 0.0
+        for name in [name for name in ORDER if name in found.ran]:
+            hz, size = lines(found.ran[name], body)
+            shown = hz <= ORDERS * speed
+            axes.semilogy(hz[shown], size[shown] * 1e6, **LOOKS[name], label=names[name], linewidth=1.0)
+            highest = max(highest, float(size[shown].max()) * 1e6)
+        for at, text in ((speed, " 1x"), (found.passage_hz, " ball passage")):
+            axes.axvline(at, color=ORANGE, linestyle=":", linewidth=1.0)
+            axes.annotate(text, (at, 0.97), xycoords=("data", "axes fraction"), va="top", color=ORANGE, fontsize=9)
+        axes.set(title="inner ring, left" if body == "ring" else body, xlabel="frequency [Hz]")
+        axes.set_ylabel(f"amplitude of y [{MICRO}]")
+        axes.set_xlim(0.0, ORDERS * speed)
+        if highest > 0.0:
+            axes.set_ylim(DEEPEST * highest, 3.0 * highest)
+    figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return figure
+
+
+def lines(run: Ran, body: str) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies [Hz] and amplitudes [m] of the height of ring or disc, through a Hann window."""
+    y = getattr(run, body)[:, 1]
+    window = np.hanning(y.size)
+    size = 2.0 * np.abs(np.fft.rfft((y - y.mean()) * window)) / window.sum()
+    return np.fft.rfftfreq(y.size, float(run.t[1] - run.t[0])), size
+
+
+def coefficients(found: WholeFindings, names: Names) -> Figure:
+    """K and C of a bearing over the frequency of the vibration, beside those that are constant."""
+    figure = new_figure(3.8)
+    at = found.over_frequency
+    panels = figure.subplots(1, 2)
+    for axes, name, unit, label in (
+        (panels[0], "stiffness", 1e-6, f"stiffness [N/{MICRO}]"),
+        (panels[1], "damping", 1.0, "damping [N s/m]"),
+    ):
+        axes.plot(at.hz, getattr(at, name)[:, 1, 1] * unit, color=BLUE, label="film memory, along the load")
+        axes.plot(at.hz, getattr(at, name)[:, 0, 0] * unit, color=BLUE, linestyle=":", label="across it")
+        for key, constant in found.constants.items():
+            value = constant[0 if name == "stiffness" else 1] * unit
+            axes.axhline(value, **LOOKS[key], linewidth=1.2, label=names[key])
+        axes.axvline(found.speed_rpm / 60.0, color=ORANGE, linestyle=":", linewidth=1.0)
+        axes.set_xscale("log")
+        axes.set(xlabel="frequency of the vibration [Hz]", ylabel=label)
+    panels[1].set_yscale("log")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return figure
+
+
+def response(found: WholeFindings, names: Names) -> Figure:
+    """Displacement of the disc over its eccentricity, over the frequency of the unbalance."""
+    figure = new_figure(3.9)
+    for k, (axes, way) in enumerate(
+        zip(figure.subplots(1, 2, sharey=True), ("horizontal", "vertical"), strict=True)
+    ):
+        for name in [name for name in ORDER if name in found.responses]:
+            axes.loglog(
+                found.response_hz, found.responses[name][:, k], **LOOKS[name], label=names[name], linewidth=1.2
+            )
+        axes.set(title=f"disc, {way}", xlabel="frequency of the unbalance [Hz]")
+        axes.margins(x=0.0)
+    figure.axes[0].set_ylabel("displacement/eccentricity [-]")
+    figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return figure

@@ -1,0 +1,371 @@
+"""The rotor of a study on two whole bearings: films with memory under all balls, dry, and constant K and C."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from math import ceil, pi
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.errors import ConvergenceError, InputError
+from reduced_models import (
+    BallBearing,
+    BearingCoefficients,
+    BearingRun,
+    BearingState,
+    Campbell,
+    Disc,
+    MatrixRotor,
+    OutsideValidityWarning,
+    Shaft,
+    Support,
+    campbell,
+    linearise,
+    rotor_on_bearings,
+    simulate_on_bearings,
+)
+from reduced_models.bearing.ball_bearing import LARGEST_PLAY
+from reduced_models.bearing.run import LEAST_STEPS
+from reduced_models.vibration.mode import eigenvectors
+
+if TYPE_CHECKING:
+    from ehlcontact.cli.study.schema import Study
+
+_Floats = NDArray[np.float64]
+Mode = tuple[float, float]  # frequency [Hz], logarithmic decrement
+
+# Damping over stiffness of a rolling bearing where nobody knows it [s]: Kraemer (Dynamics of Rotors and
+# Foundations, 1993) gives 0.25e-5 to 2.5e-5, and ROSS's BallBearingElement has the middle.
+USUAL_DAMPING = 1.25e-5
+FILM, DRY, CONSTANT, USUAL = "memory", "dry", "constant", "usual"
+NAMES = {
+    FILM: "film memory under every ball",
+    DRY: "dry Hertz contacts",
+    CONSTANT: "constant K and C, of the film at the speed",
+    USUAL: f"constant K, dry, and C = {USUAL_DAMPING:g} s K",
+}
+ENTRIES = {  # of a study, where the library calls them otherwise
+    "balls": "bearing.balls",
+    "clearance": "whole_bearing.clearance_um",
+    "load": "bearing.radial_load",
+    "speed_rpm": "bearing.speed_rpm",
+}
+VERTICAL = 0.5  # share of the motion of a mode from which it counts as vertical
+SWEEP = (0.25, 3.0)  # over the study's speed: where the Campbell diagram begins and ends
+MODES, SPEEDS = 4, 5  # of that diagram
+BAND = (0.1, 100.0)  # over the frequency of the shaft: K and C of the bearing
+FREQUENCIES = 31
+# Of the response: from a share of the shaft's frequency to a multiple of the fastest mode of the table, so many
+# frequencies, and as many again about that mode, close enough for decrements of 1e-3.
+BEGIN, BEYOND, COARSE, CLOSE = 0.2, 2.0, 120, 81
+NARROW = 0.04  # of the frequency of a mode: how far on either side they are close
+
+
+Linear = Callable[[_Floats], NDArray[np.complex128]]  # response (k, N) of all [m] to unbalance at hz (k,)
+
+
+@dataclass(frozen=True)
+class Ran:
+    """The rotor on one kind of bearing: its motion under unbalance, and its slowest vibrations.
+
+    Attributes
+    ----------
+    t : ndarray, shape (k,)
+        Of the turns that are shown [s].
+    ring, disc : ndarray, shape (k, 2)
+        Displacements of the left inner ring and of the disc [m].
+    vertical, horizontal : (float, float) or None
+        Slowest mode of each direction, where one oscillates.
+    linear : callable
+        Response of the rotor about rest, films and balls as at its speed, to its unbalance at any frequency.
+    """
+
+    t: _Floats
+    ring: _Floats
+    disc: _Floats
+    vertical: Mode | None
+    horizontal: Mode | None
+    linear: Linear
+    largest_load: float | None = None  # of any ball, in the whole run [N]
+
+    def lines(self, hz: tuple[float, ...]) -> _Floats:
+        """Amplitudes of the disc's height at some frequencies, all fitted at once with a mean."""
+        angles = 2.0 * pi * self.t[:, None] * np.array(hz)
+        columns = np.hstack([np.ones((self.t.size, 1)), np.cos(angles), np.sin(angles)])
+        found = np.linalg.lstsq(columns, self.disc[:, 1], rcond=None)[0][1:]
+        return np.hypot(found[: len(hz)], found[len(hz) :])
+
+    def to_dict(self, speed_hz: float, passage_hz: float) -> dict[str, Any]:
+        """All numbers, SI; swings from end to end, x and y."""
+        once, _, passing, _ = self.lines((speed_hz, 2.0 * speed_hz, passage_hz, 2.0 * passage_hz)).tolist()
+        moving = self.largest_load is not None  # constant springs do not know of balls, nor where they stand
+        modes = {"vertical": self.vertical, "horizontal": self.horizontal}
+        return {
+            "deflection": -float(self.ring[:, 1].mean()) if moving else None,
+            "ring_swing": np.ptp(self.ring, axis=0).tolist(),
+            "disc_swing": np.ptp(self.disc, axis=0).tolist(),
+            "at_speed": once,
+            "at_ball_passage": passing if moving else None,
+            "largest_load": self.largest_load,
+            **{name: None if m is None else {"hz": m[0], "decrement": m[1]} for name, m in modes.items()},
+        }
+
+
+@dataclass(frozen=True)
+class WholeFindings:
+    """Everything about the rotor on whole bearings."""
+
+    bearing: BallBearing
+    state: BearingState  # under the radial load, a ball below
+    dry_deflection: float  # likewise, without films [m]
+    ran: Mapping[str, Ran]
+    failed: Mapping[str, str]  # on which it could not be run, and why
+    said: tuple[str, ...]  # warnings
+    over_frequency: BearingCoefficients
+    constants: Mapping[str, tuple[float, float]]  # K and C along the load of those that are constant
+    diagram: Campbell | str  # or why there is none
+    response_hz: _Floats
+    responses: Mapping[str, _Floats]  # of the disc over its eccentricity, x and y, shape (k, 2)
+    speed_rpm: float
+
+    @property
+    def passage_hz(self) -> float:
+        """Frequency of the balls' passage."""
+        return self.bearing.frequencies(self.speed_rpm).bpfo
+
+    @property
+    def rows(self) -> dict[str, dict[str, Any]]:
+        """Numbers of the runs."""
+        return {name: one.to_dict(self.speed_rpm / 60.0, self.passage_hz) for name, one in self.ran.items()}
+
+    @property
+    def balls(self) -> list[dict[str, Any]]:
+        """Every ball at rest under the load, inner and outer race; films in m."""
+        state = self.state
+        films = np.full_like(state.force, np.nan) if state.h_min is None else state.h_min
+        degrees = np.degrees(state.angles - state.cage_angle)
+        return [
+            {"degrees": float(at), "force": force.tolist(), "h_min": film.tolist()}
+            for at, force, film in zip(degrees, state.force, films, strict=True)
+        ]
+
+    def to_dict(self) -> dict[str, Any]:
+        """All numbers, SI."""
+        diagram = None if isinstance(self.diagram, str) else self.diagram
+        return {
+            "bearing": self.bearing.to_dict(),
+            "speed_rpm": self.speed_rpm,
+            "ball_passage_hz": self.passage_hz,
+            "deflection": -float(self.state.displacement[1]),
+            "dry_deflection": self.dry_deflection,
+            "balls": self.balls,
+            "runs": self.rows,
+            "failed": dict(self.failed),
+            "warnings": list(self.said),
+            "constants": {name: {"stiffness": k, "damping": c} for name, (k, c) in self.constants.items()},
+            "critical_speeds_rpm": None if diagram is None else [c.speed_rpm for c in diagram.critical_speeds()],
+            "no_diagram": self.diagram if isinstance(self.diagram, str) else None,
+            "resonance": self.resonance,
+        }
+
+    @property
+    def resonance(self) -> dict[str, dict[str, dict[str, float]]]:
+        """Highest points of the responses, by direction."""
+        ways = "horizontal", "vertical"
+        return {name: {way: self._highest(name, k) for k, way in enumerate(ways)} for name in self.responses}
+
+    def _highest(self, name: str, k: int) -> dict[str, float]:
+        """Largest response of the disc over its eccentricity along one direction, and where."""
+        size = self.responses[name][:, k]
+        return {"amplitude": float(size.max()), "hz": float(self.response_hz[np.argmax(size)])}
+
+
+def whole_bearing(study: Study, *, oil: bool) -> BallBearing:
+    """The study's bearing with all its balls, in oil or dry.
+
+    Raises
+    ------
+    InputError
+        Balls that overlap, a clearance that is none, a race that the atlas does not have.
+    """
+    b, whole, rough = study.bearing, study.whole_bearing, study.roughness
+    other = b.conformity if whole.conformity_other is None else whole.conformity_other
+    inner, outer = (b.conformity, other) if b.race == "inner" else (other, b.conformity)
+    return BallBearing(
+        name=b.name,
+        balls=b.balls,
+        ball_diameter=b.ball_diameter_mm * 1e-3,
+        pitch_diameter=b.pitch_diameter_mm * 1e-3,
+        conformity_inner=inner,
+        conformity_outer=outer,
+        clearance=whole.clearance_um * 1e-6,
+        oil=study.lubricant if oil else None,
+        rq_ball=rough[0] if rough else None,
+        rq_race=rough[1] if rough else None,
+        youngs_modulus=b.youngs_modulus,
+        poisson_ratio=b.poisson_ratio,
+    )
+
+
+def require_whole_bearing(study: Study) -> None:
+    """Raise `InputError`, by the entry of the file, for a bearing that is none or has films beyond the atlas."""
+    names = ENTRIES | {f"conformity_{race}": "bearing.conformity" for race in ("inner", "outer")}
+    if study.whole_bearing.conformity_other is not None:
+        names["conformity_outer" if study.bearing.race == "inner" else "conformity_inner"] = (
+            "whole_bearing.conformity_other"
+        )
+    load, steps = study.bearing.radial_load, study.whole_bearing.steps_per_revolution
+    try:
+        bearing = whole_bearing(study, oil=True)
+        bearing.equilibrium((0.0, -load), speed_rpm=study.bearing.speed_rpm)
+    except InputError as error:
+        value, allowed = load if error.field == "load" else error.value, error.allowed
+        if error.field == "clearance":
+            most = 1e3 * LARGEST_PLAY * study.bearing.ball_diameter_mm
+            value, allowed = study.whole_bearing.clearance_um, f"between {-most:.3g} and {most:.3g} um"
+        raise InputError(names.get(error.field, error.field), value, f"{allowed}, for [whole_bearing]") from None
+    least = ceil(LEAST_STEPS * bearing.orders.bpfo)
+    if steps < least:
+        allowed = f"at least {least}, {LEAST_STEPS} while a ball passes"
+        raise InputError("whole_bearing.steps_per_revolution", steps, allowed)
+
+
+def whole_rotor(study: Study, bearing: BallBearing) -> MatrixRotor:
+    """Rotor of the study on two such bearings, pressed down so that each carries the study's load."""
+    r = study.rotor
+    needed = 2.0 * study.bearing.radial_load - (r.disc_mass + r.journal_mass) * 9.81
+    disc = Disc(position=0.5, mass=r.disc_mass, damping=r.disc_damping, unbalance=r.unbalance, load=(0.0, -needed))
+    supports = [Support(position=at, bearing=bearing, journal_mass=0.5 * r.journal_mass) for at in (0.0, 1.0)]
+    # of any length: a disc that is a point, in the middle, feels the stiffness alone
+    shaft = Shaft.jeffcott(r.shaft_stiffness, 1.0, damping=r.shaft_damping)
+    return rotor_on_bearings(shaft, discs=[disc], supports=supports)
+
+
+def run_whole(study: Study, folder: Path) -> WholeFindings | None:
+    """Run the rotor on whole bearings where the study asks for it; runs are left in the folder."""
+    if "whole_bearing" not in study.model_fields_set:
+        return None
+    wet, dry, rpm = whole_bearing(study, oil=True), whole_bearing(study, oil=False), study.bearing.speed_rpm
+    weight = (0.0, -study.bearing.radial_load)
+    ran: dict[str, Ran] = {}
+    failed: dict[str, str] = {}
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", OutsideValidityWarning)
+        for name, bearing in ((FILM, wet), (DRY, dry)):
+            try:
+                ran[name] = _run(study, whole_rotor(study, bearing), folder / f"on_bearings_{name}.h5")
+            except ConvergenceError as error:
+                failed[name] = str(error)
+    film, hertz = (one.coefficients(weight, speed_rpm=rpm, rpm=rpm) for one in (wet, dry))
+    constant = {
+        CONSTANT: (film.stiffness[0], film.damping[0]),
+        USUAL: (hertz.stiffness[0], USUAL_DAMPING * hertz.stiffness[0]),
+    }
+    ran |= {name: _linear(study, whole_rotor(study, dry), *pair) for name, pair in constant.items()}
+    hz = rpm / 60.0 * np.geomspace(*BAND, FREQUENCIES)
+    grid, disc = _response_grid(rpm / 60.0, ran), list(whole_rotor(study, wet).nodes["disc"])
+    eccentricity = study.rotor.unbalance / study.rotor.disc_mass
+    return WholeFindings(
+        bearing=wet,
+        state=wet.equilibrium(weight, speed_rpm=rpm),
+        dry_deflection=-float(dry.equilibrium(weight, speed_rpm=rpm).displacement[1]),
+        ran=ran,
+        failed=failed,
+        said=tuple(dict.fromkeys(str(one.message) for one in said)),
+        over_frequency=wet.coefficients(weight, speed_rpm=rpm, hz=hz),
+        constants={name: (float(K[1, 1]), float(C[1, 1])) for name, (K, C) in constant.items()},
+        diagram=_diagram(study, whole_rotor(study, wet)),
+        response_hz=grid,
+        responses={name: np.abs(one.linear(grid)[:, disc]) / eccentricity for name, one in ran.items()},
+        speed_rpm=rpm,
+    )
+
+
+def _times(study: Study) -> tuple[float, float, float]:
+    """Step, end, and from when on turns are shown [s]."""
+    turn, settings = 60.0 / study.bearing.speed_rpm, study.whole_bearing
+    return turn / settings.steps_per_revolution, turn * settings.revolutions, turn * (settings.revolutions // 2)
+
+
+def _run(study: Study, rotor: MatrixRotor, path: Path) -> Ran:
+    """Time steps from the orbit of the linearised rotor on, so that little has to settle."""
+    dt, until, begin = _times(study)
+    rpm = study.bearing.speed_rpm
+    at = linearise(rotor, rpm)
+    orbit = at.unbalance_response(rpm=rpm)[0]
+    start = at.rest + orbit.real, (1j * rpm * pi / 30.0 * orbit).real
+    run: BearingRun = simulate_on_bearings(rotor, speed_rpm=rpm, dt=dt, until=until, start=start)
+    run.save(path)
+    seen = run.t >= begin - 0.5 * dt
+    vertical, horizontal = _slowest(rotor, [(mode.eigenvalue, mode.shape) for mode in at.modes(None)])
+    return Ran(
+        t=run.t[seen],
+        ring=run.ring[seen, 0],
+        disc=run.displacement[seen][:, list(rotor.nodes["disc"])],
+        vertical=vertical,
+        horizontal=horizontal,
+        linear=lambda hz: at.unbalance_response(hz=hz),
+        largest_load=float(run.largest_load.max()),
+    )
+
+
+def _linear(study: Study, rotor: MatrixRotor, K: _Floats, C: _Floats) -> Ran:
+    """The settled rotor on springs and dampers that stay what they are."""
+    dt, until, begin = _times(study)
+    omega, rings = study.bearing.speed_rpm * pi / 30.0, rotor.rings
+    both = np.eye(len(rotor.mounts))
+    stiffness = rotor.stiffness + rings.T @ np.kron(both, K) @ rings
+    damping = rotor.damping + rings.T @ np.kron(both, C) @ rings
+    turning = np.zeros(rotor.size, complex)
+    for one in rotor.unbalances:
+        turning[[one.x, one.y]] += one.amount * np.array([1.0, -1j])
+
+    def response(hz: _Floats) -> NDArray[np.complex128]:
+        """Of all displacements, shape (k, N)."""
+        ws = 2.0 * pi * hz
+        return np.array(
+            [np.linalg.solve(stiffness - w * w * rotor.mass + 1j * w * damping, w * w * turning) for w in ws]
+        )
+
+    orbit = response(np.array([omega / (2.0 * pi)]))[0]
+    t: _Floats = np.asarray(np.arange(round(begin / dt), round(until / dt) + 1) * dt, np.float64)
+    q = np.linalg.solve(stiffness, rotor.load) + np.real(np.exp(1j * omega * t)[:, None] * orbit)
+    values, vectors = eigenvectors((rotor.mass, damping, stiffness), np.zeros_like(stiffness, complex), 1.0)
+    modes = [(complex(s), shape) for s, shape in zip(values, vectors.T, strict=True)]
+    vertical, horizontal = _slowest(rotor, modes)
+    return Ran(t, (q @ rings.T)[:, :2], q[:, list(rotor.nodes["disc"])], vertical, horizontal, response)
+
+
+def _slowest(rotor: MatrixRotor, modes: list[tuple[complex, Any]]) -> tuple[Mode | None, Mode | None]:
+    """Of modes from the slowest on, the first that is vertical and the first that is not."""
+    found: dict[str, Mode | None] = {"vertical": None, "horizontal": None}
+    up = [pair[1] for pair in rotor.nodes.values()]
+    for s, shape in modes:
+        share = float((np.abs(shape[up]) ** 2).sum() / (np.abs(shape) ** 2).sum())
+        way = "vertical" if share >= VERTICAL else "horizontal"
+        if found[way] is None:
+            found[way] = s.imag / (2.0 * pi), -2.0 * pi * s.real / s.imag
+    return found["vertical"], found["horizontal"]
+
+
+def _response_grid(speed_hz: float, ran: Mapping[str, Ran]) -> _Floats:
+    """Frequencies [Hz] that show all modes of the table."""
+    modes = [mode[0] for one in ran.values() for mode in (one.vertical, one.horizontal) if mode is not None]
+    wide = np.geomspace(BEGIN * speed_hz, BEYOND * max([speed_hz, *modes]), COARSE)
+    near = [hz * (1.0 + NARROW * np.linspace(-1.0, 1.0, CLOSE) ** 3) for hz in modes]
+    return np.unique(np.concatenate([wide, *near]))
+
+
+def _diagram(study: Study, rotor: MatrixRotor) -> Campbell | str:
+    """Modes over the speed, as far as the bearing has films."""
+    rpm = study.bearing.speed_rpm
+    high = min(SWEEP[1] * rpm, rotor.mounts[0].bearing.highest_speed)
+    try:
+        return campbell(rotor, np.linspace(SWEEP[0] * rpm, high, SPEEDS), count=MODES)
+    except (ConvergenceError, InputError) as error:
+        return str(error)

@@ -1,0 +1,238 @@
+"""What a rotor is made of: a shaft, discs on it, bearings with their housings under it. SI units.
+
+Positions are along the shaft, from its left end.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.checks import (
+    as_column,
+    require_finite,
+    require_instance,
+    require_integer,
+    require_nonnegative,
+    require_positive,
+)
+from ehlcontact.errors import InputError
+from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.rotor import BearingMount, Unbalance
+from reduced_models.shaft.beam import Piece
+
+_Floats = NDArray[np.float64]
+
+DENSITY = 7800.0  # kg/m3 of steel, as of the balls
+ROUNDING = 1e-9  # share by which a polar inertia may pass that of a disc without thickness
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Shaft:
+    """A round shaft, of one section or several from left to right, bending and shearing as a Timoshenko beam.
+
+    Parameters
+    ----------
+    length, diameter : float or array_like, shape (sections,)
+        In m.
+    bore : float or array_like, shape (sections,)
+        Inner diameter [m].
+    youngs_modulus, poisson_ratio, density : float
+        In Pa, -, kg/m3; with density 0 it has no mass, as that of a Jeffcott rotor.
+    shear : bool
+        False: Euler's and Bernoulli's beam, which only bends (its sections still have turning inertia).
+    damping_time : float
+        Damping over stiffness [s], in the fixed frame: a shaft that does not damp its own bow as it turns.
+    elements : int
+        Pieces at least, all about as long.
+
+    Raises
+    ------
+    InputError
+        A value outside its range.
+    """
+
+    length: Any
+    diameter: Any
+    bore: Any = 0.0
+    youngs_modulus: float = 2.06e11
+    poisson_ratio: float = 0.3
+    density: float = DENSITY
+    shear: bool = True
+    damping_time: float = 0.0
+    elements: int = 8
+
+    def __post_init__(self) -> None:
+        lengths = as_column("length", np.atleast_1d(np.asarray(self.length, float)))
+        for name in ("length", "diameter", "bore"):
+            given = np.atleast_1d(np.asarray(getattr(self, name), float))
+            column = as_column(
+                name, np.full(lengths.size, given[0]) if given.size == 1 else given, size=lengths.size
+            )
+            check = require_nonnegative if name == "bore" else require_positive
+            for k, value in enumerate(column.tolist()):
+                check(f"{name}[{k}]" if lengths.size > 1 else name, value)
+            object.__setattr__(self, name, column)
+        if np.any(self.bore >= self.diameter):
+            raise InputError("bore", self.bore.tolist(), f"below the diameter {self.diameter.tolist()}")
+        require_positive("youngs_modulus", self.youngs_modulus)
+        if not -1.0 < require_finite("poisson_ratio", self.poisson_ratio) <= 0.5:
+            raise InputError("poisson_ratio", self.poisson_ratio, "above -1 and at most 0.5")
+        for name in ("density", "damping_time"):
+            require_nonnegative(name, getattr(self, name))
+        require_integer("elements", self.elements, "a whole number >= 1", 1)
+
+    @classmethod
+    def jeffcott(cls, stiffness: float, span: float, *, damping: float = 0.0) -> Self:
+        """Shaft without mass that only bends, as stiff in the middle between bearings at its ends as is asked.
+
+        Parameters
+        ----------
+        stiffness, damping : float
+            Of its middle against both ends together [N/m], [N s/m].
+        span : float
+            Its length [m].
+        """
+        k, length = require_positive("stiffness", stiffness), require_positive("span", span)
+        inertia = k * length**3 / (48.0 * cls.youngs_modulus)
+        time = require_nonnegative("damping", damping) / k
+        diameter = (64.0 * inertia / pi) ** 0.25
+        return cls(length=length, diameter=diameter, density=0.0, shear=False, damping_time=time, elements=1)
+
+    @property
+    def end(self) -> float:
+        """Position of its right end [m]."""
+        return float(np.sum(self.length))
+
+    def pieces(self, stations: _Floats) -> list[Piece]:
+        """Between neighbouring stations, at all of which sections may end."""
+        ends = np.cumsum(self.length)
+        section = np.searchsorted(ends, 0.5 * (stations[1:] + stations[:-1]))
+        material = self.youngs_modulus, self.poisson_ratio, self.density, self.shear
+        return [
+            Piece(float(length), float(self.diameter[k]), float(self.bore[k]), *material)
+            for length, k in zip(np.diff(stations), section.tolist(), strict=True)
+        ]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Disc:
+    """A rigid disc on the shaft.
+
+    Parameters
+    ----------
+    position : float
+        In m.
+    mass : float
+        In kg.
+    diametral_inertia, polar_inertia : float
+        About a diameter and about the shaft [kg m2]; both 0: it is a point.
+    unbalance, phase : float
+        Mass times eccentricity [kg m], and its angle ahead of the shaft's [rad].
+    damping : float
+        To the ground [N s/m].
+    load : (float, float)
+        Constant force beside its weight [N].
+    """
+
+    position: float
+    mass: float
+    diametral_inertia: float = 0.0
+    polar_inertia: float = 0.0
+    unbalance: float = 0.0
+    phase: float = 0.0
+    damping: float = 0.0
+    load: tuple[float, float] = (0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        require_finite("position", self.position)
+        require_positive("mass", self.mass)
+        for name in ("diametral_inertia", "polar_inertia", "unbalance", "damping"):
+            require_nonnegative(name, getattr(self, name))
+        if self.polar_inertia > 2.0 * self.diametral_inertia * (1.0 + ROUNDING):
+            most = 2.0 * self.diametral_inertia
+            raise InputError(
+                "polar_inertia", self.polar_inertia, f"at most twice the diametral one, {most:.6g} kg m2"
+            )
+        Unbalance(x=0, y=1, amount=self.unbalance, phase=self.phase)
+        object.__setattr__(self, "load", tuple(as_column("load", self.load, size=2).tolist()))
+
+    @classmethod
+    def cylinder(
+        cls,
+        *,
+        position: float,
+        diameter: float,
+        width: float,
+        bore: float = 0.0,
+        density: float = DENSITY,
+        **others: Any,
+    ) -> Self:
+        """Of one material, `position` being that of its middle.
+
+        Parameters
+        ----------
+        diameter, width, bore : float
+            In m; the bore is filled by the shaft.
+        density : float
+            In kg/m3.
+        **others
+            Unbalance, phase, damping and load, as of the class.
+        """
+        outer, thick = require_positive("diameter", diameter), require_positive("width", width)
+        hole, rho = require_nonnegative("bore", bore), require_positive("density", density)
+        if hole >= outer:
+            raise InputError("bore", bore, f"below the diameter, {outer:g} m")
+        mass = rho * 0.25 * pi * (outer**2 - hole**2) * thick
+        polar = mass * (outer**2 + hole**2) / 8.0
+        across = 0.5 * polar + mass * thick**2 / 12.0
+        return cls(position=position, mass=mass, diametral_inertia=across, polar_inertia=polar, **others)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Support:
+    """A ball bearing under the shaft, on the ground or in a housing on springs.
+
+    Parameters
+    ----------
+    position : float
+        In m.
+    bearing : BallBearing
+    cage_angle : float
+        Of the first ball at the start [rad].
+    journal_mass : float
+        Beside that of the shaft [kg]: inner ring, sleeve, or, of a shaft without mass, its share.
+    housing_mass : float, optional
+        Of what moves with the outer ring [kg]; without it that stands on the ground.
+    housing_stiffness, housing_damping : float or (float, float), optional
+        Between the housing and the ground, along x and y [N/m], [N s/m].
+    """
+
+    position: float
+    bearing: BallBearing
+    cage_angle: float = -pi / 2.0
+    journal_mass: float = 0.0
+    housing_mass: float | None = None
+    housing_stiffness: Any = None
+    housing_damping: Any = 0.0
+
+    def __post_init__(self) -> None:
+        require_finite("position", self.position)
+        require_instance("bearing", self.bearing, BallBearing, "a BallBearing")
+        BearingMount(bearing=self.bearing, x=0, y=1, cage_angle=self.cage_angle)
+        require_nonnegative("journal_mass", self.journal_mass)
+        if (self.housing_mass is None) != (self.housing_stiffness is None):
+            missing = "housing_mass" if self.housing_mass is None else "housing_stiffness"
+            raise InputError(missing, None, "given: a housing has a mass and springs")
+        if self.housing_mass is not None:
+            require_positive("housing_mass", self.housing_mass)
+            for name, check in (("housing_stiffness", require_positive), ("housing_damping", require_nonnegative)):
+                given = np.atleast_1d(np.asarray(getattr(self, name), float))
+                pair = as_column(name, np.full(2, given[0]) if given.size == 1 else given, size=2)
+                for k, value in enumerate(pair.tolist()):
+                    check(f"{name}[{k}]", value)
+                object.__setattr__(self, name, pair)
