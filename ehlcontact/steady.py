@@ -30,6 +30,7 @@ from ehlcontact.solver.mesh import (
     allows_newton,
     default_domain,
     mesh_for,
+    newton_mesh,
     remedy,
     require_room,
 )
@@ -164,6 +165,11 @@ def solve_steady(
             status = ended if ended is Status.INTERRUPTED else status
             break
         solved, status = attempt, ended
+    coarser = newton_mesh(solved.mesh, moes)
+    if n is None and status in FAILED and LAST_RESORT in METHODS[method] and coarser != solved.mesh:
+        attempt, ended = work(coarser, (LAST_RESORT,))
+        if ended not in FAILED:  # its smallest film may be far off, and says so; better than none
+            solved, status = attempt, ended
     result = solved.result(status, scales_of(point), time.perf_counter() - started)
     if throw and not status.ok and status is not Status.INTERRUPTED:
         raise ConvergenceError(f"steady solve {status}: {status.advice}", result)

@@ -291,6 +291,13 @@ def allows_newton(mesh: Mesh, point: MoesPoint) -> bool:
     return mesh.nodes(point.kappa) <= LARGEST_NEWTON and mesh.fits(point.kappa, Solve.NEWTON)
 
 
+def newton_mesh(mesh: Mesh, point: MoesPoint) -> Mesh:
+    """Return the mesh, with as many halvings as it takes until Newton steps are affordable."""
+    while not allows_newton(mesh, point) and mesh.n > DOUBLED[0]:
+        mesh = Mesh(mesh.n // 2, mesh.domain)
+    return mesh
+
+
 def require_room(mesh: Mesh, point: MoesPoint, solve: Solve = Solve.CYCLES) -> None:
     """Raise `InputError` for a mesh that would not fit into memory."""
     require_memory(mesh.n, mesh.nodes(point.kappa), solve, mesh.levels(point.kappa))

@@ -16,7 +16,9 @@ from ehlcontact import (
     Status,
     solve_steady,
 )
+from ehlcontact import steady as steady_module
 from ehlcontact.hertz import shape_factor
+from ehlcontact.solver import mesh
 from ehlcontact.solver.level import build_hierarchy
 from ehlcontact.solver.mesh import Mesh, coarsest_intervals
 
@@ -241,3 +243,36 @@ def test_film_at_l_0_is_the_limit_of_small_l(M, kappa):
         for name in ("approach", "h_central", "h_min"):
             assert getattr(film, name) == pytest.approx(getattr(limit, name), rel=far), (film.point.L, name)
     assert others[-1].h_central != limit.h_central
+
+
+@pytest.fixture
+def cycles_fail(monkeypatch):
+    """No V cycles settle a film; Newton steps are for grids with at most so many nodes."""
+    run = steady_module._Attempt.run
+
+    def failing(attempt, **settings):
+        return run(attempt, **settings) if attempt.method.newton else Status.STAGNATED
+
+    monkeypatch.setattr(steady_module._Attempt, "run", failing)
+    return lambda nodes: monkeypatch.setattr(mesh, "LARGEST_NEWTON", nodes)
+
+
+def test_newton_on_a_coarser_grid_where_cycles_fail_on_one_too_large_for_it(cycles_fail):
+    """Better a film whose error estimate tells what the coarser mesh costs than none; but not where n is given."""
+    thin = MoesPoint(500, 10, 0.8)
+    wanted = mesh.mesh_for(thin, mesh.Purpose.FILM)
+    cycles_fail(wanted.nodes(thin.kappa) / 3.9)
+    found = solve_steady(thin)
+    assert found.status.ok and found.n == wanted.n // 2 and found.domain == wanted.domain
+    alone = solve_steady(thin, n=found.n, domain=wanted.domain, method="newton")
+    assert found.error.h_min > 0.0 and found.h_min == pytest.approx(alone.h_min, rel=1e-5)
+    for left in ({"n": wanted.n}, {"method": "multigrid"}):
+        assert solve_steady(thin, **left, throw=False).status is Status.STAGNATED
+
+
+@pytest.mark.slow
+def test_a_contact_five_times_as_long_as_wide():
+    """Cycles stagnate on n = 2048, where Newton steps are not affordable: they are on half of it."""
+    found = solve_steady(MoesPoint(43.93, 1.475, 4.847))
+    assert found.n == 1024 and found.h_min == pytest.approx(0.0054, rel=0.02)
+    assert 0.03 < found.error.h_min < 0.2
