@@ -1,10 +1,10 @@
 """A disc on a ball bearing, films and all, in a control loop: an active damper beside the little that oil damps.
 
-Run ``python examples/control_loop.py``: a minute. It prints the first mode with and without the damper and
+Run ``python examples/control_loop.py``: half a minute. It prints the first mode with and without the damper and
 draws `control_loop.png` beside it: Bode plots of the disc, and the disc after a blow.
 
-A 6205 in oil carries a journal of 1 kg; a stiff shaft leads to a disc of 20 kg, where an actuator pushes and a probe
-measures. `rotor_to_control` has rotor, balls and films as one nonlinear system of python-control, and
+A 6205 in oil carries a journal of 1 kg; a stiff shaft leads to a disc of 20 kg, where an actuator pushes and a
+probe measures. `rotor_to_control` has rotor, balls and films as one nonlinear system of python-control, and
 `linearise(...).to_control()` the same about rest, exactly: no differences, the films' memory as states.
 """
 
@@ -80,8 +80,8 @@ def first_mode(system: Any) -> tuple[float, float]:
 def blown(system: Any, slopes: Any, t: np.ndarray) -> np.ndarray:
     """The disc, shape (2, k) [m], after a blow upwards.
 
-    Films are stiff, which takes an implicit solver; it has its Jacobian from the linear system `slopes`, for one by
-    differences would cost as much as hundreds of its steps.
+    Films are stiff, which takes an implicit solver; it has its Jacobian from the linear system `slopes`, for one
+    by differences would cost as much as hundreds of its steps.
     """
     push = np.array([np.zeros(t.size), np.where(t < SHORT, BLOW, 0.0)])
     options = {"max_step": 0.5 * SHORT, "jac": slopes.A}  # or a solver steps over the blow

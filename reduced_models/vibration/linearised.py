@@ -44,8 +44,9 @@ class LinearisedRotor:
 
     Films are those of the speed and remember. Balls stand still while the rotor vibrates, at the angle of their
     mount or, over a ball passage, at all positions of the cage: then the impedance of a bearing is the mean of
-    those, each with the ring where the bearing's share of the load puts it. What turns while the rotor vibrates is
-    left out: a mode across the load of the beam in the tests loses 3 % of its decrement so, one along it nothing.
+    those, each with the ring where the bearing's share of the load puts it. That bearings change while the rotor
+    vibrates is left out: a mode across the load of the beam in the tests, where stiffness changes by a quarter as
+    balls pass, has 0.7 % more decrement and 0.2 % less frequency by that; one along the load nothing.
 
     Attributes
     ----------

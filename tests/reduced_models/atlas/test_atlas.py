@@ -26,6 +26,7 @@ from reduced_models.atlas.build import BOX, INTERPOLATION, assemble
 from reduced_models.atlas.elements import LEAST_APPROACH
 from reduced_models.atlas.sample import sample_points
 from reduced_models.atlas.solve import OMEGAS, solve_point
+from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
 
 CASE = MoesPoint(200.0, 10.0, 0.5)
 LIMITS = {"approach": 0.003, "tangent": 0.01, "film": 0.02, "damping": 0.05}  # relative errors
@@ -184,6 +185,48 @@ def test_wide_range_follows_the_atlas_over_the_load(shipped):
     for load in element.loads:
         own = shipped.at(MoesPoint(BEARING.M * load, BEARING.L, BEARING.kappa))
         assert element.approach_at(load) == pytest.approx(own.approach * load ** (2.0 / 3.0), abs=1e-9)
+
+
+def test_wide_through_loads_of_ones_own(shipped):
+    usual = shipped.element(BEARING, "wide")
+    same = shipped.wide(BEARING, usual.loads)
+    assert same.parameters == usual.parameters and same.source == usual.source
+    fine = shipped.wide(BEARING, np.geomspace(1e-3, 6.0, 40))
+    for load in (0.002, 0.4, 5.0):
+        own = shipped.at(MoesPoint(BEARING.M * load, BEARING.L, BEARING.kappa))
+        assert fine.approach_at(load) == pytest.approx(
+            own.approach * load ** (2.0 / 3.0), abs=2e-4 * own.film_share
+        )
+    # in N where the point is one in SI
+    bearing = Geometry.ball_bearing(7.94e-3, 39.04e-3, 0.52, "inner")
+    point = OperatingPoint(bearing, Lubricant(0.0367, 2e-8), 500.0, 5.8)
+    assert shipped.wide(point, [0.1, 1.0, 2.0]).load_range == (pytest.approx(50.0), pytest.approx(1000.0))
+
+
+@pytest.mark.parametrize(
+    ("loads", "match"),
+    [
+        ([1e-5, 1.0], "M = 0.029"),
+        ([1.0, 20.0], "M = 58000"),
+        ([0.0, 1.0], r"loads\[0\] = 0"),
+        ([1.0], "loads"),
+        ([1.0, 0.5], "loads"),
+    ],
+)
+def test_wide_through_loads_outside(shipped, loads, match):
+    with pytest.raises(InputError, match=match):
+        shipped.wide(BEARING, loads)
+
+
+@pytest.mark.parametrize("load", [1e-3, 0.1, 1.0, 10.0])
+def test_elements_have_a_dashpot_at_any_load(shipped, load):
+    """As fitted ones: or there is no rate at which a contact carries a given force."""
+    point = MoesPoint(BEARING.M * load, BEARING.L, BEARING.kappa)
+    low = shipped.at(point).impedance(Omega=min(OMEGAS[1:])).damping[0]
+    for model in ("wide", "memory"):
+        viscous = np.atleast_2d(shipped.element(point, model).gains)[:, 0]
+        assert np.all(viscous > 0.0)
+    assert viscous[0] >= 0.999 * LEAST_VISCOUS * low / DRY
 
 
 @pytest.mark.parametrize(

@@ -48,7 +48,7 @@ def test_ross_drop_in():
 
 
 def test_a_control_loop(tmp_path):
-    """Must-show of issue 12: linearised by differences within 1e-4, Bode is the impedance; and the damper damps."""
+    """Must-show of issue 12: linearised by differences within 1e-4, Bode is the impedance; the damper damps."""
     control = pytest.importorskip("control")
     loop = example("control_loop")
     held = loop.bearing()
