@@ -6,9 +6,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reduced_models import BearingRun, campbell
+from reduced_models import (
+    BallBearing,
+    BearingRun,
+    Disc,
+    Shaft,
+    SpeedCourse,
+    Support,
+    campbell,
+    rotor_on_bearings,
+    simulate_on_bearings,
+)
 from reduced_models.bearing.balls import turning
-from reduced_models.bearing.course import law_speeds
+from reduced_models.bearing.course import law_speeds, turning_forces
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.statics import StaticBalls
 
@@ -33,6 +43,53 @@ def test_forces_at_rest_do_not_jump_where_laws_change(film):
         assert right == pytest.approx(left, rel=0.015)
     for speed in np.sqrt(knots[1:] * knots[:-1]):
         assert force(speed) == pytest.approx(force(speed, film.kernel(speed)), rel=1e-4)
+
+
+HOUSING = {"housing_mass": 2.0, "housing_stiffness": (8e7, 2e8), "housing_damping": 300.0}
+
+
+@pytest.fixture(scope="module")
+def overhung(film, oil):
+    """Two kinds of bearing, one in a housing on springs, and a disc beyond them; no mode too fast for the steps."""
+    loose = BallBearing.catalogue("6204", oil=oil, clearance=4e-6)
+    return rotor_on_bearings(
+        Shaft(length=0.3, diameter=0.025, density=0.0),
+        discs=[Disc.cylinder(position=0.3, diameter=0.2, width=0.03, bore=0.025, unbalance=1e-5)],
+        supports=[
+            Support(position=0.02, bearing=film, journal_mass=0.5),
+            Support(position=0.17, bearing=loose, journal_mass=0.5, **HOUSING),
+        ],
+    )
+
+
+COURSE = SpeedCourse(np.array([0.0, 0.02, 0.04]), np.array([3000.0, 8000.0, 6000.0]))
+
+
+def test_run_ups_are_of_second_order(overhung):
+    """Up and down through four laws: errors fall fourfold with half the step."""
+    ends = [
+        simulate_on_bearings(overhung, speed_rpm=COURSE, dt=dt, until=0.04).displacement[:: round(2e-5 / dt)]
+        for dt in (2e-5, 1e-5, 5e-6, 1.25e-6)
+    ]
+    errors = [np.sqrt(np.mean((end - ends[-1]) ** 2)) for end in ends[:-1]]
+    assert errors[0] < 2e-4 * ends[-1].std()
+    assert errors[1] < 0.3 * errors[0] and errors[2] < 0.075 * errors[0]
+
+
+def test_energy_is_kept_as_the_speed_changes(overhung):
+    """What unbalance, weight and gyroscopic forces put in is stored, or taken by bearings and dampers."""
+    dt = 2.5e-6
+    run = simulate_on_bearings(overhung, speed_rpm=COURSE, dt=dt, until=0.04, rho_inf=1.0)
+    q, v = run.displacement, run.velocity
+    forces, at = turning_forces(overhung, *COURSE.at(run.t))
+    power = np.einsum("ij,ij->i", forces, v @ at) + v @ overhung.load
+    taken = np.einsum("ij,ij->i", run.force.reshape(len(q), -1), v @ overhung.rings.T)
+    taken += np.einsum("ij,jk,ik->i", v, overhung.damping, v)
+    stored = 0.5 * np.einsum("ij,jk,ik->i", v, overhung.mass, v)
+    stored += 0.5 * np.einsum("ij,jk,ik->i", q, overhung.stiffness, q)
+    work, lost, moved = (np.sum(0.5 * (p[1:] + p[:-1])) * dt for p in (power, taken, np.abs(power)))
+    assert abs(work - lost - (stored[-1] - stored[0])) < 1e-3 * moved
+    assert abs(lost) > 0.01 * moved  # without what is taken it would not close
 
 
 @pytest.fixture(scope="module")
