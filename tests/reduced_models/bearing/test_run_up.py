@@ -50,7 +50,7 @@ HOUSING = {"housing_mass": 2.0, "housing_stiffness": (8e7, 2e8), "housing_dampin
 
 @pytest.fixture(scope="module")
 def overhung(film, oil):
-    """Two kinds of bearing, one in a housing on springs, and a disc beyond them; no mode too fast for the steps."""
+    """Two kinds of bearing, one in a housing on springs, and a disc beyond them; no mode too fast for steps."""
     loose = BallBearing.catalogue("6204", oil=oil, clearance=4e-6)
     return rotor_on_bearings(
         Shaft(length=0.3, diameter=0.025, density=0.0),
