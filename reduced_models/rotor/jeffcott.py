@@ -91,6 +91,8 @@ class RotorState:
 class JeffcottRotor:
     """Jeffcott rotor on contacts, after the equations at the head of this module.
 
+    On ball bearings, with a disc anywhere, gyroscopic moments or housings: `rotor_on_bearings`.
+
     Parameters
     ----------
     disc_mass, journal_mass : float

@@ -8,7 +8,8 @@ from ehlcontact.cli.study.forecast import forecast
 from ehlcontact.cli.study.headline import whole as sentence
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import STAGES
-from ehlcontact.cli.study.whole import run_whole, whole_bearing, whole_rotor
+from ehlcontact.cli.study.whole import run_whole, whole_rotor
+from ehlcontact.cli.study.whole_input import whole_bearing
 
 PLAIN = STUDY[: STUDY.index("[whole_bearing]")]
 

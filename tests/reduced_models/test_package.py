@@ -12,6 +12,7 @@ def test_public_names_are_there():
         "JeffcottRotor", "ContactMount", "RotorState", "RotorResult", "RotorStatus", "simulate_rotor", "compare",
         "simulate_oscillator", "ScaledContact", "BallBearing", "BearingState", "BearingCoefficients",
         "BearingMotion", "DefectFrequencies", "MatrixRotor", "BearingMount", "Unbalance", "SpeedCourse",
+        "rotor_on_bearings", "Shaft", "Disc", "Support",
         "from_ross", "RossCallback",
         "simulate_on_bearings", "BearingRun", "linearise", "LinearisedRotor", "WhirlMode", "campbell", "Campbell",
         "CriticalSpeed", "unbalance_response", "rotor_to_control", "UnbalanceResponse",

@@ -1,9 +1,12 @@
-"""The rotor on whole bearings: load zone, orbits, spectra, K and C over frequency, Campbell diagram."""
+"""The rotor on whole bearings: load zone, orbits, spectra, K and C over frequency, Campbell diagram.
+
+`found` is what `cli.study.whole` found.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -11,9 +14,6 @@ from matplotlib.figure import Figure
 from ehlcontact.cli.plots.rotor import MICRO
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, RED, new_figure
 from reduced_models.bearing.picture import draw_campbell, films, load_zone
-
-if TYPE_CHECKING:
-    from ehlcontact.cli.study.whole import Ran, WholeFindings
 
 LOOKS: dict[str, dict[str, Any]] = {
     "memory": {"color": BLUE, "linestyle": "-"},
@@ -29,7 +29,7 @@ TURNS = 5.0  # of the shaft, on the orbits
 Names = Mapping[str, str]
 
 
-def drawings(found: WholeFindings, names: Names) -> dict[str, Callable[[], Figure]]:
+def drawings(found: Any, names: Names) -> dict[str, Callable[[], Figure]]:
     """The figures by name, not drawn yet."""
     figures = {
         "whole_balls": lambda: balls(found),
@@ -44,7 +44,7 @@ def drawings(found: WholeFindings, names: Names) -> dict[str, Callable[[], Figur
     return figures
 
 
-def balls(found: WholeFindings) -> Figure:
+def balls(found: Any) -> Figure:
     """Load zone, and the smallest film under every ball."""
     figure = new_figure(4.6)
     load_zone(figure.add_subplot(1, 2, 1, projection="polar"), found.state)
@@ -52,7 +52,7 @@ def balls(found: WholeFindings) -> Figure:
     return figure
 
 
-def orbits(found: WholeFindings, names: Names) -> Figure:
+def orbits(found: Any, names: Names) -> Figure:
     """Paths of the left ring and of the disc, each about its mean."""
     figure = new_figure(4.8)
     for axes, body in zip(figure.subplots(1, 2), ("ring", "disc"), strict=True):
@@ -70,7 +70,7 @@ def orbits(found: WholeFindings, names: Names) -> Figure:
     return figure
 
 
-def spectra(found: WholeFindings, names: Names) -> Figure:
+def spectra(found: Any, names: Names) -> Figure:
     """Amplitudes of ring and disc up and down; dotted, the speed and the passage of the balls."""
     figure = new_figure(4.0)
     speed = found.speed_rpm / 60.0
@@ -93,7 +93,7 @@ def spectra(found: WholeFindings, names: Names) -> Figure:
     return figure
 
 
-def lines(run: Ran, body: str) -> tuple[np.ndarray, np.ndarray]:
+def lines(run: Any, body: str) -> tuple[np.ndarray, np.ndarray]:
     """Frequencies [Hz] and amplitudes [m] of the height of ring or disc, through a Hann window."""
     y = getattr(run, body)[:, 1]
     window = np.hanning(y.size)
@@ -101,7 +101,7 @@ def lines(run: Ran, body: str) -> tuple[np.ndarray, np.ndarray]:
     return np.fft.rfftfreq(y.size, float(run.t[1] - run.t[0])), size
 
 
-def coefficients(found: WholeFindings, names: Names) -> Figure:
+def coefficients(found: Any, names: Names) -> Figure:
     """K and C of a bearing over the frequency of the vibration, beside those that are constant."""
     figure = new_figure(3.8)
     at = found.over_frequency
@@ -123,7 +123,7 @@ def coefficients(found: WholeFindings, names: Names) -> Figure:
     return figure
 
 
-def response(found: WholeFindings, names: Names) -> Figure:
+def response(found: Any, names: Names) -> Figure:
     """Displacement of the disc over its eccentricity, over the frequency of the unbalance."""
     figure = new_figure(3.9)
     for k, (axes, way) in enumerate(

@@ -16,6 +16,7 @@ module           responsibility
 ``bode``         its response to unbalance over frequency
 ``differences``  full films beside elements, and beside what there is without them
 ``whole``        the rotor on two whole bearings, with film memory under every ball
+``whole_input``  the bearing that it takes, from the file
 ``headline``     what was found, in one paragraph
 ``results``      everything in numbers: ``results.json``
 ``report``       ``report.html``

@@ -7,7 +7,9 @@ import pytest
 from bearing_twins import SlowBearing, SlowContact, SlowElement
 
 from reduced_models import BallBearing
+from reduced_models.bearing.balls import turning
 from reduced_models.bearing.motion import BearingMotion
+from reduced_models.bearing.statics import StaticBalls
 
 RPM = 3000.0
 PLACE = np.array([1e-6, -12e-6])
@@ -92,12 +94,13 @@ def test_large_motions_are_nearly_those_of_two_elements(film, shake):
     assert worst[1] < 0.7 * worst[0]
 
 
+@pytest.mark.parametrize("speeds", [RPM, (2000.0, 3700.0)])  # a law of its own, or between two
 @pytest.mark.parametrize("film_limit", [None, 8e-6])
 @pytest.mark.parametrize("dt", [1e-6, 2e-5, 1e-3])
-def test_tangents_are_those_of_differences(oil, shake, dt, film_limit):
+def test_tangents_are_those_of_differences(oil, shake, dt, film_limit, speeds):
     bearing = BallBearing.catalogue("6205", oil=oil, film_limit=film_limit, clearance=3e-6)
     q, v = shake(dt, 6)
-    it = motion(bearing, dt, angle=0.2)
+    it = BearingMotion(bearing.kernel(speeds), RPM, dt, 0.2)
     it.rest(PLACE)
     it.drive(q[:5], v[:5])
     _, stiffness, damping = it.forces(q[5], v[5])
@@ -110,6 +113,24 @@ def test_tangents_are_those_of_differences(oil, shake, dt, film_limit):
 
             slope = (8.0 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12.0 * size)
             np.testing.assert_allclose(slope, matrix[:, k], rtol=0.0, atol=1e-6 * np.abs(matrix).max())
+
+
+@pytest.mark.parametrize("speeds", [RPM, (2000.0, 3700.0)])
+@pytest.mark.parametrize(
+    "changes", [{}, {"clearance": 6e-6, "film_limit": 8e-6}, {"clearance": -5e-6}, {"oil": None}]
+)
+def test_tangents_at_rest_are_those_of_differences(oil, changes, speeds):
+    """Of all balls standing still, by which equilibria are found."""
+    bearing = BallBearing.catalogue("6205", **({"oil": oil} | changes))
+    kernel = bearing.kernel(speeds)
+    held = StaticBalls(kernel, turning(kernel, RPM * pi / 30.0), 0.2)
+    for place in (PLACE, np.array([9e-6, 4e-6])):
+        tangent, size = held.tangent(place), 1e-9
+        for k in range(2):
+            step = size * np.eye(2)[k]
+            near, far = ((held.force(place + n * step) - held.force(place - n * step)) for n in (1, 2))
+            slope = (8.0 * near - far) / (12.0 * size)
+            np.testing.assert_allclose(slope, tangent[:, k], rtol=0.0, atol=1e-6 * np.abs(tangent).max())
 
 
 def test_trying_does_not_move(film, shake):

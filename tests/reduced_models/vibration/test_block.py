@@ -82,6 +82,30 @@ def test_linearize_is_the_state_space(film, block, film_limit):
         np.testing.assert_allclose(response(found, w), expected, rtol=0.0, atol=1e-4 * abs(expected).max())
 
 
+@pytest.mark.parametrize("film_limit", [None, 2e-6])
+def test_the_state_space_is_that_of_differences(film, block, film_limit):
+    """Rates of rotor, balls and films by every state and input, to 1e-6 of those of the same row."""
+    rotor = block(BallBearing.catalogue("6205", oil=film.oil, film_limit=film_limit))
+    exact, moving = (
+        linearise(rotor, RPM, passage=False).to_control(),
+        rotor_to_control(rotor, RPM, cage_turns=False),
+    )
+    n, m = exact.nstates, exact.ninputs
+    system = np.hstack([exact.A, exact.B])
+    names = moving.state_labels
+
+    def rates(z):
+        return moving.dynamics(0.0, z[:n], z[n:])
+
+    found = np.zeros_like(system)
+    for k in range(n + m):
+        size = 10.0 if k < n and names[k].startswith("v") else 1e-3  # um/s; um, N
+        step = size * np.eye(n + m)[k]
+        near, far = (rates(j * step) - rates(-j * step) for j in (1.0, 2.0))
+        found[:, k] = (8.0 * near - far) / (12.0 * size)
+    assert np.all(np.abs(found - system) <= 1e-6 * np.abs(system).max(axis=1, keepdims=True))
+
+
 def test_linearize_of_a_beam(film, beam):
     rotor = beam(film)
     exact = linearise(rotor, RPM, passage=False).to_control([DISC], [DISC, 4])
