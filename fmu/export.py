@@ -9,27 +9,33 @@ from pathlib import Path
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_bytes
 from fmu import build
-from fmu.spec import Element, ModelSpec, contact_spec
-from fmu.texts import config_header, documentation, model_description
+from fmu.c_headers import c_headers
+from fmu.contacts import Element, contact_spec
+from fmu.glue import GLUE
+from fmu.spec import ModelSpec
+from fmu.texts import documentation, model_description
 
 _NAMESPACE = uuid.uuid5(uuid.NAMESPACE_URL, "https://pypi.org/project/ehlcontact/fmu")
-_FMI_HEADERS = ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h")
 _LICENSES = ("license.txt", "fmi2-headers.txt")
 
 
 def export_contact(
     element: Element, path: str | os.PathLike[str], *, fmi: int = 2, model_name: str | None = None
 ) -> Path:
-    """Write a contact element as an FMU for co-simulation.
+    """Write a contact element as an FMU for co-simulation and model exchange.
 
     Inputs `approach` and `rate`, output `force` with its tangents `stiffness` and `damping`, and
-    `outside_validity`. K1, K2, K3, C1, low and high are tunable parameters that start at the element's
-    values. Units are the element's: SI, or "1" for a dimensionless element. The same element, name, library
-    version and compiler give the same bytes.
+    `outside_validity` with the bound that is left. Coefficients of elements without memory, and their interval,
+    are tunable parameters that start at the element's values; those of a film memory are constants, for others
+    could put energy into a vibration. The fixed parameter `input_meaning` says what the inputs of a
+    co-simulation step are: extrapolated (1, the default), those of its end (2), or held (3). Units are the
+    element's: SI, or "1" for a dimensionless element. The same element, name, library version and compiler give
+    the same bytes.
 
     Parameters
     ----------
-    element : LinearContact or CubicContact
+    element : ContactElement
+        Of any kind.
     path : path-like
         File to write, ending in ``.fmu``; an existing one is replaced in one move.
     fmi : int
@@ -68,9 +74,10 @@ def fmu_files(spec: ModelSpec) -> dict[str, bytes]:
     folder = build.binary_folder()
     readme = (build.CSRC / "README.md").read_text(encoding="ascii")
     page = documentation(spec, readme, build.compiler_label(command))
+    units = (*GLUE[2].sources, *spec.sources)
     files = {
         "modelDescription.xml": model_description(spec, guid),
-        f"binaries/{folder}/{spec.identifier}.so": build.compile_library(sources, spec.sources, command),
+        f"binaries/{folder}/{spec.identifier}.so": build.compile_library(sources, units, command),
         "documentation/index.html": page.encode(),
     }
     files |= {f"sources/{name}": content for name, content in sources.items()}
@@ -81,10 +88,11 @@ def fmu_files(spec: ModelSpec) -> dict[str, bytes]:
 
 def source_files(spec: ModelSpec, guid: str) -> dict[str, bytes]:
     """Content of ``sources/``: all that a compiler needs."""
-    files = {name: (build.CSRC / name).read_bytes() for name in (*spec.sources, *spec.headers, "README.md")}
-    files |= {name: (build.CSRC / "fmi2" / name).read_bytes() for name in _FMI_HEADERS}
-    files["config.h"] = config_header(spec, guid).encode("ascii")
-    return files
+    glue = GLUE[2]
+    names = (*glue.sources, *spec.sources, *glue.headers, *spec.headers, "README.md")
+    found = {path.name: path for path in build.CSRC.rglob("*") if path.is_file()}
+    files = {name: found[name].read_bytes() for name in (*names, *glue.standard)}
+    return files | {name: text.encode("ascii") for name, text in c_headers(spec, guid).items()}
 
 
 def content_guid(spec: ModelSpec) -> str:
