@@ -5,8 +5,10 @@ module       responsibility
 ===========  =======================================================================================
 ``spec``     `ModelSpec`, the only place where a variable's name, reference, unit and start are said
 ``texts``    `ModelSpec` to ``modelDescription.xml``, ``config.h`` and ``documentation/index.html``
-``build``    compiler, compilation, reproducible zip
+``binaries`` for which platforms, by which compiler, and what came out
+``build``    C sources, reproducible zip
 ``export``   `export_contact`: element in, FMU file out
+``gate``     nothing unverified is written
 ``verify``   `verify`: the FMU against fmpy's rules and, state by state, against the Python element
 ``csrc/``    the C sources: FMI glue for any model, and the contact element; equations in its README
 ===========  =======================================================================================
@@ -15,7 +17,8 @@ The import name ``fmu`` is also that of the geoscience distribution fmu-tools (a
 the two cannot be installed into one environment.
 """
 
-from fmu.build import BuildError as BuildError
+from fmu.binaries import BuildError as BuildError
 from fmu.export import export_contact as export_contact
+from fmu.gate import VerificationError as VerificationError
 from fmu.verify import Verification as Verification
 from fmu.verify import verify as verify

@@ -192,11 +192,11 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fm
 
 static fmi2Status change_phase(fmi2Component c, Phase from, Phase to, const char *function)
 {
-    Instance *instance = enter(c, from, function);
+    Instance *instance = enter(c, (int)from, function);
     if (instance == NULL) {
         return fmi2Error;
     }
-    instance->state.phase = to;
+    instance->state.phase = (int)to;
     return fmi2OK;
 }
 

@@ -294,6 +294,10 @@ CALLS = {
         lambda: fmu.export_contact(cubic(), "x.fmu", model_name=""),
         ("model_name", "1 to 100 printable characters"),
     ),
+    "export for no platform": (
+        lambda: fmu.export_contact(cubic(), "x.fmu", platforms=["linux64", "win32"]),
+        ("platforms", "'win32'", "aarch64-darwin or all"),
+    ),
     "export nowhere": (lambda: fmu.export_contact(cubic(), "/none/x.fmu"), ("path", "in a folder that exists")),
     "verify nothing": (lambda: fmu.verify("/none/x.fmu", cubic()), ("path", "a readable FMU ([Errno 2] No such")),
 }
