@@ -10,8 +10,10 @@ module          responsibility
 ``c_headers``   `ModelSpec` to the generated C headers
 ``glue``        C files of an FMI version, whatever the model
 ``texts``       `ModelSpec` to ``modelDescription.xml`` and ``documentation/index.html``
-``build``       compiler, compilation, reproducible zip
+``binaries``    for which platforms, by which compiler, and what came out
+``build``       C sources, reproducible zip
 ``export``      `export_contact`: element in, FMU file out
+``gate``        nothing unverified is written
 ``verify``      `verify`: the FMU against fmpy's rules and, state by state, against the Python element
 ``comparison``  forces, tangents and derivatives of both, side by side
 ``driver``      an instance of an FMU, by hand, through fmpy
@@ -22,7 +24,8 @@ The import name ``fmu`` is also that of the geoscience distribution fmu-tools (a
 the two cannot be installed into one environment.
 """
 
-from fmu.build import BuildError as BuildError
+from fmu.binaries import BuildError as BuildError
 from fmu.export import export_contact as export_contact
+from fmu.gate import VerificationError as VerificationError
 from fmu.verify import Verification as Verification
 from fmu.verify import verify as verify

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from fmu.spec import ModelSpec
+
 
 @dataclass(frozen=True, slots=True)
 class Glue:
@@ -21,3 +23,8 @@ GLUE = {
         standard=("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h"),
     ),
 }
+
+
+def compiled(spec: ModelSpec, fmi: int) -> tuple[str, ...]:
+    """C files of an FMU that are compiled."""
+    return (*GLUE[fmi].sources, *spec.sources)

@@ -33,6 +33,9 @@ DISPLAY_UNITS: dict[str, tuple[str, float]] = {
     "rad/s": ("Hz", 0.15915494309189535),
 }
 
+# File names that Windows keeps for devices, whatever the ending.
+DEVICES = {"CON", "PRN", "AUX", "NUL", *(f"{name}{k}" for name in ("COM", "LPT") for k in range(10))}
+
 
 @dataclass(frozen=True, slots=True)
 class Variable:
@@ -95,7 +98,8 @@ class ModelSpec:
     def identifier(self) -> str:
         """Name of the library file: `name` as a C identifier."""
         text = re.sub(r"[^0-9A-Za-z_]", "_", self.name)
-        return text if text[0].isalpha() else f"m{text}"
+        taken = text.upper() in DEVICES  # con.dll would be the console
+        return text if text[0].isalpha() and not taken else f"m{text}"
 
     def __getitem__(self, name: str) -> Variable:
         return next(variable for variable in self.variables if variable.name == name)

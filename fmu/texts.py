@@ -9,7 +9,7 @@ from html import escape
 from xml.etree import ElementTree
 
 from ehlcontact import __version__
-from fmu.glue import GLUE
+from fmu.glue import compiled
 from fmu.spec import DISPLAY_UNITS, UNITS, ModelSpec, Variable
 
 DEFAULT_STEPS = 1000  # of the default experiment
@@ -38,7 +38,8 @@ pre {{ background: #f4f4f4; padding: 1em; overflow-x: auto }}</style></head>
 <pre>{readme}</pre>
 <h2>Build</h2>
 <p>Exported by ehlcontact {version} as FMI 2.0 for co-simulation and model exchange; the binary needs
-nothing but the C library. It was compiled with <code>{compiler}</code>. To build it for another platform, compile the files in
+nothing but the C library. It was compiled with <code>{compiler}</code>. To build it for another platform,
+compile the files in
 <code>sources/</code> and link the maths library.</p>
 </body>
 </html>
@@ -100,7 +101,7 @@ def _interfaces(root: ElementTree.Element, spec: ModelSpec) -> None:
     )
     for interface in (exchange, simulation):
         files = ElementTree.SubElement(interface, "SourceFiles")
-        for name in (*GLUE[2].sources, *spec.sources):
+        for name in compiled(spec, 2):
             ElementTree.SubElement(files, "File", name=name)
 
 
