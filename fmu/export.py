@@ -3,39 +3,66 @@
 from __future__ import annotations
 
 import os
+import tempfile
 import uuid
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_bytes
 from fmu import build
-from fmu.spec import Element, ModelSpec, contact_spec
-from fmu.texts import config_header, documentation, model_description
+from fmu.binaries import Platform, build_binaries, choose, this_machine
+from fmu.binaries.libraries import Progress
+from fmu.c_headers import c_headers
+from fmu.contacts import Element, contact_spec
+from fmu.gate import require_finite, require_verified
+from fmu.glue import GLUE, compiled
+from fmu.spec import ModelSpec
+from fmu.texts import documentation, model_description
+from fmu.verify import Verification
 
 _NAMESPACE = uuid.uuid5(uuid.NAMESPACE_URL, "https://pypi.org/project/ehlcontact/fmu")
-_FMI_HEADERS = ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h")
 _LICENSES = ("license.txt", "fmi2-headers.txt")
 
 
 def export_contact(
-    element: Element, path: str | os.PathLike[str], *, fmi: int = 2, model_name: str | None = None
+    element: Element,
+    path: str | os.PathLike[str],
+    *,
+    fmi: int = 2,
+    model_name: str | None = None,
+    platforms: str | Iterable[str] | None = None,
+    overwrite: bool = False,
+    progress: Progress | None = None,
 ) -> Path:
-    """Write a contact element as an FMU for co-simulation.
+    """Write a contact element as an FMU for co-simulation and model exchange, once it is verified against it.
 
     Inputs `approach` and `rate`, output `force` with its tangents `stiffness` and `damping`, and
-    `outside_validity`. K1, K2, K3, C1, low and high are tunable parameters that start at the element's
-    values. Units are the element's: SI, or "1" for a dimensionless element. The same element, name, library
-    version and compiler give the same bytes.
+    `outside_validity` with the bound that is left. Coefficients of elements without memory, and their interval,
+    are tunable parameters that start at the element's values; those of a film memory are constants, for others
+    could put energy into a vibration. The fixed parameter `input_meaning` says what the inputs of a
+    co-simulation step are: extrapolated (1, the default), those of its end (2), or held (3). Units are the
+    element's: SI, or "1" for a dimensionless element. The same element, name, library version and compiler give
+    the same bytes.
 
     Parameters
     ----------
-    element : LinearContact or CubicContact
+    element : ContactElement
+        Of any kind.
     path : path-like
-        File to write, ending in ``.fmu``; an existing one is replaced in one move.
+        File to write, ending in ``.fmu``.
     fmi : int
         FMI version; only 2 is built yet.
     model_name : str, optional
         Name of the model; the class of the element by default.
+    platforms : str or iterable of str, optional
+        For which the FMU has binaries: ``x86_64-linux``, ``x86_64-windows``, ``x86_64-darwin``,
+        ``aarch64-darwin`` (in FMI 3 ``aarch64-linux`` as well), or ``all``; also by the names of FMI 2,
+        ``linux64``, ``win64`` and ``darwin64``, which is both Macs. This machine's by default.
+    overwrite : bool
+        Whether a file of that name may be replaced.
+    progress : callable, optional
+        Told (libraries compiled, libraries in all).
 
     Returns
     -------
@@ -45,34 +72,92 @@ def export_contact(
     Raises
     ------
     InputError
-        Another kind of element or FMI version, a name that is not printable, a file that cannot be written.
+        Another kind of element or FMI version, a name that is not printable, an unknown platform, a file that
+        is there already or cannot be written.
     BuildError
         No C compiler, or one that failed.
+    VerificationError
+        What was built is not what it should be; nothing is written.
+
+    Notes
+    -----
+    This machine's binary is compiled by the system's ``cc``, or by ``ziglang`` where there is none or the result
+    would need a glibc newer than 2.17; all others by ``ziglang``, the first one for Windows in two minutes.
+    ``EHLCONTACT_CC`` names another compiler for this machine. Libraries are kept in the user's cache folder, or in
+    ``EHLCONTACT_CACHE``, by their sources, flags and compiler.
     """
+    return export_verified(
+        element,
+        path,
+        fmi=fmi,
+        model_name=model_name,
+        platforms=platforms,
+        overwrite=overwrite,
+        progress=progress,
+    )[0]
+
+
+def export_verified(
+    element: Element,
+    path: str | os.PathLike[str],
+    *,
+    fmi: int = 2,
+    model_name: str | None = None,
+    platforms: str | Iterable[str] | None = None,
+    overwrite: bool = False,
+    progress: Progress | None = None,
+) -> tuple[Path, Verification | None]:
+    """As `export_contact`; returns what was found too, None where this machine can run no such FMU."""
     if isinstance(fmi, bool) or fmi != 2:
         raise InputError("fmi", fmi, "2 (FMI 3 is not built yet)")
+    spec = contact_spec(element, model_name)
+    require_finite(element)
+    wanted = choose(platforms, fmi)
+    target = _free_target(path, overwrite)  # before compiling
+    files = fmu_files(spec, wanted, fmi, progress)
+    found = None
+    own = this_machine()
+    if own is not None and own.folder(fmi) is not None:
+        # An FMU for other machines is verified by this one's binary of the same sources.
+        runnable = files if own in wanted else fmu_files(spec, (own,), fmi)
+        found = require_verified(build.pack(runnable), element)
+    _free_target(path, overwrite)  # still
+    return write_bytes(target, build.pack(files)), found
+
+
+def _free_target(path: str | os.PathLike[str], overwrite: bool) -> Path:
+    """Place for the FMU, which nothing stands in the way of."""
     target = Path(path)
     if target.suffix.lower() != ".fmu":
         raise InputError("path", str(path), "a file name ending in .fmu")
-    spec = contact_spec(element, model_name)
-    if not target.parent.is_dir():  # before compiling
-        raise InputError("path", str(path), "in a folder that exists")
-    return write_bytes(target, build.pack(fmu_files(spec)))
+    try:
+        if not target.parent.is_dir():
+            raise InputError("path", str(path), "in a folder that exists")
+        if target.is_dir():
+            raise InputError("path", str(path), "a file, not a folder")
+        there = target.exists()
+    except OSError as error:  # no name is that long
+        raise InputError("path", str(path), f"a file that can be written ({error.strerror})") from None
+    if there and not overwrite:
+        raise InputError("path", str(path), "a new file, or replaced with overwrite=True")
+    try:
+        with tempfile.NamedTemporaryFile(dir=target.parent):
+            return target
+    except OSError as error:
+        raise InputError("path", str(path), f"in a folder that can be written to ({error.strerror})") from None
 
 
-def fmu_files(spec: ModelSpec) -> dict[str, bytes]:
-    """Everything in the FMU by its path, the compiled binary included."""
+def fmu_files(
+    spec: ModelSpec, platforms: Sequence[Platform], fmi: int, progress: Progress | None = None
+) -> dict[str, bytes]:
+    """Everything in the FMU by its path, the compiled binaries included."""
     guid = content_guid(spec)
     sources = source_files(spec, guid)
-    command = build.find_compiler()
-    folder = build.binary_folder()
+    files, labels = build_binaries(sources, compiled(spec, fmi), spec.identifier, platforms, fmi, progress)
     readme = (build.CSRC / "README.md").read_text(encoding="ascii")
-    page = documentation(spec, readme, build.compiler_label(command))
-    files = {
-        "modelDescription.xml": model_description(spec, guid),
-        f"binaries/{folder}/{spec.identifier}.so": build.compile_library(sources, spec.sources, command),
-        "documentation/index.html": page.encode(),
-    }
+    page = documentation(spec, readme, "; ".join(labels))
+    files["modelDescription.xml"] = model_description(spec, guid)
+    files["documentation/index.html"] = page.encode()
     files |= {f"sources/{name}": content for name, content in sources.items()}
     for name in _LICENSES:
         files[f"documentation/licenses/{name}"] = (build.CSRC / "licenses" / name).read_bytes()
@@ -81,10 +166,11 @@ def fmu_files(spec: ModelSpec) -> dict[str, bytes]:
 
 def source_files(spec: ModelSpec, guid: str) -> dict[str, bytes]:
     """Content of ``sources/``: all that a compiler needs."""
-    files = {name: (build.CSRC / name).read_bytes() for name in (*spec.sources, *spec.headers, "README.md")}
-    files |= {name: (build.CSRC / "fmi2" / name).read_bytes() for name in _FMI_HEADERS}
-    files["config.h"] = config_header(spec, guid).encode("ascii")
-    return files
+    glue = GLUE[2]
+    names = (*glue.sources, *spec.sources, *glue.headers, *spec.headers, "README.md")
+    found = {path.name: path for path in build.CSRC.rglob("*") if path.is_file()}
+    files = {name: found[name].read_bytes() for name in (*names, *glue.standard)}
+    return files | {name: text.encode("ascii") for name, text in c_headers(spec, guid).items()}
 
 
 def content_guid(spec: ModelSpec) -> str:

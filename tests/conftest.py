@@ -53,3 +53,11 @@ def no_room(monkeypatch):
         raise OSError(28, "No space left on device")
 
     return lambda: monkeypatch.setattr(os, "fsync", write)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def own_cache(tmp_path_factory):
+    """Libraries of FMUs are compiled by the tests, not found in the user's cache."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("EHLCONTACT_CACHE", str(tmp_path_factory.mktemp("cache")))
+        yield

@@ -12,7 +12,7 @@ from ehlcontact.checks import require_nonnegative, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_exact
 from ehlcontact.point import Scales
-from reduced_models.elements.spring import MemorylessContact, damper, kernel_of
+from reduced_models.elements.spring import ADVICE, MemorylessContact, damper, kernel_of
 
 
 class PolynomialLaw(NamedTuple):
@@ -43,6 +43,10 @@ def cubic(u, law):
 
 class _PolynomialContact(MemorylessContact):
     """What the three have in common: one law, in which coefficients that an element does not have are zero."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _require_rising(self.law)
 
     def _law(self) -> PolynomialLaw:
         return PolynomialLaw(self.low, self.high, **self.parameters)
@@ -106,7 +110,8 @@ class CubicContact(ViscousContact):
     Raises
     ------
     InputError
-        A value not finite, C1 < 0, low >= high, or a spring that does not push and stiffen at both ends.
+        A value not finite, C1 < 0, low >= high, a spring that does not push and stiffen at both ends, or one
+        that falls in between.
     """
 
     K1: float
@@ -137,8 +142,8 @@ class PolynomialContact(_PolynomialContact):
     Raises
     ------
     InputError
-        A value not finite, low >= high, a spring that does not push and stiffen at both ends, or a damper that
-        puts energy into a cycle, C1 + B4 u + C3 u'^2 < 0.
+        A value not finite, low >= high, a spring that does not push and stiffen at both ends or falls in between,
+        or a damper that puts energy into a cycle, C1 + B4 u + C3 u'^2 < 0.
     """
 
     K1: float
@@ -186,6 +191,17 @@ class PolynomialContact(_PolynomialContact):
         f, u, v = scales.force, scales.length, scales.rate
         springs = {f"K{i}": f / u**i for i in (1, 2, 3)}
         return springs | {f"C{i}": f / v**i for i in (1, 2, 3)} | {"B4": f / (u * v)}
+
+
+def _require_rising(law: PolynomialLaw) -> None:
+    """Raise `InputError` where a spring that rises at both ends falls in between."""
+    if law.K3 <= 0.0:  # the tangent is a line, or highest in the middle
+        return
+    lowest = -law.K2 / (3.0 * law.K3)  # where the tangent is lowest
+    if law.low < lowest < law.high:
+        slope = cubic(lowest, law)[1]
+        if not slope > 0.0:
+            raise InputError(f"spring tangent at approach {lowest:.4g}", slope, f"> 0 {ADVICE}")
 
 
 def _require_dissipation(law: PolynomialLaw) -> None:

@@ -14,6 +14,7 @@ mixed term, level off with a continuous slope, so that far away only a viscous d
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from typing import Any, ClassVar, overload
@@ -71,7 +72,8 @@ def joined(law: Law) -> Law:
     Raises
     ------
     InputError
-        A force or tangent that is not positive at an end, where no Hertz-like continuation exists.
+        A force or tangent that is not positive at an end, where no Hertz-like continuation exists, or one whose
+        coefficients are beyond floating-point numbers.
     """
     ends: dict[str, float] = {}
     for name in ("low", "high"):
@@ -82,7 +84,15 @@ def joined(law: Law) -> Law:
         if not slope > 0.0:
             raise InputError(f"spring tangent at {name}", slope, f"> 0 {ADVICE}")
         reach = 1.5 * force / slope
-        ends |= {f"o_{name}": u - reach, f"A_{name}": force / reach**1.5}
+        try:
+            factor = force / reach**1.5
+        except ArithmeticError:  # overflow, or a division by what has become zero
+            factor = math.nan
+        if not (math.isfinite(u - reach) and 0.0 < factor < math.inf):
+            raise InputError(
+                f"reach 1.5 force/tangent of the spring at {name}", reach, "one whose power of 1.5 is a number"
+            )
+        ends |= {f"o_{name}": u - reach, f"A_{name}": factor}
     return law._replace(**ends)
 
 

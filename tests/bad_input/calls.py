@@ -284,7 +284,7 @@ CALLS = {
     # FMUs
     "export a file name": (
         lambda: fmu.export_contact("e.json", "x.fmu"),
-        ("element", "a LinearContact or a CubicContact"),
+        ("element", "a contact element"),
     ),
     "export a version": (
         lambda: fmu.export_contact(cubic(), "x.fmu", fmi=4),
@@ -293,6 +293,10 @@ CALLS = {
     "export a name": (
         lambda: fmu.export_contact(cubic(), "x.fmu", model_name=""),
         ("model_name", "1 to 100 printable characters"),
+    ),
+    "export for no platform": (
+        lambda: fmu.export_contact(cubic(), "x.fmu", platforms=["linux64", "win32"]),
+        ("platforms", "'win32'", "aarch64-darwin or all"),
     ),
     "export nowhere": (lambda: fmu.export_contact(cubic(), "/none/x.fmu"), ("path", "in a folder that exists")),
     "verify nothing": (lambda: fmu.verify("/none/x.fmu", cubic()), ("path", "a readable FMU ([Errno 2] No such")),

@@ -33,7 +33,7 @@ SAMPLE = [
     at("impedance", "--omega", "x"),
     ("fit", RECORD, RECORD),
     at("element", eta0="36.7"),
-    ("export", RECORD, "-o", "x.fmu"),
+    ("export", RECORD, "-o", "new.fmu"),
     ("validate", STUDY, "--json", STUDY),
     ("run", STUDY, "--jobs", "0"),
     ("reproduce", "--table", "7"),

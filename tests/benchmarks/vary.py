@@ -302,7 +302,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "reduced_models.rotor.equilibrium": ("rotor", "bearing"),
     "reduced_models.bearing": ("bearing",),
     "fmu": ("exported",),
-    "fmu.build": (),
+    "fmu.binaries": (),
 }
 
 

@@ -29,7 +29,7 @@ COMMANDS = {  # what reads a kind of file: arguments for its name and for a fold
         *("simulate", *POINT, "--n", "32", "--harmonic", "3", "--until", "0.2", "--dt", "0.05"),
         *("--restart", file, "--save", out / "kept.h5"),
     ),
-    "element": lambda file, out: ("export", file, "-o", out / "kept.fmu"),
+    "element": lambda file, out: ("export", file, "-o", out / "kept.fmu", "--force"),
     "study": lambda file, out: ("run", file, "-o", out / "new"),
     "atlas": lambda file, out: ("element", *POINT, "--atlas", file, "--save", out / "kept.json"),
     "work": lambda file, out: (

@@ -71,7 +71,8 @@ def test_fmu_atlas_and_report(call, refused, no_room, tmp_path):
     assert call("export", tmp_path / "e.json", "-o", tmp_path / "x.fmu").code == 0
     before = (tmp_path / "x.fmu").read_bytes()
     no_room()
-    refused(("x.fmu", "No space left"), "export", tmp_path / "e.json", "-o", tmp_path / "x.fmu")
+    refused(("x.fmu", "No space left"), "export", tmp_path / "e.json", "-o", tmp_path / "x.fmu", "--force")
+    refused(("y.fmu", "No space left"), "export", tmp_path / "e.json", "-o", tmp_path / "y.fmu")
     assert (tmp_path / "x.fmu").read_bytes() == before and zipfile.is_zipfile(tmp_path / "x.fmu")
     work = tmp_path / "w.jsonl"
     refused(("work file", "No space left", "stays"), "atlas", "build", "-o", tmp_path / "a.npz", "--work", work)

@@ -1,3 +1,4 @@
+import dataclasses
 import os
 import stat
 import zipfile
@@ -6,15 +7,35 @@ from pathlib import Path
 import fmpy
 import pytest
 
-import fmu
+import fmu.spec
 from ehlcontact.errors import InputError
-from fmu import BuildError, export_contact, verify
-from fmu.build import CSRC, find_compiler
+from fmu import BuildError, VerificationError, binaries, build, export_contact, verify
+from fmu.binaries.compiler import compilers
+from fmu.build import CSRC
+from fmu.contacts import contact_spec
+from fmu.export import export_verified
 
 
-def test_bytes_are_reproducible(fmus, elements, kind, tmp_path):
+def test_bytes_are_reproducible(fmus, elements, kind, tmp_path, monkeypatch):
+    monkeypatch.setenv("EHLCONTACT_CACHE", str(tmp_path / "empty"))
     again = export_contact(elements[kind], tmp_path / "again.fmu")
     assert again.read_bytes() == fmus[kind].read_bytes()
+
+
+def spoiled(name, old, new):
+    """`pack` with a library compiled from a source in which `old` is `new`."""
+    pack = build.pack
+
+    def packed(files):
+        sources = {path[8:]: content for path, content in files.items() if path.startswith("sources/")}
+        sources[name] = sources[name].replace(old.encode(), new.encode())
+        units = [path for path in sources if path.endswith(".c")]
+        own = binaries.this_machine()
+        (path,) = [path for path in files if path.startswith("binaries/")]
+        library = binaries.build_binaries(sources, units, "x", [own], fmi=2)[0].popitem()[1]
+        return pack(files | {path: library})
+
+    return packed
 
 
 def test_guid_follows_content(fmus, elements, tmp_path):
@@ -36,7 +57,7 @@ def test_archive_layout(fmus):
     assert {"documentation/licenses/license.txt", "documentation/licenses/fmi2-headers.txt"} <= set(names)
     assert {f"sources/{f}" for f in ("config.h", "fmi2.c", "model_contact.c", "fmi2Functions.h")} <= set(names)
     assert "outside_validity" in page
-    assert "ziglang cc" in page or "cc -std=c99" in page
+    assert "cc -std=c99" in page or "zig" in page
 
 
 def test_shipped_licence_is_the_projects():
@@ -56,10 +77,13 @@ def test_any_file_name(elements, tmp_path, name):
     assert fmpy.read_model_description(str(path)).modelName == "Lager 1: Wälzkontakt <&>"
 
 
-def test_replaces_in_one_move_and_leaves_nothing_behind(fmus, elements, tmp_path):
+def test_a_file_that_is_there_is_kept_unless_it_may_go(fmus, elements, tmp_path):
     target = tmp_path / "x.fmu"
     target.write_bytes(b"old")
-    export_contact(elements["cubic"], str(target))
+    with pytest.raises(InputError, match=r"a new file, or replaced with overwrite=True") as error:
+        export_contact(elements["cubic"], target)
+    assert "\n" not in str(error.value) and target.read_bytes() == b"old"
+    export_contact(elements["cubic"], str(target), overwrite=True)
     assert os.listdir(tmp_path) == ["x.fmu"]
     assert target.read_bytes() == fmus["cubic"].read_bytes()
     mask = os.umask(0)
@@ -67,15 +91,63 @@ def test_replaces_in_one_move_and_leaves_nothing_behind(fmus, elements, tmp_path
     assert stat.S_IMODE(target.stat().st_mode) == 0o666 & ~mask
 
 
-def test_unwritable_target_is_one_line(elements, tmp_path):
-    with pytest.raises(InputError, match="folder that exists") as missing:
-        export_contact(elements["cubic"], tmp_path / "no" / "x.fmu")
-    (tmp_path / "x.fmu").mkdir()
-    with pytest.raises(InputError, match="can be written") as directory:
+def test_one_that_turns_up_meanwhile_is_kept(elements, tmp_path, monkeypatch):
+    def meanwhile(*_):
+        (tmp_path / "x.fmu").write_bytes(b"another's")
+
+    monkeypatch.setattr("fmu.export.require_verified", meanwhile)
+    with pytest.raises(InputError, match="a new file"):
         export_contact(elements["cubic"], tmp_path / "x.fmu")
-    for error in (missing, directory):
+    assert (tmp_path / "x.fmu").read_bytes() == b"another's"
+
+
+def test_unwritable_target_is_one_line(elements, tmp_path, monkeypatch):
+    monkeypatch.setattr("fmu.export.fmu_files", None)  # never reached: it is told before anything is compiled
+    (tmp_path / "x.fmu").mkdir()
+    cases = {
+        "folder that exists": tmp_path / "no" / "x.fmu",
+        "not a folder": tmp_path / "x.fmu",
+        "can be written": tmp_path / ("x" * 252 + ".fmu"),
+        "folder that can be written to": "/proc/x.fmu",
+    }
+    for words, path in cases.items():
+        with pytest.raises(InputError, match=words) as error:
+            export_contact(elements["cubic"], path, overwrite=True)
         assert "\n" not in str(error.value)
     assert os.listdir(tmp_path) == ["x.fmu"]
+
+
+def test_the_longest_file_name_there_is(elements, tmp_path):
+    """255 bytes; a temporary name that is made of it would be longer."""
+    for name in ("x" * 251 + ".fmu", "ä" * 125 + "x.fmu"):
+        assert len(os.fsencode(name)) == 255
+        assert export_contact(elements["cubic"], tmp_path / name).is_file()
+    assert len(os.listdir(tmp_path)) == 2
+
+
+def test_what_is_verified_is_what_is_written(fmus, elements, tmp_path):
+    path, found = export_verified(elements["cubic"], tmp_path / "x.fmu")
+    assert found.passes and found == verify(path, elements["cubic"])
+
+
+@pytest.mark.parametrize("fault", ["differs", "does not run", "is no FMU"])
+def test_nothing_is_written_that_is_not_right(elements, tmp_path, monkeypatch, fault):
+    """Neither a new file nor in place of an old one."""
+    (tmp_path / "old.fmu").write_bytes(b"old")
+    monkeypatch.setattr("fmu.export.require_finite", lambda element: None)
+    if fault == "differs":
+        wrong = dataclasses.replace(elements["cubic"], C1=0.02)
+        spec = contact_spec(wrong)
+        monkeypatch.setattr("fmu.export.contact_spec", lambda *_: spec)
+    elif fault == "does not run":
+        monkeypatch.setattr(build, "pack", spoiled("core_step.c", "fault.severity != FINE", "1"))
+    else:
+        monkeypatch.setattr(build, "pack", lambda files: b"no zip")
+    for name in ("new.fmu", "old.fmu"):
+        with pytest.raises(VerificationError) as error:
+            export_contact(elements["cubic"], tmp_path / name, overwrite=True)
+        assert "\n" not in str(error.value)
+    assert os.listdir(tmp_path) == ["old.fmu"] and (tmp_path / "old.fmu").read_bytes() == b"old"
 
 
 @pytest.mark.parametrize("fmi", [3, 1, "2", True])
@@ -91,7 +163,7 @@ def test_bad_model_name(elements, tmp_path, name):
 
 
 def test_bad_element_and_suffix(elements, tmp_path):
-    with pytest.raises(InputError, match="LinearContact or a CubicContact"):
+    with pytest.raises(InputError, match="a contact element"):
         export_contact(object(), tmp_path / "x.fmu")
     with pytest.raises(InputError, match=r"ending in \.fmu"):
         export_contact(elements["cubic"], tmp_path / "x.zip")
@@ -99,40 +171,52 @@ def test_bad_element_and_suffix(elements, tmp_path):
 
 def test_compiler_that_is_missing_or_fails(elements, tmp_path, monkeypatch):
     monkeypatch.setenv("EHLCONTACT_CC", "/nonexistent/cc -m64")
-    assert find_compiler() == ("/nonexistent/cc", "-m64")
     with pytest.raises(BuildError, match="cannot start the C compiler"):
         export_contact(elements["cubic"], tmp_path / "x.fmu")
     script = tmp_path / "cc"
-    script.write_text("#!/bin/sh\necho 'model.h: no such thing' >&2\nexit 3\n")
+    script.write_text("#!/bin/sh\necho 'model.h: error: no such thing' >&2\nexit 3\n")
     script.chmod(0o755)
     monkeypatch.setenv("EHLCONTACT_CC", str(script))
-    with pytest.raises(BuildError, match=r"exit code 3(.|\n)*model\.h: no such thing"):
+    with pytest.raises(BuildError, match=r"exit code 3.*model\.h: error: no such thing") as error:
         export_contact(elements["cubic"], tmp_path / "x.fmu")
+    assert "\n" not in str(error.value)
     script.write_text("#!/bin/sh\nexit 0\n")
     with pytest.raises(BuildError, match="made no library"):
         export_contact(elements["cubic"], tmp_path / "x.fmu")
     assert not (tmp_path / "x.fmu").exists()
 
 
-def test_no_compiler_at_all(monkeypatch):
+@pytest.mark.parametrize("compiler", ["system", "zig"])
+def test_either_compiler_gives_the_same_model(elements, tmp_path, monkeypatch, compiler):
     monkeypatch.delenv("EHLCONTACT_CC", raising=False)
-    monkeypatch.setattr("fmu.build.find_spec", lambda name: None)
-    monkeypatch.setenv("PATH", "")
-    with pytest.raises(BuildError, match="no C compiler: install"):
-        find_compiler()
-
-
-def test_system_compiler_gives_the_same_model(elements, tmp_path, monkeypatch):
-    monkeypatch.setattr("fmu.build.find_spec", lambda name: None)
-    monkeypatch.delenv("EHLCONTACT_CC", raising=False)
-    try:
-        find_compiler()
-    except BuildError:
+    own = binaries.this_machine()
+    found = [one for one in compilers(own) if one.is_zig == (compiler == "zig")]
+    if not found:
         pytest.skip("no system C compiler")
-    assert verify(export_contact(elements["cubic"], tmp_path / "x.fmu"), elements["cubic"]).passes
+    monkeypatch.setattr("fmu.binaries.libraries.compilers", lambda target: found)
+    path = export_contact(elements["cubic"], tmp_path / "x.fmu")
+    assert verify(path, elements["cubic"]).passes
+    with zipfile.ZipFile(path) as archive:
+        assert found[0].label in archive.read("documentation/index.html").decode()
 
 
-def test_other_platforms_are_refused(elements, tmp_path, monkeypatch):
+def test_other_machines_are_told_what_to_ask_for(elements, tmp_path, monkeypatch):
     monkeypatch.setattr("platform.machine", lambda: "riscv64")
-    with pytest.raises(BuildError, match="not on Linux riscv64"):
+    with pytest.raises(InputError, match=r"not built for this machine, .* riscv64"):
         export_contact(elements["cubic"], tmp_path / "x.fmu")
+
+
+@pytest.mark.parametrize("name", ["con", "NUL", "Com1", "lpt9", "aux", "prn"])
+def test_no_library_is_called_like_a_device_of_windows(elements, tmp_path, name):
+    path = export_contact(elements["cubic"], tmp_path / "x.fmu", model_name=name)
+    with zipfile.ZipFile(path) as archive:
+        (library,) = [Path(entry).stem for entry in archive.namelist() if entry.startswith("binaries/")]
+    assert library == f"m{name}" and fmpy.read_model_description(str(path)).modelName == name
+
+
+def test_forces_beyond_floating_point_numbers(elements, tmp_path):
+    """Within its interval the element has them, three lengths above it does not."""
+    element = dataclasses.replace(elements["cubic"], K1=1e308, K2=0.0, K3=0.0)
+    with pytest.raises(InputError, match=r"force at approach 1\.75 = inf: must be a finite number"):
+        export_contact(element, tmp_path / "x.fmu")
+    assert os.listdir(tmp_path) == []

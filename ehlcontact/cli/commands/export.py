@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, check_apart, check_file, check_json, complain, show_table, write_json
+from ehlcontact.cli.output import USAGE, check_apart, check_file, check_json, complain, show_table, write_json
+from ehlcontact.cli.progress import progress
 from ehlcontact.errors import InputError
+
+if TYPE_CHECKING:
+    from fmu import Verification
 
 
 def register(app: typer.Typer) -> None:
@@ -22,9 +26,19 @@ def export(
     output: Annotated[Path, typer.Option("--output", "-o", metavar="X.fmu", help="FMU to write.")],
     fmi: Annotated[int, typer.Option("--fmi", help="FMI version; 2 is built.")] = 2,
     name: Annotated[str | None, typer.Option("--name", help="Model name.")] = None,
+    platform: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--platform",
+            metavar="NAME",
+            help="Binary for x86_64-linux, x86_64-windows, x86_64-darwin or aarch64-darwin, or `all`;"
+            " may be repeated. This machine's by default.",
+        ),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace the FMU if there is one.")] = False,
     json_to: o.JsonTo = None,
 ) -> None:
-    """Export a contact element as an FMU for co-simulation and verify it."""
+    """Export a contact element as an FMU for co-simulation and model exchange, once it is verified."""
     if fmi == 3:
         raise InputError("--fmi", fmi, "2; FMI 3 is not built yet")
     if fmi != 2:
@@ -34,32 +48,39 @@ def export(
     check_file("--output", output, (".fmu",))
     check_json(json_to)
     check_apart({"--output": output, "--json": json_to}, (file,))
-    from fmu import BuildError, export_contact, verify
-    from reduced_models import CubicContact, LinearContact, load_element
+    if not force and output.exists():
+        raise InputError("--output", str(output), "a new file, or replaced with --force")
+    from fmu import BuildError, VerificationError
+    from fmu.export import export_verified
+    from reduced_models import load_element
 
     element: Any = load_element(file)
-    if not isinstance(element, LinearContact | CubicContact):
-        kinds = f"{LinearContact.kind} or {CubicContact.kind}; FMUs of other kinds are not built yet"
-        raise InputError(str(file), f"kind {element.kind!r}", kinds)
     try:
-        with o.called(model_name="--name"):
-            export_contact(element, output, fmi=fmi, model_name=name)
-    except BuildError as error:
-        complain(f"the FMU could not be compiled: {error}")
-        raise typer.Exit(FAILED) from None
-    found = verify(output, element)
-    write_json({"fmu": str(output), "units": element.units, **found.to_dict()}, json_to)
-    show_table(
-        str(output),
-        [
-            ("element", element.kind, element.units),
-            ("findings", str(len(found.findings)), "of fmpy's validation; none is right"),
-            ("force", f"{found.force:.1e}", f"largest error, over the Python element's; {found.states} states"),
-            ("tangents", f"{found.tangents:.1e}", "likewise"),
-            ("verified", "yes" if found.passes else "NO", ""),
-        ],
-        json_to,
-    )
-    if not found.passes:
-        complain(f"{output}: the FMU differs from the element: {'; '.join(found.findings) or found}")
-        raise typer.Exit(FAILED)
+        with progress("compiling") as told, o.called(model_name="--name", platforms="--platform", path="--output"):
+            _, found = export_verified(
+                element,
+                output,
+                fmi=fmi,
+                model_name=name,
+                platforms=platform or None,
+                overwrite=force,
+                progress=told,
+            )
+    except (BuildError, VerificationError) as error:
+        complain(f"no FMU was written: {error}")
+        raise typer.Exit(USAGE) from None
+    verdict = {"passes": None} if found is None else found.to_dict()
+    write_json({"fmu": str(output), "units": element.units, **verdict}, json_to)
+    show_table(str(output), [("element", element.kind, element.units), *_rows(found)], json_to)
+
+
+def _rows(found: Verification | None) -> list[tuple[str, str, str]]:
+    """What the verification found."""
+    if found is None:
+        return [("verified", "no", "this machine can run no such FMU")]
+    return [
+        ("findings", str(len(found.findings)), "of fmpy's validation; none is right"),
+        ("force", f"{found.force:.1e}", f"largest error, over the Python element's; {found.states} states"),
+        ("tangents", f"{found.tangents:.1e}", "likewise"),
+        ("verified", "yes", ""),
+    ]

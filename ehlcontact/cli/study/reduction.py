@@ -162,11 +162,14 @@ def save_elements(reduction: Reduction, folder: Path) -> list[Path]:
 
 
 def export_fmu(element: CubicContact, path: Path) -> dict[str, Any]:
-    """Export the SI element and verify the FMU; what went wrong stands under ``error``."""
-    from fmu import BuildError, export_contact, verify
+    """Export the SI element and verify the FMU; what went wrong, whatever it is, stands under ``error``."""
+    from fmu import VerificationError
+    from fmu.export import export_verified
 
+    entry: dict[str, Any] = {"file": path.name, "passes": False}
     try:
-        export_contact(element, path, model_name="contact")
-    except BuildError as error:
-        return {"file": path.name, "passes": False, "error": " ".join(str(error).split())}
-    return {"file": path.name, **verify(path, element).to_dict()}
+        _, found = export_verified(element, path, model_name="contact", overwrite=True)
+    except Exception as error:  # the rest of the study is worth having without an FMU
+        found = error.found if isinstance(error, VerificationError) else None
+        entry["error"] = " ".join(str(error).split()) or type(error).__name__
+    return entry | (found.to_dict() if found is not None else {})

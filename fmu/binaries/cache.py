@@ -1,0 +1,118 @@
+"""What was compiled before, in the user's cache folder; where there can be none, everything is compiled anew.
+
+An entry is written beside its place and moved there, so several processes may do so at once, and it begins with
+its checksum, so a damaged one is not believed. The least recently used go when there is too much.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import sys
+import uuid
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+
+CACHE_VARIABLE = "EHLCONTACT_CACHE"
+ZIG_VARIABLE = "ZIG_GLOBAL_CACHE_DIR"
+LARGEST = 2**26  # bytes of all entries: some thousand libraries
+SUFFIX = ".library"
+DIGEST = hashlib.sha256().digest_size  # bytes at the start of an entry
+
+
+def cache_folder() -> Path | None:
+    """Our folder in the user's cache, made where it is missing; None where that cannot be.
+
+    ``EHLCONTACT_CACHE`` if set, else the place that the system has for caches.
+    """
+    chosen = os.environ.get(CACHE_VARIABLE, "").strip()
+    try:
+        folder = Path(chosen).absolute() if chosen else _caches() / "ehlcontact"
+    except RuntimeError:  # no home
+        return None
+    return _usable(folder)
+
+
+def key_of(parts: Iterable[bytes]) -> str:
+    """Name of an entry: of these parts, and of no others."""
+    found = hashlib.sha256()
+    for part in parts:
+        found.update(len(part).to_bytes(8, "big") + part)  # where one ends and the next begins
+    return found.hexdigest()
+
+
+def recall(key: str) -> bytes | None:
+    """Entry of that name; None where there is none, or a damaged one."""
+    folder = cache_folder()
+    if folder is None:
+        return None
+    path = folder / f"{key}{SUFFIX}"
+    try:
+        content = path.read_bytes()
+    except OSError:
+        return None
+    if hashlib.sha256(content[DIGEST:]).digest() != content[:DIGEST]:
+        return None
+    with suppress(OSError):
+        os.utime(path)  # used now
+    return content[DIGEST:]
+
+
+def remember(key: str, content: bytes) -> None:
+    """Keep an entry, if that can be done."""
+    folder = cache_folder()
+    if folder is None:
+        return
+    temporary = folder / f".{uuid.uuid4().hex}.tmp"
+    try:
+        temporary.write_bytes(hashlib.sha256(content).digest() + content)
+        os.replace(temporary, folder / f"{key}{SUFFIX}")
+        _shrink(folder)
+    except OSError:  # a full disk, say: only time is lost
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
+
+
+def _shrink(folder: Path) -> None:
+    """Remove what was not used for longest, until all is below `LARGEST`."""
+    entries = []
+    for path in folder.glob(f"*{SUFFIX}"):
+        with suppress(OSError):  # another process may do the same
+            there = path.stat()
+            entries.append((there.st_mtime_ns, there.st_size, path))
+    total = sum(size for _, size, _ in entries)
+    for _, size, path in sorted(entries):
+        if total <= LARGEST:
+            return
+        path.unlink(missing_ok=True)
+        total -= size
+
+
+def zig_folder() -> Path | None:
+    """Where zig keeps the C libraries it has built, its own default; None where that cannot be written to."""
+    chosen = os.environ.get(ZIG_VARIABLE, "").strip()
+    try:
+        folder = Path(chosen).absolute() if chosen else _caches() / "zig"
+    except RuntimeError:  # no home
+        return None
+    return _usable(folder)
+
+
+def _usable(folder: Path) -> Path | None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError):  # a file in the way, nothing that can be written to, no path at all
+        return None
+    return folder if os.access(folder, os.W_OK | os.X_OK) else None
+
+
+def _caches() -> Path:
+    """Folder of the user's caches, as the system has it."""
+    if sys.platform == "win32":
+        base = os.environ.get("LOCALAPPDATA", "").strip()
+        return Path(base) if base else Path.home() / "AppData" / "Local"
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches"
+    base = os.environ.get("XDG_CACHE_HOME", "").strip()
+    return Path(base) if os.path.isabs(base) else Path.home() / ".cache"

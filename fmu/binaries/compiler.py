@@ -1,0 +1,105 @@
+"""Which compiler makes which binary: the system's for this machine, zig for all the others."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import shutil
+import sys
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from importlib.util import find_spec
+from pathlib import Path
+
+from ehlcontact.errors import InputError
+from fmu.binaries.platforms import Platform, this_machine
+from fmu.binaries.process import BuildError
+
+COMPILER_VARIABLE = "EHLCONTACT_CC"
+SYSTEM = ("cc", "gcc", "clang")  # in the order they are looked for
+
+
+@dataclass(frozen=True, slots=True)
+class Compiler:
+    """A command, what to call it in an FMU, and what tells it from another version of itself."""
+
+    command: tuple[str, ...]
+    label: str  # without the paths of this machine
+    identity: str
+    is_zig: bool = False
+
+
+def compilers(target: Platform) -> list[Compiler]:
+    """Compilers for a platform, the first to be tried first.
+
+    For this machine's binary: ``EHLCONTACT_CC`` (a command line) and no other where it is set, else the system's
+    ``cc``, ``gcc`` or ``clang``, then zig. For any other: zig.
+
+    Raises
+    ------
+    InputError
+        ``EHLCONTACT_CC`` cannot be read as a command line.
+    BuildError
+        There is none.
+    """
+    found = []
+    if target is this_machine():
+        chosen = os.environ.get(COMPILER_VARIABLE, "").strip()
+        if chosen:
+            return [_compiler(_words(chosen))]
+        # A cc on Windows may be of many makes, each with libraries of its own that the binary would need.
+        name = None if target.system == "windows" else next(filter(shutil.which, SYSTEM), None)
+        found += [_compiler((name,))] if name else []
+    zig = _zig()
+    if zig is not None:
+        command = (*zig, "cc", "-target", target.target)
+        label = f"zig {_zig_version()} cc -target {target.target}"
+        found.append(Compiler(command, label, f"{_identity(zig)} {_zig_version()}", is_zig=True))
+    if not found:
+        raise BuildError(
+            f"no C compiler for {target.name}: pip install ziglang"
+            + (f", install gcc or set {COMPILER_VARIABLE}" if target is this_machine() else "")
+        )
+    return found
+
+
+def _words(line: str) -> tuple[str, ...]:
+    posix = os.name != "nt"  # where a backslash parts folders
+    try:
+        words = shlex.split(line, posix=posix)
+    except ValueError as error:
+        raise InputError(COMPILER_VARIABLE, line, f"a command line ({str(error).lower()})") from None
+    return tuple(word if posix else word.strip('"') for word in words)
+
+
+def _compiler(command: tuple[str, ...]) -> Compiler:
+    label = " ".join((Path(command[0]).name, *command[1:]))
+    return Compiler(command, label, f"{_identity(command)} {shlex.join(command)}")
+
+
+def _identity(command: tuple[str, ...]) -> str:
+    """Which program that is: another version of it has another size or date."""
+    program = shutil.which(command[0])
+    if program is None:
+        return "none"
+    there = os.stat(program)
+    return f"{os.path.realpath(program)} {there.st_size} {there.st_mtime_ns}"
+
+
+def _zig() -> tuple[str, ...] | None:
+    """Command of the zig of the package ``ziglang``; not by Python, which takes as long as the compiler."""
+    package = find_spec("ziglang")
+    if package is None or package.origin is None:
+        return None
+    for name in ("zig", "zig.exe"):
+        program = Path(package.origin).with_name(name)
+        if program.is_file():
+            return (str(program),)
+    return (sys.executable, "-m", "ziglang")
+
+
+def _zig_version() -> str:
+    try:
+        return version("ziglang")
+    except PackageNotFoundError:
+        return ""

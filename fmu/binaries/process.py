@@ -1,0 +1,86 @@
+"""A compiler is run: what it says is kept, and it ends with us, or when its time is over."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import signal
+import subprocess
+import tempfile
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+
+LONGEST_RUN = 900.0  # seconds; zig builds the C runtime of Windows on first use, which took 154 s on two cores
+SHOWN = 3  # lines of a compiler's complaints in a message; all of them are in `BuildError.output`
+
+
+class BuildError(RuntimeError):
+    """No compiler, or one that failed: one line; ``output`` is all that the compiler said."""
+
+    def __init__(self, message: str, output: str = "") -> None:
+        self.output = output
+        super().__init__(" ".join(f"{message}{': ' if output.strip() else ''}{_gist(output)}".split()))
+
+
+def run(line: Sequence[str], folder: Path, more: Mapping[str, str]) -> None:
+    """Run a command in `folder`, with `more` in its environment.
+
+    Raises
+    ------
+    BuildError
+        It cannot be started, fails, is killed, or takes too long.
+    """
+    shown = shlex.join(line)
+    # Into a file: a compiler's children may outlive it and would hold a pipe open for ever.
+    with tempfile.TemporaryFile(dir=folder) as said:
+        try:
+            process = subprocess.Popen(
+                line,
+                cwd=folder,
+                stdin=subprocess.DEVNULL,
+                stdout=said,
+                stderr=subprocess.STDOUT,
+                env=os.environ | more,
+                start_new_session=True,  # so that its children can be ended with it
+            )
+        except (OSError, ValueError) as error:
+            reason = error.strerror if isinstance(error, OSError) else error
+            raise BuildError(f"cannot start the C compiler {shown} ({reason})") from None
+        try:
+            code = process.wait(LONGEST_RUN)
+        except subprocess.TimeoutExpired:
+            raise BuildError(f"the C compiler took more than {LONGEST_RUN:g} s: {shown}") from None
+        finally:  # Ctrl-C too: in a session of its own it does not hear of it
+            _end(process)
+        said.seek(0)
+        output = said.read().decode("utf-8", "replace")
+    if code < 0:
+        raise BuildError(f"the C compiler was killed ({_signal(-code)}): {shown}", output)
+    if code != 0:
+        raise BuildError(f"the C compiler failed with exit code {code}: {shown}", output)
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    if process.poll() is not None:
+        return
+    with suppress(OSError):
+        if hasattr(os, "killpg"):
+            os.killpg(process.pid, signal.SIGKILL)
+        else:
+            process.kill()
+    process.wait()
+
+
+def _signal(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
+
+
+def _gist(output: str) -> str:
+    """The lines that say what is wrong, or else the last ones."""
+    lines = [line.strip() for line in output.splitlines() if line.strip()]
+    telling = [line for line in lines if "error" in line.lower()]
+    return "; ".join(telling[:SHOWN] or lines[-SHOWN:])

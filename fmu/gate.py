@@ -1,0 +1,62 @@
+"""What stands between a finished FMU and its place: nothing unverified passes."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from ehlcontact.errors import InputError
+from fmu.contacts import Element
+from fmu.verify import Verification, verify
+
+REACH = 3.0  # validity intervals above `high` up to which `verify` asks for a force
+
+
+class VerificationError(RuntimeError):
+    """An FMU that is not what it was exported from: one line; ``found`` says what is wrong, if it came to that."""
+
+    def __init__(self, message: str, found: Verification | None = None) -> None:
+        self.found = found
+        super().__init__(" ".join(message.split()))
+
+
+def require_finite(element: Element) -> None:
+    """Make sure that an element has a force wherever an FMU will be asked for one.
+
+    Raises
+    ------
+    InputError
+        It is too large for a floating-point number.
+    """
+    low, high = element.validity.approach
+    at = high + REACH * (high - low)
+    for name, value in (("force", element.spring(at)), ("stiffness", element.spring_tangent(at))):
+        if not np.isfinite(value):
+            raise InputError(f"{name} at approach {at:.4g}", value, "a finite number (the units may be wrong)")
+
+
+def require_verified(content: bytes, element: Element) -> Verification:
+    """Run an FMU, before it is written, against the element.
+
+    Raises
+    ------
+    VerificationError
+        It does not load, does not run, or differs.
+    """
+    try:
+        with tempfile.TemporaryDirectory(prefix="ehlcontact-verify-", ignore_cleanup_errors=True) as folder:
+            trial = Path(folder) / "trial.fmu"
+            trial.write_bytes(content)
+            found = verify(trial, element)
+    except InputError as error:
+        raise VerificationError(f"the FMU is not {error.allowed}") from None
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise VerificationError(f"no room to verify in {tempfile.gettempdir()} ({reason})") from None
+    except Exception as error:  # fmpy raises bare Exception among others, also for a call that the FMU refuses
+        raise VerificationError(f"the FMU does not run: {error}") from None
+    if not found.passes:
+        raise VerificationError(f"the FMU differs from the element: {'; '.join(found.findings) or found}", found)
+    return found

@@ -1,0 +1,288 @@
+"""The library of every platform, read where it cannot be run: what it is for, offers, needs, and gives away."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+
+from ehlcontact import InputError
+from fmu import export_contact
+from fmu.binaries import PLATFORMS, BuildError, build_binaries, choose, libraries, read_library, this_machine
+from fmu.binaries.compiler import compilers
+from fmu.build import CSRC
+from fmu.export import content_guid
+from fmu.glue import compiled
+from reduced_models import CubicContact
+
+OWN = this_machine()
+STRICT = (
+    *("-std=c99", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow"),
+    *("-Werror", "-c"),
+)
+LOADER = Path(__file__).parent / "loader.c"
+ELEMENT = CubicContact(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)
+pytestmark = pytest.mark.filterwarnings("ignore:the first library for Windows")
+
+
+def declared():
+    """Functions that FMI 2.0 wants a library to have."""
+    header = (CSRC / "fmi2" / "fmi2Functions.h").read_text()
+    return set(re.findall(r"FMI2_Export\s+fmi2\w+TYPE\s+(fmi2\w+);", header))
+
+
+def assert_sound(content, platform, identifier):
+    """By its headers, a library of that platform that loads on old systems and shows nothing of this one."""
+    (found,) = read_library(content)
+    assert found.platform == platform.name
+    assert {name for name in found.exports if name[0] != "_"} == declared() and len(declared()) == 44
+    if platform.system == "linux":
+        assert found.glibc <= (2, 17) and found.name == ""
+        assert set(found.needs) <= {"libc.so.6", "libm.so.6"}
+    elif platform.system == "windows":
+        # the C library that Windows 10 has itself
+        assert all(re.fullmatch(r"(?i)kernel32\.dll|api-ms-win-crt-[\w-]+\.dll", name) for name in found.needs)
+    else:
+        assert found.minimum == {"x86_64-darwin": (10, 13), "aarch64-darwin": (11, 0)}[platform.name]
+        assert found.name == f"@rpath/{identifier}.dylib"
+        assert found.needs == ("/usr/lib/libSystem.B.dylib",)
+        assert found.signed or platform.name != "aarch64-darwin"  # which loads no other
+    for place in (b"ehlcontact-fmu-", os.fsencode(Path.home()), os.fsencode(sys.prefix), b"/tmp/"):
+        assert place not in content
+
+
+def test_this_machines(spec, sources):
+    files, (label,) = build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)
+    ((path, content),) = files.items()
+    assert path == f"binaries/{OWN.name}/CubicContact{OWN.suffix}"
+    assert label.startswith(f"{OWN.name}: ") and "-ffp-contract=off" in label
+    assert_sound(content, OWN, spec.identifier)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", PLATFORMS)
+def test_every_platforms(libraries, spec, name):
+    assert_sound(libraries[name], PLATFORMS[name], spec.identifier)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", PLATFORMS)
+def test_the_same_again_without_the_cache(libraries, spec, sources, name, monkeypatch, tmp_path):
+    monkeypatch.setenv("EHLCONTACT_CACHE", str(tmp_path))
+    made, _ = build_binaries(sources, compiled(spec, 2), spec.identifier, [PLATFORMS[name]], fmi=3)
+    (again,) = made.values()
+    assert len(again) == len(libraries[name])
+    assert again == libraries[name]
+
+
+def test_a_compiler_that_makes_something_else(spec, sources, monkeypatch, tmp_path):
+    other = "aarch64-linux" if OWN.name != "aarch64-linux" else "x86_64-linux"
+    (zig,) = compilers(PLATFORMS[other])
+    words = " ".join(f"'{word}'" for word in zig.command)
+    monkeypatch.setenv("EHLCONTACT_CC", words)
+    with pytest.raises(BuildError, match=f"made a library for {other}, not {OWN.name}"):
+        build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)
+    script = tmp_path / "cc"
+    script.write_text('#!/bin/sh\nwhile [ "$1" != -o ]; do shift; done\necho text > "$2"\n')
+    script.chmod(0o755)
+    monkeypatch.setenv("EHLCONTACT_CC", str(script))
+    with pytest.raises(BuildError, match="made no ELF, PE or Mach-O library"):
+        build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)
+
+
+@pytest.mark.skipif(OWN.system == "windows", reason="the system's compiler is not looked for on Windows")
+@pytest.mark.parametrize("text", ["echo 'stdio.h: no such file' >&2; exit 1", 'exec gcc "$@" -lnone'])
+def test_a_system_compiler_that_fails_is_passed_over(spec, sources, monkeypatch, tmp_path, text):
+    """A gcc without the headers of a C library, as slim images have it."""
+    script = tmp_path / "cc"
+    script.write_text(f"#!/bin/sh\n{text}\n")
+    script.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.delenv("EHLCONTACT_CC", raising=False)
+    _, (label,) = build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)
+    assert " zig " in label
+
+
+@pytest.mark.skipif(OWN.system != "linux", reason="glibc is on Linux")
+def test_a_binary_for_newer_systems_only_is_passed_over(monkeypatch):
+    """exp and pow of a new glibc are not those of 2.17: zig's are."""
+    sources = {
+        "a.c": b'#include <math.h>\n__attribute__((visibility("default"))) double f(double x) {return exp(x);}'
+    }
+    monkeypatch.delenv("EHLCONTACT_CC", raising=False)
+    files, (label,) = build_binaries(sources, ["a.c"], "a", [OWN], fmi=3)
+    (found,) = read_library(*files.values())
+    assert found.exports >= {"f"} and () < found.glibc <= (2, 17)
+    own = compilers(OWN)[0]
+    if not own.is_zig:
+        there = libraries._made(sources, ["a.c"], "a", OWN, own)[1]
+        assert (" zig " in label) == (there.glibc > (2, 17))
+
+
+def test_no_room_to_compile(spec, sources, monkeypatch, tmp_path):
+    monkeypatch.setenv("EHLCONTACT_CACHE", str(tmp_path))
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    with pytest.raises(BuildError, match=r"^no room to compile in .* \(No space left on device\)$"):
+        build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)
+
+
+@pytest.mark.slow
+def test_five_platforms_in_one_fmu(libraries, tmp_path):
+    """FMI 2 has one folder for both Macs, and none for Linux on arm: with it they are below 300 kB."""
+    told = []
+    path = export_contact(ELEMENT, tmp_path / "x.fmu", platforms="all", progress=lambda *step: told.append(step))
+    assert told == [(k, 4) for k in range(5)]
+    folder = Path(fmpy.extract(str(path), unzipdir=str(tmp_path / "x")))
+    names = sorted(str(p.relative_to(folder / "binaries").as_posix()) for p in (folder / "binaries").rglob("*.*"))
+    assert names == ["darwin64/CubicContact.dylib", "linux64/CubicContact.so", "win64/CubicContact.dll"]
+    both = read_library((folder / "binaries" / names[0]).read_bytes())
+    assert [one.platform for one in both] == ["x86_64-darwin", "aarch64-darwin"]
+    page = (folder / "documentation" / "index.html").read_text()
+    assert all(f"{one.name}: " in page for one in choose("all", 2))
+    from fmu.build import pack
+
+    content = {f"binaries/{name}/x": library for name, library in libraries.items()}
+    sources = {f"sources/{p.name}": p.read_bytes() for p in (folder / "sources").iterdir()}
+    assert len(pack(content | sources)) < 300_000 and path.stat().st_size < 300_000
+
+
+def test_an_fmu_for_other_machines_is_verified_on_this_one(tmp_path):
+    """Its sources are, by this machine's binary of them, which is not in it."""
+    other = "aarch64-darwin" if OWN.name != "aarch64-darwin" else "x86_64-darwin"
+    path = export_contact(ELEMENT, tmp_path / "x.fmu", platforms=other)
+    folder = Path(fmpy.extract(str(path), unzipdir=str(tmp_path / "x")))
+    assert [p.name for p in (folder / "binaries").iterdir()] == ["darwin64"]
+
+
+def test_the_first_for_windows_is_announced(spec, sources, monkeypatch, tmp_path):
+    """Before minutes pass, and not again once it was made."""
+    windows = PLATFORMS["x86_64-windows"]
+    monkeypatch.setenv("ZIG_GLOBAL_CACHE_DIR", str(tmp_path / "zig"))
+    monkeypatch.setenv("EHLCONTACT_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(
+        libraries, "run", lambda line, folder, more: (folder / f"{line[line.index('-o') + 1]}").write_bytes(b"MZ")
+    )
+    monkeypatch.setattr(libraries, "_checked", lambda *_: None)
+    with pytest.warns(UserWarning, match="takes about 2 minutes"):
+        build_binaries(sources, compiled(spec, 2), "a", [OWN, windows][1:], fmi=3)
+    build_binaries(sources, compiled(spec, 2), "b", [windows], fmi=3)  # warnings are errors here
+    build_binaries(sources | {"x.h": b""}, compiled(spec, 2), "b", [windows], fmi=3)
+
+
+@pytest.mark.parametrize("compiler", ["gcc", "clang", OWN.name])
+def test_no_warning(sources, spec, tmp_path, compiler):
+    assert_no_warning(sources, spec, tmp_path, compiler)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [name for name in PLATFORMS if name != OWN.name])
+def test_no_warning_elsewhere(sources, spec, tmp_path, name):
+    assert_no_warning(sources, spec, tmp_path, name)
+
+
+def assert_no_warning(sources, spec, folder, compiler):
+    if compiler in PLATFORMS:
+        command = compilers(PLATFORMS[compiler])[-1].command
+    elif shutil.which(compiler):
+        command = (compiler,)
+    else:
+        pytest.skip(f"no {compiler}")
+    for name, content in sources.items():
+        (folder / name).write_bytes(content)
+    for unit in compiled(spec, 2):
+        line = [*command, *STRICT, unit]
+        done = subprocess.run(line, cwd=folder, capture_output=True, text=True, check=False, timeout=600)
+        assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+def states():
+    u, v = np.meshgrid(np.linspace(-0.4, 1.6, 57), np.linspace(-90.0, 30.0, 25))
+    return u.ravel(), v.ravel()
+
+
+def run_loader(line, library, spec):
+    """Force, stiffness and damping that a C program gets from the library."""
+    u, v = states()
+    names = ("approach", "rate", "force", "stiffness", "damping", "input_meaning")
+    references = [str(spec[name].value_reference) for name in names]
+    given = "".join(f"{a!r} {b!r}\n" for a, b in zip(u.tolist(), v.tolist(), strict=True))
+    done = subprocess.run(
+        [*map(str, line), str(library), content_guid(spec), *references],
+        input=given,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=300,
+    )
+    assert done.returncode == 0, done.stderr
+    return np.array([[float.fromhex(x) for x in row.split()] for row in done.stdout.splitlines()])
+
+
+def assert_right(found):
+    u, v = states()
+    assert found.shape == (u.size, 3) and (found[:, 0] == 0).any() and (found[:, 0] > 0).any()
+    for k, function in enumerate((ELEMENT.force, ELEMENT.stiffness, ELEMENT.damping)):
+        assert np.allclose(found[:, k], function(u, v), rtol=1e-12, atol=1e-15 * function(1.0, 0.0))
+
+
+def built_loader(folder, platform):
+    """The C program for a platform, as a file."""
+    if platform is OWN and shutil.which("cc"):
+        command = ("cc",)
+    else:
+        command = compilers(platform)[-1].command
+    program = folder / ("loader.exe" if platform.system == "windows" else "loader")
+    line = [*command, "-std=c99", "-O1", "-I", CSRC / "fmi2", LOADER, "-o", program]
+    line += [] if platform.system == "windows" else ["-ldl"]
+    done = subprocess.run([str(part) for part in line], capture_output=True, text=True, check=False, timeout=600)
+    assert done.returncode == 0, done.stderr
+    return program
+
+
+@pytest.mark.skipif(OWN.system == "windows", reason="wine's test is this machine's there")
+def test_in_a_c_program(spec, sources, tmp_path):
+    (library,) = build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)[0].values()
+    folder = tmp_path / "mit Leerzeichen und Umläuten ß"
+    folder.mkdir()
+    (folder / "x.so").write_bytes(library)
+    assert_right(run_loader([built_loader(tmp_path, OWN)], folder / "x.so", spec))
+
+
+@pytest.mark.slow
+def test_on_linux_on_arm(libraries, spec, tmp_path):
+    emulator, root = shutil.which("qemu-aarch64-static"), Path("/usr/aarch64-linux-gnu")
+    if OWN.name == "aarch64-linux":
+        pytest.skip("this machine's own")
+    if emulator is None or not root.is_dir():
+        pytest.skip("no packages qemu-user-static and libc6-arm64-cross")
+    (tmp_path / "x.so").write_bytes(libraries["aarch64-linux"])
+    program = built_loader(tmp_path, PLATFORMS["aarch64-linux"])
+    assert_right(run_loader([emulator, "-L", root, program], tmp_path / "x.so", spec))
+
+
+@pytest.mark.slow
+def test_on_windows(libraries, spec, tmp_path, monkeypatch):
+    wine = shutil.which("wine64") or shutil.which("wine") or shutil.which("wine64-stable")
+    if wine is None:
+        pytest.skip("no package wine64")
+    monkeypatch.setenv("WINEPREFIX", str(tmp_path / "wine"))
+    monkeypatch.setenv("WINEDEBUG", "-all")
+    (tmp_path / "x.dll").write_bytes(libraries["x86_64-windows"])
+    program = built_loader(tmp_path, PLATFORMS["x86_64-windows"])
+    monkeypatch.chdir(tmp_path)
+    assert_right(run_loader([wine, program], "x.dll", spec))
+
+
+def test_unknown_platform(tmp_path):
+    with pytest.raises(InputError, match="platforms = 'win32': must be x86_64-linux"):
+        export_contact(ELEMENT, tmp_path / "x.fmu", platforms="win32")
+    assert list(tmp_path.iterdir()) == []
