@@ -35,7 +35,8 @@ def require_finite(element: Element) -> None:
         # arrays are questions, which no warning follows
         value = float(np.asarray(getattr(element, name)(np.array([at]), np.zeros(1)))[0])
         if not np.isfinite(value):
-            raise InputError(f"{name} at approach {at:.4g}", value, "a finite number (the units may be wrong)")
+            found = f"{name} {value:g} at approach {at:.4g}"
+            raise InputError("element", found, "one with finite forces, also above its interval (wrong units?)")
 
 
 def require_verified(content: bytes, element: Element) -> Verification:

@@ -59,7 +59,8 @@ def export(
         kinds = f"{LinearContact.kind} or {CubicContact.kind}; FMUs of other kinds are not built yet"
         raise InputError(str(file), f"kind {element.kind!r}", kinds)
     try:
-        with progress("compiling") as told, o.called(model_name="--name", platforms="--platform", path="--output"):
+        names = {"model_name": "--name", "platforms": "--platform", "path": "--output", "element": str(file)}
+        with progress("compiling") as told, o.called(**names):
             _, found = export_verified(
                 element,
                 output,
