@@ -1,17 +1,24 @@
-"""Reduced contact elements as Functional Mock-up Units: FMI 2.0 co-simulation, compiled from C99.
+"""Reduced contact elements as Functional Mock-up Units: FMI 2.0 co-simulation and model exchange, from C99.
 
-===========  =======================================================================================
-module       responsibility
-===========  =======================================================================================
-``spec``     `ModelSpec`, the only place where a variable's name, reference, unit and start are said
-``texts``    `ModelSpec` to ``modelDescription.xml``, ``config.h`` and ``documentation/index.html``
-``binaries`` for which platforms, by which compiler, and what came out
-``build``    C sources, reproducible zip
-``export``   `export_contact`: element in, FMU file out
-``gate``     nothing unverified is written
-``verify``   `verify`: the FMU against fmpy's rules and, state by state, against the Python element
-``csrc/``    the C sources: FMI glue for any model, and the contact element; equations in its README
-===========  =======================================================================================
+==============  ====================================================================================
+module          responsibility
+==============  ====================================================================================
+``spec``        `ModelSpec`, the only place where a variable's name, reference, unit and start are said
+``contacts``    `contact_spec`: what all contact elements have in common
+``spring``      variables and C text of the elements without memory
+``film``        those of the elements with a film memory
+``c_headers``   `ModelSpec` to the generated C headers
+``glue``        C files of an FMI version, whatever the model
+``texts``       `ModelSpec` to ``modelDescription.xml`` and ``documentation/index.html``
+``binaries``    for which platforms, by which compiler, and what came out
+``build``       C sources, reproducible zip
+``export``      `export_contact`: element in, FMU file out
+``gate``        nothing unverified is written
+``verify``      `verify`: the FMU against fmpy's rules and, state by state, against the Python element
+``comparison``  forces, tangents and derivatives of both, side by side
+``driver``      an instance of an FMU, by hand, through fmpy
+``csrc/``       the C sources: common core, glue of each FMI version, models; equations in its README
+==============  ====================================================================================
 
 The import name ``fmu`` is also that of the geoscience distribution fmu-tools (a namespace package there):
 the two cannot be installed into one environment.

@@ -13,13 +13,15 @@ from ehlcontact.files import write_bytes
 from fmu import build
 from fmu.binaries import Platform, build_binaries, choose, this_machine
 from fmu.binaries.libraries import Progress
+from fmu.c_headers import c_headers
+from fmu.contacts import Element, contact_spec
 from fmu.gate import require_finite, require_verified
-from fmu.spec import Element, ModelSpec, contact_spec
-from fmu.texts import config_header, documentation, model_description
+from fmu.glue import GLUE, compiled
+from fmu.spec import ModelSpec
+from fmu.texts import documentation, model_description
 from fmu.verify import Verification
 
 _NAMESPACE = uuid.uuid5(uuid.NAMESPACE_URL, "https://pypi.org/project/ehlcontact/fmu")
-_FMI_HEADERS = ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h")
 _LICENSES = ("license.txt", "fmi2-headers.txt")
 
 
@@ -33,16 +35,20 @@ def export_contact(
     overwrite: bool = False,
     progress: Progress | None = None,
 ) -> Path:
-    """Write a contact element as an FMU for co-simulation, once it is verified against the element.
+    """Write a contact element as an FMU for co-simulation and model exchange, once it is verified against it.
 
     Inputs `approach` and `rate`, output `force` with its tangents `stiffness` and `damping`, and
-    `outside_validity`. K1, K2, K3, C1, low and high are tunable parameters that start at the element's
-    values. Units are the element's: SI, or "1" for a dimensionless element. The same element, name, library
-    version and compiler give the same bytes.
+    `outside_validity` with the bound that is left. Coefficients of elements without memory, and their interval,
+    are tunable parameters that start at the element's values; those of a film memory are constants, for others
+    could put energy into a vibration. The fixed parameter `input_meaning` says what the inputs of a
+    co-simulation step are: extrapolated (1, the default), those of its end (2), or held (3). Units are the
+    element's: SI, or "1" for a dimensionless element. The same element, name, library version and compiler give
+    the same bytes.
 
     Parameters
     ----------
-    element : LinearContact or CubicContact
+    element : ContactElement
+        Of any kind.
     path : path-like
         File to write, ending in ``.fmu``.
     fmi : int
@@ -147,7 +153,7 @@ def fmu_files(
     """Everything in the FMU by its path, the compiled binaries included."""
     guid = content_guid(spec)
     sources = source_files(spec, guid)
-    files, labels = build_binaries(sources, spec.sources, spec.identifier, platforms, fmi, progress)
+    files, labels = build_binaries(sources, compiled(spec, fmi), spec.identifier, platforms, fmi, progress)
     readme = (build.CSRC / "README.md").read_text(encoding="ascii")
     page = documentation(spec, readme, "; ".join(labels))
     files["modelDescription.xml"] = model_description(spec, guid)
@@ -160,10 +166,11 @@ def fmu_files(
 
 def source_files(spec: ModelSpec, guid: str) -> dict[str, bytes]:
     """Content of ``sources/``: all that a compiler needs."""
-    files = {name: (build.CSRC / name).read_bytes() for name in (*spec.sources, *spec.headers, "README.md")}
-    files |= {name: (build.CSRC / "fmi2" / name).read_bytes() for name in _FMI_HEADERS}
-    files["config.h"] = config_header(spec, guid).encode("ascii")
-    return files
+    glue = GLUE[2]
+    names = (*glue.sources, *spec.sources, *glue.headers, *spec.headers, "README.md")
+    found = {path.name: path for path in build.CSRC.rglob("*") if path.is_file()}
+    files = {name: found[name].read_bytes() for name in (*names, *glue.standard)}
+    return files | {name: text.encode("ascii") for name, text in c_headers(spec, guid).items()}
 
 
 def content_guid(spec: ModelSpec) -> str:

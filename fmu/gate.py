@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ehlcontact.errors import InputError
-from fmu.spec import Element
+from fmu.contacts import Element
 from fmu.verify import Verification, verify
 
 REACH = 3.0  # validity intervals above `high` up to which `verify` asks for a force
@@ -30,10 +30,9 @@ def require_finite(element: Element) -> None:
     InputError
         It is too large for a floating-point number.
     """
-    at = element.high + REACH * (element.high - element.low)
-    for name in ("force", "stiffness"):
-        # arrays are questions, which no warning follows
-        value = float(np.asarray(getattr(element, name)(np.array([at]), np.zeros(1)))[0])
+    low, high = element.validity.approach
+    at = high + REACH * (high - low)
+    for name, value in (("force", element.spring(at)), ("stiffness", element.spring_tangent(at))):
         if not np.isfinite(value):
             found = f"{name} {value:g} at approach {at:.4g}"
             raise InputError("element", found, "one with finite forces, also above its interval (wrong units?)")

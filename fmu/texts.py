@@ -1,4 +1,4 @@
-"""`ModelSpec` to the texts of an FMU: ``modelDescription.xml``, ``config.h`` and ``documentation/index.html``.
+"""`ModelSpec` to the texts of an FMU: ``modelDescription.xml`` of FMI 2.0 and ``documentation/index.html``.
 
 They depend on nothing but their arguments and the library's version.
 """
@@ -9,12 +9,14 @@ from html import escape
 from xml.etree import ElementTree
 
 from ehlcontact import __version__
-from fmu.spec import UNITS, ModelSpec, Variable
+from fmu.glue import compiled
+from fmu.spec import DISPLAY_UNITS, UNITS, ModelSpec, Variable
 
+DEFAULT_STEPS = 1000  # of the default experiment
 LOG_CATEGORIES = {
     "logStatusError": "Calls that failed, always logged",
     "logStatusDiscard": "Values that do not exist for the present inputs",
-    "logStatusWarning": "Approach leaving the validity interval",
+    "logStatusWarning": "Motion leaving the validity box",
 }
 _PAGE = """<!DOCTYPE html>
 <html lang="en">
@@ -35,8 +37,9 @@ pre {{ background: #f4f4f4; padding: 1em; overflow-x: auto }}</style></head>
 <h2>Sources</h2>
 <pre>{readme}</pre>
 <h2>Build</h2>
-<p>Exported by ehlcontact {version} as FMI 2.0 for co-simulation; the binary needs nothing but the C library.
-It was compiled with <code>{compiler}</code>. To build it for another platform, compile the files in
+<p>Exported by ehlcontact {version} as FMI 2.0 for co-simulation and model exchange; the binary needs
+nothing but the C library. It was compiled with <code>{compiler}</code>. To build it for another platform,
+compile the files in
 <code>sources/</code> and link the maths library.</p>
 </body>
 </html>
@@ -57,47 +60,76 @@ def model_description(spec: ModelSpec, guid: str) -> bytes:
         license="BSD-3-Clause",
         generationTool=f"ehlcontact {__version__}",
         variableNamingConvention="structured",
-        numberOfEventIndicators="0",
+        numberOfEventIndicators="1",
     )
-    _co_simulation(root, spec)
+    _interfaces(root, spec)
     _units(root, spec)
+    _choices(root, spec)
     categories = ElementTree.SubElement(root, "LogCategories")
     for name, text in LOG_CATEGORIES.items():
         ElementTree.SubElement(categories, "Category", name=name, description=text)
-    ElementTree.SubElement(root, "DefaultExperiment", startTime="0.0", stopTime="1.0", stepSize="0.001")
+    ElementTree.SubElement(root, "DefaultExperiment", default_experiment(spec))
     variables = ElementTree.SubElement(root, "ModelVariables")
     for variable in spec.variables:
-        _variable(variables, variable)
+        _variable(variables, variable, spec)
     _structure(root, spec)
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)
 
 
-def _co_simulation(root: ElementTree.Element, spec: ModelSpec) -> None:
-    slave = ElementTree.SubElement(
+def default_experiment(spec: ModelSpec) -> dict[str, str]:
+    """Start, stop and step that resolve the contact."""
+    stop = float(f"{DEFAULT_STEPS * spec.step:.6g}")
+    return {"startTime": "0.0", "stopTime": repr(stop), "tolerance": "1e-06", "stepSize": repr(spec.step)}
+
+
+def _interfaces(root: ElementTree.Element, spec: ModelSpec) -> None:
+    both = {
+        "modelIdentifier": spec.identifier,
+        "canGetAndSetFMUstate": "true",
+        "canSerializeFMUstate": "true",
+        "providesDirectionalDerivative": "true",
+    }
+    exchange = ElementTree.SubElement(root, "ModelExchange", both, completedIntegratorStepNotNeeded="true")
+    simulation = ElementTree.SubElement(
         root,
         "CoSimulation",
-        modelIdentifier=spec.identifier,
+        both,
         canHandleVariableCommunicationStepSize="true",
-        canGetAndSetFMUstate="true",
-        canSerializeFMUstate="true",
-        providesDirectionalDerivative="true",
+        canInterpolateInputs="true",
+        maxOutputDerivativeOrder="1",
     )
-    files = ElementTree.SubElement(slave, "SourceFiles")
-    for name in spec.sources:
-        ElementTree.SubElement(files, "File", name=name)
+    for interface in (exchange, simulation):
+        files = ElementTree.SubElement(interface, "SourceFiles")
+        for name in compiled(spec, 2):
+            ElementTree.SubElement(files, "File", name=name)
 
 
 def _units(root: ElementTree.Element, spec: ModelSpec) -> None:
-    used = {variable.unit for variable in spec.variables}
     definitions = ElementTree.SubElement(root, "UnitDefinitions")
-    for name, exponents in UNITS.items():
-        if name in used:
-            unit = ElementTree.SubElement(definitions, "Unit", name=name)
-            ElementTree.SubElement(unit, "BaseUnit", {base: str(power) for base, power in exponents.items()})
+    for name, exponents, display in used_units(spec):
+        unit = ElementTree.SubElement(definitions, "Unit", name=name)
+        ElementTree.SubElement(unit, "BaseUnit", {base: str(power) for base, power in exponents.items()})
+        if display is not None:
+            ElementTree.SubElement(unit, "DisplayUnit", name=display[0], factor=repr(display[1]))
 
 
-def _variable(parent: ElementTree.Element, variable: Variable) -> None:
+def used_units(spec: ModelSpec) -> list[tuple[str, dict[str, int], tuple[str, float] | None]]:
+    """Units of the variables: name, exponents, and name and factor of what may be shown instead."""
+    used = {variable.unit for variable in spec.variables}
+    return [(name, powers, DISPLAY_UNITS.get(name)) for name, powers in UNITS.items() if name in used]
+
+
+def _choices(root: ElementTree.Element, spec: ModelSpec) -> None:
+    definitions = ElementTree.SubElement(root, "TypeDefinitions")
+    for choice in spec.choices:
+        simple = ElementTree.SubElement(definitions, "SimpleType", name=choice.name)
+        values = ElementTree.SubElement(simple, "Enumeration")
+        for value, (name, text) in enumerate(choice.items, start=1):
+            ElementTree.SubElement(values, "Item", name=name, value=str(value), description=text)
+
+
+def _variable(parent: ElementTree.Element, variable: Variable, spec: ModelSpec) -> None:
     scalar = ElementTree.SubElement(
         parent,
         "ScalarVariable",
@@ -111,57 +143,52 @@ def _variable(parent: ElementTree.Element, variable: Variable) -> None:
     if variable.causality == "input":
         del scalar.attrib["initial"]  # FMI 2.0 forbids it there
     value = ElementTree.SubElement(scalar, variable.type)
-    if variable.unit is not None:
-        value.set("unit", variable.unit)
-    if variable.minimum is not None:
-        value.set("min", repr(variable.minimum))
-    if variable.start is not None:
-        value.set("start", repr(variable.start))
+    if variable.type == "Enumeration":
+        value.set("declaredType", spec.choices[0].name)
+    for name, text in value_attributes(variable).items():
+        value.set(name, text)
+    if variable.derivative_of is not None:
+        value.set("derivative", str(spec.index(variable.derivative_of)))
+
+
+def value_attributes(variable: Variable) -> dict[str, str]:
+    """Unit, bounds, nominal and start of a variable, as both versions of FMI write them."""
+    number = str if variable.type == "Enumeration" else repr
+    display = DISPLAY_UNITS.get(variable.unit or "")
+    entries = {
+        "unit": variable.unit,
+        "displayUnit": None if display is None else display[0],
+        "min": None if variable.minimum is None else number(variable.minimum),
+        "max": None if variable.maximum is None else number(variable.maximum),
+        "nominal": None if variable.nominal is None else number(variable.nominal),
+        "start": None if variable.start is None else number(variable.start),
+    }
+    return {name: text for name, text in entries.items() if text is not None}
 
 
 def _structure(root: ElementTree.Element, spec: ModelSpec) -> None:
     structure = ElementTree.SubElement(root, "ModelStructure")
-    inputs = {variable.name for variable in spec.inputs}
-    # While stepping only the inputs are knowns; at initialization the parameters are as well.
-    for section, all_knowns in (("Outputs", False), ("InitialUnknowns", True)):
+    computed = sorted((*spec.outputs, *spec.derivatives), key=lambda variable: variable.value_reference)
+    moving = {variable.name for variable in (*spec.inputs, *spec.states)}
+    # While running only inputs and states are knowns; at initialization the parameters are as well.
+    sections = (
+        ("Outputs", spec.outputs, False),
+        ("Derivatives", spec.derivatives, False),
+        ("InitialUnknowns", tuple(computed), True),
+    )
+    for section, variables, all_knowns in sections:
+        if not variables:
+            continue
         unknowns = ElementTree.SubElement(structure, section)
-        for output in spec.outputs:
-            knowns = sorted(spec.index(name) for name in output.depends if all_knowns or name in inputs)
+        for variable in variables:
+            knowns = sorted(spec.index(name) for name in variable.depends if all_knowns or name in moving)
             ElementTree.SubElement(
                 unknowns,
                 "Unknown",
-                index=str(spec.index(output.name)),
+                index=str(spec.index(variable.name)),
                 dependencies=" ".join(map(str, knowns)),
                 dependenciesKind=" ".join(["dependent"] * len(knowns)),
             )
-
-
-def config_header(spec: ModelSpec, guid: str) -> str:
-    """``config.h``, what the C sources must know of one model: GUID, value references, starts with 17 digits."""
-    lines = [
-        "/* Generated by ehlcontact. GUID, value references and start values as in modelDescription.xml. */",
-        "#ifndef CONFIG_H",
-        "#define CONFIG_H",
-        "",
-        f'#define MODEL_GUID "{guid}"',
-        f'#define MODEL_HEADER "{spec.header}"',
-        "",
-        "enum {",
-        ",\n".join(f"    VR_{v.name} = {v.value_reference}" for v in spec.variables),
-        "};",
-        "",
-        *(f"#define START_{v.name} ({c_double(v.start)})" for v in spec.variables if v.start is not None),
-        "",
-        "#endif",
-        "",
-    ]
-    return "\n".join(lines)
-
-
-def c_double(value: float) -> str:
-    """C literal that reads back as exactly this double."""
-    text = format(value, ".17g")
-    return text if any(mark in text for mark in ".e") else f"{text}.0"
 
 
 def documentation(spec: ModelSpec, readme: str, compiler: str) -> str:

@@ -284,7 +284,7 @@ CALLS = {
     # FMUs
     "export a file name": (
         lambda: fmu.export_contact("e.json", "x.fmu"),
-        ("element", "a LinearContact or a CubicContact"),
+        ("element", "a contact element"),
     ),
     "export a version": (
         lambda: fmu.export_contact(cubic(), "x.fmu", fmi=4),

@@ -4,8 +4,6 @@ import h5py
 import pytest
 from tiny_study import STUDY
 
-from reduced_models import FilmMemoryContact, PowerLawContact
-
 GOOD = {"--M": "20", "--L": "5", "--kappa": "0.5"}
 
 
@@ -125,24 +123,6 @@ def test_files_that_are_not_ours(refused, tmp_path):
 
 def test_memory_takes_whole_records(refused):
     refused(("--window", "memory"), "fit", "r.h5", "--model", "memory", "--window", "1", "2")
-
-
-def test_kinds_without_fmu(refused, tmp_path):
-    box = {"low": 0.7, "high": 1.0}
-    memory = {
-        "film": 0.13,
-        "exponent": 0.13,
-        "squeeze": 0.2,
-        "lag_rate": 5.0,
-        "inlet_rate": 30.0,
-        "fast_rate": 60.0,
-    }
-    for element in (
-        PowerLawContact(K=1.2, n=1.5, u0=0.0, F0=0.0, C=0.01, **box),
-        FilmMemoryContact(**memory, gains=(0.001, 0.002, 0.003, 0.02), **box),
-    ):
-        file = element.save(tmp_path / f"{element.kind}.json")
-        refused((file.name, element.kind, "cubic", "not built yet"), "export", file, "-o", tmp_path / "x.fmu")
 
 
 @pytest.mark.parametrize("option", ["--hz", "--rpm", "--frequency"])

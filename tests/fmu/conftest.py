@@ -6,18 +6,41 @@ from pathlib import Path
 from typing import Any
 
 import fmpy
+import numpy as np
 import pytest
 from fmpy import fmi2
 
 from ehlcontact.point import Scales
 from fmu import export_contact
-from reduced_models.elements.kinds import CubicContact, LinearContact
+from reduced_models.elements.kinds import (
+    CubicContact,
+    FilmMemoryContact,
+    LinearContact,
+    PolynomialContact,
+    PowerLawContact,
+    WideRangeContact,
+)
 
 # Table 3, case 2 of Nonato and Cavalca (2010) in round numbers; the interval is that of a free vibration.
 CUBIC = CubicContact(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)
 LINEAR = LinearContact(K1=1.148, C1=0.0122, low=0.75, high=1.0)
 SCALES = Scales(force=850.0, length=1.31e-5, time=2.1e-5, a=1.1e-4, b=9e-4, pressure=1.6e9)
 ELEMENTS = {"cubic": CUBIC, "linear": LINEAR, "cubic_si": CUBIC.to_si(SCALES)}
+BOX = {"low": 0.75, "high": 1.0, "rate": 1.2, "load_range": (0.8, 1.2), "omega_range": (3.0, 6.0)}
+POLYNOMIAL = PolynomialContact(0.806, 0.004, 0.346, 0.002, 0.054, -0.001, 0.010, **BOX)
+POWER = PowerLawContact(0.95, 1.7, 0.15, -0.05, 0.013, **BOX)
+# As they come out of the atlas at M = 200, L = 10, kappa = 0.5, in round numbers.
+FILTERS = {"squeeze": 0.25, "lag_rate": 5.4, "inlet_rate": 33.0, "fast_rate": 60.0}
+GAINS = (0.001, 0.002, 0.005, 0.013, 0.0, 0.009, 0.011, 0.0, 0.0, 0.0, 0.021)
+LOADS = np.array([0.005, 0.02, 0.1, 0.3, 1.0, 3.0])
+CURVE = LOADS ** (2.0 / 3.0) - [0.0649, 0.0659, 0.0626, 0.0574, 0.0499, 0.0400]
+ROWS = tuple(tuple(scale * g for g in GAINS) for scale in (2.0, 1.0, 0.6))
+MEMORY = FilmMemoryContact(film=0.129, exponent=0.13, gains=GAINS, **FILTERS, **BOX)
+WIDE = WideRangeContact(LOADS, CURVE, (0.03, 0.3, 2.0), ROWS, **FILTERS, **BOX)
+SPRINGS = ELEMENTS | {"polynomial": POLYNOMIAL, "power": POWER, "power_si": POWER.to_si(SCALES)}
+SPRINGS["polynomial without rate"] = PolynomialContact(0.62, 0.02, 0.75, 0.0, -0.17, 0.0, 0.01, 0.75, 1.0)
+FILMS = {"memory": MEMORY, "wide": WIDE, "wide_si": WIDE.to_si(SCALES)}
+EXTRAPOLATED, END, HELD = 1, 2, 3  # values of input_meaning
 
 
 def instantiate(folder: str, description: Any, logger: Callable) -> fmi2.FMU2Slave:
@@ -40,14 +63,19 @@ def instantiate(folder: str, description: Any, logger: Callable) -> fmi2.FMU2Sla
 
 
 class Slave:
-    """fmpy's co-simulation slave with variables by name; started, and freed at the end."""
+    """fmpy's co-simulation slave with variables by name; started, and freed at the end.
 
-    def __init__(self, folder: str, start: bool = True):
+    Its inputs are those of the end of a step, unless another meaning is asked for.
+    """
+
+    def __init__(self, folder: str, start: bool = True, meaning: int = END, **values: float):
         description = fmpy.read_model_description(folder)
         self.reference = {v.name: v.valueReference for v in description.modelVariables}
         self.log: list[tuple[int, str, str]] = []  # status, category, message
         self.raw = instantiate(folder, description, self._logged)
         self.time = 0.0
+        self.raw.setInteger([self.reference["input_meaning"]], [meaning])
+        self.set(**values)
         if start:
             self.raw.setupExperiment(startTime=0.0)
             self.raw.enterInitializationMode()
@@ -69,6 +97,11 @@ class Slave:
         self.raw.doStep(currentCommunicationPoint=self.time, communicationStepSize=h)
         self.time += h
 
+    def flags(self) -> list[bool]:
+        """Approach, rate and force outside their bounds."""
+        names = [f"outside_{name}" for name in ("approach", "rate", "force")]
+        return [bool(flag) for flag in self.raw.getBoolean([self.reference[name] for name in names])]
+
     def force(self, approach: float, rate: float, h: float = 1e-3) -> float:
         self.set(approach=approach, rate=rate)
         self.step(h)
@@ -81,7 +114,7 @@ class Slave:
 @pytest.fixture(scope="session")
 def fmus(tmp_path_factory) -> dict[str, Path]:
     folder = tmp_path_factory.mktemp("fmus")
-    return {name: export_contact(element, folder / f"{name}.fmu") for name, element in ELEMENTS.items()}
+    return {name: export_contact(element, folder / f"{name}.fmu") for name, element in (SPRINGS | FILMS).items()}
 
 
 @pytest.fixture(scope="session")
@@ -108,9 +141,27 @@ def kind(request) -> str:
     return request.param
 
 
+@pytest.fixture(params=list(SPRINGS))
+def spring_kind(request) -> str:
+    """Any element without memory."""
+    return request.param
+
+
+@pytest.fixture(params=list(FILMS))
+def film_kind(request) -> str:
+    """Any element with a film memory."""
+    return request.param
+
+
+@pytest.fixture(params=list(SPRINGS | FILMS))
+def any_kind(request) -> str:
+    """Any element."""
+    return request.param
+
+
 @pytest.fixture
-def elements() -> dict[str, CubicContact | LinearContact]:
-    return ELEMENTS
+def elements() -> dict[str, Any]:
+    return SPRINGS | FILMS
 
 
 @pytest.fixture

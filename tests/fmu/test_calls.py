@@ -103,7 +103,11 @@ def test_step_refuses_what_is_not_finite(logged, name, value):
         ({"low": 1.0}, "low must be below high"),
         ({"K1": -5.0}, "positive and rising"),
         ({"K3": -10.0}, "positive and rising"),
-        ({"approach": 1e300}, "too large"),
+        (
+            {"K1": 0.7556, "K2": -0.875, "K3": 1 / 3},
+            "rise everywhere",
+        ),  # falls inside, though it rises at both ends
+        ({"K1": 1.7e308}, "too steep"),
     ],
 )
 def test_step_refuses_a_law_that_does_not_exist(logged, change, reason):
@@ -128,7 +132,7 @@ def test_output_that_does_not_exist_is_discarded(logged):
     unit, lines = logged()
     unit.raw.setDebugLogging(True, ["logStatusDiscard"])
     unit.set(approach=float("nan"))
-    assert unit.outside()
+    assert fails(unit.outside) == STATUS["discard"]
     assert fails(unit.get, "force") == STATUS["discard"]
     unit.set(approach=2.0, K1=float("nan"))
     assert fails(unit.get, "stiffness") == STATUS["discard"]
@@ -187,9 +191,10 @@ def test_variables_that_are_not_there(logged):
     assert fails(unit.raw.setReal, [unit.reference["K1"], 99], [1.0, 1.0]) == STATUS["error"]
     assert fails(unit.raw.getInteger, [0]) == STATUS["error"]
     assert fails(unit.raw.getString, [0]) == STATUS["error"]
-    assert fails(unit.gradient, "force", "K1") == STATUS["error"]
+    assert fails(unit.gradient, "force", "input_meaning") == STATUS["error"]
     assert fails(unit.gradient, "K1", "approach") == STATUS["error"]
-    assert len(lines) == 9
+    assert fails(unit.raw.setInteger, [unit.reference["input_meaning"]], [1]) == STATUS["error"]  # is fixed
+    assert len(lines) == 10
     assert snapshot(unit) == before
 
 

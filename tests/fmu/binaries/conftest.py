@@ -5,8 +5,9 @@ import warnings
 import pytest
 
 from fmu.binaries import PLATFORMS, build_binaries
+from fmu.contacts import contact_spec
 from fmu.export import content_guid, source_files
-from fmu.spec import contact_spec
+from fmu.glue import compiled
 from reduced_models import CubicContact
 
 
@@ -25,5 +26,5 @@ def libraries(spec, sources):
     """Library of each platform by its name; the first one for Windows takes minutes."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="the first library for Windows")
-        made, _ = build_binaries(sources, spec.sources, spec.identifier, list(PLATFORMS.values()), fmi=3)
+        made, _ = build_binaries(sources, compiled(spec, 2), spec.identifier, list(PLATFORMS.values()), fmi=3)
     return {path.split("/")[1]: content for path, content in made.items()}

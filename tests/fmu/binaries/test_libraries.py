@@ -17,6 +17,7 @@ from fmu.binaries import PLATFORMS, BuildError, build_binaries, choose, librarie
 from fmu.binaries.compiler import compilers
 from fmu.build import CSRC
 from fmu.export import content_guid
+from fmu.glue import compiled
 from reduced_models import CubicContact
 
 OWN = this_machine()
@@ -56,7 +57,7 @@ def assert_sound(content, platform, identifier):
 
 
 def test_this_machines(spec, sources):
-    files, (label,) = build_binaries(sources, spec.sources, spec.identifier, [OWN], fmi=3)
+    files, (label,) = build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)
     ((path, content),) = files.items()
     assert path == f"binaries/{OWN.name}/CubicContact{OWN.suffix}"
     assert label.startswith(f"{OWN.name}: ") and "-ffp-contract=off" in label
@@ -73,7 +74,7 @@ def test_every_platforms(libraries, spec, name):
 @pytest.mark.parametrize("name", PLATFORMS)
 def test_the_same_again_without_the_cache(libraries, spec, sources, name, monkeypatch, tmp_path):
     monkeypatch.setenv("EHLCONTACT_CACHE", str(tmp_path))
-    made, _ = build_binaries(sources, spec.sources, spec.identifier, [PLATFORMS[name]], fmi=3)
+    made, _ = build_binaries(sources, compiled(spec, 2), spec.identifier, [PLATFORMS[name]], fmi=3)
     (again,) = made.values()
     assert len(again) == len(libraries[name])
     assert again == libraries[name]
@@ -85,13 +86,13 @@ def test_a_compiler_that_makes_something_else(spec, sources, monkeypatch, tmp_pa
     words = " ".join(f"'{word}'" for word in zig.command)
     monkeypatch.setenv("EHLCONTACT_CC", words)
     with pytest.raises(BuildError, match=f"made a library for {other}, not {OWN.name}"):
-        build_binaries(sources, spec.sources, spec.identifier, [OWN], fmi=3)
+        build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)
     script = tmp_path / "cc"
     script.write_text('#!/bin/sh\nwhile [ "$1" != -o ]; do shift; done\necho text > "$2"\n')
     script.chmod(0o755)
     monkeypatch.setenv("EHLCONTACT_CC", str(script))
     with pytest.raises(BuildError, match="made no ELF, PE or Mach-O library"):
-        build_binaries(sources, spec.sources, spec.identifier, [OWN], fmi=3)
+        build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)
 
 
 @pytest.mark.skipif(OWN.system == "windows", reason="the system's compiler is not looked for on Windows")
@@ -103,7 +104,7 @@ def test_a_system_compiler_that_fails_is_passed_over(spec, sources, monkeypatch,
     script.chmod(0o755)
     monkeypatch.setenv("PATH", f"{tmp_path}{os.pathsep}{os.environ['PATH']}")
     monkeypatch.delenv("EHLCONTACT_CC", raising=False)
-    _, (label,) = build_binaries(sources, spec.sources, spec.identifier, [OWN], fmi=3)
+    _, (label,) = build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)
     assert " zig " in label
 
 
@@ -131,7 +132,7 @@ def test_no_room_to_compile(spec, sources, monkeypatch, tmp_path):
 
     monkeypatch.setattr(Path, "write_bytes", full)
     with pytest.raises(BuildError, match=r"^no room to compile in .* \(No space left on device\)$"):
-        build_binaries(sources, spec.sources, spec.identifier, [OWN], fmi=3)
+        build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)
 
 
 @pytest.mark.slow
@@ -172,9 +173,9 @@ def test_the_first_for_windows_is_announced(spec, sources, monkeypatch, tmp_path
     )
     monkeypatch.setattr(libraries, "_checked", lambda *_: None)
     with pytest.warns(UserWarning, match="takes about 2 minutes"):
-        build_binaries(sources, spec.sources, "a", [OWN, windows][1:], fmi=3)
-    build_binaries(sources, spec.sources, "b", [windows], fmi=3)  # warnings are errors here
-    build_binaries(sources | {"x.h": b""}, spec.sources, "b", [windows], fmi=3)
+        build_binaries(sources, compiled(spec, 2), "a", [OWN, windows][1:], fmi=3)
+    build_binaries(sources, compiled(spec, 2), "b", [windows], fmi=3)  # warnings are errors here
+    build_binaries(sources | {"x.h": b""}, compiled(spec, 2), "b", [windows], fmi=3)
 
 
 @pytest.mark.parametrize("compiler", ["gcc", "clang", OWN.name])
@@ -197,7 +198,7 @@ def assert_no_warning(sources, spec, folder, compiler):
         pytest.skip(f"no {compiler}")
     for name, content in sources.items():
         (folder / name).write_bytes(content)
-    for unit in spec.sources:
+    for unit in compiled(spec, 2):
         line = [*command, *STRICT, unit]
         done = subprocess.run(line, cwd=folder, capture_output=True, text=True, check=False, timeout=600)
         assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
@@ -249,7 +250,7 @@ def built_loader(folder, platform):
 
 @pytest.mark.skipif(OWN.system == "windows", reason="wine's test is this machine's there")
 def test_in_a_c_program(spec, sources, tmp_path):
-    (library,) = build_binaries(sources, spec.sources, spec.identifier, [OWN], fmi=3)[0].values()
+    (library,) = build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)[0].values()
     folder = tmp_path / "mit Leerzeichen und Umläuten ß"
     folder.mkdir()
     (folder / "x.so").write_bytes(library)

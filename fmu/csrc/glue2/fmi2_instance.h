@@ -1,31 +1,10 @@
-/* One FMI 2.0 co-simulation instance. All of it that can change is in State, which is copied to save and restore. */
+/* One FMI 2.0 instance, and what the files of the FMI 2.0 glue share. */
 #ifndef FMI2_INSTANCE_H
 #define FMI2_INSTANCE_H
 
 #include "fmi2Functions.h"
 
-#include "model.h"
-
-/* Call states of FMI 2.0, section 4.2.4; bits, so that a function can name those it may be called in. */
-typedef enum {
-    INSTANTIATED = 1,
-    INITIALIZATION = 2,
-    STEPPING = 4,
-    TERMINATED = 8
-} Phase;
-
-enum { ANY_PHASE = INSTANTIATED | INITIALIZATION | STEPPING | TERMINATED };
-
-/* No padding: its bytes are the serialized state. */
-typedef struct {
-    Model model;
-    double time;
-    double stop_time;
-    int phase;
-    int has_stop_time;
-    int noticed; /* the present notice of the model is in the log already */
-    int spare;
-} State;
+#include "core.h"
 
 typedef enum { LOG_ERROR, LOG_DISCARD, LOG_WARNING, LOG_CATEGORIES } LogCategory;
 
@@ -43,8 +22,20 @@ void log_call(const Instance *instance, fmi2Status status, LogCategory category,
 /* Logs "function: message" as an error and returns fmi2Error. */
 fmi2Status fail(const Instance *instance, const char *function, const char *message);
 
+/* Logs what a fault says and returns its status; fmi2OK for none. */
+fmi2Status outcome(const Instance *instance, Fault fault, const char *function);
+
 /* The instance behind c, or NULL (and the error logged) if the function may not be called in its phase. */
 Instance *enter(fmi2Component c, int phases, const char *function);
+
+/* As `enter`, for one kind of instance alone. */
+Instance *enter_as(fmi2Component c, Kind kind, int phases, const char *function);
+
+/* Tells once that the validity box has been left. */
+void notice(Instance *instance, const char *function);
+
+/* NULL arrays are legal only for no elements. */
+int missing(const void *references, const void *values, size_t count);
 
 /* Zeroed memory from the importer's allocator, where it has one. */
 void *allocate(const fmi2CallbackFunctions *callbacks, size_t size);

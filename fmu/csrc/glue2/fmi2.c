@@ -1,8 +1,6 @@
-/* FMI 2.0 for co-simulation around any model of model.h: instances and the call sequence.
- * A call that fails leaves the instance as it was. */
+/* FMI 2.0 around the core: instances, logging, call sequence. A call that fails leaves the instance as it was. */
 #include "fmi2_instance.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,6 +27,18 @@ fmi2Status fail(const Instance *instance, const char *function, const char *mess
     return fmi2Error;
 }
 
+fmi2Status outcome(const Instance *instance, Fault fault, const char *function)
+{
+    if (fault.severity == REFUSE) {
+        return fail(instance, function, fault.reason);
+    }
+    if (fault.severity == DISCARD) {
+        log_call(instance, fmi2Discard, LOG_DISCARD, function, fault.reason);
+        return fmi2Discard;
+    }
+    return fmi2OK;
+}
+
 Instance *enter(fmi2Component c, int phases, const char *function)
 {
     Instance *instance = (Instance *)c;
@@ -37,6 +47,30 @@ Instance *enter(fmi2Component c, int phases, const char *function)
         return NULL;
     }
     return instance;
+}
+
+Instance *enter_as(fmi2Component c, Kind kind, int phases, const char *function)
+{
+    Instance *instance = (Instance *)c;
+    if (instance != NULL && instance->state.kind != (int)kind) {
+        fail(instance, function,
+             kind == CO_SIMULATION ? "this instance is for model exchange" : "this instance is for co-simulation");
+        return NULL;
+    }
+    return enter(c, phases, function);
+}
+
+void notice(Instance *instance, const char *function)
+{
+    char text[160];
+    if (core_notice(&instance->state, text, sizeof text) != NULL) {
+        log_call(instance, fmi2Warning, LOG_WARNING, function, text);
+    }
+}
+
+int missing(const void *references, const void *values, size_t count)
+{
+    return count > 0 && (references == NULL || values == NULL);
 }
 
 /* ---- versions, logging ---- */
@@ -77,7 +111,7 @@ fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nC
             }
         }
         if (k == LOG_CATEGORIES) {
-            return fail(instance, "fmi2SetDebugLogging", "no such log category");
+            return fail(instance, "fmi2SetDebugLogging", "unknown log category");
         }
     }
     if (nCategories == 0) {
@@ -107,13 +141,6 @@ void release(const fmi2CallbackFunctions *callbacks, void *memory)
     }
 }
 
-static void start(Instance *instance)
-{
-    memset(&instance->state, 0, sizeof instance->state);
-    model_start(&instance->state.model);
-    instance->state.phase = INSTANTIATED;
-}
-
 static fmi2Component refuse(fmi2String name, const fmi2CallbackFunctions *callbacks, const char *message)
 {
     if (callbacks != NULL && callbacks->logger != NULL) {
@@ -137,11 +164,11 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
     if (instanceName == NULL || instanceName[0] == '\0') {
         return refuse(instanceName, functions, "fmi2Instantiate: the instance has no name.");
     }
-    if (fmuType != fmi2CoSimulation) {
-        return refuse(instanceName, functions, "fmi2Instantiate: this FMU is for co-simulation only.");
+    if (fmuType != fmi2CoSimulation && fmuType != fmi2ModelExchange) {
+        return refuse(instanceName, functions, "fmi2Instantiate: neither co-simulation nor model exchange.");
     }
-    if (fmuGUID == NULL || strcmp(fmuGUID, MODEL_GUID) != 0) {
-        return refuse(instanceName, functions, "fmi2Instantiate: wrong GUID, expected " MODEL_GUID ".");
+    if (fmuGUID == NULL || strcmp(fmuGUID, MODEL_TOKEN) != 0) {
+        return refuse(instanceName, functions, "fmi2Instantiate: wrong GUID, expected " MODEL_TOKEN ".");
     }
     instance = (Instance *)allocate(functions, sizeof *instance);
     if (instance == NULL) {
@@ -156,7 +183,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
     }
     memcpy(instance->name, instanceName, length);
     set_logging(instance, loggingOn != fmi2False);
-    start(instance);
+    core_start(&instance->state, fmuType == fmi2CoSimulation ? CO_SIMULATION : MODEL_EXCHANGE);
     return instance;
 }
 
@@ -176,64 +203,47 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fm
                                fmi2Real startTime, fmi2Boolean stopTimeDefined, fmi2Real stopTime)
 {
     Instance *instance = enter(c, INSTANTIATED, "fmi2SetupExperiment");
-    (void)toleranceDefined; /* nothing is solved to a tolerance */
-    (void)tolerance;
     if (instance == NULL) {
         return fmi2Error;
     }
-    if (!isfinite(startTime) || (stopTimeDefined && !(stopTime >= startTime))) {
-        return fail(instance, "fmi2SetupExperiment", "startTime must be finite and stopTime not before it");
-    }
-    instance->state.time = startTime;
-    instance->state.stop_time = stopTimeDefined ? stopTime : 0.0;
-    instance->state.has_stop_time = stopTimeDefined != fmi2False;
-    return fmi2OK;
-}
-
-static fmi2Status change_phase(fmi2Component c, Phase from, Phase to, const char *function)
-{
-    Instance *instance = enter(c, (int)from, function);
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    instance->state.phase = (int)to;
-    return fmi2OK;
+    return outcome(instance,
+                   core_setup(&instance->state, startTime, stopTimeDefined != fmi2False, stopTime,
+                              toleranceDefined != fmi2False, tolerance),
+                   "fmi2SetupExperiment");
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c)
 {
-    return change_phase(c, INSTANTIATED, INITIALIZATION, "fmi2EnterInitializationMode");
-}
-
-/* Tells once that the model has something to say, until it has not. */
-static void notice(Instance *instance, const char *function)
-{
-    const char *text = model_notice(&instance->state.model);
-    if (text != NULL && !instance->state.noticed) {
-        log_call(instance, fmi2Warning, LOG_WARNING, function, text);
+    Instance *instance = enter(c, INSTANTIATED, "fmi2EnterInitializationMode");
+    if (instance == NULL) {
+        return fmi2Error;
     }
-    instance->state.noticed = text != NULL;
+    instance->state.phase = INITIALIZATION;
+    return fmi2OK;
 }
 
 fmi2Status fmi2ExitInitializationMode(fmi2Component c)
 {
     Instance *instance = enter(c, INITIALIZATION, "fmi2ExitInitializationMode");
-    const char *fault;
+    Fault fault;
     if (instance == NULL) {
         return fmi2Error;
     }
-    fault = model_fault(&instance->state.model);
-    if (fault != NULL) {
-        return fail(instance, "fmi2ExitInitializationMode", fault);
+    fault = core_exit_initialization(&instance->state);
+    if (fault.severity == FINE) {
+        notice(instance, "fmi2ExitInitializationMode");
     }
-    notice(instance, "fmi2ExitInitializationMode");
-    instance->state.phase = STEPPING;
-    return fmi2OK;
+    return outcome(instance, fault, "fmi2ExitInitializationMode");
 }
 
 fmi2Status fmi2Terminate(fmi2Component c)
 {
-    return change_phase(c, STEPPING, TERMINATED, "fmi2Terminate");
+    Instance *instance = enter(c, STEPPING | EVENT | CONTINUOUS, "fmi2Terminate");
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    instance->state.phase = TERMINATED;
+    return fmi2OK;
 }
 
 fmi2Status fmi2Reset(fmi2Component c)
@@ -242,63 +252,6 @@ fmi2Status fmi2Reset(fmi2Component c)
     if (instance == NULL) {
         return fmi2Error;
     }
-    start(instance);
-    return fmi2OK;
-}
-
-fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2Real communicationStepSize,
-                      fmi2Boolean noSetFMUStatePriorToCurrentPoint)
-{
-    Instance *instance = enter(c, STEPPING, "fmi2DoStep");
-    State *state;
-    const char *fault;
-    double end;
-    (void)noSetFMUStatePriorToCurrentPoint; /* no history is kept */
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    state = &instance->state;
-    end = currentCommunicationPoint + communicationStepSize;
-    if (!(isfinite(end) && communicationStepSize > 0.0)) {
-        return fail(instance, "fmi2DoStep", "the time must be finite and the step size > 0");
-    }
-    if (state->has_stop_time
-        && end - state->stop_time > 1e-9 * (fabs(state->stop_time) + communicationStepSize)) {
-        return fail(instance, "fmi2DoStep", "the step ends after the stop time");
-    }
-    fault = model_fault(&state->model);
-    if (fault != NULL) {
-        return fail(instance, "fmi2DoStep", fault);
-    }
-    notice(instance, "fmi2DoStep");
-    state->time = end;
-    return fmi2OK;
-}
-
-/* ---- status ---- */
-
-fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *value)
-{
-    Instance *instance = enter(c, STEPPING | TERMINATED, "fmi2GetRealStatus");
-    if (instance == NULL || value == NULL) {
-        return fmi2Error;
-    }
-    if (s != fmi2LastSuccessfulTime) {
-        return fmi2Discard;
-    }
-    *value = instance->state.time;
-    return fmi2OK;
-}
-
-fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boolean *value)
-{
-    Instance *instance = enter(c, STEPPING | TERMINATED, "fmi2GetBooleanStatus");
-    if (instance == NULL || value == NULL) {
-        return fmi2Error;
-    }
-    if (s != fmi2Terminated) {
-        return fmi2Discard;
-    }
-    *value = fmi2False; /* the element never ends a simulation by itself */
+    core_start(&instance->state, (Kind)instance->state.kind);
     return fmi2OK;
 }

@@ -1,0 +1,210 @@
+"""Forces, tangents, derivatives and flags of an FMU beside those of its Python element."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu.driver import Exchange, Slave
+from fmu.spec import ModelSpec
+from reduced_models.elements.film_law import CHAIN, RATE, THETA, film_rest, film_step, static
+
+_Floats = NDArray[np.float64]
+
+END = 2  # of input_meaning
+STEPS = (1e-3, 1e-2, 0.05, 0.2, 0.02, 1.0)  # of 2a/u_sum, in turn, of the motion that a film is compared on
+DURATION = 25.0  # of it
+LEAST_THETA = 0.01  # below which the FMU bounds the clock of the film: csrc/film_law.h
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """Counts and largest relative differences; the fields of `Verification` of the same names."""
+
+    states: int
+    outside: int
+    parted: int
+    force: float
+    tangents: float
+    derivatives: float
+    flags: int
+    exchange: float
+
+
+def compare_spring(slave: Slave, exchange: Exchange, element: Any, spec: ModelSpec) -> Comparison:
+    """Compare an element without memory, on `state_grid`."""
+    approach, rate = state_grid(element)
+    expected = [np.asarray(f(approach, rate)) for f in (element.force, element.stiffness, element.damping)]
+    scales = element.step_tangents(1.0, element.high, 0.0)
+    values, partials, flags = run(slave, approach, rate)
+    exchange.start()
+    none = np.empty(0)
+    instant = [exchange.evaluate(none, approach=u, rate=v)[0] for u, v in zip(approach, rate, strict=True)]
+    differences = [difference(values[:, k], expected[k], scales[k]) for k in range(3)]
+    return Comparison(
+        states=approach.size,
+        outside=int((~((element.low <= approach) & (approach <= element.high))).sum()),
+        parted=int((expected[0] == 0.0).sum()),
+        force=differences[0],
+        tangents=max(differences[1:]),
+        derivatives=max(difference(partials[:, k], expected[k + 1], scales[k + 1]) for k in range(2)),
+        flags=int((flags != outside(element, approach, rate, expected[0])).sum()),
+        exchange=difference(np.array(instant), expected[0], scales[0]),
+    )
+
+
+def run(slave: Slave, approach: _Floats, rate: _Floats) -> tuple[_Floats, _Floats, NDArray[np.bool_]]:
+    """Step through all states; returns force and tangents, partial derivatives of the force, and flags."""
+    values, partials = np.empty((approach.size, 3)), np.empty((approach.size, 2))
+    flags = np.empty(approach.size, dtype=bool)
+    slave.start(END)
+    for n, (u, v) in enumerate(zip(approach.tolist(), rate.tolist(), strict=True)):
+        slave.set(approach=u, rate=v)
+        slave.step(1.0)
+        values[n] = slave.get("force", "stiffness", "damping")
+        flags[n] = slave.flag("outside_validity")
+        partials[n] = slave.gradient("force", "approach"), slave.gradient("force", "rate")
+    slave.raw.terminate()
+    return values, partials, flags
+
+
+def state_grid(element: Any) -> tuple[_Floats, _Floats]:
+    """Approaches and rates to compare an element without memory at, each of shape (n,).
+
+    Approaches go from beyond lift-off to three interval lengths above, with the ends of the interval, their
+    floating-point neighbours and both sides of lift-off; rates from parting to three times the spring force.
+    """
+    length = element.high - element.low
+    force, stiffness, _ = element.step_tangents(1.0, element.low, 0.0)
+    lift_off = element.low - 1.5 * force / stiffness
+    ends = np.array([element.low, element.high])
+    # At lift-off, and where the damper cancels the spring exactly, the last bit decides between contact and
+    # none, and the tangents jump: stay a little off.
+    fade = element.low - lift_off
+    approaches = np.concatenate(
+        [
+            np.linspace(lift_off - length, element.high + 3.0 * length, 121),
+            [lift_off - 0.02 * fade, lift_off + 0.02 * fade],
+            ends,
+            np.nextafter(ends, -np.inf),
+            np.nextafter(ends, np.inf),
+        ]
+    )
+    force, _, damping = element.step_tangents(1.0, element.high, 0.0)
+    # Without a damper any rate will do; take one interval length per unit of time.
+    unit = force / damping if damping > 0.0 else length
+    u, v = np.meshgrid(approaches, unit * np.array([-3.0, -0.97, -0.31, -0.01, 0.0, 0.01, 0.5, 3.0]))
+    return u.ravel(), v.ravel()
+
+
+def outside(element: Any, approach: _Floats, rate: _Floats, force: _Floats) -> NDArray[np.bool_]:
+    """Where an element would tell that it is outside its validity box."""
+    low, high, fastest, least, most = element.validity.reach
+    inside = (
+        (low <= approach) & (approach <= high) & (np.abs(rate) <= fastest) & (least <= force) & (force <= most)
+    )
+    return np.asarray(~inside)
+
+
+# ---- with a film memory
+
+
+def film_motion(element: Any) -> tuple[_Floats, _Floats, _Floats]:
+    """Times, approaches and rates with a lift-off and a pulse of load, in the units of the element."""
+    _, length, time = element._units
+    T = np.concatenate([[0.0], np.cumsum(np.resize(STEPS, round(DURATION / sum(STEPS)) * len(STEPS)))])
+    u, v = element.approach_at(element._units[0]) / length + 0.4 * np.sin(2.5 * T), np.cos(2.5 * T)
+    for size, at, width in ((1.2, 7.0, 1.5), (-2.5, 15.0, 1.5)):
+        s = (T - at) / width
+        pulse = size * np.exp(-s * s)
+        u, v = u + pulse, v - 2.0 * s / width * pulse
+    return T * time, u * length, v * length / time
+
+
+def compare_film(slave: Slave, exchange: Exchange, element: Any, spec: ModelSpec) -> Comparison:
+    """Compare an element with a memory, along `film_motion`."""
+    f, length, time = element._units
+    T, u, v = film_motion(element)
+    expected = element.drive(T, u, v)
+    names = [variable.name for variable in spec.states]
+    old, new = np.empty((2, CHAIN + element.lags))
+    film_rest(element.law, u[0] / length, old)
+    old[RATE] = old[THETA] * v[0] / length * time  # moving from the start, as `drive` has it
+    slave.start(END, approach=u[0], rate=v[0])
+    exchange.start()
+    rows: list[list[float]] = []  # force, step tangents, tangents, derivatives, force and rates in model exchange
+    wanted: list[list[float]] = []
+    wrong = 0
+    for k in range(1, T.size):
+        slave.set(approach=u[k], rate=v[k])
+        slave.raw.doStep(currentCommunicationPoint=T[k - 1], communicationStepSize=T[k] - T[k - 1])
+        K, C = film_step(element.law, old, new, (T[k] - T[k - 1]) / time, u[k] / length, v[k] / length * time)[1:]
+        old, new = new, old
+        states = np.array(slave.get(*names))
+        force, rates = element.continuous(states, u[k], v[k])
+        k_now, c_now = tangents(element, states, u[k], v[k])
+        bound = min(1.0, static(u[k] / length, element.law)[1] ** 0.5 / LEAST_THETA)
+        instant, derivatives = exchange.evaluate(states, approach=u[k], rate=v[k])
+        rows.append(
+            slave.get("force", "step_stiffness", "step_damping", "stiffness", "damping")
+            + [slave.gradient("force", name) for name in ("approach", "rate")] + [instant, *derivatives]
+        )  # fmt: skip
+        wanted.append(
+            [
+                expected[k],
+                K * f / length,
+                C * f / length * time,
+                k_now,
+                c_now,
+                k_now,
+                c_now,
+                force,
+                *(rates * bound),
+            ]
+        )
+        wrong += slave.flag("outside_validity") != bool(outside(element, u[k], v[k], expected[k]))
+    slave.raw.terminate()
+    ours, theirs = np.array(rows), np.array(wanted)
+    scales = [f, *[f / length, f / length * time] * 3, f, *[1.0 / time] * len(names)]
+    gaps = [difference(ours[:, k], theirs[:, k], scale) for k, scale in enumerate(scales)]
+    return Comparison(
+        states=T.size - 1,
+        outside=int(((u[1:] < element.low) | (u[1:] > element.high)).sum()),
+        parted=int((expected[1:] == 0.0).sum()),
+        force=gaps[0],
+        tangents=max(gaps[1:5]),
+        derivatives=max(gaps[5:7]),
+        flags=wrong,
+        exchange=max(gaps[7:]),
+    )
+
+
+def tangents(element: Any, states: _Floats, approach: float, rate: float) -> tuple[float, float]:
+    """dF/du and dF/du' of an element with a memory at an instant, its states as they are."""
+    f, length, time = element._units
+    law, v = element.law, rate / length * time
+    x, g, g_u = static(approach / length, law)
+    k = int(np.searchsorted(law.gain_x, x)) - 1
+    inside = 0 <= k < law.gain_x.size - 1
+    gains = np.array([np.interp(x, law.gain_x, column) for column in law.gains.T])
+    slopes = (law.gains[k + 1] - law.gains[k]) / (law.gain_x[k + 1] - law.gain_x[k]) if inside else 0.0 * gains
+    theta, x_u = g**0.5, 1.5 * g_u / g
+    felt = np.array([theta * v, *states])
+    w = g + gains @ felt
+    if w <= 0.0:
+        return 0.0, 0.0
+    w_u = g_u + gains[0] * v * 0.5 * g_u / theta + (slopes @ felt) * x_u
+    unit = 1.5 * w**0.5 * f / length
+    return unit * w_u, unit * time * gains[0] * theta
+
+
+def difference(ours: _Floats, expected: _Floats, scale: float) -> float:
+    """Largest difference, relative to what is expected and at least to 1e-3 of `scale`."""
+    size = np.maximum(np.abs(expected), 1e-3 * abs(scale))
+    error = np.abs(ours - expected)
+    if not np.all(np.isfinite(error)):
+        return float("inf")
+    return float(np.max(np.divide(error, size, out=np.where(error > 0.0, np.inf, 0.0), where=size > 0.0)))

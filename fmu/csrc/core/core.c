@@ -1,0 +1,258 @@
+/* Variables and call sequence of an FMU of any version; see core.h. */
+#include "core.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "variables.h"
+
+static const Fault fine = {FINE, NULL};
+
+static Fault refuse(const char *reason)
+{
+    Fault fault = {REFUSE, NULL};
+    fault.reason = reason;
+    return fault;
+}
+
+/* ---- values ---- */
+
+void core_start(State *s, Kind kind)
+{
+    int i;
+    memset(s, 0, sizeof *s);
+    for (i = 0; i < N_VARIABLES; i++) {
+        s->model.value[i] = core_variables[i].start;
+    }
+    s->model.approach = s->model.value[VR_approach];
+    s->model.rate = s->model.value[VR_rate];
+    s->tolerance = DEFAULT_TOLERANCE;
+    s->phase = INSTANTIATED;
+    s->kind = kind;
+    s->stale = STALE_LAW | STALE_OUTPUTS | STALE_RATES;
+}
+
+Fault core_may_get(unsigned int reference, Type type)
+{
+    if (reference >= N_VARIABLES || core_variables[reference].type != type) {
+        return refuse("no variable of this type has this value reference");
+    }
+    return fine;
+}
+
+/* The phases in which a variable of this role may be set; none for what is computed. */
+static int settable_in(Role role, int kind)
+{
+    switch (role) {
+    case INPUT: return INSTANTIATED | INITIALIZATION | STEPPING | EVENT | CONTINUOUS;
+    case TUNABLE: return INSTANTIATED | INITIALIZATION | EVENT | (kind == CO_SIMULATION ? STEPPING : 0);
+    case STATE:
+    case FIXED: return INSTANTIATED | INITIALIZATION;
+    default: return 0;
+    }
+}
+
+Fault core_may_set(const State *s, unsigned int reference, Type type, double value)
+{
+    const Fault unknown = core_may_get(reference, type);
+    int phases;
+    if (unknown.severity != FINE) {
+        return unknown;
+    }
+    phases = settable_in(core_variables[reference].role, s->kind);
+    if (phases == 0) {
+        return refuse("an output, a state's derivative or a constant cannot be set");
+    }
+    if ((phases & s->phase) == 0) {
+        return refuse("this variable cannot be set at this point of the call sequence");
+    }
+    if (reference == VR_input_meaning && !(value >= EXTRAPOLATED && value <= HELD)) {
+        return refuse("input_meaning is 1 (extrapolated), 2 (end) or 3 (held)");
+    }
+    return fine;
+}
+
+void core_set(State *s, unsigned int reference, double value)
+{
+    const Role role = core_variables[reference].role;
+    s->model.value[reference] = value;
+    if (role == INPUT) {
+        s->model.approach = s->model.value[VR_approach];
+        s->model.rate = s->model.value[VR_rate];
+    }
+    s->stale |= STALE_OUTPUTS | STALE_RATES | (role == TUNABLE ? STALE_LAW : 0);
+}
+
+/* Outputs that do not exist are no error of the call: other inputs or parameters can help. */
+Fault core_outputs(State *s)
+{
+    Model prepared;
+    Fault fault = {DISCARD, "approach and rate must be finite"};
+    if ((s->stale & (STALE_LAW | STALE_OUTPUTS)) == 0) {
+        return fine;
+    }
+    if (!(isfinite(s->model.approach) && isfinite(s->model.rate))) {
+        return fault;
+    }
+    if ((s->stale & STALE_LAW) == 0) {
+        fault = model_evaluate(&s->model);
+    } else {
+        prepared = s->model;
+        fault = model_prepare(&prepared);
+        if (fault.severity == FINE) {
+            fault = model_evaluate(&prepared);
+        }
+        if (fault.severity == FINE) {
+            s->model = prepared;
+        }
+    }
+    if (fault.severity == FINE) {
+        s->stale &= ~(STALE_LAW | STALE_OUTPUTS);
+    } else {
+        fault.severity = DISCARD;
+    }
+    return fault;
+}
+
+Fault core_rates(State *s)
+{
+    Fault fault = core_outputs(s);
+    if (fault.severity == FINE && (s->stale & STALE_RATES) != 0) {
+        fault = model_rates(&s->model);
+        s->stale &= fault.severity == FINE ? ~STALE_RATES : ~0;
+    }
+    return fault;
+}
+
+Fault core_get(State *s, unsigned int reference, double *value)
+{
+    const Role role = core_variables[reference].role;
+    Fault fault = fine;
+    if (role == OUTPUT || role == MEASURE) {
+        fault = core_outputs(s);
+    } else if (role == DERIVATIVE) {
+        fault = core_rates(s);
+    }
+    if (fault.severity == FINE) {
+        *value = s->model.value[reference];
+    }
+    return fault;
+}
+
+/* ---- call sequence ---- */
+
+Fault core_setup(State *s, double start, int has_stop, double stop, int has_tolerance, double tolerance)
+{
+    if (!isfinite(start) || (has_stop && !(stop >= start))) {
+        return refuse("the start time must be finite and the stop time not before it");
+    }
+    if (has_tolerance && !(tolerance > 0.0 && isfinite(tolerance))) {
+        return refuse("the tolerance must be finite and > 0");
+    }
+    s->time = start;
+    s->stop_time = has_stop ? stop : 0.0;
+    s->has_stop_time = has_stop != 0;
+    s->tolerance = has_tolerance ? tolerance : DEFAULT_TOLERANCE;
+    return fine;
+}
+
+Fault core_exit_initialization(State *s)
+{
+    const Fault fault = core_outputs(s);
+    if (fault.severity != FINE) {
+        return refuse(fault.reason);
+    }
+    s->now_approach = s->model.approach;
+    s->now_rate = s->model.rate;
+    s->in_contact = s->model.indicator > 0.0;
+    s->phase = s->kind == MODEL_EXCHANGE ? EVENT : STEPPING;
+    return fine;
+}
+
+/* ---- model exchange ---- */
+
+void core_set_states(State *s, const double states[])
+{
+    int i;
+    for (i = 0; i < N_STATES; i++) {
+        s->model.value[FIRST_STATE + i] = states[i];
+    }
+    s->stale |= STALE_OUTPUTS | STALE_RATES;
+}
+
+Fault core_set_time(State *s, double time)
+{
+    if (!isfinite(time)) {
+        return refuse("the time must be finite");
+    }
+    s->time = time;
+    return fine;
+}
+
+Fault core_contact_changed(State *s, int *changed)
+{
+    const Fault fault = core_outputs(s);
+    if (fault.severity == FINE) {
+        const int in_contact = s->model.indicator > 0.0;
+        *changed = in_contact != s->in_contact;
+        s->in_contact = in_contact;
+    }
+    return fault;
+}
+
+/* ---- validity ---- */
+
+const char *core_notice(State *s, char *text, size_t size)
+{
+    const double *value = s->model.value;
+    const int outside = (value[VR_outside_approach] > 0.0 ? 1 : 0) | (value[VR_outside_rate] > 0.0 ? 2 : 0)
+                        | (value[VR_outside_force] > 0.0 ? 4 : 0);
+    const int before = s->noticed;
+    s->noticed = outside;
+    if ((outside & ~before) == 0) {
+        return NULL;
+    }
+    snprintf(text, size, "outside the validity box:%s%s%s",
+             (outside & 1) == 0 ? "" : s->model.approach < value[VR_low] ? " approach below low;" : " approach above high;",
+             (outside & 2) == 0 ? "" : " rate;", (outside & 4) == 0 ? "" : " force;");
+    text[strlen(text) - 1] = '\0';
+    return text;
+}
+
+/* ---- saved states ---- */
+
+/* FNV-1a over some bytes; `hash` is what came before. */
+static unsigned long long hashed(unsigned long long hash, const void *bytes, size_t size)
+{
+    const unsigned char *byte = (const unsigned char *)bytes;
+    size_t i;
+    for (i = 0; i < size; i++) {
+        hash = (hash ^ byte[i]) * 1099511628211ULL;
+    }
+    return hash;
+}
+
+static unsigned long long identity_of(const char *token, int kind)
+{
+    return hashed(hashed(14695981039346656037ULL, token, strlen(token)), &kind, sizeof kind);
+}
+
+void core_save(const State *s, const char *token, Saved *saved)
+{
+    saved->identity = identity_of(token, s->kind);
+    saved->state = *s;
+    saved->checksum = hashed(saved->identity, &saved->state, sizeof saved->state);
+}
+
+Fault core_load(State *s, const char *token, const Saved *saved)
+{
+    if (saved->identity != identity_of(token, s->kind)) {
+        return refuse("not a state of this FMU, FMI version and kind of instance");
+    }
+    if (saved->checksum != hashed(saved->identity, &saved->state, sizeof saved->state)) {
+        return refuse("the state is damaged");
+    }
+    *s = saved->state;
+    return fine;
+}

@@ -1,0 +1,106 @@
+/* An FMU without its FMI version: variables, call sequence, steps, derivatives, saved states. The glue of a version
+ * adds names, logging and memory. A call that fails leaves the state as it was. */
+#ifndef CORE_H
+#define CORE_H
+
+#include <stddef.h>
+
+#include "model.h"
+
+/* States of the call sequence; bits, so that a function can name those it may be called in. */
+typedef enum {
+    INSTANTIATED = 1,
+    INITIALIZATION = 2,
+    STEPPING = 4,    /* co-simulation */
+    EVENT = 8,       /* model exchange; co-simulation with event mode */
+    CONTINUOUS = 16, /* model exchange */
+    TERMINATED = 32
+} Phase;
+
+enum {
+    ANY_PHASE = INSTANTIATED | INITIALIZATION | STEPPING | EVENT | CONTINUOUS | TERMINATED,
+    READABLE = INITIALIZATION | STEPPING | EVENT | CONTINUOUS | TERMINATED
+};
+
+typedef enum { CO_SIMULATION, MODEL_EXCHANGE } Kind;
+typedef enum { REAL, BOOLEAN, ENUMERATION } Type;
+typedef enum { INPUT, TUNABLE, FIXED, CONSTANT, STATE, DERIVATIVE, OUTPUT, MEASURE } Role;
+
+/* One variable, by value reference: the generated variables.h has the table. */
+typedef struct {
+    Type type;
+    Role role;
+    double start;
+} Variable;
+
+enum { STALE_LAW = 1, STALE_OUTPUTS = 2, STALE_RATES = 4 };            /* what must be computed anew */
+enum { APPROACH_1 = 1, APPROACH_2 = 2, RATE_1 = 4, N_INPUT_SLOPES = 3 }; /* input derivatives that were set */
+
+/* All of an instance that can change, without padding: its bytes are the serialized state. */
+typedef struct {
+    Model model;
+    double time, stop_time, tolerance;
+    double now_approach, now_rate;              /* the motion at `time`, as far as the model has come */
+    double last_time, last_approach, last_rate; /* where the last step began, and the inputs that were set there */
+    double turn;                                /* d(rate)/dt at `time`, for the derivatives of outputs */
+    double input_slope[N_INPUT_SLOPES];         /* derivatives of the inputs, for the next step alone */
+    int phase, kind;
+    int has_stop_time, has_last;
+    int input_slopes, stale;
+    int in_contact, noticed;
+} State;
+
+/* What saving a state keeps of it. */
+typedef struct {
+    unsigned long long identity; /* of the FMU, its FMI version and the kind of instance */
+    State state;
+    unsigned long long checksum;
+} Saved;
+
+void core_start(State *state, Kind kind);
+
+/* Why a variable of this type may not be set or read now; FINE if it may. */
+Fault core_may_set(const State *state, unsigned int reference, Type type, double value);
+Fault core_may_get(unsigned int reference, Type type);
+
+/* Sets what core_may_set has allowed. */
+void core_set(State *state, unsigned int reference, double value);
+
+/* Reads what core_may_get has allowed, outputs after bringing them up to date. */
+Fault core_get(State *state, unsigned int reference, double *value);
+
+/* Brings outputs, or outputs and derivatives of the states, up to date. */
+Fault core_outputs(State *state);
+Fault core_rates(State *state);
+
+Fault core_setup(State *state, double start, int has_stop, double stop, int has_tolerance, double tolerance);
+Fault core_exit_initialization(State *state);
+
+/* One step of co-simulation; `outputs` then belong to its end. */
+Fault core_step(State *state, double time, double h);
+Fault core_may_set_slope(const State *state, unsigned int reference, int order, double value);
+void core_set_slope(State *state, unsigned int reference, int order, double value);
+
+/* First time derivative of an output at the present time. */
+Fault core_output_slope(State *state, unsigned int reference, double *value);
+
+/* sum_j d(unknown_i)/d(known_j) seed_j for all i, or sum_i d(unknown_i)/d(known_j) seed_i for all j. */
+Fault core_directional(State *state, const unsigned int unknowns[], size_t n_unknowns, const unsigned int knowns[],
+                       size_t n_knowns, const double seed[], double sensitivity[]);
+Fault core_adjoint(State *state, const unsigned int unknowns[], size_t n_unknowns, const unsigned int knowns[],
+                   size_t n_knowns, const double seed[], double sensitivity[]);
+
+/* Model exchange. `core_contact_changed` tells once whether the surfaces have met or parted since it was last asked. */
+void core_set_states(State *state, const double states[]);
+Fault core_set_time(State *state, double time);
+Fault core_contact_changed(State *state, int *changed);
+
+/* What is to be told of the validity box, once until it is something else: NULL, or written to `text`. */
+const char *core_notice(State *state, char *text, size_t size);
+
+void core_save(const State *state, const char *token, Saved *saved);
+Fault core_load(State *state, const char *token, const Saved *saved);
+
+extern const Variable core_variables[N_VARIABLES];
+
+#endif

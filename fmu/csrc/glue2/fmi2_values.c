@@ -1,0 +1,146 @@
+/* FMI 2.0 around the core: variables and directional derivatives. */
+#include "fmi2_instance.h"
+
+static fmi2Status get(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, Type type, const void *values,
+                      Instance **instance, const char *function)
+{
+    size_t i;
+    *instance = enter(c, READABLE, function);
+    if (*instance == NULL || missing(vr, values, nvr)) {
+        return fmi2Error;
+    }
+    for (i = 0; i < nvr; i++) {
+        const Fault fault = core_may_get(vr[i], type);
+        if (fault.severity != FINE) {
+            return outcome(*instance, fault, function);
+        }
+    }
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Real value[])
+{
+    Instance *instance;
+    const fmi2Status status = get(c, vr, nvr, REAL, value, &instance, "fmi2GetReal");
+    size_t i;
+    for (i = 0; status == fmi2OK && i < nvr; i++) {
+        const Fault fault = core_get(&instance->state, vr[i], &value[i]);
+        if (fault.severity != FINE) {
+            return outcome(instance, fault, "fmi2GetReal");
+        }
+    }
+    return status;
+}
+
+fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Boolean value[])
+{
+    Instance *instance;
+    const fmi2Status status = get(c, vr, nvr, BOOLEAN, value, &instance, "fmi2GetBoolean");
+    size_t i;
+    for (i = 0; status == fmi2OK && i < nvr; i++) {
+        double found = 0.0;
+        const Fault fault = core_get(&instance->state, vr[i], &found);
+        if (fault.severity != FINE) {
+            return outcome(instance, fault, "fmi2GetBoolean");
+        }
+        value[i] = found > 0.0 ? fmi2True : fmi2False;
+    }
+    return status;
+}
+
+fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Integer value[])
+{
+    Instance *instance;
+    const fmi2Status status = get(c, vr, nvr, ENUMERATION, value, &instance, "fmi2GetInteger");
+    size_t i;
+    for (i = 0; status == fmi2OK && i < nvr; i++) {
+        double found = 0.0;
+        const Fault fault = core_get(&instance->state, vr[i], &found);
+        if (fault.severity != FINE) {
+            return outcome(instance, fault, "fmi2GetInteger");
+        }
+        value[i] = (fmi2Integer)found;
+    }
+    return status;
+}
+
+/* All values or none: a bad reference must not leave half of them set. */
+fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Real value[])
+{
+    Instance *instance = enter(c, ANY_PHASE, "fmi2SetReal");
+    size_t i;
+    if (instance == NULL || missing(vr, value, nvr)) {
+        return fmi2Error;
+    }
+    for (i = 0; i < nvr; i++) {
+        const Fault fault = core_may_set(&instance->state, vr[i], REAL, value[i]);
+        if (fault.severity != FINE) {
+            return outcome(instance, fault, "fmi2SetReal");
+        }
+    }
+    for (i = 0; i < nvr; i++) {
+        core_set(&instance->state, vr[i], value[i]);
+    }
+    return fmi2OK;
+}
+
+fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer value[])
+{
+    Instance *instance = enter(c, ANY_PHASE, "fmi2SetInteger");
+    size_t i;
+    if (instance == NULL || missing(vr, value, nvr)) {
+        return fmi2Error;
+    }
+    for (i = 0; i < nvr; i++) {
+        const Fault fault = core_may_set(&instance->state, vr[i], ENUMERATION, value[i]);
+        if (fault.severity != FINE) {
+            return outcome(instance, fault, "fmi2SetInteger");
+        }
+    }
+    for (i = 0; i < nvr; i++) {
+        core_set(&instance->state, vr[i], value[i]);
+    }
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference vUnknown_ref[], size_t nUnknown,
+                                        const fmi2ValueReference vKnown_ref[], size_t nKnown,
+                                        const fmi2Real dvKnown[], fmi2Real dvUnknown[])
+{
+    Instance *instance = enter(c, READABLE, "fmi2GetDirectionalDerivative");
+    if (instance == NULL || missing(vUnknown_ref, dvUnknown, nUnknown) || missing(vKnown_ref, dvKnown, nKnown)) {
+        return fmi2Error;
+    }
+    return outcome(instance,
+                   core_directional(&instance->state, vUnknown_ref, nUnknown, vKnown_ref, nKnown, dvKnown, dvUnknown),
+                   "fmi2GetDirectionalDerivative");
+}
+
+/* ---- what there is none of ---- */
+
+/* Legal for no variables at all, which some importers ask for. */
+static fmi2Status no_variables(fmi2Component c, size_t count, const char *function)
+{
+    if (c == NULL) {
+        return fmi2Error;
+    }
+    return count == 0 ? fmi2OK : fail((const Instance *)c, function, "no variable of this type can be named here");
+}
+
+fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2String value[])
+{
+    (void)vr, (void)value;
+    return no_variables(c, nvr, "fmi2GetString");
+}
+
+fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Boolean value[])
+{
+    (void)vr, (void)value;
+    return no_variables(c, nvr, "fmi2SetBoolean");
+}
+
+fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2String value[])
+{
+    (void)vr, (void)value;
+    return no_variables(c, nvr, "fmi2SetString");
+}

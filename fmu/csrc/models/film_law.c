@@ -1,0 +1,301 @@
+/* The film law through a step; see film_law.h. Names and order of the arithmetic are those of film_law.py. */
+#include "film_law.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "film_curve.h"
+#include "film_gains.h"
+#include "jet.h"
+
+/* Rows of gains on both sides of x = ln F, weight of the second and its slope. */
+typedef struct {
+    int row, after;
+    double weight, per_x;
+} Between;
+
+/* Poisson weights of mean `mu`, and the share of what entered within mu that j lags have passed on. */
+static void residence(double mu, int n, double poisson[], double share[])
+{
+    double term, total;
+    int k;
+    poisson[0] = exp(-mu);
+    for (k = 1; k <= n; k++) {
+        poisson[k] = poisson[k - 1] * mu / k;
+    }
+    if (mu < n) { /* from the far end, or small shares would drown in rounding */
+        term = total = poisson[n];
+        k = n;
+        while (term > 1e-17 * total) {
+            k++;
+            term *= mu / k;
+            total += term;
+        }
+        share[n] = total;
+        for (k = n - 1; k >= 0; k--) {
+            share[k] = share[k + 1] + poisson[k];
+        }
+    } else {
+        share[0] = 1.0;
+        for (k = 1; k <= n; k++) {
+            share[k] = share[k - 1] - poisson[k - 1];
+        }
+    }
+}
+
+/* Response of j lags to inputs 1, t and t^2 of age t (1 at the start of the step), and d/d mu of each. */
+static void moments(int j, double mu, const double poisson[], const double share[], double r[3], double d[3])
+{
+    r[0] = share[j];
+    r[1] = j * share[j + 1] / mu;
+    r[2] = j * (j + 1) * share[j + 2] / (mu * mu);
+    d[0] = poisson[j - 1];
+    d[1] = (j * poisson[j] - r[1]) / mu;
+    d[2] = (j * (j + 1) * poisson[j + 1] / mu - 2.0 * r[2]) / mu;
+}
+
+/* One lag after input start + (end - start) s + 6 bump s (1 - s). */
+static Jet one_lag(double old, double start, Jet end, Jet bump, double rate, Jet span)
+{
+    const double mu = rate * span.x;
+    double poisson[4], share[4], r[3], d[3], value, slope;
+    residence(mu, 3, poisson, share);
+    moments(1, mu, poisson, share, r, d);
+    value = old * poisson[0] + start * r[1] + end.x * (r[0] - r[1]) + 6.0 * bump.x * (r[1] - r[2]);
+    slope = -old * poisson[0] + start * d[1] + end.x * (d[0] - d[1]) + 6.0 * bump.x * (d[1] - d[2]);
+    return through3(value, slope * rate, span, r[0] - r[1], end, 6.0 * (r[1] - r[2]), bump);
+}
+
+double film_squeezed(double s, double *slope)
+{
+    const double b = SQUEEZE * s, d = 1.0 + fabs(b);
+    *slope = 1.0 + b * (1.0 + d) / (d * d);
+    return s + b * s / d;
+}
+
+/* Phi of a jet. */
+static Jet made(Jet s)
+{
+    double slope;
+    const double x = film_squeezed(s.x, &slope);
+    return through(x, slope, s);
+}
+
+static Between between(double x)
+{
+    Between b = {0, 0, 0.0, 0.0};
+    int row;
+    if (GAIN_ROWS == 1 || x <= gain_x[0]) {
+        b.after = GAIN_ROWS > 1 ? 1 : 0;
+        return b;
+    }
+    if (!(x < gain_x[GAIN_ROWS - 1])) {
+        b.row = GAIN_ROWS - 2;
+        b.after = GAIN_ROWS - 1;
+        b.weight = 1.0;
+        return b;
+    }
+    row = film_before(gain_x, GAIN_ROWS, x, 0);
+    b.row = row;
+    b.after = row + 1;
+    b.per_x = 1.0 / (gain_x[row + 1] - gain_x[row]);
+    b.weight = (x - gain_x[row]) * b.per_x;
+    return b;
+}
+
+static double gain(int k, const Between *b)
+{
+    return gains[b->row][k] * (1.0 - b->weight) + gains[b->after][k] * b->weight;
+}
+
+static double gain_slope(int k, const Between *b)
+{
+    return (gains[b->after][k] - gains[b->row][k]) * b->per_x;
+}
+
+/* Filter k times its gain at the load, whose ln F has the slope x_u. */
+static Jet weighed(int k, Jet q, const Between *b, double x_u)
+{
+    return times(jet(gain(k, b), gain_slope(k, b) * x_u, 0.0), q);
+}
+
+FilmForce film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double dt, const Rest *rest, double v)
+{
+    const Jet g = jet(rest->g, rest->g_u, 0.0);
+    const Jet theta = root(g);
+    const double start = before[RATE];
+    const Jet end = times(theta, jet(v, 0.0, 1.0));
+    const Jet span = jet(0.5 * dt * (1.0 / before[THETA] + 1.0 / theta.x),
+                         -0.5 * dt * theta.u / (theta.x * theta.x), 0.0);
+    /* what the straight line between both rates misses of the change of approach */
+    const Jet travel = jet(rest->u - before[APPROACH], 1.0, 0.0);
+    const Jet bump = minus(over(travel, span), half(start, end));
+    const Jet s = one_lag(before[INLET], start, end, bump, INLET_RATE, span);
+    const Jet y = one_lag(before[FAST], start, end, bump, FAST_RATE, span);
+    /* the film made: its ends, and a bump that keeps its mean, which the balance of the inlet lag gives */
+    const double p = INLET_RATE, mean = (travel.x - (s.x - before[INLET]) / p) / span.x;
+    const Jet entered = jet(mean, (travel.u - s.u / p - mean * span.u) / span.x, -s.v / (p * span.x));
+    double f0, f, f_s, ignored;
+    const Between b = between(rest->x);
+    const double x_u = 1.5 * g.u / g.x;
+    const Jet mu = through(LAG_RATE * span.x, LAG_RATE, span);
+    double poisson[LAGS + 3], share[LAGS + 3], r[3], d[3];
+    FilmForce found = {0.0, 0.0, 0.0, 0.0};
+    double held = 0.0;
+    Jet hump, m, w;
+    int i, j;
+    f0 = film_squeezed(before[INLET], &ignored);
+    f = film_squeezed(s.x, &f_s);
+    hump = minus(made(entered), made(half(before[INLET], s)));
+    m = weighed(VISCOUS, end, &b, x_u);
+    m = plus(m, weighed(1, s, &b, x_u));
+    m = plus(m, weighed(2, y, &b, x_u));
+    residence(mu.x, LAGS + 2, poisson, share);
+    for (j = 1; j <= LAGS; j++) {
+        const double held_before = held; /* what the lags before now have of what they held at the start */
+        double value, slope;
+        Jet q;
+        held = 0.0;
+        for (i = 0; i < j; i++) {
+            held += poisson[i] * before[CHAIN + j - 1 - i];
+        }
+        moments(j, mu.x, poisson, share, r, d);
+        value = held + f0 * r[1] + f * (r[0] - r[1]) + 6.0 * hump.x * (r[1] - r[2]);
+        slope = held_before - held + f0 * d[1] + f * (d[0] - d[1]) + 6.0 * hump.x * (d[1] - d[2]);
+        q = through3(value, slope, mu, (r[0] - r[1]) * f_s, s, 6.0 * (r[1] - r[2]), hump);
+        m = plus(m, weighed(DIRECT - 1 + j, q, &b, x_u));
+        after[CHAIN + j - 1] = value;
+    }
+    after[THETA] = theta.x;
+    after[RATE] = end.x;
+    after[APPROACH] = rest->u;
+    after[INLET] = s.x;
+    after[FAST] = y.x;
+    w = plus(g, m);
+    found.argument = w.x;
+    if (!(w.x <= 0.0)) {
+        const double w_root = sqrt(w.x);
+        found.force = w.x * w_root;
+        found.stiffness = 1.5 * w_root * w.u;
+        found.damping = 1.5 * w_root * w.v;
+    }
+    return found;
+}
+
+/* ---- at an instant ---- */
+
+/* m and its slopes by approach and rate, the states as they are; the sums of gains and of their slopes over the states. */
+typedef struct {
+    double theta, theta_u;
+    double direct, direct_x; /* viscous gain, and its slope by x */
+    double held, held_x;     /* sum of gain_k q_k; of its slopes by x */
+    double x_u;
+    Between between;
+} Memory;
+
+static Memory remembered(const double states[FILM_RATES], const Rest *rest)
+{
+    Memory m;
+    int k;
+    m.between = between(rest->x);
+    m.theta = sqrt(rest->g);
+    m.theta_u = 0.5 * rest->g_u / m.theta;
+    m.x_u = 1.5 * rest->g_u / rest->g;
+    m.direct = gain(VISCOUS, &m.between);
+    m.direct_x = gain_slope(VISCOUS, &m.between);
+    m.held = m.held_x = 0.0;
+    for (k = 0; k < FILM_RATES; k++) {
+        m.held += gain(k + 1, &m.between) * states[k];
+        m.held_x += gain_slope(k + 1, &m.between) * states[k];
+    }
+    return m;
+}
+
+FilmForce film_now(const double states[FILM_RATES], const Rest *rest, double v)
+{
+    const Memory m = remembered(states, rest);
+    const double w_u = rest->g_u + v * (m.direct_x * m.x_u * m.theta + m.direct * m.theta_u) + m.held_x * m.x_u;
+    const double w_v = m.direct * m.theta;
+    FilmForce found = {0.0, 0.0, 0.0, 0.0};
+    found.argument = rest->g + m.direct * (m.theta * v) + m.held;
+    if (!(found.argument <= 0.0)) {
+        const double w_root = sqrt(found.argument);
+        found.force = found.argument * w_root;
+        found.stiffness = 1.5 * w_root * w_u;
+        found.damping = 1.5 * w_root * w_v;
+    }
+    return found;
+}
+
+void film_instant(const double states[FILM_RATES], const Rest *rest, double v, FilmInstant *now)
+{
+    const Memory m = remembered(states, rest);
+    double x_uu, g_uu, theta_uu, w_root, w[2], ww[2][2];
+    int i, j, k;
+    film_curvature(rest, &x_uu, &g_uu);
+    theta_uu = (0.5 * g_uu - m.theta_u * m.theta_u) / m.theta;
+    w[0] = rest->g_u + v * (m.direct_x * m.x_u * m.theta + m.direct * m.theta_u) + m.held_x * m.x_u;
+    w[1] = m.direct * m.theta;
+    ww[0][0] = g_uu + m.held_x * x_uu
+               + v * (m.direct_x * (x_uu * m.theta + 2.0 * m.x_u * m.theta_u) + m.direct * theta_uu);
+    ww[0][1] = ww[1][0] = m.direct_x * m.x_u * m.theta + m.direct * m.theta_u;
+    ww[1][1] = 0.0;
+    memset(now, 0, sizeof *now);
+    now->argument = rest->g + m.direct * (m.theta * v) + m.held;
+    if (now->argument <= 0.0) {
+        return;
+    }
+    w_root = sqrt(now->argument);
+    now->force = now->argument * w_root;
+    for (i = 0; i < 2; i++) {
+        now->by[i] = 1.5 * w_root * w[i];
+        for (j = 0; j < 2; j++) {
+            now->second[i][j] = 1.5 * (w_root * ww[i][j] + 0.5 * w[i] * w[j] / w_root);
+        }
+    }
+    for (k = 0; k < FILM_RATES; k++) {
+        const double by = gain(k + 1, &m.between), by_u = gain_slope(k + 1, &m.between) * m.x_u;
+        now->by_state[k] = 1.5 * w_root * by;
+        now->second_state[0][k] = 1.5 * (w_root * by_u + 0.5 * w[0] * by / w_root);
+        now->second_state[1][k] = 1.5 * (0.5 * w[1] * by / w_root);
+    }
+}
+
+/* The contact's own clock runs like 1/theta, without end as the surfaces part; no faster than at LEAST_THETA. */
+static double clock(double theta)
+{
+    return theta > LEAST_THETA ? theta : LEAST_THETA;
+}
+
+void film_rates(const double states[FILM_RATES], const Rest *rest, double v, double rates[FILM_RATES])
+{
+    const double theta = sqrt(rest->g), i = theta * v, unit = clock(theta);
+    double fed, ignored;
+    int k;
+    rates[0] = INLET_RATE * (i - states[0]) / unit;
+    rates[1] = FAST_RATE * (i - states[1]) / unit;
+    fed = film_squeezed(states[0], &ignored);
+    for (k = 2; k < FILM_RATES; k++) {
+        rates[k] = LAG_RATE * (fed - states[k]) / unit;
+        fed = states[k];
+    }
+}
+
+void film_rates_along(const double states[FILM_RATES], const Rest *rest, double v, double du, double dv,
+                      const double along[FILM_RATES], double change[FILM_RATES])
+{
+    const double theta = sqrt(rest->g), unit = clock(theta), theta_u = 0.5 * rest->g_u / theta;
+    const double i = theta * v, di = theta_u * v * du + theta * dv;
+    const double dunit = theta > LEAST_THETA ? theta_u * du / unit : 0.0; /* over the unit */
+    double fed, slope, dfed;
+    int k;
+    change[0] = INLET_RATE * ((di - along[0]) - (i - states[0]) * dunit) / unit;
+    change[1] = FAST_RATE * ((di - along[1]) - (i - states[1]) * dunit) / unit;
+    fed = film_squeezed(states[0], &slope);
+    dfed = slope * along[0];
+    for (k = 2; k < FILM_RATES; k++) {
+        change[k] = LAG_RATE * ((dfed - along[k]) - (fed - states[k]) * dunit) / unit;
+        fed = states[k];
+        dfed = along[k];
+    }
+}

@@ -1,0 +1,382 @@
+/* Contact elements without memory: a spring beside a damper, never pulling. The law of reduced_models.elements.spring
+ * with the springs of polynomial.py and power.py; equations in README.md. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "dual.h"
+#include "model.h"
+
+/* Entries of the law's parameters; config.h says which variable fills which (LAW_PARAMETERS). */
+enum { LAW_low, LAW_high, LAW_C1, LAW_C2, LAW_C3, LAW_B4, LAW_rate, LAW_spring, LAW_ENTRIES = LAW_spring + 4 };
+
+/* What of the law follows from the parameters alone. */
+typedef struct {
+    Dual low, high, o_low, A_low, o_high, A_high;
+    Dual C1, C2, C3, B4, rate;
+    Dual spring[4]; /* K1, K2, K3, or K, n, u0, F0 */
+} Law;
+
+/* A force with its slope, both along the direction of the duals. */
+typedef struct {
+    Dual value, slope;
+} Curve;
+
+typedef struct {
+    Dual force, stiffness, damping;
+    double indicator;
+} Response;
+
+static const Fault fine = {FINE, NULL};
+
+static Fault fault(Severity severity, const char *reason)
+{
+    Fault f;
+    f.severity = severity;
+    f.reason = reason;
+    return f;
+}
+
+/* ---- the spring between the ends ---- */
+
+#ifdef LAW_POWER
+
+/* K (u + u0)^n + F0 */
+static Curve inside(Dual u, const Law *law)
+{
+    const Dual reach = add(u, law->spring[2]);
+    const Dual part = mul(law->spring[0], power(reach, law->spring[1]));
+    Curve c;
+    c.value = add(part, law->spring[3]);
+    c.slope = over(mul(law->spring[1], part), reach);
+    return c;
+}
+
+static Fault check_spring(const Law *law)
+{
+    if (!(law->spring[0].x > 0.0 && law->spring[1].x > 0.0)) {
+        return fault(REFUSE, "K and n must be > 0");
+    }
+    if (!(law->low.x + law->spring[2].x > 0.0)) {
+        return fault(REFUSE, "low + u0 must be > 0");
+    }
+    return fine;
+}
+
+#else
+
+/* K1 u + K2 u^2 + K3 u^3 */
+static Curve inside(Dual u, const Law *law)
+{
+    const Dual K1 = law->spring[0], K2 = law->spring[1], K3 = law->spring[2];
+    Curve c;
+    c.value = mul(u, add(K1, mul(u, add(K2, mul(u, K3)))));
+    c.slope = add(K1, mul(u, add(times(2.0, K2), mul(u, times(3.0, K3)))));
+    return c;
+}
+
+/* The slope is a parabola: besides the ends, its vertex may be below zero. */
+static Fault check_spring(const Law *law)
+{
+    const double K1 = law->spring[0].x, K2 = law->spring[1].x, K3 = law->spring[2].x;
+    if (K3 > 0.0) {
+        const double vertex = -K2 / (3.0 * K3);
+        if (law->low.x < vertex && vertex < law->high.x && !(K1 + K2 * vertex > 0.0)) {
+            return fault(REFUSE, "the spring must rise everywhere between low and high");
+        }
+    }
+    return fine;
+}
+
+#endif
+
+/* ---- the law ---- */
+
+/* A (u - o)^(3/2) with value and slope of the spring at an end. */
+static Fault join(Dual end, const Law *law, Dual *origin, Dual *factor)
+{
+    const Curve at = inside(end, law);
+    Dual reach, length;
+    if (!(at.value.x > 0.0 && at.slope.x > 0.0 && at.value.x <= DBL_MAX && at.slope.x <= DBL_MAX)) {
+        return fault(REFUSE, "the spring must be positive and rising at low and at high");
+    }
+    reach = over(times(1.5, at.value), at.slope);
+    *origin = sub(end, reach);
+    if (!(reach.x > 0.0 && reach.x <= DBL_MAX && origin->x < end.x)) {
+        return fault(REFUSE, "the spring is too steep or too flat at low or at high for a floating-point number");
+    }
+    length = mul(reach, root(reach));
+    if (!(length.x > 0.0 && length.x <= DBL_MAX)) {
+        return fault(REFUSE, "the spring is too steep or too flat at low or at high for a floating-point number");
+    }
+    *factor = over(at.value, length);
+    return fine;
+}
+
+/* Parameters of the law, seeded with a direction if there is one. */
+static void read_law(const double value[], const double *seed, Law *law)
+{
+    static const struct { int entry, reference; } wanted[] = {LAW_PARAMETERS};
+    Dual read[LAW_ENTRIES];
+    size_t i;
+    for (i = 0; i < LAW_ENTRIES; i++) {
+        read[i] = number(0.0);
+    }
+    for (i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+        const int reference = wanted[i].reference;
+        read[wanted[i].entry] = dual(value[reference], seed != NULL ? seed[reference] : 0.0);
+    }
+    law->low = read[LAW_low];
+    law->high = read[LAW_high];
+    law->C1 = read[LAW_C1];
+    law->C2 = read[LAW_C2];
+    law->C3 = read[LAW_C3];
+    law->B4 = read[LAW_B4];
+    law->rate = read[LAW_rate];
+    memcpy(law->spring, &read[LAW_spring], sizeof law->spring);
+}
+
+static Fault join_law(Law *law)
+{
+    const Fault f = join(law->low, law, &law->o_low, &law->A_low);
+    return f.severity != FINE ? f : join(law->high, law, &law->o_high, &law->A_high);
+}
+
+#ifdef LAW_SEVEN
+
+/* Even powers of the rate cancel over a cycle; what is left must take energy out at every corner. */
+static Fault check_damper(const Law *law)
+{
+    const double reach = 0.5 * (law->high.x - law->low.x);
+    const double fastest = LAW_LEVELS_OFF ? law->rate.x : DBL_MAX;
+    const double cubed = law->C3.x != 0.0 ? (law->C3.x * fastest) * fastest : 0.0;
+    const double low = law->C1.x + law->B4.x * (law->low.x - reach);
+    const double high = law->C1.x + law->B4.x * (law->high.x + reach);
+    if (!(fastest > 0.0)) {
+        return fault(REFUSE, "rate_max must be > 0");
+    }
+    if (!(low >= 0.0 && high >= 0.0 && low + cubed >= 0.0 && high + cubed >= 0.0)) {
+        return fault(REFUSE, "the damper must take energy out of a cycle: C1 + B4 u + C3 rate^2 >= 0");
+    }
+    return fine;
+}
+
+#else
+
+static Fault check_damper(const Law *law)
+{
+    return law->C1.x >= 0.0 ? fine : fault(REFUSE, LAW_DAMPER " must be >= 0");
+}
+
+#endif
+
+/* Force and tangent of A (u - o)_+^(3/2). */
+static Curve hertz(Dual reach, Dual factor)
+{
+    Curve c;
+    c.value = c.slope = number(0.0);
+    if (reach.x > 0.0) {
+        const Dual r = root(reach);
+        c.value = mul(factor, mul(reach, r));
+        c.slope = times(1.5, mul(factor, r));
+    }
+    return c;
+}
+
+static Curve spring(Dual u, const Law *law)
+{
+    if (u.x > law->high.x) {
+        return hertz(sub(u, law->o_high), law->A_high);
+    }
+    if (u.x < law->low.x) {
+        return hertz(sub(u, law->o_low), law->A_low);
+    }
+    return inside(u, law);
+}
+
+/* Share of the damper: 1 from low upwards, 0 where the spring ends, S = 3 s^2 - 2 s^3 between. */
+static Curve fade(Dual u, const Law *law)
+{
+    Curve c;
+    c.value = number(u.x >= law->low.x ? 1.0 : 0.0);
+    c.slope = number(0.0);
+    if (u.x < law->low.x && u.x > law->o_low.x) {
+        const Dual width = sub(law->low, law->o_low);
+        const Dual s = over(sub(u, law->o_low), width);
+        c.value = mul(mul(s, s), sub(number(3.0), times(2.0, s)));
+        c.slope = over(times(6.0, mul(s, sub(number(1.0), s))), width);
+    }
+    return c;
+}
+
+#ifdef LAW_SEVEN
+
+/* x with slope 1 on [low, high]; beyond, it comes to rest within `reach`. */
+static Curve saturate(Dual x, Dual low, Dual high, Dual reach)
+{
+    Curve c;
+    c.value = x;
+    c.slope = number(1.0);
+    if (x.x > high.x) {
+        const Dual t = level(over(sub(x, high), reach));
+        c.value = add(high, mul(reach, t));
+        c.slope = sub(number(1.0), mul(t, t));
+    } else if (x.x < low.x) {
+        const Dual t = level(over(sub(low, x), reach));
+        c.value = sub(low, mul(reach, t));
+        c.slope = sub(number(1.0), mul(t, t));
+    }
+    return c;
+}
+
+#endif
+
+/* s(u) (C1 v + C2 v^2 + C3 v^3 + B4 u v), levelled off outside the box, and its slopes. */
+static void damper(Dual u, Dual v, const Law *law, Dual *force, Dual *by_u, Dual *by_v)
+{
+    const Curve s = fade(u, law);
+    *force = *by_u = *by_v = number(0.0);
+    if (s.value.x == 0.0 && s.slope.x == 0.0) {
+        return;
+    }
+#ifdef LAW_SEVEN
+    {
+        const Curve at = saturate(u, law->low, law->high, times(0.5, sub(law->high, law->low)));
+        const Dual c = add(law->C1, mul(law->B4, at.value));
+        Curve w;
+        Dual edge = v, slope, all;
+        w.value = v;
+        w.slope = number(1.0);
+        if (LAW_LEVELS_OFF) {
+            w = saturate(v, times(-1.0, law->rate), law->rate, law->rate);
+            edge = v.x > law->rate.x ? law->rate : v.x < -law->rate.x ? times(-1.0, law->rate) : v;
+        }
+        slope = mul(edge, add(times(2.0, law->C2), times(3.0, mul(law->C3, edge))));
+        all = add(mul(mul(edge, edge), add(law->C2, mul(law->C3, edge))), mul(slope, sub(w.value, edge)));
+        all = add(mul(c, v), all);
+        *force = mul(s.value, all);
+        *by_u = add(mul(s.slope, all), mul(s.value, mul(law->B4, mul(at.slope, v))));
+        *by_v = mul(s.value, add(c, mul(slope, w.slope)));
+    }
+#else
+    *force = mul(mul(law->C1, s.value), v);
+    *by_u = mul(mul(law->C1, s.slope), v);
+    *by_v = mul(law->C1, s.value);
+#endif
+}
+
+/* F = (f + d)_+ with its tangents; all zero where the force would pull. */
+static Response contact(Dual u, Dual v, const Law *law)
+{
+    const Curve f = spring(u, law);
+    Dual d, d_u, d_v;
+    Response r;
+    damper(u, v, law, &d, &d_u, &d_v);
+    r.force = add(f.value, d);
+    r.stiffness = add(f.slope, d_u);
+    r.damping = d_v;
+    r.indicator = r.force.x;
+    if (u.x <= law->o_low.x) { /* no force at all: how far the surfaces are apart, as the law's first slope has it */
+        r.indicator = law->A_low.x * (u.x - law->o_low.x) * sqrt(law->low.x - law->o_low.x);
+    }
+    if (r.force.x <= 0.0) {
+        r.force = r.stiffness = r.damping = number(0.0);
+    }
+    return r;
+}
+
+/* ---- what the core asks ---- */
+
+Fault model_prepare(Model *m)
+{
+    static const int parameters[] = {LAW_REFERENCES};
+    Law law;
+    Fault f;
+    size_t i;
+    for (i = 0; i < sizeof parameters / sizeof parameters[0]; i++) {
+        if (!isfinite(m->value[parameters[i]])) {
+            return fault(REFUSE, LAW_NAMES " must be finite");
+        }
+    }
+    read_law(m->value, NULL, &law);
+    if (!(law.low.x < law.high.x)) {
+        return fault(REFUSE, "low must be below high");
+    }
+    f = check_damper(&law);
+    if (f.severity == FINE) {
+        f = check_spring(&law);
+    }
+    if (f.severity == FINE) {
+        f = join_law(&law);
+    }
+    if (f.severity != FINE) {
+        return f;
+    }
+    m->cache[0] = law.o_low.x;
+    m->cache[1] = law.A_low.x;
+    m->cache[2] = law.o_high.x;
+    m->cache[3] = law.A_high.x;
+    return isfinite(m->cache[1]) && isfinite(m->cache[3]) ? fine
+        : fault(REFUSE, "the spring is too steep at low or at high for a floating-point number");
+}
+
+/* Response at some approach and rate, by the ends of the cache. */
+static Response respond(const Model *m, double u, double v)
+{
+    Law law;
+    read_law(m->value, NULL, &law);
+    law.o_low = number(m->cache[0]);
+    law.A_low = number(m->cache[1]);
+    law.o_high = number(m->cache[2]);
+    law.A_high = number(m->cache[3]);
+    return contact(number(u), number(v), &law);
+}
+
+/* Outputs at some approach and rate, which become the model's. */
+static Fault enter(Model *m, double u, double v)
+{
+    const Response r = respond(m, u, v);
+    /* the indicator is the force before it is clipped: a force that is inf - inf shows there */
+    if (!(isfinite(r.force.x) && isfinite(r.stiffness.x) && isfinite(r.damping.x) && isfinite(r.indicator))) {
+        return fault(DISCARD, "the force is too large for a floating-point number");
+    }
+    m->approach = u;
+    m->rate = v;
+    m->indicator = r.indicator;
+    m->value[VR_force] = r.force.x;
+    m->value[VR_stiffness] = r.stiffness.x;
+    m->value[VR_damping] = r.damping.x;
+    model_watch(m);
+    return fine;
+}
+
+Fault model_evaluate(Model *m)
+{
+    return enter(m, m->approach, m->rate);
+}
+
+Fault model_rates(Model *m)
+{
+    (void)m;
+    return fine;
+}
+
+Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
+{
+    (void)h, (void)tolerance; /* without memory only the end of a step counts */
+    return enter(m, motion->end_approach, motion->end_rate);
+}
+
+void model_direction(const Model *m, const double seed[], double along[])
+{
+    Law law;
+    Response r;
+    read_law(m->value, seed, &law);
+    if (join_law(&law).severity != FINE) {
+        return;
+    }
+    r = contact(dual(m->approach, seed[VR_approach]), dual(m->rate, seed[VR_rate]), &law);
+    along[VR_force] = r.force.d;
+    along[VR_stiffness] = r.stiffness.d;
+    along[VR_damping] = r.damping.d;
+}

@@ -1,0 +1,244 @@
+/* Contact elements with a film memory, of reduced_models.elements.memory and wide: the film law of film_law.c in the
+ * units of the FMU. The states are those of continuous time: inlet, fast part, chain. Equations in README.md. */
+#include <math.h>
+#include <string.h>
+
+#include "film_law.h"
+#include "model.h"
+
+/* Entries of the cache: the static curve where it was last asked for. */
+enum { KNOWN, REST_U, REST_X, REST_G, REST_G_U };
+
+enum { MOST_PARTS = 64 };         /* of a step */
+static const double smooth = 0.02; /* change of theta, and of phi's slope, within a step that needs no check */
+
+static const Fault fine = {FINE, NULL};
+
+static Fault fault(Severity severity, const char *reason)
+{
+    Fault f;
+    f.severity = severity;
+    f.reason = reason;
+    return f;
+}
+
+/* ---- units ---- */
+
+static double own_approach(double approach)
+{
+    return approach / SCALE_LENGTH;
+}
+
+static double own_rate(double rate)
+{
+    return rate / SCALE_LENGTH * SCALE_TIME;
+}
+
+static const double stiffness_unit = SCALE_FORCE / SCALE_LENGTH;
+static const double damping_unit = SCALE_FORCE / SCALE_LENGTH * SCALE_TIME;
+
+/* ---- static curve, remembered ---- */
+
+static Rest rest_at(const Model *m, double u)
+{
+    Rest rest;
+    if (m->cache[KNOWN] > 0.0 && m->cache[REST_U] == u) {
+        rest.u = u;
+        rest.x = m->cache[REST_X];
+        rest.g = m->cache[REST_G];
+        rest.g_u = m->cache[REST_G_U];
+        return rest;
+    }
+    return film_static(u);
+}
+
+static void remember(Model *m, const Rest *rest)
+{
+    m->cache[KNOWN] = 1.0;
+    m->cache[REST_U] = rest->u;
+    m->cache[REST_X] = rest->x;
+    m->cache[REST_G] = rest->g;
+    m->cache[REST_G_U] = rest->g_u;
+}
+
+/* ---- outputs ---- */
+
+/* What the core's variables have of force and tangents, in the units of the FMU; 0 if something is not finite. */
+static int is_finite(const FilmForce *found)
+{
+    return isfinite(found->argument) && isfinite(found->force * SCALE_FORCE)
+           && isfinite(found->stiffness * stiffness_unit) && isfinite(found->damping * damping_unit);
+}
+
+static void show(Model *m, double approach, double rate, const Rest *rest, const FilmForce *now,
+                 const FilmForce *step)
+{
+    m->approach = approach;
+    m->rate = rate;
+    m->indicator = now->argument;
+    m->value[VR_force] = now->force * SCALE_FORCE;
+    m->value[VR_stiffness] = now->stiffness * stiffness_unit;
+    m->value[VR_damping] = now->damping * damping_unit;
+    m->value[VR_step_stiffness] = step->stiffness * stiffness_unit;
+    m->value[VR_step_damping] = step->damping * damping_unit;
+    remember(m, rest);
+    model_watch(m);
+}
+
+static const char too_large[] = "the force is too large for a floating-point number";
+
+Fault model_prepare(Model *m)
+{
+    (void)m; /* all coefficients are constants, which were checked at export */
+    return fine;
+}
+
+Fault model_evaluate(Model *m)
+{
+    const Rest rest = rest_at(m, own_approach(m->approach));
+    const FilmForce now = film_now(&m->value[FIRST_STATE], &rest, own_rate(m->rate));
+    int k;
+    for (k = 0; k < FILM_RATES; k++) {
+        if (!isfinite(m->value[FIRST_STATE + k])) {
+            return fault(REFUSE, "the states must be finite");
+        }
+    }
+    if (!is_finite(&now)) {
+        return fault(DISCARD, too_large);
+    }
+    show(m, m->approach, m->rate, &rest, &now, &now);
+    return fine;
+}
+
+Fault model_rates(Model *m)
+{
+    const Rest rest = rest_at(m, own_approach(m->approach));
+    double rates[FILM_RATES];
+    int k;
+    film_rates(&m->value[FIRST_STATE], &rest, own_rate(m->rate), rates);
+    for (k = 0; k < FILM_RATES; k++) {
+        if (!isfinite(rates[k] / SCALE_TIME)) {
+            return fault(DISCARD, "a derivative of the film's states is too large for a floating-point number");
+        }
+    }
+    for (k = 0; k < FILM_RATES; k++) {
+        m->value[FIRST_DERIVATIVE + k] = rates[k] / SCALE_TIME;
+    }
+    return fine;
+}
+
+/* ---- steps ---- */
+
+/* The state of film_step at the start of a step or of a part of one. */
+static void begin(double state[FILM_SIZE], const Rest *rest, double v)
+{
+    state[THETA] = sqrt(rest->g);
+    state[RATE] = state[THETA] * v;
+    state[APPROACH] = rest->u;
+}
+
+/* Goes through a step in equal parts, from `state` to `state`; the rest at its end goes to `rest`. */
+static FilmForce walk(const Motion *motion, double h, int parts, double state[FILM_SIZE], Rest *rest)
+{
+    const double part = h / parts;
+    double next[FILM_SIZE];
+    FilmForce found = {0.0, 0.0, 0.0, 0.0};
+    int i;
+    for (i = 1; i <= parts; i++) {
+        const double t = i * part;
+        double u = motion->end_approach, v = motion->end_rate;
+        if (i < parts && motion->meaning == EXTRAPOLATED) {
+            u = motion->approach + t * (motion->slope + 0.5 * t * motion->bend);
+            v = motion->rate + t * motion->turn;
+        }
+        if (motion->meaning == HELD) { /* an approach that moves on, so that the rate is what it is throughout */
+            state[APPROACH] = own_approach(u) - own_rate(v) * (part / SCALE_TIME);
+        }
+        if (own_approach(u) != rest->u) {
+            *rest = film_static(own_approach(u));
+        }
+        found = film_step(state, next, part / SCALE_TIME, rest, own_rate(v));
+        memcpy(state, next, sizeof next);
+    }
+    return found;
+}
+
+/* How far a step is from one in which every filter is advanced exactly: theta and the slope of phi would be constant. */
+static double unevenness(const double before[FILM_SIZE], const double after[FILM_SIZE])
+{
+    const double ratio = fabs(after[THETA] / before[THETA] - 1.0);
+    const double squeeze = SQUEEZE * fabs(after[INLET] - before[INLET]);
+    return ratio > squeeze ? ratio : squeeze;
+}
+
+Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
+{
+    double first[FILM_SIZE], state[FILM_SIZE];
+    Rest start, rest;
+    FilmForce found, now;
+    int parts, k;
+    if (!(h / SCALE_TIME >= SHORTEST_STEP)) {
+        return fault(REFUSE, "the step size is too small for the film");
+    }
+    start = rest_at(m, own_approach(motion->approach));
+    begin(first, &start, own_rate(motion->rate));
+    memcpy(&first[INLET], &m->value[FIRST_STATE], FILM_RATES * sizeof first[0]);
+    memcpy(state, first, sizeof first);
+    rest = rest_at(m, own_approach(motion->end_approach));
+    found = walk(motion, h, 1, state, &rest);
+    if (motion->meaning != AT_THE_END && unevenness(first, state) > smooth) {
+        for (parts = 2; parts <= MOST_PARTS; parts *= 2) {
+            const double coarse = found.argument;
+            double scale;
+            memcpy(state, first, sizeof first);
+            rest = start;
+            found = walk(motion, h, parts, state, &rest);
+            scale = fabs(found.argument) > rest.g ? fabs(found.argument) : rest.g;
+            if (fabs(found.argument - coarse) <= tolerance * scale) {
+                break;
+            }
+        }
+    }
+    for (k = 0; k < FILM_SIZE; k++) {
+        if (!isfinite(state[k])) {
+            return fault(DISCARD, too_large);
+        }
+    }
+    now = film_now(&state[INLET], &rest, own_rate(motion->end_rate));
+    now.argument = found.argument;
+    now.force = found.force;
+    if (!is_finite(&found) || !is_finite(&now)) {
+        return fault(DISCARD, too_large);
+    }
+    memcpy(&m->value[FIRST_STATE], &state[INLET], FILM_RATES * sizeof state[0]);
+    show(m, motion->end_approach, motion->end_rate, &rest, &now, &found);
+    return fine;
+}
+
+/* ---- derivatives ---- */
+
+void model_direction(const Model *m, const double seed[], double along[])
+{
+    const double du = own_approach(seed[VR_approach]), dv = own_rate(seed[VR_rate]);
+    const double *states = &m->value[FIRST_STATE], *ds = &seed[FIRST_STATE];
+    const Rest rest = rest_at(m, own_approach(m->approach));
+    double change[FILM_RATES], force, stiffness, damping;
+    FilmInstant now;
+    int k;
+    film_instant(states, &rest, own_rate(m->rate), &now);
+    force = now.by[0] * du + now.by[1] * dv;
+    stiffness = now.second[0][0] * du + now.second[0][1] * dv;
+    damping = now.second[1][0] * du + now.second[1][1] * dv;
+    for (k = 0; k < FILM_RATES; k++) {
+        force += now.by_state[k] * ds[k];
+        stiffness += now.second_state[0][k] * ds[k];
+        damping += now.second_state[1][k] * ds[k];
+    }
+    along[VR_force] = force * SCALE_FORCE;
+    along[VR_stiffness] = stiffness * stiffness_unit;
+    along[VR_damping] = damping * damping_unit;
+    film_rates_along(states, &rest, own_rate(m->rate), du, dv, ds, change);
+    for (k = 0; k < FILM_RATES; k++) {
+        along[FIRST_DERIVATIVE + k] = change[k] / SCALE_TIME;
+    }
+}

@@ -1,0 +1,30 @@
+"""The C files that every FMU of a version has, whatever its model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from fmu.spec import ModelSpec
+
+
+@dataclass(frozen=True, slots=True)
+class Glue:
+    """Sources and headers of one FMI version, those of the standard apart."""
+
+    sources: tuple[str, ...]
+    headers: tuple[str, ...]
+    standard: tuple[str, ...]  # headers of the standard that go into the FMU
+
+
+GLUE = {
+    2: Glue(
+        sources=("fmi2.c", "fmi2_values.c", "fmi2_state.c", "fmi2_cosimulation.c", "fmi2_exchange.c"),
+        headers=("fmi2_instance.h",),
+        standard=("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h"),
+    ),
+}
+
+
+def compiled(spec: ModelSpec, fmi: int) -> tuple[str, ...]:
+    """C files of an FMU that are compiled."""
+    return (*GLUE[fmi].sources, *spec.sources)
