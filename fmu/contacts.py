@@ -140,10 +140,10 @@ class Common:
         element = self.element
         if low_high:
             self.constant(
-                "low", "m", float(element.low or 0.0), "Lower end of the validity interval of the approach"
+                "low", "m", element.validity.approach[0], "Lower end of the validity interval of the approach"
             )
             self.constant(
-                "high", "m", float(element.high or 0.0), "Upper end of the validity interval of the approach"
+                "high", "m", element.validity.approach[1], "Upper end of the validity interval of the approach"
             )
         if rate and element.rate is not None:
             self.constant("rate_max", "m/s", element.rate, "Largest rate, in magnitude, of the data")
@@ -185,7 +185,8 @@ def default_step(element: Element) -> float:
     if element.omega_range is not None and element.omega_range[1] > 0.0:
         times.append(0.1 / element.omega_range[1])
     if element.rate:
-        times.append(SHARE_OF_TRANSIT * (float(element.high or 0.0) - float(element.low or 0.0)) / element.rate)
+        low, high = element.validity.approach
+        times.append(SHARE_OF_TRANSIT * (high - low) / element.rate)
     return _round_down(min(times))
 
 
@@ -219,14 +220,19 @@ def _notes(element: Element) -> tuple[tuple[str, str], ...]:
 def _steps(element: Element) -> list[tuple[str, str]]:
     """Largest steps of a co-simulation, by the way of coupling, at the static load."""
     unit = " s" if element.units == "SI" else ""
+    low, high = element.validity.approach
+    lines = [("Default step", f"{default_step(element):g}{unit}")]
     try:
         u = element.approach_at(element._static_load(None))
     except InputError:
-        u = 0.5 * (float(element.low or 0.0) + float(element.high or 0.0))
-    K, C = float(element.spring_tangent(u)), damping_at(element, u)
-    late = C / K if K > 0.0 else math.inf
+        u = 0.5 * (low + high)
+    K, load = float(element.spring_tangent(u)), float(element.spring(u))
+    if not (K > 0.0 and 0.0 < load < math.inf):
+        return lines
+    C = damping_at(element, load)
+    late = C / K
     return [
-        ("Default step", f"{default_step(element):g}{unit}"),
+        *lines,
         (
             "Largest step, force one step late (input_meaning held)",
             f"{late:.3g}{unit}: a delay of a step h takes K h off the damping, K = {K:.4g}, C = {C:.4g}",
@@ -243,9 +249,8 @@ def _steps(element: Element) -> list[tuple[str, str]]:
     ]
 
 
-def damping_at(element: Element, approach: float) -> float:
-    """Damping coefficient of slow motion about rest at an approach."""
-    load = float(element.spring(approach))
+def damping_at(element: Element, load: float) -> float:
+    """Damping coefficient of slow motion about rest under a load."""
     return float(element._response(_slow(element), load)[0].imag / _slow(element)[0])
 
 

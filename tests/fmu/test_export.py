@@ -12,6 +12,7 @@ from ehlcontact.errors import InputError
 from fmu import BuildError, VerificationError, binaries, build, export_contact, verify
 from fmu.binaries.compiler import compilers
 from fmu.build import CSRC
+from fmu.contacts import contact_spec
 from fmu.export import export_verified
 
 
@@ -136,10 +137,10 @@ def test_nothing_is_written_that_is_not_right(elements, tmp_path, monkeypatch, f
     monkeypatch.setattr("fmu.export.require_finite", lambda element: None)
     if fault == "differs":
         wrong = dataclasses.replace(elements["cubic"], C1=0.02)
-        spec = fmu.spec.contact_spec(wrong)
+        spec = contact_spec(wrong)
         monkeypatch.setattr("fmu.export.contact_spec", lambda *_: spec)
     elif fault == "does not run":
-        monkeypatch.setattr(build, "pack", spoiled("fmi2.c", "fault = model_fault(&state->model)", 'fault = "no"'))
+        monkeypatch.setattr(build, "pack", spoiled("core_step.c", "fault.severity != FINE", "1"))
     else:
         monkeypatch.setattr(build, "pack", lambda files: b"no zip")
     for name in ("new.fmu", "old.fmu"):

@@ -36,13 +36,14 @@ static void (*function(Library library, const char *name))(void)
 int main(int count, char **arguments)
 {
     fmi2CallbackFunctions callbacks = {NULL, calloc, free, NULL, NULL};
-    fmi2ValueReference references[5];
+    const fmi2Integer end = 2; /* inputs are those of the end of a step */
+    fmi2ValueReference references[6];
     fmi2Real in[2], out[3];
     double time = 0.0;
     fmi2Component instance;
     Library library;
     int k;
-    if (count != 8) {
+    if (count != 9) {
         return 2;
     }
     library = load(arguments[1]);
@@ -50,7 +51,7 @@ int main(int count, char **arguments)
         fprintf(stderr, "cannot load %s\n", arguments[1]);
         return 3;
     }
-    for (k = 0; k < 5; k++) {
+    for (k = 0; k < 6; k++) {
         references[k] = (fmi2ValueReference)strtoul(arguments[3 + k], NULL, 10);
     }
     {
@@ -59,12 +60,14 @@ int main(int count, char **arguments)
         GET(fmi2EnterInitializationModeTYPE *, EnterInitializationMode)
         GET(fmi2ExitInitializationModeTYPE *, ExitInitializationMode)
         GET(fmi2SetRealTYPE *, SetReal)
+        GET(fmi2SetIntegerTYPE *, SetInteger)
         GET(fmi2DoStepTYPE *, DoStep)
         GET(fmi2GetRealTYPE *, GetReal)
         GET(fmi2TerminateTYPE *, Terminate)
         GET(fmi2FreeInstanceTYPE *, FreeInstance)
         instance = Instantiate("loader", fmi2CoSimulation, arguments[2], NULL, &callbacks, fmi2False, fmi2False);
         if (instance == NULL || SetupExperiment(instance, fmi2False, 0.0, 0.0, fmi2False, 0.0) != fmi2OK
+            || SetInteger(instance, references + 5, 1, &end) != fmi2OK
             || EnterInitializationMode(instance) != fmi2OK || ExitInitializationMode(instance) != fmi2OK) {
             return 4;
         }

@@ -9,12 +9,13 @@ import pytest
 
 from fmu.binaries import build_binaries, read_library, this_machine
 from fmu.binaries.macho import universal
+from fmu.glue import compiled
 
 
 @pytest.fixture(scope="module")
 def own(spec, sources):
     """Library for this machine."""
-    (library,) = build_binaries(sources, spec.sources, spec.identifier, [this_machine()], fmi=3)[0].values()
+    (library,) = build_binaries(sources, compiled(spec, 2), spec.identifier, [this_machine()], fmi=3)[0].values()
     return library
 
 

@@ -212,7 +212,7 @@ def states():
 def run_loader(line, library, spec):
     """Force, stiffness and damping that a C program gets from the library."""
     u, v = states()
-    names = ("approach", "rate", "force", "stiffness", "damping")
+    names = ("approach", "rate", "force", "stiffness", "damping", "input_meaning")
     references = [str(spec[name].value_reference) for name in names]
     given = "".join(f"{a!r} {b!r}\n" for a, b in zip(u.tolist(), v.tolist(), strict=True))
     done = subprocess.run(
