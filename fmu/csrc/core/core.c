@@ -108,7 +108,7 @@ Fault core_outputs(State *s)
         }
     }
     if (fault.severity == FINE) {
-        s->stale &= ~(STALE_LAW | STALE_OUTPUTS);
+        s->stale &= ~(STALE_LAW | STALE_OUTPUTS | (N_STATES == 0 ? STALE_RATES : 0));
     } else {
         fault.severity = DISCARD;
     }
