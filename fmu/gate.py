@@ -34,7 +34,8 @@ def require_finite(element: Element) -> None:
     at = high + REACH * (high - low)
     for name, value in (("force", element.spring(at)), ("stiffness", element.spring_tangent(at))):
         if not np.isfinite(value):
-            raise InputError(f"{name} at approach {at:.4g}", value, "a finite number (the units may be wrong)")
+            found = f"{name} {value:g} at approach {at:.4g}"
+            raise InputError("element", found, "one with finite forces, also above its interval (wrong units?)")
 
 
 def require_verified(content: bytes, element: Element) -> Verification:

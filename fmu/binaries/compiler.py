@@ -69,7 +69,9 @@ def _words(line: str) -> tuple[str, ...]:
         words = shlex.split(line, posix=posix)
     except ValueError as error:
         raise InputError(COMPILER_VARIABLE, line, f"a command line ({str(error).lower()})") from None
-    return tuple(word if posix else word.strip('"') for word in words)
+    program, *rest = (word if posix else word.strip('"') for word in words)
+    # It runs in a folder of its own, where a path that begins here leads nowhere.
+    return (os.path.abspath(program) if os.path.dirname(program) else program, *rest)
 
 
 def _compiler(command: tuple[str, ...]) -> Compiler:

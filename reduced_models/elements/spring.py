@@ -89,9 +89,8 @@ def joined(law: Law) -> Law:
         except ArithmeticError:  # overflow, or a division by what has become zero
             factor = math.nan
         if not (math.isfinite(u - reach) and 0.0 < factor < math.inf):
-            raise InputError(
-                f"reach 1.5 force/tangent of the spring at {name}", reach, "one whose power of 1.5 is a number"
-            )
+            values = f"force {force:g}, tangent {slope:g}"
+            raise InputError(f"spring at {name}", values, "smaller or larger (the units may be wrong)")
         ends |= {f"o_{name}": u - reach, f"A_{name}": factor}
     return law._replace(**ends)
 

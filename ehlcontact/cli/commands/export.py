@@ -56,7 +56,8 @@ def export(
 
     element: Any = load_element(file)
     try:
-        with progress("compiling") as told, o.called(model_name="--name", platforms="--platform", path="--output"):
+        names = {"model_name": "--name", "platforms": "--platform", "path": "--output", "element": str(file)}
+        with progress("compiling") as told, o.called(**names):
             _, found = export_verified(
                 element,
                 output,

@@ -47,7 +47,7 @@ static int settable_in(Role role, int kind)
     switch (role) {
     case INPUT: return INSTANTIATED | INITIALIZATION | STEPPING | EVENT | CONTINUOUS;
     case TUNABLE: return INSTANTIATED | INITIALIZATION | EVENT | (kind == CO_SIMULATION ? STEPPING : 0);
-    case STATE:
+    case STATE: return INSTANTIATED | INITIALIZATION | (kind == CO_SIMULATION ? 0 : EVENT | CONTINUOUS); /* CasADi */
     case FIXED: return INSTANTIATED | INITIALIZATION;
     default: return 0;
     }

@@ -80,6 +80,10 @@ def test_extension_above_grows_like_hertz(cubic):
         ({"low": 1.0, "high": 1.0}, "low"),
         ({"low": -0.1}, "spring force at low"),
         ({"K1": 3.0, "K2": 0.0, "K3": -1.2}, "spring tangent at high"),
+        ({"K1": 0.7556, "K2": -0.875, "K3": 1 / 3}, "spring tangent at approach 0.875"),
+        ({"K1": 1.7e308, "K2": 0.0, "K3": 0.0}, "spring at low"),
+        ({"high": 1e300, "K3": 0.0}, "spring at high"),
+        ({"low": 1e-300, "K1": 1.0}, "spring at low"),
         ({"units": "mm"}, "units"),
         ({"rate": -1.0}, "rate"),
     ],
@@ -89,6 +93,25 @@ def test_bad_parameters_are_named(changes, field):
     with pytest.raises(InputError) as caught:
         CubicContact(**values)
     assert caught.value.field == field
+
+
+@pytest.mark.parametrize("lowest", [0.76, 0.875, 0.99])
+@pytest.mark.parametrize("slope", [1e-6, -1e-6])
+def test_a_spring_rises_all_the_way(lowest, slope):
+    """K1 + 2 K2 u + 3 K3 u^2 has its least value `slope` at `lowest`; at both ends it is positive."""
+    K3 = 0.5
+    K2 = -3.0 * K3 * lowest
+    values = {"K1": slope + 3.0 * K3 * lowest**2, "K2": K2, "K3": K3, "C1": 0.01, "low": 0.75, "high": 1.0}
+    if slope > 0.0:
+        element = CubicContact(**values)
+        assert np.all(np.diff(element.spring(np.linspace(0.75, 1.0, 500))) > 0.0)
+    else:
+        with pytest.raises(InputError, match="must be > 0") as caught:
+            CubicContact(**values)
+        assert caught.value.field == f"spring tangent at approach {lowest:g}"
+        assert caught.value.value == pytest.approx(slope, rel=1e-6)
+    outside = {**values, "low": 1.0, "high": 1.2}  # where it falls does not matter beyond the interval
+    assert CubicContact(**outside).stiffness(1.1, 0.0) > 0.0
 
 
 def test_negative_tangent_advises_a_way_out():

@@ -45,6 +45,7 @@ def test_beyond_the_largest_rate_only_a_viscous_damper_is_left(element):
         ({"B4": -0.02}, "cycle damping"),
         ({"C3": -0.05}, "cycle damping"),
         ({"K1": -1.0}, "spring force at low"),
+        ({"K1": 0.7556, "K2": -0.875, "K3": 1 / 3}, "spring tangent at approach 0.875"),
         ({"C2": np.nan}, "C2"),
         ({"rate": 0.0}, "rate"),
     ],

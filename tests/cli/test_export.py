@@ -1,0 +1,193 @@
+"""``ehlcontact export``: platforms, files that are kept, compilers that fail; and a study without its FMU."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from ehlcontact.cli.study.reduction import export_fmu
+from fmu.binaries import this_machine
+from reduced_models import CubicContact
+
+ROOT = Path(__file__).parents[2]
+CUBIC = {"K1": 0.624, "K2": 0.750, "K3": -0.174, "C1": 0.0130, "low": 0.75, "high": 1.0}
+
+
+@pytest.fixture
+def element(tmp_path):
+    """An element file; nothing beside it may stay when a command is refused."""
+    return CubicContact(**CUBIC).save(tmp_path / "e.json")
+
+
+def beside(element):
+    return sorted(path.name for path in element.parent.iterdir() if path != element)
+
+
+def script(folder, text):
+    program = folder / "cc"
+    program.write_text(f"#!/bin/sh\n{text}\n")
+    program.chmod(0o755)
+    return str(program)
+
+
+def test_a_file_that_is_there_needs_force(call, refused, element, monkeypatch):
+    target = element.with_name("mit Leerzeichen ä.fmu")
+    target.write_text("kept")
+    with monkeypatch.context() as patch:
+        patch.setattr("fmu.export.export_verified", None)  # never reached
+        refused(("--output", target.name, "a new file, or replaced with --force"), "export", element, "-o", target)
+    assert target.read_text() == "kept"
+    result = call("export", element, "-o", target, "--force")
+    assert result.code == 0 and result.err == "" and zipfile.is_zipfile(target)
+
+
+def test_platforms(call, element):
+    """Named twice, or by the other version's name, it is one; two Macs share a folder of FMI 2."""
+    target = element.with_name("x.fmu")
+    own = this_machine().name
+    options = ("--platform", "aarch64-darwin", "--platform", own, "--platform", own)
+    result = call("export", element, "-o", target, *options, "--json", "-")
+    assert result.code == 0, result
+    assert json.loads(result.out)["passes"] is True
+    names = {Path(name).parts[1] for name in zipfile.ZipFile(target).namelist() if name.startswith("binaries/")}
+    assert names == {this_machine().fmi2, "darwin64"}
+
+
+def test_coefficients_that_no_fmu_can_have(refused, element, tmp_path):
+    good = json.loads(element.read_text())
+
+    def made(**parameters):
+        element.write_text(json.dumps(good | {"parameters": good["parameters"] | parameters}))
+        return element
+
+    target = ("-o", tmp_path / "x.fmu")
+    refused(("e.json: spring at low", "units"), "export", made(K1=1.7e308), *target)
+    refused(("e.json = 'force inf at approach 1.75'", "finite"), "export", made(K1=1e308, K2=0, K3=0), *target)
+    refused(
+        ("e.json: spring tangent at approach 0.875", "> 0"),
+        "export",
+        made(K1=0.7556, K2=-0.875, K3=1 / 3),
+        *target,
+    )
+    refused(("e.json", "400 digits"), "export", made(K1=int("9" * 400)), *target)
+    text = json.dumps(good)
+    for old, new, word in (
+        ("0.624", "9" * 5000, "5000 digits"),
+        ('"fit": null', '"fit": ' + '{"a": ' * 100_000 + "1" + "}" * 100_000, "nested too deeply"),
+        ('"fit": null', '"fit": {"a": "\\ud800"}', "lone surrogate"),
+    ):
+        assert old in text
+        element.write_text(text.replace(old, new))
+        refused(("e.json", word), "export", element, *target)
+    assert beside(element) == []
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a shell script as the compiler")
+def test_compilers_that_fail(refused, element, tmp_path, monkeypatch, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("compiler")
+    monkeypatch.setattr("fmu.binaries.process.LONGEST_RUN", 0.3)
+    for line, words in {
+        "gcc 'x": ("EHLCONTACT_CC = ", "command line (no closing quotation)"),
+        "/none/cc": ("no FMU was written", "cannot start the C compiler /none/cc"),
+        script(folder, "exit 0"): ("no FMU was written", "made no library"),
+    }.items():
+        monkeypatch.setenv("EHLCONTACT_CC", line)
+        refused(words, "export", element, "-o", tmp_path / "x.fmu")
+    for text, words in {
+        "seq 1000; exit 4": ("exit code 4", "; 999; 1000"),
+        "kill -9 $$": ("was killed (SIGKILL)",),
+        "sleep 60": ("took more than 0.3 s",),
+    }.items():
+        monkeypatch.setenv("EHLCONTACT_CC", script(folder, text))
+        refused(("no FMU was written", *words), "export", element, "-o", tmp_path / "x.fmu")
+    assert beside(element) == []
+
+
+def test_a_compiler_may_be_named_from_here(call, element, monkeypatch):
+    if shutil.which("gcc") is None:
+        pytest.skip("no gcc")
+    script(element.parent, 'exec gcc "$@"')
+    monkeypatch.chdir(element.parent)
+    monkeypatch.setenv("EHLCONTACT_CC", "./cc -O1")
+    assert call("export", element, "-o", "x.fmu").code == 0
+
+
+def test_the_longest_name_there_is(call, element):
+    name = "ä" * 125 + "x.fmu"
+    assert len(os.fsencode(name)) == 255
+    assert call("export", element, "-o", element.with_name(name)).code == 0
+    assert beside(element) == [name]
+
+
+def program(*arguments, **environment):
+    """The program in a process of its own."""
+    command = [sys.executable, "-m", "ehlcontact.cli", *map(str, arguments)]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)} | environment
+    return subprocess.run(command, capture_output=True, text=True, check=False, env=environment, timeout=300)
+
+
+def test_a_disk_without_room(full_disk, element, tmp_path_factory):
+    """For the FMU itself, for the compiler, or for what is kept of it: the last only costs time."""
+    where, fresh = element.with_name("x.fmu"), str(tmp_path_factory.mktemp("cache"))
+    found = program("export", element, "-o", full_disk / "x.fmu")
+    assert (found.returncode, found.stdout) == (2, "") and "No space left on device" in found.stderr
+    for cache, word in ((fresh, "no room to compile"), (os.environ["EHLCONTACT_CACHE"], "no room to verify")):
+        found = program("export", element, "-o", where, TMPDIR=str(full_disk), EHLCONTACT_CACHE=cache)
+        assert (found.returncode, found.stdout) == (2, "")
+        (line,) = found.stderr.splitlines()
+        assert line.startswith(f"ehlcontact: no FMU was written: {word} in {full_disk} (No space left")
+    assert not where.exists()
+    assert program("export", element, "-o", where, EHLCONTACT_CACHE=str(full_disk)).returncode == 0
+    assert zipfile.is_zipfile(where)
+
+
+def test_without_a_home_or_a_network(element, tmp_path):
+    """Nothing is looked up, and nothing has to be kept."""
+    unshare = [] if shutil.which("unshare") is None else ["unshare", "-n"]
+    if unshare and subprocess.run([*unshare, "true"], capture_output=True, check=False).returncode != 0:
+        unshare = []
+    (tmp_path / "file").write_text("")
+    nowhere = str(tmp_path / "file" / "home")
+    environment = os.environ | {
+        "PYTHONPATH": str(ROOT),
+        "HOME": nowhere,
+        "EHLCONTACT_CACHE": "",
+        "XDG_CACHE_HOME": "",
+    }
+    command = [*unshare, sys.executable, "-m", "ehlcontact.cli", "export", element, "-o", tmp_path / "x.fmu"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment, timeout=300)
+    assert done.returncode == 0, done.stderr
+    assert zipfile.is_zipfile(tmp_path / "x.fmu")
+
+
+@pytest.mark.parametrize("what", ["EHLCONTACT_CC", "folder", "bug"])
+def test_what_a_study_says_of_an_fmu_it_cannot_have(tmp_path, monkeypatch, what):
+    target = tmp_path / "contact.fmu"
+    if what == "EHLCONTACT_CC":
+        monkeypatch.setenv("EHLCONTACT_CC", "'")
+    elif what == "folder":
+        target = tmp_path / "none" / "contact.fmu"
+    else:
+        monkeypatch.setattr("fmu.export.fmu_files", lambda *_: {}[what])
+    found = export_fmu(CubicContact(**CUBIC), target)
+    assert found["file"] == "contact.fmu" and found["passes"] is False
+    assert what in found["error"] and "\n" not in found["error"]
+    json.dumps(found, allow_nan=False)
+
+
+def test_a_study_without_its_fmu_has_all_the_rest(call, finished, tmp_path, monkeypatch):
+    study, folder = finished
+    shutil.copytree(folder, tmp_path / "out")
+    (tmp_path / "out" / "report.html").unlink()
+    monkeypatch.setenv("EHLCONTACT_CC", "/none/cc")
+    result = call("run", study, "-o", tmp_path / "out")
+    assert result.code == 1 and "Traceback" not in result.err
+    assert "contact.fmu: cannot start the C compiler /none/cc" in result.err.splitlines()[-1]
+    results = json.loads((tmp_path / "out" / "results.json").read_text())
+    assert results["fmu"]["passes"] is False and "/none/cc" in results["fmu"]["error"]
+    assert (tmp_path / "out" / "report.html").is_file()

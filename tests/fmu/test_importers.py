@@ -1,0 +1,147 @@
+"""Other programs that load FMUs: each runs ours, in the loop of every tutorial, as fmpy does.
+
+They are of the extra ``importers``; CI installs it where it can be had.
+"""
+
+import ctypes
+import math
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fmu import export_contact
+from reduced_models import CubicContact
+
+EXTRAPOLATED = 1  # what inputs mean, unless another is asked for
+STEP = 0.01  # in units of 2a/u_sum
+VALUES = ("approach", "rate", "force", "stiffness", "damping")
+
+
+@contextmanager
+def libcosimpy(path, step) -> Iterator[Callable]:
+    """Open Simulation Platform, on the FMI library of Modelon."""
+    pytest.importorskip("libcosimpy")
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimManipulator import CosimManipulator
+    from libcosimpy.CosimObserver import CosimObserver
+    from libcosimpy.CosimSlave import CosimLocalSlave
+
+    execution = CosimExecution.from_step_size(round(step * 1e9))  # nanoseconds
+    slave = execution.add_local_slave(CosimLocalSlave(fmu_path=str(path), instance_name="contact"))
+    manipulator, observer = CosimManipulator.create_override(), CosimObserver.create_last_value()
+    assert execution.add_manipulator(manipulator) and execution.add_observer(observer)
+    known = {variable.name.decode(): variable.reference for variable in execution.slave_variables(slave)}
+    reference = [known[name] for name in VALUES]
+
+    def advance(approach, rate):
+        assert manipulator.slave_real_values(slave, reference[:2], [approach, rate])
+        assert execution.step()
+        return observer.last_real_values(slave, reference)
+
+    yield advance
+
+
+@contextmanager
+def ecospy(path, step) -> Iterator[Callable]:
+    """Ecos, on fmi4c; its library wants libtbb.so.12, of the system or of the package ``tbb``."""
+    for library in (Path(sys.prefix) / "lib").glob("libtbb.so.12"):
+        ctypes.CDLL(str(library), mode=ctypes.RTLD_GLOBAL)
+    try:
+        from ecospy import EcosSimulation, EcosSimulationStructure
+    except (ImportError, OSError) as error:
+        pytest.skip(f"no ecospy ({error})")
+    structure = EcosSimulationStructure()
+    structure.add_model("contact", str(path))
+    with EcosSimulation(structure=structure, step_size=step) as simulation:
+        simulation.init()
+
+        def advance(approach, rate):
+            simulation.set_real("contact::approach", approach)
+            simulation.set_real("contact::rate", rate)
+            simulation.step()
+            return [simulation.get_real(f"contact::{name}") for name in VALUES]
+
+        yield advance
+        simulation.terminate()
+
+
+@contextmanager
+def by_fmpy(slave) -> Iterator[Callable]:
+    def advance(approach, rate):
+        slave.set(approach=approach, rate=rate)
+        slave.step(STEP)
+        return slave.get(*VALUES)
+
+    yield advance
+
+
+def mass_on(advance, steps=400):
+    """A mass under its load, dropped on the contact: the motion, and what the FMU says of it."""
+    u, v, mass, found = -0.6, 3.0, 0.04, []
+    for _ in range(steps):
+        found.append(advance(u, v))
+        v += STEP * (1.0 - found[-1][2]) / mass
+        u += STEP * v
+    return found
+
+
+@pytest.mark.parametrize("importer", [libcosimpy, ecospy])
+def test_the_same_motion_as_by_fmpy(fmus, slave, importer):
+    """Set, step, get, in contact and out of it."""
+    with by_fmpy(slave("cubic", meaning=EXTRAPOLATED)) as advance:
+        expected = mass_on(advance)
+    assert min(row[2] for row in expected) == 0.0 < max(row[2] for row in expected)  # it bounces
+    with importer(fmus["cubic"], STEP) as advance:
+        found = mass_on(advance)
+    assert max(math.dist(one, other) for one, other in zip(found, expected, strict=True)) <= 1e-9
+
+
+# A 6305 at 1 kN: the damping of C1 is what a loop must not lose
+BALL = CubicContact(1.29e8, 0.0, 0.0, 44.0, 5e-6, 9e-6, units="SI")
+MASS, LOAD = 10.0, 900.0  # kg, N
+
+
+def damping_of_loop(advance, h, periods=40):
+    """Damping [N s/m] of a mass on the FMU, and how its swing ends: mass and FMU step side by side.
+
+    So the mass goes on by the force that the FMU had at the start of the step.
+    """
+    u0 = BALL.approach_at(LOAD)
+    w = math.sqrt(BALL.spring_tangent(u0) / MASS)
+    u, v, sizes = 0.999 * u0, 0.0, []
+    force = BALL.force(u, v)
+    for _ in range(round(periods * 2.0 * math.pi / w / h)):
+        ahead = advance(u, v)[2]
+        v += h * (LOAD - force) / MASS
+        u += h * v
+        force = ahead
+        sizes.append(math.hypot(u - u0, v / w))
+    return -2.0 * MASS * np.polyfit(h * np.arange(len(sizes)), np.log(sizes), 1)[0], sizes[-1] / sizes[0]
+
+
+@pytest.mark.parametrize("importer", [libcosimpy, ecospy])
+def test_the_loop_of_every_tutorial(tmp_path, importer):
+    """Set, step, get keeps the damping of the contact at 1e-5 s, and is stable at 1e-4 s."""
+    path = export_contact(BALL, tmp_path / "ball.fmu")
+    with importer(path, 1e-5) as advance:
+        damping, _ = damping_of_loop(advance, 1e-5)
+    assert damping == pytest.approx(BALL.C1, rel=0.05)
+    with importer(path, 1e-4) as advance:
+        _, growth = damping_of_loop(advance, 1e-4)
+    assert growth < 1.0
+
+
+def test_fmutool_has_nothing_to_say(fmus, kind):
+    pytest.importorskip("fmu_manipulation_toolbox")
+    program = Path(sys.executable).with_name("fmutool")
+    line = [str(program), "-input", str(fmus[kind]), "-check"]
+    done = subprocess.run(line, capture_output=True, text=True, check=False, timeout=120)
+    said = done.stdout + done.stderr
+    assert done.returncode == 0, said
+    assert "compliant with FMI-2.0" in said and "No semantic error" in said
+    assert "WARNING" not in said and "ERROR" not in said
