@@ -159,9 +159,15 @@ def any_kind(request) -> str:
     return request.param
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def elements() -> dict[str, Any]:
     return SPRINGS | FILMS
+
+
+@pytest.fixture(scope="session")
+def by_hand() -> type[Slave]:
+    """The class of the slaves, for FMUs of a test's own."""
+    return Slave
 
 
 @pytest.fixture

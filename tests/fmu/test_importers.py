@@ -11,14 +11,19 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from fmu import export_contact
+from reduced_models import CubicContact
+
+EXTRAPOLATED = 1  # what inputs mean, unless another is asked for
 STEP = 0.01  # in units of 2a/u_sum
 VALUES = ("approach", "rate", "force", "stiffness", "damping")
 
 
 @contextmanager
-def libcosimpy(path) -> Iterator[Callable]:
+def libcosimpy(path, step) -> Iterator[Callable]:
     """Open Simulation Platform, on the FMI library of Modelon."""
     pytest.importorskip("libcosimpy")
     from libcosimpy.CosimExecution import CosimExecution
@@ -26,7 +31,7 @@ def libcosimpy(path) -> Iterator[Callable]:
     from libcosimpy.CosimObserver import CosimObserver
     from libcosimpy.CosimSlave import CosimLocalSlave
 
-    execution = CosimExecution.from_step_size(STEP * 1e9)  # nanoseconds
+    execution = CosimExecution.from_step_size(round(step * 1e9))  # nanoseconds
     slave = execution.add_local_slave(CosimLocalSlave(fmu_path=str(path), instance_name="contact"))
     manipulator, observer = CosimManipulator.create_override(), CosimObserver.create_last_value()
     assert execution.add_manipulator(manipulator) and execution.add_observer(observer)
@@ -42,7 +47,7 @@ def libcosimpy(path) -> Iterator[Callable]:
 
 
 @contextmanager
-def ecospy(path) -> Iterator[Callable]:
+def ecospy(path, step) -> Iterator[Callable]:
     """Ecos, on fmi4c; its library wants libtbb.so.12, of the system or of the package ``tbb``."""
     for library in (Path(sys.prefix) / "lib").glob("libtbb.so.12"):
         ctypes.CDLL(str(library), mode=ctypes.RTLD_GLOBAL)
@@ -52,7 +57,7 @@ def ecospy(path) -> Iterator[Callable]:
         pytest.skip(f"no ecospy ({error})")
     structure = EcosSimulationStructure()
     structure.add_model("contact", str(path))
-    with EcosSimulation(structure=structure, step_size=STEP) as simulation:
+    with EcosSimulation(structure=structure, step_size=step) as simulation:
         simulation.init()
 
         def advance(approach, rate):
@@ -65,6 +70,16 @@ def ecospy(path) -> Iterator[Callable]:
         simulation.terminate()
 
 
+@contextmanager
+def by_fmpy(slave) -> Iterator[Callable]:
+    def advance(approach, rate):
+        slave.set(approach=approach, rate=rate)
+        slave.step(STEP)
+        return slave.get(*VALUES)
+
+    yield advance
+
+
 def mass_on(advance, steps=400):
     """A mass under its load, dropped on the contact: the motion, and what the FMU says of it."""
     u, v, mass, found = -0.6, 3.0, 0.04, []
@@ -75,22 +90,50 @@ def mass_on(advance, steps=400):
     return found
 
 
-@pytest.mark.parametrize("master", [libcosimpy, ecospy])
-def test_the_loop_of_every_tutorial(fmus, slave, master):
-    """Set, step, get: the same motion as by fmpy."""
-    unit = slave("cubic")
-
-    def advance_by_fmpy(approach, rate):
-        unit.set(approach=approach, rate=rate)
-        unit.step(STEP)
-        return unit.get(*VALUES)
-
-    expected = mass_on(advance_by_fmpy)
+@pytest.mark.parametrize("importer", [libcosimpy, ecospy])
+def test_the_same_motion_as_by_fmpy(fmus, slave, importer):
+    """Set, step, get, in contact and out of it."""
+    with by_fmpy(slave("cubic", meaning=EXTRAPOLATED)) as advance:
+        expected = mass_on(advance)
     assert min(row[2] for row in expected) == 0.0 < max(row[2] for row in expected)  # it bounces
-    with master(fmus["cubic"]) as advance:
+    with importer(fmus["cubic"], STEP) as advance:
         found = mass_on(advance)
-    worst = max(math.dist(one, other) for one, other in zip(found, expected, strict=True))
-    assert worst <= 1e-9
+    assert max(math.dist(one, other) for one, other in zip(found, expected, strict=True)) <= 1e-9
+
+
+# A 6305 at 1 kN: the damping of C1 is what a loop must not lose
+BALL = CubicContact(1.29e8, 0.0, 0.0, 44.0, 5e-6, 9e-6, units="SI")
+MASS, LOAD = 10.0, 900.0  # kg, N
+
+
+def damping_of_loop(advance, h, periods=40):
+    """Damping [N s/m] of a mass on the FMU, and how its swing ends: mass and FMU step side by side.
+
+    So the mass goes on by the force that the FMU had at the start of the step.
+    """
+    u0 = BALL.approach_at(LOAD)
+    w = math.sqrt(BALL.spring_tangent(u0) / MASS)
+    u, v, sizes = 0.999 * u0, 0.0, []
+    force = BALL.force(u, v)
+    for _ in range(round(periods * 2.0 * math.pi / w / h)):
+        ahead = advance(u, v)[2]
+        v += h * (LOAD - force) / MASS
+        u += h * v
+        force = ahead
+        sizes.append(math.hypot(u - u0, v / w))
+    return -2.0 * MASS * np.polyfit(h * np.arange(len(sizes)), np.log(sizes), 1)[0], sizes[-1] / sizes[0]
+
+
+@pytest.mark.parametrize("importer", [libcosimpy, ecospy])
+def test_the_loop_of_every_tutorial(tmp_path, importer):
+    """Set, step, get keeps the damping of the contact at 1e-5 s, and is stable at 1e-4 s."""
+    path = export_contact(BALL, tmp_path / "ball.fmu")
+    with importer(path, 1e-5) as advance:
+        damping, _ = damping_of_loop(advance, 1e-5)
+    assert damping == pytest.approx(BALL.C1, rel=0.05)
+    with importer(path, 1e-4) as advance:
+        _, growth = damping_of_loop(advance, 1e-4)
+    assert growth < 1.0
 
 
 def test_fmutool_has_nothing_to_say(fmus, kind):

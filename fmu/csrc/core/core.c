@@ -47,7 +47,7 @@ static int settable_in(Role role, int kind)
     switch (role) {
     case INPUT: return INSTANTIATED | INITIALIZATION | STEPPING | EVENT | CONTINUOUS;
     case TUNABLE: return INSTANTIATED | INITIALIZATION | EVENT | (kind == CO_SIMULATION ? STEPPING : 0);
-    case STATE:
+    case STATE: return INSTANTIATED | INITIALIZATION | (kind == CO_SIMULATION ? 0 : EVENT | CONTINUOUS); /* CasADi */
     case FIXED: return INSTANTIATED | INITIALIZATION;
     default: return 0;
     }
@@ -108,7 +108,7 @@ Fault core_outputs(State *s)
         }
     }
     if (fault.severity == FINE) {
-        s->stale &= ~(STALE_LAW | STALE_OUTPUTS);
+        s->stale &= ~(STALE_LAW | STALE_OUTPUTS | (N_STATES == 0 ? STALE_RATES : 0));
     } else {
         fault.severity = DISCARD;
     }

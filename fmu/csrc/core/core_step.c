@@ -125,7 +125,7 @@ Fault core_step(State *s, double time, double h)
     s->now_rate = motion.end_rate;
     s->turn = motion.turn;
     s->input_slopes = 0;
-    s->stale = STALE_RATES;
+    s->stale = N_STATES == 0 ? 0 : STALE_RATES;
     return fine;
 }
 
@@ -271,14 +271,15 @@ Fault core_adjoint(State *s, const unsigned int unknowns[], size_t n_unknowns, c
 Fault core_output_slope(State *s, unsigned int reference, double *value)
 {
     double direction[N_VARIABLES], along[N_VARIABLES];
-    Fault fault = core_rates(s);
+    Fault fault;
     int i;
-    if (fault.severity != FINE) {
-        return fault;
-    }
     if (reference >= N_VARIABLES || core_variables[reference].role != OUTPUT
         || core_variables[reference].type != REAL) {
         return refuse("not a real output");
+    }
+    fault = core_rates(s);
+    if (fault.severity != FINE) {
+        return fault;
     }
     memset(direction, 0, sizeof direction);
     memset(along, 0, sizeof along);

@@ -157,6 +157,10 @@ static FilmForce walk(const Motion *motion, double h, int parts, double state[FI
         if (own_approach(u) != rest->u) {
             *rest = film_static(own_approach(u));
         }
+        if (!isfinite(rest->g)) {
+            found.argument = HUGE_VAL;
+            return found;
+        }
         found = film_step(state, next, part / SCALE_TIME, rest, own_rate(v));
         memcpy(state, next, sizeof next);
     }
@@ -181,6 +185,9 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
         return fault(REFUSE, "the step size is too small for the film");
     }
     start = rest_at(m, own_approach(motion->approach));
+    if (!isfinite(start.g)) {
+        return fault(DISCARD, too_large);
+    }
     begin(first, &start, own_rate(motion->rate));
     memcpy(&first[INLET], &m->value[FIRST_STATE], FILM_RATES * sizeof first[0]);
     memcpy(state, first, sizeof first);

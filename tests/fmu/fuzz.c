@@ -1,0 +1,177 @@
+/* Random calls of FMI 2.0, meant to run under sanitizers. A call that fails must change nothing, and fmi2OK must not
+ * come with a number that is not finite. Arguments: number of calls, seed. Exit code 0 if all held. */
+#include "fmi2Functions.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "config.h"
+
+static unsigned long long seed = 1;
+
+static unsigned int any(unsigned int count)
+{
+    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+    return (unsigned int)(seed >> 33) % count;
+}
+
+static double anything(double usual)
+{
+    static const double odd[] = {0.0, -1.0, 1e-300, 1e300, -1e300, 1e-6, 1e10, -1e10};
+    switch (any(12)) {
+    case 0: return NAN;
+    case 1: return INFINITY;
+    case 2:
+    case 3: return odd[any(8)];
+    default: return usual * (0.5 + (double)any(1000) / 1000.0);
+    }
+}
+
+static int bytes_of(fmi2Component c, char *bytes, size_t size)
+{
+    fmi2FMUstate saved = NULL;
+    const int held = fmi2GetFMUstate(c, &saved) == fmi2OK && fmi2SerializeFMUstate(c, saved, bytes, size) == fmi2OK;
+    return fmi2FreeFMUstate(c, &saved) == fmi2OK && held;
+}
+
+static fmi2Component start(fmi2Type type)
+{
+    static const fmi2CallbackFunctions callbacks = {NULL, NULL, NULL, NULL, NULL};
+    fmi2Component c = fmi2Instantiate("fuzz", type, MODEL_TOKEN, NULL, &callbacks, fmi2False, fmi2False);
+    const fmi2ValueReference meaning = VR_input_meaning;
+    const fmi2Integer value = 1 + (fmi2Integer)any(3);
+    fmi2SetupExperiment(c, any(2) ? fmi2True : fmi2False, 1e-5, 0.0, fmi2False, 0.0);
+    fmi2SetInteger(c, &meaning, 1, &value);
+    fmi2EnterInitializationMode(c);
+    return c;
+}
+
+#define MOST (N_VARIABLES + 2)
+
+int main(int count, char **arguments)
+{
+    const long calls = count > 1 ? atol(arguments[1]) : 1000;
+    fmi2Component c;
+    fmi2FMUstate kept = NULL, probe = NULL;
+    const fmi2ValueReference inputs[] = {VR_approach, VR_rate}, outputs[] = {VR_force, VR_stiffness, VR_damping};
+    fmi2ValueReference vr[MOST], derivatives[N_STATES + 1];
+    double values[MOST], seeds[MOST], usual[2], time = 0.0;
+    fmi2Boolean flags[MOST], flag = fmi2False;
+    fmi2Integer integers[MOST];
+    fmi2EventInfo info;
+    size_t size = 0, n, i;
+    long k, ok = 0;
+    char *before, *after;
+    for (k = 0; k < N_STATES; k++) {
+        derivatives[k] = (fmi2ValueReference)(FIRST_DERIVATIVE + k);
+    }
+    seed = count > 2 ? (unsigned long long)atol(arguments[2]) : 1;
+    c = start(fmi2CoSimulation);
+    fmi2GetReal(c, inputs, 2, usual);
+    fmi2GetFMUstate(c, &probe);
+    fmi2SerializedFMUstateSize(c, probe, &size);
+    fmi2FreeFMUstate(c, &probe);
+    before = (char *)malloc(size);
+    after = (char *)malloc(size);
+    fmi2ExitInitializationMode(c);
+    for (k = 0; k < calls; k++) {
+        const unsigned int call = any(26);
+        fmi2Status status = fmi2OK;
+        int judge = 0;
+        fmi2GetReal(c, outputs, 3, values); /* what can be computed is: outputs are, when they are first asked for */
+        fmi2GetDerivatives(c, values, N_STATES);
+        fmi2GetReal(c, derivatives, N_STATES, values);
+        bytes_of(c, before, size);
+        n = any(4);
+        for (i = 0; i < n; i++) {
+            vr[i] = any(N_VARIABLES + 2);
+            values[i] = anything(usual[0]);
+            seeds[i] = (double)any(100) - 50.0;
+            integers[i] = (fmi2Integer)any(5) - 1;
+        }
+        switch (call) {
+        case 0:
+        case 1:
+        case 2:
+        case 3: /* what a master does */
+            values[0] = any(50) ? usual[0] * (0.3 + (double)any(1000) / 700.0) : anything(usual[0]);
+            values[1] = any(50) ? 0.0 : anything(usual[0]);
+            status = fmi2SetReal(c, inputs, 2, values);
+            break;
+        case 4:
+        case 5:
+        case 6:
+        case 7: {
+            const double h = any(20) ? (double)(1 + any(1000)) * 1e-6 : anything(1e-3);
+            const double at = any(20) ? time : anything(time);
+            status = fmi2DoStep(c, at, h, fmi2True);
+            if (status == fmi2OK) {
+                time = at + h;
+                judge = 1;
+            }
+            break;
+        }
+        case 8: status = fmi2SetReal(c, vr, n, values); break;
+        case 9: status = fmi2GetReal(c, vr, n, values); judge = status == fmi2OK; break;
+        case 10: status = fmi2GetBoolean(c, vr, n, flags); break;
+        case 11: status = fmi2GetInteger(c, vr, n, integers); break;
+        case 12: status = fmi2SetInteger(c, vr, n, integers); break;
+        case 13:
+            status = fmi2GetDirectionalDerivative(c, vr, n, &vr[n / 2], n - n / 2, seeds, values);
+            for (i = 0; status == fmi2OK && i < n; i++) {
+                if (!isfinite(values[i])) {
+                    fprintf(stderr, "derivative not finite\n");
+                    return 1;
+                }
+            }
+            break;
+        case 14: status = fmi2SetRealInputDerivatives(c, vr, n, integers, values); break;
+        case 15: status = fmi2GetRealOutputDerivatives(c, vr, n, integers, values); break;
+        case 16:
+            if (kept != NULL) {
+                status = fmi2SetFMUstate(c, kept);
+                if (status == fmi2OK) {
+                    fmi2GetRealStatus(c, fmi2LastSuccessfulTime, &time);
+                }
+            }
+            break;
+        case 17: fmi2GetFMUstate(c, &kept); break;
+        case 18: status = fmi2NewDiscreteStates(c, &info); break;
+        case 19: status = fmi2GetDerivatives(c, values, N_STATES); break;
+        case 20: status = fmi2GetEventIndicators(c, values, any(3)); break;
+        case 21: status = fmi2SetContinuousStates(c, seeds, N_STATES); break;
+        case 22: status = fmi2CompletedIntegratorStep(c, fmi2True, &flag, &flag); break;
+        case 23: status = any(2) ? fmi2EnterContinuousTimeMode(c) : fmi2EnterEventMode(c); break;
+        case 24: status = fmi2SetTime(c, anything(1.0)); break;
+        default:
+            if (any(200) == 0) { /* another instance, of the other kind now and then */
+                fmi2FreeFMUstate(c, &kept);
+                fmi2FreeInstance(c);
+                c = start(any(3) ? fmi2CoSimulation : fmi2ModelExchange);
+                fmi2ExitInitializationMode(c);
+                time = 0.0;
+            }
+        }
+        bytes_of(c, after, size);
+        if (status > fmi2Warning && memcmp(before, after, size) != 0) {
+            fprintf(stderr, "call %u failed and changed the state\n", call);
+            return 1;
+        }
+        ok += status == fmi2OK;
+        if (judge && call != 9) {
+            if (fmi2GetReal(c, outputs, 3, values) == fmi2OK
+                && !(isfinite(values[0]) && values[0] >= 0.0 && isfinite(values[1]) && isfinite(values[2]))) {
+                fprintf(stderr, "an output of a step is not finite, or pulls\n");
+                return 1;
+            }
+        }
+    }
+    fmi2FreeFMUstate(c, &kept);
+    fmi2FreeInstance(c);
+    free(before);
+    free(after);
+    printf("%ld of %ld calls were answered\n", ok, calls);
+    return ok > calls / 4 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

@@ -1,0 +1,71 @@
+"""CasADi on our FMUs for model exchange: rates, exact Jacobians, and its own integrator in a loop.
+
+It is of the extra ``importers``; CI installs it where it can be had.
+"""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+casadi = pytest.importorskip("casadi")
+OMEGA_N, END = 2.56, 4.0  # of a mass whose vibration parts the film, in units of 2a/u_sum
+OUTPUTS = ["force", "stiffness", "damping"]
+
+
+@pytest.fixture
+def block(extracted):
+    """``block("wide")``: (x, u) -> (ode, y) of an FMU."""
+
+    def make(kind):
+        model = casadi.DaeBuilder(kind, str(extracted[kind]))
+        model.set_y(OUTPUTS)  # CasADi asks for all outputs as real numbers, and the others are Boolean
+        assert model.u() == ["approach", "rate"]
+        return model.create("f", ["x", "u"], ["ode", "y"])
+
+    return make
+
+
+def plain(matrix):
+    return np.array(matrix)
+
+
+@pytest.mark.parametrize("kind", ["memory", "wide"])
+def test_rates_and_jacobian(block, elements, kind):
+    f, element = block(kind), elements[kind]
+    jacobian = f.factory("J", ["x", "u"], ["jac:ode:x", "jac:ode:u", "jac:y:x", "jac:y:u"])
+    x, u = 0.3 * np.sin(1.0 + np.arange(element.state_count)), np.array([0.9, 0.1])
+
+    def answer(x, u):
+        force, rates = element.continuous(x, *u)
+        return np.append(rates, force)
+
+    rates, outputs = map(plain, f(x, u))
+    assert np.append(rates, outputs[0]) == pytest.approx(answer(x, u), rel=1e-12, abs=1e-12)
+    ode_x, ode_u, y_x, y_u = map(plain, jacobian(x, u))
+    exact = np.block([[ode_x, ode_u], [y_x[:1], y_u[:1]]])
+    z, h = np.append(x, u), 1e-6
+    for k, column in enumerate(exact.T):
+        ahead, back = (np.split(z + s * h * np.eye(z.size)[k], [x.size]) for s in (1.0, -1.0))
+        difference = (answer(*ahead) - answer(*back)) / (2.0 * h)
+        assert column == pytest.approx(difference, rel=1e-6, abs=1e-5)
+    assert plain(y_u)[0] == pytest.approx(outputs[1:, 0], rel=1e-12)
+
+
+def test_a_mass_in_a_loop_by_its_own_integrator(block, elements):
+    f, element = block("wide"), elements["wide"]
+    count = element.state_count
+    motion, film = casadi.MX.sym("motion", 2), casadi.MX.sym("film", count)
+    rates, outputs = f(film, motion)
+    ode = casadi.vertcat(motion[1], OMEGA_N**2 * (1.0 - outputs[0]), rates)
+    problem = {"x": casadi.vertcat(motion, film), "ode": ode}
+    start = np.zeros(2 + count)
+    start[0] = element.approach_at(1.3)
+    options = {"abstol": 1e-10, "reltol": 1e-9, "max_num_steps": 100_000}
+    found = plain(casadi.integrator("I", "cvodes", problem, 0.0, END, options)(x0=start)["xf"])[:, 0]
+
+    def right_side(_, z):
+        force, rates = element.continuous(z[2:], z[0], z[1])
+        return np.concatenate([[z[1], OMEGA_N**2 * (1.0 - force)], rates])
+
+    run = solve_ivp(right_side, (0.0, END), start, method="Radau", rtol=1e-9, atol=1e-11)
+    assert found == pytest.approx(run.y[:, -1], abs=1e-6)
