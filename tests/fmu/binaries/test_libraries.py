@@ -16,7 +16,8 @@ from fmu import export_contact
 from fmu.binaries import PLATFORMS, BuildError, build_binaries, choose, libraries, read_library, this_machine
 from fmu.binaries.compiler import compilers
 from fmu.build import CSRC
-from fmu.export import content_guid
+from fmu.contacts import contact_spec
+from fmu.export import content_guid, source_files
 from fmu.glue import compiled
 from reduced_models import CubicContact
 
@@ -25,6 +26,7 @@ STRICT = (
     *("-std=c99", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow"),
     *("-Werror", "-c"),
 )
+KINDS = ("polynomial", "wide")  # one of each model's
 LOADER = Path(__file__).parent / "loader.c"
 ELEMENT = CubicContact(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)
 pytestmark = pytest.mark.filterwarnings("ignore:the first library for Windows")
@@ -178,25 +180,28 @@ def test_the_first_for_windows_is_announced(spec, sources, monkeypatch, tmp_path
     build_binaries(sources | {"x.h": b""}, compiled(spec, 2), "b", [windows], fmi=3)
 
 
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("compiler", ["gcc", "clang", OWN.name])
-def test_no_warning(sources, spec, tmp_path, compiler):
-    assert_no_warning(sources, spec, tmp_path, compiler)
+def test_no_warning(elements, kind, tmp_path, compiler):
+    assert_no_warning(elements[kind], tmp_path, compiler)
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", [name for name in PLATFORMS if name != OWN.name])
-def test_no_warning_elsewhere(sources, spec, tmp_path, name):
-    assert_no_warning(sources, spec, tmp_path, name)
+def test_no_warning_elsewhere(elements, kind, tmp_path, name):
+    assert_no_warning(elements[kind], tmp_path, name)
 
 
-def assert_no_warning(sources, spec, folder, compiler):
+def assert_no_warning(element, folder, compiler):
     if compiler in PLATFORMS:
         command = compilers(PLATFORMS[compiler])[-1].command
     elif shutil.which(compiler):
         command = (compiler,)
     else:
         pytest.skip(f"no {compiler}")
-    for name, content in sources.items():
+    spec = contact_spec(element)
+    for name, content in source_files(spec, content_guid(spec)).items():
         (folder / name).write_bytes(content)
     for unit in compiled(spec, 2):
         line = [*command, *STRICT, unit]
