@@ -167,7 +167,7 @@ def pointer():
 def test_fmpy_solves_model_exchange(fmus, elements, kind):
     """fmpy's CVode on the film's states, the motion given; force against the continuous element."""
     element = elements[kind]
-    f, length, time = element._units
+    _, length, time = element._units
     T = np.linspace(0.0, 4.0, 4001)
     u, v = 0.9 + 0.2 * np.sin(2.0 * T), 0.4 * np.cos(2.0 * T)
     given = np.rec.fromarrays([T * time, u * length, v * length / time], names="time,approach,rate")
