@@ -8,7 +8,6 @@ import sys
 from pathlib import Path
 
 import fmpy
-import numpy as np
 import pytest
 
 from ehlcontact import InputError
@@ -27,7 +26,6 @@ STRICT = (
     *("-Werror", "-c"),
 )
 KINDS = ("polynomial", "wide")  # one of each model's
-LOADER = Path(__file__).parent / "loader.c"
 ELEMENT = CubicContact(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)
 pytestmark = pytest.mark.filterwarnings("ignore:the first library for Windows")
 
@@ -207,84 +205,6 @@ def assert_no_warning(element, folder, compiler):
         line = [*command, *STRICT, unit]
         done = subprocess.run(line, cwd=folder, capture_output=True, text=True, check=False, timeout=600)
         assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
-
-
-def states():
-    u, v = np.meshgrid(np.linspace(-0.4, 1.6, 57), np.linspace(-90.0, 30.0, 25))
-    return u.ravel(), v.ravel()
-
-
-def run_loader(line, library, spec):
-    """Force, stiffness and damping that a C program gets from the library."""
-    u, v = states()
-    names = ("approach", "rate", "force", "stiffness", "damping", "input_meaning")
-    references = [str(spec[name].value_reference) for name in names]
-    given = "".join(f"{a!r} {b!r}\n" for a, b in zip(u.tolist(), v.tolist(), strict=True))
-    done = subprocess.run(
-        [*map(str, line), str(library), content_guid(spec), *references],
-        input=given,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=300,
-    )
-    assert done.returncode == 0, done.stderr
-    return np.array([[float.fromhex(x) for x in row.split()] for row in done.stdout.splitlines()])
-
-
-def assert_right(found):
-    u, v = states()
-    assert found.shape == (u.size, 3) and (found[:, 0] == 0).any() and (found[:, 0] > 0).any()
-    for k, function in enumerate((ELEMENT.force, ELEMENT.stiffness, ELEMENT.damping)):
-        assert np.allclose(found[:, k], function(u, v), rtol=1e-12, atol=1e-15 * function(1.0, 0.0))
-
-
-def built_loader(folder, platform):
-    """The C program for a platform, as a file."""
-    if platform is OWN and shutil.which("cc"):
-        command = ("cc",)
-    else:
-        command = compilers(platform)[-1].command
-    program = folder / ("loader.exe" if platform.system == "windows" else "loader")
-    line = [*command, "-std=c99", "-O1", "-I", CSRC / "fmi2", LOADER, "-o", program]
-    line += [] if platform.system == "windows" else ["-ldl"]
-    done = subprocess.run([str(part) for part in line], capture_output=True, text=True, check=False, timeout=600)
-    assert done.returncode == 0, done.stderr
-    return program
-
-
-@pytest.mark.skipif(OWN.system == "windows", reason="wine's test is this machine's there")
-def test_in_a_c_program(spec, sources, tmp_path):
-    (library,) = build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)[0].values()
-    folder = tmp_path / "mit Leerzeichen und Umläuten ß"
-    folder.mkdir()
-    (folder / "x.so").write_bytes(library)
-    assert_right(run_loader([built_loader(tmp_path, OWN)], folder / "x.so", spec))
-
-
-@pytest.mark.slow
-def test_on_linux_on_arm(libraries, spec, tmp_path):
-    emulator, root = shutil.which("qemu-aarch64-static"), Path("/usr/aarch64-linux-gnu")
-    if OWN.name == "aarch64-linux":
-        pytest.skip("this machine's own")
-    if emulator is None or not root.is_dir():
-        pytest.skip("no packages qemu-user-static and libc6-arm64-cross")
-    (tmp_path / "x.so").write_bytes(libraries["aarch64-linux"])
-    program = built_loader(tmp_path, PLATFORMS["aarch64-linux"])
-    assert_right(run_loader([emulator, "-L", root, program], tmp_path / "x.so", spec))
-
-
-@pytest.mark.slow
-def test_on_windows(libraries, spec, tmp_path, monkeypatch):
-    wine = shutil.which("wine64") or shutil.which("wine") or shutil.which("wine64-stable")
-    if wine is None:
-        pytest.skip("no package wine64")
-    monkeypatch.setenv("WINEPREFIX", str(tmp_path / "wine"))
-    monkeypatch.setenv("WINEDEBUG", "-all")
-    (tmp_path / "x.dll").write_bytes(libraries["x86_64-windows"])
-    program = built_loader(tmp_path, PLATFORMS["x86_64-windows"])
-    monkeypatch.chdir(tmp_path)
-    assert_right(run_loader([wine, program], "x.dll", spec))
 
 
 def test_unknown_platform(tmp_path):
