@@ -1,4 +1,4 @@
-"""Reduced contact elements as Functional Mock-up Units: FMI 2.0 co-simulation and model exchange, from C99.
+"""Reduced contact elements as Functional Mock-up Units: FMI 2.0 and 3.0, co-simulation and model exchange.
 
 ==============  ====================================================================================
 module          responsibility
@@ -9,14 +9,16 @@ module          responsibility
 ``film``        those of the elements with a film memory
 ``c_headers``   `ModelSpec` to the generated C headers
 ``glue``        C files of an FMI version, whatever the model
-``texts``       `ModelSpec` to ``modelDescription.xml`` and ``documentation/index.html``
+``texts``       `ModelSpec` to ``modelDescription.xml`` of FMI 2.0 and ``documentation/index.html``
+``texts3``      `ModelSpec` to ``modelDescription.xml`` and ``terminalsAndIcons.xml`` of FMI 3.0
 ``binaries``    for which platforms, by which compiler, and what came out
 ``build``       C sources, reproducible zip
 ``export``      `export_contact`: element in, FMU file out
 ``gate``        nothing unverified is written
 ``verify``      `verify`: the FMU against fmpy's rules and, state by state, against the Python element
 ``comparison``  forces, tangents and derivatives of both, side by side
-``driver``      an instance of an FMU, by hand, through fmpy
+``driver``      an instance of an FMU of FMI 2.0, by hand, through fmpy
+``driver3``     the same of FMI 3.0
 ``csrc/``       the C sources: common core, glue of each FMI version, models; equations in its README
 ==============  ====================================================================================
 

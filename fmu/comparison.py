@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu.driver import Exchange, Slave
 from fmu.spec import ModelSpec
 from reduced_models.elements.film_law import CHAIN, RATE, THETA, film_rest, film_step, static
 
@@ -34,7 +33,7 @@ class Comparison:
     exchange: float
 
 
-def compare_spring(slave: Slave, exchange: Exchange, element: Any, spec: ModelSpec) -> Comparison:
+def compare_spring(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> Comparison:
     """Compare an element without memory, on `state_grid`."""
     approach, rate = state_grid(element)
     expected = [np.asarray(f(approach, rate)) for f in (element.force, element.stiffness, element.damping)]
@@ -56,7 +55,7 @@ def compare_spring(slave: Slave, exchange: Exchange, element: Any, spec: ModelSp
     )
 
 
-def run(slave: Slave, approach: _Floats, rate: _Floats) -> tuple[_Floats, _Floats, NDArray[np.bool_]]:
+def run(slave: Any, approach: _Floats, rate: _Floats) -> tuple[_Floats, _Floats, NDArray[np.bool_]]:
     """Step through all states; returns force and tangents, partial derivatives of the force, and flags."""
     values, partials = np.empty((approach.size, 3)), np.empty((approach.size, 2))
     flags = np.empty(approach.size, dtype=bool)
@@ -124,7 +123,7 @@ def film_motion(element: Any) -> tuple[_Floats, _Floats, _Floats]:
     return T * time, u * length, v * length / time
 
 
-def compare_film(slave: Slave, exchange: Exchange, element: Any, spec: ModelSpec) -> Comparison:
+def compare_film(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> Comparison:
     """Compare an element with a memory, along `film_motion`."""
     f, length, time = element._units
     T, u, v = film_motion(element)

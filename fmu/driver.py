@@ -104,12 +104,13 @@ class Exchange(_Instance):
         self.set(**inputs)
         x, rates = np.ascontiguousarray(states, np.float64), np.zeros(states.size)
         if states.size:
-            self.raw.setContinuousStates(x.ctypes.data_as(_pointer()), x.size)
-            self.raw.getDerivatives(rates.ctypes.data_as(_pointer()), rates.size)
+            self.raw.setContinuousStates(x.ctypes.data_as(pointer()), x.size)
+            self.raw.getDerivatives(rates.ctypes.data_as(pointer()), rates.size)
         return self.get("force")[0], rates
 
 
-def _pointer() -> Any:
+def pointer() -> Any:
+    """Ctypes' type of an array of doubles."""
     from ctypes import POINTER, c_double
 
     return POINTER(c_double)

@@ -13,16 +13,17 @@ from ehlcontact.files import write_bytes
 from fmu import build
 from fmu.binaries import Platform, build_binaries, choose, this_machine
 from fmu.binaries.libraries import Progress
+from fmu.binaries.recipe import build_description
 from fmu.c_headers import c_headers
 from fmu.contacts import Element, contact_spec
 from fmu.gate import require_finite, require_verified
 from fmu.glue import GLUE, compiled
 from fmu.spec import ModelSpec
 from fmu.texts import documentation, model_description
+from fmu.texts3 import model_description_3, terminals
 from fmu.verify import Verification
 
 _NAMESPACE = uuid.uuid5(uuid.NAMESPACE_URL, "https://pypi.org/project/ehlcontact/fmu")
-_LICENSES = ("license.txt", "fmi2-headers.txt")
 
 
 def export_contact(
@@ -52,7 +53,7 @@ def export_contact(
     path : path-like
         File to write, ending in ``.fmu``.
     fmi : int
-        FMI version; only 2 is built yet.
+        FMI version, 2 or 3.
     model_name : str, optional
         Name of the model; the class of the element by default.
     platforms : str or iterable of str, optional
@@ -108,8 +109,8 @@ def export_verified(
     progress: Progress | None = None,
 ) -> tuple[Path, Verification | None]:
     """As `export_contact`; returns what was found too, None where this machine can run no such FMU."""
-    if isinstance(fmi, bool) or fmi != 2:
-        raise InputError("fmi", fmi, "2 (FMI 3 is not built yet)")
+    if isinstance(fmi, bool) or fmi not in GLUE:
+        raise InputError("fmi", fmi, "2 or 3")
     spec = contact_spec(element, model_name)
     require_finite(element)
     wanted = choose(platforms, fmi)
@@ -151,29 +152,37 @@ def fmu_files(
     spec: ModelSpec, platforms: Sequence[Platform], fmi: int, progress: Progress | None = None
 ) -> dict[str, bytes]:
     """Everything in the FMU by its path, the compiled binaries included."""
-    guid = content_guid(spec)
-    sources = source_files(spec, guid)
-    files, labels = build_binaries(sources, compiled(spec, fmi), spec.identifier, platforms, fmi, progress)
+    guid = content_guid(spec, fmi)
+    sources = source_files(spec, guid, fmi)
+    units, glue = compiled(spec, fmi), GLUE[fmi]
+    files, labels = build_binaries(sources, units, spec.identifier, platforms, fmi, progress)
     readme = (build.CSRC / "README.md").read_text(encoding="ascii")
-    page = documentation(spec, readme, "; ".join(labels))
-    files["modelDescription.xml"] = model_description(spec, guid)
-    files["documentation/index.html"] = page.encode()
-    files |= {f"sources/{name}": content for name, content in sources.items()}
-    for name in _LICENSES:
+    files["modelDescription.xml"] = _description(spec, guid, fmi)
+    files["documentation/index.html"] = documentation(spec, readme, "; ".join(labels), fmi).encode()
+    brought = () if fmi == 2 else glue.standard
+    files |= {f"sources/{name}": content for name, content in sources.items() if name not in brought}
+    if fmi == 3:
+        files["sources/buildDescription.xml"] = build_description(spec.identifier, units)
+        files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals()
+    for name in filter(None, ("license.txt", glue.licence)):
         files[f"documentation/licenses/{name}"] = (build.CSRC / "licenses" / name).read_bytes()
     return files
 
 
-def source_files(spec: ModelSpec, guid: str) -> dict[str, bytes]:
-    """Content of ``sources/``: all that a compiler needs."""
-    glue = GLUE[2]
+def _description(spec: ModelSpec, guid: str, fmi: int) -> bytes:
+    return model_description(spec, guid) if fmi == 2 else model_description_3(spec, guid)
+
+
+def source_files(spec: ModelSpec, guid: str, fmi: int = 2) -> dict[str, bytes]:
+    """All that a compiler needs: content of ``sources/``, and the headers of FMI."""
+    glue = GLUE[fmi]
     names = (*glue.sources, *spec.sources, *glue.headers, *spec.headers, "README.md")
     found = {path.name: path for path in build.CSRC.rglob("*") if path.is_file()}
     files = {name: found[name].read_bytes() for name in (*names, *glue.standard)}
     return files | {name: text.encode("ascii") for name, text in c_headers(spec, guid).items()}
 
 
-def content_guid(spec: ModelSpec) -> str:
-    """GUID that follows from the model description and the sources, so that equal FMUs have equal ones."""
-    content = [model_description(spec, ""), *source_files(spec, "").values()]
+def content_guid(spec: ModelSpec, fmi: int = 2) -> str:
+    """GUID or token that follows from model description and sources, so that equal FMUs have equal ones."""
+    content = [_description(spec, "", fmi), *source_files(spec, "", fmi).values()]
     return "{" + str(uuid.uuid5(_NAMESPACE, "\n".join(part.decode() for part in content))) + "}"

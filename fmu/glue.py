@@ -13,7 +13,8 @@ class Glue:
 
     sources: tuple[str, ...]
     headers: tuple[str, ...]
-    standard: tuple[str, ...]  # headers of the standard that go into the FMU
+    standard: tuple[str, ...]  # headers of the standard; FMI 3.0 has the importer bring them
+    licence: str | None  # of those that go into the FMU
 
 
 GLUE = {
@@ -21,8 +22,18 @@ GLUE = {
         sources=("fmi2.c", "fmi2_values.c", "fmi2_state.c", "fmi2_cosimulation.c", "fmi2_exchange.c"),
         headers=("fmi2_instance.h",),
         standard=("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h"),
+        licence="fmi2-headers.txt",
     ),
-}
+    3: Glue(
+        sources=(
+            "fmi3.c", "fmi3_values.c", "fmi3_state.c", "fmi3_cosimulation.c", "fmi3_exchange.c",
+            "fmi3_unsupported.c",
+        ),
+        headers=("fmi3_instance.h",),
+        standard=("fmi3FunctionTypes.h", "fmi3Functions.h", "fmi3PlatformTypes.h"),
+        licence=None,
+    ),
+}  # fmt: skip
 
 
 def compiled(spec: ModelSpec, fmi: int) -> tuple[str, ...]:

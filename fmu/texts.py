@@ -37,7 +37,7 @@ pre {{ background: #f4f4f4; padding: 1em; overflow-x: auto }}</style></head>
 <h2>Sources</h2>
 <pre>{readme}</pre>
 <h2>Build</h2>
-<p>Exported by ehlcontact {version} as FMI 2.0 for co-simulation and model exchange; the binary needs
+<p>Exported by ehlcontact {version} as FMI {fmi}.0 for co-simulation and model exchange; the binary needs
 nothing but the C library. It was compiled with <code>{compiler}</code>. To build it for another platform,
 compile the files in
 <code>sources/</code> and link the maths library.</p>
@@ -191,7 +191,7 @@ def _structure(root: ElementTree.Element, spec: ModelSpec) -> None:
             )
 
 
-def documentation(spec: ModelSpec, readme: str, compiler: str) -> str:
+def documentation(spec: ModelSpec, readme: str, compiler: str, fmi: int = 2) -> str:
     """``index.html``, shown to an importer's user: variables with units, equations, how the binary was made."""
     return _PAGE.format(
         title=escape(spec.name),
@@ -201,6 +201,7 @@ def documentation(spec: ModelSpec, readme: str, compiler: str) -> str:
         readme=escape(readme),
         version=escape(__version__),
         compiler=escape(compiler),
+        fmi=fmi,
     )
 
 

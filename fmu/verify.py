@@ -15,6 +15,7 @@ from ehlcontact.errors import InputError
 from fmu.comparison import Comparison, compare_film, compare_spring
 from fmu.contacts import Element, Film, contact_spec
 from fmu.driver import Exchange, Slave
+from fmu.driver3 import Exchange3, Slave3
 from fmu.spec import ModelSpec
 
 TOLERANCE = 1e-12
@@ -89,25 +90,25 @@ def _verdict(findings: tuple[str, ...], found: Comparison) -> Verification:
 
 
 @contextmanager
-def _running(file: Path, folder: str, description: Any) -> Iterator[tuple[Slave, Exchange]]:
+def _running(file: Path, folder: str, description: Any) -> Iterator[tuple[Any, Any]]:
     """One instance of either kind, freed at the end."""
-    made: list[Slave | Exchange] = []
+    made: list[Any] = []
     messages: list[str] = []
     try:
         with chdir(Path.cwd()):  # fmpy leaves the process in another folder when a library does not load
-            for kind in (Slave, Exchange):
+            for kind in (Slave3, Exchange3) if description.fmiVersion.startswith("3") else (Slave, Exchange):
                 made.append(kind(folder, description, messages))
     except Exception as error:  # fmpy raises bare Exception among others
         _free(made)
         reason = " ".join([str(error), *messages])
         raise InputError("path", str(file), f"an FMU that can be instantiated ({reason})") from None
     try:
-        yield made[0], made[1]  # type: ignore[misc]
+        yield made[0], made[1]
     finally:
         _free(made)
 
 
-def _free(made: list[Slave | Exchange]) -> None:
+def _free(made: list[Any]) -> None:
     for instance in made:
         instance.free()
 
@@ -131,7 +132,9 @@ def opened(file: Path) -> Iterator[tuple[str, Any]]:
         except Exception as error:  # fmpy raises bare Exception among others
             reason = " ".join(str(error).split()) or type(error).__name__
             raise InputError("path", str(file), f"a readable FMU ({reason})") from None
-        if description.coSimulation is None or fmpy.platform not in fmpy.supported_platforms(folder):
+        if description.coSimulation is None or not {fmpy.platform, fmpy.platform_tuple} & set(
+            fmpy.supported_platforms(folder)
+        ):
             raise InputError("path", str(file), f"an FMU for co-simulation on {fmpy.platform}")
         yield folder, description
     finally:

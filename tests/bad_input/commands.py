@@ -172,7 +172,7 @@ COMMANDS = [
     (("export", ELEMENT, "-o", "x.zip"), ("--output = 'x.zip'", ".fmu")),
     (("export", ELEMENT, "-o", "none/x.fmu"), ("--output", "folder that exists")),
     (("export", ELEMENT, "-o", "new.fmu", "--fmi", "two"), ("--fmi = 'two'", "whole number")),
-    (("export", ELEMENT, "-o", "new.fmu", "--fmi", "1"), ("--fmi = 1", "must be 2")),
+    (("export", ELEMENT, "-o", "new.fmu", "--fmi", "1"), ("--fmi = 1", "must be 2 or 3")),
     (("export", ELEMENT, "-o", "new.fmu", "--name", ""), ("--name = ''", "1 to 100 printable characters")),
     (("export", ELEMENT, "-o", "new.fmu", "--json", ELEMENT), ("--json = 'element.json'", "which is read")),
     (("export", ELEMENT, "-o", "x.fmu"), ("--output = 'x.fmu'", "a new file", "--force")),

@@ -33,7 +33,7 @@ def register(app: typer.Typer) -> None:
 def export(
     file: Annotated[Path, typer.Argument(metavar="ELEMENT.json", help="Element saved by `fit` or `element`.")],
     output: Annotated[Path, typer.Option("--output", "-o", metavar="X.fmu", help="FMU to write.")],
-    fmi: Annotated[int, typer.Option("--fmi", help="FMI version; 2 is built.")] = 2,
+    fmi: Annotated[int, typer.Option("--fmi", help="FMI version, 2 or 3.")] = 2,
     name: Annotated[str | None, typer.Option("--name", help="Model name.")] = None,
     platform: Annotated[
         list[str] | None,
@@ -48,10 +48,8 @@ def export(
     json_to: o.JsonTo = None,
 ) -> None:
     """Export a contact element as an FMU for co-simulation and model exchange, once it is verified."""
-    if fmi == 3:
-        raise InputError("--fmi", fmi, "2; FMI 3 is not built yet")
-    if fmi != 2:
-        raise InputError("--fmi", fmi, "2")
+    if fmi not in (2, 3):
+        raise InputError("--fmi", fmi, "2 or 3")
     if file.suffix.lower() == ".toml":
         raise InputError("file", str(file), "an element (.json); export of a bearing is not built yet")
     check_file("--output", output, (".fmu",))

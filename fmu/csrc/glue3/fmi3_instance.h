@@ -19,8 +19,8 @@ typedef struct {
     char *name;
 } Instance;
 
-/* Value reference of the independent variable, behind those of the core. */
-enum { VR_time = N_VARIABLES };
+/* Value references behind those of the core: the independent variable, and the event indicator. */
+enum { VR_time = N_VARIABLES, VR_indicator };
 
 /* Logs "function: message." if the importer asked for this category. */
 void log_call(const Instance *instance, fmi3Status status, LogCategory category, const char *function,

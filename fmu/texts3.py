@@ -1,0 +1,163 @@
+"""`ModelSpec` to the texts of FMI 3.0: ``modelDescription.xml`` and ``terminalsAndIcons.xml``.
+
+FMI 3.0 wants the time and every event indicator as variables; they come behind those of the specification.
+"""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree
+
+from ehlcontact import __version__
+from fmu.spec import ModelSpec, Variable
+from fmu.texts import LOG_CATEGORIES, default_experiment, used_units, value_attributes
+
+TIME, INDICATOR = "time", "contact_indicator"  # variables behind the others
+FLANGE = "Modelica.Mechanics.Translational.Interfaces.Flange_a"
+_BOTH = {
+    "canGetAndSetFMUState": "true",
+    "canSerializeFMUState": "true",
+    "providesDirectionalDerivatives": "true",
+    "providesAdjointDerivatives": "true",
+}
+_TYPES = {"Real": "Float64", "Boolean": "Boolean", "Enumeration": "Enumeration"}
+
+
+def model_description_3(spec: ModelSpec, token: str) -> bytes:
+    """``modelDescription.xml`` of FMI 3.0."""
+    root = ElementTree.Element(
+        "fmiModelDescription",
+        fmiVersion="3.0",
+        modelName=spec.name,
+        instantiationToken=token,
+        description=spec.description,
+        author="ehlcontact",
+        version=__version__,
+        copyright="Copyright (c) 2026, the ehlcontact developers",
+        license="BSD-3-Clause",
+        generationTool=f"ehlcontact {__version__}",
+        variableNamingConvention="structured",
+    )
+    ElementTree.SubElement(root, "ModelExchange", _BOTH, modelIdentifier=spec.identifier)
+    ElementTree.SubElement(
+        root,
+        "CoSimulation",
+        _BOTH,
+        modelIdentifier=spec.identifier,
+        canHandleVariableCommunicationStepSize="true",
+        maxOutputDerivativeOrder="1",
+        providesIntermediateUpdate="true",
+        mightReturnEarlyFromDoStep="true",
+        hasEventMode="true",
+    )
+    definitions = ElementTree.SubElement(root, "UnitDefinitions")
+    for name, exponents, display in used_units(spec):
+        unit = ElementTree.SubElement(definitions, "Unit", name=name)
+        ElementTree.SubElement(unit, "BaseUnit", {base: str(power) for base, power in exponents.items()})
+        if display is not None:
+            ElementTree.SubElement(unit, "DisplayUnit", name=display[0], factor=repr(display[1]))
+    types = ElementTree.SubElement(root, "TypeDefinitions")
+    for choice in spec.choices:
+        kind = ElementTree.SubElement(types, "EnumerationType", name=choice.name)
+        for value, (name, text) in enumerate(choice.items, start=1):
+            ElementTree.SubElement(kind, "Item", name=name, value=str(value), description=text)
+    categories = ElementTree.SubElement(root, "LogCategories")
+    for name, text in LOG_CATEGORIES.items():
+        ElementTree.SubElement(categories, "Category", name=name, description=text)
+    ElementTree.SubElement(root, "DefaultExperiment", default_experiment(spec))
+    _variables(root, spec)
+    _structure(root, spec)
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)
+
+
+def _variables(root: ElementTree.Element, spec: ModelSpec) -> None:
+    parent = ElementTree.SubElement(root, "ModelVariables")
+    for variable in spec.variables:
+        _variable(parent, variable, spec)
+    behind = len(spec.variables)
+    ElementTree.SubElement(
+        parent,
+        "Float64",
+        name=TIME,
+        valueReference=str(behind),
+        causality="independent",
+        variability="continuous",
+        description="Time" if spec.time_unit == "s" else "Time in 2a/u_sum",
+    )
+    ElementTree.SubElement(
+        parent,
+        "Float64",
+        name=INDICATOR,
+        valueReference=str(behind + 1),
+        causality="local",
+        variability="continuous",
+        initial="calculated",
+        description="Above zero while the surfaces push: force, or a film's power 2/3 of it, before it is clipped",
+    )
+
+
+def _variable(parent: ElementTree.Element, variable: Variable, spec: ModelSpec) -> None:
+    entry = ElementTree.SubElement(
+        parent,
+        _TYPES[variable.type],
+        name=variable.name,
+        valueReference=str(variable.value_reference),
+        causality=variable.causality,
+        variability=variable.variability,
+        description=variable.description,
+    )
+    if variable.causality != "input":
+        entry.set("initial", "calculated" if variable.start is None else "exact")
+    if variable.type == "Enumeration":
+        entry.set("declaredType", spec.choices[0].name)
+    for name, text in value_attributes(variable).items():
+        entry.set(name, text)
+    if variable.derivative_of is not None:
+        entry.set("derivative", str(spec[variable.derivative_of].value_reference))
+
+
+def _structure(root: ElementTree.Element, spec: ModelSpec) -> None:
+    structure = ElementTree.SubElement(root, "ModelStructure")
+    moving = {variable.name for variable in (*spec.inputs, *spec.states)}
+    computed = sorted((*spec.outputs, *spec.derivatives), key=lambda variable: variable.value_reference)
+    # While running only inputs and states are knowns; at initialization the parameters are as well.
+    for section, variables, all_knowns in (
+        ("Output", spec.outputs, False),
+        ("ContinuousStateDerivative", spec.derivatives, False),
+        ("InitialUnknown", tuple(computed), True),
+    ):
+        for variable in variables:
+            named = [name for name in variable.depends if all_knowns or name in moving]
+            _unknown(structure, section, variable.value_reference, spec, named)
+    force = [name for name in spec["force"].depends if name in moving]
+    _unknown(structure, "EventIndicator", len(spec.variables) + 1, spec, force)
+
+
+def _unknown(parent: ElementTree.Element, section: str, reference: int, spec: ModelSpec, named: list[str]) -> None:
+    knowns = sorted(spec[name].value_reference for name in named)
+    ElementTree.SubElement(
+        parent,
+        section,
+        valueReference=str(reference),
+        dependencies=" ".join(map(str, knowns)),
+        dependenciesKind=" ".join(["dependent"] * len(knowns)),
+    )
+
+
+def terminals() -> bytes:
+    """``terminalsAndIcons.xml``: approach, rate and force of a contact as one mechanical flange."""
+    root = ElementTree.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
+    flange = ElementTree.SubElement(
+        ElementTree.SubElement(root, "Terminals"),
+        "Terminal",
+        name="flange",
+        matchingRule="bus",
+        terminalKind=FLANGE,
+        description="Mutual approach and its rate in, force between the bodies out",
+    )
+    for variable, member, kind in (("approach", "s", "signal"), ("rate", "v", "signal"), ("force", "f", "inflow")):
+        ElementTree.SubElement(
+            flange, "TerminalMemberVariable", variableName=variable, memberName=member, variableKind=kind
+        )
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)
