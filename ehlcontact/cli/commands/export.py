@@ -40,8 +40,8 @@ def export(
         typer.Option(
             "--platform",
             metavar="NAME",
-            help="Binary for x86_64-linux, x86_64-windows, x86_64-darwin or aarch64-darwin, or `all`;"
-            " may be repeated. This machine's by default.",
+            help="Binary for x86_64-linux, x86_64-windows, x86_64-darwin, aarch64-darwin, in FMI 3 also"
+            " aarch64-linux, or `all`; may be repeated. This machine's by default.",
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the FMU if there is one.")] = False,
