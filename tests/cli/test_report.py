@@ -134,7 +134,10 @@ def test_whole_bearings_in_the_results(whole, results):
     """Runs, modes, films and critical speeds."""
     found = results["whole_bearing"]
     assert found["ball_passage_hz"] == pytest.approx(whole.passage, rel=1e-9)
-    assert found["failed"] == {} and found["no_diagram"] is None and found["critical_speeds_rpm"] == []
+    assert found["failed"] == {} and found["no_diagram"] is None
+    speeds = [60.0 * whole.mode("memory", way)[0] for way in ("vertical", "horizontal")]
+    met = sorted(speed for speed in speeds if 0.25 * whole.rpm < speed < 3.0 * whole.rpm)
+    assert found["critical_speeds_rpm"] == pytest.approx(met, rel=0.05)  # films of those speeds are not these
     for name, theirs in found["runs"].items():
         ours = whole.row(name)
         for key, other in (("ring_swing", "ring"), ("disc_swing", "disc"), ("at_speed", "once")):

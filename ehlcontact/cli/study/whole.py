@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.cli.study.whole_input import whole_bearing
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.status import Status
 from reduced_models import (
     BallBearing,
     BearingCoefficients,
@@ -243,6 +244,8 @@ def _run(study: Study, rotor: MatrixRotor, path: Path) -> Ran:
     orbit = at.unbalance_response(rpm=rpm)[0]
     start = at.rest + orbit.real, (1j * rpm * pi / 30.0 * orbit).real
     run: BearingRun = simulate_on_bearings(rotor, speed_rpm=rpm, dt=dt, until=until, start=start)
+    if run.status is Status.INTERRUPTED:
+        raise KeyboardInterrupt
     run.save(path)
     seen = run.t >= begin - 0.5 * dt
     vertical, horizontal = _slowest(rotor, [(mode.eigenvalue, mode.shape) for mode in at.modes(None)])
