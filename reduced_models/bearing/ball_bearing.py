@@ -30,13 +30,14 @@ from reduced_models.bearing.kinematics import (
     HERTZ,
     RADIANS,
     DefectFrequencies,
+    ball_mass,
     ball_swing,
     cage_ratio,
     rolling_radius,
 )
 from reduced_models.bearing.law import dry_law, film_law
 from reduced_models.bearing.linear import BearingCoefficients, impedances
-from reduced_models.bearing.loss import loss_of
+from reduced_models.bearing.loss import loss_of, require_loss_factor
 from reduced_models.bearing.race import RACES, Race, films_under, race_of
 from reduced_models.bearing.state import BearingState
 from reduced_models.bearing.statics import Standing, angle_of, direction_of, radial_load, stand
@@ -46,7 +47,6 @@ _Floats = NDArray[np.float64]
 
 SCHEMA = "ehlcontact-bearing"
 LARGEST_PLAY = 0.05  # clearance or preload over ball diameter: five times what C5 or a heavy fit has
-LARGEST_LOSS = 0.2  # twice that of joints of steel; beyond, the filters would not follow
 POSITIONS = 12  # of the cage over a ball passage for means: those of 6205 are within 1e-3 of those of 48
 
 
@@ -55,8 +55,8 @@ class BallBearing:
     """Deep-groove ball bearing under radial load, the outer ring standing still. SI units, y upwards.
 
     Every ball has a contact with either race, each with a film and its memory; both carry the ball in series, the
-    outer one its centrifugal force too. Rings are rigid, balls roll without slip at zero contact angle and do not
-    vibrate on their contacts themselves (for a 6205 that begins near 30 kHz).
+    outer one its centrifugal force too. Rings are rigid, balls roll without slip at zero contact angle and, unless
+    it is asked for, do not vibrate on their contacts themselves (for a 6205 that begins near 30 kHz).
 
     Parameters
     ----------
@@ -80,6 +80,8 @@ class BallBearing:
     loss_factor : float
         Of rings and fits, for vibrations of 5 Hz to 5 kHz: what else than films damps, in linear answers and in
         time alike. It needs a measurement, and is nothing to hide a gap behind. See `reduced_models.bearing.loss`.
+    ball_inertia : bool
+        Balls have inertia towards the rings: in linear answers, and in runs whose steps are short enough for it.
     name : str
     atlas : str, optional
         File of an atlas; by default the one that comes with the library.
@@ -105,6 +107,7 @@ class BallBearing:
     poisson_ratio: float = 0.3
     density: float = 7800.0
     loss_factor: float = 0.0
+    ball_inertia: bool = False
     name: str = ""
     atlas: str | None = None
     _known: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
@@ -119,8 +122,8 @@ class BallBearing:
         if self.film_limit is not None:
             require_positive("film_limit", self.film_limit)
         require_positive("density", self.density)
-        if require_nonnegative("loss_factor", self.loss_factor) > LARGEST_LOSS:
-            raise InputError("loss_factor", self.loss_factor, f"at most {LARGEST_LOSS:g}")
+        require_loss_factor(self.loss_factor)
+        require_instance("ball_inertia", self.ball_inertia, bool, "True or False")
         races = {name: race_of(self, name) for name in RACES}
         self._known["races"] = races
         room = self.pitch_diameter * sin(pi / self.balls)
@@ -216,6 +219,7 @@ class BallBearing:
                 rolling=rolling_radius(self.pitch_diameter, self.gamma),
                 speeds=speeds * RADIANS,
                 loss=loss_of(self.loss_factor),
+                inertia=ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0,
             )
         kernel: Balls = self._known[key]
         return kernel

@@ -5,9 +5,10 @@ rings come closer by
 
     delta = n . q - clearance/2,    of which w at the outer race and delta - w at the inner one.
 
-Balls have no inertia along n: F_o(w) = F_i(delta - w) + F_c with the centrifugal force F_c. So w is found from one
-scalar equation per ball, and the ring sees F = sum F_i n. Balls travel with the cage, which is a part of delta'.
-Rings and fits that lose something (`reduced_models.bearing.loss`) have the last word on F.
+Along n, F_o(w) + m w'' = F_i(delta - w) + F_c with the centrifugal force F_c; balls have no inertia m there unless
+it is asked for. So w is found from one scalar equation per ball, and the ring sees F = sum F_i n. Balls travel
+with the cage, which is a part of delta'. Rings and fits that lose something (`reduced_models.bearing.loss`) have
+the last word on F.
 """
 
 from __future__ import annotations
@@ -46,6 +47,7 @@ class Balls(NamedTuple):
     rolling: float  # u_sum over the speed of the shaft [m]
     speeds: _Floats  # (rows of the laws,) of the shaft, increasing
     loss: Loss  # of rings and fits
+    inertia: float  # of a ball along n [kg]; 0: it has none
 
 
 class Turn(NamedTuple):
@@ -94,6 +96,7 @@ def begin_step(balls, turn, dt, films):
     for k in range(balls.number):
         now, before = films.w[k, 2], films.w[k, 3]
         films.w[k, 1] = (4.0 * now - before) / 3.0
+        films.w[k, 8] = (4.0 * films.w[k, 9] - films.w[k, 10]) / 3.0
         begin(balls.inner, turn.inner, turn.spin, dt, films, 2 * k)
         begin(balls.outer, turn.outer, turn.spin, dt, films, 2 * k + 1)
     begin_seat(balls.loss, dt, films.seat)
@@ -111,19 +114,20 @@ def begin_rest(films):
 @jit_exact_node
 def _ball(balls, turn, films, k, delta, rate, gain):
     """Balance ball `k`; returns the force on the ring and its derivatives by delta and by the rate of delta."""
-    history, last = films.w[k, 1], films.w[k]
+    history, last, heavy = films.w[k, 1], films.w[k], balls.inertia * gain
     w = last[0] + last[6] * (delta - last[4]) + last[7] * (rate - last[5])
     low, high, reach = -inf, inf, FIRST_STEP
     for _ in range(MOST_STEPS):
         v = gain * (w - history)
         fi, ki, di = press(balls.inner, turn.inner, turn.spin, films, 2 * k, delta - w, rate - v)
         fo, ko, do = press(balls.outer, turn.outer, turn.spin, films, 2 * k + 1, w, v)
-        inner, outer = ki + gain * di, ko + gain * do
-        balance, tangent = fo - fi - turn.centrifugal, inner + outer
+        inner, held = ki + gain * di, ko + gain * do
+        outer = held + heavy * gain
+        balance, tangent = fo + heavy * (v - last[8]) - fi - turn.centrifugal, inner + outer
         if abs(balance) <= NEARLY * (1.0 + fo + fi + turn.centrifugal):
             if tangent > 0.0:
                 step = -balance / tangent
-                w, fi, fo = w + step, fi - inner * step, fo + outer * step
+                w, fi, fo = w + step, fi - inner * step, fo + held * step
                 last[6], last[7] = ki / tangent, di / tangent
                 ki, di = ki * outer / tangent, di * outer / tangent
             last[0], last[4], last[5], films.force[k, 0], films.force[k, 1] = w, delta, rate, fi, fo
@@ -182,6 +186,7 @@ def accept_balls(balls, turn, films, normals, q, v, gain):
         accept(balls.inner, turn.inner, turn.spin, films, 2 * k, delta - w, rate - own)
         accept(balls.outer, turn.outer, turn.spin, films, 2 * k + 1, w, own)
         films.w[k, 3], films.w[k, 2] = films.w[k, 2], w
+        films.w[k, 10], films.w[k, 9] = films.w[k, 9], own
         films.largest[0] = max(films.largest[0], films.force[k, 0])
         films.largest[1] = max(films.largest[1], films.force[k, 1])
     accept_seat(films.seat)
@@ -195,5 +200,5 @@ def rest_balls(balls, films, normals, q):
         w = films.w[k, 0]
         films.state[2 * k, 0] = normals[k, 0] * q[0] + normals[k, 1] * q[1] - balls.half_clearance - w
         films.state[2 * k + 1, 0] = w
-        films.w[k, 2:] = w
+        films.w[k, 2:8], films.w[k, 8:] = w, 0.0
     rest_seat(films.seat)

@@ -214,8 +214,9 @@ class Films(NamedTuple):
     place: NDArray[np.int64]  # (contacts, 2): interval of the curve used last, rows of gains that `work` has
     poisson: _Floats  # room for `begin`
     share: _Floats
-    # (balls, 8) approaches at the outer race: as tried; what the rate is reckoned from; at the last two ends of
-    # steps; then delta and its rate where that was tried, and the slopes by both
+    # (balls, 11) approaches at the outer race: as tried; what the rate is reckoned from; at the last two ends of
+    # steps; then delta and its rate where that was tried, and the slopes by both; what the acceleration is
+    # reckoned from, and the rates at the last two ends
     w: _Floats
     force: _Floats  # (balls, 2) at the inner and at the outer race [N]
     largest: _Floats  # (2,) force that any ball has had at either race [N]
@@ -231,7 +232,7 @@ def new_films(balls: int, lags: int, loss: Loss) -> Films:
         place=np.zeros((contacts, 2), np.int64),
         poisson=np.zeros(lags + 3),
         share=np.zeros(lags + 3),
-        w=np.zeros((balls, 8)),
+        w=np.zeros((balls, 11)),
         force=np.zeros((balls, 2)),
         largest=np.zeros(2),
         seat=seat_of(loss),

@@ -55,6 +55,11 @@ def rolling_radius(pitch_diameter: float, gamma: float) -> float:
     return 0.5 * pitch_diameter * (1.0 - gamma * gamma)
 
 
+def ball_mass(ball_diameter: float, density: float) -> float:
+    """Mass of a ball [kg]."""
+    return density * pi / 6.0 * ball_diameter**3
+
+
 def rolling_torque(inner: _Floats, outer: _Floats, ball_diameter: float, pitch_diameter: float) -> float:
     """Torque on the inner ring [N m] that the films' rolling resistance takes, outer ring still.
 
@@ -80,4 +85,4 @@ def rolling_torque(inner: _Floats, outer: _Floats, ball_diameter: float, pitch_d
 
 def ball_swing(ball_diameter: float, pitch_diameter: float, density: float) -> float:
     """Centrifugal force on a ball over the square of the cage's angular speed [kg m]."""
-    return density * pi / 6.0 * ball_diameter**3 * 0.5 * pitch_diameter
+    return ball_mass(ball_diameter, density) * 0.5 * pitch_diameter

@@ -91,6 +91,7 @@ def impedances(balls: Balls, turn: Turn, standing: Standing, omega: _Floats) -> 
         u_inner, u_outer = standing.approach[k].tolist()
         inner = contact_impedance(balls.inner, turn.inner, turn.spin, u_inner, w)
         outer = contact_impedance(balls.outer, turn.outer, turn.spin, u_outer, w)
+        outer = outer - balls.inertia * w * w
         both = inner + outer
         series = np.divide(inner * outer, both, out=np.zeros_like(both), where=both != 0.0)
         total += series[:, None, None] * np.outer(n, n)

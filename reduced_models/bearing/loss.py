@@ -24,10 +24,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
+from ehlcontact.checks import require_nonnegative
+from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_exact_loop
 
 _Floats = NDArray[np.float64]
 
+LARGEST_LOSS = 0.2  # twice that of joints of steel; beyond, the filters would not follow
 BAND = (5.0, 5000.0)  # Hz, within which the loss factor holds
 FILTERS, BEYOND = 8, 3.0  # poles, and by which ratio they go beyond the ends of the band
 SAMPLES = 200  # frequencies at which the gains are fitted
@@ -47,6 +50,12 @@ class Seat(NamedTuple):
     rows: _Floats  # (3 + n, 2) forces [N]; see above
     lift: _Floats  # (1,) what a force at the end of the step becomes, over it
     step: _Floats  # (3, n) of a step: what is left of y_k, and what the forces at both ends make of it
+
+
+def require_loss_factor(factor: float) -> None:
+    """Raise `InputError` for a loss factor that the filters do not have."""
+    if require_nonnegative("loss_factor", factor) > LARGEST_LOSS:
+        raise InputError("loss_factor", factor, f"at most {LARGEST_LOSS:g}")
 
 
 def loss_of(factor: float) -> Loss:

@@ -1,6 +1,6 @@
 """Impedance of a bearing at complex frequencies: a rational function, for every gain is one of a filter.
 
-A ball has Z = Z_i Z_o/(Z_i + Z_o) of its two contacts in series, each of them
+A ball has Z = Z_i Z_o/(Z_i + Z_o) of its two contacts in series (m s^2 beside Z_o if it has inertia), each of them
 
     Z(s) = k + s tau (dF/dm) G(s tau)
 
@@ -58,6 +58,7 @@ class SmallBalls(NamedTuple):
     normals: _Floats  # (positions * balls, 2)
     positions: int
     loss: Loss
+    inertia: float  # of a ball along its normal [kg]
 
     @classmethod
     def of(cls, balls: Balls, turn: Turn, standings: Sequence[Standing]) -> SmallBalls:
@@ -69,11 +70,12 @@ class SmallBalls(NamedTuple):
                 (balls.inner, balls.outer), (turn.inner, turn.outer), approach.T, strict=True
             )
         )
-        return cls(inner, outer, np.concatenate([at.normals for at in standings]), len(standings), balls.loss)
+        normals = np.concatenate([at.normals for at in standings])
+        return cls(inner, outer, normals, len(standings), balls.loss, balls.inertia)
 
     def impedance(self, s: complex) -> _Complex:
         """Of the ring, shape (2, 2) [N/m], at a frequency s [1/s] of exp(s t)."""
-        inner, outer = self.inner.impedance(s), self.outer.impedance(s)
+        inner, outer = self.inner.impedance(s), self.outer.impedance(s) + self.inertia * s * s
         both = inner + outer
         series = np.divide(inner * outer, both, out=np.zeros_like(both), where=both != 0.0)
         return np.asarray((self.normals.T * series) @ self.normals * (response(self.loss, s) / self.positions))

@@ -8,7 +8,7 @@ for stiff equations (``solve_ivp_method="BDF"``).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +18,10 @@ from ehlcontact.errors import InputError
 from reduced_models.bearing.balls import Balls, Turn, begin_rest, directions, films_of, press_balls
 from reduced_models.bearing.rotor import BearingMount, MatrixRotor
 from reduced_models.bearing.statics import StaticBalls
+from reduced_models.elements.film_law import DIRECT
 from reduced_models.vibration.linearised import LinearisedRotor, Signals
 from reduced_models.vibration.rates import bearing_rates
-from reduced_models.vibration.states import PER_METRE, bearing_system, rotor_system
+from reduced_models.vibration.states import FILTERS, PER_METRE, bearing_system, rotor_system
 
 _Floats = NDArray[np.float64]
 
@@ -36,8 +37,10 @@ def linear_block(at: LinearisedRotor, inputs: Signals, outputs: Signals, name: s
     A, driven = rotor_system(at.matrices, at.rotor.rings, [bearing_system(balls) for balls in at.balls])
     C = np.zeros((len(outs), len(A)))
     C[range(len(outs)), list(outs.values())] = UNIT
-    lags = [[0 if c.rates is None else c.rates.lags for c in (b.inner, b.outer)] for b in at.balls]
-    states = _states(size, [(len(b.normals), *n, b.loss.gains.size) for b, n in zip(at.balls, lags, strict=True)])
+    shapes = []
+    for b in at.balls:
+        inner, outer = (0 if c.rates is None else c.rates.lags for c in (b.inner, b.outer))
+        shapes.append(_Shape(len(b.normals), inner, outer, b.loss.gains.size, b.inertia))
     return control.ss(
         A,
         driven[:, list(ins.values())] / UNIT,
@@ -45,7 +48,7 @@ def linear_block(at: LinearisedRotor, inputs: Signals, outputs: Signals, name: s
         0.0,
         inputs=list(ins),
         outputs=list(outs),
-        states=states,
+        states=_states(size, shapes),
         name=name,
     )
 
@@ -97,9 +100,7 @@ def rotor_to_control(
     def output(t: float, x: _Floats, u: _Floats, params: object) -> _Floats:
         return np.asarray(x, float)[seen] * UNIT
 
-    states = _states(
-        rotor.size, [(ring.balls.number, *ring.lags, ring.balls.loss.gains.size) for ring in motion.rings]
-    )
+    states = _states(rotor.size, [ring.shape for ring in motion.rings])
     return control.nlsys(update, output, inputs=list(ins), outputs=list(outs), states=states, name=name)
 
 
@@ -115,15 +116,36 @@ def _signals(field: str, given: Signals, letter: str, size: int) -> dict[str, in
     return named
 
 
-def _states(size: int, bearings: Sequence[tuple[int, ...]]) -> list[str]:
-    """Names, in order; of each bearing the balls, the lags of both films (none: dry), and those of its seat."""
+class _Shape(NamedTuple):
+    """How many states a bearing has: its balls, lags of both films (none: dry), filters of its seat."""
+
+    balls: int
+    inner: int
+    outer: int
+    seat: int
+    inertia: float  # of a ball
+
+    @property
+    def own(self) -> int:
+        """States of a ball's own place."""
+        return 2 if self.inertia else int(self.inner > 0)
+
+    @property
+    def of_balls(self) -> int:
+        """States of all balls."""
+        return self.balls * (self.own + sum(lags + FILTERS for lags in (self.inner, self.outer) if lags))
+
+
+def _states(size: int, bearings: Sequence[_Shape]) -> list[str]:
+    """Names, in order."""
     names = [f"q{k}" for k in range(size)] + [f"v{k}" for k in range(size)]
-    for b, (balls, *lags, seat) in enumerate(bearings):
-        for k in range(balls if lags[0] else 0):
-            names.append(f"b{b}_{k}_w")
-            for race, count in zip(("i", "o"), lags, strict=True):
-                names += [f"b{b}_{k}_{race}_{one}" for one in ("s", "y", *(f"q{j}" for j in range(1, count + 1)))]
-        names += [f"b{b}_seat_{one}{k}" for k in range(1, seat + 1) for one in "xy"]
+    for b, shape in enumerate(bearings):
+        for k in range(shape.balls):
+            names += [f"b{b}_{k}_{one}" for one in ("w", "v")[: shape.own]]
+            for race, count in zip(("i", "o"), (shape.inner, shape.outer), strict=True):
+                lags = [f"q{j}" for j in range(1, count + 1)]
+                names += [f"b{b}_{k}_{race}_{one}" for one in (("s", "y", *lags) if count else ())]
+        names += [f"b{b}_seat_{one}{k}" for k in range(1, shape.seat + 1) for one in "xy"]
     return names
 
 
@@ -138,15 +160,13 @@ class _Ring:
         self._angle, self._normals = mount.cage_angle, np.zeros((self.balls.number, 2))
         held = StaticBalls(self.balls, self._laws, mount.cage_angle)
         self.force = held.force(r)
-        gains = [law.gains.shape[2] - 1 for law in (self.balls.inner, self.balls.outer)]
-        wet = self.balls.inner.x.size > 0
-        self.lags = [count - 2 if wet else 0 for count in gains]
-        each = 1 + sum(gains) if wet else 0
-        seat = self.balls.loss.gains.size
-        self.films = self.balls.number * each
-        self.rest = np.concatenate([np.zeros(self.films), np.tile(self.force / PER_METRE, seat)])
-        if wet:
-            self.rest[: self.films : each] = held.films.w[:, 0]
+        races = self.balls.inner, self.balls.outer
+        inner, outer = (law.gains.shape[2] - DIRECT if law.x.size else 0 for law in races)
+        self.shape = _Shape(self.balls.number, inner, outer, self.balls.loss.gains.size, self.balls.inertia)
+        self.films = self.shape.of_balls
+        self.rest = np.concatenate([np.zeros(self.films), np.tile(self.force / PER_METRE, self.shape.seat)])
+        if self.films:
+            self.rest[: self.films : self.films // self.balls.number] = held.films.w[:, 0]
         self._films, self._force = films_of(self.balls), np.zeros(2)
         begin_rest(self._films)
 

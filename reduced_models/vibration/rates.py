@@ -3,7 +3,8 @@
     F = share k_n (g(u) + c tau u' + sum g_j x_j)_+^(3/2)
 
 in both contacts of a ball, and F_o = F_i + F_c for w', which is found between the rate at which the outer film
-would let go and that at which the inner one would, or the outer one carries F_c alone.
+would let go and that at which the inner one would, or the outer one carries F_c alone. A ball with inertia has w'
+as a state, and m w'' = F_i + F_c - F_o.
 """
 
 from __future__ import annotations
@@ -24,6 +25,8 @@ MOST_STEPS = 60  # of it: a handful
 def _held(law, transit, spin, u, states, first):
     """Film without its dashpot [m], dashpot c tau [s], k_n that the film carries, own time [s]."""
     g, _, _ = curve(u, spin[0], spin[1], law, 0)
+    if law.x.size == 0:
+        return g, 0.0, law.kn, 0.0
     tau, x, last = transit * sqrt(g), law.log_kn + 1.5 * log(g), law.x.size - 2
     row = min(max(np.searchsorted(law.x, x) - 1, 0), last)
     weight = min(max((x - law.x[row]) / (law.x[row + 1] - law.x[row]), 0.0), 1.0)
@@ -93,18 +96,27 @@ def _filter(law, tau, v, states, first, rates):
 @jit_exact
 def bearing_rates(balls, turn, normals, states, r, v, rates, force):
     """Fill the rates of all balls' states [m/s] and the force of the ring at `r`, moving at `v`, on the balls."""
-    size_i, size_o = balls.inner.gains.shape[2] - 1, balls.outer.gains.shape[2] - 1
+    wet, first = balls.inner.x.size > 0, 2 if balls.inertia > 0.0 else 1
+    size_i = balls.inner.gains.shape[2] - 1 if wet else 0
+    size_o = balls.outer.gains.shape[2] - 1 if wet else 0
     force[:] = 0.0
     for k in range(balls.number):
-        x, y, at = normals[k, 0], normals[k, 1], k * (1 + size_i + size_o)
+        x, y, at = normals[k, 0], normals[k, 1], k * (first + size_i + size_o)
         delta = x * r[0] + y * r[1] - balls.half_clearance
         rate = x * v[0] + y * v[1] + turn.cage * (x * r[1] - y * r[0])
-        w, second = states[at], at + 1 + size_i
-        inner = _held(balls.inner, turn.inner, turn.spin, delta - w, states, at + 1)
+        w, second = states[at], at + first + size_i
+        inner = _held(balls.inner, turn.inner, turn.spin, delta - w, states, at + first)
         outer = _held(balls.outer, turn.outer, turn.spin, w, states, second)
-        pushed, own = _balance(inner, outer, rate, turn.centrifugal)
+        if first == 2:
+            own = states[at + 1]
+            pushed = _pushed(inner[2], inner[0] + inner[1] * (rate - own))[0]
+            held = _pushed(outer[2], outer[0] + outer[1] * own)[0]
+            rates[at + 1] = (pushed + turn.centrifugal - held) / balls.inertia
+        else:
+            pushed, own = _balance(inner, outer, rate, turn.centrifugal)
         rates[at] = own
-        _filter(balls.inner, inner[3], rate - own, states, at + 1, rates)
-        _filter(balls.outer, outer[3], own, states, second, rates)
+        if wet:
+            _filter(balls.inner, inner[3], rate - own, states, at + first, rates)
+            _filter(balls.outer, outer[3], own, states, second, rates)
         force[0] += pushed * x
         force[1] += pushed * y

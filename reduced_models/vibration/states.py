@@ -4,11 +4,12 @@ A ball between two films has its place w at the outer race as a state, for both 
 
     F = k u + H (c tau u' + sum g_j x_j)
 
-of both contacts (u = delta - w at the inner one, w at the outer one), F_i = F_o gives w'. Beside it are those of
-the filters, x' = (what feeds it - x) rate/tau. Dry balls have none. A bearing at several positions of the cage has
-all balls of all positions, each with its share of the force: the mean, with so many times the states. Rings and
-fits that lose something have theirs after those of the balls: the forces y_k of `reduced_models.bearing.loss`, x
-before y, over `PER_METRE`, so that they are as small as the other states.
+of both contacts (u = delta - w at the inner one, w at the outer one), F_i = F_o gives w'; of a ball with inertia
+w' is a state too. Beside it are those of the filters, x' = (what feeds it - x) rate/tau. Dry balls without inertia
+have none. A bearing at several positions of the cage has all balls of all positions, each with its share of the
+force: the mean, with so many times the states. Rings and fits that lose something have theirs after those of the
+balls: the forces y_k of `reduced_models.bearing.loss`, x before y, over `PER_METRE`, so that they are as small as
+the others.
 """
 
 from __future__ import annotations
@@ -41,7 +42,8 @@ class System(NamedTuple):
 def filters(contacts: Contacts, k: int) -> tuple[_Floats, _Floats, _Floats, float]:
     """Film of ball `k`: x' = A x + b u', and the force per state and per u'."""
     rates, tau = contacts.rates, float(contacts.tau[k])
-    assert rates is not None
+    if rates is None:
+        return np.zeros((0, 0)), np.zeros(0), np.zeros(0), 0.0
     size = FILTERS + rates.lags
     A = np.diag(np.array([-rates.inlet_rate, -rates.fast_rate, *[-rates.lag_rate] * rates.lags]) / tau)
     for j in range(FILTERS, size):
@@ -52,22 +54,26 @@ def filters(contacts: Contacts, k: int) -> tuple[_Floats, _Floats, _Floats, floa
     return A, b, slope * gains[1:], slope * float(gains[0]) * tau
 
 
-def ball_system(inner: Contacts, outer: Contacts, k: int) -> tuple[_Floats, _Floats]:
+def ball_system(inner: Contacts, outer: Contacts, k: int, inertia: float) -> tuple[_Floats, _Floats]:
     """Rates of a ball's states, and its force, as rows over these states, delta and delta'."""
     ki, ko = float(inner.stiffness[k]), float(outer.stiffness[k])
-    if inner.rates is None:
+    if inner.rates is None and not inertia:
         return np.zeros((0, 2)), np.array([ki * ko / (ki + ko) if ki + ko > 0.0 else 0.0, 0.0])
     own_i, bi, held_i, di = filters(inner, k)
     own_o, bo, held_o, do = filters(outer, k)
-    n = 1 + len(bi) + len(bo)
-    at_i, at_o = slice(1, 1 + len(bi)), slice(1 + len(bi), n)
-    own = np.zeros(n + 2)  # w'
-    if di + do > 0.0:
-        own[0], own[at_i], own[at_o], own[n], own[n + 1] = -(ki + ko), held_i, -held_o, ki, di
-        own /= di + do
+    first = 2 if inertia else 1
+    n = first + len(bi) + len(bo)
+    at_i, at_o = slice(first, first + len(bi)), slice(first + len(bi), n)
+    own, pulled = np.zeros(n + 2), np.zeros(n + 2)  # w', and F_i - F_o without what w' does to it
+    pulled[0], pulled[at_i], pulled[at_o], pulled[n], pulled[n + 1] = -(ki + ko), held_i, -held_o, ki, di
+    rows = np.zeros((n, n + 2))
+    if inertia:
+        own[1] = 1.0
+        rows[1] = (pulled - (di + do) * own) / inertia
+    elif di + do > 0.0:
+        own = pulled / (di + do)
     other = -own  # delta' - w'
     other[n + 1] += 1.0
-    rows = np.zeros((n, n + 2))
     rows[0], rows[at_i, at_i], rows[at_o, at_o] = own, own_i, own_o
     rows[at_i] += np.outer(bi, other)
     rows[at_o] += np.outer(bo, own)
@@ -80,7 +86,7 @@ def ball_system(inner: Contacts, outer: Contacts, k: int) -> tuple[_Floats, _Flo
 
 def bearing_system(balls: SmallBalls) -> System:
     """All balls of a bearing."""
-    parts = [ball_system(balls.inner, balls.outer, k) for k in range(len(balls.normals))]
+    parts = [ball_system(balls.inner, balls.outer, k, balls.inertia) for k in range(len(balls.normals))]
     size = sum(len(rows) for rows, _ in parts)
     A, driven = np.zeros((size, size)), np.zeros((size, 4))
     C, D = np.zeros((2, size)), np.zeros((2, 4))

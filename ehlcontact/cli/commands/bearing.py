@@ -182,7 +182,7 @@ def _resistance(state: BearingState) -> list[tuple[str, str, str]]:
     """Of the films of a bearing that has any."""
     if state.rolling_torque is None or state.rolling_loss is None:
         return []
-    loss = f"takes {numeral(state.rolling_loss)} W; no sliding, cage, seals or churning"
+    loss = f"{numeral(state.rolling_loss)} W; without sliding, cage, churning"
     return [("films resist rolling", f"{numeral(state.rolling_torque * 1e3)} N mm", loss)]
 
 
