@@ -29,7 +29,7 @@ void core_start(State *s, Kind kind)
     s->model.rate = s->model.value[VR_rate];
     s->tolerance = DEFAULT_TOLERANCE;
     s->phase = INSTANTIATED;
-    s->kind = kind;
+    s->kind = (int)kind;
     s->stale = STALE_LAW | STALE_OUTPUTS | STALE_RATES;
 }
 
@@ -67,7 +67,7 @@ Fault core_may_set(const State *s, unsigned int reference, Type type, double val
     if ((phases & s->phase) == 0) {
         return refuse("this variable cannot be set at this point of the call sequence");
     }
-    if (reference == VR_input_meaning && !(value >= EXTRAPOLATED && value <= HELD)) {
+    if (reference == VR_input_meaning && !(value >= (double)EXTRAPOLATED && value <= (double)HELD)) {
         return refuse("input_meaning is 1 (extrapolated), 2 (end) or 3 (held)");
     }
     return fine;
