@@ -78,9 +78,10 @@ Rest film_static(double u, const Rest *near)
         high = curve_x[k + 1];
         x = low + (high - low) * (u - curve_u[k]) / (curve_u[k + 1] - curve_u[k]);
     }
-    if (near != NULL && near->g_u > 0.0) { /* along the slope of the curve from there */
-        new_x = near->x + 1.5 * near->g_u / near->g * (u - near->u);
-        x = low <= new_x && new_x <= high ? new_x : x;
+    if (near != NULL && near->g_u > 0.0) { /* along the slope of the curve from there, if that is not far */
+        step = 1.5 * near->g_u / near->g * (u - near->u);
+        new_x = near->x + step;
+        x = fabs(step) <= 1.0 && low <= new_x && new_x <= high ? new_x : x;
     }
     for (i = 0; i < 100; i++) {
         g = exp(2.0 / 3.0 * x);
