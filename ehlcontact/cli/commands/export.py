@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import USAGE, check_apart, check_file, check_json, complain, show_table, write_json
+from ehlcontact.cli.output import (
+    USAGE,
+    check_apart,
+    check_file,
+    check_json,
+    complain,
+    deliver,
+    show_table,
+    write_json,
+)
 from ehlcontact.cli.progress import progress
 from ehlcontact.errors import InputError
 
@@ -31,8 +40,8 @@ def export(
         typer.Option(
             "--platform",
             metavar="NAME",
-            help="Binary for x86_64-linux, x86_64-windows, x86_64-darwin or aarch64-darwin, or `all`;"
-            " may be repeated. This machine's by default.",
+            help="Binary for x86_64-linux, x86_64-windows, x86_64-darwin, aarch64-darwin, in FMI 3 also"
+            " aarch64-linux, or `all`; may be repeated. This machine's by default.",
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the FMU if there is one.")] = False,
@@ -49,6 +58,7 @@ def export(
     if not force and output.exists():
         raise InputError("--output", str(output), "a new file, or replaced with --force")
     from fmu import BuildError, VerificationError
+    from fmu.binaries import choose
     from fmu.export import export_verified
     from reduced_models import load_element
 
@@ -56,6 +66,7 @@ def export(
     try:
         names = {"model_name": "--name", "platforms": "--platform", "path": "--output", "element": str(file)}
         with progress("compiling") as told, o.called(**names):
+            built = [one.name for one in choose(platform or None, fmi)]
             _, found = export_verified(
                 element,
                 output,
@@ -69,8 +80,12 @@ def export(
         complain(f"no FMU was written: {error}")
         raise typer.Exit(USAGE) from None
     verdict = {"passes": None} if found is None else found.to_dict()
-    write_json({"fmu": str(output), "units": element.units, **verdict}, json_to)
-    show_table(str(output), [("element", element.kind, element.units), *_rows(found)], json_to)
+    document = {"fmu": str(output), "units": element.units, "platforms": built, **verdict}
+    rows = [("element", element.kind, element.units), ("binaries", str(len(built)), ", ".join(built))]
+    deliver(
+        lambda: write_json(document, json_to),
+        lambda: show_table(str(output), [*rows, *_rows(found)], json_to),
+    )
 
 
 def _rows(found: Verification | None) -> list[tuple[str, str, str]]:

@@ -22,9 +22,17 @@ def sources(spec):
 
 
 @pytest.fixture(scope="session")
-def libraries(spec, sources):
-    """Library of each platform by its name; the first one for Windows takes minutes."""
+def libraries(spec, sources, elements):
+    """Libraries by version of FMI and platform: a spring's in FMI 2, a film's in FMI 3.
+
+    The first one for Windows takes minutes.
+    """
+    film = contact_spec(elements["wide"])
+    cases = {2: (spec, sources), 3: (film, source_files(film, content_guid(film, 3), 3))}
+    found = {}
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="the first library for Windows")
-        made, _ = build_binaries(sources, compiled(spec, 2), spec.identifier, list(PLATFORMS.values()), fmi=3)
-    return {path.split("/")[1]: content for path, content in made.items()}
+        for fmi, (one, texts) in cases.items():
+            made, _ = build_binaries(texts, compiled(one, fmi), one.identifier, list(PLATFORMS.values()), fmi=3)
+            found |= {(fmi, path.split("/")[1]): content for path, content in made.items()}
+    return found

@@ -1,6 +1,7 @@
 /* A master of a few lines: loads an FMI 2.0 library by its path and steps through states, as any C program would.
- * Usage: loader LIBRARY GUID REFERENCES..., with the references of approach, rate, force, stiffness and damping;
- * reads "approach rate" lines, writes "force stiffness damping" lines, hexadecimal, so that no digit is lost. */
+ * Usage: loader LIBRARY GUID REFERENCES..., with the references of approach, rate, force, stiffness, damping and
+ * input_meaning. Reads lines "time approach rate", the first one for the start, the others for the ends of steps;
+ * writes a line "force stiffness damping" after each step, hexadecimal, so that no digit is lost. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -39,7 +40,7 @@ int main(int count, char **arguments)
     const fmi2Integer end = 2; /* inputs are those of the end of a step */
     fmi2ValueReference references[6];
     fmi2Real in[2], out[3];
-    double time = 0.0;
+    double time, next;
     fmi2Component instance;
     Library library;
     int k;
@@ -66,18 +67,20 @@ int main(int count, char **arguments)
         GET(fmi2TerminateTYPE *, Terminate)
         GET(fmi2FreeInstanceTYPE *, FreeInstance)
         instance = Instantiate("loader", fmi2CoSimulation, arguments[2], NULL, &callbacks, fmi2False, fmi2False);
-        if (instance == NULL || SetupExperiment(instance, fmi2False, 0.0, 0.0, fmi2False, 0.0) != fmi2OK
+        if (instance == NULL || scanf("%lf %lf %lf", &time, &in[0], &in[1]) != 3
+            || SetupExperiment(instance, fmi2False, 0.0, time, fmi2False, 0.0) != fmi2OK
             || SetInteger(instance, references + 5, 1, &end) != fmi2OK
-            || EnterInitializationMode(instance) != fmi2OK || ExitInitializationMode(instance) != fmi2OK) {
+            || SetReal(instance, references, 2, in) != fmi2OK || EnterInitializationMode(instance) != fmi2OK
+            || ExitInitializationMode(instance) != fmi2OK) {
             return 4;
         }
-        while (scanf("%lf %lf", &in[0], &in[1]) == 2) {
+        while (scanf("%lf %lf %lf", &next, &in[0], &in[1]) == 3) {
             if (SetReal(instance, references, 2, in) != fmi2OK
-                || DoStep(instance, time, 1.0, fmi2True) != fmi2OK
+                || DoStep(instance, time, next - time, fmi2True) != fmi2OK
                 || GetReal(instance, references + 2, 3, out) != fmi2OK) {
                 return 5;
             }
-            time += 1.0;
+            time = next;
             printf("%a %a %a\n", out[0], out[1], out[2]);
         }
         if (Terminate(instance) != fmi2OK) {

@@ -74,5 +74,8 @@ def test_damaged(own):
 
 @pytest.mark.slow
 def test_damaged_ones_of_every_platform(libraries):
-    for library in (*libraries.values(), universal([libraries["x86_64-darwin"], libraries["aarch64-darwin"]])):
+    for library in (
+        *libraries.values(),
+        universal([libraries[3, "x86_64-darwin"], libraries[3, "aarch64-darwin"]]),
+    ):
         assert_damage_is_told(library)
