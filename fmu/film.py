@@ -36,6 +36,7 @@ def film_parts(element: Film, common: Common) -> dict[str, Any]:
     nominal = max(rate * time / length, 1e-3)
     _states(common, states, nominal)
     law = element.law
+    inverse = np.append(0.0, 1.0 / np.arange(1.0, lags + 3.0))
     return {
         "description": f"Rolling contact with a film memory ({element.kind} element, {lags} lags)",
         "sources": ("core.c", "core_step.c", "validity.c", "model_film.c", "film_law.c", "film_curve.c"),
@@ -48,8 +49,8 @@ def film_parts(element: Film, common: Common) -> dict[str, Any]:
                 {"curve_x": law.x, "curve_y": law.y, "curve_slope": law.slope, "curve_u": law.u},
             ),
             "film_gains.h": _header(
-                "ln F_s of the rows of gains; viscous, inlet and fast gain and those of the chain",
-                {"gain_x": law.gain_x, "gains": law.gains},
+                "ln F_s of the rows of gains; viscous, inlet and fast gain and those of the chain; 1/k",
+                {"gain_x": law.gain_x, "gains": law.gains, "inverse": inverse},
             ),
         },
     }

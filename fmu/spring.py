@@ -91,14 +91,14 @@ def _macros(law: tuple[str, ...], element: Spring, levels_off: bool) -> dict[str
     power, seven = isinstance(element, PowerLawContact), isinstance(element, PolynomialContact)
     damper = "C" if power else "C1"
     springs = ("K", "n", "u0", "F0") if power else ("K1", "K2", "K3")
-    entries = {name: f"LAW_spring + {k}" for k, name in enumerate(springs)}
-    entries |= {damper: "LAW_C1", "rate_max": "LAW_rate"}
-    pairs = ", ".join(f"{{{entries.get(name, f'LAW_{name}')}, VR_{name}}}" for name in law)
+    entries = {name: f"spring[{k}]" for k, name in enumerate(springs)}
+    entries |= {damper: "C1", "rate_max": "rate"}
+    pairs = ", ".join(f"law->{entries.get(name, name)} = read(value, seed, VR_{name})" for name in law)
     flags = {"LAW_POWER": "1"} if power else {}
     flags |= {"LAW_SEVEN": "1", "LAW_LEVELS_OFF": str(int(levels_off))} if seven else {}
     return flags | {
         "N_CACHE": "4",
-        "LAW_PARAMETERS": pairs,
+        "LAW_READ": pairs,
         "LAW_REFERENCES": ", ".join(f"VR_{name}" for name in law),
         "LAW_NAMES": f'"{", ".join(law[:-1])} and {law[-1]}"',
         "LAW_DAMPER": f'"{damper}"',

@@ -28,6 +28,8 @@ ROOMS = (
     "ehlcontact/cli/study",
     "ehlcontact/cli/templates",
     "ehlcontact/cli/paper",
+    "fmu/binaries",
+    "fmu/gate.py",
     "fmu/spec.py",
     "fmu/verify.py",
     "fmu/csrc",

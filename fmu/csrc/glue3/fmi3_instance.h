@@ -2,7 +2,14 @@
 #ifndef FMI3_INSTANCE_H
 #define FMI3_INSTANCE_H
 
+#ifdef __clang__ /* two callbacks of the standard are declared without prototype */
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Wstrict-prototypes"
+#endif
 #include "fmi3Functions.h"
+#ifdef __clang__
+#pragma clang diagnostic pop
+#endif
 
 #include "core.h"
 

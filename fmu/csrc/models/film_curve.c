@@ -2,6 +2,7 @@
 #include "film_curve.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #include "film_curve_data.h"
 
@@ -49,10 +50,10 @@ static double film(double x, double *slope, double *curvature)
     return h;
 }
 
-Rest film_static(double u)
+Rest film_static(double u, const Rest *near)
 {
     const int n = CURVE_NODES;
-    double low = -HUGE_VAL, high = HUGE_VAL, x, g, h, dh, ignored, du, r, new_x, step;
+    double low = -HUGE_VAL, high = HUGE_VAL, x, g, h, dh, ddh, du, r, new_x, step;
     Rest rest;
     int i, k;
     rest.u = u;
@@ -77,9 +78,14 @@ Rest film_static(double u)
         high = curve_x[k + 1];
         x = low + (high - low) * (u - curve_u[k]) / (curve_u[k + 1] - curve_u[k]);
     }
+    if (near != NULL && near->g_u > 0.0) { /* along the slope of the curve from there, if that is not far */
+        step = 1.5 * near->g_u / near->g * (u - near->u);
+        new_x = near->x + step;
+        x = fabs(step) <= 1.0 && low <= new_x && new_x <= high ? new_x : x;
+    }
     for (i = 0; i < 100; i++) {
         g = exp(2.0 / 3.0 * x);
-        h = film(x, &dh, &ignored);
+        h = film(x, &dh, &ddh);
         du = 2.0 / 3.0 * g - dh;
         r = g - h - u;
         if (r > 0.0) {
@@ -94,12 +100,15 @@ Rest film_static(double u)
         }
         step = new_x - x;
         x = new_x;
-        if (fabs(step) <= 1e-13 * (1.0 + fabs(x))) {
+        if (fabs(step) <= 1e-9) {
             break;
         }
     }
-    g = i < 100 ? exp(2.0 / 3.0 * x) : HUGE_VAL; /* beyond all numbers of use: the force will be refused */
-    film(x, &dh, &ignored);
+    /* The last step squared is below rounding: its first two orders are enough. After a hundred the approach is beyond
+     * all numbers of use, and the force will be refused. */
+    r = 2.0 / 3.0 * step;
+    g = i < 100 ? g * (1.0 + r * (1.0 + 0.5 * r)) : HUGE_VAL;
+    dh += ddh * step;
     rest.x = x;
     rest.g = g;
     rest.g_u = i < 100 ? 2.0 / 3.0 * g / (2.0 / 3.0 * g - dh) : 1.0;

@@ -21,7 +21,7 @@ static void residence(double mu, int n, double poisson[], double share[])
     int k;
     poisson[0] = exp(-mu);
     for (k = 1; k <= n; k++) {
-        poisson[k] = poisson[k - 1] * mu / k;
+        poisson[k] = poisson[k - 1] * (mu * inverse[k]);
     }
     if (mu < n) { /* from the far end, or small shares would drown in rounding */
         term = total = poisson[n];
@@ -119,7 +119,65 @@ static Jet weighed(int k, Jet q, const Between *b, double x_u)
     return times(jet(gain(k, b), gain_slope(k, b) * x_u, 0.0), q);
 }
 
-FilmForce film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double dt, const Rest *rest, double v)
+/* The force of an argument g + m with its slopes; nothing where it would pull. */
+static FilmForce force_of(double argument, double by_approach, double by_rate)
+{
+    FilmForce found = {0.0, 0.0, 0.0, 0.0};
+    found.argument = argument;
+    if (!(argument <= 0.0)) {
+        const double w_root = sqrt(argument);
+        found.force = argument * w_root;
+        found.stiffness = 1.5 * w_root * by_approach;
+        found.damping = 1.5 * w_root * by_rate;
+    }
+    return found;
+}
+
+/* Slope of g + m by the approach, the states as they are; `by_gain` is their sum with the slopes of the gains by x. */
+static double frozen_slope(const Rest *rest, const Between *b, double theta, double theta_u, double v, double by_gain)
+{
+    const double x_u = 1.5 * rest->g_u / rest->g;
+    return rest->g_u + v * (gain_slope(VISCOUS, b) * x_u * theta + gain(VISCOUS, b) * theta_u) + by_gain * x_u;
+}
+
+/* Sums over the chain, weighed with the gains at the load: of the lags at the end of the step, the same with the slopes of
+ * the gains by x, and of the lags' slopes by mu, by the film made at the end and by its bump. */
+typedef struct {
+    double value, by_gain, by_mu, by_end, by_hump;
+} Chain;
+
+/* Advances the chain: the film made goes from f0 to f with a bump. */
+static Chain advance_chain(const double before[FILM_SIZE], double after[FILM_SIZE], double mu, double f0, double f,
+                           double hump, const Between *b)
+{
+    double poisson[LAGS + 3], share[LAGS + 3], held[LAGS + 1] = {0.0};
+    const double per_mu = 1.0 / mu;
+    Chain sum = {0.0, 0.0, 0.0, 0.0, 0.0};
+    int i, j;
+    residence(mu, LAGS + 2, poisson, share);
+    for (i = 0; i < LAGS; i++) { /* what the lags now have of what they held at the start */
+        for (j = i + 1; j <= LAGS; j++) {
+            held[j] += poisson[i] * before[CHAIN + j - 1 - i];
+        }
+    }
+    for (j = 1; j <= LAGS; j++) {
+        const double r0 = share[j], r1 = j * share[j + 1] * per_mu, r2 = j * (j + 1) * share[j + 2] * (per_mu * per_mu);
+        const double d0 = poisson[j - 1], d1 = (j * poisson[j] - r1) * per_mu;
+        const double d2 = (j * (j + 1) * poisson[j + 1] * per_mu - 2.0 * r2) * per_mu;
+        const double value = held[j] + f0 * r1 + f * (r0 - r1) + 6.0 * hump * (r1 - r2);
+        const double slope = held[j - 1] - held[j] + f0 * d1 + f * (d0 - d1) + 6.0 * hump * (d1 - d2);
+        const double weight = gain(DIRECT - 1 + j, b);
+        sum.value += weight * value;
+        sum.by_gain += gain_slope(DIRECT - 1 + j, b) * value;
+        sum.by_mu += weight * slope;
+        sum.by_end += weight * (r0 - r1);
+        sum.by_hump += weight * (6.0 * (r1 - r2));
+        after[CHAIN + j - 1] = value;
+    }
+    return sum;
+}
+
+FilmStep film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double dt, const Rest *rest, double v)
 {
     const Jet g = jet(rest->g, rest->g_u, 0.0);
     const Jet theta = root(g);
@@ -135,50 +193,32 @@ FilmForce film_step(const double before[FILM_SIZE], double after[FILM_SIZE], dou
     /* the film made: its ends, and a bump that keeps its mean, which the balance of the inlet lag gives */
     const double p = INLET_RATE, mean = (travel.x - (s.x - before[INLET]) / p) / span.x;
     const Jet entered = jet(mean, (travel.u - s.u / p - mean * span.u) / span.x, -s.v / (p * span.x));
-    double f0, f, f_s, ignored;
     const Between b = between(rest->x);
     const double x_u = 1.5 * g.u / g.x;
-    const Jet mu = through(LAG_RATE * span.x, LAG_RATE, span);
-    double poisson[LAGS + 3], share[LAGS + 3], r[3], d[3];
-    FilmForce found = {0.0, 0.0, 0.0, 0.0};
-    double held = 0.0;
+    double f0, f, f_s, ignored, by_gain;
+    FilmStep found;
+    Chain chain;
     Jet hump, m, w;
-    int i, j;
     f0 = film_squeezed(before[INLET], &ignored);
     f = film_squeezed(s.x, &f_s);
     hump = minus(made(entered), made(half(before[INLET], s)));
+    chain = advance_chain(before, after, LAG_RATE * span.x, f0, f, hump.x, &b);
     m = weighed(VISCOUS, end, &b, x_u);
     m = plus(m, weighed(1, s, &b, x_u));
     m = plus(m, weighed(2, y, &b, x_u));
-    residence(mu.x, LAGS + 2, poisson, share);
-    for (j = 1; j <= LAGS; j++) {
-        const double held_before = held; /* what the lags before now have of what they held at the start */
-        double value, slope;
-        Jet q;
-        held = 0.0;
-        for (i = 0; i < j; i++) {
-            held += poisson[i] * before[CHAIN + j - 1 - i];
-        }
-        moments(j, mu.x, poisson, share, r, d);
-        value = held + f0 * r[1] + f * (r[0] - r[1]) + 6.0 * hump.x * (r[1] - r[2]);
-        slope = held_before - held + f0 * d[1] + f * (d[0] - d[1]) + 6.0 * hump.x * (d[1] - d[2]);
-        q = through3(value, slope, mu, (r[0] - r[1]) * f_s, s, 6.0 * (r[1] - r[2]), hump);
-        m = plus(m, weighed(DIRECT - 1 + j, q, &b, x_u));
-        after[CHAIN + j - 1] = value;
-    }
+    m = plus(m, jet(chain.value,
+                    x_u * chain.by_gain + LAG_RATE * span.u * chain.by_mu + chain.by_end * f_s * s.u
+                        + chain.by_hump * hump.u,
+                    chain.by_end * f_s * s.v + chain.by_hump * hump.v));
     after[THETA] = theta.x;
     after[RATE] = end.x;
     after[APPROACH] = rest->u;
     after[INLET] = s.x;
     after[FAST] = y.x;
     w = plus(g, m);
-    found.argument = w.x;
-    if (!(w.x <= 0.0)) {
-        const double w_root = sqrt(w.x);
-        found.force = w.x * w_root;
-        found.stiffness = 1.5 * w_root * w.u;
-        found.damping = 1.5 * w_root * w.v;
-    }
+    found.step = force_of(w.x, w.u, w.v);
+    by_gain = gain_slope(1, &b) * s.x + gain_slope(2, &b) * y.x + chain.by_gain;
+    found.now = force_of(w.x, frozen_slope(rest, &b, theta.x, theta.u, v, by_gain), gain(VISCOUS, &b) * theta.x);
     return found;
 }
 
@@ -214,17 +254,8 @@ static Memory remembered(const double states[FILM_RATES], const Rest *rest)
 FilmForce film_now(const double states[FILM_RATES], const Rest *rest, double v)
 {
     const Memory m = remembered(states, rest);
-    const double w_u = rest->g_u + v * (m.direct_x * m.x_u * m.theta + m.direct * m.theta_u) + m.held_x * m.x_u;
-    const double w_v = m.direct * m.theta;
-    FilmForce found = {0.0, 0.0, 0.0, 0.0};
-    found.argument = rest->g + m.direct * (m.theta * v) + m.held;
-    if (!(found.argument <= 0.0)) {
-        const double w_root = sqrt(found.argument);
-        found.force = found.argument * w_root;
-        found.stiffness = 1.5 * w_root * w_u;
-        found.damping = 1.5 * w_root * w_v;
-    }
-    return found;
+    return force_of(rest->g + m.direct * (m.theta * v) + m.held,
+                    frozen_slope(rest, &m.between, m.theta, m.theta_u, v, m.held_x), m.direct * m.theta);
 }
 
 void film_instant(const double states[FILM_RATES], const Rest *rest, double v, FilmInstant *now)

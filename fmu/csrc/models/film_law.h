@@ -23,6 +23,11 @@ typedef struct {
     double force, stiffness, damping;
 } FilmForce;
 
+/* At the end of a step: tangents through the step's memory, and with the states as they are. */
+typedef struct {
+    FilmForce step, now;
+} FilmStep;
+
 /* The force at an instant, the states as they are: first derivatives, second ones, and those by the states. */
 typedef struct {
     double argument, force;
@@ -32,10 +37,11 @@ typedef struct {
     double second_state[2][FILM_RATES]; /* of dF/du and dF/dv by each state */
 } FilmInstant;
 
-Rest film_static(double u);
+/* At approach u; `near` is a point close by, or NULL. */
+Rest film_static(double u, const Rest *near);
 
 /* Advances `before` into `after`, which is at rest->u, moving at v. */
-FilmForce film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double dt, const Rest *rest, double v);
+FilmStep film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double dt, const Rest *rest, double v);
 
 /* Force and first derivatives alone; and all of it. */
 FilmForce film_now(const double states[FILM_RATES], const Rest *rest, double v);

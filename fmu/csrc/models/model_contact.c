@@ -7,9 +7,6 @@
 #include "dual.h"
 #include "model.h"
 
-/* Entries of the law's parameters; config.h says which variable fills which (LAW_PARAMETERS). */
-enum { LAW_low, LAW_high, LAW_C1, LAW_C2, LAW_C3, LAW_B4, LAW_rate, LAW_spring, LAW_ENTRIES = LAW_spring + 4 };
-
 /* What of the law follows from the parameters alone. */
 typedef struct {
     Dual low, high, o_low, A_low, o_high, A_high;
@@ -113,27 +110,15 @@ static Fault join(Dual end, const Law *law, Dual *origin, Dual *factor)
     return fine;
 }
 
-/* Parameters of the law, seeded with a direction if there is one. */
+/* One parameter, seeded with a direction if there is one. */
+static Dual read(const double value[], const double *seed, int reference)
+{
+    return dual(value[reference], seed != NULL ? seed[reference] : 0.0);
+}
+
 static void read_law(const double value[], const double *seed, Law *law)
 {
-    static const struct { int entry, reference; } wanted[] = {LAW_PARAMETERS};
-    Dual read[LAW_ENTRIES];
-    size_t i;
-    for (i = 0; i < LAW_ENTRIES; i++) {
-        read[i] = number(0.0);
-    }
-    for (i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
-        const int reference = wanted[i].reference;
-        read[wanted[i].entry] = dual(value[reference], seed != NULL ? seed[reference] : 0.0);
-    }
-    law->low = read[LAW_low];
-    law->high = read[LAW_high];
-    law->C1 = read[LAW_C1];
-    law->C2 = read[LAW_C2];
-    law->C3 = read[LAW_C3];
-    law->B4 = read[LAW_B4];
-    law->rate = read[LAW_rate];
-    memcpy(law->spring, &read[LAW_spring], sizeof law->spring);
+    LAW_READ; /* of config.h: which variable is which */
 }
 
 static Fault join_law(Law *law)

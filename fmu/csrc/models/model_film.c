@@ -49,7 +49,14 @@ static Rest rest_at(const Model *m, double u)
         rest.g_u = m->cache[REST_G_U];
         return rest;
     }
-    return film_static(u);
+    if (m->cache[KNOWN] > 0.0) {
+        rest.u = m->cache[REST_U];
+        rest.x = m->cache[REST_X];
+        rest.g = m->cache[REST_G];
+        rest.g_u = m->cache[REST_G_U];
+        return film_static(u, &rest);
+    }
+    return film_static(u, NULL);
 }
 
 static void remember(Model *m, const Rest *rest)
@@ -138,11 +145,11 @@ static void begin(double state[FILM_SIZE], const Rest *rest, double v)
 }
 
 /* Goes through a step in equal parts, from `state` to `state`; the rest at its end goes to `rest`. */
-static FilmForce walk(const Motion *motion, double h, int parts, double state[FILM_SIZE], Rest *rest)
+static FilmStep walk(const Motion *motion, double h, int parts, double state[FILM_SIZE], Rest *rest)
 {
     const double part = h / parts;
     double next[FILM_SIZE];
-    FilmForce found = {0.0, 0.0, 0.0, 0.0};
+    FilmStep found = {{0.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}};
     int i;
     for (i = 1; i <= parts; i++) {
         const double t = i * part;
@@ -155,10 +162,10 @@ static FilmForce walk(const Motion *motion, double h, int parts, double state[FI
             state[APPROACH] = own_approach(u) - own_rate(v) * (part / SCALE_TIME);
         }
         if (own_approach(u) != rest->u) {
-            *rest = film_static(own_approach(u));
+            *rest = film_static(own_approach(u), rest);
         }
         if (!isfinite(rest->g)) {
-            found.argument = HUGE_VAL;
+            found.step.argument = HUGE_VAL;
             return found;
         }
         found = film_step(state, next, part / SCALE_TIME, rest, own_rate(v));
@@ -179,7 +186,7 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
 {
     double first[FILM_SIZE], state[FILM_SIZE];
     Rest start, rest;
-    FilmForce found, now;
+    FilmStep found;
     int parts, k;
     if (!(h / SCALE_TIME >= SHORTEST_STEP)) {
         return fault(REFUSE, "the step size is too small for the film");
@@ -191,17 +198,17 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
     begin(first, &start, own_rate(motion->rate));
     memcpy(&first[INLET], &m->value[FIRST_STATE], FILM_RATES * sizeof first[0]);
     memcpy(state, first, sizeof first);
-    rest = rest_at(m, own_approach(motion->end_approach));
+    rest = own_approach(motion->end_approach) == start.u ? start : film_static(own_approach(motion->end_approach), &start);
     found = walk(motion, h, 1, state, &rest);
     if (motion->meaning != AT_THE_END && unevenness(first, state) > smooth) {
         for (parts = 2; parts <= MOST_PARTS; parts *= 2) {
-            const double coarse = found.argument;
+            const double coarse = found.step.argument;
             double scale;
             memcpy(state, first, sizeof first);
             rest = start;
             found = walk(motion, h, parts, state, &rest);
-            scale = fabs(found.argument) > rest.g ? fabs(found.argument) : rest.g;
-            if (fabs(found.argument - coarse) <= tolerance * scale) {
+            scale = fabs(found.step.argument) > rest.g ? fabs(found.step.argument) : rest.g;
+            if (fabs(found.step.argument - coarse) <= tolerance * scale) {
                 break;
             }
         }
@@ -211,14 +218,11 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
             return fault(DISCARD, too_large);
         }
     }
-    now = film_now(&state[INLET], &rest, own_rate(motion->end_rate));
-    now.argument = found.argument;
-    now.force = found.force;
-    if (!is_finite(&found) || !is_finite(&now)) {
+    if (!is_finite(&found.step) || !is_finite(&found.now)) {
         return fault(DISCARD, too_large);
     }
     memcpy(&m->value[FIRST_STATE], &state[INLET], FILM_RATES * sizeof state[0]);
-    show(m, motion->end_approach, motion->end_rate, &rest, &now, &found);
+    show(m, motion->end_approach, motion->end_rate, &rest, &found.now, &found.step);
     return fine;
 }
 
