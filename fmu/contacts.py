@@ -27,6 +27,7 @@ Element = LinearContact | CubicContact | PolynomialContact | PowerLawContact | F
 Film = FilmMemoryContact | WideRangeContact
 
 SHARE_OF_TRANSIT = 0.05  # of 2a/u_sum, the default step
+FAST_STEP = 0.1  # of the fastest motion, over its angular frequency: what the advice on steps is told for
 ALLOWED_ERROR = 1e-4  # of the force in a step that is cut inside, where the importer gives no tolerance
 
 MEANINGS = Choice(
@@ -214,14 +215,15 @@ def _notes(element: Element) -> tuple[tuple[str, str], ...]:
     for label, details in (("Made for", made), ("Fit", element.fit), ("Source", element.source)):
         if details:
             lines.append((label, _flat(details)))
-    return tuple([*lines, *_steps(element)])
+    lines += [(label.capitalize(), f"{value}: {why}") for label, value, why in step_advice(element)]
+    return tuple(lines)
 
 
-def _steps(element: Element) -> list[tuple[str, str]]:
-    """Largest steps of a co-simulation, by the way of coupling, at the static load."""
+def step_advice(element: Element) -> list[tuple[str, str, str]]:
+    """Steps of a co-simulation, by the way of coupling, at the static load: which, how long, why."""
     unit = " s" if element.units == "SI" else ""
     low, high = element.validity.approach
-    lines = [("Default step", f"{default_step(element):g}{unit}")]
+    lines = [("default step", f"{default_step(element):g}{unit}", "resolves the contact")]
     try:
         u = element.approach_at(element._static_load(None))
     except InputError:
@@ -234,17 +236,19 @@ def _steps(element: Element) -> list[tuple[str, str]]:
     return [
         *lines,
         (
-            "Largest step, force one step late (input_meaning held)",
-            f"{late:.3g}{unit}: a delay of a step h takes K h off the damping, K = {K:.4g}, C = {C:.4g}",
+            "largest step, inputs held",
+            f"{late:.3g}{unit}",
+            f"a force one step h late takes K h off the damping; K = {K:.4g}, C = {C:.4g}",
         ),
         (
-            "Largest step, extrapolated (the default)",
-            f"h with K h (w h)^2 well below C, where w is the fastest frequency of what hangs on the contact: "
-            f"at w h = 0.1, {100.0 * late:.3g}{unit}",
+            "largest step, inputs extrapolated",
+            f"{late / FAST_STEP**2:.3g}{unit}",
+            f"where K h (w h)^2 is C, at w h = {FAST_STEP:g} of the fastest motion w; it goes like (w h)^-2",
         ),
         (
-            "Largest step, force read after inputs are set and before the step; or end, iterated with rollback",
-            "that of the master's own method",
+            "largest step, force read after inputs are set, or iterated",
+            "the master's",
+            "set, get, then fmi2DoStep has no delay; input_meaning 2 (end) is for rollback",
         ),
     ]
 

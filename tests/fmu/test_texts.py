@@ -2,12 +2,13 @@ import dataclasses
 import re
 
 import fmpy
+import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 
 from ehlcontact.errors import InputError
 from fmu.c_headers import c_double
-from fmu.contacts import contact_spec
+from fmu.contacts import contact_spec, step_advice
 from fmu.spec import ModelSpec, Variable
 from fmu.texts import documentation
 
@@ -123,3 +124,18 @@ def test_page_tells_where_the_element_comes_from(elements):
     page = documentation(contact_spec(element), "g(u) < f", "cc")
     for text in ("rms: 0.003", "n: 128", "motion: &lt;free&gt;", "2.5", "g(u) &lt; f", "<code>cc</code>"):
         assert text in page
+
+
+def test_page_names_the_largest_step_of_each_coupling(elements):
+    """Of a held input the delay eats the damping: C over K, at the static load."""
+    for name in ("cubic_si", "wide_si", "power"):
+        element = elements[name]
+        advice = {label: value for label, value, _ in step_advice(element)}
+        u = element.approach_at(element._static_load(None))
+        w = 0.1 / (element.time or 1.0)
+        Z = element._response(np.array([w]), element._static_load(None))[0]
+        late = float(advice["largest step, inputs held"].split()[0])
+        assert late == pytest.approx(Z.imag / w / element.spring_tangent(u), rel=5e-3)
+        notes = dict(contact_spec(element).notes)
+        assert all(advice[label] in notes[label.capitalize()] for label in advice)
+        assert float(advice["default step"].split()[0]) <= 0.05 * (element.time or 1.0)

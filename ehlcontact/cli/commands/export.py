@@ -59,6 +59,7 @@ def export(
         raise InputError("--output", str(output), "a new file, or replaced with --force")
     from fmu import BuildError, VerificationError
     from fmu.binaries import choose
+    from fmu.contacts import step_advice
     from fmu.export import export_verified
     from reduced_models import load_element
 
@@ -82,6 +83,7 @@ def export(
     verdict = {"passes": None} if found is None else found.to_dict()
     document = {"fmu": str(output), "units": element.units, "platforms": built, **verdict}
     rows = [("element", element.kind, element.units), ("binaries", str(len(built)), ", ".join(built))]
+    rows += step_advice(element)
     deliver(
         lambda: write_json(document, json_to),
         lambda: show_table(str(output), [*rows, *_rows(found)], json_to),

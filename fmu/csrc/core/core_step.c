@@ -41,7 +41,7 @@ static double missed(const State *s, double turn, double time, double h)
     const double before = time - s->last_time, most = 0.5 * h * h * fabs(turn);
     const double mean = 0.5 * (s->model.value[VR_rate] + s->last_rate);
     const double again = (s->model.value[VR_approach] - s->last_approach - before * mean) * (h / before) * (h / before);
-    return again > most ? most : again < -most ? -most : again;
+    return again > most ? most : again < -most ? -most : isfinite(again) ? again : 0.0;
 }
 
 /* The motion of a step, from the inputs and what they mean. */
