@@ -158,10 +158,22 @@ def test_derivatives_of_inputs_make_the_motion_exact(slave, film):
     told.raw.setRealInputDerivatives(references, [1, 2, 1], [v, a, a])
     told.step(h)
     assert told.get("force")[0] == pytest.approx(ended.force(*end, h), rel=1e-12)
+    told.set(approach=end[0], rate=end[1])
+    told.step(h)  # for which they are not told: the last change of the rate says the same
+    assert told.get("force")[0] == pytest.approx(
+        ended.force(u + 2 * h * v + 2 * a * h * h, v + 2 * a * h, h), rel=1e-12
+    )
     with pytest.raises(FMICallException):
         ended.raw.setRealInputDerivatives(references[:1], [1], [v])  # which says what the end is itself
     with pytest.raises(FMICallException):
         told.raw.setRealInputDerivatives(references[:1], [3], [v])
+
+
+@pytest.mark.parametrize("to", [0.85, 0.95])
+def test_a_jump_of_the_approach_does_not_go_on(slave, elements, to):
+    unit = slave("cubic", meaning=EXTRAPOLATED, approach=0.9, rate=0.0)
+    unit.step(0.01)
+    assert unit.force(to, 0.0, 0.01) == pytest.approx(float(elements["cubic"].force(to, 0.0)), rel=1e-12)
 
 
 def test_derivatives_of_outputs_in_time(slave):

@@ -38,6 +38,17 @@ def test_unknown_ones_are_named_with_those_there_are(bad):
     assert line.endswith("or all") and "aarch64-linux" not in line
 
 
+def test_folders_of_both_versions():
+    assert [one.folder(3) for one in PLATFORMS.values()] == list(PLATFORMS)
+    assert {name: one.folder(2) for name, one in PLATFORMS.items()} == {
+        "x86_64-linux": "linux64",
+        "aarch64-linux": None,
+        "x86_64-windows": "win64",
+        "x86_64-darwin": "darwin64",
+        "aarch64-darwin": "darwin64",
+    }
+
+
 def test_none_at_all():
     with pytest.raises(InputError, match="one or more of x86_64-linux"):
         choose([], 3)
