@@ -143,7 +143,7 @@ def claim_fmu(page, folder):
     from reduced_models import load_element
 
     found = verify(folder / "contact.fmu", load_element(folder / "elements" / "rotor_band_cubic_si.json"))
-    page.claim("(FMI 2.0 co-simulation")
+    page.claim("(FMI 2.0, co-simulation")
     page.claim("# findings of fmpy's validation", len(found.findings))
     page.claim("force within # (relative) of the Python element over # states", found.force, found.states)
 
