@@ -117,6 +117,17 @@ def test_step_refuses_a_law_that_does_not_exist(logged, change, reason):
     assert reason in lines[-1][2]
 
 
+def test_a_step_that_is_discarded_leaves_what_was_tuned_before_it(logged):
+    unit, _ = logged()
+    unit.set(K1=0.7, approach=1e300)
+    before = snapshot(unit)
+    assert fails(unit.step) == STATUS["discard"]
+    assert snapshot(unit) == before
+    tuned, _ = logged()
+    tuned.set(K1=0.7)
+    assert unit.force(0.9, 0.1) == tuned.force(0.9, 0.1)
+
+
 def test_initialization_refuses_it_too(logged):
     unit, lines = logged(start=False)
     unit.set(C1=-1.0)

@@ -28,6 +28,7 @@ def spoiled(name, old, new):
 
     def packed(files):
         sources = {path[8:]: content for path, content in files.items() if path.startswith("sources/")}
+        assert old.encode() in sources[name]
         sources[name] = sources[name].replace(old.encode(), new.encode())
         units = [path for path in sources if path.endswith(".c")]
         own = binaries.this_machine()
@@ -130,7 +131,7 @@ def test_what_is_verified_is_what_is_written(fmus, elements, tmp_path):
     assert found.passes and found == verify(path, elements["cubic"])
 
 
-@pytest.mark.parametrize("fault", ["differs", "does not run", "is no FMU"])
+@pytest.mark.parametrize("fault", ["differs", "computes otherwise", "does not run", "is no FMU"])
 def test_nothing_is_written_that_is_not_right(elements, tmp_path, monkeypatch, fault):
     """Neither a new file nor in place of an old one."""
     (tmp_path / "old.fmu").write_bytes(b"old")
@@ -139,6 +140,8 @@ def test_nothing_is_written_that_is_not_right(elements, tmp_path, monkeypatch, f
         wrong = dataclasses.replace(elements["cubic"], C1=0.02)
         spec = contact_spec(wrong)
         monkeypatch.setattr("fmu.export.contact_spec", lambda *_: spec)
+    elif fault == "computes otherwise":  # and says nothing wrong of itself
+        monkeypatch.setattr(build, "pack", spoiled("model_contact.c", "times(3.0, K3)", "times(3.001, K3)"))
     elif fault == "does not run":
         monkeypatch.setattr(build, "pack", spoiled("core_step.c", "fault.severity != FINE", "1"))
     else:
@@ -147,6 +150,8 @@ def test_nothing_is_written_that_is_not_right(elements, tmp_path, monkeypatch, f
         with pytest.raises(VerificationError) as error:
             export_contact(elements["cubic"], tmp_path / name, overwrite=True)
         assert "\n" not in str(error.value)
+        if fault == "computes otherwise":
+            assert error.value.found.findings == () and error.value.found.tangents > 1e-6
     assert os.listdir(tmp_path) == ["old.fmu"] and (tmp_path / "old.fmu").read_bytes() == b"old"
 
 

@@ -148,6 +148,17 @@ def test_event_mode_at_lift_off(made3, elements, kind):
         fine.raw.enterEventMode()
 
 
+@pytest.mark.parametrize("meaning", [END, HELD])
+def test_only_an_extrapolated_step_returns_early(made3, meaning):
+    """Of the others no motion within the step is known."""
+    unit = made3(Slave3, "cubic", meaning, eventModeUsed=True, earlyReturnAllowed=True, values={"approach": 0.9})
+    unit.raw.updateDiscreteStates()
+    unit.raw.enterStepMode()
+    unit.set(approach=-0.5)
+    assert unit.step(0.1) == (True, False, False, 0.1)
+    assert unit.get("force", "time") == [0.0, 0.1]
+
+
 def test_intermediate_update_may_read_and_nothing_else(made3):
     seen, failed = [], []
 

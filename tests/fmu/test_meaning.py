@@ -176,13 +176,29 @@ def test_a_jump_of_the_approach_does_not_go_on(slave, elements, to):
     assert unit.force(to, 0.0, 0.01) == pytest.approx(float(elements["cubic"].force(to, 0.0)), rel=1e-12)
 
 
-def test_derivatives_of_outputs_in_time(slave):
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0])
+def test_a_master_that_goes_on_by_the_new_rate_is_foreseen(slave, elements, ratio):
+    """Symplectic Euler under a constant acceleration, steps unequal: the force is that of where it will be."""
+    u, v, a, h = 0.9, 0.3, -2.0, 0.01
+    unit = slave("cubic", meaning=EXTRAPOLATED, approach=u, rate=v)
+    unit.step(h)
+    v += a * h
+    u += v * h
+    force = unit.force(u, v, ratio * h)
+    v += a * ratio * h
+    u += v * ratio * h
+    assert force == pytest.approx(float(elements["cubic"].force(u, v)), rel=1e-12)
+
+
+@pytest.mark.parametrize("a", [0.0, 5.0])
+def test_derivatives_of_outputs_in_time(slave, a):
     unit = slave("wide", meaning=EXTRAPOLATED, approach=0.9, rate=0.2)
     references = [unit.reference["approach"], unit.reference["rate"]]
     forces = []
     for k in range(3):
-        unit.set(approach=0.9 + 0.2e-4 * k, rate=0.2)
-        unit.raw.setRealInputDerivatives([references[1]], [1], [0.0])
+        t = 1e-4 * k
+        unit.set(approach=0.9 + 0.2 * t + 0.5 * a * t * t, rate=0.2 + a * t)
+        unit.raw.setRealInputDerivatives([references[1]], [1], [a])
         unit.step(1e-4)
         forces.append(unit.get("force")[0])
         if k == 1:
