@@ -74,6 +74,7 @@ def test_the_table_says_the_same(call):
     assert "lambda" in result.out and "320" in result.out and "21622 rpm" in result.out
     state = bearing.equilibrium((0.0, -1000.0), speed_rpm=3000.0)
     line = next(line for line in result.out.splitlines() if "films resist rolling" in line)
+    assert any(line.split()[:4] == ["both", "at", "50", "Hz"] for line in result.out.splitlines())
     assert f"{state.rolling_torque * 1e3:.4g} N mm" in line and f"{state.rolling_loss:.4g} W" in line
 
 
@@ -149,6 +150,11 @@ def test_curves_pass_through_what_was_asked_for():
 )  # fmt: skip
 def test_mistakes_in_a_file(refused, file, changes, words):
     refused(("b.toml", *words), "bearing", file(changes))
+
+
+def test_a_study_is_no_file_of_a_bearing(refused):
+    study = EXAMPLE.with_name("small_study.toml")
+    refused(("bearing.conformity = 0.52", "is this a file for `ehlcontact run`?"), "bearing", study)
 
 
 def test_nothing_takes_the_place_of_the_file(refused, file):

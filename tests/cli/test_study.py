@@ -169,6 +169,12 @@ def test_bad_studies(refused, tmp_path, old, new, words):
     assert not (tmp_path / "results").exists()
 
 
+def test_a_file_of_a_bearing_is_no_study(refused, tmp_path):
+    words = ("bearing.catalogue = '6205'", "left out", "is this a file for `ehlcontact bearing`?")
+    refused(words, "run", EXAMPLES / "bearing_6205.toml", "-o", tmp_path / "results")
+    refused(words, "validate", EXAMPLES / "bearing_6205.toml")
+
+
 def test_study_file_and_output_folder(refused, tmp_path):
     refused(("study", "none.toml"), "run", tmp_path / "none.toml")
     (tmp_path / "binary.toml").write_bytes(b"\xff\xfe\x00")

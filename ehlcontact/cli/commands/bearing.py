@@ -67,9 +67,9 @@ def register(app: typer.Typer) -> None:
 
 def bearing(
     source: Annotated[str, typer.Argument(metavar="NAME|FILE.toml", help="As 6205; or a file with dimensions.")],
-    load: Annotated[float | None, typer.Option("--load", help="Radial load, N; >= 0.")] = None,
+    load: Annotated[float | None, typer.Option("--load", help="Radial load, N; >= 0; a NAME needs it.")] = None,
     speed: Annotated[
-        list[float] | None, typer.Option("--speed", help="Of the shaft, rev/min; give it once per speed.")
+        list[float] | None, typer.Option("--speed", help="Of the shaft, rev/min; once each; a NAME needs one.")
     ] = None,
     grade: Annotated[
         int | None, typer.Option("--grade", help="ISO VG of the oil; without an oil: dry.", rich_help_panel=_OIL)
@@ -173,6 +173,7 @@ def _at_speed(b: BallBearing, state: BearingState, at: BearingCoefficients) -> l
         ("deflection", f"{numeral(down)} µm", f"{numeral(swing, 3)} nm up and down as a ball passes"),
         ("along the load", f"{numeral(K[1, 1])} N/µm", f"{numeral(C[1, 1])} N s/m"),
         ("across it", f"{numeral(K[0, 0])} N/µm", f"{numeral(C[0, 0])} N s/m"),
+        ("both at", f"{numeral(at.omega[0] / math.tau)} Hz", "that of the shaft"),
         *_resistance(state),
         *_defects(b.frequencies(at.speed_rpm), 4, "Hz"),
     ]

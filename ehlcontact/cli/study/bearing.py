@@ -12,7 +12,7 @@ from typing import Annotated, Any
 from pydantic import Field, ValidationError
 
 from ehlcontact.cli.study.schema import Finite, NotNegative, Oil, Positive, Roughness, Section
-from ehlcontact.cli.study.slips import QUANTITIES, broken_line, first_error
+from ehlcontact.cli.study.slips import QUANTITIES, broken_line, first_error, in_other_kind
 from ehlcontact.errors import InputError
 from ehlcontact.files import read_text
 from reduced_models import BallBearing
@@ -36,6 +36,7 @@ ENTRIES = {
     "clearance": "bearing.clearance_um",
     "loss_factor": "bearing.loss_factor",
 }
+STUDY = ("free", "harmonic", "rotor", "solver")  # sections that only a study has
 NEEDED = ("balls", "ball_diameter_mm", "pitch_diameter_mm")  # of a bearing without a name
 
 Conformity = Annotated[float, Field(gt=0.5, le=10.0, allow_inf_nan=False)]
@@ -127,7 +128,7 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
         try:
             found = BearingFile.model_validate(document)
         except ValidationError as error:
-            plain = first_error(Path(), error, BearingFile)
+            plain = in_other_kind(first_error(Path(), error, BearingFile), document, STUDY, "run")
             raise InputError(plain.field.removeprefix(".: "), plain.value, plain.allowed) from None
         bearing = _bearing(found)
     speeds = tuple(sorted(set(found.operation.speed_rpm)))

@@ -11,7 +11,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from ehlcontact.cli.study.slips import ROTOR, broken_line, first_error, inputs_of
+from ehlcontact.cli.study.slips import ROTOR, broken_line, first_error, in_other_kind, inputs_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import read_text
 from ehlcontact.lubricant import Lubricant
@@ -308,7 +308,7 @@ def load_study(path: Path) -> Study:
     try:
         study = Study.model_validate(document)
     except ValidationError as error:
-        raise first_error(path, error, Study) from None
+        raise in_other_kind(first_error(path, error, Study), document, ("operation",), "bearing") from None
     given = inputs_of(study)
     try:
         for name, (value, quantity) in {**given, **inputs_of(study, ROTOR)}.items():

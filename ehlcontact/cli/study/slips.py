@@ -84,6 +84,16 @@ def first_error(path: Path, error: ValidationError, study: type[BaseModel]) -> I
     return InputError(f"{path}: {field}", _brief(value), allowed)
 
 
+def in_other_kind(
+    error: InputError, document: Mapping[str, Any], sections: tuple[str, ...], command: str
+) -> InputError:
+    """An error of a file that has sections of the other kind of file: told which command reads that kind."""
+    if not any(name in document for name in sections):
+        return error
+    allowed = f"{error.allowed}; or is this a file for `ehlcontact {command}`?"
+    return InputError(error.field, error.value, allowed)
+
+
 def _range(study: type[BaseModel], field: str) -> str:
     """All that an entry may be, not only the end that it went beyond; empty where the schema does not say."""
     if field in SIZED:
