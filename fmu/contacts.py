@@ -38,7 +38,7 @@ MEANINGS = Choice(
             "inputs are those of the step's start: approach goes on by its rate, rate by its last change",
         ),
         ("end", "inputs are those of the step's end, for masters that iterate"),
-        ("held", "inputs are those of the step's start and stay so; the force comes one step late"),
+        ("held", "inputs are those of the step's start and stay so: the force got is that of the start"),
     ),
 )
 
