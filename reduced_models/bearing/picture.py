@@ -214,7 +214,7 @@ def draw_campbell(campbell: Any, path: str | os.PathLike[str] | None) -> Any:
         above.plot(rpm, hz[:, k], style, color=colour, linewidth=1.3)
         below.plot(rpm, campbell.decrement[:, k], style, color=colour, linewidth=1.3)
     above.plot(rpm, rpm / 60.0, color=GREY, linewidth=1.0, linestyle="-.", label="1x")
-    critical = campbell.critical_speeds()
+    critical = campbell.critical_speeds() if len(campbell.speed_rpm) > 1 else ()
     if critical:
         at = [one.speed_rpm for one in critical], [one.hz for one in critical]
         above.plot(*at, "o", color="black", markersize=5, fillstyle="none", label="critical speeds")

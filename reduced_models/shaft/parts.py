@@ -28,7 +28,16 @@ from reduced_models.shaft.beam import Piece
 _Floats = NDArray[np.float64]
 
 DENSITY = 7800.0  # kg/m3 of steel, as of the balls
+# m, beyond which no rotor on ball bearings goes: along the shaft, and across it. Millimetres are meant there.
+LONGEST, WIDEST = 100.0, 10.0
 ROUNDING = 1e-9  # share by which a polar inertia may pass that of a disc without thickness
+
+
+def _metres(field: str, value: float, largest: float) -> float:
+    """A length > 0 that is none in millimetres."""
+    if require_positive(field, value) > largest:
+        raise InputError(field, value, f"at most {largest:g} m (in mm? then {1e-3 * value:g} m)")
+    return float(value)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -73,9 +82,12 @@ class Shaft:
             column = as_column(
                 name, np.full(lengths.size, given[0]) if given.size == 1 else given, size=lengths.size
             )
-            check = require_nonnegative if name == "bore" else require_positive
             for k, value in enumerate(column.tolist()):
-                check(f"{name}[{k}]" if lengths.size > 1 else name, value)
+                field = f"{name}[{k}]" if lengths.size > 1 else name
+                if name == "bore":
+                    require_nonnegative(field, value)
+                else:
+                    _metres(field, value, LONGEST if name == "length" else WIDEST)
             object.__setattr__(self, name, column)
         if np.any(self.bore >= self.diameter):
             raise InputError("bore", self.bore.tolist(), f"below the diameter {self.diameter.tolist()}")
@@ -183,7 +195,7 @@ class Disc:
         **others
             Unbalance, phase, damping and load, as of the class.
         """
-        outer, thick = require_positive("diameter", diameter), require_positive("width", width)
+        outer, thick = _metres("diameter", diameter, WIDEST), _metres("width", width, WIDEST)
         hole, rho = require_nonnegative("bore", bore), require_positive("density", density)
         if hole >= outer:
             raise InputError("bore", bore, f"below the diameter, {outer:g} m")

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
 from ehlcontact.checks import as_column, require_integer, require_positive
-from ehlcontact.errors import ConvergenceError
+from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import hdf5
 from reduced_models.bearing.rotor import MatrixRotor
 from reduced_models.vibration.linearised import SHOWN, linearise
@@ -71,8 +71,15 @@ class Campbell:
         ----------
         order : float
             1 for unbalance; ``bearing.orders.bpfo`` for the balls that pass.
+
+        Raises
+        ------
+        InputError
+            A diagram of one speed, between which nothing can be met.
         """
         off = self.hz - require_positive("order", order) * self.speed_rpm[:, None] / 60.0
+        if len(self.speed_rpm) < 2:
+            raise InputError("speeds_rpm", self.speed_rpm.tolist(), "at least two, between which modes are met")
         found = []
         for k, mode in zip(*np.nonzero((off[:-1] > 0.0) != (off[1:] > 0.0)), strict=True):
             share = off[k, mode] / (off[k, mode] - off[k + 1, mode])

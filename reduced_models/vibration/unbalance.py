@@ -90,6 +90,9 @@ class UnbalanceResponse:
 def unbalance_response(rotor: MatrixRotor, speeds_rpm: ArrayLike, *, passage: bool = True) -> UnbalanceResponse:
     """Steady response of a rotor on ball bearings to its unbalances, at increasing speeds, films those of each.
 
+    Nothing is known between the speeds: a peak is as wide as decrement/pi of its speed, for films and steel often
+    less than a thousandth, so set speeds that close about those of `Campbell.critical_speeds`.
+
     Parameters
     ----------
     rotor : MatrixRotor

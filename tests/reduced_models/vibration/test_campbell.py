@@ -204,3 +204,10 @@ def test_a_mode_that_stops_to_oscillate(film, block):
 def test_no_unbalance(film, block):
     with pytest.raises(InputError, match=r"unbalances = \(\): must be at least one"):
         unbalance_response(block(film, unbalances=()), [2e3])
+
+
+def test_one_speed_has_no_critical_speeds(film, beam):
+    """An empty answer would read as if there were none."""
+    at_one = campbell(beam(film), [3000.0], count=2)
+    with pytest.raises(InputError, match=r"speeds_rpm = \[\d+.0\]: must be at least two"):
+        at_one.critical_speeds()
