@@ -246,6 +246,9 @@ def test_a_run_that_is_told_to_end_leaves_no_workers(tmp_path):
     process.terminate()
     _, err = process.communicate(timeout=40)
     assert process.returncode == 1 and "resumes" in err.splitlines()[-1] and "Traceback" not in err
+    deadline = time.monotonic() + 5.0  # they end by themselves, a moment after it
+    while any(is_running(worker) for worker in workers) and time.monotonic() < deadline:
+        time.sleep(0.05)
     assert workers and not any(is_running(worker) for worker in workers)
 
 
