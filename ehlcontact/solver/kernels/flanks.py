@@ -154,6 +154,8 @@ def relax_flanks(fields, rhs, law, stencil, c_t, near, marks, team):
         return
     mark_front(fields.P, fields.flow.eps, marks)
     solved, felt = segments(marks, SOLVED), segments(marks, FELT)
+    if len(solved) == 0:
+        return
     fields.w[:] = 0.0
     for _ in range(passes_of(fields.P.shape[1] - 1)):
         for colour in range(2):
@@ -168,6 +170,8 @@ def relax_flanks_alone(fields, rhs, law, stencil, c_t, near, marks):
     """`relax_flanks` by one thread, compiled as a whole: small grids have no time for calls."""
     mark_front(fields.P, fields.flow.eps, marks)
     solved, felt = segments(marks, SOLVED), segments(marks, FELT)
+    if len(solved) == 0:
+        return
     fields.w[:] = 0.0
     for _ in range(passes_of(fields.P.shape[1] - 1)):
         for colour in range(2):
