@@ -10,7 +10,7 @@ module         responsibility
 =============  =======================================================================================
 
 The files are those that the FMI cross-check has (``x_in.csv``, ``x_ref.csv``, ``x_ref.opt``), in the folder and
-with the manifest of the layered standard FMI-LS-REF 1.0.0-beta.1 (https://github.com/modelica/fmi-ls-ref), and told of
+with the manifest of the layered standard FMI-LS-REF 1.0.0-beta.1 (https://github.com/modelica/fmi-ls-ref), told of
 as experiments (https://github.com/modelica/ma-hs-experiments).
 """
 
