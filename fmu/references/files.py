@@ -231,7 +231,7 @@ def _read_parameters(path: Path, known: Mapping[str, Any]) -> dict[str, float]:
         name, value = entry.get("name", ""), entry[0].get("value", "")
         kind = known[name]
         if kind.type == "Enumeration":
-            values[name] = next(float(item.value) for item in kind.declaredType.items if item.name == value)
+            values[name] = {item.name: float(item.value) for item in kind.declaredType.items}[value]
         else:
             values[name] = float(value)
     return values
