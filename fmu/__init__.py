@@ -11,6 +11,7 @@ module          responsibility
 ``glue``        C files of an FMI version, whatever the model
 ``texts``       `ModelSpec` to ``modelDescription.xml`` of FMI 2.0 and ``documentation/index.html``
 ``texts3``      `ModelSpec` to ``modelDescription.xml`` and ``terminalsAndIcons.xml`` of FMI 3.0
+``icon``        the picture of an FMU
 ``binaries``    for which platforms, by which compiler, and what came out
 ``build``       C sources, reproducible zip
 ``export``      `export_contact`: element in, FMU file out

@@ -147,6 +147,10 @@ def _unknown(parent: ElementTree.Element, section: str, reference: int, spec: Mo
 def terminals() -> bytes:
     """``terminalsAndIcons.xml``: approach, rate and force of a contact as one mechanical flange."""
     root = ElementTree.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
+    ends = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
+    shown = ElementTree.SubElement(root, "GraphicalRepresentation")
+    ElementTree.SubElement(shown, "CoordinateSystem", ends, suggestedScalingFactorTo_mm="0.1")
+    ElementTree.SubElement(shown, "Icon", ends)
     flange = ElementTree.SubElement(
         ElementTree.SubElement(root, "Terminals"),
         "Terminal",

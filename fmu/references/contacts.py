@@ -43,7 +43,8 @@ def contact_references(element: Element, spec: ModelSpec) -> References:
         steps = _spring(element, time, approach, rate)
         every = slice(None, None, EVEN[0] // POINTS)
         points = _spring(element, np.arange(time[every].size, dtype=float), approach[every], rate[every])
-    return References(steps, points, {"input_meaning": END})
+    about = "A vibration from rest, with a pulse of load and a lift-off, computed by the element in Python"
+    return References(steps, points, {"input_meaning": END}, about=about)
 
 
 def _reach_of_film(element: Film) -> tuple[float, float, float, float]:
