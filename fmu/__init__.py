@@ -32,5 +32,8 @@ from fmu.export import export_contact as export_contact
 from fmu.gate import VerificationError as VerificationError
 from fmu.references.check import ReferenceCheck as ReferenceCheck
 from fmu.references.check import verify_references as verify_references
+from fmu.references.files import reference_files as reference_files
+from fmu.references.series import References as References
+from fmu.references.series import Trial as Trial
 from fmu.verify import Verification as Verification
 from fmu.verify import verify as verify

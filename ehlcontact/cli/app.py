@@ -60,20 +60,8 @@ def _program(
     """Transient elastohydrodynamic rolling contacts, reduced to elements for rotordynamics."""
 
 
-for module in (
-    steady,
-    simulate,
-    impedance,
-    fit,
-    element,
-    export,
-    verify,
-    validate,
-    run,
-    reproduce,
-    bearing,
-    atlas,
-):
+commands = (steady, simulate, impedance, fit, element, export, verify, validate, run, reproduce, bearing, atlas)
+for module in commands:
     module.register(app)
 
 

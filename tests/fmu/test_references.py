@@ -269,7 +269,7 @@ def test_references_of_other_models(elements, tmp_path):
 
 
 def test_a_rate_of_a_film_is_compared_to_its_own_terms(fmus, elements):
-    """A lag that is slower by 2e-11 is found out; a floor of the fastest filter's size hid it."""
+    """A lag that is wrong by 2e-11 is told as that, and not as a share of the fastest filter."""
     slower = dataclasses.replace(elements["wide"], lag_rate=elements["wide"].lag_rate * (1.0 + 2e-11))
     found = verify(fmus["wide"], slower)
     assert 1.5e-11 < found.exchange < 2.5e-11
