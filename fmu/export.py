@@ -173,7 +173,7 @@ def fmu_files(
     files |= {f"sources/{name}": content for name, content in sources.items() if name not in brought}
     if fmi == 3:
         files["sources/buildDescription.xml"] = build_description(spec.identifier, units)
-        files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals()
+        files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(spec)
     files["model.png" if fmi == 2 else "terminalsAndIcons/icon.png"] = icon()
     for name in filter(None, ("license.txt", glue.licence)):
         files[f"documentation/licenses/{name}"] = (build.CSRC / "licenses" / name).read_bytes()
