@@ -11,6 +11,7 @@ module          responsibility
 ``glue``        C files of an FMI version, whatever the model
 ``texts``       `ModelSpec` to ``modelDescription.xml`` of FMI 2.0 and ``documentation/index.html``
 ``texts3``      `ModelSpec` to ``modelDescription.xml`` and ``terminalsAndIcons.xml`` of FMI 3.0
+``icon``        the picture of an FMU
 ``binaries``    for which platforms, by which compiler, and what came out
 ``build``       C sources, reproducible zip
 ``export``      `export_contact`: element in, FMU file out
@@ -31,5 +32,8 @@ from fmu.export import export_contact as export_contact
 from fmu.gate import VerificationError as VerificationError
 from fmu.references.check import ReferenceCheck as ReferenceCheck
 from fmu.references.check import verify_references as verify_references
+from fmu.references.files import reference_files as reference_files
+from fmu.references.series import References as References
+from fmu.references.series import Trial as Trial
 from fmu.verify import Verification as Verification
 from fmu.verify import verify as verify

@@ -243,7 +243,7 @@ def step_advice(element: Element) -> list[tuple[str, str, str]]:
         (
             "largest step, inputs held",
             f"{late:.3g}{unit}",
-            f"a force one step h late takes K h off the damping; K = {K:.4g}, C = {C:.4g}",
+            f"a force one step h late takes K h off the damping C; K = {K:.4g}, C = {C:.4g}",
         ),
         (
             "largest step, inputs extrapolated",

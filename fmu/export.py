@@ -18,6 +18,7 @@ from fmu.c_headers import c_headers
 from fmu.contacts import Element, contact_spec
 from fmu.gate import require_finite, require_verified
 from fmu.glue import GLUE, compiled
+from fmu.icon import icon
 from fmu.references.contacts import contact_references
 from fmu.references.files import reference_files
 from fmu.references.series import References
@@ -165,14 +166,15 @@ def fmu_files(
     units, glue = compiled(spec, fmi), GLUE[fmi]
     files, labels = build_binaries(sources, units, spec.identifier, platforms, fmi, progress)
     readme = (build.CSRC / "README.md").read_text(encoding="ascii")
+    about = "" if references is None else references.about
     files["modelDescription.xml"] = _description(spec, guid, fmi)
-    files["documentation/index.html"] = documentation(spec, readme, "; ".join(labels), fmi).encode()
+    files["documentation/index.html"] = documentation(spec, readme, "; ".join(labels), fmi, about).encode()
     brought = () if fmi == 2 else glue.standard
     files |= {f"sources/{name}": content for name, content in sources.items() if name not in brought}
     if fmi == 3:
         files["sources/buildDescription.xml"] = build_description(spec.identifier, units)
-        if spec.flanges:
-            files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(spec)
+        files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(spec)
+    files["model.png" if fmi == 2 else "terminalsAndIcons/icon.png"] = icon()
     for name in filter(None, ("license.txt", glue.licence)):
         files[f"documentation/licenses/{name}"] = (build.CSRC / "licenses" / name).read_bytes()
     return files | ({} if references is None else reference_files(references, spec))

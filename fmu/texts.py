@@ -33,7 +33,7 @@ pre {{ background: #f4f4f4; padding: 1em; overflow-x: auto }}</style></head>
 <table>
 <tr><th>name</th><th>causality</th><th>unit</th><th>start</th><th>description</th></tr>
 {variables}
-</table>
+</table>{references}
 <h2>Sources</h2>
 <pre>{readme}</pre>
 <h2>Build</h2>
@@ -44,6 +44,11 @@ compile the files in
 </body>
 </html>
 """
+_REFERENCES = """
+<h2>Reference results</h2>
+<p>In <code>extra/org.fmi-standard.fmi-ls-ref/</code>, for any importer. {about}. Its steps go from each row of the
+tables to the next, with the parameters that are given there; the rows for model exchange stand by themselves.
+<code>ehlcontact verify</code> compares this FMU with them.</p>"""
 
 
 def model_description(spec: ModelSpec, guid: str) -> bytes:
@@ -191,8 +196,11 @@ def _structure(root: ElementTree.Element, spec: ModelSpec) -> None:
             )
 
 
-def documentation(spec: ModelSpec, readme: str, compiler: str, fmi: int = 2) -> str:
-    """``index.html``, shown to an importer's user: variables with units, equations, how the binary was made."""
+def documentation(spec: ModelSpec, readme: str, compiler: str, fmi: int = 2, references: str = "") -> str:
+    """``index.html``, shown to an importer's user: variables with units, equations, how the binary was made.
+
+    With reference results in the FMU, a sentence about them.
+    """
     return _PAGE.format(
         title=escape(spec.name),
         description=escape(spec.description),
@@ -202,6 +210,7 @@ def documentation(spec: ModelSpec, readme: str, compiler: str, fmi: int = 2) -> 
         version=escape(__version__),
         compiler=escape(compiler),
         fmi=fmi,
+        references=references and _REFERENCES.format(about=escape(references)),
     )
 
 

@@ -149,9 +149,13 @@ def _unknown(parent: ElementTree.Element, section: str, reference: int, spec: Mo
 
 
 def terminals(spec: ModelSpec) -> bytes:
-    """``terminalsAndIcons.xml``: approach, rate and force of each contact as a mechanical flange."""
+    """``terminalsAndIcons.xml``: place of the icon; approach, rate and force of each contact as a flange."""
     root = ElementTree.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
-    parent = ElementTree.SubElement(root, "Terminals")
+    ends = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
+    shown = ElementTree.SubElement(root, "GraphicalRepresentation")
+    ElementTree.SubElement(shown, "CoordinateSystem", ends, suggestedScalingFactorTo_mm="0.1")
+    ElementTree.SubElement(shown, "Icon", ends)
+    parent = ElementTree.SubElement(root, "Terminals") if spec.flanges else root  # never an empty list
     for name, text, variables in spec.flanges:
         flange = ElementTree.SubElement(
             parent, "Terminal", name=name, matchingRule="bus", terminalKind=FLANGE, description=text

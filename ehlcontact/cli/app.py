@@ -21,6 +21,7 @@ from ehlcontact.cli.commands import (
     simulate,
     steady,
     validate,
+    verify,
 )
 from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain
 from ehlcontact.cli.streams import StdoutError, watched_stdout
@@ -59,7 +60,8 @@ def _program(
     """Transient elastohydrodynamic rolling contacts, reduced to elements for rotordynamics."""
 
 
-for module in (steady, simulate, impedance, fit, element, export, validate, run, reproduce, bearing, atlas):
+commands = (steady, simulate, impedance, fit, element, export, verify, validate, run, reproduce, bearing, atlas)
+for module in commands:
     module.register(app)
 
 

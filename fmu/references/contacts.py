@@ -20,6 +20,7 @@ VIBRATION = 2.5, 0.3  # angular frequency in that unit, amplitude over the lengt
 PULSES = 4.5, 8.5, 0.8  # when the load comes, when the surfaces part, how long either takes
 DIGITS = 7  # of times and inputs, which are exact in the files then
 POINTS = 12  # states of a film for model exchange
+FAR = -30.0  # approach of one of them, from that under the reference load, over the length scale
 MEMORY = 0.2  # size of the remembered rates there
 
 
@@ -42,7 +43,8 @@ def contact_references(element: Element, spec: ModelSpec) -> References:
         steps = _spring(element, time, approach, rate)
         every = slice(None, None, EVEN[0] // POINTS)
         points = _spring(element, np.arange(time[every].size, dtype=float), approach[every], rate[every])
-    return References(steps, points, {"input_meaning": END})
+    about = "A vibration from rest, with a pulse of load and a lift-off, computed by the element in Python"
+    return References(steps, points, {"input_meaning": END}, about=about)
 
 
 def _reach_of_film(element: Film) -> tuple[float, float, float, float]:
@@ -62,7 +64,7 @@ def _reach_of_spring(element: Any, spec: ModelSpec) -> tuple[float, float, float
     fastest = element.rate if element.rate else share * force / damping if damping > 0.0 else 0.0
     # a rate so small or large that the time it takes is none: the default step has to do
     unit = share * omega * length / fastest if fastest > 0.0 else spec.step / SHARE_OF_TRANSIT
-    return round_down(unit), middle, length, 0.9 * length, middle - lift_off + 0.5 * length
+    return round_down(unit), middle, length, 0.9 * length, 1.5 * (middle - lift_off) + share * length
 
 
 def _motion(
@@ -112,7 +114,9 @@ def _film_points(element: Film, names: list[str]) -> Trial:
     f, length, unit = element._units
     number = np.arange(POINTS)
     middle = element.approach_at(f)
-    approach = _rounded(middle + length * np.linspace(-2.0, 1.5, POINTS))
+    offsets = np.linspace(-2.0, 1.5, POINTS)
+    offsets[0] = FAR  # where the clock of the film is bounded
+    approach = _rounded(middle + length * offsets)
     sign = 1.0 - 2.0 * (number % 2)
     rate = _rounded(np.asarray(2.0 * MEMORY * length / unit * sign))
     order = np.arange(len(names))

@@ -55,7 +55,7 @@ def reference_files(references: References, spec: ModelSpec) -> dict[str, bytes]
         trial = references.steps
         step = float(trial.time[1] - trial.time[0])
         options = {"StartTime": trial.time[0], "StopTime": trial.time[-1], "StepSize": step}
-        entry = _experiment(root, STEPS, "One step from each row to the next", name, bool(references.parameters))
+        entry = _experiment(root, STEPS, references.about, name, bool(references.parameters))
         for key, value in options.items():
             entry.set(key[0].lower() + key[1:], repr(float(value)))
         lines = [f"{key},{float(value)!r}\n" for key, value in options.items()]
@@ -231,7 +231,7 @@ def _read_parameters(path: Path, known: Mapping[str, Any]) -> dict[str, float]:
         name, value = entry.get("name", ""), entry[0].get("value", "")
         kind = known[name]
         if kind.type == "Enumeration":
-            values[name] = next(float(item.value) for item in kind.declaredType.items if item.name == value)
+            values[name] = {item.name: float(item.value) for item in kind.declaredType.items}[value]
         else:
             values[name] = float(value)
     return values

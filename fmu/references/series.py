@@ -47,9 +47,12 @@ class References:
         What is set before initialization; of an enumeration its number.
     tolerance : float
         Largest difference that passes, over the number itself and at least 1e-3 of the largest of its column.
+    about : str
+        What the experiment of `steps` is, in a sentence, for people.
     """
 
     steps: Trial | None
     points: Trial | None
     parameters: Mapping[str, float] = field(default_factory=dict)
     tolerance: float = TOLERANCE
+    about: str = "One step from each row to the next"

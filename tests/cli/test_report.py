@@ -184,7 +184,7 @@ def test_every_number_of_the_page(made, again, rotor, whole, results, refused):
     contact_claims.claim_captions(page, again, rotor)
     contact_claims.claim_fits(page, again, refused)
     contact_claims.claim_memory_and_work(page, again, results)
-    contact_claims.claim_fmu(page, made[1])
+    contact_claims.claim_fmus(page, made[1])
     contact_claims.claim_origin(page, results)
     rotor_claims.claim_headline(page, rotor)
     whole_claims.claim_headline(page, whole)

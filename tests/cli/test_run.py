@@ -19,6 +19,7 @@ from tiny_study import STUDY
 from ehlcontact import Status, assumptions, load
 from ehlcontact.cli.study.rotor import build_rotor, load_rotor
 from ehlcontact.cli.study.schema import load_study
+from fmu import verify_references
 from reduced_models import load_element
 
 PACKAGE_ROOT = Path(__file__).parents[2]
@@ -27,7 +28,11 @@ PACKAGE_ROOT = Path(__file__).parents[2]
 def test_everything_is_there(finished):
     _, folder = finished
     results = json.loads((folder / "results.json").read_text())
-    assert results["fmu"]["passes"] and results["fmu"]["findings"] == []
+    for name, file, kind in (("fmu", "contact.fmu", "cubic"), ("film_fmu", "contact_film.fmu", "memory")):
+        entry = results[name]
+        assert entry["passes"] and entry["findings"] == [] and (entry["file"], entry["kind"]) == (file, kind)
+        assert verify_references(folder / file).passes and "largest step, inputs held" in entry["steps"]
+    assert results["fmu"]["element_states"] == 0 < results["film_fmu"]["element_states"]
     assert results["rotor"]["whole"]["rotor_band"]["force"] < 0.03
     assert results["rotor"]["whole"]["rotor_band"]["displacement"] < 0.03
     assert results["steady"]["status"] == "converged" and results["versions"]["ehlcontact"]
@@ -46,7 +51,8 @@ def test_report_is_self_contained(finished):
     _, folder = finished
     page = (folder / "report.html").read_text()
     assert page.count("data:image/png;base64,") == 13 + 6  # of the contact and its rotor, and of whole bearings
-    assert not re.search(r'(src|href)="(?!data:)', page) and "http" not in re.sub(r'base64,[^"]*', "", page)
+    assert set(re.findall(r'(?:src|href)="(?!data:)([^"]*)', page)) == {"contact.fmu", "contact_film.fmu"}
+    assert "http" not in re.sub(r'base64,[^"]*', "", page)
     assert "Traceback" not in page and "nan" not in re.sub(r'base64,[^"]*', "", page).lower().split()
 
 

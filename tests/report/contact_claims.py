@@ -3,6 +3,7 @@
 import importlib.metadata
 import platform
 
+import fmpy
 import numpy as np
 
 from report.contact import MODELS, POWERS, RECORDS, shape
@@ -138,14 +139,34 @@ def claim_memory_and_work(page, again, results):
     page.claim("the cubic fitted in the contact's own band # uJ", work["harmonic"])
 
 
-def claim_fmu(page, folder):
+def claim_fmus(page, folder):
+    """Each FMU against its element file, without the page's own code for the steps."""
     from fmu import verify
     from reduced_models import load_element
 
-    found = verify(folder / "contact.fmu", load_element(folder / "elements" / "rotor_band_cubic_si.json"))
-    page.claim("(FMI 2.0, co-simulation")
-    page.claim("# findings of fmpy's validation", len(found.findings))
-    page.claim("force within # (relative) of the Python element over # states", found.force, found.states)
+    page.claim("FMUs of elements in SI, FMI 2.0, for co-simulation")
+    steps, whys = {"held": [], "extrapolated": [], "default": []}, []
+    for name, stored in (("contact.fmu", "rotor_band_cubic_si"), ("contact_film.fmu", "memory_si")):
+        element = load_element(folder / "elements" / f"{stored}.json")
+        found = verify(folder / name, element)
+        band = sorted({w / (2.0 * np.pi) for w in element.omega_range})
+        told = " to ".join("#" * len(band))
+        sizes = (element.state_count, len(found.findings), found.force, found.states)
+        page.claim(f"{name} | {element.kind} | {told} Hz | # | # | # | # states", *band, *sizes)
+        load = element._static_load(None)
+        K = element.spring_tangent(element.approach_at(load))
+        slow = 0.1 / element.time
+        C = element.impedance(omega=[slow], load=load)[0].imag / slow
+        steps["held"].append(C / K)
+        steps["extrapolated"].append(100.0 * C / K)
+        steps["default"].append(fmpy.read_model_description(str(folder / name)).defaultExperiment.stepSize)
+        whys += [K, C]
+    page.claim("default step | # s | # s | resolves", *map(float, steps["default"]))
+    late = "a force one step h late takes K h off the damping C; K = #, C = #"
+    page.claim(f"largest step, inputs held | # s | # s | {late}; {late}", *steps["held"], *whys)
+    page.claim("largest step, inputs extrapolated | # s | # s | where K h (w h)^#", *steps["extrapolated"], 2)
+    page.claim("is C, at w h = # of the fastest motion w; it goes like (w h)^-2", 0.1)
+    page.claim("input_meaning 2 (end) is for rollback")
 
 
 def claim_origin(page, results):

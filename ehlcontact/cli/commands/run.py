@@ -1,4 +1,4 @@
-"""``ehlcontact run``: a study file to elements, FMU, rotor comparison and report."""
+"""``ehlcontact run``: a study file to elements, FMUs, rotor comparison and report."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def run(
     threads: Annotated[int, typer.Option("--threads", help="Threads of each, at most the cores.")] = 1,
     json_to: o.JsonTo = None,
 ) -> None:
-    """Do a whole study: steady film, transients, elements, FMU, rotor, report.
+    """Do a whole study: steady film, transients, elements, FMUs, rotor, report.
 
     Run it again to resume: what is finished in the folder and belongs to the same study is kept.
     """
@@ -79,7 +79,7 @@ def _require_room(study: Study, path: Path) -> None:
 
 
 def _compute(study: Study, copy: Path, folder: Path, share: tuple[int, int], json_to: str | None) -> None:
-    """Stages, so many side by side with so many threads each, then elements, FMU, reduced rotors and report."""
+    """Stages, so many side by side with so many threads each, then elements, FMUs, reduced rotors and report."""
     from ehlcontact.cli.study.runner import run_stages
 
     ledger = run_stages(study, copy, folder, *share)
@@ -98,6 +98,8 @@ def _compute(study: Study, copy: Path, folder: Path, share: tuple[int, int], jso
     write_json(found.to_dict(), json_to)
     report = write_report(found, folder / "report.html")
     say(f"{found.answer}\nreport: {report}", json_to)
-    if not found.fmu["passes"]:
-        complain(f"contact.fmu: {found.fmu.get('error') or 'differs from the element'}; the rest is in {folder}")
+    missing = [entry for entry in found.fmus if not entry["passes"]]
+    for entry in missing:
+        complain(f"{entry['file']}: {entry.get('error') or 'differs from the element'}; the rest is in {folder}")
+    if missing:
         raise typer.Exit(FAILED)

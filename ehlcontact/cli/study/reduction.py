@@ -1,4 +1,4 @@
-"""From the records of a study to elements: fits, element files, and the FMU."""
+"""From the records of a study to elements: fits, element files, and the FMUs."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ from reduced_models import (
     fit_memory,
     without_damper,
 )
+from reduced_models.elements.validity import frequency_text
 from reduced_models.fitting.memory import OMEGAS
 
 RECORDS = {
@@ -161,14 +162,27 @@ def save_elements(reduction: Reduction, folder: Path) -> list[Path]:
     return files
 
 
-def export_fmu(element: CubicContact, path: Path) -> dict[str, Any]:
-    """Export the SI element and verify the FMU; what went wrong, whatever it is, stands under ``error``."""
+def export_fmu(element: Any, path: Path) -> dict[str, Any]:
+    """Export an SI element as ``path``, verified; what went wrong, whatever it is, stands under ``error``.
+
+    With the largest steps of each way of coupling under ``steps``, and the frequencies that it is for.
+    """
     from fmu import VerificationError
+    from fmu.contacts import step_advice
     from fmu.export import export_verified
 
-    entry: dict[str, Any] = {"file": path.name, "passes": False}
+    band = element.omega_range
+    entry: dict[str, Any] = {
+        "file": path.name,
+        "passes": False,
+        "kind": element.kind,
+        "element_states": element.state_count,
+        "frequencies": None if band is None else frequency_text(band, element.units),
+        "steps": {},
+    }
     try:
-        _, found = export_verified(element, path, model_name="contact", overwrite=True)
+        entry["steps"] = {way: {"step": step, "why": why} for way, step, why in step_advice(element)}
+        _, found = export_verified(element, path, model_name=path.stem, overwrite=True)
     except Exception as error:  # the rest of the study is worth having without an FMU
         found = error.found if isinstance(error, VerificationError) else None
         entry["error"] = " ".join(str(error).split()) or type(error).__name__

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 from matplotlib.figure import Figure
 
@@ -30,12 +31,24 @@ def write_report(found: Findings, path: Path) -> Path:
         op=found.operating_point,
         scales=found.study.point.scales,
         titles=TITLES,
+        ways=ways_of_coupling(found.fmus),
         names=CONTACTS,
         lost=LOST,
         most_revolutions=MOST_REVOLUTIONS,
         bearings=NAMES,
         usual_damping=USUAL_DAMPING,
     )
+
+
+def ways_of_coupling(fmus: Iterable[Mapping[str, Any]]) -> list[tuple[str, list[str], str]]:
+    """Each way of coupling in a co-simulation, its largest step in each FMU, and why."""
+    told = [fmu["steps"] for fmu in fmus]
+    rows = []
+    for way in dict.fromkeys(way for steps in told for way in steps):
+        found = [steps.get(way, {"step": "-", "why": ""}) for steps in told]
+        whys = dict.fromkeys(entry["why"] for entry in found if entry["why"])
+        rows.append((way, [entry["step"] for entry in found], "; ".join(whys)))
+    return rows
 
 
 def drawings(found: Findings) -> dict[str, Callable[[], Figure]]:

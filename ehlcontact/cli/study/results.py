@@ -50,7 +50,8 @@ class Findings:
     reduction: Reduction
     rotors: RotorFindings
     whole: WholeFindings | None  # where the study has whole bearings
-    fmu: Mapping[str, Any]
+    fmu: Mapping[str, Any]  # of the cubic of the rotor's band
+    film_fmu: Mapping[str, Any] | None  # of the element with a film memory, where there is one
     seconds: Mapping[str, float]  # wall time by stage
 
     @property
@@ -81,6 +82,11 @@ class Findings:
             "h_min_error": None if error is None else error.h_min,
             "rotor_omega": self.study.rotor_omega,
         }
+
+    @property
+    def fmus(self) -> list[Mapping[str, Any]]:
+        """What is said of each FMU of the study."""
+        return [entry for entry in (self.fmu, self.film_fmu) if entry is not None]
 
     @property
     def assumptions(self) -> Assumptions:
@@ -217,6 +223,7 @@ class Findings:
             "fits": self.fits,
             "memory": self.memory,
             "fmu": self.fmu,
+            "film_fmu": self.film_fmu,
             "cycle_work": self.cycle_work,
             "at_rotor_speed": self.at_rotor_speed,
             "at_kicked_mode": self.at_kicked_mode,
@@ -245,11 +252,13 @@ def evaluate(study: Study, folder: Path, ledger: Mapping[str, Mapping[str, Any]]
     reduction = reduce_records(histories, response, scales, assumed)
     save_elements(reduction, folder)
     exported = export_fmu(reduction.chosen, folder / "contact.fmu")
+    film = reduction.memory_si
+    exported_film = None if film is None else export_fmu(film, folder / "contact_film.fmu")
     rotors = compare_rotors(study, response, reduction.rotor_elements, folder)
     seconds = {name: float(note["seconds"]) for name, note in ledger.items()}
-    seconds["elements, FMU, reduced rotors"] = time.perf_counter() - started
+    seconds["elements, FMUs, reduced rotors"] = time.perf_counter() - started
     started = time.perf_counter()
     whole = run_whole(study, folder)
     if whole is not None:
         seconds["rotor on whole bearings"] = time.perf_counter() - started
-    return Findings(study, steady, histories, reduction, rotors, whole, exported, seconds)
+    return Findings(study, steady, histories, reduction, rotors, whole, exported, exported_film, seconds)

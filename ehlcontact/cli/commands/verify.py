@@ -1,0 +1,59 @@
+"""``ehlcontact verify``: an FMU against the reference results inside it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ehlcontact.cli import options as o
+from ehlcontact.cli.output import FAILED, check_apart, check_json, complain, deliver, show_table, write_json
+
+if TYPE_CHECKING:
+    from fmu import ReferenceCheck
+
+
+def register(app: typer.Typer) -> None:
+    """Add the subcommand."""
+    app.command("verify")(verify)
+
+
+def verify(
+    file: Annotated[Path, typer.Argument(metavar="X.fmu", help="FMU written by `export` or `run`.")],
+    json_to: o.JsonTo = None,
+) -> None:
+    """Check an FMU against the reference results inside it; no element is needed.
+
+    Exit code 1 if it differs from them, or fmpy finds something in it; 2 if it cannot be read or has none.
+    """
+    check_json(json_to)
+    check_apart({"--json": json_to}, (file,))
+    from fmu import verify_references
+
+    with o.called(path="file"):
+        found = verify_references(file)
+    document = {"fmu": str(file), **found.to_dict()}
+    deliver(lambda: write_json(document, json_to), lambda: show_table(str(file), _rows(found), json_to))
+    for finding in found.findings:
+        complain(f"{file}: {finding}")
+    for one in found.interfaces:
+        if not one.difference <= found.tolerance:
+            place = f"{one.variable} at {'time' if one.name == 'co-simulation' else 'row'} {one.time:g}"
+            complain(f"{file}: {one.name} differs from its reference results, {place}: by {one.difference:.2e}")
+    if not found.passes:
+        raise typer.Exit(FAILED)
+
+
+def _rows(found: ReferenceCheck) -> list[tuple[str, str, str]]:
+    """What was compared, and how large the differences are."""
+    rows = [
+        ("FMI", found.fmi, ""),
+        ("findings", str(len(found.findings)), "of fmpy's validation and of checksums"),
+    ]
+    for one in found.interfaces:
+        compared = f"{len(one.variables)} variables in {one.rows} rows"
+        unit = f"largest difference, of {one.variable}, over its size; {compared}"
+        rows.append((one.name, f"{one.difference:.1e}", unit))
+    rows.append(("tolerance", f"{found.tolerance:.0e}", "of the differences"))
+    return [*rows, ("verified", "yes" if found.passes else "no", "")]
