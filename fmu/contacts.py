@@ -103,7 +103,11 @@ class Common:
 
     def input(self, name: str, si: str, start: float, nominal: float, text: str) -> None:
         """Append an input."""
-        self.add(name, "input", "continuous", text, unit=self.unit(si), start=start, nominal=_nominal(nominal))
+        rate = "rate" if name == "approach" else None
+        self.add(
+            name, "input", "continuous", text,
+            unit=self.unit(si), start=start, nominal=_nominal(nominal), rate=rate,
+        )  # fmt: skip
 
     def output(self, name: str, si: str, nominal: float, depends: tuple[str, ...], text: str) -> None:
         """Append a real output that is never negative."""

@@ -163,7 +163,8 @@ def fmu_files(
     files |= {f"sources/{name}": content for name, content in sources.items() if name not in brought}
     if fmi == 3:
         files["sources/buildDescription.xml"] = build_description(spec.identifier, units)
-        files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals()
+        if spec.flanges:
+            files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(spec)
     for name in filter(None, ("license.txt", glue.licence)):
         files[f"documentation/licenses/{name}"] = (build.CSRC / "licenses" / name).read_bytes()
     return files

@@ -2,7 +2,6 @@
 #include "core.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "variables.h"
@@ -25,8 +24,7 @@ void core_start(State *s, Kind kind)
     for (i = 0; i < N_VARIABLES; i++) {
         s->model.value[i] = core_variables[i].start;
     }
-    s->model.approach = s->model.value[VR_approach];
-    s->model.rate = s->model.value[VR_rate];
+    memcpy(s->model.input, s->model.value, sizeof s->model.input);
     s->tolerance = DEFAULT_TOLERANCE;
     s->phase = INSTANTIATED;
     s->kind = (int)kind;
@@ -40,17 +38,16 @@ static int is_known(unsigned int reference, Type type)
 
 static const char unknown[] = "no variable of this type has this value reference";
 
-/* The phases in which a variable of this role may be set; none for what is computed. */
-static int settable_in(Role role, int kind)
-{
-    switch (role) {
-    case INPUT: return INSTANTIATED | INITIALIZATION | STEPPING | EVENT | CONTINUOUS;
-    case TUNABLE: return INSTANTIATED | INITIALIZATION | EVENT | (kind == CO_SIMULATION ? STEPPING : 0);
-    case STATE: return INSTANTIATED | INITIALIZATION | (kind == CO_SIMULATION ? 0 : EVENT | CONTINUOUS); /* CasADi */
-    case FIXED: return INSTANTIATED | INITIALIZATION;
-    default: return 0;
-    }
-}
+/* The phases in which a variable may be set, by its role and the kind of instance; none for what is computed. */
+enum { BEFORE = INSTANTIATED | INITIALIZATION, CHANGING = EVENT | CONTINUOUS };
+static const int settable_in[8][2] = { /* CO_SIMULATION, MODEL_EXCHANGE */
+    {BEFORE | STEPPING | CHANGING, BEFORE | STEPPING | CHANGING}, /* INPUT */
+    {BEFORE | STEPPING | EVENT, BEFORE | EVENT},                  /* TUNABLE */
+    {BEFORE, BEFORE},                                             /* FIXED */
+    {0, 0},                                                       /* CONSTANT */
+    {BEFORE, BEFORE | CHANGING},                                  /* STATE: CasADi sets them so */
+    {0, 0}, {0, 0}, {0, 0}                                        /* DERIVATIVE, OUTPUT, MEASURE */
+};
 
 Fault core_may_set(const State *s, unsigned int reference, Type type, double value)
 {
@@ -58,7 +55,7 @@ Fault core_may_set(const State *s, unsigned int reference, Type type, double val
     if (!is_known(reference, type)) {
         return refuse(unknown);
     }
-    phases = settable_in(core_variables[reference].role, s->kind);
+    phases = settable_in[core_variables[reference].role][s->kind];
     if (phases == 0) {
         return refuse("an output, a state's derivative or a constant cannot be set");
     }
@@ -74,50 +71,59 @@ Fault core_may_set(const State *s, unsigned int reference, Type type, double val
 Fault core_set(State *s, const unsigned int references[], size_t count, Type type, const double values[])
 {
     size_t i;
+    int stale;
     for (i = 0; i < count; i++) {
         const Fault fault = core_may_set(s, references[i], type, values[i]);
         if (fault.severity != FINE) {
             return fault;
         }
     }
+    stale = count > 0 ? STALE_OUTPUTS | STALE_RATES : 0;
     for (i = 0; i < count; i++) {
         const Role role = core_variables[references[i]].role;
         s->model.value[references[i]] = values[i];
-        if (role == INPUT) {
-            s->model.approach = s->model.value[VR_approach];
-            s->model.rate = s->model.value[VR_rate];
-        }
-        s->stale |= STALE_OUTPUTS | STALE_RATES | (role == TUNABLE ? STALE_LAW : 0);
+        stale |= role == TUNABLE ? STALE_LAW : role == INPUT ? STALE_INPUTS : 0;
     }
+    s->stale |= stale;
     return fine;
+}
+
+/* Outputs by parameters that were tuned; on a copy, so that a law that is refused changes nothing. */
+static Fault tuned(Model *model)
+{
+    Model anew = *model;
+    Fault fault = model_prepare(&anew);
+    if (fault.severity == FINE) {
+        fault = model_evaluate(&anew);
+    }
+    if (fault.severity == FINE) {
+        *model = anew;
+    }
+    return fault;
 }
 
 /* Outputs that do not exist are no error of the call: other inputs or parameters can help. */
 Fault core_outputs(State *s)
 {
-    Model prepared;
-    Fault fault = {DISCARD, "approach and rate must be finite"};
+    double before[N_INPUTS];
+    Fault fault = {DISCARD, INPUT_NAMES " must be finite"};
+    int k;
     if ((s->stale & (STALE_LAW | STALE_OUTPUTS)) == 0) {
         return fine;
     }
-    if (!(isfinite(s->model.approach) && isfinite(s->model.rate))) {
-        return fault;
+    memcpy(before, s->model.input, sizeof before);
+    if ((s->stale & STALE_INPUTS) != 0) {
+        memcpy(s->model.input, s->model.value, sizeof before);
     }
-    if ((s->stale & STALE_LAW) == 0) {
-        fault = model_evaluate(&s->model);
-    } else {
-        prepared = s->model;
-        fault = model_prepare(&prepared);
-        if (fault.severity == FINE) {
-            fault = model_evaluate(&prepared);
-        }
-        if (fault.severity == FINE) {
-            s->model = prepared;
-        }
+    for (k = 0; k < N_INPUTS && isfinite(s->model.input[k]); k++) {
+    }
+    if (k == N_INPUTS) {
+        fault = (s->stale & STALE_LAW) != 0 ? tuned(&s->model) : model_evaluate(&s->model);
     }
     if (fault.severity == FINE) {
-        s->stale &= ~(STALE_LAW | STALE_OUTPUTS | (N_STATES == 0 ? STALE_RATES : 0));
+        s->stale &= ~(STALE_LAW | STALE_INPUTS | STALE_OUTPUTS | (N_STATES == 0 ? STALE_RATES : 0));
     } else {
+        memcpy(s->model.input, before, sizeof before);
         fault.severity = DISCARD;
     }
     return fault;
@@ -179,9 +185,8 @@ Fault core_exit_initialization(State *s)
     if (fault.severity != FINE) {
         return refuse(fault.reason);
     }
-    s->now_approach = s->model.approach;
-    s->now_rate = s->model.rate;
-    s->in_contact = s->model.indicator > 0.0;
+    memcpy(s->now, s->model.input, sizeof s->now);
+    s->contact = core_contact(s);
     s->phase = s->kind == MODEL_EXCHANGE ? EVENT : STEPPING;
     return fine;
 }
@@ -206,13 +211,23 @@ Fault core_set_time(State *s, double time)
     return fine;
 }
 
+unsigned long long core_contact(const State *s)
+{
+    unsigned long long contact = 0;
+    int i;
+    for (i = 0; i < N_CONTACTS; i++) {
+        contact |= (s->model.indicator[i] > 0.0 ? 1ULL : 0ULL) << i;
+    }
+    return contact;
+}
+
 Fault core_contact_changed(State *s, int *changed)
 {
     const Fault fault = core_outputs(s);
     if (fault.severity == FINE) {
-        const int in_contact = s->model.indicator > 0.0;
-        *changed = in_contact != s->in_contact;
-        s->in_contact = in_contact;
+        const unsigned long long contact = core_contact(s);
+        *changed = contact != s->contact;
+        s->contact = contact;
     }
     return fault;
 }
@@ -221,18 +236,14 @@ Fault core_contact_changed(State *s, int *changed)
 
 const char *core_notice(State *s, char *text, size_t size)
 {
-    const double *value = s->model.value;
-    const int outside = (value[VR_outside_approach] > 0.0 ? 1 : 0) | (value[VR_outside_rate] > 0.0 ? 2 : 0)
-                        | (value[VR_outside_force] > 0.0 ? 4 : 0);
-    const int before = s->noticed;
+    static const char lead[] = "outside the validity box:";
+    const unsigned long long outside = model_outside(&s->model), before = s->noticed;
     s->noticed = outside;
     if ((outside & ~before) == 0) {
         return NULL;
     }
-    snprintf(text, size, "outside the validity box:%s%s%s",
-             (outside & 1) == 0 ? "" : s->model.approach < value[VR_low] ? " approach below low;" : " approach above high;",
-             (outside & 2) == 0 ? "" : " rate;", (outside & 4) == 0 ? "" : " force;");
-    text[strlen(text) - 1] = '\0';
+    memcpy(text, lead, sizeof lead);
+    model_name_outside(&s->model, outside, text + sizeof lead - 1, size - sizeof lead + 1);
     return text;
 }
 

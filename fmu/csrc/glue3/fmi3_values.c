@@ -1,7 +1,12 @@
 /* FMI 3.0 around the core: variables, dependencies, directional and adjoint derivatives. */
 #include "fmi3_instance.h"
 
-/* ---- real variables, the time and the event indicator among them ---- */
+/* ---- real variables, the time and the event indicators among them ---- */
+
+static int is_indicator(unsigned int reference)
+{
+    return reference >= VR_indicator && reference < VR_indicator + N_CONTACTS;
+}
 
 static Fault get(Instance *instance, unsigned int reference, double *value)
 {
@@ -10,12 +15,12 @@ static Fault get(Instance *instance, unsigned int reference, double *value)
         *value = instance->state.time;
         return fault;
     }
-    if (reference != VR_indicator) {
+    if (!is_indicator(reference)) {
         return core_get(&instance->state, &reference, 1, REAL, value);
     }
     fault = core_outputs(&instance->state);
     if (fault.severity == FINE) {
-        *value = instance->state.model.indicator;
+        *value = instance->state.model.indicator[reference - VR_indicator];
     }
     return fault;
 }

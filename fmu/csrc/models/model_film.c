@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "film_law.h"
-#include "model.h"
+#include "validity.h"
 
 /* Entries of the cache: the static curve where it was last asked for. */
 enum { KNOWN, REST_U, REST_X, REST_G, REST_G_U };
@@ -39,13 +39,19 @@ static const double damping_unit = SCALE_FORCE / SCALE_LENGTH * SCALE_TIME;
 
 /* ---- static curve, remembered ---- */
 
-static void rest_at(const Model *m, double u, Rest *rest)
+/* Where it was last asked for; 0 if it never was. */
+static int known(const Model *m, Rest *rest)
 {
     rest->u = m->cache[REST_U];
     rest->x = m->cache[REST_X];
     rest->g = m->cache[REST_G];
     rest->g_u = m->cache[REST_G_U];
-    if (!(m->cache[KNOWN] > 0.0)) {
+    return m->cache[KNOWN] > 0.0;
+}
+
+static void rest_at(const Model *m, double u, Rest *rest)
+{
+    if (!known(m, rest)) {
         film_static(u, NULL, rest);
     } else if (rest->u != u) {
         film_static(u, rest, rest);
@@ -73,9 +79,9 @@ static int is_finite(const FilmForce *found)
 static void show(Model *m, double approach, double rate, const Rest *rest, const FilmForce *now,
                  const FilmForce *step)
 {
-    m->approach = approach;
-    m->rate = rate;
-    m->indicator = now->argument;
+    m->input[VR_approach] = approach;
+    m->input[VR_rate] = rate;
+    m->indicator[0] = now->argument;
     m->value[VR_force] = now->force * SCALE_FORCE;
     m->value[VR_stiffness] = now->stiffness * stiffness_unit;
     m->value[VR_damping] = now->damping * damping_unit;
@@ -98,8 +104,8 @@ Fault model_evaluate(Model *m)
     Rest rest;
     FilmForce now;
     int k;
-    rest_at(m, own_approach(m->approach), &rest);
-    now = film_now(&m->value[FIRST_STATE], &rest, own_rate(m->rate));
+    rest_at(m, own_approach(m->input[VR_approach]), &rest);
+    now = film_now(&m->value[FIRST_STATE], &rest, own_rate(m->input[VR_rate]));
     for (k = 0; k < FILM_RATES; k++) {
         if (!isfinite(m->value[FIRST_STATE + k])) {
             return fault(REFUSE, "the states must be finite");
@@ -108,7 +114,7 @@ Fault model_evaluate(Model *m)
     if (!is_finite(&now)) {
         return fault(DISCARD, too_large);
     }
-    show(m, m->approach, m->rate, &rest, &now, &now);
+    show(m, m->input[VR_approach], m->input[VR_rate], &rest, &now, &now);
     return fine;
 }
 
@@ -117,8 +123,8 @@ Fault model_rates(Model *m)
     double rates[FILM_RATES];
     Rest rest;
     int k;
-    rest_at(m, own_approach(m->approach), &rest);
-    film_rates(&m->value[FIRST_STATE], &rest, own_rate(m->rate), rates);
+    rest_at(m, own_approach(m->input[VR_approach]), &rest);
+    film_rates(&m->value[FIRST_STATE], &rest, own_rate(m->input[VR_rate]), rates);
     for (k = 0; k < FILM_RATES; k++) {
         if (!isfinite(rates[k] / SCALE_TIME)) {
             return fault(DISCARD, "a derivative of the film's states is too large for a floating-point number");
@@ -144,16 +150,17 @@ static void begin(double state[FILM_SIZE], const Rest *rest, double v)
 static int walk(const Motion *motion, double h, int parts, double first[FILM_SIZE], double last[FILM_SIZE],
                  Rest *rest, FilmStep *found)
 {
+    const Path *approach = &motion->input[VR_approach], *rate = &motion->input[VR_rate];
     const double part = h / parts;
     double other[FILM_SIZE];
     double *from = first, *to = parts % 2 == 1 ? last : other;
     int i;
     for (i = 1; i <= parts; i++) {
         const double t = i * part;
-        double u = motion->end_approach, v = motion->end_rate;
+        double u = approach->end, v = rate->end;
         if (i < parts && motion->meaning == EXTRAPOLATED) {
-            u = motion->approach + t * (motion->slope + 0.5 * t * motion->bend);
-            v = motion->rate + t * motion->turn;
+            u = approach->start + t * (approach->slope + 0.5 * t * approach->bend);
+            v = rate->start + t * rate->slope;
         }
         if (motion->meaning == HELD) { /* an approach that moves on, so that the rate is what it is throughout */
             from[APPROACH] = own_approach(u) - own_rate(v) * (part / SCALE_TIME);
@@ -188,13 +195,15 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
     if (!(h / SCALE_TIME >= SHORTEST_STEP)) {
         return fault(REFUSE, "the step size is too small for the film");
     }
-    rest_at(m, own_approach(motion->approach), &start);
+    rest_at(m, own_approach(motion->input[VR_approach].start), &start);
     if (!isfinite(start.g)) {
         return fault(DISCARD, too_large);
     }
-    begin(first, &start, own_rate(motion->rate));
+    begin(first, &start, own_rate(motion->input[VR_rate].start));
     memcpy(&first[INLET], &m->value[FIRST_STATE], FILM_RATES * sizeof first[0]);
-    rest = start;
+    if (!known(m, &rest)) { /* else both ends are sought from there, which a processor does at once */
+        rest = start;
+    }
     if (!walk(motion, h, 1, first, state, &rest, &found)) {
         return fault(DISCARD, too_large);
     }
@@ -221,7 +230,7 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
         return fault(DISCARD, too_large);
     }
     memcpy(&m->value[FIRST_STATE], &state[INLET], FILM_RATES * sizeof state[0]);
-    show(m, motion->end_approach, motion->end_rate, &rest, &found.now, &found.step);
+    show(m, motion->input[VR_approach].end, motion->input[VR_rate].end, &rest, &found.now, &found.step);
     return fine;
 }
 
@@ -235,8 +244,8 @@ void model_direction(const Model *m, const double seed[], double along[])
     FilmInstant now;
     Rest rest;
     int k;
-    rest_at(m, own_approach(m->approach), &rest);
-    film_instant(states, &rest, own_rate(m->rate), &now);
+    rest_at(m, own_approach(m->input[VR_approach]), &rest);
+    film_instant(states, &rest, own_rate(m->input[VR_rate]), &now);
     force = now.by[0] * du + now.by[1] * dv;
     stiffness = now.second[0][0] * du + now.second[0][1] * dv;
     damping = now.second[1][0] * du + now.second[1][1] * dv;
@@ -248,7 +257,7 @@ void model_direction(const Model *m, const double seed[], double along[])
     along[VR_force] = force * SCALE_FORCE;
     along[VR_stiffness] = stiffness * stiffness_unit;
     along[VR_damping] = damping * damping_unit;
-    film_rates_along(states, &rest, own_rate(m->rate), du, dv, ds, change);
+    film_rates_along(states, &rest, own_rate(m->input[VR_rate]), du, dv, ds, change);
     for (k = 0; k < FILM_RATES; k++) {
         along[FIRST_DERIVATIVE + k] = change[k] / SCALE_TIME;
     }
