@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import statistics
 import subprocess
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 
 from conv import Bracket, circumstances
@@ -50,18 +52,32 @@ def prepare(kind: str, meaning: str, folder: Path) -> list[str]:
     files = fmu_files(spec, (machine,), 2)
     library = folder / f"{kind}{machine.suffix}"
     library.write_bytes(files[f"binaries/{machine.folder(2)}/{library.name}"])
+    value = 1 + [name for name, _ in MEANINGS.items].index(meaning)
+    asked = (value, spec["input_meaning"].value_reference, OUTPUTS[kind])
+    return command(timer(folder), library, content_guid(spec, 2), "", asked, PERIODS[kind])
+
+
+def timer(folder: Path) -> Path:
+    """The program that times, compiled into `folder`."""
+    machine = this_machine()
+    assert machine is not None
     program, source = folder / "fmu_steps", Path(__file__).with_suffix(".c")
     line = [*compilers(machine)[0].command, "-std=c99", "-O2", "-I", str(CSRC / "fmi2"), str(source)]
     subprocess.run([*line, "-o", str(program), "-lm", "-ldl"], check=True)
-    value = 1 + [name for name, _ in MEANINGS.items].index(meaning)
-    numbers = (value, spec["input_meaning"].value_reference, OUTPUTS[kind], STEP, MEAN, AMPLITUDE,
-               STEPS_PER_PERIOD, PERIODS[kind], REPETITIONS)  # fmt: skip
-    return [str(program), str(library), content_guid(spec, 2), *map(str, numbers)]
+    return program
 
 
-def median_step(timed: list[str]) -> Row:
-    """Wall and processor seconds of a million steps, medians of the repetitions."""
-    told = subprocess.run(timed, capture_output=True, text=True, check=True).stdout
-    wall, cpu = zip(*(map(float, line.split()) for line in told.splitlines()), strict=True)
+def command(
+    program: Path, library: Path, guid: str, resources: str, asked: tuple[int, int, int], periods: int
+) -> list[str]:
+    """Its command line; `asked`: input_meaning, its value reference (-1 for none), number of outputs."""
+    motion = (STEP, MEAN, AMPLITUDE, STEPS_PER_PERIOD, periods, REPETITIONS)
+    return [str(program), str(library), guid, resources, *map(str, (*asked, *motion))]
+
+
+def median_step(timed: list[str], more: Mapping[str, str] | None = None) -> Row:
+    """Wall and processor seconds of a million steps, medians; `more` is added to the environment."""
+    told = subprocess.run(timed, capture_output=True, text=True, check=True, env=os.environ | dict(more or {}))
+    wall, cpu = zip(*(map(float, line.split()) for line in told.stdout.splitlines()), strict=True)
     spent = MILLION * statistics.median(cpu)
     return {"seconds": MILLION * statistics.median(wall), "cpu": spent, "us": spent}
