@@ -2,6 +2,7 @@
 
 import json
 import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -20,7 +21,19 @@ def tools():
     sys.path.insert(0, str(FOLDER))
     yield
     sys.path.remove(str(FOLDER))
-    for name in ("box", "conv", "cycles", "honest", "honest_step", "ledger", "modes", "page", "run"):
+    names = (
+        "box",
+        "conv",
+        "cycles",
+        "fmu_python",
+        "fmu_steps",
+        "honest",
+        "honest_step",
+        "ledger",
+        "modes",
+        "page",
+    )
+    for name in (*names, "run"):
         sys.modules.pop(name, None)
 
 
@@ -312,3 +325,27 @@ def test_local_modes_without_film_are_gauss_seidel_by_lines():
     import modes
 
     assert modes.smoothing_factor(1e6, 1.0) == pytest.approx(0.25, rel=0.02)
+
+
+def test_steps_of_an_fmu_are_timed_from_c(tmp_path):
+    import fmu_steps
+
+    timed = fmu_steps.prepare("cubic", "extrapolated", tmp_path)
+    *rest, _, _ = timed
+    row = fmu_steps.median_step([*rest, "10", "3"])  # periods, repetitions
+    assert 0.0 < row["us"] == row["cpu"] <= row["seconds"] + 0.01
+    timed[2] = "{another}"  # GUID
+    refused = subprocess.run(timed, capture_output=True, text=True)
+    assert (refused.returncode, refused.stderr) == (1, "no instance\n")
+
+
+@pytest.mark.slow
+def test_a_step_from_c_is_far_below_that_of_a_model_in_python(tmp_path):
+    import fmu_python
+
+    measured = fmu_python.compared(tmp_path)
+    if measured is None:
+        pytest.skip("pythonfmu is not installed")
+    found, gap = measured
+    assert gap < 1e-14  # of forces about 1: the same model
+    assert found["from C"]["pythonfmu"] > 30.0 * found["from C"]["ours"]

@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 from conv import Bracket, circumstances, median_seconds
+from fmu_steps import fmu_steps
 from honest import measure
 from honest_step import MOTIONS, measure_step
 from ledger import Ledger, Row, Task, work_through
@@ -118,6 +119,11 @@ def tasks(grids: tuple[int, ...], repeat: int | None = None) -> list[Task]:
     found.append(Task("fitted cubic element", fitted_element, (), 5.0))
     found.append(Task("impedance, 12 frequencies", impedance_of_twelve, (), 5.0))
     found += [Task(f"bearing, 1000 steps, {kernel}", bearing, (kernel,), 5.0) for kernel in ("kernel", "elements")]
+    found += [
+        Task(f"FMU, a million steps, {kind} {meaning}", fmu_steps, (kind, meaning), 6.0)
+        for kind in ("cubic", "film")
+        for meaning in ("extrapolated", "end")
+    ]
     return found + [
         Task(f"deflection {engine} {n}", deflection, (engine, n), 3.0)
         for n in grids
@@ -139,6 +145,8 @@ def line(key: str, row: Row) -> str:
     if row.get("factor") is not None:
         parts.append(f"factor {row['factor']:.2f} per cycle of {row['work']:.1f} V(2,1)")
     parts += [str(row[name]) for name in ("verdict",) if name in row]
+    if "us" in row:
+        parts.append(f"{row['us']:.3f} us a step")
     if "peak_mb" in row:
         parts.append(f"{row['peak_mb']:.0f} MB")
     if row.get("newton_gap"):

@@ -38,17 +38,16 @@ static int is_known(unsigned int reference, Type type)
 
 static const char unknown[] = "no variable of this type has this value reference";
 
-/* The phases in which a variable of this role may be set; none for what is computed. */
-static int settable_in(Role role, int kind)
-{
-    switch (role) {
-    case INPUT: return INSTANTIATED | INITIALIZATION | STEPPING | EVENT | CONTINUOUS;
-    case TUNABLE: return INSTANTIATED | INITIALIZATION | EVENT | (kind == CO_SIMULATION ? STEPPING : 0);
-    case STATE: return INSTANTIATED | INITIALIZATION | (kind == CO_SIMULATION ? 0 : EVENT | CONTINUOUS); /* CasADi */
-    case FIXED: return INSTANTIATED | INITIALIZATION;
-    default: return 0;
-    }
-}
+/* The phases in which a variable may be set, by its role and the kind of instance; none for what is computed. */
+enum { BEFORE = INSTANTIATED | INITIALIZATION, CHANGING = EVENT | CONTINUOUS };
+static const int settable_in[8][2] = { /* CO_SIMULATION, MODEL_EXCHANGE */
+    {BEFORE | STEPPING | CHANGING, BEFORE | STEPPING | CHANGING}, /* INPUT */
+    {BEFORE | STEPPING | EVENT, BEFORE | EVENT},                  /* TUNABLE */
+    {BEFORE, BEFORE},                                             /* FIXED */
+    {0, 0},                                                       /* CONSTANT */
+    {BEFORE, BEFORE | CHANGING},                                  /* STATE: CasADi sets them so */
+    {0, 0}, {0, 0}, {0, 0}                                        /* DERIVATIVE, OUTPUT, MEASURE */
+};
 
 Fault core_may_set(const State *s, unsigned int reference, Type type, double value)
 {
@@ -56,7 +55,7 @@ Fault core_may_set(const State *s, unsigned int reference, Type type, double val
     if (!is_known(reference, type)) {
         return refuse(unknown);
     }
-    phases = settable_in(core_variables[reference].role, s->kind);
+    phases = settable_in[core_variables[reference].role][s->kind];
     if (phases == 0) {
         return refuse("an output, a state's derivative or a constant cannot be set");
     }
@@ -72,52 +71,59 @@ Fault core_may_set(const State *s, unsigned int reference, Type type, double val
 Fault core_set(State *s, const unsigned int references[], size_t count, Type type, const double values[])
 {
     size_t i;
+    int stale;
     for (i = 0; i < count; i++) {
         const Fault fault = core_may_set(s, references[i], type, values[i]);
         if (fault.severity != FINE) {
             return fault;
         }
     }
+    stale = count > 0 ? STALE_OUTPUTS | STALE_RATES : 0;
     for (i = 0; i < count; i++) {
         const Role role = core_variables[references[i]].role;
         s->model.value[references[i]] = values[i];
-        if (role == INPUT) {
-            memcpy(s->model.input, s->model.value, sizeof s->model.input);
-        }
-        s->stale |= STALE_OUTPUTS | STALE_RATES | (role == TUNABLE ? STALE_LAW : 0);
+        stale |= role == TUNABLE ? STALE_LAW : role == INPUT ? STALE_INPUTS : 0;
     }
+    s->stale |= stale;
     return fine;
+}
+
+/* Outputs by parameters that were tuned; on a copy, so that a law that is refused changes nothing. */
+static Fault tuned(Model *model)
+{
+    Model anew = *model;
+    Fault fault = model_prepare(&anew);
+    if (fault.severity == FINE) {
+        fault = model_evaluate(&anew);
+    }
+    if (fault.severity == FINE) {
+        *model = anew;
+    }
+    return fault;
 }
 
 /* Outputs that do not exist are no error of the call: other inputs or parameters can help. */
 Fault core_outputs(State *s)
 {
-    Model prepared;
+    double before[N_INPUTS];
     Fault fault = {DISCARD, INPUT_NAMES " must be finite"};
     int k;
     if ((s->stale & (STALE_LAW | STALE_OUTPUTS)) == 0) {
         return fine;
     }
-    for (k = 0; k < N_INPUTS; k++) {
-        if (!isfinite(s->model.input[k])) {
-            return fault;
-        }
+    memcpy(before, s->model.input, sizeof before);
+    if ((s->stale & STALE_INPUTS) != 0) {
+        memcpy(s->model.input, s->model.value, sizeof before);
     }
-    if ((s->stale & STALE_LAW) == 0) {
-        fault = model_evaluate(&s->model);
-    } else {
-        prepared = s->model;
-        fault = model_prepare(&prepared);
-        if (fault.severity == FINE) {
-            fault = model_evaluate(&prepared);
-        }
-        if (fault.severity == FINE) {
-            s->model = prepared;
-        }
+    for (k = 0; k < N_INPUTS && isfinite(s->model.input[k]); k++) {
+    }
+    if (k == N_INPUTS) {
+        fault = (s->stale & STALE_LAW) != 0 ? tuned(&s->model) : model_evaluate(&s->model);
     }
     if (fault.severity == FINE) {
-        s->stale &= ~(STALE_LAW | STALE_OUTPUTS | (N_STATES == 0 ? STALE_RATES : 0));
+        s->stale &= ~(STALE_LAW | STALE_INPUTS | STALE_OUTPUTS | (N_STATES == 0 ? STALE_RATES : 0));
     } else {
+        memcpy(s->model.input, before, sizeof before);
         fault.severity = DISCARD;
     }
     return fault;

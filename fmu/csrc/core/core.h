@@ -33,7 +33,7 @@ typedef struct {
     double start, nominal;
 } Variable;
 
-enum { STALE_LAW = 1, STALE_OUTPUTS = 2, STALE_RATES = 4 }; /* what must be computed anew */
+enum { STALE_LAW = 1, STALE_OUTPUTS = 2, STALE_RATES = 4, STALE_INPUTS = 8 }; /* what must be computed anew */
 
 /* All of an instance that can change, without padding: its bytes are the serialized state. */
 typedef struct {

@@ -54,14 +54,14 @@ static double turn_of(const State *s, int k, double time)
     return has_history(s, time) ? (s->model.value[k] - s->last[k]) / (time - s->last_time) : 0.0;
 }
 
-/* What the mean rate has missed of the last change of the approach, for the step to come. A master that advances the
+/* The bend that the mean rate has missed in the last change of the approach, for the step to come. A master that advances the
  * approach by the rate at the end of its steps (symplectic Euler) misses half the change of the rate, in the next step
  * again; more than that is a jump, which tells nothing of the next step. */
-static double missed(const State *s, int k, double turn, double time, double h)
+static double missed(const State *s, int k, double turn, double time)
 {
-    const double before = time - s->last_time, most = 0.5 * h * h * fabs(turn);
+    const double before = time - s->last_time, most = fabs(turn);
     const double mean = 0.5 * (s->model.value[rate_of[k]] + s->last[rate_of[k]]);
-    const double again = (s->model.value[k] - s->last[k] - before * mean) * (h / before) * (h / before);
+    const double again = 2.0 * (s->model.value[k] - s->last[k] - before * mean) / (before * before);
     return again > most ? most : again < -most ? -most : isfinite(again) ? again : 0.0;
 }
 
@@ -82,7 +82,7 @@ static void extrapolate(const State *s, int k, double time, double h, Motion *mo
     } else {
         p->bend = motion->input[rate_of[k]].slope;
         if ((s->slopes_set[0] | s->slopes_set[1]) == 0 && has_history(s, time)) {
-            p->bend += 2.0 * missed(s, k, p->bend, time, h) / (h * h);
+            p->bend += missed(s, k, p->bend, time);
         }
     }
     p->end = x + h * (p->slope + 0.5 * h * p->bend);

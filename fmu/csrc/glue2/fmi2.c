@@ -27,26 +27,13 @@ fmi2Status fail(const Instance *instance, const char *function, const char *mess
     return fmi2Error;
 }
 
-fmi2Status outcome(const Instance *instance, Fault fault, const char *function)
+fmi2Status refused(const Instance *instance, Fault fault, const char *function)
 {
     if (fault.severity == REFUSE) {
         return fail(instance, function, fault.reason);
     }
-    if (fault.severity == DISCARD) {
-        log_call(instance, fmi2Discard, LOG_DISCARD, function, fault.reason);
-        return fmi2Discard;
-    }
-    return fmi2OK;
-}
-
-Instance *enter(fmi2Component c, int phases, const char *function)
-{
-    Instance *instance = (Instance *)c;
-    if (instance != NULL && (instance->state.phase & phases) == 0) {
-        fail(instance, function, "not allowed at this point of the call sequence");
-        return NULL;
-    }
-    return instance;
+    log_call(instance, fmi2Discard, LOG_DISCARD, function, fault.reason);
+    return fmi2Discard;
 }
 
 Instance *enter_as(fmi2Component c, Kind kind, int phases, const char *function)

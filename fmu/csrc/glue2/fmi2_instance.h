@@ -22,11 +22,25 @@ void log_call(const Instance *instance, fmi2Status status, LogCategory category,
 /* Logs "function: message" as an error and returns fmi2Error. */
 fmi2Status fail(const Instance *instance, const char *function, const char *message);
 
-/* Logs what a fault says and returns its status; fmi2OK for none. */
-fmi2Status outcome(const Instance *instance, Fault fault, const char *function);
+/* Logs what a fault says and returns its status. */
+fmi2Status refused(const Instance *instance, Fault fault, const char *function);
+
+/* fmi2OK for no fault. */
+static inline fmi2Status outcome(const Instance *instance, Fault fault, const char *function)
+{
+    return fault.severity == FINE ? fmi2OK : refused(instance, fault, function);
+}
 
 /* The instance behind c, or NULL (and the error logged) if the function may not be called in its phase. */
-Instance *enter(fmi2Component c, int phases, const char *function);
+static inline Instance *enter(fmi2Component c, int phases, const char *function)
+{
+    Instance *instance = (Instance *)c;
+    if (instance != NULL && (instance->state.phase & phases) == 0) {
+        fail(instance, function, "not allowed at this point of the call sequence");
+        return NULL;
+    }
+    return instance;
+}
 
 /* As `enter`, for one kind of instance alone. */
 Instance *enter_as(fmi2Component c, Kind kind, int phases, const char *function);

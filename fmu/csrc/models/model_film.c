@@ -39,13 +39,19 @@ static const double damping_unit = SCALE_FORCE / SCALE_LENGTH * SCALE_TIME;
 
 /* ---- static curve, remembered ---- */
 
-static void rest_at(const Model *m, double u, Rest *rest)
+/* Where it was last asked for; 0 if it never was. */
+static int known(const Model *m, Rest *rest)
 {
     rest->u = m->cache[REST_U];
     rest->x = m->cache[REST_X];
     rest->g = m->cache[REST_G];
     rest->g_u = m->cache[REST_G_U];
-    if (!(m->cache[KNOWN] > 0.0)) {
+    return m->cache[KNOWN] > 0.0;
+}
+
+static void rest_at(const Model *m, double u, Rest *rest)
+{
+    if (!known(m, rest)) {
         film_static(u, NULL, rest);
     } else if (rest->u != u) {
         film_static(u, rest, rest);
@@ -195,7 +201,9 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
     }
     begin(first, &start, own_rate(motion->input[VR_rate].start));
     memcpy(&first[INLET], &m->value[FIRST_STATE], FILM_RATES * sizeof first[0]);
-    rest = start;
+    if (!known(m, &rest)) { /* else both ends are sought from there, which a processor does at once */
+        rest = start;
+    }
     if (!walk(motion, h, 1, first, state, &rest, &found)) {
         return fault(DISCARD, too_large);
     }

@@ -1,0 +1,83 @@
+"""Steps of FMUs, timed from C: fmi2SetReal of approach and rate, fmi2DoStep, fmi2GetReal, as in the usual loop."""
+
+from __future__ import annotations
+
+import os
+import statistics
+import subprocess
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+from conv import Bracket, circumstances
+from ledger import Row
+
+from ehlcontact import MoesPoint
+from fmu.binaries import this_machine
+from fmu.binaries.compiler import compilers
+from fmu.build import CSRC
+from fmu.contacts import MEANINGS, Element, contact_spec
+from fmu.export import content_guid, fmu_files
+from reduced_models import Atlas, CubicContact
+
+# Motion about the place of the static load, over 2a/u_sum: u = 0.87 + 0.2 sin 2.5 T in steps of 0.02.
+STEP, MEAN, AMPLITUDE, STEPS_PER_PERIOD = 0.02, 0.87, 0.2, 126
+PERIODS = {"cubic": 20_000, "film": 2_000}  # of a repetition: a tenth of a second
+OUTPUTS = {"cubic": 1, "film": 3}  # force; with its tangents
+REPETITIONS = 21
+MILLION = 10**6
+
+
+def subject(kind: str) -> Element:
+    """The element: the cubic one of Nonato and Cavalca (2010), table 3; one with a film memory of 14 lags."""
+    if kind == "cubic":
+        return CubicContact(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)
+    return Atlas().element(MoesPoint(200, 10, 0.5), model="wide")
+
+
+def fmu_steps(kind: str, meaning: str) -> Row:
+    """A million steps of an FMU, its inputs of that meaning; ``us`` are processor microseconds of one."""
+    with tempfile.TemporaryDirectory() as folder:
+        timed = prepare(kind, meaning, Path(folder))
+        with Bracket() as bracket:
+            row = median_step(timed)
+        return bracket.ratios(row) | circumstances()
+
+
+def prepare(kind: str, meaning: str, folder: Path) -> list[str]:
+    """The command that times an FMU, both compiled here."""
+    machine, spec = this_machine(), contact_spec(subject(kind), kind)
+    if machine is None:
+        raise RuntimeError("FMUs are not built for this machine")
+    files = fmu_files(spec, (machine,), 2)
+    library = folder / f"{kind}{machine.suffix}"
+    library.write_bytes(files[f"binaries/{machine.folder(2)}/{library.name}"])
+    value = 1 + [name for name, _ in MEANINGS.items].index(meaning)
+    asked = (value, spec["input_meaning"].value_reference, OUTPUTS[kind])
+    return command(timer(folder), library, content_guid(spec, 2), "", asked, PERIODS[kind])
+
+
+def timer(folder: Path) -> Path:
+    """The program that times, compiled into `folder`."""
+    machine = this_machine()
+    assert machine is not None
+    program, source = folder / "fmu_steps", Path(__file__).with_suffix(".c")
+    line = [*compilers(machine)[0].command, "-std=c99", "-O2", "-I", str(CSRC / "fmi2"), str(source)]
+    subprocess.run([*line, "-o", str(program), "-lm", "-ldl"], check=True)
+    return program
+
+
+def command(
+    program: Path, library: Path, guid: str, resources: str, asked: tuple[int, int, int], periods: int
+) -> list[str]:
+    """Its command line; `asked`: input_meaning, its value reference (-1 for none), number of outputs."""
+    motion = (STEP, MEAN, AMPLITUDE, STEPS_PER_PERIOD, periods, REPETITIONS)
+    return [str(program), str(library), guid, resources, *map(str, (*asked, *motion))]
+
+
+def median_step(timed: list[str], more: Mapping[str, str] | None = None) -> Row:
+    """Wall and processor seconds of a million steps, medians; `more` is added to the environment."""
+    told = subprocess.run(timed, capture_output=True, text=True, check=True, env=os.environ | dict(more or {}))
+    wall, cpu = zip(*(map(float, line.split()) for line in told.stdout.splitlines()), strict=True)
+    spent = MILLION * statistics.median(cpu)
+    return {"seconds": MILLION * statistics.median(wall), "cpu": spent, "us": spent}
