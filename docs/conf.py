@@ -1,8 +1,8 @@
 """The documentation's site: Sphinx, with notebooks executed as they are built, and nothing fetched from elsewhere.
 
-    pip install ".[docs]" && sphinx-build -W docs build/docs && python docs/links.py build/docs
+    pip install ".[docs]" && sphinx-build -W docs build/docs && python docs/site/links.py build/docs
 
-Equations become MathML by docutils' own translator: no script, no font from a network, and they follow the colours.
+Equations become MathML by docutils' own translator: no script and no font from a network; they follow the colours.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ default_role = "py:obj"  # of docstrings: a link where the name is public, its l
 
 html_theme = "furo"
 html_title = f"ehlcontact {version}"
-html_static_path = ["static"]
+html_static_path = ["site/wide.css"]
 html_css_files = ["wide.css"]
 html_copy_source = False
 html_show_sphinx = False
