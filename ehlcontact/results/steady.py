@@ -34,7 +34,7 @@ class SteadyResult(Origin):
     h_central, h_min : float
         Film at X = Y = 0 and the smallest, between the nodes too, over the dry approach.
     residuals : ndarray, shape (cycles + 1,)
-        Mean |residual| over P > 0: at the start after full multigrid, then after each cycle. It weighs a node by
+        Mean absolute residual over P > 0: at the start after full multigrid, then after each cycle. It weighs a node by
         its flow factor, so it is most where pressure matters least: what is solved is judged by `pressure_error`.
     load_residuals : ndarray, shape (cycles + 1,)
         Of the load (or approach) equation, likewise.
@@ -43,7 +43,7 @@ class SteadyResult(Origin):
     pressure_changes : ndarray, shape (cycles,)
         Largest change of P in each cycle; empty in results that were stored before it was kept.
     dry_residual : float
-        Mean |residual| of the dry Hertz start on this grid: the scale.
+        Mean absolute residual of the dry Hertz start on this grid: the scale.
     status : Status
     error : ErrorEstimate or None
         How far approach and films may be from those of an endless fine mesh on the same region; None of a film

@@ -1,0 +1,109 @@
+"""The documentation's site: Sphinx, with notebooks executed as they are built, and nothing fetched from elsewhere.
+
+    pip install ".[docs]" && sphinx-build -W docs build/docs && python docs/site/links.py build/docs
+
+Equations become MathML by docutils' own translator: no script and no font from a network; they follow the colours.
+"""
+
+from __future__ import annotations
+
+import inspect
+import os
+from typing import Any
+
+from docutils import nodes
+from docutils.utils.math import MathError
+from docutils.utils.math.latex2mathml import tex2mathml
+from sphinx.util import logging
+
+import ehlcontact
+import fmu
+import reduced_models
+
+LOG = logging.getLogger(__name__)
+PUBLIC = {
+    name: f"{package.__name__}.{name}"
+    for package in (ehlcontact, reduced_models, fmu)
+    for name, value in vars(package).items()
+    if name[0] != "_" and not inspect.ismodule(value)
+}
+
+project = "ehlcontact"
+version = release = ehlcontact.__version__
+author = "the authors of ehlcontact"
+copyright = "BSD-3-Clause"
+
+extensions = ["myst_nb", "sphinx.ext.autodoc", "numpydoc"]
+nitpicky = True
+default_role = "py:obj"  # of docstrings: a link where the name is public, its letters as they are elsewhere
+
+html_theme = "furo"
+html_title = f"ehlcontact {version}"
+html_static_path = ["site/wide.css"]
+html_css_files = ["wide.css"]
+html_copy_source = False
+html_show_sphinx = False
+html_math_renderer = "mathml"
+pygments_style, pygments_dark_style = "friendly", "github-dark"
+html_theme_options = {"navigation_with_keys": True}
+
+myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+os.environ.pop("MPLBACKEND", None)  # notebooks choose: with another one there are no pictures
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 170
+nb_merge_streams = True
+nb_ipywidgets_js: dict[str, dict[str, str]] = {}  # those of myst-nb would come from a network
+
+autodoc_member_order = "bysource"
+autodoc_default_options = {"members": True}
+autodoc_typehints_format = "short"
+python_use_unqualified_type_names = True
+python_maximum_signature_line_length = 80
+numpydoc_show_class_members = False
+numpydoc_class_members_toctree = False
+
+
+def public(app: Any, env: Any, node: Any, contnode: Any) -> Any:
+    """A name by the file it is defined in, as annotations have it, is that of the package that shows it.
+
+    What is not public, or of another library, stays text: there is no network to look it up.
+    """
+    if node.get("refdomain") != "py":
+        return None
+    names = node["reftarget"].split(".")
+    for i, name in enumerate(names):
+        if name in PUBLIC:
+            target = ".".join([PUBLIC[name], *names[i + 1 :]])
+            domain = env.get_domain("py")
+            return domain.resolve_xref(env, node["refdoc"], app.builder, "obj", target, node, contnode) or contnode
+    return contnode
+
+
+def mathml(node: Any, *, block: bool) -> str:
+    """An equation; what the translator does not know is a warning, and that is an error."""
+    try:
+        return str(tex2mathml(node.astext(), as_block=block))
+    except MathError as error:
+        LOG.warning("equation not understood: %s", error, location=node)
+        return f"<code>{node.astext()}</code>"
+
+
+def inline(self: Any, node: Any) -> None:
+    """Within a line."""
+    self.body.append(mathml(node, block=False))
+    raise nodes.SkipNode
+
+
+def display(self: Any, node: Any) -> None:
+    """On its own: as wide as it is, in a box that scrolls."""
+    anchor = f' id="{node["ids"][0]}"' if node.get("ids") else ""
+    self.body.append(f'<div class="equation" tabindex="0"{anchor}>{mathml(node, block=True)}</div>')
+    raise nodes.SkipNode
+
+
+def setup(app: Any) -> None:
+    """Called by Sphinx."""
+    app.add_html_math_renderer("mathml", (inline, None), (display, None))
+    app.connect("missing-reference", public)
