@@ -14,13 +14,11 @@ from typing import Annotated, Any, get_type_hints
 import typer
 
 from ehlcontact.checks.machine import require_threads
-from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.errors import InputError
-from ehlcontact.point import MoesPoint, require_solvable
 from ehlcontact.solver.domain import Domain, check_intervals
 
-_POINT, _GRID, _FILES = "Operating point", "Discretisation", "Results"
+_GRID, _FILES = "Discretisation", "Results"
 Drawing = Callable[[Any], Any]  # a result to its figure
 HDF5 = (".h5", ".hdf5")
 PICTURES = (".png", ".svg", ".pdf")
@@ -81,38 +79,6 @@ FigureTo = Annotated[
     Path | None,
     typer.Option("--figure", metavar="FILE", help="Draw the result as PNG, SVG or PDF.", rich_help_panel=_FILES),
 ]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Contact:
-    """Which contact it is."""
-
-    M: Annotated[float, typer.Option("--M", help="Moes load parameter, > 0.", rich_help_panel=_POINT)]
-    L: Annotated[float, typer.Option("--L", help="Moes lubricant parameter, >= 0.", rich_help_panel=_POINT)]
-    kappa: Annotated[
-        float, typer.Option("--kappa", help="Ellipse ratio a/b, 0.01 to 100.", rich_help_panel=_POINT)
-    ]
-    alpha: Annotated[
-        float, typer.Option("--alpha", help="Pressure-viscosity coefficient, 1/Pa.", rich_help_panel=_POINT)
-    ] = 2.2e-8
-    eta0: Annotated[float, typer.Option("--eta0", help="Ambient viscosity, Pa s.", rich_help_panel=_POINT)] = 0.04
-    viscosity: Annotated[
-        str, typer.Option("--viscosity", help="roelands or barus.", rich_help_panel=_POINT, metavar="LAW")
-    ] = "roelands"
-    density: Annotated[
-        str,
-        typer.Option(
-            "--density", help="dowson-higginson or incompressible.", rich_help_panel=_POINT, metavar="LAW"
-        ),
-    ] = "dowson-higginson"
-
-    def point(self) -> MoesPoint:
-        """Check the options and make the operating point of them."""
-        return MoesPoint(self.M, self.L, self.kappa, self.alpha, self.eta0, self.viscosity, self.density)
-
-    def solvable(self) -> MoesPoint:
-        """The same, for a solver: also refused is what no solver is made for."""
-        return require_solvable(self.point())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -185,8 +151,17 @@ class Files:
         own = {"--save": self.save, "--figure": self.figure, "--json": self.json_to}
         check_apart({**beside, **own}, (read,))
 
-    def deliver(self, result: Any, title: str, rows: list[tuple[str, str, str]], draw: Drawing | None) -> None:
+    def deliver(
+        self,
+        result: Any,
+        title: str,
+        rows: list[tuple[str, str, str]],
+        draw: Drawing | None,
+        about: Mapping[str, Any] = MappingProxyType({}),
+    ) -> None:
         """Save, draw (if there is anything), write and show the result, each whatever becomes of the others.
+
+        `about` is what else its JSON says.
 
         Raises
         ------
@@ -208,14 +183,9 @@ class Files:
         deliver(
             lambda: write_to("--save", self.save, save),
             lambda: write_to("--figure", self.figure, figure),
-            lambda: write_json(result.summary(), self.json_to),
+            lambda: write_json({**result.summary(), **about}, self.json_to),
             lambda: show_table(title, rows, self.json_to),
         )
-
-
-def point_rows(point: MoesPoint) -> list[tuple[str, str, str]]:
-    """Rows of a table that say which contact this is."""
-    return [("M, L, kappa", ", ".join(map(numeral, (point.M, point.L, point.kappa))), "")]
 
 
 def domain_text(domain: Domain) -> str:

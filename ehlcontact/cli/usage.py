@@ -16,7 +16,7 @@ PLAIN_WORDS = {
     "a valid number, unable to parse string as a number": "a number, as 0.04 or 4e-2",
 }
 
-SI_FREQUENCIES = ("--hz", "--rpm", "--frequency")  # what else a user may try where frequencies are dimensionless
+SI_FREQUENCIES = ("--frequency",)  # what else a user may try where frequencies are named with their unit
 
 
 def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
@@ -45,7 +45,10 @@ def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
     if kind == "NoSuchOption" and name:
         typed = str(getattr(error, "option_name", ""))
         if typed in SI_FREQUENCIES and any("--Omega" in option.opts for option in command.params):
-            allowed = "given as --Omega, 2a/u_sum times rad/s: a point of --M --L --kappa has no unit of time"
+            allowed = (
+                "given as --hz for a --bearing, else as --Omega, 2a/u_sum times rad/s: "
+                "a point of --M --L --kappa has no unit of time"
+            )
             return str(InputError(typed, None, allowed)).replace(" = None", "", 1)
         options = (option.opts[0] for option in command.params if option.opts[0].startswith("--"))
         return f"{message.rstrip('.')}; `{name}` knows {', '.join(options)}"
@@ -83,8 +86,11 @@ def by_option(error: InputError, command: Any, arguments: Sequence[str]) -> Inpu
     """The error with the option, as it was typed, in place of the library's name for what it sets."""
     for parameter in command.params:
         option = parameter.opts[0]
+        typed = _title(parameter, arguments)
+        if error.field == option and typed.startswith("--"):  # by its other long name
+            return InputError(typed, error.value, error.allowed)
         if option.startswith("--") and error.field in (parameter.name, option[2:]):
-            return InputError(_title(parameter, arguments), error.value, error.allowed)
+            return InputError(typed, error.value, error.allowed)
     return error
 
 

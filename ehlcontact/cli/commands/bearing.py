@@ -14,6 +14,7 @@ from rich.table import Table
 
 from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral, spelled
+from ehlcontact.cli.oils import OIL_HELP, oil_grade
 from ehlcontact.cli.output import (
     STDOUT,
     check_apart,
@@ -100,13 +101,21 @@ def bearing(
     source: Annotated[str, typer.Argument(metavar="NAME|FILE.toml", help="As 6205; or a file with dimensions.")],
     load: Annotated[float | None, typer.Option("--load", help="Radial load, N; >= 0; a NAME needs it.")] = None,
     speed: Annotated[
-        list[float] | None, typer.Option("--speed", help="Of the shaft, rev/min; once each; a NAME needs one.")
+        list[float] | None,
+        typer.Option("--speed", "--rpm", help="Of the shaft, rev/min; once each; a NAME needs one."),
     ] = None,
     grade: Annotated[
         int | None, typer.Option("--grade", help="ISO VG of the oil; without an oil: dry.", rich_help_panel=_OIL)
     ] = None,
+    oil: Annotated[
+        str | None,
+        typer.Option(
+            "--oil", metavar="GRADE", help=f"{OIL_HELP[:-1]}; the same as --grade.", rich_help_panel=_OIL
+        ),
+    ] = None,
     temperature: Annotated[
-        float | None, typer.Option("--temperature", help="Of the oil, C; 20 to 120.", rich_help_panel=_OIL)
+        float | None,
+        typer.Option("--temperature", "--temp", help="Of the oil, C; 20 to 120.", rich_help_panel=_OIL),
     ] = None,
     clearance: Annotated[
         float | None,
@@ -125,6 +134,12 @@ def bearing(
     check_file("--figure", figure, o.PICTURES)
     check_json(json_to)
     check_apart({"--figure": figure, "--json": json_to}, (Path(source),))
+    if oil is not None:
+        if grade is not None:
+            raise InputError(
+                "--oil", oil, f"left out where --grade is given, here {grade}: both are the oil's grade"
+            )
+        grade = oil_grade(oil, "--oil")
     options = {"--load": load, "--speed": speed or None, "--grade": grade, "--temperature": temperature}
     job = load_job(source, options | {"--clearance": clearance, "--rq": rq})
     with job.called():

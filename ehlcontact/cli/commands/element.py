@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
+from ehlcontact.cli.contact import Contact, frequency
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.errors import InputError
 from reduced_models.elements.validity import MARGIN, frequency_text, text_of
+
+if TYPE_CHECKING:
+    from reduced_models import AtlasAnswer
 
 
 def register(app: typer.Typer) -> None:
@@ -23,7 +27,7 @@ def register(app: typer.Typer) -> None:
 
 @o.grouped
 def element(
-    contact: o.Contact,
+    contact: Contact,
     model: Annotated[str, typer.Option("--model", help="wide, memory or cubic.")] = "wide",
     Omega: Annotated[
         float | None,
@@ -31,8 +35,12 @@ def element(
             "--Omega",
             "--omega",
             help="Of a cubic, which has to be told: the dimensionless angular frequency (unit of time 2a/u_sum) "
-            "that its damper is for. Both names mean the same: this command knows dimensionless points only.",
+            "that its damper is for. Both names mean the same: neither is in rad/s.",
         ),
+    ] = None,
+    hz: Annotated[
+        float | None,
+        typer.Option("--hz", show_default="that of the shaft", help="The same in Hz, of a bearing's contact."),
     ] = None,
     atlas: Annotated[
         Path | None,
@@ -41,56 +49,85 @@ def element(
     save: Annotated[Path | None, typer.Option("--save", metavar="FILE", help="Save the element as JSON.")] = None,
     json_to: o.JsonTo = None,
 ) -> None:
-    """Take a contact element from the atlas: any load, any frequency, or one of each."""
+    """Take a contact element from the atlas, in SI for a bearing: any load, any frequency, or one of each."""
     from reduced_models.atlas.atlas import MODELS, Atlas
 
     require_choice("--model", model, MODELS)
-    if model == "cubic" and Omega is None:
-        raise InputError("--Omega", None, "given with --model cubic: a damper without memory is for one frequency")
     point = contact.point()
+    at = frequency(contact, Omega, hz) if model == "cubic" or Omega is not None or hz is not None else {}
+    if at is None:
+        raise InputError("--Omega", None, "given with --model cubic: a damper without memory is for one frequency")
     check_file("--save", save, (".json",))
     check_json(json_to)
     check_apart({"--save": save, "--json": json_to}, (atlas,))
     table = Atlas(atlas)
-    answer, made = table.at(point), table.element(point, model, Omega=Omega)
-    error = answer.error
-    at = [
-        (f"C at Ω = {numeral(w, 3)}", f"{c:.5f}", f"± {numeral(bar, 1)}")
-        for w, c, bar in zip(answer.Omega, answer.damping, error["damping"], strict=True)
-        if w in (0.05, 1.0) or abs(w - 6.2832) < 1e-3
-    ]
+    with contact.called():
+        answer, made = table.at(point), table.element(point, model, **at)
     shown = partial(
         show_table,
         f"{model} element from the atlas, version {table.metadata['version']}",
         [
-            *o.point_rows(point),
-            ("approach", f"{answer.approach:.5f}", f"± {numeral(error['approach'], 1)} of the dry Hertz approach"),
-            ("central film", f"{answer.h_central:.5f}", f"± {numeral(error['h_central'], 1)} likewise"),
-            ("minimum film", f"{answer.h_min:.5f}", f"± {numeral(error['h_min'], 1)} likewise"),
-            ("moment of pressure", f"{answer.moment:.5f}", f"± {numeral(error['moment'], 1)} of load times a"),
-            (
-                "static tangent",
-                f"{answer.stiffness[0]:.4f}",
-                f"± {numeral(error['stiffness'][0], 1)} dimensionless, as C: time in 2a/u_sum",
-            ),
-            *at,
+            *contact.rows(point),
+            *(_dimensionless(answer) if contact.rpm is None else _in_si(answer, contact.rpm)),
             *_damper(made),
-            (
-                "valid approach",
-                f"{made.low:.4f} .. {made.high:.4f}",
-                "" if made.load_range is None else f"load {text_of(made.load_range)}",
-            ),
+            *_valid(made),
         ],
         json_to,
     )
     kept = partial(write_to, "--save", save, made.save)
-    deliver(kept, lambda: write_json(made.to_dict(), json_to), shown)
+    deliver(kept, lambda: write_json({**made.to_dict(), **contact.about(point)}, json_to), shown)
+
+
+def _dimensionless(answer: AtlasAnswer) -> list[tuple[str, str, str]]:
+    error = answer.error
+    tangent = f"± {numeral(error['stiffness'][0], 1)} dimensionless, as C: time in 2a/u_sum"
+    return [
+        ("approach", f"{answer.approach:.5f}", f"± {numeral(error['approach'], 1)} of the dry Hertz approach"),
+        ("central film", f"{answer.h_central:.5f}", f"± {numeral(error['h_central'], 1)} likewise"),
+        ("minimum film", f"{answer.h_min:.5f}", f"± {numeral(error['h_min'], 1)} likewise"),
+        ("moment of pressure", f"{answer.moment:.5f}", f"± {numeral(error['moment'], 1)} of load times a"),
+        ("static tangent", f"{answer.stiffness[0]:.4f}", tangent),
+        *(
+            (f"C at Ω = {numeral(w, 3)}", f"{c:.5f}", f"± {numeral(bar, 1)}")
+            for w, c, bar in zip(answer.Omega, answer.damping, error["damping"], strict=True)
+            if w in (0.05, 1.0) or abs(w - 6.2832) < 1e-3
+        ),
+    ]
+
+
+def _in_si(answer: AtlasAnswer, rpm: float) -> list[tuple[str, str, str]]:
+    si, shaft = answer.si, answer.impedance(rpm=rpm).si
+    C, bar = float(shaft.damping[0]), float(shaft.error["damping"][0])
+
+    def row(name: str, value: float, bar: float, size: float, unit: str, of: str = "") -> tuple[str, str, str]:
+        return name, f"{numeral(size * value)} {unit}", f"± {numeral(size * bar, 1)} {unit}{of}"
+
+    return [
+        row("approach", si.approach, si.error["approach"], 1e6, "µm"),
+        row("central film", si.h_central, si.error["h_central"], 1e6, "µm"),
+        row("minimum film", si.h_min, si.error["h_min"], 1e6, "µm"),
+        row("moment of pressure", si.moment, si.error["moment"], 1e3, "N mm", ": the film's rolling resistance"),
+        row("static tangent", si.stiffness[0], si.error["stiffness"][0], 1e-6, "N/µm"),
+        row(f"C at {numeral(rpm / 60.0)} Hz", C, bar, 1.0, "N s/m", ": the shaft's own frequency"),
+        *(
+            row(f"C at {numeral(hz, 3)} Hz", c, bar, 1.0, "N s/m", f"; Ω = {numeral(w, 3)}")
+            for w, hz, c, bar in zip(answer.Omega, si.hz, si.damping, si.error["damping"], strict=True)
+            if w in (0.05, 1.0) or abs(w - 6.2832) < 1e-3
+        ),
+    ]
 
 
 def _damper(made: Any) -> list[tuple[str, str, str]]:
     """The one damping of a cubic, and the band it is for."""
     if not hasattr(made, "C1"):
         return []
-    return [
-        ("damper C1", f"{made.C1:.5f}", f"within {MARGIN:.0%} for {frequency_text(made.omega_range, made.units)}")
-    ]
+    damper = f"{numeral(made.C1)} N s/m" if made.units == "SI" else f"{made.C1:.5f}"
+    return [("damper C1", damper, f"within {MARGIN:.0%} for {frequency_text(made.omega_range, made.units)}")]
+
+
+def _valid(made: Any) -> list[tuple[str, str, str]]:
+    """Where it holds."""
+    si = made.units == "SI"
+    load = "" if made.load_range is None else f"load {text_of(made.load_range)}{' N' if si else ''}"
+    ends = [f"{numeral(1e6 * end)} µm" if si else f"{end:.4f}" for end in (made.low, made.high)]
+    return [("valid approach", " .. ".join(ends), load)]

@@ -36,6 +36,9 @@ def fit(
         ),
     ] = None,
     save: Annotated[Path | None, typer.Option("--save", metavar="FILE", help="Save the element as JSON.")] = None,
+    si: Annotated[
+        bool, typer.Option("--si", help="Save it in N, m and s; of simulations of a bearing's contact.")
+    ] = False,
     json_to: o.JsonTo = None,
 ) -> None:
     """Fit a contact element to one or several simulations of the same contact."""
@@ -71,6 +74,11 @@ def fit(
         except InputError as error:
             name, allowed = (_with_files(text, files) for text in (error.field, error.allowed))
             raise InputError(name, error.value, allowed) from None
+    saved = fitted.element
+    if si:
+        if records[0].scales is None:
+            raise InputError("--si", True, f"left out: {files[0]} is of a point without dimensions")
+        saved = saved.to_si(records[0].scales)
     rows = _coefficients(fitted) if isinstance(fitted, FitResult) else _memory(fitted)
     valid = fitted.valid
     table = partial(
@@ -94,7 +102,7 @@ def fit(
         ],
         json_to,
     )
-    kept = partial(write_to, "--save", save, fitted.element.save)
+    kept = partial(write_to, "--save", save, saved.save)
     deliver(kept, lambda: write_json(fitted.to_dict(), json_to), table)
 
 

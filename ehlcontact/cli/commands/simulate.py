@@ -11,10 +11,12 @@ import typer
 
 from ehlcontact.checks import require_positive
 from ehlcontact.cli import options as o
+from ehlcontact.cli.contact import NO_TIME, Contact
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, check_file, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
@@ -22,7 +24,7 @@ from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 if TYPE_CHECKING:
     from ehlcontact.transient.result import SimulationResult
 
-_MOTION, _TIME = "Motion (exactly one of --free, --harmonic, --ramp)", "Time"
+_MOTION, _TIME = "Motion (exactly one of --free, --harmonic, --ramp; of a bearing also in Hz)", "Time"
 _RESTART = "Restart"
 
 
@@ -52,6 +54,24 @@ class MotionOptions:
             rich_help_panel=_MOTION,
         ),
     ] = None
+    free_hz: Annotated[
+        float | None,
+        typer.Option(
+            "--free-hz",
+            metavar="HZ",
+            help="Of a bearing: free vibration of a mass whose small dry vibrations have this frequency, Hz.",
+            rich_help_panel=_MOTION,
+        ),
+    ] = None
+    harmonic_hz: Annotated[
+        float | None,
+        typer.Option(
+            "--harmonic-hz",
+            metavar="HZ",
+            help="Of a bearing: harmonic load of this frequency, Hz.",
+            rich_help_panel=_MOTION,
+        ),
+    ] = None
     Omega_n: Annotated[
         float | None,
         typer.Option(
@@ -77,31 +97,51 @@ class MotionOptions:
         ),
     ] = None
 
-    def chosen(self) -> Motion:
+    def chosen(self, point: Point) -> Motion:
         """Motion that the options ask for.
 
         Raises
         ------
         InputError
-            Not exactly one motion, or an option that belongs to another one.
+            Not exactly one motion, one in Hz at a point without a unit of time, or an option that belongs to
+            another one.
         """
         motions = {"--free": self.free, "--harmonic": self.harmonic, "--ramp": self.ramp}
-        chosen = [name for name, value in motions.items() if value is not None]
-        if len(chosen) != 1:
-            raise InputError("motion", " ".join(chosen) or None, "exactly one of --free, --harmonic, --ramp")
-        self._refuse_strangers(chosen[0])
+        in_hz = {"--free-hz": self.free_hz, "--harmonic-hz": self.harmonic_hz}
+        given = {name: value for name, value in {**motions, **in_hz}.items() if value is not None}
+        if len(given) != 1:
+            raise InputError("motion", " ".join(given) or None, "exactly one of --free, --harmonic, --ramp")
+        name, value = next(iter(given.items()))
+        self._refuse_strangers(name.removesuffix("-hz"))
+        if name in in_hz:
+            if not isinstance(point, OperatingPoint):
+                raise InputError(name, value, f"left out: {NO_TIME}, here {name.removesuffix('-hz')}")
+            return self._in_hz(name, value, point)
         if self.free is not None:
             with o.called(Omega_n="--free"):
                 return FreeVibration(Omega_n=self.free, offset=self.offset or 0.0, rate=self.rate)
         if self.harmonic is not None:
             with o.called(Omega="--harmonic"):
-                amplitude = 0.1 if self.amplitude is None else self.amplitude
-                return HarmonicLoad(Omega=self.harmonic, amplitude=amplitude, Omega_n=self.Omega_n)
+                return HarmonicLoad(Omega=self.harmonic, amplitude=self._amplitude, Omega_n=self.Omega_n)
         assert self.ramp is not None
         if self.Omega_n is None:
             raise InputError("--omega-n", None, "given with --ramp: a finite number > 0")
         with o.called(ratio="--ramp RATIO", duration="--ramp DURATION"):
             return RampLoad(*self.ramp, Omega_n=self.Omega_n)
+
+    def _in_hz(self, name: str, hz: Any, point: OperatingPoint) -> Motion:
+        """The motion of a frequency in Hz; whatever else is said of it is dimensionless here too."""
+        require_positive(name, hz)
+        with o.called(Omega=f"{name}, dimensionless", Omega_n=f"{name}, as Omega_n dimensionless"):
+            if name == "--free-hz":
+                Omega_n = FreeVibration.at(point, hz=hz).Omega_n
+                return FreeVibration(Omega_n=Omega_n, offset=self.offset or 0.0, rate=self.rate)
+            Omega = HarmonicLoad.at(point, hz=hz).Omega
+            return HarmonicLoad(Omega=Omega, amplitude=self._amplitude, Omega_n=self.Omega_n)
+
+    @property
+    def _amplitude(self) -> float:
+        return 0.1 if self.amplitude is None else self.amplitude
 
     def _refuse_strangers(self, chosen: str) -> None:
         """Make sure that no option was given that the chosen motion does not take."""
@@ -124,6 +164,10 @@ class TimeOptions:
         float | None,
         typer.Option("--until", help="End in T, unit 2a/u_sum; by default some periods.", rich_help_panel=_TIME),
     ] = None
+    until_ms: Annotated[
+        float | None,
+        typer.Option("--until-ms", help="The same of a bearing, in ms.", rich_help_panel=_TIME),
+    ] = None
     dt: Annotated[
         float | None,
         typer.Option("--dt", help="Step in T (1/80 period); with --error, the first.", rich_help_panel=_TIME),
@@ -138,12 +182,21 @@ class TimeOptions:
         ),
     ] = None
 
-    def chosen(self) -> dict[str, float | None]:
+    def chosen(self, point: Point) -> dict[str, float | None]:
         """Check the options and call them as `ehlcontact.simulate` does."""
         for name in ("until", "dt", "error"):
             if getattr(self, name) is not None:
                 require_positive(name, getattr(self, name))
-        return {"until": self.until, "dT": self.dt, "error": self.error}
+        return {"until": self._end(point), "dT": self.dt, "error": self.error}
+
+    def _end(self, point: Point) -> float | None:
+        if self.until_ms is None:
+            return self.until
+        if self.until is not None:
+            raise InputError("--until-ms", self.until_ms, "left out where --until is given: there is one end")
+        if not isinstance(point, OperatingPoint):
+            raise InputError("--until-ms", self.until_ms, "given as --until: this point has no unit of time")
+        return require_positive("--until-ms", self.until_ms) * 1e-3 / point.scales.time
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -172,7 +225,7 @@ class RestartOptions:
 
 @o.grouped
 def simulate(
-    contact: o.Contact,
+    contact: Contact,
     motion: MotionOptions,
     time: TimeOptions,
     grid: o.Grid,
@@ -182,8 +235,9 @@ def simulate(
     """Simulate the transient contact under a motion; Ctrl-C keeps what was computed."""
     from ehlcontact.transient.simulate import simulate as integrate
 
-    arguments = (contact.solvable(), motion.chosen())
-    chosen = grid.chosen() | time.chosen()
+    point = contact.solvable()
+    arguments = (point, motion.chosen(point))
+    chosen = grid.chosen() | time.chosen(point)
     check_file("--checkpoint", restart.checkpoint, o.HDF5)
     files.check({"--checkpoint": restart.checkpoint}, restart.other)
     failure, unkept = "", None
@@ -197,7 +251,8 @@ def simulate(
         except CheckpointError as error:
             result, unkept = error.result, error
     # stopped before the first step, there is nothing to draw
-    files.deliver(result, "transient film", _rows(result), _draw if result.steps else None)
+    rows, drawn = [*contact.rows(point), *_rows(result)], _draw if result.steps else None
+    files.deliver(result, "transient film", rows, drawn, contact.about(point))
     if unkept is not None:
         raise unkept
     if not result.status.ok:
@@ -222,14 +277,37 @@ def _rows(result: SimulationResult) -> list[tuple[str, str, str]]:
         else ""
     )
     return [
-        *o.point_rows(result.point),
         ("motion", result.motion.kind, ", ".join(f"{k} {numeral(v)}" for k, v in settings) + "; dimensionless"),
-        ("static approach", f"{result.static_approach:.5f}", "of the dry Hertz approach"),
-        ("approach", f"{result.approach.min():.4f} .. {result.approach.max():.4f}", "of the dry Hertz approach"),
-        ("force", f"{result.force.min():.4f} .. {result.force.max():.4f}", "of the static load"),
-        ("smallest film", f"{result.h_min.min():.5f}", "of the dry Hertz approach, anywhere and ever"),
+        *(_dimensionless(result) if result.scales is None else _in_si(result)),
         ("steps", f"{result.steps}", steps),
         ("grid", f"n = {result.n}", f"on {o.domain_text(result.domain)}"),
         ("computed in", f"{numeral(result.seconds, 3)} s", ""),
         ("status", str(result.status), ""),
+    ]
+
+
+def _dimensionless(result: SimulationResult) -> list[tuple[str, str, str]]:
+    return [
+        ("static approach", f"{result.static_approach:.5f}", "of the dry Hertz approach"),
+        ("approach", f"{result.approach.min():.4f} .. {result.approach.max():.4f}", "of the dry Hertz approach"),
+        ("force", f"{result.force.min():.4f} .. {result.force.max():.4f}", "of the static load"),
+        ("smallest film", f"{result.h_min.min():.5f}", "of the dry Hertz approach, anywhere and ever"),
+    ]
+
+
+def _in_si(result: SimulationResult) -> list[tuple[str, str, str]]:
+    si = result.si
+    approach = " .. ".join(numeral(1e6 * end, 5) for end in (si.approach.min(), si.approach.max()))
+    force = " .. ".join(numeral(end) for end in (si.force.min(), si.force.max()))
+    hertz = "" if si.hz is None else f"load of {numeral(si.hz)} Hz"
+    return [
+        (
+            "static approach",
+            f"{numeral(1e6 * si.static_approach, 5)} µm",
+            f"{result.static_approach:.5f} of the dry one",
+        ),
+        ("approach", f"{approach} µm", hertz),
+        ("force", f"{force} N", "" if si.mass is None else f"on bodies of {numeral(1e3 * si.mass)} g together"),
+        ("smallest film", f"{numeral(1e6 * si.h_min.min())} µm", "anywhere and ever"),
+        ("time", f"{numeral(1e3 * si.t[-1])} ms", ""),
     ]

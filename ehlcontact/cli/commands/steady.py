@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ehlcontact.cli import options as o
+from ehlcontact.cli.contact import Contact
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
@@ -32,8 +33,8 @@ def register(app: typer.Typer) -> None:
 
 
 @o.grouped
-def steady(contact: o.Contact, grid: o.Grid, files: o.Files, refine: Refine = True) -> None:
-    """Solve the steady film of a contact."""
+def steady(contact: Contact, grid: o.Grid, files: o.Files, refine: Refine = True) -> None:
+    """Solve the steady film of a contact, in SI for a ball of a bearing."""
     from ehlcontact.steady import solve_steady
 
     point, chosen = contact.solvable(), grid.chosen()
@@ -46,7 +47,7 @@ def steady(contact: o.Contact, grid: o.Grid, files: o.Files, refine: Refine = Tr
             throw=False,
             callback=lambda cycle, residual: update(cycle, None, f"cycle {cycle}, residual {residual:.1e}"),
         )
-    files.deliver(result, "steady film", _rows(result), _draw)
+    files.deliver(result, "steady film", [*contact.rows(point), *_rows(result)], _draw, contact.about(point))
     if not result.status.ok:
         kept = f"; partial result in {files.save}" if files.save else ""
         complain(f"{result.status}: {result.status.advice}{kept}")
@@ -60,17 +61,11 @@ def _draw(result: SteadyResult) -> Any:
 
 
 def _rows(result: SteadyResult) -> list[tuple[str, str, str]]:
-    approach = central = smallest = ""
+    shares = ["", ""]
     if (error := result.error) is not None:
-        approach = f", ± {numeral(error.approach, 1)}"
-        central, smallest = (f", ± {numeral(100.0 * e, 2)} % of it" for e in (error.h_central, error.h_min))
+        shares = [f", ± {numeral(100.0 * e, 2)} % of it" for e in (error.h_central, error.h_min)]
     return [
-        *o.point_rows(result.point),
-        ("approach", f"{result.approach:.5f}", f"of the dry Hertz approach{approach}"),
-        ("central film", f"{result.h_central:.5f}", f"of the dry Hertz approach{central}"),
-        ("minimum film", f"{result.h_min:.5f}", f"of the dry Hertz approach{smallest}"),
-        ("maximum pressure", f"{result.p_max:.4f}", "of the Hertz pressure"),
-        ("moment of pressure", f"{result.moment:.5f}", "of load times semi-axis a: the film's rolling resistance"),
+        *(_dimensionless(result, *shares) if result.scales is None else _in_si(result, *shares)),
         ("pressure to come", f"{result.pressure_error:.1e}", "of the Hertz pressure, by further cycles"),
         ("residual", f"{result.residual:.1e}", "over the dry start's"),
         ("load balance", f"{result.load_residual:.1e}", "over the load"),
@@ -78,4 +73,27 @@ def _rows(result: SteadyResult) -> list[tuple[str, str, str]]:
         ("grid", f"n = {result.n}", f"on {o.domain_text(result.domain)}"),
         ("computed in", f"{numeral(result.seconds, 3)} s", ""),
         ("status", str(result.status), ""),
+    ]
+
+
+def _dimensionless(result: SteadyResult, central: str, smallest: str) -> list[tuple[str, str, str]]:
+    approach = "" if result.error is None else f", ± {numeral(result.error.approach, 1)}"
+    return [
+        ("approach", f"{result.approach:.5f}", f"of the dry Hertz approach{approach}"),
+        ("central film", f"{result.h_central:.5f}", f"of the dry Hertz approach{central}"),
+        ("minimum film", f"{result.h_min:.5f}", f"of the dry Hertz approach{smallest}"),
+        ("maximum pressure", f"{result.p_max:.4f}", "of the Hertz pressure"),
+        ("moment of pressure", f"{result.moment:.5f}", "of load times semi-axis a: the film's rolling resistance"),
+    ]
+
+
+def _in_si(result: SteadyResult, central: str, smallest: str) -> list[tuple[str, str, str]]:
+    si = result.si
+    approach = "" if si.error is None else f", ± {numeral(1e6 * si.error.approach, 1)} µm"
+    return [
+        ("approach", f"{numeral(1e6 * si.approach, 5)} µm", f"{result.approach:.5f} of the dry one{approach}"),
+        ("central film", f"{numeral(1e6 * si.h_central)} µm", central.removeprefix(", ")),
+        ("minimum film", f"{numeral(1e6 * si.h_min)} µm", smallest.removeprefix(", ")),
+        ("maximum pressure", f"{numeral(1e-9 * si.p_max)} GPa", f"{numeral(result.p_max)} of the Hertz pressure"),
+        ("moment of pressure", f"{numeral(1e3 * si.moment)} N mm", "about the centre line: rolling resistance"),
     ]

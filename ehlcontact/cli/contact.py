@@ -1,0 +1,290 @@
+"""Which contact a command is about: a ball of a bearing in SI, or Moes' dimensionless numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import typer
+
+from ehlcontact.checks import require_choice, require_positive
+from ehlcontact.checks.box import INPUTS, Given
+from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.oils import OIL_HELP, TEMP_HELP, oil_grade
+from ehlcontact.cli.options import called
+from ehlcontact.errors import InputError
+from ehlcontact.lubricant import Lubricant
+from ehlcontact.point import MoesPoint, OperatingPoint, Point, most_loaded_ball, require_solvable
+
+_SI, _MOES, _LAWS = "A ball of a bearing, in SI", "Or a point without dimensions", "Laws of the oil"
+RACES = ("inner", "outer")
+# What each option of a point is, for its help and for who left it out.
+MEANING = {
+    "--M": "Moes load parameter, > 0",
+    "--L": "Moes lubricant parameter, >= 0",
+    "--kappa": "ellipse ratio a/b, 0.01 to 100",
+    "--bearing": "deep-groove ball bearing by its name, as 6205",
+    "--rpm": "speed of the shaft, rev/min",
+    "--load": "radial load on the bearing, N",
+}
+BESIDE = "or a ball of a bearing: --bearing, --oil, --temp, --rpm, --load"
+NO_TIME = (
+    "a point of --M --L --kappa has no unit of time; its frequencies are given as --Omega, 2a/u_sum times rad/s"
+)
+
+
+def _option(name: str, panel: str, *others: str, metavar: str | None = None, shown: str | None = None) -> Any:
+    text = MEANING[name]
+    return typer.Option(
+        name,
+        *others,
+        help=f"{text[0].upper()}{text[1:]}.",
+        rich_help_panel=panel,
+        metavar=metavar,
+        show_default=shown or False,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Contact:
+    """Which contact it is: that of a bearing's most loaded ball, or M, L and kappa."""
+
+    bearing: Annotated[str | None, _option("--bearing", _SI, metavar="NAME")] = None
+    oil: Annotated[str | None, typer.Option("--oil", metavar="GRADE", help=OIL_HELP, rich_help_panel=_SI)] = None
+    temp: Annotated[float | None, typer.Option("--temp", "--temperature", help=TEMP_HELP, rich_help_panel=_SI)] = (
+        None
+    )
+    rpm: Annotated[float | None, _option("--rpm", _SI)] = None
+    load: Annotated[float | None, _option("--load", _SI)] = None
+    race: Annotated[
+        str | None,
+        typer.Option(
+            "--contact",
+            metavar="RACE",
+            show_default="inner",
+            help="Race that the ball under the load is on: inner or outer.",
+            rich_help_panel=_SI,
+        ),
+    ] = None
+    M: Annotated[float | None, _option("--M", _MOES)] = None
+    L: Annotated[float | None, _option("--L", _MOES)] = None
+    kappa: Annotated[float | None, _option("--kappa", _MOES)] = None
+    alpha: Annotated[
+        float | None,
+        typer.Option(
+            "--alpha",
+            show_default="2.2e-8, or the oil's",
+            help="Pressure-viscosity coefficient, 1/Pa; in place of --oil with --eta0.",
+            rich_help_panel=_LAWS,
+        ),
+    ] = None
+    eta0: Annotated[
+        float | None,
+        typer.Option(
+            "--eta0",
+            show_default="0.04, or the oil's",
+            help="Ambient viscosity, Pa s; in place of --oil with --alpha.",
+            rich_help_panel=_LAWS,
+        ),
+    ] = None
+    viscosity: Annotated[
+        str, typer.Option("--viscosity", help="roelands or barus.", rich_help_panel=_LAWS, metavar="LAW")
+    ] = "roelands"
+    density: Annotated[
+        str,
+        typer.Option(
+            "--density", help="dowson-higginson or incompressible.", rich_help_panel=_LAWS, metavar="LAW"
+        ),
+    ] = "dowson-higginson"
+
+    @property
+    def in_si(self) -> bool:
+        """Whether a bearing is given: answers are in SI then."""
+        return bool(self._of_bearing)
+
+    @property
+    def _of_bearing(self) -> dict[str, Any]:
+        options = {"--bearing": self.bearing, "--oil": self.oil, "--temp": self.temp, "--load": self.load}
+        options |= {"--rpm": self.rpm, "--contact": self.race}
+        return {name: value for name, value in options.items() if value is not None}
+
+    def point(self) -> Point:
+        """Check the options and make the operating point of them.
+
+        Raises
+        ------
+        InputError
+            An option of either kind that is missing, or impossible; some of both kinds.
+        """
+        numbers = {"--M": self.M, "--L": self.L, "--kappa": self.kappa}
+        given, of_bearing = {k: v for k, v in numbers.items() if v is not None}, self._of_bearing
+        if given and of_bearing:
+            self._refuse_mixture(given, of_bearing)
+        if of_bearing:
+            return self._ball()
+        for name, value in numbers.items():
+            if value is None:
+                raise InputError(name, None, f"given ({MEANING[name]}), {BESIDE}")
+        laws = {name: getattr(self, name) for name in ("alpha", "eta0") if getattr(self, name) is not None}
+        laws |= {"viscosity": self.viscosity, "density": self.density}
+        return MoesPoint(M=self.M, L=self.L, kappa=self.kappa, **laws)  # type: ignore[arg-type]
+
+    @staticmethod
+    def _refuse_mixture(numbers: dict[str, Any], of_bearing: dict[str, Any]) -> None:
+        """Raise `InputError` for the option that is the odd one out."""
+        if len(of_bearing) == 1:
+            name, value = next(iter(of_bearing.items()))
+            why = NO_TIME if name == "--rpm" else "that is a point without dimensions"
+            raise InputError(name, value, f"left out where {next(iter(numbers))} is given: {why}")
+        name, value = next(iter(numbers.items()))
+        raise InputError(name, value, f"left out where {next(iter(of_bearing))} is given: a bearing has its own")
+
+    def _ball(self) -> OperatingPoint:
+        from reduced_models.bearing.catalogue import catalogue_row
+
+        for name, quantity in (("--bearing", None), ("--rpm", "speed_rpm"), ("--load", "load")):
+            value = self._of_bearing.get(name)
+            if value is None:
+                raise InputError(name, None, f"given ({MEANING[name]})")
+            if quantity is not None:
+                INPUTS[quantity].require(name, require_positive(name, value))
+        race = self.race or "inner"
+        require_choice("--contact", race, RACES)
+        try:
+            _, row = catalogue_row(self.bearing or "")
+        except InputError as error:
+            known = error.allowed.partition("; any other bearing")[0]
+            allowed = f"{known}; any other by its dimensions, in a study as `ehlcontact init` writes it"
+            raise InputError("--bearing", error.value, allowed) from None
+        assert self.rpm is not None
+        with self.called():
+            return OperatingPoint.ball_bearing(
+                self.lubricant(),
+                ball_diameter=row.ball_diameter,
+                pitch_diameter=row.pitch_diameter,
+                conformity=row.conformity,
+                speed_rpm=self.rpm,
+                load=most_loaded_ball(self.load or 0.0, row.balls),
+                race=race,
+            )
+
+    def lubricant(self) -> Lubricant:
+        """The oil of a bearing: by its grade and temperature, or by its numbers.
+
+        Raises
+        ------
+        InputError
+            Given in no way, in part, or in both ways; an oil that the library refuses.
+        """
+        grade, numbers = {"--oil": self.oil, "--temp": self.temp}, {"--eta0": self.eta0, "--alpha": self.alpha}
+        by_grade, by_numbers = (any(v is not None for v in way.values()) for way in (grade, numbers))
+        if by_grade and by_numbers:
+            extra = next(name for name, value in numbers.items() if value is not None)
+            raise InputError(
+                extra, numbers[extra], "left out where --oil or --temp is given: an oil has a grade or numbers"
+            )
+        for name, value in (numbers if by_numbers else grade).items():
+            if value is None:
+                raise InputError(name, None, "given: --oil and --temp, or --eta0 and --alpha in their place")
+        laws = {"viscosity": self.viscosity, "density": self.density}
+        if by_numbers:
+            return Lubricant(self.eta0, self.alpha, **laws)  # type: ignore[arg-type]
+        with called(temperature="--temp"):
+            return Lubricant.iso_vg(oil_grade(self.oil or "", "--oil"), temperature=self.temp, **laws)  # type: ignore[arg-type]
+
+    @contextmanager
+    def called(self) -> Iterator[None]:
+        """Let an `InputError` about a ball's point not name options that were not given."""
+        if not self.in_si:
+            yield
+            return
+        names = {name: f"{name} of this contact" for name in ("M", "L", "kappa")}
+        names |= {"load": "load of the ball"}
+        names |= {name: f"{name} of the oil" for name in ("eta0", "alpha") if getattr(self, name) is None}
+        with called(**names):
+            yield
+
+    def solvable(self) -> Point:
+        """The point, for a solver: also refused is what no solver is made for."""
+        point = self.point()
+        with self.called():
+            require_solvable(point, 1.0, self._given())
+        return point
+
+    def _given(self) -> Given | None:
+        """What a user gave in place of a point's own inputs."""
+        if not self.in_si:
+            return None
+        values = {"--load": (self.load, "load"), "--rpm": (self.rpm, "speed_rpm")}
+        values |= {"--eta0": (self.eta0, "eta0"), "--alpha": (self.alpha, "alpha")}
+        return {name: (value, INPUTS[key]) for name, (value, key) in values.items() if value is not None}
+
+    def about(self, point: Point) -> dict[str, Any]:
+        """For JSON: whose contact it is; nothing of a dimensionless point."""
+        if not isinstance(point, OperatingPoint):
+            return {}
+        oil = {"name": self._oil_name(), "eta0": point.lubricant.eta0, "alpha": point.lubricant.alpha}
+        return {
+            "contact": {
+                "bearing": self._name,
+                "race": self.race or "inner",
+                "speed_rpm": self.rpm,
+                "radial_load": self.load,
+                "ball_load": point.load,
+                "u_sum": point.u_sum,
+                "p_hertz": point.scales.pressure,
+                "oil": oil,
+            }
+        }
+
+    def rows(self, point: Point) -> list[tuple[str, str, str]]:
+        """Rows of a table that say which contact this is."""
+        if not isinstance(point, OperatingPoint):
+            return [("M, L, kappa", ", ".join(map(numeral, (point.M, point.L, point.kappa))), "")]
+        s, oil = point.scales, point.lubricant
+        ball = f"{numeral(point.load)} N of {numeral(self.load)} N: the most loaded ball, without clearance"
+        ellipse = f"{numeral(2e3 * s.a, 3)} x {numeral(2e3 * s.b, 3)} mm"
+        return [
+            ("contact", f"{self._name}, {self.race or 'inner'} race", ball),
+            ("speed", f"{numeral(self.rpm)} rpm", f"surfaces roll at {numeral(point.u_sum / 2.0)} m/s each"),
+            ("oil", self._oil_name(), f"{numeral(oil.eta0, 3)} Pa s, alpha {numeral(oil.alpha, 3)} 1/Pa"),
+            ("Hertz pressure", f"{numeral(s.pressure * 1e-9, 3)} GPa", f"on {ellipse}, along and across rolling"),
+            ("M, L, kappa", ", ".join(numeral(getattr(point.moes, k)) for k in ("M", "L", "kappa")), ""),
+        ]
+
+    @property
+    def _name(self) -> str:
+        return (self.bearing or "").strip().upper()
+
+    def _oil_name(self) -> str:
+        if self.oil is None:
+            return "by its numbers"
+        return f"ISO VG {oil_grade(self.oil, '--oil')} at {numeral(self.temp)} °C"
+
+
+def frequency(
+    contact: Contact, Omega: float | list[float] | None, hz: float | list[float] | None
+) -> dict[str, Any] | None:
+    """The frequencies that options give, as the library takes them; of a bearing that of the shaft by default.
+
+    Returns
+    -------
+    dict or None
+        ``Omega``, ``hz`` or ``rpm``; None where a dimensionless point has none.
+
+    Raises
+    ------
+    InputError
+        Two of them, or one in Hz at a point without a unit of time.
+    """
+    if hz is not None and not contact.in_si:
+        raise InputError("--hz", hz, f"left out: {NO_TIME}")
+    if hz is not None and Omega is not None:
+        raise InputError("--hz", hz, "left out where --Omega is given: a frequency has one name")
+    if hz is not None:
+        return {"hz": hz}
+    if Omega is not None:
+        return {"Omega": Omega}
+    return {"rpm": contact.rpm} if contact.rpm is not None and contact.in_si else None

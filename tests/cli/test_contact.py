@@ -1,0 +1,164 @@
+"""A bearing's contact in SI on the command line: the point that Python makes, answers in SI, slips in one line."""
+
+import json
+
+import pytest
+
+from ehlcontact import Lubricant, OperatingPoint, SimulationResult, impedance, load, solve_steady
+from ehlcontact.cli.contact import Contact
+from ehlcontact.cli.oils import oil_grade
+from ehlcontact.errors import InputError
+from ehlcontact.lubricant.oil import GRADES
+from ehlcontact.point import most_loaded_ball
+from reduced_models import Atlas, BallBearing, load_element
+
+GIVEN = {"--bearing": "6205", "--oil": "ISO VG 68", "--temp": "60", "--rpm": "3000", "--load": "100"}
+COARSE = ("--n", "32")
+
+
+def options(*without, **changes):
+    """Options of the point, some left out or changed."""
+    given = GIVEN | {f"--{name}": value for name, value in changes.items()}
+    return [part for name, value in given.items() if name not in without for part in (name, value)]
+
+
+def ball(race="inner", radial=100.0):
+    bearing = BallBearing.catalogue("6205")
+    return OperatingPoint.ball_bearing(
+        Lubricant.iso_vg(68, temperature=60.0),
+        ball_diameter=bearing.ball_diameter,
+        pitch_diameter=bearing.pitch_diameter,
+        conformity=bearing.conformity_inner,
+        speed_rpm=3000.0,
+        load=most_loaded_ball(radial, bearing.balls),
+        race=race,
+    )
+
+
+@pytest.mark.parametrize("race", ["inner", "outer"])
+def test_the_point_is_that_of_python(race):
+    given = Contact(bearing="6205", oil="vg68", temp=60.0, rpm=3000.0, load=100.0, race=race)
+    assert given.in_si and given.point() == ball(race)
+    assert Contact(bearing="6205", eta0=0.03, alpha=2e-8, rpm=3000.0, load=100.0).lubricant() == Lubricant(
+        0.03, 2e-8
+    )
+
+
+@pytest.mark.parametrize("text", ["ISO VG 68", "iso vg 68", " VG68", "ISO-VG-68", "isovg68", "68"])
+def test_names_of_an_oil(text):
+    assert oil_grade(text, "--oil") == 68
+
+
+@pytest.mark.parametrize("text", ["ISO VG 70", "Mobil DTE 26", "", "68 cSt", "SAE 30", "-68"])
+def test_other_oils_are_told_the_known_ones(text):
+    with pytest.raises(InputError) as error:
+        oil_grade(text, "--oil")
+    assert all(str(grade) in str(error.value) for grade in GRADES) and "eta0 and alpha" in str(error.value)
+
+
+def test_steady_answers_in_si(call, tmp_path):
+    result = call("steady", *options(), *COARSE, "--json", "-", "--save", tmp_path / "r.h5")
+    assert result.code == 0 and result.err == ""
+    found, ours = json.loads(result.out), solve_steady(ball(), n=32)
+    assert found["si"]["h_central"] == ours.si.h_central and found["si"]["force"] == ours.si.force
+    about = found["contact"]
+    assert about["bearing"] == "6205" and about["race"] == "inner" and about["radial_load"] == 100.0
+    assert about["ball_load"] == ball().load and about["oil"]["name"] == "ISO VG 68 at 60 °C"
+    assert load(tmp_path / "r.h5").scales == ball().scales
+    table = call("steady", *options(), *COARSE, "--contact", "outer").out
+    said = " ".join(table.split())  # a terminal of 80 columns folds
+    for words in ("6205, outer race", "of 100 N: the most loaded ball", "ISO VG 68 at 60 °C", "GPa", "µm", "N mm"):
+        assert words in said
+
+
+def test_impedance_is_at_the_shafts_frequency_unless_another_is_given(call):
+    said = json.loads(call("impedance", *options(), *COARSE, "--json", "-").out)["si"]
+    ours = impedance(ball(), rpm=3000.0, n=32).si
+    assert said["hz"] == pytest.approx([50.0]) and said["damping"] == pytest.approx(
+        ours.damping.tolist(), rel=1e-9
+    )
+    table = call("impedance", *options(), *COARSE, "--hz", "100", "--hz", "1e3").out
+    assert "100 Hz" in table and "1000 Hz" in table and "N/µm" in table and "N s/m" in table
+    omega = json.loads(call("impedance", *options(), *COARSE, "--Omega", "1", "--json", "-").out)
+    assert omega["Omega"] == [1.0]
+
+
+def test_element_is_in_si_and_its_damper_that_of_the_shaft(call, tmp_path):
+    target = tmp_path / "e.json"
+    assert call("element", *options(), "--model", "cubic", "--save", target).code == 0
+    saved, ours = load_element(target), Atlas().element(ball(), "cubic", rpm=3000)
+    assert saved.units == "SI" and saved.C1 == ours.C1
+    assert call("element", *options(), "--model", "cubic", "--hz", "5000", "--json", tmp_path / "j").code == 0
+    assert (
+        json.loads((tmp_path / "j").read_text())["parameters"]["C1"]
+        == Atlas().element(ball(), "cubic", hz=5000).C1
+    )
+    assert "the shaft's own frequency" in " ".join(call("element", *options()).out.split())
+
+
+def test_simulation_in_hz_and_its_element_in_si(call, refused, tmp_path):
+    record, element = tmp_path / "r.h5", tmp_path / "e.json"
+    motion = ("--harmonic-hz", "2e4", "--until-ms", "0.1", "--dt", "0.3")
+    result = call("simulate", *options(), *COARSE, *motion, "--save", record)
+    assert result.code == 0 and "load of 20000 Hz" in result.out and "0.1 ms" in result.out
+    stored = load(record)
+    assert isinstance(stored, SimulationResult)
+    assert stored.si.hz == pytest.approx(2e4) and stored.si.t[-1] == pytest.approx(1e-4)
+    assert call("fit", record, "--model", "linear", "--si", "--save", element).code == 0
+    assert load_element(element).units == "SI"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (options("--bearing"), ("--bearing = None", "given", "6205")),
+        (options("--oil"), ("--oil = None", "--oil and --temp, or --eta0 and --alpha")),
+        (options("--temp"), ("--temp = None", "--oil and --temp")),
+        (options("--rpm"), ("--rpm = None", "given", "rev/min")),
+        (options("--load"), ("--load = None", "given", "N")),
+        (options(bearing="6999"), ("--bearing = '6999'", "6205", "ehlcontact init")),
+        (options(oil="olive"), ("--oil = 'olive'", "ISO VG 10, 15", "680")),
+        (options(temp="300"), ("--temp = 300.0", "between 20 and 120")),
+        (options(rpm="-1"), ("--rpm = -1.0", "> 0")),
+        (options(rpm="1e9"), ("--rpm = 1000000000.0", "rev/min")),
+        (options(load="0"), ("--load = 0.0", "> 0")),
+        (options(load="1e-5"), ("M of this contact", "between 0.1")),
+        (options(load="1e6"), ("M of this contact", "20.1 GPa")),
+        ([*options(), "--contact", "both"], ("--contact = 'both'", "inner, outer")),
+        ([*options(), "--eta0", "0.04"], ("--eta0 = 0.04", "left out", "--oil")),
+        ([*options("--oil", "--temp"), "--eta0", "0.04"], ("--alpha = None", "--eta0 and --alpha")),
+        ([*options("--oil", "--temp"), "--eta0", "40", "--alpha", "2e-8"], ("--eta0 = 40.0", "mPa s")),
+        ([*options(), "--M", "20"], ("--M = 20.0", "left out where --bearing")),
+        (["--M", "20", "--L", "5", "--kappa", "0.5", "--load", "7"], ("--load = 7.0", "left out where --M")),
+    ],
+)  # fmt: skip
+def test_slips_are_one_line(refused, arguments, words):
+    refused(words, "steady", *arguments)
+
+
+def test_slips_of_frequencies(refused, point):
+    refused(("--free-hz", "no unit of time"), "simulate", *point, "--free-hz", "50")
+    refused(("--until-ms", "--until"), "simulate", *point, "--free", "5", "--until-ms", "1")
+    refused(("--until-ms", "one end"), "simulate", *options(), "--free", "5", "--until-ms", "1", "--until", "2")
+    refused(("exactly one",), "simulate", *options(), "--free", "5", "--free-hz", "50")
+    refused(("--amplitude", "--harmonic"), "simulate", *options(), "--free-hz", "5e3", "--amplitude", "0.2")
+    refused(("--free-hz", "between"), "simulate", *options(), "--free-hz", "1e12")
+    refused(("--hz", "one name"), "impedance", *options(), "--hz", "50", "--Omega", "1")
+    refused(("--hz", "-50"), "impedance", *options(), "--hz", "-50")
+    refused(("--Omega = None", "2a/u_sum"), "impedance", *point)
+    refused(("L of this contact", "between 0 and 30"), "element", *options(temp="20", oil="680", rpm="20000"))
+
+
+def test_si_of_a_fit_needs_a_record_in_si(call, refused, point, tmp_path):
+    record = tmp_path / "r.h5"
+    short = ("--harmonic", "3", "--until", "2", "--dt", "0.2")
+    assert call("simulate", *point, *COARSE, *short, "--save", record).code == 0
+    refused(("--si", "without dimensions"), "fit", record, "--model", "linear", "--si")
+
+
+def test_bearing_takes_the_same_oil(call, refused):
+    old = call("bearing", "6205", "--load", "100", "--speed", "3000", "--grade", "68", "--temperature", "60")
+    new = call("bearing", "6205", "--load", "100", "--rpm", "3000", "--oil", "ISO VG 68", "--temp", "60")
+    assert new.code == 0 and new.out == old.out
+    refused(("--oil", "--grade"), "bearing", "6205", "--oil", "68", "--grade", "68")
+    refused(("--oil = '70'", "ISO VG 10"), "bearing", "6205", "--oil", "70", "--load", "1", "--rpm", "1")
