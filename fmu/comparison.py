@@ -205,7 +205,7 @@ def tangents(element: Any, states: _Floats, approach: float, rate: float) -> tup
 
 def difference(ours: _Floats, expected: _Floats, scale: float | _Floats) -> float:
     """Largest difference, relative to what is expected and at least to 1e-3 of `scale`."""
-    size = np.maximum(np.abs(expected), 1e-3 * abs(scale))
+    size = np.maximum(np.abs(expected), 1e-3 * np.abs(scale))
     error = np.abs(ours - expected)
     if not np.all(np.isfinite(error)):
         return float("inf")

@@ -57,8 +57,8 @@ def verify(path: str | os.PathLike[str], element: Element | RotorModel) -> Verif
     Without memory: one step of co-simulation each for a grid of approaches (inside, below and above the validity
     interval, lift-off included) and rates (both signs, up to where the damper alone cancels the force), and the
     same states in model exchange. With a memory: a motion with lift-off and a pulse of load, in steps from 1e-3 to
-    1 of 2a/u_sum, against `drive`, and the film's states along it in model exchange against `state_rates`. A rotor:
-    a short run with an unbalance that shows, against `simulate_rotor`, and its accelerations along it.
+    1 of 2a/u_sum, against `drive`, and the film's states along it in model exchange against `state_rates`.
+    A rotor: a short run with an unbalance that shows, against `simulate_rotor`, and its accelerations along it.
 
     A difference is relative to the magnitude of what is compared, with 1e-3 of its value at the upper end of the
     interval (under the reference load) as the floor, for a number that cancels to nearly nothing has no relative

@@ -28,7 +28,7 @@ EVERY = 8  # steps between the states at which the equations are compared
 
 @dataclass(frozen=True, slots=True)
 class _Run:
-    """What the rotor does in steps of dt: positions and velocities in the order of the FMU's states, and forces."""
+    """What the rotor does in steps of dt: positions and velocities in the order of the FMU's states; forces."""
 
     rotor: JeffcottRotor
     start: RotorState
@@ -154,7 +154,8 @@ class _Equations:
         scales = np.concatenate([np.full(size, np.abs(v).max()), 1e3 * _size(rotor) / np.diag(M), [rotor.omega]])
         self._note("exchange", rates[: count + 1], wanted, scales)
         if felt is not None:
-            self._note("exchange", rates[count + 1 :], felt.rates, felt.rate_scales)
+            if felt.rates.size:
+                self._note("exchange", rates[count + 1 :], felt.rates, felt.rate_scales)
             names = [f"force[{i + 1}]" for i in range(u.size)]
             self._note("force", np.array(self.exchange.get(*names)), force, np.full(u.size, _size(rotor)))
             self.outside = felt.outside
@@ -243,5 +244,6 @@ def _felt(element: Element, states: _Floats, u: float, v: float) -> _Felt:
     else:
         force, stiffness, damping = (float(f(u, v)) for f in (element.force, element.stiffness, element.damping))
         rates = scales = np.empty(0)
-    F, K, C = (np.array([float(value)]) for value in (force, stiffness, damping))
-    return _Felt(F, K, C, rates, scales, bool(outside(element, np.array(u), np.array(v), np.array(force))))
+    left = bool(outside(element, np.array(u), np.array(v), np.array(force)))
+    one = [np.array([float(value)]) for value in (force, stiffness, damping)]
+    return _Felt(one[0], one[1], one[2], rates, scales, left)
