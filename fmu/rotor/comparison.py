@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -12,7 +13,7 @@ from fmu.comparison import END, LEAST_THETA, Comparison, difference, outside, ta
 from fmu.contacts import Element, Film
 from fmu.rotor.model import RotorModel
 from fmu.spec import ModelSpec
-from reduced_models import JeffcottRotor, RotorState, simulate_rotor
+from reduced_models import JeffcottRotor, OutsideValidityWarning, RotorState, simulate_rotor
 from reduced_models.elements.film_law import static
 from reduced_models.rotor.step import CondensedRotor, Motion
 
@@ -95,7 +96,9 @@ def _closed_run(model: RotorModel) -> _Run:
     for contact, approach in zip(contacts, rotor.approaches(start.journal).tolist(), strict=True):
         contact.rest(approach)
     dt = model.inner_step
-    result = simulate_rotor(rotor, contacts, dt=dt, until=STEPS * dt, start=start, tolerance=TOLERANCE)
+    with warnings.catch_warnings():  # about a motion that is none of the user's
+        warnings.simplefilter("ignore", OutsideValidityWarning)
+        result = simulate_rotor(rotor, contacts, dt=dt, until=STEPS * dt, start=start, tolerance=TOLERANCE)
     axes = list(rotor.axes)
     parts = (result.disc, result.journal, result.disc_velocity, result.journal_velocity)
     return _Run(rotor, start, dt, {}, np.hstack([part[:, axes] for part in parts]), result.force)

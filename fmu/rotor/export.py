@@ -30,7 +30,7 @@ def export_rotor(
     Inputs are further forces on journal and disc, `journal_force_x`, ..., `disc_force_y`; outputs positions and
     velocities of both, `journal_x`, `journal_velocity_x`, `disc_x`, ..., and `approach[i]` and `rate[i]` of every
     mount. `unbalance` and `speed_rpm` are tunable. Without contacts their forces are inputs too, `force[i]`, as
-    the FMU of a contact gives them: connect the two to close the rotor. With contacts they are inside, each step is
+    the FMU of a contact gives them: connect the two to close the rotor. With contacts they are inside, steps are
     balanced by Newton's method, and `force[i]` are outputs, of one bearing. In co-simulation a step is cut into
     inner ones of at most `inner_step`, a fixed parameter that resolves shaft and contacts by default:
     generalised-alpha steps, those of `simulate_rotor`. Start values of positions and velocities can be set.
@@ -53,6 +53,8 @@ def export_rotor(
     Path
         The file.
 
+    Elements warn here where the rotor's speed lies outside their band, or they were made for another contact.
+
     Raises
     ------
     InputError
@@ -61,8 +63,10 @@ def export_rotor(
     BuildError, VerificationError
         As `export_contact`.
     """
+    model = RotorModel(rotor, contacts, start)
+    rotor.check([element.copy() for element in model.elements], stacklevel=3)
     return export_verified(
-        RotorModel(rotor, contacts, start),
+        model,
         path,
         fmi=fmi,
         model_name=model_name,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,7 +13,7 @@ import numpy as np
 
 from ehlcontact.errors import ConvergenceError, InputError
 from fmu.contacts import Element, default_step, round_down
-from reduced_models import JeffcottRotor, RotorState, ScaledContact
+from reduced_models import JeffcottRotor, OutsideValidityWarning, RotorState, ScaledContact
 
 # An FMU counts its contacts, and all inputs that have derivatives, in the bits of one number.
 MOST_MOUNTS = 32
@@ -74,7 +75,9 @@ class RotorModel:
         if not self.elements:
             return self.rotor.rest_state(np.zeros(len(self.rotor.axes)))
         try:
-            return self.rotor.static_equilibrium([element.copy() for element in self.elements])
+            with warnings.catch_warnings():  # about the speed, which rest knows nothing of
+                warnings.simplefilter("ignore", OutsideValidityWarning)
+                return self.rotor.static_equilibrium([element.copy() for element in self.elements])
         except ConvergenceError as error:
             load = f"{self.rotor.static_load.tolist()} N"
             raise InputError("contacts", str(error), f"ones that carry the static load {load}") from None
