@@ -61,7 +61,7 @@ def export(
     force: Annotated[bool, typer.Option("--force", help="Replace the FMU if there is one.")] = False,
     json_to: o.JsonTo = None,
 ) -> None:
-    """Export a contact element, or a study's rotor, as an FMU for co-simulation and model exchange, if verified."""
+    """Export a contact element, or the rotor of a study, as an FMU, once it is verified."""
     if fmi not in (2, 3):
         raise InputError("--fmi", fmi, "2 or 3")
     study = file.suffix.lower() == ".toml"
@@ -137,12 +137,9 @@ def _about(exported: Any) -> list[tuple[str, str, str]]:
     if not isinstance(exported, RotorModel):
         return [("element", exported.kind, exported.units)]
     rotor, kinds = exported.rotor, sorted({element.kind for element in exported.elements})
+    where = f"bearings: {rotor.bearings}, contacts in each: {len(rotor.mounts)}; SI"
     return [
-        (
-            "rotor",
-            f"{rotor.speed_rpm:g} rpm",
-            f"{len(rotor.mounts)} contacts in each of {rotor.bearings} bearings, SI",
-        ),
+        ("rotor", f"{rotor.speed_rpm:g} rpm", where),
         ("contacts", ", ".join(kinds), "inside; their forces are outputs"),
     ]
 
