@@ -1,4 +1,4 @@
-"""Reduced contact elements as Functional Mock-up Units: FMI 2.0 and 3.0, co-simulation and model exchange.
+"""Contact elements and rotors as Functional Mock-up Units: FMI 2.0 and 3.0, co-simulation and model exchange.
 
 ==============  ====================================================================================
 module          responsibility
@@ -20,6 +20,7 @@ module          responsibility
 ``comparison``  forces, tangents and derivatives of both, side by side
 ``references``  reference results inside an FMU, and `verify_references`: the FMU against them alone
 ``driver``      an instance of an FMU, by hand, through fmpy
+``rotor/``      a Jeffcott rotor, alone or closed with its contacts
 ``csrc/``       the C sources: common core, glue of each FMI version, models; equations in its README
 ==============  ====================================================================================
 
@@ -35,5 +36,7 @@ from fmu.references.check import verify_references as verify_references
 from fmu.references.files import reference_files as reference_files
 from fmu.references.series import References as References
 from fmu.references.series import Trial as Trial
+from fmu.rotor.export import export_rotor as export_rotor
+from fmu.rotor.model import RotorModel as RotorModel
 from fmu.verify import Verification as Verification
 from fmu.verify import verify as verify

@@ -42,6 +42,7 @@ class Comparison:
     derivatives: float
     flags: int
     exchange: float
+    motion: float = 0.0
 
 
 def compare_spring(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> Comparison:
@@ -237,14 +238,14 @@ def tangents(element: Any, states: _Floats, approach: float, rate: float) -> tup
     return unit * w_u, unit * time * gains[0] * theta
 
 
-def difference(ours: _Floats, expected: _Floats, scale: float) -> float:
+def difference(ours: _Floats, expected: _Floats, scale: float | _Floats) -> float:
     """Largest difference, relative to what is expected and at least to 1e-3 of `scale`."""
     return over(np.abs(ours - expected), floored(expected, scale))
 
 
-def floored(expected: _Floats, scale: float) -> _Floats:
+def floored(expected: _Floats, scale: float | _Floats) -> _Floats:
     """Size of what is expected, at least 1e-3 of `scale`."""
-    return np.asarray(np.maximum(np.abs(expected), 1e-3 * abs(scale)))
+    return np.asarray(np.maximum(np.abs(expected), 1e-3 * np.abs(scale)))
 
 
 def over(error: _Floats, size: _Floats) -> float:

@@ -66,9 +66,7 @@ def contact_spec(element: Element, model_name: str | None = None) -> ModelSpec:
     """
     if not isinstance(element, Element):
         raise InputError("element", type(element).__name__, "a contact element (linear, cubic, ..., wide)")
-    name = type(element).__name__ if model_name is None else model_name
-    if not isinstance(name, str) or not name.strip() or not name.isprintable() or len(name) > 100:
-        raise InputError("model_name", name, "1 to 100 printable characters")
+    name = checked_name(type(element).__name__ if model_name is None else model_name)
     from fmu.film import film_parts
     from fmu.spring import spring_parts
 
@@ -84,6 +82,19 @@ def contact_spec(element: Element, model_name: str | None = None) -> ModelSpec:
         time_unit="s" if element.units == "SI" else "1",
         **parts,
     )
+
+
+def checked_name(name: object) -> str:
+    """A model name as it is.
+
+    Raises
+    ------
+    InputError
+        Empty, too long or not printable.
+    """
+    if not isinstance(name, str) or not name.strip() or not name.isprintable() or len(name) > 100:
+        raise InputError("model_name", name, "1 to 100 printable characters")
+    return name
 
 
 class Common:

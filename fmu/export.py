@@ -15,13 +15,16 @@ from fmu.binaries import Platform, build_binaries, choose, this_machine
 from fmu.binaries.libraries import Progress
 from fmu.binaries.recipe import build_description
 from fmu.c_headers import c_headers
-from fmu.contacts import Element, contact_spec
+from fmu.contacts import Element
 from fmu.gate import require_finite, require_verified
 from fmu.glue import GLUE, compiled
 from fmu.icon import icon
 from fmu.references.contacts import contact_references
 from fmu.references.files import reference_files
 from fmu.references.series import References
+from fmu.rotor.model import RotorModel
+from fmu.rotor.references import rotor_references
+from fmu.rotor.variables import spec_of
 from fmu.spec import ModelSpec
 from fmu.texts import documentation, model_description
 from fmu.texts3 import model_description_3, terminals
@@ -103,7 +106,7 @@ def export_contact(
 
 
 def export_verified(
-    element: Element,
+    element: Element | RotorModel,
     path: str | os.PathLike[str],
     *,
     fmi: int = 2,
@@ -112,14 +115,14 @@ def export_verified(
     overwrite: bool = False,
     progress: Progress | None = None,
 ) -> tuple[Path, Verification | None]:
-    """As `export_contact`; returns what was found too, None where this machine can run no such FMU."""
+    """As `export_contact` or `export_rotor`, with what was found: None where this machine can run no such FMU."""
     if isinstance(fmi, bool) or fmi not in GLUE:
         raise InputError("fmi", fmi, "2 or 3")
-    spec = contact_spec(element, model_name)
+    spec = spec_of(element, model_name)
     require_finite(element)
     wanted = choose(platforms, fmi)
     target = _free_target(path, overwrite)  # before compiling
-    references = contact_references(element, spec)
+    references = references_of(element, spec)
     files = fmu_files(spec, wanted, fmi, progress, references)
     found = None
     own = this_machine()
@@ -129,6 +132,13 @@ def export_verified(
         found = require_verified(build.pack(runnable), element)
     _free_target(path, overwrite)  # still
     return write_bytes(target, build.pack(files)), found
+
+
+def references_of(element: Element | RotorModel, spec: ModelSpec) -> References:
+    """Reference inputs and results of whatever can be exported."""
+    if isinstance(element, RotorModel):
+        return rotor_references(element, spec)
+    return contact_references(element, spec)
 
 
 def _free_target(path: str | os.PathLike[str], overwrite: bool) -> Path:

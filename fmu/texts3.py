@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 from ehlcontact import __version__
 from fmu.spec import ModelSpec, Variable
-from fmu.texts import LOG_CATEGORIES, default_experiment, used_units, value_attributes
+from fmu.texts import LOG_CATEGORIES, default_experiment, initial_unknowns, used_units, value_attributes
 
 TIME = "time"  # behind the others, and before the event indicators
 FLANGE = "Modelica.Mechanics.Translational.Interfaces.Flange_a"
@@ -122,7 +122,7 @@ def _variable(parent: ElementTree.Element, variable: Variable, spec: ModelSpec) 
 def _structure(root: ElementTree.Element, spec: ModelSpec) -> None:
     structure = ElementTree.SubElement(root, "ModelStructure")
     moving = {variable.name for variable in (*spec.inputs, *spec.states)}
-    computed = sorted((*spec.outputs, *spec.derivatives), key=lambda variable: variable.value_reference)
+    computed = initial_unknowns(spec)
     # While running only inputs and states are knowns; at initialization the parameters are as well.
     for section, variables, all_knowns in (
         ("Output", spec.outputs, False),
