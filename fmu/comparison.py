@@ -250,6 +250,10 @@ def floored(expected: _Floats, scale: float | _Floats) -> _Floats:
 
 def over(error: _Floats, size: _Floats) -> float:
     """Largest error, relative to its size; where that is nothing, any error is infinite."""
-    if not np.all(np.isfinite(error)):
-        return float("inf")
-    return float(np.max(np.divide(error, size, out=np.where(error > 0.0, np.inf, 0.0), where=size > 0.0)))
+    return float(np.max(each_over(error, size)))
+
+
+def each_over(error: _Floats, size: _Floats) -> _Floats:
+    """The same of each; infinite where an error is no number."""
+    found = np.divide(error, size, out=np.where(error > 0.0, np.inf, 0.0), where=size > 0.0)
+    return np.where(np.isfinite(error), found, np.inf)

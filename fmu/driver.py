@@ -32,14 +32,16 @@ class _Instance:
             modelIdentifier=getattr(description, self.section).modelIdentifier,
             instanceName="verify",
         )
+        self._get = self._named("getReal", "getFloat64")
+        self._set = self._named("setReal", "setFloat64")
         if self.fmi == 2:
             self.raw.instantiate(callbacks=collecting_callbacks(messages), **options)
         else:
             self.raw.instantiate(logMessage=_collecting_logger(messages), **options)
 
-    def _call(self, name2: str, name3: str, *arguments: Any) -> Any:
-        """Call what has two names, one of each version."""
-        return getattr(self.raw, name2 if self.fmi == 2 else name3)(*arguments)
+    def _named(self, name2: str, name3: str) -> Any:
+        """What has two names, one of each version."""
+        return getattr(self.raw, name2 if self.fmi == 2 else name3)
 
     def _initialize(self, **values: float) -> None:
         if self.fmi == 2:
@@ -55,12 +57,12 @@ class _Instance:
 
     def set(self, **values: float) -> None:
         """Set real variables."""
-        numbers = [float(value) for value in values.values()]
-        self._call("setReal", "setFloat64", [self.reference[name] for name in values], numbers)
+        self._set([self.reference[name] for name in values], [float(value) for value in values.values()])
 
     def choose(self, **values: int) -> None:
         """Set enumerations."""
-        self._call("setInteger", "setInt64", [self.reference[name] for name in values], list(values.values()))
+        put = self._named("setInteger", "setInt64")
+        put([self.reference[name] for name in values], list(values.values()))
 
     def assign(self, **values: float) -> None:
         """Set real variables and enumerations."""
@@ -72,7 +74,7 @@ class _Instance:
 
     def get(self, *names: str) -> list[float]:
         """Read real variables."""
-        return list(self._call("getReal", "getFloat64", [self.reference[name] for name in names]))
+        return list(self._get([self.reference[name] for name in names]))
 
     def flag(self, name: str) -> bool:
         """Read a Boolean."""
@@ -122,7 +124,7 @@ class Exchange(_Instance):
     def start(self, **values: float) -> None:
         """Go to continuous time."""
         self._initialize(**values)
-        self._call("newDiscreteStates", "updateDiscreteStates")
+        self._named("newDiscreteStates", "updateDiscreteStates")()
         self.raw.enterContinuousTimeMode()
 
     def place(self, states: _Floats, **inputs: float) -> _Floats:
@@ -132,8 +134,8 @@ class Exchange(_Instance):
         x, rates = np.ascontiguousarray(states, np.float64), np.zeros(states.size)
         if states.size:
             self.raw.setContinuousStates(x.ctypes.data_as(POINTER(c_double)), x.size)
-            names = "getDerivatives", "getContinuousStateDerivatives"
-            self._call(*names, rates.ctypes.data_as(POINTER(c_double)), rates.size)
+            ask = self._named("getDerivatives", "getContinuousStateDerivatives")
+            ask(rates.ctypes.data_as(POINTER(c_double)), rates.size)
         return rates
 
     def evaluate(self, states: _Floats, **inputs: float) -> tuple[float, _Floats]:

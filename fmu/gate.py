@@ -11,7 +11,7 @@ from ehlcontact.errors import InputError
 from fmu.contacts import Element
 from fmu.references.check import check_references
 from fmu.rotor.model import RotorModel
-from fmu.verify import Verification, opened, verify
+from fmu.verify import Verification, opened, verify_opened
 
 REACH = 3.0  # validity intervals above `high` up to which `verify` asks for a force
 
@@ -56,8 +56,8 @@ def require_verified(content: bytes, element: Element | RotorModel) -> Verificat
         with tempfile.TemporaryDirectory(prefix="ehlcontact-verify-", ignore_cleanup_errors=True) as folder:
             trial = Path(folder) / "trial.fmu"
             trial.write_bytes(content)
-            found = verify(trial, element)
             with opened(trial) as (unpacked, description):
+                found = verify_opened(trial, unpacked, description, element)
                 own = check_references(trial, unpacked, description)
     except InputError as error:
         raise VerificationError(f"the FMU is not {error.allowed}") from None

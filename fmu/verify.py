@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
+import zipfile
 from collections.abc import Iterator
 from contextlib import chdir, contextmanager
 from dataclasses import asdict, dataclass
@@ -75,20 +76,26 @@ def verify(path: str | os.PathLike[str], element: Element | RotorModel) -> Verif
     InputError
         Not an FMU of such an element or rotor for this platform.
     """
+    file = Path(path)
+    spec_of(element)  # first of all, whether it is one
+    with opened(file) as (folder, description):
+        return verify_opened(file, folder, description, element)
+
+
+def verify_opened(file: Path, folder: str, description: Any, element: Element | RotorModel) -> Verification:
+    """The same of an FMU that is unpacked."""
     from fmpy.validation import validate_fmu
 
-    file = Path(path)
     spec = spec_of(element)
-    with opened(file) as (folder, description):
-        known = _known_variables(description, spec, file)
-        findings = (*validate_fmu(str(file)), *_declarations(spec, known))
-        with running(file, folder, description) as (slave, exchange):
-            if isinstance(element, RotorModel):
-                found = compare_rotor(slave, exchange, element, spec)
-            elif isinstance(element, Film):
-                found = compare_film(slave, exchange, element, spec)
-            else:
-                found = compare_spring(slave, exchange, element, spec)
+    known = _known_variables(description, spec, file)
+    findings = (*validate_fmu(str(file)), *_declarations(spec, known))
+    with running(file, folder, description) as (slave, exchange):
+        if isinstance(element, RotorModel):
+            found = compare_rotor(slave, exchange, element, spec)
+        elif isinstance(element, Film):
+            found = compare_film(slave, exchange, element, spec)
+        else:
+            found = compare_spring(slave, exchange, element, spec)
     return _verdict(findings, found)
 
 
@@ -130,6 +137,11 @@ def opened(file: Path) -> Iterator[tuple[str, Any]]:
     InputError
         Not a readable FMU for this platform.
     """
+    try:
+        with zipfile.ZipFile(file):
+            pass
+    except (OSError, ValueError, zipfile.BadZipFile) as error:
+        raise InputError("path", str(file), f"a readable FMU ({' '.join(str(error).split())})") from None
     import fmpy
 
     folder = tempfile.mkdtemp(prefix="ehlcontact-verify-")

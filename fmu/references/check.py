@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu.comparison import END, floored, over
+from fmu.comparison import END, each_over, floored
 from fmu.references.files import POINTS, STEPS, changed_files, read_references
 from fmu.references.series import References, Trial
 from fmu.verify import opened, running
@@ -75,10 +75,10 @@ def verify_references(path: str | os.PathLike[str]) -> ReferenceCheck:
     --------
     fmu.verify : the same against the element in Python, at more states.
     """
-    from fmpy.validation import validate_fmu
-
     file = Path(path)
     with opened(file) as (folder, description):
+        from fmpy.validation import validate_fmu
+
         return check_references(file, folder, description, tuple(validate_fmu(str(file))))
 
 
@@ -157,7 +157,7 @@ def _compared(name: str, trial: Trial, found: _Floats) -> Interface:
     worst = (-1.0, "", 0.0)
     for column, (variable, expected) in zip(found.T, trial.unknowns.items(), strict=True):
         size = floored(expected, np.abs(expected).max())
-        each = np.array([over(np.abs(column[k : k + 1] - expected[k]), size[k : k + 1]) for k in range(size.size)])
+        each = each_over(np.abs(column - expected), size)
         at = int(np.argmax(each))
         if each[at] > worst[0]:
             worst = (float(each[at]), variable, float(trial.time[at]))

@@ -299,5 +299,9 @@ CALLS = {
         ("platforms", "'win32'", "aarch64-darwin or all"),
     ),
     "export nowhere": (lambda: fmu.export_contact(cubic(), "/none/x.fmu"), ("path", "in a folder that exists")),
+    "verify a file of text": (
+        lambda: fmu.verify_references(__file__),
+        ("path", "a readable FMU (File is not a zip file)"),
+    ),
     "verify nothing": (lambda: fmu.verify("/none/x.fmu", cubic()), ("path", "a readable FMU ([Errno 2] No such")),
 }

@@ -181,6 +181,15 @@ COMMANDS = [
     (("export", ELEMENT, "-o", "new.fmu", "--platform"), ("--platform", "one value")),
     (("export", ELEMENT, "-o", "x.fmu", "--overwrite"), ("--overwrite", "--force")),
     (("export", ELEMENT, ELEMENT, "-o", "new.fmu"), ("element.json", "unexpected")),
+    # verify
+    (("verify",), ("X.fmu", "given")),
+    (("verify", "none.fmu"), ("file = 'none.fmu'", "a readable FMU", "No such file")),
+    (("verify", "x.fmu"), ("file = 'x.fmu'", "a readable FMU", "not a zip file")),
+    (("verify", ELEMENT), ("file = 'element.json'", "a readable FMU", "not a zip file")),
+    (("verify", "."), ("file = '.'", "a readable FMU")),
+    (("verify", "x.fmu", "--json", "x.fmu"), ("--json = 'x.fmu'", "which is read")),
+    (("verify", "x.fmu", "element.json"), ("element.json", "unexpected")),
+    (("verify", "x.fmu", "--element", ELEMENT), ("--element", "--json")),
     # validate and run
     (("validate",), ("STUDY.toml", "given")),
     (("validate", "none.toml"), ("study = 'none.toml'", "readable TOML file")),

@@ -46,7 +46,7 @@ def ways_of_coupling(fmus: Iterable[Mapping[str, Any]]) -> list[tuple[str, list[
     rows = []
     for way in dict.fromkeys(way for steps in told for way in steps):
         found = [steps.get(way, {"step": "-", "why": ""}) for steps in told]
-        whys = dict.fromkeys(entry["why"] for entry in found if entry["why"])
+        whys = dict.fromkeys(part for entry in found for part in entry["why"].split("; ") if part)  # each once
         rows.append((way, [entry["step"] for entry in found], "; ".join(whys)))
     return rows
 
