@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import tempfile
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import suppress
+from dataclasses import dataclass, field
 from pathlib import Path
+from threading import Event
 
 from fmu.binaries import cache, macho
 from fmu.binaries.compiler import Compiler, compilers
@@ -19,6 +23,16 @@ OLDEST_GLIBC = (2, 17)
 LAYOUT = b"2"  # of what is kept: another number where compiled libraries would differ for a reason not in the key
 
 Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Work:
+    """What is compiled: files by name, those of them that are compiled, and the name of the library."""
+
+    sources: Mapping[str, bytes]
+    units: Sequence[str]
+    identifier: str
+    stop: Event = field(default_factory=Event)  # set where it is in vain
 
 
 def build_binaries(
@@ -58,72 +72,91 @@ def build_binaries(
     BuildError
         No compiler, or one that failed, was killed, hung, or made something else.
     """
+    work = Work(sources, units, identifier)
+    _warn_of_first_build(platforms, work)
     made: dict[str, list[bytes]] = {}
     labels = []
-    _warn_of_first_build(platforms, sources, units, identifier)
-    for done, one in enumerate(platforms):
-        if progress is not None:
-            progress(done, len(platforms))
-        library, compiler = _library(sources, units, identifier, one)
+    for one, (library, compiler) in zip(platforms, _libraries(work, platforms, progress), strict=True):
         path = f"binaries/{one.folder(fmi)}/{identifier}{one.suffix}"
         made.setdefault(path, []).append(library)
         labels.append(f"{one.name}: {compiler.label} {' '.join(one.all_flags(identifier))}")
-    if progress is not None:
-        progress(len(platforms), len(platforms))
     return {path: macho.universal(found) for path, found in made.items()}, tuple(labels)
 
 
-def _library(
-    sources: Mapping[str, bytes], units: Sequence[str], identifier: str, target: Platform
-) -> tuple[bytes, Compiler]:
+def _libraries(
+    work: Work, platforms: Sequence[Platform], progress: Progress | None
+) -> list[tuple[bytes, Compiler]]:
+    """Library of each platform and its compiler, as many at a time as there are processors."""
+    tell = progress or (lambda done, of: None)
+    tell(0, len(platforms))
+    with ThreadPoolExecutor(min(len(platforms), os.cpu_count() or 1)) as pool:
+        waiting = [pool.submit(_library, work, one) for one in platforms]
+        try:
+            for done, one in enumerate(as_completed(waiting), start=1):
+                one.result()
+                tell(done, len(platforms))
+        except BaseException:  # Ctrl-C too
+            work.stop.set()
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return [one.result() for one in waiting]
+
+
+def _library(work: Work, target: Platform) -> tuple[bytes, Compiler]:
     """Library by the first compiler that makes a good one."""
     tried = compilers(target)
     for compiler in tried[:-1]:
+        too_new = _key_of_too_new(work, compiler)
+        if cache.recall(too_new) is not None:
+            continue
         try:
-            library, found = _made(sources, units, identifier, target, compiler)
+            library, found = _made(work, target, compiler)
         except BuildError:  # a gcc without the headers of the C library, say
             continue
         if found.glibc <= OLDEST_GLIBC:
             return library, compiler
-    return _made(sources, units, identifier, target, tried[-1])[0], tried[-1]
+        cache.remember(too_new, b"")
+    return _made(work, target, tried[-1])[0], tried[-1]
 
 
-def _made(
-    sources: Mapping[str, bytes], units: Sequence[str], identifier: str, target: Platform, compiler: Compiler
-) -> tuple[bytes, Library]:
+def _key_of_too_new(work: Work, compiler: Compiler) -> str:
+    """Key of what is kept where a compiler's library needs a newer system: another element's would as well."""
+    return cache.key_of(
+        [LAYOUT, b"too new", compiler.identity.encode(), *(work.sources[unit] for unit in work.units)]
+    )
+
+
+def _made(work: Work, target: Platform, compiler: Compiler) -> tuple[bytes, Library]:
     """Library by one compiler, or as it was made before."""
-    key = _key(sources, units, identifier, target, compiler)
+    key = _key(work, target, compiler)
     library = cache.recall(key)
     if library is None:
-        library = _compile(sources, units, identifier, target, compiler)
+        library = _compile(work, target, compiler)
         found = _checked(library, target, compiler)
         cache.remember(key, library)
         return library, found
     return library, _checked(library, target, compiler)
 
 
-def _key(
-    sources: Mapping[str, bytes], units: Sequence[str], identifier: str, target: Platform, compiler: Compiler
-) -> str:
-    texts = (compiler.identity, *compiler.command[1:], identifier, *target.all_flags(identifier), "", *units)
+def _key(work: Work, target: Platform, compiler: Compiler) -> str:
+    flags = target.all_flags(work.identifier)
+    texts = (compiler.identity, *compiler.command[1:], work.identifier, *flags, "", *work.units)
     parts = [LAYOUT, *(text.encode("utf-8", "surrogateescape") for text in texts)]
-    for name in sorted(sources):
-        parts += [name.encode(), sources[name]]
+    for name in sorted(work.sources):
+        parts += [name.encode(), work.sources[name]]
     return cache.key_of(parts)
 
 
-def _compile(
-    sources: Mapping[str, bytes], units: Sequence[str], identifier: str, target: Platform, compiler: Compiler
-) -> bytes:
-    file = f"{identifier}{target.suffix}"  # Windows has the name inside
-    line = [*compiler.command, *target.all_flags(identifier), "-o", file, *units]
+def _compile(work: Work, target: Platform, compiler: Compiler) -> bytes:
+    file = f"{work.identifier}{target.suffix}"  # Windows has the name inside
+    line = [*compiler.command, *target.all_flags(work.identifier), "-o", file, *work.units]
     line += [] if target.system == "windows" else ["-lm"]
     try:
         with tempfile.TemporaryDirectory(prefix="ehlcontact-fmu-", ignore_cleanup_errors=True) as name:
             folder = Path(name)
-            for source, content in sources.items():
+            for source, content in work.sources.items():
                 (folder / source).write_bytes(content)
-            run(line, folder, _environment(folder) if compiler.is_zig else {})
+            run(line, folder, _environment(folder) if compiler.is_zig else {}, work.stop)
             library = folder / file
             if not library.is_file():
                 raise BuildError(f"the C compiler made no library: {' '.join(line)}")
@@ -152,9 +185,7 @@ def _checked(library: bytes, target: Platform, compiler: Compiler) -> Library:
     return found
 
 
-def _warn_of_first_build(
-    platforms: Sequence[Platform], sources: Mapping[str, bytes], units: Sequence[str], identifier: str
-) -> None:
+def _warn_of_first_build(platforms: Sequence[Platform], work: Work) -> None:
     """Say that a minute or two will pass, before they do."""
     for one in platforms:
         if one.system != "windows":
@@ -163,7 +194,7 @@ def _warn_of_first_build(
         mark = _mark(one, compiler)
         if mark is not None and mark.exists():
             continue
-        if cache.recall(_key(sources, units, identifier, one, compiler)) is None:
+        if cache.recall(_key(work, one, compiler)) is None:
             warnings.warn(
                 "the first library for Windows takes about 2 minutes: its C library is compiled too, and kept",
                 stacklevel=2,

@@ -12,8 +12,8 @@ from ehlcontact.errors import InputError
 ALL = "all"
 # Architectures as Python's `platform.machine` may spell them.
 ARCHITECTURES = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
-# For all: no symbol is seen from outside that is not marked, and no rounding depends on the machine. No vectors: loops
-# are short, and their numbers were just written one by one, which a vector waits for.
+# For all: no symbol is seen from outside that is not marked, and no rounding depends on the machine. No vectors:
+# loops are short, and a vector waits for numbers that were just written one by one.
 COMMON = ("-std=c99", "-O3", "-fno-tree-vectorize", "-fvisibility=hidden", "-ffp-contract=off", "-shared", "-s")
 # What is missing is told when linking, and not by an importer.
 LINUX = ("-fPIC", "-Wl,-z,defs")

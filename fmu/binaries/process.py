@@ -7,9 +7,11 @@ import shlex
 import signal
 import subprocess
 import tempfile
+import time
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
+from threading import Event
 
 LONGEST_RUN = 900.0  # seconds; zig builds the C runtime of Windows on first use, which took 154 s on two cores
 SHOWN = 3  # lines of a compiler's complaints in a message; all of them are in `BuildError.output`
@@ -23,13 +25,13 @@ class BuildError(RuntimeError):
         super().__init__(" ".join(f"{message}{': ' if output.strip() else ''}{_gist(output)}".split()))
 
 
-def run(line: Sequence[str], folder: Path, more: Mapping[str, str]) -> None:
-    """Run a command in `folder`, with `more` in its environment.
+def run(line: Sequence[str], folder: Path, more: Mapping[str, str], stop: Event | None = None) -> None:
+    """Run a command in `folder`, with `more` in its environment, until `stop` is set.
 
     Raises
     ------
     BuildError
-        It cannot be started, fails, is killed, or takes too long.
+        It cannot be started, fails, is killed, takes too long or is told to stop.
     """
     shown = shlex.join(line)
     # Into a file: a compiler's children may outlive it and would hold a pipe open for ever.
@@ -48,9 +50,7 @@ def run(line: Sequence[str], folder: Path, more: Mapping[str, str]) -> None:
             reason = error.strerror if isinstance(error, OSError) else error
             raise BuildError(f"cannot start the C compiler {shown} ({reason})") from None
         try:
-            code = process.wait(LONGEST_RUN)
-        except subprocess.TimeoutExpired:
-            raise BuildError(f"the C compiler took more than {LONGEST_RUN:g} s: {shown}") from None
+            code = _wait(process, stop, shown)
         finally:  # Ctrl-C too: in a session of its own it does not hear of it
             _end(process)
         said.seek(0)
@@ -59,6 +59,19 @@ def run(line: Sequence[str], folder: Path, more: Mapping[str, str]) -> None:
         raise BuildError(f"the C compiler was killed ({_signal(-code)}): {shown}", output)
     if code != 0:
         raise BuildError(f"the C compiler failed with exit code {code}: {shown}", output)
+
+
+def _wait(process: subprocess.Popen[bytes], stop: Event | None, shown: str) -> int:
+    """Exit code of a command, once it has ended by itself."""
+    until = time.monotonic() + LONGEST_RUN
+    while True:
+        try:
+            return process.wait(0.1)  # s, until it is asked again whether to stop
+        except subprocess.TimeoutExpired:
+            if stop is not None and stop.is_set():
+                raise BuildError(f"the C compiler was told to stop: {shown}") from None
+            if time.monotonic() > until:
+                raise BuildError(f"the C compiler took more than {LONGEST_RUN:g} s: {shown}") from None
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "config.h"
+#include "core.h"
 
 #ifndef FUZZ_INPUTS /* two inputs, three outputs of which the first is not negative; for a rotor others are given */
 #define FUZZ_INPUTS VR_approach, VR_rate
@@ -55,6 +55,19 @@ static fmi2Component start(fmi2Type type)
     return c;
 }
 
+/* Whether these are numbers; what was set may be anything, so of variables only what is computed counts. */
+static int finite(const double values[], const fmi2ValueReference vr[], size_t count)
+{
+    size_t i;
+    for (i = 0; i < count; i++) {
+        const int computed = vr == NULL || core_variables[vr[i]].role >= DERIVATIVE;
+        if (computed && !isfinite(values[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 #define MOST (N_VARIABLES + 2)
 
 int main(int count, char **arguments)
@@ -87,7 +100,7 @@ int main(int count, char **arguments)
     for (k = 0; k < calls; k++) {
         const unsigned int call = any(26);
         fmi2Status status = fmi2OK;
-        int judge = 0;
+        int judge = 0, numbers = 1;
         fmi2GetReal(c, outputs, 3, values); /* what can be computed is: outputs are, when they are first asked for */
         fmi2GetDerivatives(c, values, N_STATES);
         fmi2GetReal(c, derivatives, N_STATES, values);
@@ -122,21 +135,22 @@ int main(int count, char **arguments)
             break;
         }
         case 8: status = fmi2SetReal(c, vr, n, values); break;
-        case 9: status = fmi2GetReal(c, vr, n, values); judge = status == fmi2OK; break;
+        case 9:
+            status = fmi2GetReal(c, vr, n, values);
+            numbers = status != fmi2OK || finite(values, vr, n);
+            break;
         case 10: status = fmi2GetBoolean(c, vr, n, flags); break;
         case 11: status = fmi2GetInteger(c, vr, n, integers); break;
         case 12: status = fmi2SetInteger(c, vr, n, integers); break;
         case 13:
             status = fmi2GetDirectionalDerivative(c, vr, n, &vr[n / 2], n - n / 2, seeds, values);
-            for (i = 0; status == fmi2OK && i < n; i++) {
-                if (!isfinite(values[i])) {
-                    fprintf(stderr, "derivative not finite\n");
-                    return 1;
-                }
-            }
+            numbers = status != fmi2OK || finite(values, NULL, n);
             break;
         case 14: status = fmi2SetRealInputDerivatives(c, vr, n, integers, values); break;
-        case 15: status = fmi2GetRealOutputDerivatives(c, vr, n, integers, values); break;
+        case 15:
+            status = fmi2GetRealOutputDerivatives(c, vr, n, integers, values);
+            numbers = status != fmi2OK || finite(values, NULL, n);
+            break;
         case 16:
             if (kept != NULL) {
                 status = fmi2SetFMUstate(c, kept);
@@ -147,8 +161,15 @@ int main(int count, char **arguments)
             break;
         case 17: fmi2GetFMUstate(c, &kept); break;
         case 18: status = fmi2NewDiscreteStates(c, &info); break;
-        case 19: status = fmi2GetDerivatives(c, values, N_STATES); break;
-        case 20: status = fmi2GetEventIndicators(c, values, any(3)); break;
+        case 19:
+            status = fmi2GetDerivatives(c, values, N_STATES);
+            numbers = status != fmi2OK || finite(values, NULL, N_STATES);
+            break;
+        case 20:
+            n = any(3);
+            status = fmi2GetEventIndicators(c, values, n);
+            numbers = status != fmi2OK || finite(values, NULL, n);
+            break;
         case 21: status = fmi2SetContinuousStates(c, seeds, N_STATES); break;
         case 22: status = fmi2CompletedIntegratorStep(c, fmi2True, &flag, &flag); break;
         case 23: status = any(2) ? fmi2EnterContinuousTimeMode(c) : fmi2EnterEventMode(c); break;
@@ -168,7 +189,11 @@ int main(int count, char **arguments)
             return 1;
         }
         ok += status == fmi2OK;
-        if (judge && call != 9) {
+        if (!numbers) {
+            fprintf(stderr, "call %u was answered with what is no number\n", call);
+            return 1;
+        }
+        if (judge) {
             if (fmi2GetReal(c, outputs, 3, values) == fmi2OK
                 && !(isfinite(values[0]) && values[0] >= 0.0 && isfinite(values[1]) && isfinite(values[2]))) {
                 fprintf(stderr, "an output of a step is not finite, or pulls\n");

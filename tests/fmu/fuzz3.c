@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "config.h"
+#include "core.h"
 
 static unsigned long long seed = 1;
 
@@ -50,6 +50,20 @@ static fmi3Instance start(int slave)
     return c;
 }
 
+/* Whether these are numbers; what was set may be anything, so of variables only what is computed counts: those of the core,
+ * and behind them time and event indicators. */
+static int finite(const double values[], const fmi3ValueReference vr[], size_t count)
+{
+    size_t i;
+    for (i = 0; i < count; i++) {
+        const int computed = vr == NULL || vr[i] >= N_VARIABLES || core_variables[vr[i]].role >= DERIVATIVE;
+        if (computed && !isfinite(values[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 #define MOST (N_VARIABLES + 2)
 
 int main(int count, char **arguments)
@@ -81,7 +95,7 @@ int main(int count, char **arguments)
     for (k = 0; k < calls; k++) {
         const unsigned int call = any(28);
         fmi3Status status = fmi3OK;
-        int judge = 0;
+        int judge = 0, numbers = 1;
         fmi3GetFloat64(c, outputs, 3, values, 3); /* what can be computed is: outputs are, when they are first asked for */
         fmi3GetFloat64(c, derivatives, N_STATES, values, N_STATES);
         bytes_of(c, before, size);
@@ -115,7 +129,10 @@ int main(int count, char **arguments)
             break;
         }
         case 8: status = fmi3SetFloat64(c, vr, n, values, any(9) ? n : n + 1); break;
-        case 9: status = fmi3GetFloat64(c, vr, n, values, any(9) ? n : n + 1); break;
+        case 9:
+            status = fmi3GetFloat64(c, vr, n, values, any(9) ? n : n + 1);
+            numbers = status != fmi3OK || finite(values, vr, n);
+            break;
         case 10: status = fmi3GetBoolean(c, vr, n, flags, n); break;
         case 11: status = fmi3GetInt64(c, vr, n, integers, n); break;
         case 12: status = fmi3SetInt64(c, vr, n, integers, n); break;
@@ -123,14 +140,12 @@ int main(int count, char **arguments)
         case 14:
             status = call == 13 ? fmi3GetDirectionalDerivative(c, vr, n, &vr[n / 2], n - n / 2, seeds, n - n / 2, values, n)
                                 : fmi3GetAdjointDerivative(c, vr, n, &vr[n / 2], n - n / 2, seeds, n, values, n - n / 2);
-            for (i = 0; status == fmi3OK && i < (call == 13 ? n : n - n / 2); i++) {
-                if (!isfinite(values[i])) {
-                    fprintf(stderr, "derivative not finite\n");
-                    return 1;
-                }
-            }
+            numbers = status != fmi3OK || finite(values, NULL, call == 13 ? n : n - n / 2);
             break;
-        case 15: status = fmi3GetOutputDerivatives(c, vr, n, orders, values, n); break;
+        case 15:
+            status = fmi3GetOutputDerivatives(c, vr, n, orders, values, n);
+            numbers = status != fmi3OK || finite(values, NULL, n);
+            break;
         case 16:
             if (kept != NULL) {
                 status = fmi3SetFMUState(c, kept);
@@ -138,8 +153,15 @@ int main(int count, char **arguments)
             break;
         case 17: fmi3GetFMUState(c, &kept); break;
         case 18: status = fmi3UpdateDiscreteStates(c, &a, &b, &d, &e, &f, &until); break;
-        case 19: status = fmi3GetContinuousStateDerivatives(c, values, N_STATES); break;
-        case 20: status = fmi3GetEventIndicators(c, values, any(3)); break;
+        case 19:
+            status = fmi3GetContinuousStateDerivatives(c, values, N_STATES);
+            numbers = status != fmi3OK || finite(values, NULL, N_STATES);
+            break;
+        case 20:
+            n = any(3);
+            status = fmi3GetEventIndicators(c, values, n);
+            numbers = status != fmi3OK || finite(values, NULL, n);
+            break;
         case 21: status = fmi3SetContinuousStates(c, seeds, N_STATES); break;
         case 22: status = fmi3CompletedIntegratorStep(c, fmi3True, &a, &b); break;
         case 23:
@@ -164,6 +186,10 @@ int main(int count, char **arguments)
             return 1;
         }
         ok += status == fmi3OK;
+        if (!numbers) {
+            fprintf(stderr, "call %u was answered with what is no number\n", call);
+            return 1;
+        }
         if (judge && fmi3GetFloat64(c, outputs, 3, values, 3) == fmi3OK
             && !(isfinite(values[0]) && values[0] >= 0.0 && isfinite(values[1]) && isfinite(values[2]))) {
             fprintf(stderr, "an output of a step is not finite, or pulls\n");

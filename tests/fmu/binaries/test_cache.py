@@ -26,7 +26,7 @@ def compiled(monkeypatch):
     """Platforms for which something was compiled; the library itself is a stand-in."""
     calls = []
 
-    def compile_(sources, units, identifier, target, compiler):
+    def compile_(work, target, compiler):
         calls.append(target.name)
         return b"library"
 

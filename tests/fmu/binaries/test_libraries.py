@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+import threading
 import zipfile
 from pathlib import Path
 
@@ -14,7 +15,7 @@ import pytest
 from ehlcontact import InputError
 from fmu import export_contact
 from fmu.binaries import PLATFORMS, BuildError, build_binaries, choose, libraries, read_library, this_machine
-from fmu.binaries.compiler import compilers
+from fmu.binaries.compiler import Compiler, compilers
 from fmu.build import CSRC
 from fmu.contacts import contact_spec
 from fmu.export import content_guid, source_files
@@ -127,8 +128,52 @@ def test_a_binary_for_newer_systems_only_is_passed_over(monkeypatch):
     assert found.exports >= {"f"} and () < found.glibc <= (2, 17)
     own = compilers(OWN)[0]
     if not own.is_zig:
-        there = libraries._made(sources, ["a.c"], "a", OWN, own)[1]
+        there = libraries._made(libraries.Work(sources, ["a.c"], "a"), OWN, own)[1]
         assert (" zig " in label) == (there.glibc > (2, 17))
+
+
+@pytest.mark.skipif(OWN.system != "linux", reason="glibc is on Linux")
+def test_a_compiler_whose_libraries_are_too_new_is_asked_once(monkeypatch, tmp_path):
+    """Not again for the same code with other numbers; for other code it is."""
+    monkeypatch.setenv("EHLCONTACT_CACHE", str(tmp_path))
+    asked = []
+
+    def compile_(work, target, compiler):
+        asked.append(compiler.label)
+        return b"library"
+
+    def checked(library, target, compiler):
+        return libraries.Library(OWN.name, frozenset(), (), (2, 17) if compiler.is_zig else (2, 29))
+
+    old, new = (Compiler((name,), name, name, is_zig=name == "zig") for name in ("zig", "cc"))
+    monkeypatch.setattr(libraries, "compilers", lambda target: [new, old])
+    monkeypatch.setattr(libraries, "_compile", compile_)
+    monkeypatch.setattr(libraries, "_checked", checked)
+    for code, numbers in ((b"f", b"1"), (b"f", b"2"), (b"g", b"2")):
+        build_binaries({"a.c": code, "a.h": numbers}, ["a.c"], "a", [OWN], fmi=3)
+    assert asked == ["cc", "zig", "zig", "cc", "zig"]
+
+
+def test_where_one_platform_fails_the_others_are_ended(monkeypatch, tmp_path):
+    """They are compiled side by side; none is waited for."""
+    monkeypatch.setenv("EHLCONTACT_CACHE", str(tmp_path))
+    monkeypatch.setattr(libraries.os, "cpu_count", lambda: 2)
+    begun, ended, told = threading.Event(), [], []
+
+    def compile_(work, target, compiler):
+        if target.system == "windows":
+            assert begun.wait(30.0)
+            raise BuildError("no")
+        begun.set()
+        ended.append(work.stop.wait(30.0))
+        raise BuildError("told to stop")
+
+    monkeypatch.setattr(libraries, "compilers", lambda target: [Compiler(("cc",), "cc", "cc")])
+    monkeypatch.setattr(libraries, "_compile", compile_)
+    asked = [PLATFORMS[name] for name in ("x86_64-linux", "x86_64-windows", "x86_64-darwin")]
+    with pytest.raises(BuildError, match=r"^no$"):
+        build_binaries({"a.c": b""}, ["a.c"], "a", asked, 3, lambda *step: told.append(step))
+    assert ended == [True] and told == [(0, 3)]
 
 
 def test_no_room_to_compile(spec, sources, monkeypatch, tmp_path):
@@ -182,7 +227,9 @@ def test_the_first_for_windows_is_announced(spec, sources, monkeypatch, tmp_path
     monkeypatch.setenv("ZIG_GLOBAL_CACHE_DIR", str(tmp_path / "zig"))
     monkeypatch.setenv("EHLCONTACT_CACHE", str(tmp_path / "cache"))
     monkeypatch.setattr(
-        libraries, "run", lambda line, folder, more: (folder / f"{line[line.index('-o') + 1]}").write_bytes(b"MZ")
+        libraries,
+        "run",
+        lambda line, folder, more, stop: (folder / f"{line[line.index('-o') + 1]}").write_bytes(b"MZ"),
     )
     monkeypatch.setattr(libraries, "_checked", lambda *_: None)
     with pytest.warns(UserWarning, match="takes about 2 minutes"):

@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 import time
+from threading import Event, Timer
 
 import pytest
 
@@ -77,6 +78,16 @@ def test_one_that_hangs_is_ended_with_its_children(script, tmp_path, monkeypatch
             break
         time.sleep(0.1)
     assert state.stdout.strip() in ("", "Z", "Zs")
+
+
+@posix
+def test_told_to_stop(script, tmp_path):
+    stop = Event()
+    Timer(0.2, stop.set).start()
+    started = time.monotonic()
+    with pytest.raises(BuildError, match="was told to stop"):
+        process.run(script("sleep 60"), tmp_path, {}, stop)
+    assert time.monotonic() - started < 10.0
 
 
 @posix
