@@ -39,7 +39,6 @@ class Profile:
     X, H, P : ndarray, shape (k,)
         x/a or y/b, film over the dry approach, pressure over the Hertz pressure.
     scales : Scales or None
-        Units in SI.
     across : bool
         Along Y at X = 0, otherwise along X at Y = 0.
     """
@@ -217,10 +216,13 @@ def _mirrored(field: Array) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Interferogram:
-    """Fringes of a film, shape (nx + 1, 2 ny + 1) each."""
+    """Fringes of a film, shape (nx + 1, 2 ny + 1) each: `intensity` in [0, 1], and `order`.
 
-    intensity: Array  # in [0, 1]
-    order: Array  # path difference in wavelengths: bright fringes at the whole numbers
+    That is the path difference in wavelengths: bright fringes at the whole numbers.
+    """
+
+    intensity: Array
+    order: Array
 
     @property
     def resolved(self) -> NDArray[np.bool_]:
@@ -266,7 +268,7 @@ class FilmHistory:
     Attributes
     ----------
     T, central, minimum : ndarray, shape (steps + 1,)
-        Times in 2a/u_sum, films over the dry approach.
+        Times in 2a/u_sum, films over the dry approach; units in SI are `scales`.
     """
 
     T: Array

@@ -34,6 +34,15 @@ class MoesPoint:
     compressibility and Roelands' departure from Barus. The defaults are Venner and Lubrecht's. L = 0 is the limit
     of small L, where that pressure goes to 0: the oil is incompressible and has the viscosity eta0 everywhere.
 
+    Parameters
+    ----------
+    M, L, kappa : float
+        Moes' numbers with Rx and the sum of the speeds; semi-axis along rolling over that across.
+    alpha, eta0 : float
+        Pressure-viscosity coefficient [1/Pa], viscosity at ambient pressure [Pa s].
+    viscosity, density : str
+        "roelands" or "barus", "dowson-higginson" or "incompressible".
+
     Raises
     ------
     InputError
@@ -184,14 +193,22 @@ class Geometry:
 
 @dataclass(frozen=True, slots=True)
 class Scales:
-    """SI values of the dimensionless units at an operating point."""
+    """SI values of the dimensionless units at an operating point.
 
-    force: float  # f0 [N]
-    length: float  # dry approach delta_H, unit of u and H [m]
-    time: float  # 2a/u_sum [s]
-    a: float  # semi-axis along rolling [m]
-    b: float  # semi-axis across [m]
-    pressure: float  # Hertz pressure [Pa]
+    Attributes
+    ----------
+    force, length, time : float
+        f0 [N]; dry approach delta_H, unit of u and H [m]; 2a/u_sum [s].
+    a, b, pressure : float
+        Semi-axes along rolling and across [m]; Hertz pressure [Pa].
+    """
+
+    force: float
+    length: float
+    time: float
+    a: float
+    b: float
+    pressure: float
 
     @property
     def stiffness(self) -> float:
@@ -216,9 +233,19 @@ class Scales:
 
 @dataclass(frozen=True, slots=True)
 class OperatingPoint:
-    """A contact in SI units: geometry, oil, load [N] and the sum of the surface speeds u_sum [m/s].
+    """A contact in SI units; every solver takes it, or a `MoesPoint`.
 
-    ``moes`` is the same point without dimensions, ``scales`` the way back. Every solver takes either.
+    Parameters
+    ----------
+    geometry : Geometry
+    lubricant : Lubricant
+    load, u_sum : float
+        Static load of the contact [N], sum of the surface speeds [m/s].
+
+    Attributes
+    ----------
+    moes, scales : MoesPoint, Scales
+        The same point without dimensions, and the way back.
 
     Raises
     ------

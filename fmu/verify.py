@@ -27,18 +27,40 @@ ORBIT = 1e-6  # of a rotor's motion: both balance their contacts to a billionth 
 
 @dataclass(frozen=True, slots=True)
 class Verification:
-    """What was found; differences are relative, see `verify`."""
+    """What was found; differences are relative, see `verify`.
 
-    findings: tuple[str, ...]  # of fmpy's validation, and start values or units unlike the element's
-    states: int  # states compared
-    outside: int  # of these, with the approach outside the validity interval
-    parted: int  # of these, with no force
-    force: float  # largest difference of the force
-    tangents: float  # of stiffness and damping, those of a step too
-    derivatives: float  # of the directional derivatives of the force
-    flags: int  # states where outside_validity is wrong
-    exchange: float = 0.0  # largest difference in model exchange: force, and derivatives of the states
-    motion: float = 0.0  # of a rotor's run, of the largest of its motion
+    Attributes
+    ----------
+    findings : tuple of str
+        Of fmpy's validation, and start values or units unlike the element's.
+    states : int
+        Compared.
+    outside, parted : int
+        Of these, with the approach outside the validity interval, and with no force.
+    force : float
+        Largest difference of the force.
+    tangents : float
+        Of stiffness and damping, those of a step too.
+    derivatives : float
+        Of the directional derivatives of the force.
+    flags : int
+        States where outside_validity is wrong.
+    exchange : float
+        Largest difference in model exchange: force, and derivatives of the states.
+    motion : float
+        Of a rotor's run, largest difference over the largest of its motion.
+    """
+
+    findings: tuple[str, ...]
+    states: int
+    outside: int
+    parted: int
+    force: float
+    tangents: float
+    derivatives: float
+    flags: int
+    exchange: float = 0.0
+    motion: float = 0.0
 
     @property
     def passes(self) -> bool:

@@ -100,9 +100,9 @@ def cubics() -> list[Row]:
     """Cubics fitted to six motions at M = 200, L = 10, kappa = 0.5, by what can be identified of them.
 
     Nonato and Cavalca, *J. Sound Vib.* 329 (2010) 4656-4671, Tables 3 and 5. The three coefficients of a cubic
-    scatter from motion to motion; where it carries the load and its tangent there do not, and its damper is printed
-    with two digits. Here: n = 128, the record and window that a user gets by default. All tables and figures of the
-    paper, ours beside theirs: `ehlcontact reproduce`.
+    scatter from motion to motion; where it carries the load and its tangent there do not, and its damper is
+    printed with two digits. Here: n = 128, the record and window that a user gets by default. All tables and
+    figures of the paper, ours beside theirs: `ehlcontact reproduce`.
     """
     from ehlcontact import simulate
     from reduced_models import ContactRecord, fit
@@ -124,8 +124,8 @@ def bearings() -> list[Row]:
     """Dry bearings beside tables and an example of a textbook.
 
     1 kN without clearance, conformities 0.52, E = 206.8 GPa, a ball under the load: computed apart from this
-    library by Hertz' formulas. And the example of Harris, *Rolling Bearing Analysis*, ch. 7: a 209 under 8900 N with
-    15 µm of clearance.
+    library by Hertz' formulas. And the example of Harris, *Rolling Bearing Analysis*, ch. 7: a 209 under 8900 N
+    with 15 µm of clearance.
     """
     from reduced_models import BallBearing
 
@@ -147,7 +147,8 @@ def fmus() -> list[Row]:
     """Compiled models beside the elements they were made from.
 
     Elements of the atlas at M = 200, L = 10, kappa = 0.5, exported, compiled and run by FMPy over what
-    `fmu.verify` goes through: force, tangents, derivatives and states, relative to the magnitude of what is compared.
+    `fmu.verify` goes through: force, tangents, derivatives and states, relative to the magnitude of what is
+    compared.
     """
     from ehlcontact import MoesPoint
     from fmu import export_contact, verify
@@ -224,10 +225,10 @@ HEAD = """\
 
 <!-- made by docs/site/validation.py: change that -->
 
-This library (commit {version}) beside what others published. `python docs/site/validation.py --measure --page` solves
-all of it anew and remakes this page. The tests named hold every version to these numbers, within the limits that stand
-there: `pytest -m literature`. How the solver does on grids, over its box and by the clock is in [the
-solver](solver.md), whole bearings against films are in [ball bearings](bearings.md).
+This library (commit {version}) beside what others published. `python docs/site/validation.py --measure --page`
+solves all of it anew and remakes this page. The tests named hold every version to these numbers, within the limits
+that stand there: `pytest -m literature`. How the solver does on grids, over its box and by the clock is in
+[the solver](solver.md), whole bearings against films are in [ball bearings](bearings.md).
 """
 TAIL = """\
 ## Its own numbers

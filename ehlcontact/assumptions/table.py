@@ -11,16 +11,39 @@ from ehlcontact.errors import InputError
 
 @dataclass(frozen=True, slots=True)
 class Assumption:
-    """One assumption with its number."""
+    """One assumption with its number.
+
+    Attributes
+    ----------
+    name : str
+    number : str
+        What is computed.
+    value : float or None
+        None where an input is missing.
+    limit : float
+        Up to which, or from which on, the assumption holds.
+    at_least : bool
+        Whether the value has to be at least the limit, or at most.
+    unit : str
+        Of value and limit.
+    verdict : str
+        One line; the headline has it up to the first semicolon.
+    scatter : str
+        How sure the number is.
+    source : str
+        Who says so.
+    details : mapping of str to float
+        What else was computed for it.
+    """
 
     name: str
-    number: str  # what is computed
-    value: float | None  # None where an input is missing
+    number: str
+    value: float | None
     limit: float
-    at_least: bool  # whether the value has to be at least the limit, or at most
+    at_least: bool
     unit: str
-    verdict: str  # one line; the headline has it up to the first semicolon
-    scatter: str  # how sure the number is
+    verdict: str
+    scatter: str
     source: str
     details: Mapping[str, float] = field(default_factory=dict)
 
@@ -38,7 +61,12 @@ class Assumption:
 
 @dataclass(frozen=True, slots=True)
 class Assumptions:
-    """All assumptions of a contact, by name: ``found["isothermal"].value``."""
+    """All assumptions of a contact, by name: ``found["isothermal"].value``.
+
+    Attributes
+    ----------
+    table : tuple of Assumption
+    """
 
     table: tuple[Assumption, ...]
 

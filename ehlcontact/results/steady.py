@@ -34,8 +34,9 @@ class SteadyResult(Origin):
     h_central, h_min : float
         Film at X = Y = 0 and the smallest, between the nodes too, over the dry approach.
     residuals : ndarray, shape (cycles + 1,)
-        Mean absolute residual over P > 0: at the start after full multigrid, then after each cycle. It weighs a node by
-        its flow factor, so it is most where pressure matters least: what is solved is judged by `pressure_error`.
+        Mean absolute residual over P > 0: at the start after full multigrid, then after each cycle. It weighs a
+        node by its flow factor, so it is most where pressure matters least: what is solved is judged by
+        `pressure_error`.
     load_residuals : ndarray, shape (cycles + 1,)
         Of the load (or approach) equation, likewise.
     approach_changes : ndarray, shape (cycles,)

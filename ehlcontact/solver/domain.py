@@ -17,6 +17,13 @@ class Domain:
 
     Damping depends on it (by about 1/extent^2), stiffness hardly.
 
+    Parameters
+    ----------
+    x_in, x_out : float
+        Ends along rolling, over the semi-axis a: x_in = -4.5 is 3.5 semi-axes ahead of the contact.
+    y_max : float
+        Half the width across, over the semi-axis b.
+
     Raises
     ------
     InputError

@@ -130,7 +130,14 @@ TABLE_BOTH_REGIONS, TABLE_NEAR_INTERVALS = (0.1, 0.16), 128
 
 @dataclass(frozen=True, slots=True)
 class Mesh:
-    """Intervals along X on a region."""
+    """Intervals along X on a region.
+
+    Attributes
+    ----------
+    n : int
+        Intervals along X.
+    domain : Domain
+    """
 
     n: int
     domain: Domain

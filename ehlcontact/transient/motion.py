@@ -232,7 +232,17 @@ class HarmonicLoad(UnderLoad):
 @fields_by_name(2, omega_n="Omega_n, dimensionless")
 @dataclass(frozen=True, slots=True)
 class RampLoad(UnderLoad):
-    """Load rising linearly from 1 to `ratio` within `duration`, then constant, on bodies with inertia."""
+    """Load rising linearly from 1 to `ratio` within `duration`, then constant, on bodies with inertia.
+
+    Parameters
+    ----------
+    ratio : float
+        Load at the end, over the static one.
+    duration : float
+        Of the ramp, in 2a/u_sum.
+    Omega_n : float
+        Natural frequency of the bodies, in u_sum/(2a).
+    """
 
     ratio: float
     duration: float

@@ -47,7 +47,17 @@ class Tabulated(Motion):
 @fields_by_name(2, omega_n="Omega_n, dimensionless")
 @dataclass(frozen=True, slots=True, eq=False)
 class PrescribedLoad(Tabulated, UnderLoad):
-    """Load given by a table (linear interpolation) on bodies with (`Omega_n`) or without inertia."""
+    """Load given by a table (linear interpolation) on bodies with (`Omega_n`) or without inertia.
+
+    Parameters
+    ----------
+    T : array_like, shape (k,)
+        Increasing times, in 2a/u_sum.
+    values : array_like, shape (k,)
+        Load over the static one.
+    Omega_n : float, optional
+        Natural frequency of the bodies, in u_sum/(2a).
+    """
 
     T: ArrayLike
     values: ArrayLike
@@ -97,7 +107,15 @@ class PrescribedLoad(Tabulated, UnderLoad):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PrescribedApproach(Tabulated):
-    """Approach u(T) given by a table (cubic spline, so that the rate is continuous)."""
+    """Approach u(T) given by a table (cubic spline, so that the rate is continuous).
+
+    Parameters
+    ----------
+    T : array_like, shape (k,)
+        Increasing times, in 2a/u_sum.
+    values : array_like, shape (k,)
+        Approach over the dry one.
+    """
 
     T: ArrayLike
     values: ArrayLike

@@ -112,6 +112,19 @@ class Dent:
     ``r^2 = (X - X0 - speed T)^2 + (Y/kappa)^2`` with lengths in semi-axes a. Beyond r = radius a rim stands out,
     1.7 % of the depth high at 1.2 radius. The shape of Mourier, Mazuyer, Lubrecht and Donnet, Tribology Int. 39
     (2006) 1745, with their ``1.2 r0`` as `radius`.
+
+    Parameters
+    ----------
+    depth : float
+        In dry approaches.
+    radius : float
+        In semi-axes a.
+    start : float
+        X0, the place of its centre at T = 0, in semi-axes a.
+    kappa : float
+        That of the contact, where a circle in metres is none in X, Y.
+    speed : float
+        dX/dT: 1 is the mean speed of the surfaces.
     """
 
     depth: float
@@ -135,7 +148,19 @@ class Dent:
 
 @dataclass(frozen=True, slots=True)
 class TransverseRidge:
-    """Ridge across the rolling direction: ``-height cos(2 pi s) 10^(-10 s^2)``, s = (X - X0 - speed T)/width."""
+    """Ridge across the rolling direction: ``-height cos(2 pi s) 10^(-10 s^2)``, s = (X - X0 - speed T)/width.
+
+    Parameters
+    ----------
+    height : float
+        In dry approaches.
+    width : float
+        In semi-axes a.
+    start : float
+        X0, its place at T = 0, in semi-axes a.
+    speed : float
+        dX/dT: 1 is the mean speed of the surfaces.
+    """
 
     height: float
     width: float
@@ -159,6 +184,17 @@ class Waviness:
     """Transverse waviness that enters the contact from ``X0 + speed T`` on, with a smooth front.
 
     Upstream of the front ``amplitude sin(2 pi s)``, s = (X - X0 - speed T)/wavelength, downstream zero.
+
+    Parameters
+    ----------
+    amplitude : float
+        In dry approaches.
+    wavelength : float
+        In semi-axes a.
+    start : float
+        X0, the place of the front at T = 0, in semi-axes a.
+    speed : float
+        dX/dT: 1 is the mean speed of the surfaces.
     """
 
     amplitude: float

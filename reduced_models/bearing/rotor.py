@@ -71,7 +71,17 @@ class _Names(dict[str, tuple[int, int]]):
 
 @dataclass(frozen=True, kw_only=True)
 class Unbalance:
-    """Mass times eccentricity [kg m] at two degrees of freedom; `phase` [rad] ahead of the shaft's angle."""
+    """Mass times eccentricity [kg m] at two degrees of freedom; `phase` [rad] ahead of the shaft's angle.
+
+    Parameters
+    ----------
+    x, y : int
+        The two degrees of freedom, across the shaft.
+    amount : float
+        Mass times eccentricity [kg m].
+    phase : float
+        Ahead of the angle of the shaft [rad].
+    """
 
     x: int
     y: int

@@ -18,17 +18,36 @@ _Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ElementFit:
-    """An element and how well it stands for its data; judge by ``rms``."""
+    """An element and how well it stands for its data; judge by ``rms``.
+
+    Attributes
+    ----------
+    element : ContactElement
+    model : str
+        As asked for.
+    parameters : mapping of str to float
+        Coefficients by name, in the units of the element.
+    rms : float or None
+        RMS error of the force over its standard deviation; None without records.
+    e_f : float or None
+        Eq. 13 for the force: sum(f - f_fit)/sum(f), near zero by construction.
+    root, tangent : float or None
+        Approach where the spring carries the static load (1, dimensionless), and its tangent there.
+    valid : mapping
+        low, high: approach that was fitted; rate: largest magnitude of the rate; load, omega: (low, high).
+    condition : float or None
+        Of the column-scaled design matrix, or Jacobian; None where there is none.
+    """
 
     element: ContactElement
     model: str
     parameters: Mapping[str, Any]
-    rms: float | None  # RMS error of the force / standard deviation of the force; None without records
-    e_f: float | None  # eq. 13 for the force: sum(f - f_fit)/sum(f); near zero by construction
-    root: float | None  # approach where the spring carries the static load (1, dimensionless)
-    tangent: float | None  # spring tangent there
-    valid: Mapping[str, Any]  # low, high: fitted approach; rate: largest |rate|; load, omega: (low, high)
-    condition: float | None  # of the column-scaled design matrix, or Jacobian; None where there is none
+    rms: float | None
+    e_f: float | None
+    root: float | None
+    tangent: float | None
+    valid: Mapping[str, Any]
+    condition: float | None
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the element, ready for JSON."""
@@ -54,6 +73,25 @@ class FitResult(ElementFit):
 
     Of a cubic, ``root`` and ``tangent`` are identifiable from a small vibration while K1, K2, K3 are not: see
     their intervals.
+
+    Attributes
+    ----------
+    std_errors : mapping of str to float
+        Square roots of the diagonal of `covariance`.
+    intervals : mapping of str to (float, float)
+        95 % of each parameter, Student's; see `reduced_models.fitting.uncertainty`.
+    covariance : ndarray, shape (k, k)
+        Of the k parameters in their order, enlarged for residuals that hang together.
+    e_acc : float or None
+        Eq. 13 for u'' = Omega_n^2 (load - f_fit); None without inertia.
+    window : tuple of (float, float)
+        Start and end in T, one pair per record.
+    samples : int
+        That were fitted.
+    independent_samples : float
+        How many of them are worth something.
+    element, model, parameters, rms, e_f, root, tangent, valid, condition
+        As in `ElementFit`, none of them None but `root` and `tangent` of a spring that carries no such load.
     """
 
     element: MemorylessContact
@@ -61,13 +99,13 @@ class FitResult(ElementFit):
     rms: float
     e_f: float
     condition: float
-    std_errors: Mapping[str, float]  # square roots of the diagonal of covariance
-    intervals: Mapping[str, tuple[float, float]]  # 95 %, Student's; see `uncertainty`
-    covariance: _Floats  # in the order of parameters, enlarged for residuals that hang together
-    e_acc: float | None  # eq. 13 for u'' = Omega_n^2 (load - f_fit); None without inertia
-    window: tuple[tuple[float, float], ...]  # (start, end) in T, one per record
+    std_errors: Mapping[str, float]
+    intervals: Mapping[str, tuple[float, float]]
+    covariance: _Floats
+    e_acc: float | None
+    window: tuple[tuple[float, float], ...]
     samples: int
-    independent_samples: float  # how many of them are worth something: `uncertainty`
+    independent_samples: float
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the element, ready for JSON."""
@@ -84,14 +122,28 @@ class FitResult(ElementFit):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MemoryFit(ElementFit):
-    """A film-memory element and how well it stands for the data; ``rms`` is of all samples together."""
+    """A film-memory element and how well it stands for the data; ``rms`` is of all samples together.
+
+    Attributes
+    ----------
+    record_rms : tuple of float
+        RMS error of the force over its standard deviation, of each whole record.
+    damping_error, stiffness_error : ndarray, shape (frequencies,)
+        Relative error of C and K at every frequency of the impedance.
+    validation : dict of int to float
+        Cross-validation error by number of lags.
+    weights : mapping of str to float
+        Relative errors that counted alike.
+    element, model, parameters, rms, e_f, root, tangent, valid, condition
+        As in `ElementFit`.
+    """
 
     element: FilmMemoryContact
-    record_rms: tuple[float, ...]  # RMS error of the force over its standard deviation, whole record, each
-    damping_error: _Floats  # relative error of C at every frequency
+    record_rms: tuple[float, ...]
+    damping_error: _Floats
     stiffness_error: _Floats
-    validation: dict[int, float] = field(default_factory=dict)  # cross-validation error by number of lags
-    weights: Mapping[str, float] = field(default_factory=dict)  # relative errors that counted alike
+    validation: dict[int, float] = field(default_factory=dict)
+    weights: Mapping[str, float] = field(default_factory=dict)
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the element, ready for JSON."""

@@ -26,25 +26,50 @@ class SensitivityRow:
     """The fit without one term, all others fitted again.
 
     ``aic`` and ``bic`` are differences from the full model, negative where the term is not worth its keep.
+
+    Attributes
+    ----------
+    removed : str or None
+        The term; None: the full model.
+    rms : float
+        RMS error of the force over its standard deviation.
+    e_f, e_acc : float, float or None
+        Eq. 13 for the force and the acceleration.
+    aic, bic : float
+        Information criteria less those of the full model.
+    rms_without_refit : float
+        The term struck out of the full fit, the others as they were.
     """
 
-    removed: str | None  # None: the full model
-    rms: float  # RMS error of the force / standard deviation of the force
-    e_f: float  # eq. 13
+    removed: str | None
+    rms: float
+    e_f: float
     e_acc: float | None
     aic: float
     bic: float
-    rms_without_refit: float  # the term struck out of the full fit, the others as they were
+    rms_without_refit: float
 
 
 @dataclass(frozen=True, slots=True)
 class Sensitivity:
-    """Table 2 for our records; the first row is the full model."""
+    """Table 2 for our records; the first row is the full model.
+
+    Attributes
+    ----------
+    rows : tuple of SensitivityRow
+        The full model, then without one term each.
+    samples : int
+        Of all records.
+    independent_samples : float
+        Of the residuals of the full model: what aic and bic count.
+    lag_one : float
+        Autocorrelation of neighbouring residuals, mean over the records.
+    """
 
     rows: tuple[SensitivityRow, ...]
     samples: int
-    independent_samples: float  # of the full model's residuals; what aic and bic count
-    lag_one: float  # autocorrelation of neighbouring residuals, mean over the records
+    independent_samples: float
+    lag_one: float
 
     @property
     def ranking(self) -> tuple[str, ...]:

@@ -17,22 +17,49 @@ _Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class SignalDifference:
-    """Difference of one signal; relative figures are None where the full signal is constant."""
+    """Difference of one signal; relative figures are None where the full signal is constant.
 
-    rms: float  # RMS of reduced - full
-    offset: float  # mean of reduced - full: another place of rest, not another vibration
-    maximum: float  # largest |reduced - full|
-    amplitude: float  # half peak-to-peak of full
-    std: float  # standard deviation of full
+    Attributes
+    ----------
+    rms : float
+        RMS of reduced - full, in the unit of the signal.
+    offset : float
+        Mean of reduced - full: another place of rest, not another vibration.
+    maximum : float
+        Largest magnitude of reduced - full.
+    amplitude : float
+        Half peak-to-peak of full.
+    std : float
+        Standard deviation of full.
+    rms_over_amplitude, rms_over_std, maximum_over_amplitude : float or None
+        Of those above.
+    vibration_over_std : float or None
+        RMS without the offset, over the standard deviation.
+    """
+
+    rms: float
+    offset: float
+    maximum: float
+    amplitude: float
+    std: float
     rms_over_amplitude: float | None
     rms_over_std: float | None
-    vibration_over_std: float | None  # the same without the offset
+    vibration_over_std: float | None
     maximum_over_amplitude: float | None
 
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Differences by signal: disc_x, disc_y, journal_x, journal_y, approach_i [m], force_i [N]; i from 1."""
+    """Differences by signal: disc_x, disc_y, journal_x, journal_y, approach_i [m], force_i [N]; i from 1.
+
+    Attributes
+    ----------
+    signals : mapping of str to SignalDifference
+    t_start, t_end : float
+        What was compared [s].
+    samples : int
+        Of each signal.
+    """
 
     signals: Mapping[str, SignalDifference]
     t_start: float

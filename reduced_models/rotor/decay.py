@@ -23,14 +23,30 @@ STILL = 1e-9  # spread of a signal over its largest value, below which nothing v
 
 @dataclass(frozen=True)
 class Decrement:
-    """A decaying vibration A exp(-decrement t/period) cos(omega t + phase) + mean, fitted to samples."""
+    """A decaying vibration A exp(-decrement t/period) cos(omega t + phase) + mean, fitted to samples.
 
-    decrement: float  # by which ln(amplitude) falls in a period
-    interval: tuple[float, float]  # 95 %, if the samples were independent; a growth of the misfit widens it
-    omega: float  # damped angular frequency [rad/s]
-    amplitude: float  # at the first sample [unit of the signal]
-    misfit: float  # RMS of what the fit leaves, over the standard deviation of the signal
-    periods: float  # covered
+    Attributes
+    ----------
+    decrement : float
+        By which ln(amplitude) falls in a period.
+    interval : (float, float)
+        95 %, if the samples were independent; a growth of the misfit widens it.
+    omega : float
+        Damped angular frequency [rad/s].
+    amplitude : float
+        At the first sample, in the unit of the signal.
+    misfit : float
+        RMS of what the fit leaves, over the standard deviation of the signal.
+    periods : float
+        Covered.
+    """
+
+    decrement: float
+    interval: tuple[float, float]
+    omega: float
+    amplitude: float
+    misfit: float
+    periods: float
 
     @property
     def hz(self) -> float:

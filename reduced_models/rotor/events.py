@@ -22,17 +22,33 @@ LOST = 0.01  # share of the load at rest below which a contact counts as lost: a
 
 @dataclass(frozen=True)
 class ContactEvents:
-    """One contact over one run. Shares are of the samples of the run, which are evenly spaced."""
+    """One contact over one run. Shares are of the samples of the run, which are evenly spaced.
 
-    lift_offs: int  # times that it was lost
-    impacts: int  # times that it was regained
+    Attributes
+    ----------
+    lift_offs, impacts : int
+        Times that it was lost, and regained.
+    lost_share : float
+        Of the samples, without contact.
+    load_range : (float, float)
+        Smallest and largest force [N].
+    outside_approach, outside_rate, outside_load : float or None
+        Share outside the element's validity box; None where it has no such bound.
+    outside_omega : float or None
+        Likewise, 0 or 1: the frequency is one of the whole run.
+    warnings : tuple of str
+        What the element said.
+    """
+
+    lift_offs: int
+    impacts: int
     lost_share: float
-    load_range: Band  # smallest and largest force [N]
-    outside_approach: float | None  # share outside the element's validity box; None where it has no such bound
+    load_range: Band
+    outside_approach: float | None
     outside_rate: float | None
     outside_load: float | None
-    outside_omega: float | None  # 0 or 1: the frequency is one of the whole run
-    warnings: tuple[str, ...] = ()  # what the element said
+    outside_omega: float | None
+    warnings: tuple[str, ...] = ()
 
     @property
     def outside(self) -> float:

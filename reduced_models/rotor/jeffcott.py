@@ -75,7 +75,15 @@ class ContactMount:
 
 @dataclass(frozen=True, eq=False)
 class RotorState:
-    """Positions [m] and velocities [m/s] of disc and journal, each of shape (2,)."""
+    """Positions [m] and velocities [m/s] of disc and journal, each of shape (2,).
+
+    Attributes
+    ----------
+    disc, journal : ndarray, shape (2,)
+        Positions [m].
+    disc_velocity, journal_velocity : ndarray, shape (2,)
+        [m/s].
+    """
 
     disc: _Floats
     journal: _Floats

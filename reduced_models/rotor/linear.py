@@ -66,12 +66,22 @@ def film_impedance(response: ImpedanceResult) -> Impedance:
 
 @dataclass(frozen=True, eq=False)
 class RotorMode:
-    """One damped vibration of the rotor on its contacts."""
+    """One damped vibration of the rotor on its contacts.
 
-    eigenvalue: complex  # s of exp(s t) [1/s]
-    disc: _Complex  # (2,) shape, with the largest displacement 1
-    journal: _Complex  # (2,)
-    contact_share: float  # of the strain energy, in the contacts; the rest bends the shaft
+    Attributes
+    ----------
+    eigenvalue : complex
+        s of exp(s t) [1/s].
+    disc, journal : ndarray, shape (2,)
+        Complex shape, the largest displacement 1.
+    contact_share : float
+        Of the strain energy, in the contacts; the rest bends the shaft.
+    """
+
+    eigenvalue: complex
+    disc: _Complex
+    journal: _Complex
+    contact_share: float
 
     @property
     def omega(self) -> float:
@@ -98,6 +108,12 @@ class RotorMode:
 @dataclass(frozen=True, eq=False)
 class LinearRotor:
     """A rotor and the impedance of each of its contacts about rest [N/m] over omega [rad/s].
+
+    Parameters
+    ----------
+    rotor : JeffcottRotor
+    impedances : sequence of callable
+        Of each mount, over omega [rad/s] to N/m: `film_impedance` and `impedance_about` make them.
 
     Raises
     ------

@@ -28,10 +28,18 @@ FIRST_REVOLUTIONS = 8  # after which it is looked at first, and again each time 
 
 @dataclass(frozen=True)
 class Settling:
-    """How a run of whole revolutions settled."""
+    """How a run of whole revolutions settled.
 
-    changes: tuple[float, ...]  # of each revolution from the one before, from the second on
-    limit: float  # change up to which a revolution counts as settled
+    Attributes
+    ----------
+    changes : tuple of float
+        Of each revolution from the one before, from the second on.
+    limit : float
+        Change up to which a revolution counts as settled.
+    """
+
+    changes: tuple[float, ...]
+    limit: float
 
     @property
     def settled_from(self) -> int | None:

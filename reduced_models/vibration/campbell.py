@@ -26,13 +26,27 @@ BESIDE = 4  # modes beyond those that are followed, among which these may turn u
 
 @dataclass(frozen=True)
 class CriticalSpeed:
-    """A speed at which a multiple of the speed meets a mode."""
+    """A speed at which a multiple of the speed meets a mode.
+
+    Attributes
+    ----------
+    speed_rpm : float
+        Of the shaft [rev/min].
+    hz : float
+        Of the mode.
+    mode : int
+        Column of the diagram.
+    decrement : float
+        Logarithmic, of the mode there.
+    whirl : float
+        As in `WhirlMode`; an unbalance hardly excites one near -1.
+    """
 
     speed_rpm: float
     hz: float
-    mode: int  # column of the diagram
+    mode: int
     decrement: float
-    whirl: float  # as in `WhirlMode`; an unbalance hardly excites one near -1
+    whirl: float
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

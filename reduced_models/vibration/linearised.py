@@ -59,6 +59,8 @@ class LinearisedRotor:
         Displacements at rest, balls at the angles of the mounts [m].
     loads : ndarray, shape (bearings, 2)
         Forces on the inner rings at rest [N].
+    balls : tuple
+        What a small vibration finds in each bearing.
     """
 
     rotor: MatrixRotor

@@ -1,0 +1,130 @@
+"""What the site is made of: the reference has every public name, the README its marks, links lead somewhere."""
+
+import importlib.util
+import inspect
+import re
+import tomllib
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+
+import pytest
+
+import ehlcontact
+import fmu
+import reduced_models
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+PACKAGES = {package.__name__: package for package in (ehlcontact, reduced_models, fmu)}
+
+
+def public(package):
+    """Names that a package shows, without its rooms and its version."""
+    names = {n for n, value in vars(package).items() if n[0] != "_" and not inspect.ismodule(value)}
+    return names & set(getattr(package, "__all__", names))
+
+
+def described():
+    """(package, directive, name) of every entry of the reference."""
+    found = []
+    for page in sorted((DOCS / "api").glob("*.rst")):
+        text = page.read_text(encoding="utf-8")
+        package = re.search(r"^.. currentmodule:: (\w+)$", text, flags=re.M)[1]
+        found += [(package, *entry) for entry in re.findall(r"^.. auto(\w+):: (\w+)$", text, flags=re.M)]
+    return found
+
+
+@pytest.mark.parametrize("name", PACKAGES)
+def test_reference_has_every_public_name_once(name):
+    entries = [entry for package, _, entry in described() if package == name]
+    assert sorted(entries) == sorted(public(PACKAGES[name]))
+
+
+@pytest.mark.parametrize(("package", "directive", "name"), described())
+def test_entries_are_of_their_kind(package, directive, name):
+    value = getattr(PACKAGES[package], name)
+    if not inspect.isclass(value):
+        assert directive == "function"
+    else:
+        assert directive == ("exception" if issubclass(value, BaseException) else "class")
+
+
+CLASSES = [
+    (p, name) for p, kind, name in described() if kind == "class" and is_dataclass(getattr(PACKAGES[p], name))
+]
+
+
+@pytest.mark.parametrize(("package", "name"), CLASSES)
+def test_every_field_is_described(package, name):
+    """By its name, in the list of parameters or attributes of the class or, of the smallest, in its text."""
+    kind = getattr(PACKAGES[package], name)
+    text = inspect.getdoc(kind)
+    lists = re.findall(r"^(?:Parameters|Attributes)\n-+\n(.*?)(?=^\w+\n-+\n|\Z)", text, flags=re.M | re.S)
+    heads = [line.split(" : ")[0] for part in lists for line in part.splitlines() if re.match(r"\w", line)]
+    listed = {word.strip() for head in heads for word in head.split(",")} | set(re.findall(r"`(\w+)`", text))
+    assert {field.name for field in fields(kind) if field.name[0] != "_"} - listed == set()
+
+
+def test_marks_of_the_readme():
+    """The site shows parts of the README between marks, in this order."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    marks = re.findall(r"<!-- docs: (.*?) -->", text)
+    assert marks == ["what it is", "how it is used", "its limits", "end"]
+    asked = {
+        mark for page in DOCS.glob("*.md") for mark in re.findall(r"<!-- docs: (.*?) -->", page.read_text("utf-8"))
+    }
+    assert asked == set(marks)
+
+
+def test_docs_is_one_room():
+    assert len([path for path in DOCS.iterdir() if path.name != "__pycache__"]) <= 21
+    assert "build/" in (ROOT / ".gitignore").read_text(encoding="utf-8").split()
+
+
+def test_extra_and_step_of_ci():
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"][
+        "optional-dependencies"
+    ]
+    assert {re.split("[<>=]", name)[0] for name in extras["docs"]} == {"sphinx", "furo", "myst-nb", "numpydoc"}
+    script = (ROOT / ".ci" / "run").read_text(encoding="utf-8")
+    assert "sphinx-build -W" in script and "docs/site/links.py" in script
+
+
+@pytest.fixture(scope="module")
+def links():
+    spec = importlib.util.spec_from_file_location("links", DOCS / "site" / "links.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+GOOD = '<a href="b.html#there">x</a><a href="#here">x</a><p id="here"></p><a href="https://fmi-standard.org">x</a>'
+
+
+@pytest.mark.parametrize(
+    ("added", "words"),
+    [
+        ("", None),
+        ('<a href="c.html">x</a>', "c.html: no such file"),
+        ('<a href="b.html#gone">x</a>', "no such place"),
+        ('<a href="http://fmi-standard.org">x</a>', "not https"),
+        ('<a href="https://fmi standard">x</a>', "no whole address"),
+        ('<script src="https://cdn.example.org/x.js"></script>', "fetched from another machine"),
+        ('<img src="gone.png">', "gone.png: no such file"),
+    ],
+)
+def test_links_that_lead_nowhere_are_found(links, tmp_path, added, words):
+    (tmp_path / "a.html").write_text(GOOD + added)
+    (tmp_path / "b.html").write_text('<h1 id="there"></h1>')
+    found = links.faults(tmp_path)
+    assert (found == []) if words is None else (len(found) == 1 and words in found[0])
+
+
+def test_links_of_the_pages_themselves():
+    """Those of markdown, as a reader of the repository follows them; outside ones are whole addresses."""
+    for page in [ROOT / "README.md", *DOCS.rglob("*.md")]:
+        for link in re.findall(r"\]\(<?([^)>\s]+)>?\)", page.read_text(encoding="utf-8")):
+            if "://" in link:
+                assert re.match(r"https://[\w.-]+\.\w+(/|$)", link), (page.name, link)
+            elif not link.startswith("#"):
+                assert (page.parent / link.split("#")[0]).exists(), (page.name, link)

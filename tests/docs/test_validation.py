@@ -1,0 +1,62 @@
+"""The page of validation is what its script makes of what was measured; and that is still so where it is cheap."""
+
+import importlib.util
+import json
+from pathlib import Path
+
+import pytest
+
+SCRIPT = Path(__file__).parents[2] / "docs" / "site" / "validation.py"
+
+
+@pytest.fixture(scope="module")
+def validation():
+    spec = importlib.util.spec_from_file_location("validation", SCRIPT)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def data(validation):
+    return json.loads(validation.DATA.read_text(encoding="utf-8"))
+
+
+def test_page_is_made_from_the_measured(validation):
+    """`python docs/site/validation.py --page` makes it."""
+    assert validation.PAGE.read_text(encoding="utf-8") == validation.page()
+
+
+def test_every_section_has_its_test(validation):
+    for section in validation.SECTIONS.values():
+        assert (validation.ROOT / section.held_by).is_file()
+        assert len(section.measure.__doc__.splitlines()) > 2
+
+
+@pytest.mark.parametrize("name", ["bearings", "formulas"])
+def test_measured_is_still_so(validation, data, name):
+    """`python docs/site/validation.py --measure --page` measures it anew."""
+    now, then = validation.SECTIONS[name].measure(), data[name]
+    assert [(r["case"], r["quantity"]) for r in now] == [(r["case"], r["quantity"]) for r in then]
+    for key in ("ours", "theirs"):
+        assert [r[key] for r in now] == pytest.approx([r[key] for r in then], rel=1e-5)
+
+
+def test_published_numbers_are_those_of_the_tests(validation, data):
+    """They stand once: what a test is changed to is seen here."""
+    tests = validation.module(validation.FILMS)
+    found = {(r["case"], r["quantity"]): r["theirs"] for r in data["cubics"]}
+    for name, (_, (k1, k2, k3, c1)) in tests.CUBICS.items():
+        root, tangent = tests.oracles.spring_root_and_tangent(k1, k2, k3)
+        assert found[f"Table {name}", "C1"] == c1
+        assert found[f"Table {name}", "approach at load 1"] == pytest.approx(root, rel=1e-12)
+        assert found[f"Table {name}", "tangent there"] == pytest.approx(tangent, rel=1e-12)
+    approaches = {row[-1] for row in tests.PUBLIC.values()} | {0.8700}
+    assert approaches == {r["theirs"] for r in data["solvers"] if r["quantity"] == "approach"}
+
+
+def test_differences_are_of_the_right_sign(validation):
+    row = {"case": "a", "quantity": "b", "ours": 1.1, "theirs": 1.0}
+    assert "+10.00 %" in validation.cells(row)
+    assert validation.table([row, row | {"case": "c", "ours": 0.8}]).endswith("Farthest off: b of c, -20.00 %.")
+    assert validation.cells(row | {"theirs": 0.0}) == "| a | b | 1.1e+00 |"

@@ -1,0 +1,58 @@
+"""Blocks of Python in pages of markdown, as a reader would run them: from the top of a page to its end."""
+
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).parents[1]
+BLOCK = re.compile(r"(?:<!-- needs: (\w+) -->\n)?^```(python|\{code-cell\})\n(.*?)^```$", flags=re.M | re.S)
+PAGES = {
+    str(path.relative_to(ROOT)): path
+    for path in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
+    if BLOCK.search(path.read_text(encoding="utf-8"))
+}
+
+
+class Block(NamedTuple):
+    """One of a page."""
+
+    code: str
+    line: int  # of the page, of its first line
+    needs: str | None  # a library that an extra brings
+
+
+def blocks(page: str) -> list[Block]:
+    """All of a page, in its order; tags of notebooks left out."""
+    text, found = PAGES[page].read_text(encoding="utf-8"), []
+    for match in BLOCK.finditer(text):
+        code = re.sub(r"^:\w+:.*$", "", match[3], flags=re.M)
+        found.append(Block(code, text[: match.start(3)].count("\n") + 1, match[1]))
+    return found
+
+
+def run(
+    page: str,
+    names: dict,
+    *,
+    have: set[str] = frozenset(),
+    only: str | None = None,
+    put: dict[str, str] | None = None,
+) -> None:
+    """Execute a page in `names`; an error tells the page and its line.
+
+    Blocks that need what is not in `have` are left out; with `only`, all but those that need it. `put` replaces
+    text.
+    """
+    for block in blocks(page):
+        if (block.needs is None and only is None) or (block.needs in have and only in (None, block.needs)):
+            source = "\n" * (block.line - 1) + block.code
+            for old, new in (put or {}).items():
+                source = source.replace(old, new)
+            exec(compile(source, str(PAGES[page]), "exec"), names)
+
+
+def commands(page: str) -> list[str]:
+    """Lines of a page's plain blocks that call the program, from its name on, without comments."""
+    fenced = re.findall(r"^```\n(.*?)^```$", (ROOT / page).read_text(encoding="utf-8"), flags=re.M | re.S)
+    lines = [line.split("#")[0].strip() for block in fenced for line in block.splitlines()]
+    return [line[line.index("ehlcontact ") :] for line in lines if re.search(r"(^|&& )ehlcontact ", line)]
