@@ -16,6 +16,7 @@ from ehlcontact.cli.commands import (
     export,
     fit,
     impedance,
+    init,
     reproduce,
     run,
     simulate,
@@ -59,7 +60,7 @@ def _program(
     """Transient elastohydrodynamic rolling contacts, reduced to elements for rotordynamics."""
 
 
-for module in (steady, simulate, impedance, fit, element, export, validate, run, reproduce, bearing, atlas):
+for module in (init, steady, simulate, impedance, fit, element, export, validate, run, reproduce, bearing, atlas):
     module.register(app)
 
 
