@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ehlcontact.checks import require_finite, require_positive
 from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import MEANING
 from ehlcontact.cli.numerals import numeral
@@ -39,6 +40,9 @@ def init(
     check_apart({"FILE.toml": file, "--json": json_to})
     if not force and file.exists():
         raise InputError("FILE.toml", str(file), "a new file, or replaced with --force")
+    require_positive("--rpm", rpm)
+    require_positive("--load", load)
+    require_finite("--temp", temp)
     grade = oil_grade(oil, "--oil")
     wish = Wish(bearing=bearing.strip().upper(), grade=grade, temperature=temp, rpm=rpm, load=load)
     text = study_text(wish, file.name)
