@@ -15,6 +15,7 @@ room           responsibility
 ``page``       HTML pages that need no other file, from ``templates/``
 ``commands/``  one subcommand each
 ``plots/``     every picture
+``starter/``   the study file that ``init`` writes
 ``study/``     the study behind ``run``
 ``paper/``     the paper's tables and figures behind ``reproduce``
 =============  =======================================================================================

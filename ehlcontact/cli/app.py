@@ -16,6 +16,7 @@ from ehlcontact.cli.commands import (
     export,
     fit,
     impedance,
+    init,
     reproduce,
     run,
     simulate,
@@ -60,7 +61,7 @@ def _program(
     """Transient elastohydrodynamic rolling contacts, reduced to elements for rotordynamics."""
 
 
-commands = (steady, simulate, impedance, fit, element, export, verify, validate, run, reproduce, bearing, atlas)
+commands = (init, steady, simulate, impedance, fit, element, export, verify, validate, run, reproduce, bearing, atlas)
 for module in commands:
     module.register(app)
 

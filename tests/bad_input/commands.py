@@ -4,6 +4,7 @@ POINT = ("--M", "200", "--L", "10", "--kappa", "0.5")
 # Files of the folder that they are run in: `good` makes sound ones of each kind.
 RECORD, OTHER, FILM, ELEMENT, STUDY = "record.h5", "other.h5", "film.h5", "element.json", "study.toml"
 OIL = {"grade": "68", "temperature": "50"}
+BALL = ("--bearing", "6205", "--oil", "68", "--temp", "60", "--rpm", "3000", "--load", "100")
 ATLAS = ("atlas", "build", "-o", "new.npz")
 
 
@@ -33,6 +34,21 @@ COMMANDS = [
     (("stedy", *POINT), ("stedy", "'steady'")),
     (("--verbose",), ("--verbose", "--version")),
     (("atlas", "bild"), ("bild", "'build'")),
+    # init
+    (("init", STUDY), ("FILE.toml = 'study.toml'", "a new file", "--force")),
+    (("init", "new.txt"), ("FILE.toml = 'new.txt'", ".toml")),
+    (("init", "new.toml", "--json", "new.toml"), ("--json = 'new.toml'", "another file", "for FILE.toml")),
+    (("init", "new.toml", "--bearing", "6025"), ("--bearing = '6025'", "6205", "nearest")),
+    (("init", "new.toml", "--oil", "68 cSt"), ("--oil = '68 cSt'", "ISO VG 10", "680")),
+    (("init", "new.toml", "--temp", "323"), ("--temp = 323.0", "between 20 and 120")),
+    (("init", "new.toml", "--rpm", "nan"), ("--rpm = nan", "finite")),
+    (("init", "new.toml", "--load", "1e-3"), ("M", "between 0.1 and 60000")),
+    # a bearing's contact
+    (("steady", *BALL[2:]), ("--bearing = None", "given", "6205")),
+    (("steady", *BALL[:-2]), ("--load = None", "given", "N")),
+    (("steady", *BALL, "--M", "200"), ("--M = 200.0", "left out", "--bearing")),
+    (("impedance", *BALL, "--hz", "50", "--Omega", "1"), ("--hz", "left out", "--Omega")),
+    (("element", *BALL, "--contact", "cage"), ("--contact = 'cage'", "inner, outer")),
     # steady
     (("steady",), ("--M = None", "given", "> 0")),
     (("steady", *POINT[:4]), ("--kappa", "given", "0.01 to 100")),

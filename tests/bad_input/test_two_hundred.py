@@ -26,6 +26,7 @@ ROOT = Path(__file__).parents[2]
 SECONDS = 2.0  # of the processor
 KINDS = {"study": "TOML", "element": "element JSON", "work": "atlas", "result": "HDF5", "checkpoint": "HDF5"}
 SAMPLE = [
+    ("init", STUDY),
     steady(M="1e9"),
     steady(alpha="20"),
     steady("--save", RECORD, "--json", RECORD),

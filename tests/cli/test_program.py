@@ -8,7 +8,7 @@ import pytest
 import ehlcontact
 
 SUBCOMMANDS = (
-    "steady", "simulate", "impedance", "fit", "element", "export", "validate", "run", "reproduce",
+    "init", "steady", "simulate", "impedance", "fit", "element", "export", "validate", "run", "reproduce",
     "bearing", "atlas",
 )  # fmt: skip
 

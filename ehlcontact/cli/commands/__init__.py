@@ -9,6 +9,7 @@ module         what it does
 ``fit``        simulated histories to a contact element
 ``element``    a contact element from the atlas, without a solve
 ``export``     an element file to an FMU
+``init``       a commented study file to begin with
 ``verify``     an FMU against the reference results inside it
 ``validate``   what a study will do, and its cost, without doing it
 ``run``        a study file to elements, FMU, rotor comparison and report

@@ -129,8 +129,7 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
         try:
             found = BearingFile.model_validate(document)
         except ValidationError as error:
-            plain = in_other_kind(first_error(Path(), error, BearingFile), document, STUDY, "run")
-            raise InputError(plain.field.removeprefix(".: "), plain.value, plain.allowed) from None
+            raise in_other_kind(first_error(error, BearingFile), document, STUDY, "run") from None
         bearing = _bearing(found)
     speeds = tuple(sorted(set(found.operation.speed_rpm)))
     return BearingJob(bearing, found.operation.radial_load, speeds, origin, given)

@@ -200,9 +200,12 @@ def _coarse(study: Study) -> list[str]:
         wanted = min(FINENESS[purpose].share * point.inlet_width, LARGEST_MESH)
         if size > wanted * (1.0 + 1e-9):
             better = mesh_for(point, purpose, domain=domain).n
+            advice = (
+                f"{key} = {better}" if better > n else "the library chooses none finer: it would take too long"
+            )
             found.append(
                 f"solver.{key} = {n}: a mesh of {size:.2g} semi-axes is too coarse for the inlet of this film, "
-                f"{point.inlet_width:.2g} wide ({why}); {key} = {better}"
+                f"{point.inlet_width:.2g} wide ({why}); {advice}"
             )
     wide = default_domain(point, study.largest_load)
     if wide.x_in < domain.x_in or wide.y_max > domain.y_max or wide.x_out > domain.x_out:

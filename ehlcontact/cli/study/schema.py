@@ -7,10 +7,11 @@ import json
 import tomllib
 from math import pi
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.study.slips import ROTOR, broken_line, first_error, in_other_kind, inputs_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import read_text
@@ -19,6 +20,7 @@ from ehlcontact.origin import __version__
 from ehlcontact.point import OperatingPoint, most_loaded_ball, require_solvable
 from ehlcontact.solver.domain import Domain
 from ehlcontact.transient.motion import FASTEST, SLOWEST, FreeVibration, HarmonicLoad
+from reduced_models.bearing.catalogue import catalogue_row
 
 MOST_ECCENTRIC = 0.01  # m of the disc's centre of mass: balanced rotors have some 1e-6, and none runs with more
 # What the library calls some entries.
@@ -48,8 +50,9 @@ class Section(BaseModel):
 
 
 class Bearing(Section):
-    """A radial ball bearing; the contact is that of its most loaded ball."""
+    """A radial ball bearing, by its dimensions or its name; the contact is that of its most loaded ball."""
 
+    catalogue: str | None = None  # other entries replace those of the catalogue
     name: str = "ball bearing"
     balls: Annotated[int, Field(ge=3, le=200, strict=True)]
     ball_diameter_mm: Positive
@@ -74,6 +77,15 @@ class Oil(Section):
     density_15: Finite | None = None  # kg/m3 at 15 C
     viscosity: Literal["roelands", "barus"] = "roelands"
     density: Literal["dowson-higginson", "incompressible"] = "dowson-higginson"
+
+    @property
+    def label(self) -> str:
+        """Its name; where it has none of its own, by its grade or its numbers."""
+        if "name" in self.model_fields_set:
+            return self.name
+        if self.iso_vg is not None:
+            return f"ISO VG {self.iso_vg} at {numeral(self.temperature)} °C"
+        return f"{self.name}: {numeral(self.eta0)} Pa s, alpha {numeral(self.alpha)} 1/Pa"
 
     @property
     def lubricant(self) -> Lubricant:
@@ -306,9 +318,26 @@ def load_study(path: Path) -> Study:
     except (ValueError, RecursionError) as error:
         raise InputError("study", str(path), f"complete TOML ({broken_line(text, error)})") from None
     try:
+        return study_of(document)
+    except InputError as error:
+        raise InputError(f"{path}: {error.field}", error.value, error.allowed) from None
+
+
+def study_of(document: dict[str, Any]) -> Study:
+    """Check what a study file says.
+
+    Raises
+    ------
+    InputError
+        As `load_study`, without the name of the file.
+    """
+    bearing = document.get("bearing")
+    if isinstance(bearing, dict) and isinstance(bearing.get("catalogue"), str):
+        document = document | {"bearing": catalogue_entries(bearing["catalogue"]) | bearing}
+    try:
         study = Study.model_validate(document)
     except ValidationError as error:
-        raise in_other_kind(first_error(path, error, Study), document, ("operation",), "bearing") from None
+        raise in_other_kind(first_error(error, Study), document, ("operation",), "bearing") from None
     given = inputs_of(study)
     try:
         for name, (value, quantity) in {**given, **inputs_of(study, ROTOR)}.items():
@@ -322,8 +351,26 @@ def load_study(path: Path) -> Study:
 
             require_whole_bearing(study)
     except InputError as error:
-        raise InputError(f"{path}: {ENTRIES.get(error.field, error.field)}", error.value, error.allowed) from None
+        raise InputError(ENTRIES.get(error.field, error.field), error.value, error.allowed) from None
     return study
+
+
+def catalogue_entries(name: str) -> dict[str, Any]:
+    """Entries of [bearing] that a name of the catalogue stands for.
+
+    Raises
+    ------
+    InputError
+        No such bearing; it names the nearest.
+    """
+    try:
+        known, row = catalogue_row(name)
+    except InputError as error:
+        allowed = f"{error.allowed.partition('; any other bearing')[0]}; any other by its dimensions, balls = ..."
+        raise InputError("bearing.catalogue", error.value, allowed) from None
+    lengths = {"ball_diameter_mm": row.ball_diameter, "pitch_diameter_mm": row.pitch_diameter}
+    in_mm = {key: round(1e3 * value, 6) for key, value in lengths.items()}  # 7.94, not 7.940000000000001
+    return {"name": known, "balls": row.balls, **in_mm, "conformity": row.conformity}
 
 
 def _require_together(study: Study) -> None:

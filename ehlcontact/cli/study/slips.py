@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
-from pathlib import Path
 from reprlib import repr as shortened
 from typing import TYPE_CHECKING, Any, get_args
 
@@ -34,6 +33,9 @@ ROTOR = {
     "rotor.unbalance": Quantity("kg m", (1e-15, 1e4), (1e-8, 1e-3), {"kg mm": 1e-3, "g mm": 1e-6}),
 }
 SIZED = {**QUANTITIES, **ROTOR}
+# What a name of the catalogue gives.
+DIMENSIONS = ("bearing.balls", "bearing.ball_diameter_mm", "bearing.pitch_diameter_mm", "bearing.conformity")
+BY_NAME = ', or catalogue = "6205" in place of all dimensions'
 # Names from before frequencies carried their unit: omega is in rad/s now, so they are not taken silently.
 RENAMED = {"free.omega_n": "Omega_n", "harmonic.omega": "Omega"}
 # Where pydantic speaks of Python: what TOML calls it.
@@ -60,7 +62,7 @@ def inputs_of(study: BaseModel, quantities: Mapping[str, Quantity] = QUANTITIES)
     return {name: (value, quantity) for name, (value, quantity) in entries.items() if value is not None}
 
 
-def first_error(path: Path, error: ValidationError, study: type[BaseModel]) -> InputError:
+def first_error(error: ValidationError, study: type[BaseModel]) -> InputError:
     """The first error of a file; a key that is not known before one that is missing, for they may be one slip."""
     errors = error.errors(include_url=False, include_context=False)
     first = next((e for e in errors if e["type"] == "extra_forbidden"), errors[0])
@@ -73,15 +75,15 @@ def first_error(path: Path, error: ValidationError, study: type[BaseModel]) -> I
     elif first["type"] == "missing" and isinstance(loc[-1], int):
         field, allowed = ".".join(str(part) for part in loc[:-1]), LIST
     elif first["type"] == "missing":
-        value, allowed = None, "given"
+        value, allowed = None, "given" + (BY_NAME if field in DIMENSIONS else "")
     else:
         allowed = first["msg"].removeprefix("Input should be ").removeprefix("Value error, ")
         allowed = PLAIN_WORDS.get(first["type"], allowed).format(field=field)
         if first["type"] in RANGE:
-            allowed = _range(study, field) or allowed
+            allowed = range_of(study, field) or allowed
             guess = SIZED[field].slip(value) if field in SIZED else ""
             allowed += f" ({guess})" if guess else ""
-    return InputError(f"{path}: {field}", _brief(value), allowed)
+    return InputError(field, _brief(value), allowed)
 
 
 def in_other_kind(
@@ -94,7 +96,7 @@ def in_other_kind(
     return InputError(error.field, error.value, allowed)
 
 
-def _range(study: type[BaseModel], field: str) -> str:
+def range_of(study: type[BaseModel], field: str) -> str:
     """All that an entry may be, not only the end that it went beyond; empty where the schema does not say."""
     if field in SIZED:
         ends = SIZED[field].limits

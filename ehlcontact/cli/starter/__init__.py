@@ -1,0 +1,9 @@
+"""The study file that ``ehlcontact init`` writes: every entry of the schema, explained, with the schema's default.
+
+=========== ===============================================================================
+module      responsibility
+=========== ===============================================================================
+``meaning`` what each entry of a study is, in words
+``text``    the file: values, what they may be, defaults as comments; grids that suit the film
+=========== ===============================================================================
+"""

@@ -1,0 +1,170 @@
+"""The text of a study: values that are asked for, defaults of the schema as comments, what each entry may be."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from textwrap import wrap
+from typing import Any, Literal, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from ehlcontact.cli.starter.meaning import MEANINGS, SECTIONS
+from ehlcontact.cli.study.schema import Study, catalogue_entries, study_of
+from ehlcontact.cli.study.slips import range_of
+from ehlcontact.cli.study.whole_input import require_whole_bearing
+from ehlcontact.errors import InputError
+from ehlcontact.lubricant.oil import DENSITIES, GRADES, INDICES, TEMPERATURES
+from ehlcontact.solver.mesh import Purpose, default_domain, mesh_for
+from reduced_models.bearing.catalogue import catalogue_row
+
+WIDTH = 115  # characters of a line, as in the files of examples/
+COMMENT = 34  # of them before the comment
+# What the library takes where the schema leaves it to it.
+LIBRARY = {
+    "oil.iso_vg": ", ".join(map(str, GRADES)),
+    **{
+        f"oil.{key}": f"between {ends[0]:g} and {ends[1]:g}"
+        for key, ends in (("temperature", TEMPERATURES), ("viscosity_index", INDICES), ("density_15", DENSITIES))
+    },
+}
+# Entries of the file by the option that sets them.
+OPTIONS = {
+    "bearing.catalogue": "--bearing",
+    "bearing.radial_load": "--load",
+    "bearing.speed_rpm": "--rpm",
+    "oil.iso_vg": "--oil",
+    "oil.temperature": "--temp",
+}
+HEAD = """\
+# A study of one bearing. What it will do, and about how long that takes; then the study itself:
+#   ehlcontact validate {name}
+#   ehlcontact run {name}
+# A line that begins with # and a name shows the default: take the # away to change it. `name = ?` has none."""
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What a study is asked to be about: catalogue name, ISO grade, C, rev/min, N."""
+
+    bearing: str
+    grade: int
+    temperature: float
+    rpm: float
+    load: float
+
+
+def study_text(wish: Wish, name: str) -> str:
+    """The file, which `load_study` takes as it is.
+
+    Parameters
+    ----------
+    wish : Wish
+    name : str
+        Of the file, for its first lines.
+
+    Raises
+    ------
+    InputError
+        What is asked for is no study; it names the option.
+    """
+    entries = {
+        "title": f"study of a {wish.bearing}",
+        "bearing.catalogue": wish.bearing,
+        "bearing.radial_load": float(wish.load),
+        "bearing.speed_rpm": float(wish.rpm),
+        "oil.iso_vg": wish.grade,
+        "oil.temperature": float(wish.temperature),
+    }
+    try:
+        study = study_of(tomllib.loads(_written(entries, name, "")))
+        entries |= dict(_fitting(study))
+        try:
+            require_whole_bearing(study)
+        except InputError as error:  # the rest of the study runs without
+            return _written(entries, name, str(error))
+        text = _written(entries, name)
+        study_of(tomllib.loads(text))
+    except InputError as error:
+        raise InputError(OPTIONS.get(error.field, error.field), error.value, error.allowed) from None
+    return text
+
+
+def _fitting(study: Study) -> Iterator[tuple[str, Any]]:
+    """Grids and region where those of the schema do not suit the film."""
+    point = study.point.moes
+    wide, domain = default_domain(point, study.largest_load), study.domain
+    if wide.x_in < domain.x_in or wide.y_max > domain.y_max or wide.x_out > domain.x_out:
+        domain = type(domain)(*(_outward(end) for end in wide.as_tuple()))
+        yield "solver.domain", domain.as_tuple()
+    for key, purpose in (("n", Purpose.FILM), ("n_transient", Purpose.RUN)):
+        n = mesh_for(point, purpose, domain=domain).n
+        if n > getattr(study.solver, key):
+            yield f"solver.{key}", n
+
+
+def _outward(end: float) -> float:
+    """To a tenth, away from the contact."""
+    return (int(abs(end) * 10.0) + 1) / 10.0 * (1.0 if end > 0.0 else -1.0)
+
+
+def _written(entries: Mapping[str, Any], name: str, no_whole: str | None = None) -> str:
+    """The text, with the section of the whole bearing as a comment where there is a reason why it is not run."""
+    shown = {f"bearing.{key}": value for key, value in catalogue_entries(entries["bearing.catalogue"]).items()}
+    lines = [HEAD.format(name=name), ""]
+    for section, field in Study.model_fields.items():
+        model = field.annotation
+        if not (isinstance(model, type) and issubclass(model, BaseModel)):
+            lines.append(_line(section, field, entries, shown))
+            continue
+        lines += ["", *_comment(SECTIONS[section])]
+        if section == "whole_bearing" and no_whole is not None:
+            lines += [*_comment(f"Left out here: {no_whole}"), f"# [{section}]"]
+        else:
+            lines.append(f"[{section}]")
+        if section == "bearing":
+            lines += _comment(f"dimensions: {catalogue_row(entries['bearing.catalogue'])[1].source}")
+        lines += [_line(f"{section}.{key}", entry, entries, shown) for key, entry in model.model_fields.items()]
+    return "\n".join(lines) + "\n"
+
+
+def _line(name: str, entry: FieldInfo, entries: Mapping[str, Any], shown: Mapping[str, Any]) -> str:
+    """One entry: its value, or its default behind a #, and what it is."""
+    key = name.rpartition(".")[2]
+    default = shown.get(name, None if entry.is_required() else entry.default)
+    value = entries.get(name, default)
+    what = "; ".join(part for part in (MEANINGS[name], _allowed(name, entry)) if part)
+    if name in entries and default is not None and name not in shown:
+        what += f" (default {_toml(default)}{', too small for this film' if name.startswith('solver.') else ''})"
+    written = f"{'' if name in entries else '# '}{key} = {'?' if value is None else _toml(value)}"
+    line = f"{written.ljust(COMMENT)}# {what}"
+    if len(line) <= WIDTH:
+        return line
+    return "\n".join([*_comment(f"{key}: {what}"), written])
+
+
+def _comment(text: str) -> list[str]:
+    return [f"# {line}" for line in wrap(text, WIDTH - 2)]
+
+
+def _allowed(name: str, entry: FieldInfo) -> str:
+    """What the schema takes; empty where it takes any number or text."""
+    if get_origin(entry.annotation) is Literal:
+        return " or ".join(json.dumps(choice) for choice in get_args(entry.annotation))
+    if name in LIBRARY:
+        return LIBRARY[name]
+    return range_of(Study, name).removeprefix("a finite number ")
+
+
+def _toml(value: Any) -> str:
+    """A value of the schema in TOML."""
+    if isinstance(value, tuple | list):
+        return f"[{', '.join(map(_toml, value))}]"
+    if isinstance(value, float):
+        short = f"{value:g}"
+        text = short if float(short) == value else repr(value)
+        return text if "." in text or "e" in text else f"{text}.0"
+    return json.dumps(value, ensure_ascii=False)
