@@ -2,7 +2,7 @@
 // Python balances every ball by its approach at the outer race; here ln of the force at the inner race is looked
 // for, from which the approaches of both contacts follow: the same balance, with one search instead of three.
 
-const LARGEST_PLAY = 0.05, POSITIONS = 12, SEATED = 1e-9, TINY_OMEGA = 1e-3;
+const LARGEST_PLAY = 0.05, POSITIONS = 12, SEATED = 1e-9, TINY_OMEGA = 1e-3, NOTHING = -60;
 const BALANCED = 1e-12, ROUNDING = 1e-9, REGULARISATION = 1e-6, FIRST_STEP = 1e-9;
 
 class Bearing {
@@ -46,10 +46,9 @@ class Bearing {
 
   // One ball whose rings have come closer by delta [m]: ln of its forces, approaches, and dF/d(delta).
   ball({ inner, outer, centrifugal }, delta) {
-    if (inner.dry && delta <= outer.at(Math.log(centrifugal)).approach) { // nothing touches it but the outer ring
-      const w = outer.at(Math.log(centrifugal)).approach;
-      return { x: [-Infinity, Math.log(centrifugal)], approach: [delta - w, w], stiffness: 0 };
-    }
+    const alone = outer.at(Math.log(centrifugal)).approach;
+    const free = { x: [-Infinity, Math.log(centrifugal)], approach: [delta - alone, alone], stiffness: 0 };
+    if (inner.dry && delta <= alone) return free; // only the outer race touches it
     const both = (inner.kn ** (-2 / 3) + outer.kn ** (-2 / 3)) ** -1.5, lowest = inner.dry ? -30 : inner.x[0];
     let x = Math.max(Math.log(both * Math.max(delta, 0) ** 1.5), lowest), low = -Infinity, high = Infinity;
     for (let step = 0; step < 200; step++) {
@@ -57,9 +56,10 @@ class Bearing {
       const missing = delta - a.approach - b.approach, slope = a.byX + b.byX * force / (force + centrifugal);
       if (missing > 0) low = x; else high = x;
       let next = x + Math.min(Math.max(missing / slope, -2), 2);
-      if (Math.abs(next - x) <= 1e-14 * (1 + Math.abs(x)))
+      if (inner.dry && x < NOTHING) return free;
+      if (Math.min(Math.abs(next - x), high - low) <= 1e-14 * (1 + Math.abs(x)))
         return { x: [x, x2], approach: [a.approach, b.approach], stiffness: force / slope };
-      if (!(low <= next && next <= high)) next = 0.5 * (low + high);
+      if (!(low < next && next < high)) next = 0.5 * (low + high);
       x = next;
     }
     throw new Error(`a ball finds no balance at ${delta} m`);
