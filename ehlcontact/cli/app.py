@@ -13,6 +13,7 @@ from ehlcontact.cli.commands import (
     atlas,
     bearing,
     element,
+    explore,
     export,
     fit,
     impedance,
@@ -59,7 +60,20 @@ def _program(
     """Transient elastohydrodynamic rolling contacts, reduced to elements for rotordynamics."""
 
 
-for module in (steady, simulate, impedance, fit, element, export, validate, run, reproduce, bearing, atlas):
+for module in (
+    steady,
+    simulate,
+    impedance,
+    fit,
+    element,
+    export,
+    validate,
+    run,
+    reproduce,
+    bearing,
+    explore,
+    atlas,
+):
     module.register(app)
 
 

@@ -55,7 +55,8 @@ def write_explorer(path: Path) -> Path:
     """
     from ehlcontact.cli.page import write_page
 
-    return write_page(path, "explore/page.html.j2", {}, script=script(), version=__version__)
+    content = {"script": script(), "version": __version__, "index": INDEX, "density": DENSITY_15}
+    return write_page(path, "explore/page.html.j2", {}, **content)
 
 
 def page_data() -> dict[str, Any]:

@@ -76,9 +76,9 @@ class Atlas {
     };
     let ratio = lobe[n];
     for (let i = 0; i < n; i++) {
-      distance[i] = Math.hypot(...here.all.map((c, j) => c - this.nodes[i].all[j]));
+      distance[i] = apart(here.all, this.nodes[i].all);
       add(i, distance[i] ** 3);
-      ratio += lobe[i] * Math.hypot(...here.lobe.map((c, j) => c - this.nodes[i].lobe[j])) ** 3;
+      ratio += lobe[i] * apart(here.lobe, this.nodes[i].lobe) ** 3;
     }
     add(n, 1);
     here.all.forEach((c, j) => add(n + 1 + j, c));
@@ -135,4 +135,10 @@ class Atlas {
       return [values[i] + t * rise + bent, linear(omega, bars, Omega) + SPLINE_SHARE * Math.abs(bent)];
     };
   }
+}
+
+function apart(a, b) {
+  let squares = 0;
+  for (let j = 0; j < a.length; j++) squares += (a[j] - b[j]) ** 2;
+  return Math.sqrt(squares);
 }

@@ -2,12 +2,12 @@
 // Python balances every ball by its approach at the outer race; here ln of the force at the inner race is looked
 // for, from which the approaches of both contacts follow: the same balance, with one search instead of three.
 
-const LARGEST_PLAY = 0.05, POSITIONS = 12, SEATED = 1e-9, TINY_OMEGA = 1e-3, NOTHING = -60;
+const LARGEST_PLAY = 0.05, POSITIONS = 12, SEATED = 1e-9, TINY_OMEGA = 1e-3;
 const BALANCED = 1e-12, ROUNDING = 1e-9, REGULARISATION = 1e-6, FIRST_STEP = 1e-9;
 
 class Bearing {
-  // `given`: balls, ball_diameter, pitch_diameter, conformity_inner, conformity_outer, clearance [m]; `oil`: eta0,
-  // alpha, or null for a dry bearing.
+  // `given`: balls, ball_diameter, pitch_diameter, conformity_inner, conformity_outer, clearance [m]; `oil`: eta0
+  // and alpha.
   constructor(given, oil, atlas) {
     Object.assign(this, given, { oil, atlas });
     const { balls, ball_diameter: D, pitch_diameter: dm, clearance } = given;
@@ -23,40 +23,36 @@ class Bearing {
     const play = LARGEST_PLAY * D;
     if (!(Math.abs(clearance) <= play))
       throw new InputError("clearance", clearance, `between ${g(-play, 3)} and ${g(play, 3)} m`);
-    if (oil) for (const race of Object.values(this.races)) race.requireInAtlas();
+    for (const race of Object.values(this.races)) race.requireInAtlas();
   }
 
   get highestSpeed() {
-    return this.oil ? Math.min(this.races.inner.highestSpeed, this.races.outer.highestSpeed) : Infinity;
+    return Math.min(this.races.inner.highestSpeed, this.races.outer.highestSpeed);
   }
 
   // Both contacts and the centrifugal force at a speed [rev/min].
   turn(rpm) {
     if (!(isFinite(rpm) && rpm >= 0)) throw new InputError("speed_rpm", rpm, "a finite number >= 0");
-    if (this.oil && rpm === 0)
+    if (rpm === 0)
       throw new InputError("speed_rpm", rpm, "> 0 for a bearing with oil: without rolling there is no film");
-    if (this.oil && rpm > this.highestSpeed) {
+    if (rpm > this.highestSpeed) {
       const allowed = `at most ${g(this.highestSpeed, 5)}, where the atlas ends for this bearing and oil`;
       throw new InputError("speed_rpm", rpm, allowed);
     }
     const { ball_diameter: D, pitch_diameter: dm } = this, mass = this.atlas.steel.density * Math.PI / 6 * D ** 3;
-    const cage = 0.5 * (1 - D / dm) * rpm * Math.PI / 30, made = race => (this.oil ? race.contact(rpm) : race.dry());
-    return { rpm, inner: made(this.races.inner), outer: made(this.races.outer), centrifugal: mass * 0.5 * dm * cage * cage };
+    const cage = 0.5 * (1 - D / dm) * rpm * Math.PI / 30, { inner, outer } = this.races;
+    return { rpm, inner: inner.contact(rpm), outer: outer.contact(rpm), centrifugal: mass * 0.5 * dm * cage * cage };
   }
 
   // One ball whose rings have come closer by delta [m]: ln of its forces, approaches, and dF/d(delta).
   ball({ inner, outer, centrifugal }, delta) {
-    const alone = outer.at(Math.log(centrifugal)).approach;
-    const free = { x: [-Infinity, Math.log(centrifugal)], approach: [delta - alone, alone], stiffness: 0 };
-    if (inner.dry && delta <= alone) return free; // only the outer race touches it
-    const both = (inner.kn ** (-2 / 3) + outer.kn ** (-2 / 3)) ** -1.5, lowest = inner.dry ? -30 : inner.x[0];
-    let x = Math.max(Math.log(both * Math.max(delta, 0) ** 1.5), lowest), low = -Infinity, high = Infinity;
+    const both = (inner.kn ** (-2 / 3) + outer.kn ** (-2 / 3)) ** -1.5;
+    let x = Math.max(Math.log(both * Math.max(delta, 0) ** 1.5), inner.x[0]), low = -Infinity, high = Infinity;
     for (let step = 0; step < 200; step++) {
       const force = Math.exp(x), x2 = Math.log(force + centrifugal), a = inner.at(x), b = outer.at(x2);
       const missing = delta - a.approach - b.approach, slope = a.byX + b.byX * force / (force + centrifugal);
       if (missing > 0) low = x; else high = x;
       let next = x + Math.min(Math.max(missing / slope, -2), 2);
-      if (inner.dry && x < NOTHING) return free;
       if (Math.min(Math.abs(next - x), high - low) <= 1e-14 * (1 + Math.abs(x)))
         return { x: [x, x2], approach: [a.approach, b.approach], stiffness: force / slope };
       if (!(low < next && next < high)) next = 0.5 * (low + high);
@@ -105,7 +101,7 @@ class Bearing {
   }
 
   requireCarried(turn, load, balls) {
-    if (this.oil) ["inner", "outer"].forEach((name, i) => {
+    ["inner", "outer"].forEach((name, i) => {
       const most = Math.max(...balls.map(ball => ball.force[i])), highest = this.races[name].loads(turn.rpm)[1];
       if (most <= highest) return;
       const [what, value] = load > 0 ? ["load", load] : ["clearance", this.clearance];
@@ -141,7 +137,6 @@ class Bearing {
 
   // Both contacts of a ball in series.
   add(turn, { x, n }, omegas, rows) {
-    if (x[0] === -Infinity) return;
     const inner = turn.inner.impedance(x[0]), outer = turn.outer.impedance(x[1]);
     omegas.forEach((omega, i) => {
       const w = Math.max(omega, TINY_OMEGA), [a, b] = inner(w), [c, d] = outer(w);

@@ -65,10 +65,6 @@ class Race {
     return new Contact(this.kn, this.point(1, rpm), nodes, this.atlas.rates);
   }
 
-  dry() {
-    return new Contact(this.kn, null, [], null);
-  }
-
   // Gains of one load from those over its low-frequency damping: none below 0, and passive.
   gains(shares, low) {
     const gains = Array.from(shares, share => Math.max(share * low, 0));
@@ -110,10 +106,9 @@ function leastDissipation(rates, gains) {
 }
 
 class Contact {
-  // `nodes` over the load, x = ln F increasing: y = ln of the film [m], and gains; none: a dry contact.
+  // `nodes` over the load, x = ln F increasing: y = ln of the film [m], and gains. `point`: any at this speed.
   constructor(kn, point, nodes, rates) {
-    Object.assign(this, { kn, rates, dry: !nodes.length });
-    if (this.dry) return;
+    Object.assign(this, { kn, rates });
     this.gains = nodes.map(node => node.gains);
     this.gainX = nodes.map(node => node.x);
     this.transit = point.time / Math.sqrt(point.length); // own time over the root of g, at this speed [s/m^0.5]
@@ -126,7 +121,6 @@ class Contact {
 
   // Film [m] and its derivative by x.
   film(x) {
-    if (this.dry) return [0, 0];
     const { x: X, y: Y, slope: S } = this, last = X.length - 1;
     const end = x <= X[0] ? 0 : x >= X[last] ? last : -1;
     if (end >= 0) {
@@ -148,7 +142,6 @@ class Contact {
   // What a small vibration at any angular frequency w [rad/s] meets at rest under e^x: w => [Re Z, Im Z], N/m.
   impedance(x) {
     const force = Math.exp(x), { compression, byX } = this.at(x), stiffness = force / byX;
-    if (this.dry) return () => [stiffness, 0];
     const [k, t] = between(this.gainX, x), slope = 1.5 * force / compression, tau = this.transit * Math.sqrt(compression);
     const gains = this.gains[k].map((gain, j) => gain + t * (this.gains[k + 1][j] - gain));
     return w => {
