@@ -13,6 +13,7 @@ room           responsibility
 ``streams``    stdout and stderr that may be full, closed, or of few characters
 ``progress``   how far a computation is: bars on a terminal, now and then a line elsewhere
 ``page``       HTML pages that need no other file, from ``templates/``
+``explorer``   the page of ``explore``: its data, and JavaScript from ``templates/explore/``
 ``commands/``  one subcommand each
 ``plots/``     every picture
 ``starter/``   the study file that ``init`` writes

@@ -13,6 +13,7 @@ from ehlcontact.cli.commands import (
     atlas,
     bearing,
     element,
+    explore,
     export,
     fit,
     impedance,
@@ -61,7 +62,12 @@ def _program(
     """Transient elastohydrodynamic rolling contacts, reduced to elements for rotordynamics."""
 
 
-commands = (init, steady, simulate, impedance, fit, element, export, verify, validate, run, reproduce, bearing, atlas)
+# In the order of the help.
+commands = (
+    *(init, validate, run, reproduce),
+    *(steady, simulate, impedance, fit, element, export, verify),
+    *(bearing, explore, atlas),
+)
 for module in commands:
     module.register(app)
 

@@ -103,11 +103,11 @@ class _Radial:
     def __init__(self, x: _Floats, values: _Floats) -> None:
         self.x = x
         plane = np.zeros((1 + x.shape[1], values.shape[1]))
-        self._coefficients = np.linalg.solve(_system(x), np.vstack([values, plane]))
+        self.coefficients = np.linalg.solve(_system(x), np.vstack([values, plane]))
 
     def at(self, x: _Floats, distance: _Floats, columns: slice = slice(None)) -> _Floats:
         """Some columns at places `x` that lie so far from the nodes."""
-        n, c = len(self.x), self._coefficients[:, columns]
+        n, c = len(self.x), self.coefficients[:, columns]
         return np.asarray((distance * distance * distance) @ c[:n] + c[n] + x @ c[n + 1 :])
 
 
@@ -124,6 +124,20 @@ class AtlasSurface:
         self._squares, self._factor = table.left_out**2, table.factor
         reach = np.partition(cdist(x, x), by.nearest, axis=1)[:, by.nearest]
         self._usual_reach = float(np.median(reach))
+
+    @property
+    def coefficients(self) -> tuple[_Floats, _Floats]:
+        """Of the radial functions, for those who evaluate them elsewhere: the page of ``ehlcontact explore``.
+
+        Shape (n + 6, 5 + 2 k + gains), and of ln(Hm/Hc), in coordinates of its own, (n + 5,): a row for every
+        point, then the constant and the slopes of the plane.
+        """
+        return self._all.coefficients, self._lobe.coefficients[:, 0]
+
+    @property
+    def usual_reach(self) -> float:
+        """Median distance of the points from the farthest of their neighbours that make the error bar."""
+        return self._usual_reach
 
     def at(self, points: _Floats) -> tuple[_Floats, _Floats]:
         """Answers, shape (n, 5 + 2 k), and gains over the low-frequency damping."""

@@ -15,6 +15,7 @@ module         what it does
 ``run``        a study file to elements, FMU, rotor comparison and report
 ``reproduce``  the paper's tables and figures, ours beside them
 ``bearing``    a ball bearing: loads, films, stiffness and damping over speed
+``explore``    a page that answers for ball bearings in a browser
 ``atlas``      building the atlas
 =============  ==================================================================
 

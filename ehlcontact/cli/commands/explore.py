@@ -1,0 +1,33 @@
+"""``ehlcontact explore``: a page that answers for ball bearings in any browser, without this library or a network."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ehlcontact.cli.output import check_file, say, write_to
+from ehlcontact.errors import InputError
+
+
+def register(app: typer.Typer) -> None:
+    """Add the subcommand."""
+    app.command("explore")(explore)
+
+
+def explore(
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="PAGE.html", help="Page to write.")],
+    force: Annotated[bool, typer.Option("--force", help="Replace the page if there is one.")] = False,
+) -> None:
+    """Write a page to explore ball bearings in: films, load zone, stiffness and damping of any oil, speed and load.
+
+    One file of 1.4 MB that needs no network: the atlas stands in it, and the browser computes what Python does.
+    """
+    check_file("--output", output, (".html", ".htm"))
+    if not force and output.exists():
+        raise InputError("--output", str(output), "a new file, or replaced with --force")
+    from ehlcontact.cli.explorer import write_explorer
+
+    write_to("--output", output, write_explorer)
+    say(f"{output}: open it in a browser")

@@ -1,0 +1,125 @@
+"""The page of ``ehlcontact explore``: one file that answers in the browser, from the atlas it carries.
+
+Its JavaScript stands in ``templates/explore``, written after the Python that it does the work of, name for name;
+the tests hold both together. What it computes from comes from here: no number of the library is written there twice
+that could change here.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Iterable
+from dataclasses import asdict, fields
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import CubicSpline
+
+from ehlcontact import __version__
+from ehlcontact.checks.box import INPUTS, Quantity
+from ehlcontact.lubricant import MineralOil, oil
+from ehlcontact.lubricant.law import ROELANDS_LOG, ROELANDS_P0
+from reduced_models import BallBearing
+from reduced_models.atlas.atlas import SHIPPED
+from reduced_models.atlas.surface import AtlasSurface
+from reduced_models.atlas.table import AtlasTable
+from reduced_models.bearing.catalogue import ROWS, USUAL_CONFORMITY
+
+# In the order in which they are joined: each stands on those before it; the last two are about the page itself
+SCRIPTS = ("numbers", "hertz", "oil", "atlas", "race", "bearing", "plot", "page")
+COMPUTING = SCRIPTS[:6]
+INDEX, DENSITY_15 = 95.0, 875.0  # of the oils that the page knows by grade: the defaults of `Lubricant.iso_vg`
+UNITS = {"ball_diameter": "mm", "pitch_diameter": "mm", "eta0": "mPa s", "alpha": "1/GPa"}  # others as in Python
+OF_INPUTS = ("ball_diameter", "pitch_diameter", "conformity", "speed_rpm", "eta0", "alpha")
+
+
+def script(names: Iterable[str] = SCRIPTS) -> str:
+    """JavaScript of the page, or some of its files joined, and the data first that all of it reads."""
+    folder = files("ehlcontact.cli") / "templates" / "explore"
+    data = json.dumps(page_data(), allow_nan=False, separators=(",", ":")).replace("</", "<\\/")
+    parts = [(folder / f"{name}.js").read_text(encoding="utf-8") for name in names]
+    return "\n".join([f"const DATA = {data};", *parts])
+
+
+def write_explorer(path: Path) -> Path:
+    """Write the page.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written.
+    """
+    from ehlcontact.cli.page import write_page
+
+    content = {"script": script(), "version": __version__, "index": INDEX, "density": DENSITY_15}
+    return write_page(path, "explore/page.html.j2", {}, **content)
+
+
+def page_data() -> dict[str, Any]:
+    """Atlas, oils, bearings and ranges of inputs; arrays in base64."""
+    return {
+        "version": __version__,
+        "atlas": _atlas(AtlasTable.load(SHIPPED)),
+        "oil": _oils(),
+        "catalogue": {name: _dimensions(name) for name in ROWS},
+        "quantities": {name: _quantity(_in_units(name)) for name in OF_INPUTS},
+        "units": UNITS,
+    }
+
+
+def _atlas(table: AtlasTable) -> dict[str, Any]:
+    surface, meta = AtlasSurface(table), table.metadata
+    coefficients, lobe = surface.coefficients
+    arrays = {"omega": table.omega, "points": table.points, "factor": table.factor, "lobe": lobe}
+    arrays |= {"coefficients": coefficients, "slopes": _spline_slopes(np.arcsinh(table.omega))}
+    steel = {f.name: f.default for f in fields(BallBearing)}
+    return {
+        **{name: _base64(array) for name, array in arrays.items()},
+        "left_out": _base64(table.left_out, np.float32),  # as in the file of the atlas
+        "usual_reach": surface.usual_reach,
+        "box": table.box.to_dict(),
+        "interpolation": asdict(table.interpolation),
+        "oil": asdict(table.oil),
+        "rates": asdict(table.rates),
+        "alpha": meta["alpha"],
+        "eta0": meta["eta0"],
+        "highest_omega": meta["highest_omega"],
+        "steel": {name: steel[name] for name in ("youngs_modulus", "poisson_ratio", "density")},
+        "quantities": {name: _quantity(INPUTS[name]) for name in ("alpha", "eta0")},
+    }
+
+
+def _spline_slopes(x: np.ndarray) -> np.ndarray:
+    """What makes slopes at the nodes out of values there, shape (k, k): the splines of `atlas.frequency.Between`."""
+    return np.asarray(CubicSpline(x, np.eye(x.size), bc_type=((1, np.zeros(x.size)), "not-a-knot"))(x, 1))
+
+
+def _oils() -> dict[str, Any]:
+    walther = {grade: MineralOil(grade, 40.0, INDEX, DENSITY_15).walther_slope for grade in oil.GRADES}
+    names = ("TEMPERATURES", "THINNEST", "EXPANSION", "KELVIN", "GOLD_S", "GOLD_T", "GOLD_PRESSURE")
+    numbers = {name.lower(): getattr(oil, name) for name in names}
+    numbers |= {"shift": oil.WALTHER_SHIFT, "density_15": DENSITY_15, "viscosity_index": INDEX}
+    numbers |= {"roelands_p0": ROELANDS_P0, "roelands_log": ROELANDS_LOG}
+    return {"walther_slopes": walther, **numbers}
+
+
+def _dimensions(name: str) -> dict[str, Any]:
+
+    return ROWS[name]._asdict()
+
+
+def _in_units(name: str) -> Quantity:
+    return INPUTS[name].in_unit(UNITS[name]) if name in UNITS else INPUTS[name]
+
+
+def _quantity(quantity: Quantity) -> dict[str, Any]:
+    return {**quantity._asdict(), "others": dict(quantity.others)}
+
+
+def _base64(array: ArrayLike, kind: type[np.generic] = np.float64) -> str:
+    little = np.ascontiguousarray(array, np.dtype(kind).newbyteorder("<"))
+    return base64.b64encode(little.tobytes()).decode("ascii")

@@ -1,0 +1,172 @@
+// A ball bearing under a load, in -y, at a speed: reduced_models.bearing.ball_bearing, .statics and .linear, in SI.
+// Python balances every ball by its approach at the outer race; here ln of the force at the inner race is looked
+// for, from which the approaches of both contacts follow: the same balance, with one search instead of three.
+
+const LARGEST_PLAY = 0.05, POSITIONS = 12, SEATED = 1e-9, TINY_OMEGA = 1e-3;
+const BALANCED = 1e-12, ROUNDING = 1e-9, REGULARISATION = 1e-6, FIRST_STEP = 1e-9;
+
+class Bearing {
+  // `given`: balls, ball_diameter, pitch_diameter, conformity_inner, conformity_outer, clearance [m]; `oil`: eta0
+  // and alpha.
+  constructor(given, oil, atlas) {
+    Object.assign(this, given, { oil, atlas });
+    const { balls, ball_diameter: D, pitch_diameter: dm, clearance } = given;
+    if (!(Number.isInteger(balls) && balls >= 3)) throw new InputError("balls", balls, "a whole number >= 3");
+    if (dm <= D) throw new InputError("pitch_diameter", dm, `above ball_diameter = ${D}`);
+    for (const name of ["conformity_inner", "conformity_outer"])
+      if (!(given[name] > 0.5)) throw new InputError(name, given[name], "above 0.5 (a tighter groove pinches the ball) and <= 10");
+    this.races = { inner: new Race("inner", this, atlas), outer: new Race("outer", this, atlas) };
+    if (D >= dm * Math.sin(Math.PI / balls)) {
+      const most = Math.floor(Math.PI / Math.asin(D / dm));
+      throw new InputError("balls", balls, `at most ${most} on this pitch circle: they overlap`);
+    }
+    const play = LARGEST_PLAY * D;
+    if (!(Math.abs(clearance) <= play))
+      throw new InputError("clearance", clearance, `between ${g(-play, 3)} and ${g(play, 3)} m`);
+    for (const race of Object.values(this.races)) race.requireInAtlas();
+  }
+
+  get highestSpeed() {
+    return Math.min(this.races.inner.highestSpeed, this.races.outer.highestSpeed);
+  }
+
+  // Both contacts and the centrifugal force at a speed [rev/min].
+  turn(rpm) {
+    if (!(isFinite(rpm) && rpm >= 0)) throw new InputError("speed_rpm", rpm, "a finite number >= 0");
+    if (rpm === 0)
+      throw new InputError("speed_rpm", rpm, "> 0 for a bearing with oil: without rolling there is no film");
+    if (rpm > this.highestSpeed) {
+      const allowed = `at most ${g(this.highestSpeed, 5)}, where the atlas ends for this bearing and oil`;
+      throw new InputError("speed_rpm", rpm, allowed);
+    }
+    const { ball_diameter: D, pitch_diameter: dm } = this, mass = this.atlas.steel.density * Math.PI / 6 * D ** 3;
+    const cage = 0.5 * (1 - D / dm) * rpm * Math.PI / 30, { inner, outer } = this.races;
+    return { rpm, inner: inner.contact(rpm), outer: outer.contact(rpm), centrifugal: mass * 0.5 * dm * cage * cage };
+  }
+
+  // One ball whose rings have come closer by delta [m]: ln of its forces, approaches, and dF/d(delta).
+  ball({ inner, outer, centrifugal }, delta) {
+    const both = (inner.kn ** (-2 / 3) + outer.kn ** (-2 / 3)) ** -1.5;
+    let x = Math.max(Math.log(both * Math.max(delta, 0) ** 1.5), inner.x[0]), low = -Infinity, high = Infinity;
+    for (let step = 0; step < 200; step++) {
+      const force = Math.exp(x), x2 = Math.log(force + centrifugal), a = inner.at(x), b = outer.at(x2);
+      const missing = delta - a.approach - b.approach, slope = a.byX + b.byX * force / (force + centrifugal);
+      if (missing > 0) low = x; else high = x;
+      let next = x + Math.min(Math.max(missing / slope, -2), 2);
+      if (Math.min(Math.abs(next - x), high - low) <= 1e-14 * (1 + Math.abs(x)))
+        return { x: [x, x2], approach: [a.approach, b.approach], stiffness: force / slope };
+      if (!(low < next && next < high)) next = 0.5 * (low + high);
+      x = next;
+    }
+    throw new Error(`a ball finds no balance at ${delta} m`);
+  }
+
+  // Force on the ring at q [m], its slopes, and the balls, the first at `angle`.
+  press(turn, angle, q) {
+    const force = [0, 0], slope = [[0, 0], [0, 0]], balls = [];
+    for (let k = 0; k < this.balls; k++) {
+      const psi = angle + 2 * Math.PI * k / this.balls, n = [Math.cos(psi), Math.sin(psi)];
+      const ball = this.ball(turn, n[0] * q[0] + n[1] * q[1] - 0.5 * this.clearance), F = Math.exp(ball.x[0]);
+      for (let i = 0; i < 2; i++) {
+        force[i] += F * n[i];
+        for (let j = 0; j < 2; j++) slope[i][j] += ball.stiffness * n[i] * n[j];
+      }
+      balls.push({ ...ball, n, psi, force: ball.x.map(Math.exp) });
+    }
+    return { force, slope, balls };
+  }
+
+  // The ring at rest under a load [N] in -y, the first ball at `angle` (reduced_models.rotor.equilibrium).
+  stand(turn, load, angle = -Math.PI / 2) {
+    const balance = q => { const { force } = this.press(turn, angle, q); return [force[0], force[1] + load]; };
+    const size = v => Math.hypot(...v), plus = (q, t, step) => [q[0] + t * step[0], q[1] + t * step[1]];
+    const search = (q, step) => plus(q, root(t => { const r = balance(plus(q, t, step)); return step[0] * r[0] + step[1] * r[1]; }), step);
+    let q = [0, 0];
+    if (load > 0) q = search(q, [0, FIRST_STEP * Math.sign(-load * balance(q)[1])]);
+    for (let step = 0; load > 0; step++) {
+      const { force, slope: [[a, b], [c, d]] } = this.press(turn, angle, q), r = [force[0], force[1] + load];
+      const error = size(r), soft = REGULARISATION * Math.max(a + d, load), det = (a + soft) * (d + soft) - b * c;
+      if (error <= BALANCED * load || (step > 30 && error <= ROUNDING * load)) break;
+      if (step > 100) throw new Error("static equilibrium not found");
+      const go = [(b * r[1] - (d + soft) * r[0]) / det, (c * r[0] - (a + soft) * r[1]) / det];
+      q = size(balance(plus(q, 1, go))) < 0.5 * error || error <= ROUNDING * load ? plus(q, 1, go) : search(q, go);
+    }
+    const { slope, balls } = this.press(turn, angle, q), trace = slope[0][0] + slope[1][1];
+    if (!(slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0] > SEATED * trace * trace)) {
+      const allowed = "one that presses balls on both sides of its direction; or preload the bearing (clearance < 0)";
+      throw new InputError("load", load, allowed);
+    }
+    this.requireCarried(turn, load, balls);
+    return { q, stiffness: slope, balls };
+  }
+
+  requireCarried(turn, load, balls) {
+    ["inner", "outer"].forEach((name, i) => {
+      const most = Math.max(...balls.map(ball => ball.force[i])), highest = this.races[name].loads(turn.rpm)[1];
+      if (most <= highest) return;
+      const [what, value] = load > 0 ? ["load", load] : ["clearance", this.clearance];
+      const allowed = `such that a ball carries at most ${g(highest, 4)} N on the ${name} race, `
+        + `the end of the atlas at this speed (here ${g(most, 4)} N)`;
+      throw new InputError(what, value, allowed);
+    });
+  }
+
+  // Central and smallest film [m] of a ball with both races; below the lightest load of the atlas both are the gap.
+  films(turn, ball) {
+    return ["inner", "outer"].map((name, i) => {
+      const race = this.races[name], load = ball.force[i];
+      if (load < race.loads(turn.rpm)[0]) {
+        const gap = (load / race.kn) ** (2 / 3) - ball.approach[i];
+        return { h_central: gap, h_min: gap };
+      }
+      const point = race.point(load, turn.rpm), answer = this.atlas.at(point);
+      return { answer, point, h_central: answer.h_central * point.length, h_min: answer.h_min * point.length };
+    });
+  }
+
+  // K [N/m] and C [N s/m] along and across the load at angular frequencies [rad/s], means over a ball passage.
+  coefficients(turn, load, omegas) {
+    const rows = omegas.map(() => ({ along: [0, 0], across: [0, 0] }));
+    for (let k = 0; k < POSITIONS; k++) {
+      const { balls } = this.stand(turn, load, -Math.PI / 2 + 2 * Math.PI / this.balls * k / POSITIONS);
+      for (const ball of balls) this.add(turn, ball, omegas, rows);
+    }
+    const named = ([K, C]) => ({ stiffness: K / POSITIONS, damping: C / POSITIONS });
+    return rows.map(row => ({ along: named(row.along), across: named(row.across) }));
+  }
+
+  // Both contacts of a ball in series.
+  add(turn, { x, n }, omegas, rows) {
+    const inner = turn.inner.impedance(x[0]), outer = turn.outer.impedance(x[1]);
+    omegas.forEach((omega, i) => {
+      const w = Math.max(omega, TINY_OMEGA), [a, b] = inner(w), [c, d] = outer(w);
+      const re = a + c, im = b + d, over = re * re + im * im, pr = a * c - b * d, pi = a * d + b * c;
+      const K = (pr * re + pi * im) / over, C = (pi * re - pr * im) / over / w;
+      rows[i].along[0] += K * n[1] * n[1]; rows[i].along[1] += C * n[1] * n[1];
+      rows[i].across[0] += K * n[0] * n[0]; rows[i].across[1] += C * n[0] * n[0];
+    });
+  }
+}
+
+// Where a rising function that is negative at 0 becomes 0: doubling, then the Illinois rule.
+function root(along) {
+  let low = 0, below = along(0), high = 1, above = along(1);
+  if (below >= 0) return 0;
+  for (let step = 0; above < 0; step++) {
+    if (step > 60) throw new Error("the contacts do not hold the load");
+    [low, below, high] = [high, above, 2 * high];
+    above = along(high);
+  }
+  for (let step = 0, side = 0; step < 100 && high - low > 1e-12 * high; step++) {
+    const t = (low * above - high * below) / (above - below), value = along(t);
+    if (value === 0) return t;
+    if (value < 0) {
+      if (side < 0) above /= 2;
+      [low, below, side] = [t, value, -1];
+    } else {
+      if (side > 0) below /= 2;
+      [high, above, side] = [t, value, 1];
+    }
+  }
+  return 0.5 * (low + high);
+}

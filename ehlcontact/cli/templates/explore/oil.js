@@ -1,0 +1,25 @@
+// Mineral oils by grade and temperature: ehlcontact.lubricant.oil, at the index and the density of `data`.
+
+function mineralOil(data, grade, temperature) {
+  const slope = data.walther_slopes[grade];
+  if (slope === undefined) throw new InputError("iso_vg", grade, `one of ${Object.keys(data.walther_slopes).join(", ")}`);
+  const [coldest, hottest] = data.temperatures;
+  if (!(coldest <= temperature && temperature <= hottest)) {
+    const inC = temperature - data.kelvin, kelvin = coldest <= inC && inC <= hottest;
+    const hint = kelvin ? " (degrees Celsius; given in K?)" : " degrees Celsius";
+    throw new InputError("temperature", temperature, `between ${g(coldest)} and ${g(hottest)}${hint}`);
+  }
+  const line = Math.log10(Math.log10(Number(grade) + data.shift))
+    - slope * Math.log10((temperature + data.kelvin) / (40 + data.kelvin));
+  const nu = 10 ** 10 ** line - data.shift;
+  if (nu < data.thinnest) {
+    const allowed = `one with at least ${g(data.thinnest)} mm2/s (ASTM D341); ISO VG ${grade} has ${nu.toFixed(2)}`;
+    throw new InputError("temperature", temperature, allowed);
+  }
+  const x = data.expansion / data.density_15 * (temperature - 15);
+  const eta0 = nu * 1e-6 * data.density_15 * Math.exp(-x * (1 + 0.8 * x));
+  // alpha such that Roelands' law passes through Gold's viscosity at 200 MPa
+  const q = Math.log(eta0) + data.roelands_log, secant = data.gold_s * nu ** data.gold_t;
+  const z = Math.log1p(secant * data.gold_pressure / q) / Math.log1p(data.gold_pressure / data.roelands_p0);
+  return { eta0, alpha: z * q / data.roelands_p0 };
+}

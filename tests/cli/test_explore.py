@@ -1,0 +1,191 @@
+"""``ehlcontact explore``: what its page answers, in a browser and in node, is what Python answers; and the page."""
+
+import json
+
+import numpy as np
+import pytest
+from browsers import ENGINES
+
+from ehlcontact import Lubricant, MoesPoint
+from ehlcontact.cli.explorer import COMPUTING, script
+from ehlcontact.errors import InputError
+from reduced_models import Atlas, BallBearing
+from reduced_models.bearing.catalogue import ROWS
+
+CLOSE = 1e-6  # of every number: what the issue asks for
+NUMBERS = ("approach", "h_central", "h_min", "film_share", "moment", "stiffness", "damping")
+GRADES = (10, 22, 32, 68, 150, 460)
+
+
+@pytest.fixture(scope="module")
+def computing():
+    return script(COMPUTING)
+
+
+@pytest.fixture(scope="module", params=ENGINES)
+def ask(request, computing, tmp_path_factory):
+    """``ask(body, asked)``: ``body`` is a function of `atlas` and one entry; its values for all entries."""
+
+    def run(body, asked):
+        call = """
+        const atlas = new Atlas(DATA.atlas);
+        const one = (atlas, asked) => { BODY };
+        const plain = (key, value) => (ArrayBuffer.isView(value) ? Array.from(value) : value);
+        const told = asked => {
+          try { return one(atlas, asked); }
+          catch (error) { if (!(error instanceof InputError)) throw error; return { refused: { ...error } }; }
+        };
+        const answer = JSON.stringify(ASKED.map(told), plain);"""
+        code = computing + call.replace("BODY", body).replace("ASKED", json.dumps(asked))
+        return ENGINES[request.param](code, tmp_path_factory.mktemp("asked"))
+
+    return run
+
+
+def refused(body):
+    """The refusal of a call as the page has it, or None."""
+    try:
+        body()
+    except InputError as error:
+        return {"field": error.field, "value": error.value, "allowed": error.allowed}
+    return None
+
+
+def inside(atlas, count, seed=14):
+    """Points all over the box, half of them of other oils."""
+    rng, box, points = np.random.default_rng(seed), atlas.box, []
+    while len(points) < count:
+        M, kappa = (np.exp(rng.uniform(*np.log(ends))) for ends in (box.M, box.kappa))
+        oil = {} if len(points) % 2 else {"alpha": rng.uniform(1e-8, 4e-8), "eta0": np.exp(rng.uniform(-6.2, 0.0))}
+        point = MoesPoint(M, rng.uniform(*box.L), kappa, **oil)
+        if point.p_hertz <= box.p_hertz:
+            points.append(point)
+    return [*points[2:], MoesPoint(200.0, 0.0, 0.5), MoesPoint(box.M[0], box.L[1], box.kappa[1])]
+
+
+def asked_of(point):
+    return {name: getattr(point, name) for name in ("M", "L", "kappa", "alpha", "eta0")}
+
+
+def test_atlas_answers_as_in_python(ask):
+    atlas = Atlas()
+    points = inside(atlas, 200)
+    assert len(points) == 200
+    found = ask("return atlas.at(asked);", [asked_of(point) for point in points])
+    for point, here in zip(points, found, strict=True):
+        there = atlas.at(point)
+        for name in NUMBERS:
+            np.testing.assert_allclose(here[name], getattr(there, name), rtol=CLOSE, atol=1e-12, err_msg=name)
+            np.testing.assert_allclose(here["error"][name], there.error[name], rtol=CLOSE, err_msg=name)
+
+
+def test_between_the_frequencies_of_the_table(ask):
+    atlas = Atlas()
+    points, Omega = inside(atlas, 40, seed=7), [0.0, 1e-4, 0.02, 0.7, 3.3, 11.3, 47.0, 60.0]
+    body = """
+    const { stiffness, damping, error } = atlas.at(asked.point);
+    const K = atlas.over(stiffness, error.stiffness), C = atlas.over(damping, error.damping);
+    return asked.Omega.map(at => [...K(at), ...C(at)]);"""
+    found = ask(body, [{"point": asked_of(point), "Omega": Omega} for point in points])
+    for point, here in zip(points, found, strict=True):
+        there = atlas.at(point).impedance(Omega=Omega)
+        columns = there.stiffness, there.error["stiffness"], there.damping, there.error["damping"]
+        for column, values in zip(np.transpose(here), columns, strict=True):
+            np.testing.assert_allclose(column, values, rtol=CLOSE, atol=1e-10)
+
+
+def test_oils_by_grade_are_those_of_python(ask):
+    asked = [{"grade": grade, "temperature": t} for grade in GRADES for t in (20, 40, 61.3, 100, 120)]
+    asked += [{"grade": 68, "temperature": t} for t in (19.9, 333.15, 121)] + [{"grade": 47, "temperature": 50}]
+    found = ask("return mineralOil(DATA.oil, asked.grade, asked.temperature);", asked)
+    refusals = 0
+    for one, here in zip(asked, found, strict=True):
+        there = refused(lambda one=one: Lubricant.iso_vg(one["grade"], temperature=one["temperature"]))
+        if there is not None:
+            assert here["refused"] == there
+            refusals += 1
+            continue
+        oil = Lubricant.iso_vg(one["grade"], temperature=one["temperature"])
+        assert here["eta0"] == pytest.approx(oil.eta0, rel=CLOSE)
+        assert here["alpha"] == pytest.approx(oil.alpha, rel=CLOSE)
+    assert refusals == 5  # VG 10 at 120 C is too thin
+
+
+BEARING = """
+const bearing = new Bearing(asked.bearing, asked.oil, atlas), turn = bearing.turn(asked.rpm);
+const state = bearing.stand(turn, asked.load);
+const omegas = asked.hz.map(hz => 2 * Math.PI * hz), both = bearing.coefficients(turn, asked.load, omegas);
+return { q: state.q, stiffness: state.stiffness, force: state.balls.map(ball => ball.force), both,
+  approach: state.balls.map(ball => ball.approach), highest: bearing.highestSpeed,
+  films: asked.oil && state.balls.map(ball => bearing.films(turn, ball).map(film => [film.h_central, film.h_min])) };
+"""
+
+
+def made(case):
+    """The bearing of a case in Python."""
+    oil = None if case["oil"] is None else Lubricant(**case["oil"])
+    return BallBearing(**case["bearing"], oil=oil)
+
+
+def case(name="6205", oil=(68, 50.0), rpm=3000.0, load=1000.0, **changes):
+    """A bearing of the catalogue, or nearly, as the page has it."""
+    row, found = ROWS[name], None
+    if oil is not None:
+        made_of = Lubricant.iso_vg(oil[0], temperature=oil[1])
+        found = {"eta0": made_of.eta0, "alpha": made_of.alpha}
+    bearing = {name: getattr(row, name) for name in ("balls", "ball_diameter", "pitch_diameter")}
+    bearing |= {"conformity_inner": row.conformity, "conformity_outer": row.conformity, "clearance": 0.0}
+    asked = {"bearing": bearing, "oil": found, "rpm": rpm, "load": load, "hz": [0.0, rpm / 60.0, 3e3, 1e5]}
+    for key, value in changes.items():
+        (bearing if key in bearing else asked)[key] = value
+    return asked
+
+
+def drawn(count, seed=3):
+    """Bearings, oils, speeds and loads over what people have; those that Python refuses too."""
+    rng, cases = np.random.default_rng(seed), []
+    for _ in range(count):
+        oil = int(rng.choice(GRADES)), rng.uniform(20.0, 100.0)
+        numbers = {"rpm": float(np.exp(rng.uniform(4.0, 9.6))), "load": float(np.exp(rng.uniform(1.0, 8.5)))}
+        changes = {"clearance": rng.uniform(-5e-6, 3e-5), "conformity_outer": rng.uniform(0.512, 0.55)}
+        cases.append(case(str(rng.choice(list(ROWS))), oil, **numbers, **changes))
+    return cases
+
+
+def test_bearings_stand_and_vibrate_as_in_python(ask):
+    cases = [*drawn(24), case(oil=None), case("6010", None, 0.0), case("209", clearance=-2e-6, load=0.0)]
+    cases += [case(clearance=1.5e-5, load=20.0), case(oil=None, clearance=1e-5, rpm=9000.0)]
+    stood = 0
+    for one, here in zip(cases, ask(BEARING, cases), strict=True):
+        weight = (0.0, -one["load"])
+        there = refused(lambda one=one, weight=weight: made(one).equilibrium(weight, speed_rpm=one["rpm"]))
+        if there is not None:
+            assert same_refusal(here.get("refused"), there), (here, there)
+            continue
+        stood += 1
+        bearing = made(one)
+        state = bearing.equilibrium(weight, speed_rpm=one["rpm"])
+        most, far = np.abs(state.force).max(), np.abs(state.approach).max()
+        np.testing.assert_allclose(here["force"], state.force, rtol=CLOSE, atol=CLOSE * most)
+        np.testing.assert_allclose(here["approach"], state.approach, atol=CLOSE * far)
+        np.testing.assert_allclose(here["q"], state.displacement, atol=CLOSE * np.abs(state.displacement).max())
+        stiff = np.abs(state.stiffness).max()
+        np.testing.assert_allclose(here["stiffness"], state.stiffness, atol=CLOSE * stiff)
+        if bearing.oil is not None:
+            films = np.stack([state.h_central, state.h_min], axis=-1)
+            np.testing.assert_allclose(here["films"], films, rtol=2 * CLOSE)
+            assert here["highest"] == pytest.approx(bearing.highest_speed, rel=CLOSE)
+        there = bearing.coefficients(weight, speed_rpm=one["rpm"], hz=one["hz"])
+        for name in ("stiffness", "damping"):
+            values = getattr(there, name)
+            for way, k in (("across", 0), ("along", 1)):
+                mine = [row[way][name] for row in here["both"]]
+                np.testing.assert_allclose(mine, values[:, k, k], rtol=CLOSE, atol=CLOSE * 1e-3, err_msg=name)
+    assert stood >= 15
+
+
+def same_refusal(here, there):
+    """The same input, refused with the same words; a load is a vector in Python."""
+    if here is None or here["field"] != there["field"] or here["allowed"] != there["allowed"]:
+        return False
+    return there["field"] == "load" or here["value"] == pytest.approx(there["value"], rel=CLOSE)
