@@ -1,4 +1,4 @@
-"""Reduced contact elements as Functional Mock-up Units: FMI 2.0 and 3.0, co-simulation and model exchange.
+"""Contact elements and rotors as Functional Mock-up Units: FMI 2.0 and 3.0, co-simulation and model exchange.
 
 ==============  ====================================================================================
 module          responsibility
@@ -19,6 +19,7 @@ module          responsibility
 ``comparison``  forces, tangents and derivatives of both, side by side
 ``driver``      an instance of an FMU of FMI 2.0, by hand, through fmpy
 ``driver3``     the same of FMI 3.0
+``rotor/``      a Jeffcott rotor, alone or closed with its contacts
 ``csrc/``       the C sources: common core, glue of each FMI version, models; equations in its README
 ==============  ====================================================================================
 
@@ -29,5 +30,7 @@ the two cannot be installed into one environment.
 from fmu.binaries import BuildError as BuildError
 from fmu.export import export_contact as export_contact
 from fmu.gate import VerificationError as VerificationError
+from fmu.rotor.export import export_rotor as export_rotor
+from fmu.rotor.model import RotorModel as RotorModel
 from fmu.verify import Verification as Verification
 from fmu.verify import verify as verify

@@ -31,6 +31,7 @@ class Comparison:
     derivatives: float
     flags: int
     exchange: float
+    motion: float = 0.0
 
 
 def compare_spring(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> Comparison:
@@ -202,9 +203,9 @@ def tangents(element: Any, states: _Floats, approach: float, rate: float) -> tup
     return unit * w_u, unit * time * gains[0] * theta
 
 
-def difference(ours: _Floats, expected: _Floats, scale: float) -> float:
+def difference(ours: _Floats, expected: _Floats, scale: float | _Floats) -> float:
     """Largest difference, relative to what is expected and at least to 1e-3 of `scale`."""
-    size = np.maximum(np.abs(expected), 1e-3 * abs(scale))
+    size = np.maximum(np.abs(expected), 1e-3 * np.abs(scale))
     error = np.abs(ours - expected)
     if not np.all(np.isfinite(error)):
         return float("inf")

@@ -66,9 +66,7 @@ def contact_spec(element: Element, model_name: str | None = None) -> ModelSpec:
     """
     if not isinstance(element, Element):
         raise InputError("element", type(element).__name__, "a contact element (linear, cubic, ..., wide)")
-    name = type(element).__name__ if model_name is None else model_name
-    if not isinstance(name, str) or not name.strip() or not name.isprintable() or len(name) > 100:
-        raise InputError("model_name", name, "1 to 100 printable characters")
+    name = checked_name(type(element).__name__ if model_name is None else model_name)
     from fmu.film import film_parts
     from fmu.spring import spring_parts
 
@@ -84,6 +82,19 @@ def contact_spec(element: Element, model_name: str | None = None) -> ModelSpec:
         time_unit="s" if element.units == "SI" else "1",
         **parts,
     )
+
+
+def checked_name(name: object) -> str:
+    """A model name as it is.
+
+    Raises
+    ------
+    InputError
+        Empty, too long or not printable.
+    """
+    if not isinstance(name, str) or not name.strip() or not name.isprintable() or len(name) > 100:
+        raise InputError("model_name", name, "1 to 100 printable characters")
+    return name
 
 
 class Common:
@@ -103,7 +114,11 @@ class Common:
 
     def input(self, name: str, si: str, start: float, nominal: float, text: str) -> None:
         """Append an input."""
-        self.add(name, "input", "continuous", text, unit=self.unit(si), start=start, nominal=_nominal(nominal))
+        rate = "rate" if name == "approach" else None
+        self.add(
+            name, "input", "continuous", text,
+            unit=self.unit(si), start=start, nominal=_nominal(nominal), rate=rate,
+        )  # fmt: skip
 
     def output(self, name: str, si: str, nominal: float, depends: tuple[str, ...], text: str) -> None:
         """Append a real output that is never negative."""
@@ -181,17 +196,18 @@ def default_step(element: Element) -> float:
     period, or of the time that its largest rate takes through its interval.
     """
     if element.units == "dimensionless" or element.time is not None:
-        return _round_down(SHARE_OF_TRANSIT * (1.0 if element.time is None else element.time))
+        return round_down(SHARE_OF_TRANSIT * (1.0 if element.time is None else element.time))
     times = [1e-3]
     if element.omega_range is not None and element.omega_range[1] > 0.0:
         times.append(0.1 / element.omega_range[1])
     if element.rate:
         low, high = element.validity.approach
         times.append(SHARE_OF_TRANSIT * (high - low) / element.rate)
-    return _round_down(min(times))
+    return round_down(min(times))
 
 
-def _round_down(value: float) -> float:
+def round_down(value: float) -> float:
+    """The next smaller number that is 1, 2 or 5 times a power of ten."""
     power = math.floor(math.log10(value))
     digit = max(d for d in (1, 2, 5) if d <= value / 10.0**power * (1.0 + 1e-12))
     return float(f"{digit}e{power}")

@@ -108,9 +108,15 @@ class Exchange3(_Instance3):
 
     def evaluate(self, states: _Floats, **inputs: float) -> tuple[float, _Floats]:
         """Force and derivatives of the states at these states and inputs."""
-        self.set(**inputs)
+        rates = self.rates(states, **inputs)
+        return self.get("force")[0], rates
+
+    def rates(self, states: _Floats, **inputs: float) -> _Floats:
+        """Derivatives of the states alone."""
+        if inputs:
+            self.set(**inputs)
         x, rates = np.ascontiguousarray(states, np.float64), np.zeros(states.size)
         if states.size:
             self.raw.setContinuousStates(x.ctypes.data_as(pointer()), x.size)
             self.raw.getContinuousStateDerivatives(rates.ctypes.data_as(pointer()), rates.size)
-        return self.get("force")[0], rates
+        return rates

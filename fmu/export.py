@@ -15,9 +15,11 @@ from fmu.binaries import Platform, build_binaries, choose, this_machine
 from fmu.binaries.libraries import Progress
 from fmu.binaries.recipe import build_description
 from fmu.c_headers import c_headers
-from fmu.contacts import Element, contact_spec
+from fmu.contacts import Element
 from fmu.gate import require_finite, require_verified
 from fmu.glue import GLUE, compiled
+from fmu.rotor.model import RotorModel
+from fmu.rotor.variables import spec_of
 from fmu.spec import ModelSpec
 from fmu.texts import documentation, model_description
 from fmu.texts3 import model_description_3, terminals
@@ -99,7 +101,7 @@ def export_contact(
 
 
 def export_verified(
-    element: Element,
+    element: Element | RotorModel,
     path: str | os.PathLike[str],
     *,
     fmi: int = 2,
@@ -108,10 +110,10 @@ def export_verified(
     overwrite: bool = False,
     progress: Progress | None = None,
 ) -> tuple[Path, Verification | None]:
-    """As `export_contact`; returns what was found too, None where this machine can run no such FMU."""
+    """As `export_contact` or `export_rotor`, with what was found: None where this machine can run no such FMU."""
     if isinstance(fmi, bool) or fmi not in GLUE:
         raise InputError("fmi", fmi, "2 or 3")
-    spec = contact_spec(element, model_name)
+    spec = spec_of(element, model_name)
     require_finite(element)
     wanted = choose(platforms, fmi)
     target = _free_target(path, overwrite)  # before compiling
@@ -163,7 +165,8 @@ def fmu_files(
     files |= {f"sources/{name}": content for name, content in sources.items() if name not in brought}
     if fmi == 3:
         files["sources/buildDescription.xml"] = build_description(spec.identifier, units)
-        files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals()
+        if spec.flanges:
+            files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(spec)
     for name in filter(None, ("license.txt", glue.licence)):
         files[f"documentation/licenses/{name}"] = (build.CSRC / "licenses" / name).read_bytes()
     return files

@@ -9,6 +9,7 @@ import numpy as np
 
 from ehlcontact.errors import InputError
 from fmu.contacts import Element
+from fmu.rotor.model import RotorModel
 from fmu.verify import Verification, verify
 
 REACH = 3.0  # validity intervals above `high` up to which `verify` asks for a force
@@ -22,14 +23,18 @@ class VerificationError(RuntimeError):
         super().__init__(" ".join(message.split()))
 
 
-def require_finite(element: Element) -> None:
-    """Make sure that an element has a force wherever an FMU will be asked for one.
+def require_finite(element: Element | RotorModel) -> None:
+    """Make sure that an element, or each of a rotor's, has a force wherever an FMU will be asked for one.
 
     Raises
     ------
     InputError
         It is too large for a floating-point number.
     """
+    if isinstance(element, RotorModel):
+        for one in element.elements:
+            require_finite(one)
+        return
     low, high = element.validity.approach
     at = high + REACH * (high - low)
     for name, value in (("force", element.spring(at)), ("stiffness", element.spring_tangent(at))):
@@ -38,7 +43,7 @@ def require_finite(element: Element) -> None:
             raise InputError("element", found, "one with finite forces, also above its interval (wrong units?)")
 
 
-def require_verified(content: bytes, element: Element) -> Verification:
+def require_verified(content: bytes, element: Element | RotorModel) -> Verification:
     """Run an FMU, before it is written, against the element.
 
     Raises
@@ -59,5 +64,7 @@ def require_verified(content: bytes, element: Element) -> Verification:
     except Exception as error:  # fmpy raises bare Exception among others, also for a call that the FMU refuses
         raise VerificationError(f"the FMU does not run: {error}") from None
     if not found.passes:
-        raise VerificationError(f"the FMU differs from the element: {'; '.join(found.findings) or found}", found)
+        raise VerificationError(
+            f"the FMU differs from what it was made from: {'; '.join(found.findings) or found}", found
+        )
     return found

@@ -38,4 +38,5 @@ GLUE = {
 
 def compiled(spec: ModelSpec, fmi: int) -> tuple[str, ...]:
     """C files of an FMU that are compiled."""
-    return (*GLUE[fmi].sources, *spec.sources)
+    generated = (name for name in spec.tables if name.endswith(".c"))
+    return (*GLUE[fmi].sources, *spec.sources, *generated)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ehlcontact.errors import InputError
 
-# Exponents of the SI base units, by unit name; "1" has none.
-UNITS: dict[str, dict[str, int]] = {
+# Exponents of the SI base units, by unit name, and a factor where it is not 1; "1" has none.
+UNITS: dict[str, dict[str, int | float]] = {
     "1": {},
     "m": {"m": 1},
     "m/s": {"m": 1, "s": -1},
@@ -21,8 +22,15 @@ UNITS: dict[str, dict[str, int]] = {
     "N.s2.m-2": {"kg": 1, "m": -1},
     "N.s3.m-3": {"kg": 1, "m": -2, "s": 1},
     "N.s.m-2": {"kg": 1, "m": -1, "s": -1},
+    "rad": {"rad": 1},
     "rad/s": {"rad": 1, "s": -1},
+    "rad/s2": {"rad": 1, "s": -2},
+    "rev/min": {"rad": 1, "s": -1, "factor": math.pi / 30.0},
     "1/s": {"s": -1},
+    "s": {"s": 1},
+    "kg": {"kg": 1},
+    "kg.m": {"kg": 1, "m": 1},
+    "m/s2": {"m": 1, "s": -2},
 }
 # What an importer may show instead: name, and how many of them make one unit.
 DISPLAY_UNITS: dict[str, tuple[str, float]] = {
@@ -31,6 +39,7 @@ DISPLAY_UNITS: dict[str, tuple[str, float]] = {
     "N": ("kN", 1e-3),
     "N/m": ("N/um", 1e-6),
     "rad/s": ("Hz", 0.15915494309189535),
+    "kg.m": ("g.mm", 1e6),
 }
 
 # File names that Windows keeps for devices, whatever the ending.
@@ -58,6 +67,7 @@ class Variable:
     nominal: float | None = None
     depends: tuple[str, ...] = ()  # names of inputs, parameters and states
     derivative_of: str | None = None  # name of a state
+    rate: str | None = None  # of an input: name of the input that is its rate
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,16 +93,24 @@ class ModelSpec:
     variables: tuple[Variable, ...]
     notes: tuple[tuple[str, str], ...] = ()  # label and text, for the documentation only
     macros: Mapping[str, str] = field(default_factory=dict)  # of config.h, name to C text
-    tables: Mapping[str, str] = field(default_factory=dict)  # generated headers, file name to C text
+    tables: Mapping[str, str] = field(default_factory=dict)  # generated files, name to C text; a .c is compiled
     choices: tuple[Choice, ...] = ()
     step: float = 1e-3  # that resolves the contact
     time_unit: str = "s"
+    # Event indicators, one for each contact: name in FMI 3.0, and the output that depends on the same.
+    indicators: tuple[tuple[str, str], ...] = (("contact_indicator", "force"),)
+    # Terminals of FMI 3.0: name, description, and the variables that are approach, rate and force.
+    flanges: tuple[tuple[str, str, tuple[str, str, str]], ...] = (
+        ("flange", "Mutual approach and its rate in, force between the bodies out", ("approach", "rate", "force")),
+    )
 
     def __post_init__(self) -> None:
         names = [variable.name for variable in self.variables]
         references = [variable.value_reference for variable in self.variables]
         if len(set(names)) < len(names) or references != list(range(len(references))):
             raise InputError("variables", names, "unique in name, with value references from 0 on")
+        if self.inputs != self.variables[: len(self.inputs)]:
+            raise InputError("variables", names, "inputs first")
 
     @property
     def identifier(self) -> str:

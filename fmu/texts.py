@@ -60,7 +60,7 @@ def model_description(spec: ModelSpec, guid: str) -> bytes:
         license="BSD-3-Clause",
         generationTool=f"ehlcontact {__version__}",
         variableNamingConvention="structured",
-        numberOfEventIndicators="1",
+        numberOfEventIndicators=str(len(spec.indicators)),
     )
     _interfaces(root, spec)
     _units(root, spec)
@@ -114,7 +114,7 @@ def _units(root: ElementTree.Element, spec: ModelSpec) -> None:
             ElementTree.SubElement(unit, "DisplayUnit", name=display[0], factor=repr(display[1]))
 
 
-def used_units(spec: ModelSpec) -> list[tuple[str, dict[str, int], tuple[str, float] | None]]:
+def used_units(spec: ModelSpec) -> list[tuple[str, dict[str, int | float], tuple[str, float] | None]]:
     """Units of the variables: name, exponents, and name and factor of what may be shown instead."""
     used = {variable.unit for variable in spec.variables}
     return [(name, powers, DISPLAY_UNITS.get(name)) for name, powers in UNITS.items() if name in used]
@@ -168,7 +168,7 @@ def value_attributes(variable: Variable) -> dict[str, str]:
 
 def _structure(root: ElementTree.Element, spec: ModelSpec) -> None:
     structure = ElementTree.SubElement(root, "ModelStructure")
-    computed = sorted((*spec.outputs, *spec.derivatives), key=lambda variable: variable.value_reference)
+    computed = initial_unknowns(spec)
     moving = {variable.name for variable in (*spec.inputs, *spec.states)}
     # While running only inputs and states are knowns; at initialization the parameters are as well.
     sections = (
@@ -189,6 +189,12 @@ def _structure(root: ElementTree.Element, spec: ModelSpec) -> None:
                 dependencies=" ".join(map(str, knowns)),
                 dependenciesKind=" ".join(["dependent"] * len(knowns)),
             )
+
+
+def initial_unknowns(spec: ModelSpec) -> list[Variable]:
+    """Outputs and derivatives that follow from start values, and are none themselves."""
+    found = [variable for variable in (*spec.outputs, *spec.derivatives) if variable.start is None]
+    return sorted(found, key=lambda variable: variable.value_reference)
 
 
 def documentation(spec: ModelSpec, readme: str, compiler: str, fmi: int = 2) -> str:

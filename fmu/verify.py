@@ -13,12 +13,16 @@ from typing import Any
 
 from ehlcontact.errors import InputError
 from fmu.comparison import Comparison, compare_film, compare_spring
-from fmu.contacts import Element, Film, contact_spec
+from fmu.contacts import Element, Film
 from fmu.driver import Exchange, Slave
 from fmu.driver3 import Exchange3, Slave3
+from fmu.rotor.comparison import compare_rotor
+from fmu.rotor.model import RotorModel
+from fmu.rotor.variables import spec_of
 from fmu.spec import ModelSpec
 
 TOLERANCE = 1e-12
+ORBIT = 1e-6  # of a rotor's motion: both balance their contacts to a billionth of the load in every step
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,25 +38,27 @@ class Verification:
     derivatives: float  # of the directional derivatives of the force
     flags: int  # states where outside_validity is wrong
     exchange: float = 0.0  # largest difference in model exchange: force, and derivatives of the states
+    motion: float = 0.0  # of a rotor's run, of the largest of its motion
 
     @property
     def passes(self) -> bool:
         """No finding, and all differences within rounding."""
         differences = max(self.force, self.tangents, self.derivatives, self.exchange)
-        return not self.findings and self.flags == 0 and differences <= TOLERANCE
+        return not self.findings and self.flags == 0 and differences <= TOLERANCE and self.motion <= ORBIT
 
     def to_dict(self) -> dict[str, Any]:
         """All fields and the verdict, for storage."""
         return asdict(self) | {"passes": self.passes}
 
 
-def verify(path: str | os.PathLike[str], element: Element) -> Verification:
+def verify(path: str | os.PathLike[str], element: Element | RotorModel) -> Verification:
     """Run the FMU through fmpy and compare it with the element.
 
     Without memory: one step of co-simulation each for a grid of approaches (inside, below and above the validity
     interval, lift-off included) and rates (both signs, up to where the damper alone cancels the force), and the
     same states in model exchange. With a memory: a motion with lift-off and a pulse of load, in steps from 1e-3 to
     1 of 2a/u_sum, against `drive`, and the film's states along it in model exchange against `state_rates`.
+    A rotor: a short run with an unbalance that shows, against `simulate_rotor`, and its accelerations along it.
 
     A difference is relative to the magnitude of what is compared, with 1e-3 of its value at the upper end of the
     interval (under the reference load) as the floor, for a number that cancels to nearly nothing has no relative
@@ -62,23 +68,25 @@ def verify(path: str | os.PathLike[str], element: Element) -> Verification:
     ----------
     path : path-like
         The FMU.
-    element : ContactElement
-        What it should be.
+    element : ContactElement or RotorModel
+        What it should be; ``RotorModel(rotor, contacts)`` for what `export_rotor` makes of these.
 
     Raises
     ------
     InputError
-        Not an FMU with a contact element for this platform.
+        Not an FMU of such an element or rotor for this platform.
     """
     from fmpy.validation import validate_fmu
 
     file = Path(path)
-    spec = contact_spec(element)
+    spec = spec_of(element)
     with opened(file) as (folder, description):
         known = _known_variables(description, spec, file)
         findings = (*validate_fmu(str(file)), *_declarations(spec, known))
         with _running(file, folder, description) as (slave, exchange):
-            if isinstance(element, Film):
+            if isinstance(element, RotorModel):
+                found = compare_rotor(slave, exchange, element, spec)
+            elif isinstance(element, Film):
                 found = compare_film(slave, exchange, element, spec)
             else:
                 found = compare_spring(slave, exchange, element, spec)
@@ -146,7 +154,11 @@ def _known_variables(description: Any, spec: ModelSpec, file: Path) -> dict[str,
     known = {variable.name: variable for variable in description.modelVariables}
     for variable in spec.variables:
         if variable.name not in known or known[variable.name].valueReference != variable.value_reference:
-            raise InputError("path", str(file), "an FMU of this kind of contact element, made by export_contact")
+            raise InputError(
+                "path",
+                str(file),
+                "an FMU of this kind of element or rotor, made by export_contact or export_rotor",
+            )
     return known
 
 

@@ -1,4 +1,4 @@
-"""``ehlcontact export``: an element file to an FMU."""
+"""``ehlcontact export``: an element file, or the rotor of a study, to an FMU."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from ehlcontact.cli.progress import progress
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
-    from fmu import Verification
+    from fmu import RotorModel, Verification
 
 
 def register(app: typer.Typer) -> None:
@@ -31,8 +31,22 @@ def register(app: typer.Typer) -> None:
 
 
 def export(
-    file: Annotated[Path, typer.Argument(metavar="ELEMENT.json", help="Element saved by `fit` or `element`.")],
+    file: Annotated[
+        Path,
+        typer.Argument(
+            metavar="ELEMENT.json|STUDY.toml",
+            help="Element saved by `fit` or `element`; or a study, whose rotor is exported with its contacts.",
+        ),
+    ],
     output: Annotated[Path, typer.Option("--output", "-o", metavar="X.fmu", help="FMU to write.")],
+    contact: Annotated[
+        Path | None,
+        typer.Option(
+            "--contact",
+            metavar="ELEMENT.json",
+            help="Of a study: the element in every contact of its rotor; the atlas's, for any load, by default.",
+        ),
+    ] = None,
     fmi: Annotated[int, typer.Option("--fmi", help="FMI version, 2 or 3.")] = 2,
     name: Annotated[str | None, typer.Option("--name", help="Model name.")] = None,
     platform: Annotated[
@@ -47,29 +61,29 @@ def export(
     force: Annotated[bool, typer.Option("--force", help="Replace the FMU if there is one.")] = False,
     json_to: o.JsonTo = None,
 ) -> None:
-    """Export a contact element as an FMU for co-simulation and model exchange, once it is verified."""
+    """Export a contact element, or a study's rotor, as an FMU for co-simulation and model exchange, if verified."""
     if fmi not in (2, 3):
         raise InputError("--fmi", fmi, "2 or 3")
-    if file.suffix.lower() == ".toml":
-        raise InputError("file", str(file), "an element (.json); export of a bearing is not built yet")
+    study = file.suffix.lower() == ".toml"
+    if contact is not None and not study:
+        raise InputError("--contact", str(contact), "left out, but for a study (.toml) with a rotor")
     check_file("--output", output, (".fmu",))
     check_json(json_to)
-    check_apart({"--output": output, "--json": json_to}, (file,))
+    check_apart({"--output": output, "--json": json_to}, (file, *([contact] if contact else [])))
     if not force and output.exists():
         raise InputError("--output", str(output), "a new file, or replaced with --force")
     from fmu import BuildError, VerificationError
     from fmu.binaries import choose
-    from fmu.contacts import step_advice
     from fmu.export import export_verified
     from reduced_models import load_element
 
-    element: Any = load_element(file)
+    exported: Any = _rotor_of(file, contact) if study else load_element(file)
     try:
         names = {"model_name": "--name", "platforms": "--platform", "path": "--output", "element": str(file)}
         with progress("compiling") as told, o.called(**names):
             built = [one.name for one in choose(platform or None, fmi)]
             _, found = export_verified(
-                element,
+                exported,
                 output,
                 fmi=fmi,
                 model_name=name,
@@ -81,21 +95,82 @@ def export(
         complain(f"no FMU was written: {error}")
         raise typer.Exit(USAGE) from None
     verdict = {"passes": None} if found is None else found.to_dict()
-    document = {"fmu": str(output), "units": element.units, "platforms": built, **verdict}
-    rows = [("element", element.kind, element.units), ("binaries", str(len(built)), ", ".join(built))]
-    rows += step_advice(element)
+    document = {"fmu": str(output), "units": "SI" if study else exported.units, "platforms": built, **verdict}
+    rows = [*_about(exported), ("binaries", str(len(built)), ", ".join(built)), *_advice(exported)]
     deliver(
         lambda: write_json(document, json_to),
-        lambda: show_table(str(output), [*rows, *_rows(found)], json_to),
+        lambda: show_table(str(output), [*rows, *_rows(found, rotor=study)], json_to),
     )
 
 
-def _rows(found: Verification | None) -> list[tuple[str, str, str]]:
+def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
+    """The rotor of a study, closed with an element from a file, or from the atlas."""
+    from ehlcontact.cli.study.rotor import build_rotor
+    from ehlcontact.cli.study.schema import load_study
+    from fmu import RotorModel
+    from reduced_models import load_element
+    from reduced_models.atlas.atlas import Atlas
+
+    study = load_study(file)
+    if "rotor" not in study.model_fields_set:
+        raise InputError("file", str(file), "a study with a rotor: it has no table [rotor]")
+    rotor = build_rotor(study)
+    if contact is not None:
+        element: Any = load_element(contact)
+        if element.units != "SI":
+            element = element.to_si(study.point.scales)
+        place = "--contact"
+    else:
+        with o.called(point=str(file)):
+            element = Atlas().element(study.point)
+        place = str(file)
+    with o.called(contacts=place):
+        model = RotorModel(rotor, [element] * len(rotor.mounts))
+    rotor.check([one.copy() for one in model.elements])
+    return model
+
+
+def _about(exported: Any) -> list[tuple[str, str, str]]:
+    """What it is."""
+    from fmu import RotorModel
+
+    if not isinstance(exported, RotorModel):
+        return [("element", exported.kind, exported.units)]
+    rotor, kinds = exported.rotor, sorted({element.kind for element in exported.elements})
+    return [
+        (
+            "rotor",
+            f"{rotor.speed_rpm:g} rpm",
+            f"{len(rotor.mounts)} contacts in each of {rotor.bearings} bearings, SI",
+        ),
+        ("contacts", ", ".join(kinds), "inside; their forces are outputs"),
+    ]
+
+
+def _advice(exported: Any) -> list[tuple[str, str, str]]:
+    """Steps of a co-simulation."""
+    from fmu import RotorModel
+    from fmu.contacts import step_advice
+
+    if isinstance(exported, RotorModel):
+        return [("inner step", f"{exported.inner_step:g} s", "steps of the master are cut into such ones")]
+    return step_advice(exported)
+
+
+def _rows(found: Verification | None, *, rotor: bool) -> list[tuple[str, str, str]]:
     """What the verification found."""
     if found is None:
         return [("verified", "no", "this machine can run no such FMU")]
+    findings = ("findings", str(len(found.findings)), "of fmpy's validation; none is right")
+    if rotor:
+        return [
+            findings,
+            ("motion", f"{found.motion:.1e}", f"largest error, over that of simulate_rotor; {found.states} steps"),
+            ("equations", f"{found.exchange:.1e}", "largest error of accelerations and rates of films"),
+            ("verified", "yes", ""),
+        ]
     return [
-        ("findings", str(len(found.findings)), "of fmpy's validation; none is right"),
+        findings,
         ("force", f"{found.force:.1e}", f"largest error, over the Python element's; {found.states} states"),
         ("tangents", f"{found.tangents:.1e}", "likewise"),
         ("verified", "yes", ""),

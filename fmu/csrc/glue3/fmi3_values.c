@@ -1,12 +1,17 @@
 /* FMI 3.0 around the core: variables, dependencies, directional and adjoint derivatives. */
 #include "fmi3_instance.h"
 
-/* ---- real variables, the time and the event indicator among them ---- */
+/* ---- real variables, the time and the event indicators among them ---- */
+
+static int is_indicator(unsigned int reference)
+{
+    return reference >= VR_indicator && reference < VR_indicator + N_CONTACTS;
+}
 
 static Fault may_get(unsigned int reference)
 {
     const Fault fine = {FINE, NULL};
-    return reference == VR_time || reference == VR_indicator ? fine : core_may_get(reference, REAL);
+    return reference == VR_time || is_indicator(reference) ? fine : core_may_get(reference, REAL);
 }
 
 static Fault get(Instance *instance, unsigned int reference, double *value)
@@ -16,12 +21,12 @@ static Fault get(Instance *instance, unsigned int reference, double *value)
         *value = instance->state.time;
         return fault;
     }
-    if (reference != VR_indicator) {
+    if (!is_indicator(reference)) {
         return core_get(&instance->state, reference, value);
     }
     fault = core_outputs(&instance->state);
     if (fault.severity == FINE) {
-        *value = instance->state.model.indicator;
+        *value = instance->state.model.indicator[reference - VR_indicator];
     }
     return fault;
 }

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "film_law.h"
-#include "model.h"
+#include "validity.h"
 
 /* Entries of the cache: the static curve where it was last asked for. */
 enum { KNOWN, REST_U, REST_X, REST_G, REST_G_U };
@@ -80,9 +80,9 @@ static int is_finite(const FilmForce *found)
 static void show(Model *m, double approach, double rate, const Rest *rest, const FilmForce *now,
                  const FilmForce *step)
 {
-    m->approach = approach;
-    m->rate = rate;
-    m->indicator = now->argument;
+    m->input[VR_approach] = approach;
+    m->input[VR_rate] = rate;
+    m->indicator[0] = now->argument;
     m->value[VR_force] = now->force * SCALE_FORCE;
     m->value[VR_stiffness] = now->stiffness * stiffness_unit;
     m->value[VR_damping] = now->damping * damping_unit;
@@ -102,8 +102,8 @@ Fault model_prepare(Model *m)
 
 Fault model_evaluate(Model *m)
 {
-    const Rest rest = rest_at(m, own_approach(m->approach));
-    const FilmForce now = film_now(&m->value[FIRST_STATE], &rest, own_rate(m->rate));
+    const Rest rest = rest_at(m, own_approach(m->input[VR_approach]));
+    const FilmForce now = film_now(&m->value[FIRST_STATE], &rest, own_rate(m->input[VR_rate]));
     int k;
     for (k = 0; k < FILM_RATES; k++) {
         if (!isfinite(m->value[FIRST_STATE + k])) {
@@ -113,16 +113,16 @@ Fault model_evaluate(Model *m)
     if (!is_finite(&now)) {
         return fault(DISCARD, too_large);
     }
-    show(m, m->approach, m->rate, &rest, &now, &now);
+    show(m, m->input[VR_approach], m->input[VR_rate], &rest, &now, &now);
     return fine;
 }
 
 Fault model_rates(Model *m)
 {
-    const Rest rest = rest_at(m, own_approach(m->approach));
+    const Rest rest = rest_at(m, own_approach(m->input[VR_approach]));
     double rates[FILM_RATES];
     int k;
-    film_rates(&m->value[FIRST_STATE], &rest, own_rate(m->rate), rates);
+    film_rates(&m->value[FIRST_STATE], &rest, own_rate(m->input[VR_rate]), rates);
     for (k = 0; k < FILM_RATES; k++) {
         if (!isfinite(rates[k] / SCALE_TIME)) {
             return fault(DISCARD, "a derivative of the film's states is too large for a floating-point number");
@@ -147,16 +147,17 @@ static void begin(double state[FILM_SIZE], const Rest *rest, double v)
 /* Goes through a step in equal parts, from `state` to `state`; the rest at its end goes to `rest`. */
 static FilmStep walk(const Motion *motion, double h, int parts, double state[FILM_SIZE], Rest *rest)
 {
+    const Path *approach = &motion->input[VR_approach], *rate = &motion->input[VR_rate];
     const double part = h / parts;
     double next[FILM_SIZE];
     FilmStep found = {{0.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}};
     int i;
     for (i = 1; i <= parts; i++) {
         const double t = i * part;
-        double u = motion->end_approach, v = motion->end_rate;
+        double u = approach->end, v = rate->end;
         if (i < parts && motion->meaning == EXTRAPOLATED) {
-            u = motion->approach + t * (motion->slope + 0.5 * t * motion->bend);
-            v = motion->rate + t * motion->turn;
+            u = approach->start + t * (approach->slope + 0.5 * t * approach->bend);
+            v = rate->start + t * rate->slope;
         }
         if (motion->meaning == HELD) { /* an approach that moves on, so that the rate is what it is throughout */
             state[APPROACH] = own_approach(u) - own_rate(v) * (part / SCALE_TIME);
@@ -187,18 +188,20 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
     double first[FILM_SIZE], state[FILM_SIZE];
     Rest start, rest;
     FilmStep found;
+    double u;
     int parts, k;
     if (!(h / SCALE_TIME >= SHORTEST_STEP)) {
         return fault(REFUSE, "the step size is too small for the film");
     }
-    start = rest_at(m, own_approach(motion->approach));
+    start = rest_at(m, own_approach(motion->input[VR_approach].start));
     if (!isfinite(start.g)) {
         return fault(DISCARD, too_large);
     }
-    begin(first, &start, own_rate(motion->rate));
+    begin(first, &start, own_rate(motion->input[VR_rate].start));
     memcpy(&first[INLET], &m->value[FIRST_STATE], FILM_RATES * sizeof first[0]);
     memcpy(state, first, sizeof first);
-    rest = own_approach(motion->end_approach) == start.u ? start : film_static(own_approach(motion->end_approach), &start);
+    u = own_approach(motion->input[VR_approach].end);
+    rest = u == start.u ? start : film_static(u, &start);
     found = walk(motion, h, 1, state, &rest);
     if (motion->meaning != AT_THE_END && unevenness(first, state) > smooth) {
         for (parts = 2; parts <= MOST_PARTS; parts *= 2) {
@@ -222,7 +225,7 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
         return fault(DISCARD, too_large);
     }
     memcpy(&m->value[FIRST_STATE], &state[INLET], FILM_RATES * sizeof state[0]);
-    show(m, motion->end_approach, motion->end_rate, &rest, &found.now, &found.step);
+    show(m, motion->input[VR_approach].end, motion->input[VR_rate].end, &rest, &found.now, &found.step);
     return fine;
 }
 
@@ -232,11 +235,11 @@ void model_direction(const Model *m, const double seed[], double along[])
 {
     const double du = own_approach(seed[VR_approach]), dv = own_rate(seed[VR_rate]);
     const double *states = &m->value[FIRST_STATE], *ds = &seed[FIRST_STATE];
-    const Rest rest = rest_at(m, own_approach(m->approach));
+    const Rest rest = rest_at(m, own_approach(m->input[VR_approach]));
     double change[FILM_RATES], force, stiffness, damping;
     FilmInstant now;
     int k;
-    film_instant(states, &rest, own_rate(m->rate), &now);
+    film_instant(states, &rest, own_rate(m->input[VR_rate]), &now);
     force = now.by[0] * du + now.by[1] * dv;
     stiffness = now.second[0][0] * du + now.second[0][1] * dv;
     damping = now.second[1][0] * du + now.second[1][1] * dv;
@@ -248,7 +251,7 @@ void model_direction(const Model *m, const double seed[], double along[])
     along[VR_force] = force * SCALE_FORCE;
     along[VR_stiffness] = stiffness * stiffness_unit;
     along[VR_damping] = damping * damping_unit;
-    film_rates_along(states, &rest, own_rate(m->rate), du, dv, ds, change);
+    film_rates_along(states, &rest, own_rate(m->input[VR_rate]), du, dv, ds, change);
     for (k = 0; k < FILM_RATES; k++) {
         along[FIRST_DERIVATIVE + k] = change[k] / SCALE_TIME;
     }

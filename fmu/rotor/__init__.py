@@ -1,0 +1,12 @@
+"""A Jeffcott rotor as an FMU: alone, its contacts outside, or closed with them.
+
+==============  ====================================================================================
+module          responsibility
+==============  ====================================================================================
+``model``       `RotorModel`: what is exported, checked; where it starts
+``variables``   its variables, constants and C text
+``laws``        each contact law inside as one C file with names of its own
+``export``      `export_rotor`: rotor in, FMU file out
+``comparison``  a short run of the FMU beside `simulate_rotor`, and its equations beside the rotor's
+==============  ====================================================================================
+"""
