@@ -20,6 +20,7 @@ module          responsibility
 ``driver``      an instance of an FMU of FMI 2.0, by hand, through fmpy
 ``driver3``     the same of FMI 3.0
 ``rotor/``      a Jeffcott rotor, alone or closed with its contacts
+``system/``     `export_system`: a rotor and its contacts as one system archive (SSP)
 ``csrc/``       the C sources: common core, glue of each FMI version, models; equations in its README
 ==============  ====================================================================================
 
@@ -32,5 +33,6 @@ from fmu.export import export_contact as export_contact
 from fmu.gate import VerificationError as VerificationError
 from fmu.rotor.export import export_rotor as export_rotor
 from fmu.rotor.model import RotorModel as RotorModel
+from fmu.system.export import export_system as export_system
 from fmu.verify import Verification as Verification
 from fmu.verify import verify as verify
