@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ehlcontact.checks import require_positive
 from ehlcontact.errors import InputError
@@ -30,7 +31,7 @@ from reduced_models.rotor.jeffcott import JeffcottRotor
 
 NAME = "rotor on contacts"
 FOREIGN_DAMPING = 0.05  # of that of a contact, at the journal's fastest vibration: what the default step may add
-LONGEST = 0.3  # default step times that frequency; the loop is stable up to 0.7
+LONGEST = 0.1  # default step times that frequency, or the rate at which dampers stop the journal
 REVOLUTIONS = 10.0  # of the default experiment
 STANDING = 0.1  # [s] of it, where nothing turns
 
@@ -138,7 +139,8 @@ def default_system_step(made: RotorModel) -> float:
     """A step [s] that leaves the contacts their damping, 1, 2 or 5 times a power of ten.
 
     Contact and rotor extrapolate what they have of each other, which adds about K h (w h)^2/3 to the damping of a
-    vibration of w; the fastest is that of the journal on the contacts. Such a loop is stable up to w h = 0.7.
+    vibration of w; the fastest is that of the journal on the contacts. Such a loop is stable up to w h = 0.7, and
+    as long as h resolves how fast their dampers alone would stop the journal.
     """
     rotor, contacts = made.rotor, made.elements
     approaches = rotor.approaches(made.state.journal).tolist()
@@ -146,12 +148,18 @@ def default_system_step(made: RotorModel) -> float:
     K = np.array([float(element.spring_tangent(u)) for element, u in pairs])
     forces = [float(element.spring(u)) for element, u in pairs]
     C = np.array([damping_at(one, f) if f > 0.0 else 0.0 for one, f in zip(contacts, forces, strict=True)])
-    normals = rotor.normals
-    stiffness = rotor.bearings * (normals.T * K) @ normals + rotor.shaft_stiffness * np.eye(len(rotor.axes))
-    w = sqrt(float(np.linalg.eigvalsh(stiffness)[-1]) / rotor.journal_mass)
+    w = sqrt(_fastest(rotor, K, rotor.shaft_stiffness))
+    rate = max(w, _fastest(rotor, C, rotor.shaft_damping))
     times = C[C > 0.0] / K[C > 0.0]
     h = (3.0 * FOREIGN_DAMPING * float(times.min(initial=inf)) / (w * w)) ** (1.0 / 3.0)
-    return round_down(min(h, LONGEST / w))
+    return round_down(min(h, LONGEST / rate))
+
+
+def _fastest(rotor: JeffcottRotor, of_contacts: NDArray[np.float64], of_shaft: float) -> float:
+    """Largest eigenvalue of stiffness or damping over the mass of the journal."""
+    normals = rotor.normals
+    matrix = rotor.bearings * (normals.T * of_contacts) @ normals + of_shaft * np.eye(len(rotor.axes))
+    return float(np.linalg.eigvalsh(matrix)[-1]) / rotor.journal_mass
 
 
 def _require_verified(content: bytes, system: _System) -> SystemVerification:

@@ -13,6 +13,7 @@ from ehlcontact.errors import InputError
 from fmu import RotorModel, VerificationError, export_system
 from fmu.build import pack
 from fmu.system.check import schema_findings, verify_system
+from fmu.system.export import export_verified_system
 from fmu.system.structure import SSC, SSD, SSV
 from fmu.verify import verify
 from reduced_models import CubicContact, JeffcottRotor
@@ -188,3 +189,13 @@ def test_contents_are_readable_as_a_plain_zip(system):
     with zipfile.ZipFile(io.BytesIO(system.path.read_bytes())) as archive:
         assert archive.testzip() is None
         assert {entry.compress_type for entry in archive.infolist()} <= {zipfile.ZIP_DEFLATED, zipfile.ZIP_STORED}
+
+
+@pytest.mark.parametrize("C1", [0.0, 1.0, 1e3, 1e5])
+@pytest.mark.parametrize("journal_mass", [0.05, 50.0])
+def test_default_step_runs_any_system(tmp_path, C1, journal_mass):
+    """Contacts without damper, and with one that stops the journal at once; journals light and heavy."""
+    rotor = dataclasses.replace(ROTOR, journal_mass=journal_mass)
+    element = dataclasses.replace(ELEMENT, C1=C1)
+    _, found = export_verified_system(RotorModel(rotor, [element]), tmp_path / "x.ssp")
+    assert found.passes and found.deviation < 0.005
