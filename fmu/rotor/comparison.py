@@ -82,7 +82,8 @@ def _shaken(model: RotorModel) -> tuple[JeffcottRotor, RotorState]:
     rotor = replace(rotor, speed_rpm=speed, unbalance=max(rotor.unbalance, SWING * load / omega**2))
     off = np.zeros(2)
     off[list(rotor.axes)] = OFF * load / rotor.shaft_stiffness
-    return rotor, replace(state, disc=state.disc + off)
+    # at rest: a film of the Python element begins there, whatever its rate
+    return rotor, RotorState(state.disc + off, state.journal, np.zeros(2), np.zeros(2))
 
 
 def _size(rotor: JeffcottRotor) -> float:

@@ -9,6 +9,13 @@
 
 #include "config.h"
 
+#ifndef FUZZ_INPUTS /* two inputs, three outputs of which the first is not negative; for a rotor others are given */
+#define FUZZ_INPUTS VR_approach, VR_rate
+#define FUZZ_OUTPUTS VR_force, VR_stiffness, VR_damping
+#define FUZZ_USUAL 0.0 /* of the inputs: none, but their start value */
+#define FUZZ_STEP 1e-6
+#endif
+
 static unsigned long long seed = 1;
 
 static unsigned int any(unsigned int count)
@@ -55,7 +62,7 @@ int main(int count, char **arguments)
     const long calls = count > 1 ? atol(arguments[1]) : 1000;
     fmi2Component c;
     fmi2FMUstate kept = NULL, probe = NULL;
-    const fmi2ValueReference inputs[] = {VR_approach, VR_rate}, outputs[] = {VR_force, VR_stiffness, VR_damping};
+    const fmi2ValueReference inputs[] = {FUZZ_INPUTS}, outputs[] = {FUZZ_OUTPUTS};
     fmi2ValueReference vr[MOST], derivatives[N_STATES + 1];
     double values[MOST], seeds[MOST], usual[2], time = 0.0;
     fmi2Boolean flags[MOST], flag = fmi2False;
@@ -70,6 +77,7 @@ int main(int count, char **arguments)
     seed = count > 2 ? (unsigned long long)atol(arguments[2]) : 1;
     c = start(fmi2CoSimulation);
     fmi2GetReal(c, inputs, 2, usual);
+    usual[0] = FUZZ_USUAL > 0.0 ? FUZZ_USUAL : usual[0];
     fmi2GetFMUstate(c, &probe);
     fmi2SerializedFMUstateSize(c, probe, &size);
     fmi2FreeFMUstate(c, &probe);
@@ -104,7 +112,7 @@ int main(int count, char **arguments)
         case 5:
         case 6:
         case 7: {
-            const double h = any(20) ? (double)(1 + any(1000)) * 1e-6 : anything(1e-3);
+            const double h = any(20) ? (double)(1 + any(1000)) * FUZZ_STEP : anything(1e-3);
             const double at = any(20) ? time : anything(time);
             status = fmi2DoStep(c, at, h, fmi2True);
             if (status == fmi2OK) {

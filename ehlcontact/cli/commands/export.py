@@ -70,7 +70,7 @@ def export(
     force: Annotated[bool, typer.Option("--force", help="Replace the file if there is one.")] = False,
     json_to: o.JsonTo = None,
 ) -> None:
-    """Export a contact element, or a study's rotor, as an FMU or a system of FMUs, once it is verified."""
+    """Export a contact element, or the rotor of a study, as an FMU or a system of FMUs, once it is verified."""
     if fmi not in (2, 3):
         raise InputError("--fmi", fmi, "2 or 3")
     study = file.suffix.lower() == ".toml"
@@ -162,12 +162,9 @@ def _about(exported: Any, system: bool) -> list[tuple[str, str, str]]:
     if not isinstance(exported, RotorModel):
         return [("element", exported.kind, exported.units)]
     rotor, kinds = exported.rotor, sorted({element.kind for element in exported.elements})
+    where = f"bearings: {rotor.bearings}, contacts in each: {len(rotor.mounts)}; SI"
     return [
-        (
-            "rotor",
-            f"{rotor.speed_rpm:g} rpm",
-            f"{len(rotor.mounts)} contacts in each of {rotor.bearings} bearings, SI",
-        ),
+        ("rotor", f"{rotor.speed_rpm:g} rpm", where),
         ("contacts", ", ".join(kinds), "each an FMU, wired" if system else "inside; their forces are outputs"),
     ]
 

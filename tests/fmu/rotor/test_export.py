@@ -1,0 +1,198 @@
+"""`export_rotor`: what it refuses, what it does not write, and what it says of itself."""
+
+import zipfile
+from dataclasses import replace
+from xml.etree import ElementTree
+
+import fmpy
+import numpy as np
+import pytest
+
+from ehlcontact.errors import InputError
+from ehlcontact.point import Scales
+from fmu import RotorModel, VerificationError, build, export_rotor, verify
+from fmu.rotor.variables import rotor_spec
+from reduced_models import OutsideValidityWarning, RotorState, ScaledContact, simulate_rotor
+
+SAYS_NOTHING = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
+SCALES = Scales(force=850.0, length=1.31e-5, time=2.1e-5, a=1.1e-4, b=9e-4, pressure=1.6e9)
+
+
+@pytest.mark.parametrize(
+    ("contacts", "words"),
+    [
+        (lambda e: [e["cubic_si"]], ("contacts", "1", "one per mount, 2")),
+        (lambda e: [e["cubic_si"], e["cubic"]], ("contacts[1].units", "dimensionless", "ScaledContact")),
+        (lambda e: [e["cubic_si"], 3.0], ("contacts[1]", "float", "contact element")),
+        (lambda e: e["cubic_si"], ("contacts", "CubicContact", "list")),
+        (lambda e: [ScaledContact(object(), SCALES)] * 2, ("contacts[0]", "ScaledContact", "contact element")),
+    ],
+)
+def test_contacts_that_do_not_fit_are_refused(rotors, elements, contacts, words, tmp_path):
+    with pytest.raises(InputError) as caught:
+        export_rotor(rotors["alone"].rotor, tmp_path / "x.fmu", contacts(elements))
+    assert all(word in str(caught.value) for word in words) and "\n" not in str(caught.value)
+    assert not list(tmp_path.iterdir())
+
+
+def test_what_is_no_rotor_or_no_start_is_refused(rotors, elements, tmp_path):
+    for rotor, start, word in (
+        (elements["cubic_si"], None, "JeffcottRotor"),
+        (rotors["alone"].rotor, 3.0, "RotorState"),
+    ):
+        with pytest.raises(InputError, match=word):
+            export_rotor(rotor, tmp_path / "x.fmu", start=start)
+    rotor = rotors["alone"].rotor
+    with pytest.raises(InputError, match="at most 32"):
+        export_rotor(replace(rotor, mounts=rotor.mounts * 17), tmp_path / "x.fmu")
+
+
+@pytest.mark.parametrize("load", [(0.0, 5000.0), (1e5, 0.0)])
+def test_contacts_that_do_not_carry_the_load_are_refused(rotors, elements, load, tmp_path):
+    """Pulled out of the vee upwards, or sideways beyond it."""
+    rotor = replace(rotors["alone"].rotor, load=load)
+    with pytest.raises(InputError, match="static load") as caught:
+        export_rotor(rotor, tmp_path / "x.fmu", [elements["cubic_si"]] * 2)
+    assert "\n" not in str(caught.value) and not list(tmp_path.iterdir())
+
+
+def test_a_file_that_is_there_is_kept(rotors, tmp_path):
+    target = tmp_path / "x.fmu"
+    target.write_text("kept")
+    with pytest.raises(InputError, match="overwrite"):
+        export_rotor(rotors["alone"].rotor, target)
+    assert target.read_text() == "kept"
+    export_rotor(rotors["alone"].rotor, target, overwrite=True)
+    assert zipfile.is_zipfile(target)
+
+
+def altered(monkeypatch, tmp_path, file, old, new):
+    """C sources with one line that is wrong."""
+    import shutil
+
+    folder = tmp_path / "csrc"
+    shutil.copytree(build.CSRC, folder)
+    path = next(folder.rglob(file))
+    text = path.read_text()
+    assert text.count(old) == 1
+    path.write_text(text.replace(old, new))
+    monkeypatch.setattr(build, "CSRC", folder)
+
+
+@SAYS_NOTHING
+@pytest.mark.parametrize(
+    ("name", "file", "old", "new"),
+    [
+        ("alone", "rotor_step.c", "rho = 0.8;", "rho = 0.9;"),
+        ("alone", "model_rotor.c", "carried[k] += BEARINGS * force", "carried[k] += force"),
+        ("wide in y", "rotor_contacts.c", "motion.start_rate = before", "motion.start_rate = 0.0 * before"),
+        ("cubic", "model_rotor.c", "- pull - carried[k]) / m->value", "- pull + carried[k]) / m->value"),
+    ],
+)  # fmt: skip
+def test_nothing_wrong_is_written(rotors, monkeypatch, tmp_path, name, file, old, new):
+    altered(monkeypatch, tmp_path, file, old, new)
+    model, target = rotors[name], tmp_path / "x.fmu"
+    with pytest.raises(VerificationError):
+        export_rotor(model.rotor, target, model.contacts)
+    assert not target.exists()
+
+
+@SAYS_NOTHING
+def test_verification_tells_another_rotor(unit, rotors):
+    one = unit("cubic")
+    assert verify(one.path, one.model).passes
+    rotor = one.model.rotor
+    for other in (replace(rotor, shaft_stiffness=1.001 * rotor.shaft_stiffness), replace(rotor, bearings=3)):
+        assert not verify(one.path, RotorModel(other, one.model.contacts, one.model.state)).passes
+    with pytest.raises(InputError, match="export_rotor"):
+        verify(one.path, rotors["alone"])
+
+
+def test_elements_for_another_speed_say_so(rotors, elements, tmp_path):
+    with pytest.warns(OutsideValidityWarning, match="133"):
+        export_rotor(rotors["alone"].rotor, tmp_path / "x.fmu", [elements["wide_si"]] * 2)
+
+
+@SAYS_NOTHING
+def test_dimensionless_contacts_in_their_scales(unit, rotors, elements, tmp_path):
+    """As `simulate_rotor` takes them; the same FMU comes out, to the byte."""
+    scaled = [ScaledContact(elements["cubic"], SCALES) for _ in range(2)]
+    path = export_rotor(rotors["cubic"].rotor, tmp_path / "x.fmu", scaled)
+    assert path.read_bytes() == unit("cubic").path.read_bytes()
+
+
+@SAYS_NOTHING
+def test_a_start_is_where_it_begins(rotors, tmp_path):
+    rest = rotors["alone"].state
+    start = RotorState(rest.disc + 1e-6, rest.journal - 2e-6, np.array([0.1, 0.2]), np.array([0.3, 0.4]))
+    path = export_rotor(rotors["alone"].rotor, tmp_path / "x.fmu", start=start)
+    starts = {v.name: v.start for v in fmpy.read_model_description(str(path)).modelVariables}
+    found = [
+        float(starts[f"{body}{what}_{axis}"])
+        for body in ("disc", "journal")
+        for what in ("", "_velocity")
+        for axis in "xy"
+    ]
+    assert found == [*start.disc, *start.disc_velocity, *start.journal, *start.journal_velocity]
+
+
+@SAYS_NOTHING
+def test_units_flanges_and_what_depends_on_what(unit):
+    description = fmpy.read_model_description(str(unit("alone").path))
+    known = {v.name: v for v in description.modelVariables}
+    wanted = {
+        "journal_x": "m",
+        "disc_velocity_y": "m/s",
+        "force[1]": "N",
+        "unbalance": "kg.m",
+        "speed_rpm": "rev/min",
+    }
+    assert {name: known[name].unit for name in wanted} == wanted
+    units = {u.name: u.baseUnit for u in description.unitDefinitions}
+    assert units["rev/min"].factor == pytest.approx(np.pi / 30.0, rel=1e-15)
+    by = {v.variable.name: [d.name for d in v.dependencies] for v in description.outputs}
+    assert by["journal_x"] == ["journal_x"] and by["approach[2]"] == ["journal_x", "journal_y"]  # no feedthrough
+    with zipfile.ZipFile(unit("alone", 3).path) as archive:
+        flanges = ElementTree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml")).findall(
+            ".//Terminal"
+        )
+    members = [[m.get("variableName") for m in flange] for flange in flanges]
+    assert members == [[f"approach[{i}]", f"rate[{i}]", f"force[{i}]"] for i in (1, 2)]
+    with zipfile.ZipFile(unit("wide", 3).path) as archive:
+        assert not any("terminals" in name for name in archive.namelist())
+
+
+def test_spec_of_one_axis_names_no_other(rotors):
+    assert not any(v.name.endswith(("_x", "_x)")) for v in rotor_spec(rotors["wide in y"]).variables)
+
+
+@SAYS_NOTHING
+def test_without_a_load_nothing_stands(rotors, elements, tmp_path):
+    """A rotor alone needs none."""
+    rotor = replace(rotors["alone"].rotor, gravity=(0.0, 0.0), load=(0.0, 0.0), unbalance=0.0, speed_rpm=0.0)
+    assert export_rotor(rotor, tmp_path / "x.fmu").exists()
+    with pytest.raises(InputError, match="static load"):
+        export_rotor(rotor, tmp_path / "y.fmu", [elements["cubic_si"]] * 2)
+    state = rotors["cubic"].state
+    assert export_rotor(rotor, tmp_path / "z.fmu", [elements["cubic_si"]] * 2, start=state).exists()
+
+
+@SAYS_NOTHING
+def test_it_is_much_faster_than_simulate_rotor(instance, rotors):
+    """At least five times here, under fmpy and on a machine that does other things; 15 and more alone."""
+    from time import perf_counter
+
+    model, steps, dt = rotors["wide"], 400, 1e-5
+    slave = instance("wide")
+    slave.start(1, inner_step=dt)
+    slave.step(dt)
+    ratios = []
+    for _ in range(3):
+        began = perf_counter()
+        for _ in range(steps):
+            slave.step(dt)
+        ours, began = perf_counter() - began, perf_counter()
+        contacts = [element.copy() for element in model.elements]
+        simulate_rotor(model.rotor, contacts, dt=dt, until=steps * dt)
+        ratios.append((perf_counter() - began) / ours)
+    assert max(ratios) > 5.0

@@ -1,0 +1,214 @@
+"""The FMU of a rotor in co-simulation, against `simulate_rotor` and against what can be solved by hand."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from reduced_models import RotorState, simulate_rotor
+
+EXTRAPOLATED, END, HELD = 1, 2, 3
+# the elements are for other frequencies than that of the speed
+pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
+
+
+def run(slave, names, steps, h, *, meaning=EXTRAPOLATED, inputs=None, **settings):
+    """What is read at the start and after every step; `inputs` are histories of those of the ends."""
+    inputs = inputs or {}
+    slave.start(meaning, **settings, **{name: values[0] for name, values in inputs.items()})
+    found = [slave.get(*names)]
+    for n in range(1, steps + 1):
+        if inputs:
+            slave.set(**{name: values[n if meaning == END else n - 1] for name, values in inputs.items()})
+        slave.step(h)
+        found.append(slave.get(*names))
+    return np.array(found)
+
+
+def reference(model, steps, dt, **options):
+    contacts = [element.copy() for element in model.elements]
+    return simulate_rotor(model.rotor, contacts, dt=dt, until=steps * dt, tolerance=1e-10, **options)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize("name", ["wide", "cubic", "mixed", "wide in y"])
+def test_closed_rotor_is_that_of_simulate_rotor(instance, rotors, motion_of, moving, name, fmi):
+    """Orbit, velocities and forces, from the static equilibrium on."""
+    model, steps, dt = rotors[name], 1500, 1e-5
+    expected = reference(model, steps, dt)
+    forces = [f"force[{i + 1}]" for i in range(len(model.elements))]
+    names = [*moving(model.rotor), *forces]
+    found = run(instance(name, fmi), names, steps, dt, inner_step=dt)
+    wanted = np.hstack([motion_of(expected), expected.force])
+    size = np.ptp(wanted, axis=0)
+    # a velocity follows from positions over a step: what is left of an imbalance shows 1/(w dt) times as much
+    allowed = np.where([("velocity" in one) for one in names], 1e-5, 1e-7)
+    assert (np.abs(found - wanted).max(axis=0) <= allowed * size).all()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["wide", "cubic"])
+def test_a_second_of_it(instance, rotors, motion_of, moving, name):
+    model, dt = rotors[name], 1e-5
+    wanted = motion_of(reference(model, 100_000, dt))[:, :4]
+    found = run(instance(name), moving(model.rotor)[:4], 100_000, dt, inner_step=dt)
+    assert (np.abs(found - wanted).max(axis=0) <= 1e-7 * np.ptp(wanted, axis=0)).all()
+
+
+@pytest.mark.parametrize("name", ["wide", "cubic", "mixed"])
+def test_it_rests_where_it_starts(instance, rotors, moving, name):
+    """Without unbalance nothing moves; every contact has the force that the statics give."""
+    slave, rotor = instance(name), rotors[name].rotor
+    names = moving(rotor)
+    found = run(slave, names, 100, 1e-5, unbalance=0.0)
+    approach = np.abs(rotors[name].state.journal).max()
+    assert np.abs(found - found[0])[:, :4].max() <= 1e-10 * approach
+    assert slave.get("force[1]", "force[2]") == pytest.approx(rotor.static_forces(), rel=1e-9)
+
+
+def test_communication_step_is_cut_into_inner_steps(instance, rotors, moving):
+    """Of nearly two revolutions, as if each had been asked for; the step of the inner ones decides."""
+    names = moving(rotors["wide"].rotor)
+    fine = run(instance("wide"), names, 1500, 1e-5, inner_step=1e-5)
+    coarse = run(instance("wide"), names, 15, 1e-3, inner_step=1.0001e-5)
+    assert np.abs(coarse - fine[::100]).max(axis=0) == pytest.approx(0.0, abs=1e-12)
+    one = run(instance("wide"), names, 15, 1e-3, inner_step=1e-3)
+    assert np.abs(one - fine[::100]).max() > 1e-7
+
+
+def test_default_inner_step_resolves_shaft_and_contacts(rotors):
+    for name, model in rotors.items():
+        rotor = model.rotor
+        shaft = np.sqrt(rotor.shaft_stiffness * (1.0 / rotor.disc_mass + 1.0 / rotor.journal_mass))
+        assert shaft * model.inner_step < 0.11, name
+        for element in model.elements:
+            if element.time is not None:
+                assert model.inner_step <= 0.05 * element.time, name
+
+
+def test_rotor_alone_under_the_forces_of_its_contacts(instance, rotors, moving, motion_of):
+    """What the contacts gave the closed one moves it just so: they are the forces of one bearing."""
+    model, steps, dt = rotors["wide"], 400, 1e-5
+    expected = reference(model, steps, dt)
+    inputs = {f"force[{i + 1}]": expected.force[:, i] for i in range(2)}
+    wanted = motion_of(expected)
+    names = [*moving(model.rotor), "approach[1]", "approach[2]", "rate[1]", "rate[2]"]
+    start = dict(zip(names, wanted[0], strict=False))
+    found = run(instance("alone"), names, steps, dt, meaning=END, inputs=inputs, inner_step=dt, **start)
+    wanted = np.hstack([wanted, expected.approach, expected.rate])
+    assert (np.abs(found - wanted).max(axis=0) <= 1e-5 * np.ptp(wanted, axis=0)).all()
+    assert (np.abs(found - wanted).max(axis=0)[:4] <= 1e-7 * np.ptp(wanted, axis=0)[:4]).all()
+
+
+def twin(rotor, T, forces):
+    """Motion of the rotor alone by matrix exponentials, under forces that are straight between the times."""
+    M, C, K = rotor.matrices()
+    n, h = len(M), T[1] - T[0]
+    A = np.zeros((2 * n, 2 * n))
+    A[:n, n:], A[n:, :n], A[n:, n:] = np.eye(n), -np.linalg.solve(M, K), -np.linalg.solve(M, C)
+    B = np.vstack([np.zeros((n, n)), np.linalg.inv(M)])
+    whole = expm(
+        h * np.block([[A, B, 0 * B], [np.zeros((n, 2 * n)), np.zeros((n, n)), np.eye(n)], [np.zeros((n, 4 * n))]])
+    )
+    state = rotor.rest_state(np.zeros(len(rotor.axes)))
+    axes = list(rotor.axes)
+    x = [np.concatenate([state.disc[axes], state.journal[axes], np.zeros(n)])]
+    for now, then in pairwise(forces):
+        x.append(whole[: 2 * n] @ np.concatenate([x[-1], now, (then - now) / h]))
+    return np.array(x)
+
+
+@pytest.mark.parametrize("name", ["alone", "alone in y"])
+def test_rotor_alone_converges_to_its_analytic_twin(instance, rotors, moving, name):
+    """With forces on disc, journal and contacts, of second order in the inner step; held inputs of first."""
+    rotor = rotors[name].rotor
+    axes = [("x", "y")[k] for k in rotor.axes]
+    names = moving(rotor)
+    errors = {}
+    for meaning in (EXTRAPOLATED, END, HELD):
+        for refined in (1, 2):
+            steps, h = 200 * refined, 1e-5 / refined
+            T = h * np.arange(steps + 1)
+            inputs = {f"journal_force_{a}": 300.0 * np.sin(4e3 * T + k) for k, a in enumerate(axes)}
+            inputs |= {f"disc_force_{a}": 200.0 * np.cos(3e3 * T + k) for k, a in enumerate(axes)}
+            inputs |= {f"force[{i + 1}]": 850.0 + 50.0 * np.sin(2e3 * T + i) for i in range(len(rotor.mounts))}
+            journal, disc = (
+                np.stack([inputs[f"{b}_force_{a}"] for a in axes], axis=1) for b in ("journal", "disc")
+            )
+            carried = (
+                np.stack([inputs[f"force[{i + 1}]"] for i in range(len(rotor.mounts))], axis=1) @ rotor.normals
+            )
+            applied = np.array([rotor.applied_force(t) for t in T])
+            forces = applied + np.hstack([disc, journal - rotor.bearings * carried])
+            wanted = twin(rotor, T, forces)
+            inner = 1e-6 if meaning == HELD else h
+            found = run(instance(name), names, steps, h, meaning=meaning, inputs=inputs, inner_step=inner)
+            errors[meaning, refined] = np.abs(found - wanted).max(axis=0) / np.ptp(wanted, axis=0)
+    for meaning, order in ((EXTRAPOLATED, 2.0), (END, 2.0), (HELD, 1.0)):
+        assert errors[meaning, 1].max() < 0.1
+        ratio = np.log2(np.linalg.norm(errors[meaning, 1]) / np.linalg.norm(errors[meaning, 2]))
+        assert ratio == pytest.approx(order, abs=0.3), meaning
+
+
+def test_speed_and_unbalance_can_be_tuned_on_the_way(instance, rotors, motion_of, moving):
+    """The angle goes on; the unbalance is of the new speed from there."""
+    model, dt = rotors["wide"], 1e-5
+    slave = instance("wide")
+    slave.start(EXTRAPOLATED, inner_step=dt)
+    for _ in range(300):
+        slave.step(dt)
+    turned = slave.get("angle")[0]
+    assert turned == pytest.approx(300 * dt * model.rotor.omega, rel=1e-12)
+    slave.set(speed_rpm=0.0)
+    for _ in range(10):
+        slave.step(dt)
+    assert slave.get("angle")[0] == turned
+    slave.set(unbalance=0.0, speed_rpm=3000.0)
+    slave.step(dt)
+    assert slave.get("angle")[0] == pytest.approx(turned + dt * 100.0 * np.pi, rel=1e-12)
+
+
+def test_angle_loses_nothing_in_many_steps(instance, rotors):
+    slave = instance("alone in y")
+    slave.start(EXTRAPOLATED, inner_step=1e-6, speed_rpm=7654.321)
+    for _ in range(200):
+        slave.step(1e-4)
+    assert slave.get("angle")[0] == pytest.approx(200 * 1e-4 * 7654.321 * np.pi / 30.0, rel=3e-15)
+
+
+def test_a_start_of_ones_own(instance, rotors, motion_of, moving):
+    """Kicked: start values of states are set before initialization."""
+    model, dt = rotors["cubic"], 1e-5
+    rest = model.state
+    kicked = RotorState(
+        rest.disc + np.array([1e-6, 2e-6]),
+        rest.journal - np.array([0.0, 1e-6]),
+        np.zeros(2),
+        np.array([0.01, -0.02]),
+    )
+    contacts = [element.copy() for element in model.elements]
+    wanted = motion_of(simulate_rotor(model.rotor, contacts, dt=dt, until=300 * dt, start=kicked, tolerance=1e-10))
+    names = moving(model.rotor)
+    start = dict(zip(names, wanted[0], strict=True))
+    found = run(instance("cubic"), names, 300, dt, inner_step=dt, **start)
+    assert (np.abs(found - wanted)[:, :4].max(axis=0) <= 1e-7 * np.ptp(wanted, axis=0)[:4]).all()
+
+
+def test_lift_off_and_impact(instance, rotors, motion_of, moving):
+    """Torn up by the shaft until both contacts part, and falling back: the same motion, and no force pulls."""
+    model, dt, steps = rotors["mixed"], 2e-6, 1500
+    contacts = [element.copy() for element in model.elements]
+    rest, none = model.state, np.zeros(2)
+    torn = RotorState(rest.disc + np.array([3e-5, 1.2e-4]), rest.journal, none, none)
+    for contact, approach in zip(contacts, model.rotor.approaches(rest.journal).tolist(), strict=True):
+        contact.rest(approach)
+    expected = simulate_rotor(
+        model.rotor, contacts, dt=dt, until=steps * dt, start=torn, tolerance=1e-10, max_iterations=60
+    )
+    names, wanted = moving(model.rotor)[:4], motion_of(expected)[:, :4]
+    start = dict(zip(names, wanted[0], strict=True))
+    found = run(instance("mixed"), ["force[1]", "force[2]", *names], steps, dt, inner_step=dt, **start)
+    parted = int(np.argmax(expected.force.max(axis=1) < 1.0))
+    assert parted > 0 and expected.force[parted:].max() > 2000.0 and found[:, :2].min() >= 0.0
+    assert (np.abs(found[:, 2:] - wanted).max(axis=0) <= 1e-7 * np.ptp(wanted, axis=0)).all()
