@@ -17,8 +17,8 @@ module          responsibility
 ``gate``        nothing unverified is written
 ``verify``      `verify`: the FMU against fmpy's rules and, state by state, against the Python element
 ``comparison``  forces, tangents and derivatives of both, side by side
-``driver``      an instance of an FMU of FMI 2.0, by hand, through fmpy
-``driver3``     the same of FMI 3.0
+``references``  reference results inside an FMU, and `verify_references`: the FMU against them alone
+``driver``      an instance of an FMU, by hand, through fmpy
 ``rotor/``      a Jeffcott rotor, alone or closed with its contacts
 ``system/``     `export_system`: a rotor and its contacts as one system archive (SSP)
 ``csrc/``       the C sources: common core, glue of each FMI version, models; equations in its README
@@ -31,6 +31,8 @@ the two cannot be installed into one environment.
 from fmu.binaries import BuildError as BuildError
 from fmu.export import export_contact as export_contact
 from fmu.gate import VerificationError as VerificationError
+from fmu.references.check import ReferenceCheck as ReferenceCheck
+from fmu.references.check import verify_references as verify_references
 from fmu.rotor.export import export_rotor as export_rotor
 from fmu.rotor.model import RotorModel as RotorModel
 from fmu.system.export import export_system as export_system

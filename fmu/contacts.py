@@ -207,7 +207,7 @@ def default_step(element: Element) -> float:
 
 
 def round_down(value: float) -> float:
-    """The next smaller number that is 1, 2 or 5 times a power of ten."""
+    """1, 2 or 5 times a power of ten, at most `value` > 0."""
     power = math.floor(math.log10(value))
     digit = max(d for d in (1, 2, 5) if d <= value / 10.0**power * (1.0 + 1e-12))
     return float(f"{digit}e{power}")

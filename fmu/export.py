@@ -18,7 +18,11 @@ from fmu.c_headers import c_headers
 from fmu.contacts import Element
 from fmu.gate import require_finite, require_verified
 from fmu.glue import GLUE, compiled
+from fmu.references.contacts import contact_references
+from fmu.references.files import reference_files
+from fmu.references.series import References
 from fmu.rotor.model import RotorModel
+from fmu.rotor.references import rotor_references
 from fmu.rotor.variables import spec_of
 from fmu.spec import ModelSpec
 from fmu.texts import documentation, model_description
@@ -117,15 +121,23 @@ def export_verified(
     require_finite(element)
     wanted = choose(platforms, fmi)
     target = free_target(path, overwrite)  # before compiling
-    files = fmu_files(spec, wanted, fmi, progress)
+    references = references_of(element, spec)
+    files = fmu_files(spec, wanted, fmi, progress, references)
     found = None
     own = this_machine()
     if own is not None and own.folder(fmi) is not None:
         # An FMU for other machines is verified by this one's binary of the same sources.
-        runnable = files if own in wanted else fmu_files(spec, (own,), fmi)
+        runnable = files if own in wanted else fmu_files(spec, (own,), fmi, references=references)
         found = require_verified(build.pack(runnable), element)
     free_target(path, overwrite)  # still
     return write_bytes(target, build.pack(files)), found
+
+
+def references_of(element: Element | RotorModel, spec: ModelSpec) -> References:
+    """Reference inputs and results of whatever can be exported."""
+    if isinstance(element, RotorModel):
+        return rotor_references(element, spec)
+    return contact_references(element, spec)
 
 
 def free_target(path: str | os.PathLike[str], overwrite: bool, suffix: str = ".fmu") -> Path:
@@ -151,7 +163,11 @@ def free_target(path: str | os.PathLike[str], overwrite: bool, suffix: str = ".f
 
 
 def fmu_files(
-    spec: ModelSpec, platforms: Sequence[Platform], fmi: int, progress: Progress | None = None
+    spec: ModelSpec,
+    platforms: Sequence[Platform],
+    fmi: int,
+    progress: Progress | None = None,
+    references: References | None = None,
 ) -> dict[str, bytes]:
     """Everything in the FMU by its path, the compiled binaries included."""
     guid = content_guid(spec, fmi)
@@ -169,7 +185,7 @@ def fmu_files(
             files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(spec)
     for name in filter(None, ("license.txt", glue.licence)):
         files[f"documentation/licenses/{name}"] = (build.CSRC / "licenses" / name).read_bytes()
-    return files
+    return files | ({} if references is None else reference_files(references, spec))
 
 
 def _description(spec: ModelSpec, guid: str, fmi: int) -> bytes:

@@ -9,8 +9,9 @@ import numpy as np
 
 from ehlcontact.errors import InputError
 from fmu.contacts import Element
+from fmu.references.check import check_references
 from fmu.rotor.model import RotorModel
-from fmu.verify import Verification, verify
+from fmu.verify import Verification, opened, verify
 
 REACH = 3.0  # validity intervals above `high` up to which `verify` asks for a force
 
@@ -44,7 +45,7 @@ def require_finite(element: Element | RotorModel) -> None:
 
 
 def require_verified(content: bytes, element: Element | RotorModel) -> Verification:
-    """Run an FMU, before it is written, against the element.
+    """Run an FMU, before it is written, against the element or rotor and against its own references.
 
     Raises
     ------
@@ -56,6 +57,8 @@ def require_verified(content: bytes, element: Element | RotorModel) -> Verificat
             trial = Path(folder) / "trial.fmu"
             trial.write_bytes(content)
             found = verify(trial, element)
+            with opened(trial) as (unpacked, description):
+                own = check_references(trial, unpacked, description)
     except InputError as error:
         raise VerificationError(f"the FMU is not {error.allowed}") from None
     except OSError as error:
@@ -66,5 +69,9 @@ def require_verified(content: bytes, element: Element | RotorModel) -> Verificat
     if not found.passes:
         raise VerificationError(
             f"the FMU differs from what it was made from: {'; '.join(found.findings) or found}", found
+        )
+    if not own.passes:
+        raise VerificationError(
+            f"the FMU differs from its reference results: {'; '.join(own.findings) or own}", found
         )
     return found

@@ -7,6 +7,8 @@ module          responsibility
 ``variables``   its variables, constants and C text
 ``laws``        each contact law inside as one C file with names of its own
 ``export``      `export_rotor`: rotor in, FMU file out
-``comparison``  a short run of the FMU beside `simulate_rotor`, and its equations beside the rotor's
+``twin``        what the rotor does in Python: a short run, its equations in a state
+``comparison``  the FMU beside that
+``references``  that inside the FMU
 ==============  ====================================================================================
 """

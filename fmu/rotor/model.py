@@ -13,6 +13,7 @@ import numpy as np
 
 from ehlcontact.errors import ConvergenceError, InputError
 from fmu.contacts import Element, default_step, round_down
+from fmu.rotor.twin import Run, shaken_run
 from reduced_models import JeffcottRotor, OutsideValidityWarning, RotorState, ScaledContact
 
 # An FMU counts its contacts, and all inputs that have derivatives, in the bits of one number.
@@ -81,6 +82,11 @@ class RotorModel:
         except ConvergenceError as error:
             load = f"{self.rotor.static_load.tolist()} N"
             raise InputError("contacts", str(error), f"ones that carry the static load {load}") from None
+
+    @cached_property
+    def run(self) -> Run:
+        """What its FMU is held against."""
+        return shaken_run(self)
 
     @property
     def inner_step(self) -> float:

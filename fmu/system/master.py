@@ -19,12 +19,10 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
 from fmu.driver import Slave
-from fmu.driver3 import Slave3
 from fmu.system.structure import SSD, SSV
 
 _Floats = NDArray[np.float64]
 
-EXTRAPOLATED = 1  # of input_meaning, the default of every FMU here
 DESCRIPTION = "SystemStructure.ssd"
 
 
@@ -70,11 +68,10 @@ class SystemRun:
         place = folder / f"unpacked-{name}"
         fmpy.extract(str(folder / source), unzipdir=str(place))
         description = fmpy.read_model_description(str(place), validate=False)
-        kind = Slave3 if description.fmiVersion.startswith("3") else Slave
         with chdir(Path.cwd()):  # fmpy leaves the process in another folder when a library does not load
-            slave = kind(str(place), description, self.messages)
+            slave = Slave(str(place), description, self.messages)
         stack.callback(slave.free)
-        slave.start(EXTRAPOLATED, **values)
+        slave.start(**values)
         return slave
 
     def __enter__(self) -> SystemRun:

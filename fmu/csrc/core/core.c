@@ -31,13 +31,12 @@ void core_start(State *s, Kind kind)
     s->stale = STALE_LAW | STALE_OUTPUTS | STALE_RATES;
 }
 
-Fault core_may_get(unsigned int reference, Type type)
+static int is_known(unsigned int reference, Type type)
 {
-    if (reference >= N_VARIABLES || core_variables[reference].type != type) {
-        return refuse("no variable of this type has this value reference");
-    }
-    return fine;
+    return reference < N_VARIABLES && core_variables[reference].type == type;
 }
+
+static const char unknown[] = "no variable of this type has this value reference";
 
 /* The phases in which a variable of this role may be set; none for what is computed. */
 static int settable_in(Role role, int kind)
@@ -53,10 +52,9 @@ static int settable_in(Role role, int kind)
 
 Fault core_may_set(const State *s, unsigned int reference, Type type, double value)
 {
-    const Fault unknown = core_may_get(reference, type);
     int phases;
-    if (unknown.severity != FINE) {
-        return unknown;
+    if (!is_known(reference, type)) {
+        return refuse(unknown);
     }
     phases = settable_in(core_variables[reference].role, s->kind);
     if (phases == 0) {
@@ -71,14 +69,24 @@ Fault core_may_set(const State *s, unsigned int reference, Type type, double val
     return fine;
 }
 
-void core_set(State *s, unsigned int reference, double value)
+Fault core_set(State *s, const unsigned int references[], size_t count, Type type, const double values[])
 {
-    const Role role = core_variables[reference].role;
-    s->model.value[reference] = value;
-    if (role == INPUT) {
-        memcpy(s->model.input, s->model.value, sizeof s->model.input);
+    size_t i;
+    for (i = 0; i < count; i++) {
+        const Fault fault = core_may_set(s, references[i], type, values[i]);
+        if (fault.severity != FINE) {
+            return fault;
+        }
     }
-    s->stale |= STALE_OUTPUTS | STALE_RATES | (role == TUNABLE ? STALE_LAW : 0);
+    for (i = 0; i < count; i++) {
+        const Role role = core_variables[references[i]].role;
+        s->model.value[references[i]] = values[i];
+        if (role == INPUT) {
+            memcpy(s->model.input, s->model.value, sizeof s->model.input);
+        }
+        s->stale |= STALE_OUTPUTS | STALE_RATES | (role == TUNABLE ? STALE_LAW : 0);
+    }
+    return fine;
 }
 
 /* Outputs that do not exist are no error of the call: other inputs or parameters can help. */
@@ -125,19 +133,27 @@ Fault core_rates(State *s)
     return fault;
 }
 
-Fault core_get(State *s, unsigned int reference, double *value)
+Fault core_get(State *s, const unsigned int references[], size_t count, Type type, double values[])
 {
-    const Role role = core_variables[reference].role;
-    Fault fault = fine;
-    if (role == OUTPUT || role == MEASURE) {
-        fault = core_outputs(s);
-    } else if (role == DERIVATIVE) {
-        fault = core_rates(s);
+    size_t i;
+    for (i = 0; i < count; i++) {
+        Role role;
+        Fault fault = fine;
+        if (!is_known(references[i], type)) {
+            return refuse(unknown);
+        }
+        role = core_variables[references[i]].role;
+        if (role == OUTPUT || role == MEASURE) {
+            fault = core_outputs(s);
+        } else if (role == DERIVATIVE) {
+            fault = core_rates(s);
+        }
+        if (fault.severity != FINE) {
+            return fault;
+        }
+        values[i] = s->model.value[references[i]];
     }
-    if (fault.severity == FINE) {
-        *value = s->model.value[reference];
-    }
-    return fault;
+    return fine;
 }
 
 /* ---- call sequence ---- */

@@ -59,15 +59,14 @@ typedef struct {
 
 void core_start(State *state, Kind kind);
 
-/* Why a variable of this type may not be set or read now; FINE if it may. */
+/* Why a variable of this type may not be set now; FINE if it may. */
 Fault core_may_set(const State *state, unsigned int reference, Type type, double value);
-Fault core_may_get(unsigned int reference, Type type);
 
-/* Sets what core_may_set has allowed. */
-void core_set(State *state, unsigned int reference, double value);
+/* Sets variables of a type, all or none: a bad reference must not leave half of them set. */
+Fault core_set(State *state, const unsigned int references[], size_t count, Type type, const double values[]);
 
-/* Reads what core_may_get has allowed, outputs after bringing them up to date. */
-Fault core_get(State *state, unsigned int reference, double *value);
+/* Reads variables of a type, outputs after bringing them up to date. */
+Fault core_get(State *state, const unsigned int references[], size_t count, Type type, double values[]);
 
 /* Brings outputs, or outputs and derivatives of the states, up to date. */
 Fault core_outputs(State *state);

@@ -13,7 +13,6 @@ import pytest
 
 from fmu import RotorModel, export_rotor
 from fmu.driver import Exchange, Slave
-from fmu.driver3 import Exchange3, Slave3
 from reduced_models import JeffcottRotor
 
 BALL = 850.0  # N, on a contact at rest
@@ -81,9 +80,8 @@ def instance(unit) -> Iterator[Callable[..., Any]]:
     with ExitStack() as stack:
 
         def make(name: str, fmi: int = 2, *, exchange: bool = False) -> Any:
-            kinds = {2: (Slave, Exchange), 3: (Slave3, Exchange3)}[fmi]
             one = unit(name, fmi)
-            found = kinds[exchange](one.folder, one.description, [])
+            found = (Exchange if exchange else Slave)(one.folder, one.description, [])
             stack.callback(found.free)
             return found
 

@@ -10,7 +10,7 @@ ERROR, DISCARD = 3, 2
 
 def started(instance, name="mixed", **settings):
     slave = instance(name)
-    slave.start(1, **settings)
+    slave.start(input_meaning=1, **settings)
     return slave
 
 
@@ -27,7 +27,7 @@ def status_of(call, *arguments, **named):
 )  # fmt: skip
 def test_impossible_settings_are_refused_at_the_start(instance, name, value):
     slave = instance("mixed")
-    assert status_of(slave.start, 1, **{name: value}) == ERROR
+    assert status_of(slave.start, input_meaning=1, **{name: value}) == ERROR
 
 
 def test_a_refused_step_changes_nothing(instance):
@@ -114,7 +114,7 @@ def test_the_log_names_the_contact_that_left_its_box(unit):
     one = unit("cubic")
     slave = Slave(one.folder, one.description, messages)
     slave.raw.fmi2SetDebugLogging(slave.raw.component, True, 0, None)
-    slave.start(1)
+    slave.start(input_meaning=1)
     slave.set(journal_force_x=3e3)
     for _ in range(40):
         slave.step(1e-5)
@@ -125,10 +125,10 @@ def test_the_log_names_the_contact_that_left_its_box(unit):
 
 def test_event_mode_tells_of_a_lost_contact(instance, unit):
     """FMI 3.0, with early return: the step ends where the contact is lost."""
-    from fmu.driver3 import Slave3
+    from fmu.driver import Slave
 
     one = unit("cubic", 3)
-    slave = Slave3(one.folder, one.description, [], eventModeUsed=True, earlyReturnAllowed=True)
+    slave = Slave(one.folder, one.description, [], eventModeUsed=True, earlyReturnAllowed=True)
     slave.set(journal_force_y=6e3)
     slave.raw.enterInitializationMode()
     slave.raw.exitInitializationMode()

@@ -1,10 +1,11 @@
 """The FMU of a rotor in model exchange: a loop around it, events, all its partial derivatives."""
 
+from ctypes import POINTER, c_double
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from fmu.driver import pointer
 from reduced_models import simulate_rotor
 
 pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
@@ -37,7 +38,7 @@ def test_a_loop_around_it_converges_to_co_simulation(instance, rotors, motion_of
     gaps = []
     for rtol in (1e-4, 1e-6, 1e-9):
         atol = rtol * 1e-2 * np.append(size, np.ones(x0.size - size.size))
-        found = solve_ivp(lambda _, x: unit.rates(x), (0.0, until), x0, method="Radau", rtol=rtol, atol=atol)
+        found = solve_ivp(lambda _, x: unit.place(x), (0.0, until), x0, method="Radau", rtol=rtol, atol=atol)
         assert found.success
         gaps.append(np.max(np.abs(found.y[: size.size, -1] - exact) / size))
     assert gaps[1] <= 0.3 * gaps[0] and gaps[2] <= 1e-5
@@ -77,7 +78,7 @@ def test_every_partial_derivative_against_differences(instance, rotors, name, fm
 
     def ask(values):
         event(lambda: unit.set(**{n: values[n] for n in tuned}))
-        rates = unit.rates(np.array([values[n] for n in states]), **{n: values[n] for n in inputs})
+        rates = unit.place(np.array([values[n] for n in states]), **{n: values[n] for n in inputs})
         return np.concatenate([unit.get(*outputs), rates])
 
     scale = np.abs(ask(base)) + 1e-9
@@ -101,7 +102,7 @@ def test_every_partial_derivative_against_differences(instance, rotors, name, fm
 
 def test_adjoint_is_the_transpose(instance, rotors):
     unit, states, x0 = started(instance, "mixed", 3)
-    unit.rates(x0)
+    unit.place(x0)
     unknowns = [unit.reference[v.variable.name] for v in unit.description.derivatives]
     knowns = [unit.reference[name] for name in (*states, "disc_force_x", "unbalance")]
     columns = np.array([unit.raw.getDirectionalDerivative(unknowns, [known], [1.0]) for known in knowns]).T
@@ -122,8 +123,8 @@ def test_one_event_indicator_for_each_contact(instance, rotors, fmi):
     get = unit.raw.getEventIndicators
 
     def indicators(x):
-        unit.rates(x)
-        get(found.ctypes.data_as(pointer()), found.size)
+        unit.place(x)
+        get(found.ctypes.data_as(POINTER(c_double)), found.size)
         return found.copy(), np.array(unit.get("force[1]", "force[2]"))
 
     pushing, force = indicators(x0)

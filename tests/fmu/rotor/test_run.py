@@ -16,7 +16,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityW
 def run(slave, names, steps, h, *, meaning=EXTRAPOLATED, inputs=None, **settings):
     """What is read at the start and after every step; `inputs` are histories of those of the ends."""
     inputs = inputs or {}
-    slave.start(meaning, **settings, **{name: values[0] for name, values in inputs.items()})
+    slave.start(input_meaning=meaning, **settings, **{name: values[0] for name, values in inputs.items()})
     found = [slave.get(*names)]
     for n in range(1, steps + 1):
         if inputs:
@@ -155,7 +155,7 @@ def test_speed_and_unbalance_can_be_tuned_on_the_way(instance, rotors, motion_of
     """The angle goes on; the unbalance is of the new speed from there."""
     model, dt = rotors["wide"], 1e-5
     slave = instance("wide")
-    slave.start(EXTRAPOLATED, inner_step=dt)
+    slave.start(input_meaning=EXTRAPOLATED, inner_step=dt)
     for _ in range(300):
         slave.step(dt)
     turned = slave.get("angle")[0]
@@ -171,7 +171,7 @@ def test_speed_and_unbalance_can_be_tuned_on_the_way(instance, rotors, motion_of
 
 def test_angle_loses_nothing_in_many_steps(instance, rotors):
     slave = instance("alone in y")
-    slave.start(EXTRAPOLATED, inner_step=1e-6, speed_rpm=7654.321)
+    slave.start(input_meaning=EXTRAPOLATED, inner_step=1e-6, speed_rpm=7654.321)
     for _ in range(200):
         slave.step(1e-4)
     assert slave.get("angle")[0] == pytest.approx(200 * 1e-4 * 7654.321 * np.pi / 30.0, rel=3e-15)

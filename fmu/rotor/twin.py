@@ -1,0 +1,159 @@
+"""What a rotor does in Python, for its FMU to be held against: a short run, and its equations in a state."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu.comparison import bounds, film_rates_at, tangents
+from fmu.contacts import Element, Film
+from reduced_models import JeffcottRotor, OutsideValidityWarning, RotorState, simulate_rotor
+from reduced_models.rotor.step import CondensedRotor, Motion
+
+if TYPE_CHECKING:
+    from fmu.rotor.model import RotorModel
+
+_Floats = NDArray[np.float64]
+
+STEPS = 240  # of the run
+TURN = 60  # steps that a revolution takes in it, of a rotor that does not turn
+SWING = 0.1  # force of the unbalance at least, or of a contact outside, over the static load, in the run
+OFF = 0.1  # how far the disc starts off its place of rest, in static bends of the shaft
+TOLERANCE = 1e-9  # of `simulate_rotor`
+RHO = 0.8  # spectral radius at infinite frequency, as `simulate_rotor` has it
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Run:
+    """What a rotor does in steps of dt [s].
+
+    Inputs by name, each of shape (N,); positions and velocities in the order of the FMU's states, (N, states);
+    forces of the contacts, (N, contacts).
+    """
+
+    rotor: JeffcottRotor
+    dt: float
+    inputs: dict[str, _Floats]
+    motion: _Floats
+    force: _Floats
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Felt:
+    """One contact or all of them in a state: rates are those of the films."""
+
+    force: _Floats
+    stiffness: _Floats
+    damping: _Floats
+    rates: _Floats
+    rate_scales: _Floats
+    outside: tuple[bool, ...]
+
+
+def shaken_run(model: RotorModel) -> Run:
+    """The rotor turning with an unbalance that shows, from rest with the disc off its place."""
+    rotor, dt, load = model.rotor, model.inner_step, load_size(model.rotor)
+    speed = rotor.speed_rpm if rotor.speed_rpm > 0.0 else 60.0 / (TURN * dt)
+    omega = speed * np.pi / 30.0
+    rotor = replace(rotor, speed_rpm=speed, unbalance=max(rotor.unbalance, SWING * load / omega**2))
+    off = np.zeros(2)
+    off[list(rotor.axes)] = OFF * load / rotor.shaft_stiffness
+    # at rest: a film of the Python element begins there, whatever its rate
+    start = RotorState(model.state.disc + off, model.state.journal, np.zeros(2), np.zeros(2))
+    return _closed_run(model, rotor, start) if model.elements else _free_run(rotor, start, dt)
+
+
+def load_size(rotor: JeffcottRotor) -> float:
+    """Size of the static load [N], 1 where there is none."""
+    load = float(np.abs(rotor.static_load).max())
+    return load if load > 0.0 else 1.0
+
+
+def _closed_run(model: RotorModel, rotor: JeffcottRotor, start: RotorState) -> Run:
+    contacts = [element.copy() for element in model.elements]
+    for contact, approach in zip(contacts, rotor.approaches(start.journal).tolist(), strict=True):
+        contact.rest(approach)
+    dt = model.inner_step
+    with warnings.catch_warnings():  # about a motion that is none of the user's
+        warnings.simplefilter("ignore", OutsideValidityWarning)
+        result = simulate_rotor(rotor, contacts, dt=dt, until=STEPS * dt, start=start, tolerance=TOLERANCE)
+    axes = list(rotor.axes)
+    parts = (result.disc, result.journal, result.disc_velocity, result.journal_velocity)
+    return Run(rotor, dt, {}, np.hstack([part[:, axes] for part in parts]), result.force)
+
+
+def _free_run(rotor: JeffcottRotor, start: RotorState, dt: float) -> Run:
+    """Under forces of the contacts, and further ones, that are given."""
+    axes, load = list(rotor.axes), load_size(rotor)
+    size = len(axes)
+    phase = 2.0 * np.pi * np.arange(STEPS + 1) / TURN
+    names = [f"{body}_force_{'xy'[k]}" for body in ("journal", "disc") for k in axes]
+    names += [f"force[{i + 1}]" for i in range(len(rotor.mounts))]
+    inputs = {name: SWING * load * np.sin(phase + k) for k, name in enumerate(names)}
+    table = np.stack(list(inputs.values()), axis=1)
+    journal, disc, force = table[:, :size], table[:, size : 2 * size], table[:, 2 * size :]
+    M, C, K = rotor.matrices()
+    linear = CondensedRotor((M, C, K), np.arange(size, 2 * size), dt, RHO)
+    carried = np.hstack([0.0 * disc, rotor.bearings * force @ rotor.normals])
+    applied = [rotor.applied_force(n * dt) + np.hstack([disc[n], journal[n]]) for n in range(STEPS + 1)]
+    d = np.concatenate([start.disc[axes], start.journal[axes]])
+    v = np.concatenate([start.disc_velocity[axes], start.journal_velocity[axes]])
+    now = Motion(d, v, np.linalg.solve(M, applied[0] - carried[0] - C @ v - K @ d), applied[0])
+    rows = [np.concatenate([d, v])]
+    for n in range(STEPS):
+        pending = linear.begin(now, carried[n], applied[n + 1])
+        late = linear.weight * np.linalg.solve(linear.D, carried[n + 1][size:])
+        now = linear.finish(pending, pending.q_free - late)
+        rows.append(np.concatenate([now.d, now.v]))
+    return Run(rotor, dt, inputs, np.array(rows), force)
+
+
+# ---- in a state
+
+
+def felt_by(elements: tuple[Element, ...], films: _Floats, approach: _Floats, rate: _Floats) -> Felt:
+    """All contacts, whose films have these states one after the other."""
+    found, at = [], 0
+    for element, u, v in zip(elements, approach.tolist(), rate.tolist(), strict=True):
+        count = element.state_count
+        found.append(_felt(element, films[at : at + count], u, v))
+        at += count
+    joined = {
+        name: np.concatenate([getattr(one, name) for one in found])
+        for name in ("force", "stiffness", "damping", "rates", "rate_scales")
+    }
+    return Felt(**joined, outside=tuple(left for one in found for left in one.outside))
+
+
+def _felt(element: Element, states: _Floats, u: float, v: float) -> Felt:
+    if isinstance(element, Film):
+        force, rates = film_rates_at(element, states, u, v)
+        stiffness, damping = tangents(element, states, u, v)
+        scales = np.full(rates.size, 1e3 * element.law.fast_rate / element._units[2])
+    else:
+        force, stiffness, damping = (float(f(u, v)) for f in (element.force, element.stiffness, element.damping))
+        rates = scales = np.empty(0)
+    one = [np.array([float(value)]) for value in (force, stiffness, damping)]
+    left = bounds(element, np.array([u]), np.array([v]), one[0])["outside_validity"]
+    return Felt(one[0], one[1], one[2], rates, scales, (bool(left[0]),))
+
+
+def accelerations(
+    rotor: JeffcottRotor, motion: _Floats, angle: float, force: _Floats, inputs: dict[str, float]
+) -> _Floats:
+    """Of disc and journal, in this motion, at this angle of the unbalance, under these forces of the contacts."""
+    M, C, K = rotor.matrices()
+    size, axes = len(M), list(rotor.axes)
+    swing = rotor.unbalance * rotor.omega**2 * np.array([np.cos(angle), np.sin(angle)])[axes]
+    disc, journal = (
+        np.array([inputs.get(f"{body}_force_{'xy'[k]}", 0.0) for k in axes]) for body in ("disc", "journal")
+    )
+    carried = rotor.bearings * rotor.normals.T @ force
+    applied = np.concatenate(
+        [rotor.disc_load + swing + disc, rotor.static_load - rotor.disc_load + journal - carried]
+    )
+    return np.asarray(np.linalg.solve(M, applied - C @ motion[size:] - K @ motion[:size]))
