@@ -10,7 +10,7 @@ import fmpy
 import pytest
 
 from ehlcontact.errors import InputError
-from fmu import RotorModel, VerificationError, export_system
+from fmu import RotorModel, VerificationError, export_system, verify_references
 from fmu.build import pack
 from fmu.system.check import schema_findings, verify_system
 from fmu.system.export import export_verified_system
@@ -59,6 +59,7 @@ def test_components_are_the_fmus_that_lie_there(system, tmp_path):
     assert list(there) == ["SystemStructure.ssd"]
     for k, element in enumerate(system.contacts, start=1):
         assert verify(tmp_path / f"contact_{k}.fmu", element).passes
+    assert all(verify_references(file).passes for file in tmp_path.glob("*.fmu"))
 
 
 def test_wires(system):
