@@ -21,6 +21,7 @@ module          responsibility
 ``references``  reference results inside an FMU, and `verify_references`: the FMU against them alone
 ``driver``      an instance of an FMU, by hand, through fmpy
 ``rotor/``      a Jeffcott rotor, alone or closed with its contacts
+``system/``     `export_system`: a rotor and its contacts as one system archive (SSP)
 ``csrc/``       the C sources: common core, glue of each FMI version, models; equations in its README
 ==============  ====================================================================================
 
@@ -38,5 +39,6 @@ from fmu.references.series import References as References
 from fmu.references.series import Trial as Trial
 from fmu.rotor.export import export_rotor as export_rotor
 from fmu.rotor.model import RotorModel as RotorModel
+from fmu.system.export import export_system as export_system
 from fmu.verify import Verification as Verification
 from fmu.verify import verify as verify

@@ -122,7 +122,7 @@ def export_verified(
     spec = spec_of(element, model_name)
     require_finite(element)
     wanted = choose(platforms, fmi)
-    target = _free_target(path, overwrite)  # before compiling
+    target = free_target(path, overwrite)  # before compiling
     references = references_of(element, spec)
     files = fmu_files(spec, wanted, fmi, progress, references)
     found = None
@@ -131,7 +131,7 @@ def export_verified(
         # An FMU for other machines is verified by this one's binary of the same sources.
         runnable = files if own in wanted else fmu_files(spec, (own,), fmi, references=references)
         found = require_verified(build.pack(runnable), element)
-    _free_target(path, overwrite)  # still
+    free_target(path, overwrite)  # still
     return write_bytes(target, build.pack(files)), found
 
 
@@ -142,11 +142,11 @@ def references_of(element: Element | RotorModel, spec: ModelSpec) -> References:
     return contact_references(element, spec)
 
 
-def _free_target(path: str | os.PathLike[str], overwrite: bool) -> Path:
-    """Place for the FMU, which nothing stands in the way of."""
+def free_target(path: str | os.PathLike[str], overwrite: bool, suffix: str = ".fmu") -> Path:
+    """Place for a file, which nothing stands in the way of."""
     target = Path(path)
-    if target.suffix.lower() != ".fmu":
-        raise InputError("path", str(path), "a file name ending in .fmu")
+    if target.suffix.lower() != suffix:
+        raise InputError("path", str(path), f"a file name ending in {suffix}")
     try:
         if not target.parent.is_dir():
             raise InputError("path", str(path), "in a folder that exists")

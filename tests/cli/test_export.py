@@ -193,3 +193,25 @@ def test_a_study_without_its_fmu_has_all_the_rest(call, finished, tmp_path, monk
     results = json.loads((tmp_path / "out" / "results.json").read_text())
     assert results["fmu"]["passes"] is False and "/none/cc" in results["fmu"]["error"]
     assert (tmp_path / "out" / "report.html").is_file()
+
+
+def test_a_study_as_a_system(call, refused, element, tmp_path):
+    """Rotor and contacts, each its FMU; an element alone is no system."""
+    study, target = ROOT / "examples" / "small_study.toml", tmp_path / "rotor.ssp"
+    result = call("export", study, "-o", target, "--json", "-", "--name", "of a study")
+    document = json.loads(result.out)
+    assert result.code == 0 and document["passes"] is True and document["system"] == str(target)
+    assert document["step"] > 0.0 and 0.0 < document["deviation"] < 0.01
+    with zipfile.ZipFile(target) as archive:
+        assert set(archive.namelist()) == {
+            "SystemStructure.ssd",
+            "resources/rotor.fmu",
+            "resources/contact_1.fmu",
+        }
+        assert b'name="of a study"' in archive.read("SystemStructure.ssd")
+    kept = target.read_bytes()
+    refused(("--output", "--force"), "export", study, "-o", target)
+    assert target.read_bytes() == kept
+    table = call("export", study, "-o", target, "--force")
+    assert table.code == 0 and "wired" in table.out and f"{document['step']:g} s" in table.out
+    refused(("--output", ".fmu"), "export", element, "-o", tmp_path / "x.ssp")

@@ -1,4 +1,4 @@
-"""``ehlcontact export``: an element file, or the rotor of a study, to an FMU."""
+"""``ehlcontact export``: an element file, or the rotor of a study, to an FMU; that rotor to a system of FMUs."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
     from fmu import RotorModel, Verification
+    from fmu.system.check import SystemVerification
 
 
 def register(app: typer.Typer) -> None:
@@ -38,7 +39,15 @@ def export(
             help="Element saved by `fit` or `element`; or a study, whose rotor is exported with its contacts.",
         ),
     ],
-    output: Annotated[Path, typer.Option("--output", "-o", metavar="X.fmu", help="FMU to write.")],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="X.fmu|X.ssp",
+            help="FMU to write; of a study also a system archive (SSP) of rotor and contacts, each its FMU.",
+        ),
+    ],
     contact: Annotated[
         Path | None,
         typer.Option(
@@ -58,49 +67,65 @@ def export(
             " aarch64-linux, or `all`; may be repeated. This machine's by default.",
         ),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace the FMU if there is one.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Replace the file if there is one.")] = False,
     json_to: o.JsonTo = None,
 ) -> None:
-    """Export a contact element, or the rotor of a study, as an FMU, once it is verified."""
+    """Export a contact element, or the rotor of a study, as an FMU or a system of FMUs, once it is verified."""
     if fmi not in (2, 3):
         raise InputError("--fmi", fmi, "2 or 3")
     study = file.suffix.lower() == ".toml"
     if contact is not None and not study:
         raise InputError("--contact", str(contact), "left out, but for a study (.toml) with a rotor")
-    check_file("--output", output, (".fmu",))
+    check_file("--output", output, (".fmu", ".ssp") if study else (".fmu",))
     check_json(json_to)
     check_apart({"--output": output, "--json": json_to}, (file, *([contact] if contact else [])))
     if not force and output.exists():
         raise InputError("--output", str(output), "a new file, or replaced with --force")
     from fmu import BuildError, VerificationError
     from fmu.binaries import choose
-    from fmu.export import export_verified
     from reduced_models import load_element
 
     exported: Any = _rotor_of(file, contact) if study else load_element(file)
+    system = output.suffix.lower() == ".ssp"
     try:
         names = {"model_name": "--name", "platforms": "--platform", "path": "--output", "element": str(file)}
         with progress("compiling") as told, o.called(**names):
             built = [one.name for one in choose(platform or None, fmi)]
-            _, found = export_verified(
+            _, found = _exporter(system)(
                 exported,
                 output,
                 fmi=fmi,
-                model_name=name,
                 platforms=platform or None,
                 overwrite=force,
                 progress=told,
+                **({} if name is None else {"model_name": name}),
             )
     except (BuildError, VerificationError) as error:
-        complain(f"no FMU was written: {error}")
+        complain(f"no {'system' if system else 'FMU'} was written: {error}")
         raise typer.Exit(USAGE) from None
     verdict = {"passes": None} if found is None else found.to_dict()
-    document = {"fmu": str(output), "units": "SI" if study else exported.units, "platforms": built, **verdict}
-    rows = [*_about(exported), ("binaries", str(len(built)), ", ".join(built)), *_advice(exported)]
+    document = {
+        "system" if system else "fmu": str(output),
+        "units": "SI" if study else exported.units,
+        "platforms": built,
+        **verdict,
+    }
+    rows = [*_about(exported, system), ("binaries", str(len(built)), ", ".join(built)), *_advice(exported, found)]
     deliver(
         lambda: write_json(document, json_to),
         lambda: show_table(str(output), [*rows, *_rows(found, rotor=study)], json_to),
     )
+
+
+def _exporter(system: bool) -> Any:
+    """What writes such a file."""
+    if system:
+        from fmu.system.export import export_verified_system
+
+        return export_verified_system
+    from fmu.export import export_verified
+
+    return export_verified
 
 
 def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
@@ -130,7 +155,7 @@ def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
     return model
 
 
-def _about(exported: Any) -> list[tuple[str, str, str]]:
+def _about(exported: Any, system: bool) -> list[tuple[str, str, str]]:
     """What it is."""
     from fmu import RotorModel
 
@@ -140,12 +165,17 @@ def _about(exported: Any) -> list[tuple[str, str, str]]:
     where = f"bearings: {rotor.bearings}, contacts in each: {len(rotor.mounts)}; SI"
     return [
         ("rotor", f"{rotor.speed_rpm:g} rpm", where),
-        ("contacts", ", ".join(kinds), "inside; their forces are outputs"),
+        ("contacts", ", ".join(kinds), "each an FMU, wired" if system else "inside; their forces are outputs"),
     ]
 
 
-def _advice(exported: Any) -> list[tuple[str, str, str]]:
+def _advice(exported: Any, found: Any) -> list[tuple[str, str, str]]:
     """Steps of a co-simulation."""
+    step = getattr(found, "step", None)
+    if step is not None:
+        return [
+            ("step", f"{step:g} s", "of the default experiment; longer ones damp more, and blow up in the end")
+        ]
     from fmu import RotorModel
     from fmu.contacts import step_advice
 
@@ -154,10 +184,22 @@ def _advice(exported: Any) -> list[tuple[str, str, str]]:
     return step_advice(exported)
 
 
-def _rows(found: Verification | None, *, rotor: bool) -> list[tuple[str, str, str]]:
+def _rows(found: Verification | SystemVerification | None, *, rotor: bool) -> list[tuple[str, str, str]]:
     """What the verification found."""
     if found is None:
         return [("verified", "no", "this machine can run no such FMU")]
+    from fmu.system.check import SystemVerification
+
+    if isinstance(found, SystemVerification):
+        return [
+            ("findings", str(len(found.findings)), "of the schema of the standard; none is right"),
+            (
+                "deviation",
+                f"{found.deviation:.1e}",
+                "of the journal from simulate_rotor, over its way after a load step",
+            ),
+            ("verified", "yes", "and every FMU by itself"),
+        ]
     findings = ("findings", str(len(found.findings)), "of fmpy's validation; none is right")
     if rotor:
         return [

@@ -1,0 +1,52 @@
+"""One system for the session: a rotor in two contacts with film memory, out of balance."""
+
+import dataclasses
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+
+from ehlcontact import Lubricant, OperatingPoint
+from fmu import export_system
+from reduced_models import Atlas, JeffcottRotor
+
+
+class System(NamedTuple):
+    rotor: JeffcottRotor
+    contacts: list[Any]
+    path: Path
+
+
+@pytest.fixture(scope="session")
+def parts() -> tuple[JeffcottRotor, list[Any]]:
+    """Two unlike contacts of a 6205, under 1.8 kN, not symmetric about the load."""
+    oil = Lubricant(eta0=0.037, alpha=2.0e-8)
+    balls = {"ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3, "speed_rpm": 3000, "load": 486}
+    points = [OperatingPoint.ball_bearing(oil, conformity=conformity, **balls) for conformity in (0.52, 0.53)]
+    rotor = JeffcottRotor.vee(
+        half_angle=0.35,
+        disc_mass=20.0,
+        journal_mass=1.0,
+        shaft_stiffness=2e7,
+        shaft_damping=200.0,
+        unbalance=2e-4,
+        speed_rpm=3000.0,
+        load=(150.0, -1620.0),
+    )
+    return rotor, [Atlas().element(point, "wide") for point in points]
+
+
+@pytest.fixture(scope="session")
+def system(parts, tmp_path_factory) -> System:
+    """In FMI 2."""
+    path = tmp_path_factory.mktemp("system") / "rotor on contacts.ssp"
+    return System(*parts, export_system(*parts, path))
+
+
+@pytest.fixture(scope="session")
+def system_3(parts, tmp_path_factory) -> System:
+    """In FMI 3, of a rotor that moves in y only."""
+    rotor, contacts = parts
+    upright = dataclasses.replace(rotor, directions="y")
+    path = tmp_path_factory.mktemp("system") / "upright.ssp"
+    return System(upright, contacts, export_system(upright, contacts, path, fmi=3))

@@ -1,0 +1,132 @@
+"""System archives in the masters of others, as they are, beside `simulate_rotor`.
+
+Ecos and the Open Simulation Platform are of the extra ``importers``.
+"""
+
+import copy
+import ctypes
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fmu import RotorModel
+from fmu.system.master import SystemRun
+from reduced_models import simulate_rotor
+
+STEP, UNTIL = 5e-6, 0.02  # s: one turn
+JOURNAL = ("journal_x", "journal_y")
+
+
+def ecospy(path, step, count, names, parameter_set=None):
+    for library in (Path(sys.prefix) / "lib").glob("libtbb.so.12"):
+        ctypes.CDLL(str(library), mode=ctypes.RTLD_GLOBAL)
+    try:
+        from ecospy import EcosSimulation
+    except (ImportError, OSError) as error:
+        pytest.skip(f"no ecospy ({error})")
+    with EcosSimulation(ssp_path=str(path), step_size=step) as simulation:
+        assert simulation.init(parameter_set=parameter_set)
+        rows = [[simulation.get_real(f"rotor::{name}") for name in names]]
+        for _ in range(count):
+            simulation.step()
+            rows.append([simulation.get_real(f"rotor::{name}") for name in names])
+        simulation.terminate()
+    return np.array(rows)
+
+
+def ecospy_with_its_parameter_set(path, step, count, names):
+    return ecospy(path, step, count, names, "start")
+
+
+def libcosimpy(path, step, count, names):
+    pytest.importorskip("libcosimpy")
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimObserver import CosimObserver
+
+    execution = CosimExecution.from_ssp_file(str(path), round(step * 1e9))
+    observer = CosimObserver.create_last_value()
+    assert execution.add_observer(observer)
+    slave = execution.slave_index_from_instance_name("rotor")
+    known = {variable.name.decode(): variable.reference for variable in execution.slave_variables(slave)}
+    rows = []
+    for _ in range(count):
+        assert execution.step()
+        rows.append(observer.last_real_values(slave, [known[name] for name in names]))
+    return np.array(rows)
+
+
+def ours(path, step, count, names):
+    with SystemRun(Path(path).read_bytes()) as run:
+        return run.run(step, count, [("rotor", name) for name in names])
+
+
+def reference(system):
+    """Journal of `simulate_rotor` in half the steps, at the times of the systems."""
+    contacts = copy.deepcopy(system.contacts)
+    return simulate_rotor(system.rotor, contacts, dt=0.5 * STEP, until=UNTIL, tolerance=1e-9).journal[::2]
+
+
+@pytest.fixture(scope="module")
+def python(system):
+    """The reference, and its orbit."""
+    fine = reference(system)
+    return fine, np.ptp(fine, axis=0)
+
+
+@pytest.fixture(scope="module")
+def upright(system_3):
+    """That of the rotor that moves in y only."""
+    return reference(system_3)[:, 1:]
+
+
+@pytest.mark.parametrize("master", [ours, ecospy, ecospy_with_its_parameter_set, libcosimpy])
+def test_runs_as_it_is(system, python, master):
+    """Journal within 0.1 % of its orbit, in either direction, at the default step."""
+    expected, orbit = python
+    found = master(system.path, STEP, round(UNTIL / STEP), JOURNAL)
+    assert orbit.min() > 0.0
+    assert np.all(np.abs(found - expected[-len(found) :]) <= 1e-3 * orbit)
+
+
+@pytest.mark.parametrize("master", [ours, ecospy])
+def test_fmi_3(system_3, upright, master):
+    found = master(system_3.path, STEP, round(UNTIL / STEP), JOURNAL[1:])
+    assert np.ptp(upright) > 0.0
+    assert np.all(np.abs(found - upright) <= 1e-3 * np.ptp(upright))
+
+
+def test_it_stands_still_without_unbalance(system, tmp_path):
+    """What it starts from is an equilibrium of the FMUs, not only of the Python elements."""
+    with SystemRun(system.path.read_bytes(), {"rotor": {"unbalance": 0.0}}) as run:
+        journal = run.run(STEP, 500, [("rotor", name) for name in JOURNAL])
+    assert np.all(np.abs(journal - journal[0]) <= 1e-9 * np.abs(journal[0]).max())
+
+
+@pytest.mark.parametrize("master", [ours, ecospy, libcosimpy])
+def test_error_goes_down_with_the_step(system, python, master):
+    """Of second order about, until the steps of the reference show."""
+    expected, orbit = python
+    errors = []
+    for part in (0.5, 2.0):
+        found = master(system.path, part * STEP, round(UNTIL / STEP / part), JOURNAL)
+        if part == 0.5:
+            found, there = found[len(found) % 2 == 0 :: 2], expected
+        else:
+            there = expected[::2]
+        errors.append(float((np.abs(found - there[-len(found) :]) / orbit).max()))
+    assert errors[0] < 0.3 * errors[1]
+
+
+def test_default_step(system):
+    """That of the archive, which the Open Simulation Platform takes."""
+    from fmu.system.export import default_system_step
+
+    assert default_system_step(RotorModel(system.rotor, system.contacts)) == STEP
+    pytest.importorskip("libcosimpy")
+    from libcosimpy.CosimExecution import CosimExecution
+
+    execution = CosimExecution.from_ssp_file(str(system.path))
+    assert execution.step()
+    assert execution.status().current_time == round(STEP * 1e9)  # ns

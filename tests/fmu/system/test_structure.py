@@ -1,0 +1,202 @@
+"""What is in a system archive, and what is refused."""
+
+import dataclasses
+import io
+import zipfile
+from pathlib import Path
+from xml.etree import ElementTree
+
+import fmpy
+import pytest
+
+from ehlcontact.errors import InputError
+from fmu import RotorModel, VerificationError, export_system, verify_references
+from fmu.build import pack
+from fmu.system.check import schema_findings, verify_system
+from fmu.system.export import export_verified_system
+from fmu.system.structure import SSC, SSD, SSV
+from fmu.verify import verify
+from reduced_models import CubicContact, JeffcottRotor
+
+
+def description(path):
+    with zipfile.ZipFile(path) as archive:
+        return ElementTree.fromstring(archive.read("SystemStructure.ssd"))
+
+
+def files(path):
+    with zipfile.ZipFile(path) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def test_schema_and_another_reader(system, system_3):
+    for one in (system, system_3):
+        assert schema_findings(one.path.read_bytes()) == ()
+    from fmpy.ssp.ssd import read_ssd
+
+    read = read_ssd(str(system.path))
+    assert [part.name for part in read.system.elements] == ["rotor", "contact_1", "contact_2"]
+    assert len(read.system.connections) == 6
+    with zipfile.ZipFile(system.path) as archive:
+        broken = archive.read("SystemStructure.ssd").replace(b'kind="input"', b'kind="sideways"', 1)
+    assert schema_findings(pack({"SystemStructure.ssd": broken}))
+
+
+def test_components_are_the_fmus_that_lie_there(system, tmp_path):
+    root, there = description(system.path), files(system.path)
+    for component in root.iter(f"{{{SSD}}}Component"):
+        file = tmp_path / Path(component.attrib["source"]).name
+        file.write_bytes(there.pop(component.attrib["source"]))
+        known = {v.name: v for v in fmpy.read_model_description(str(file)).modelVariables}
+        said = list(component.iter(f"{{{SSD}}}Connector"))
+        assert said
+        for connector in said:
+            variable = known[connector.attrib["name"]]
+            assert connector.attrib["kind"] == variable.causality
+            assert connector.find(f"{{{SSC}}}Real").attrib["unit"] == variable.unit
+        for parameter in component.iter(f"{{{SSV}}}Parameter"):
+            assert known[parameter.attrib["name"]].causality == "input"
+    assert list(there) == ["SystemStructure.ssd"]
+    for k, element in enumerate(system.contacts, start=1):
+        assert verify(tmp_path / f"contact_{k}.fmu", element).passes
+    assert all(verify_references(file).passes for file in tmp_path.glob("*.fmu"))
+
+
+def test_wires(system):
+    """Approach and rate out, force back, for every mount; nothing has two sources."""
+    root = description(system.path)
+    ends = [tuple(wire.attrib.values()) for wire in root.iter(f"{{{SSD}}}Connection")]
+    expected = set()
+    for k in (1, 2):
+        expected |= {("rotor", f"{what}[{k}]", f"contact_{k}", what) for what in ("approach", "rate")}
+        expected.add((f"contact_{k}", "force", "rotor", f"force[{k}]"))
+    assert set(ends) == expected and len({end[2:] for end in ends}) == len(ends)
+
+
+def test_it_starts_in_equilibrium(system):
+    values = {
+        (component.attrib["name"], parameter.attrib["name"]): float(parameter[0].attrib["value"])
+        for component in description(system.path).iter(f"{{{SSD}}}Component")
+        for parameter in component.iter(f"{{{SSV}}}Parameter")
+    }
+    start = system.rotor.static_equilibrium(system.contacts)
+    carried = 0.0
+    for k, (u, mount) in enumerate(
+        zip(system.rotor.approaches(start.journal), system.rotor.mounts, strict=True), 1
+    ):
+        assert values[f"contact_{k}", "approach"] == u
+        carried = carried + system.rotor.bearings * values["rotor", f"force[{k}]"] * mount.normal
+    assert carried == pytest.approx(system.rotor.static_load, rel=1e-9)
+
+
+def test_same_input_same_bytes(parts, system, tmp_path):
+    again = export_system(*parts, tmp_path / "again.ssp")
+    assert again.read_bytes() == system.path.read_bytes()
+
+
+def test_units_are_explained(system):
+    units = {unit.attrib["name"] for unit in description(system.path).iter(f"{{{SSC}}}Unit")}
+    used = {real.attrib["unit"] for real in description(system.path).iter(f"{{{SSC}}}Real")}
+    assert used <= units
+
+
+def test_progress_counts_all_libraries(parts, tmp_path):
+    told = []
+    export_system(*parts, tmp_path / "x.ssp", progress=lambda done, total: told.append((done, total)))
+    assert told[-1][0] == told[-1][1] == 3
+    assert told == sorted(told)
+
+
+STEP = 5e-6  # s, the default of the system of the fixture
+ELEMENT = CubicContact(1e8, 0.0, 0.0, 100.0, 3e-6, 9e-6, units="SI")
+ROTOR = JeffcottRotor.vertical(disc_mass=40.0, journal_mass=1.0, shaft_stiffness=2e7)
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"rotor": 3}, "rotor"),
+        ({"contacts": [ELEMENT, ELEMENT]}, "contacts"),
+        ({"contacts": None}, "contacts"),
+        ({"contacts": ["wide"]}, r"contacts\[0\]"),
+        ({"contacts": [CubicContact(1.0, 0.0, 0.0, 0.01, 0.7, 1.0)]}, "SI"),
+        ({"path": "x.fmu"}, "ssp"),
+        ({"path": "nowhere/x.ssp"}, "folder"),
+        ({"model_name": " "}, "model_name"),
+        ({"step": 0.0}, "step"),
+        ({"step": float("nan")}, "step"),
+        ({"fmi": 1}, "fmi"),
+        ({"rotor": dataclasses.replace(ROTOR, gravity=(0.0, 0.0))}, "load"),
+    ],
+)
+def test_bad_input(change, told, tmp_path):
+    given = {"rotor": ROTOR, "contacts": [ELEMENT], "path": "x.ssp"} | change
+    given["path"] = tmp_path / given["path"]
+    with pytest.raises(InputError, match=told) as caught:
+        export_system(given.pop("rotor"), given.pop("contacts"), given.pop("path"), **given)
+    assert "\n" not in str(caught.value)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_load_that_nothing_carries(tmp_path):
+    lifted = dataclasses.replace(ROTOR, gravity=(0.0, 9.81))
+    with pytest.raises(InputError, match="carry"):
+        export_system(lifted, [ELEMENT], tmp_path / "x.ssp")
+
+
+def test_a_file_that_is_there_stays(tmp_path):
+    path = tmp_path / "x.ssp"
+    path.write_text("mine")
+    with pytest.raises(InputError, match="overwrite"):
+        export_system(ROTOR, [ELEMENT], path)
+    assert path.read_text() == "mine"
+    export_system(ROTOR, [ELEMENT], path, overwrite=True)
+    assert zipfile.is_zipfile(path)
+
+
+def test_a_step_too_long_for_the_system_is_refused(tmp_path):
+    """1e-4 s at a journal of 1e4 rad/s: the loop of any importer would blow up."""
+    with pytest.raises(VerificationError, match=r"steps of 0\.0001 s"):
+        export_system(ROTOR, [ELEMENT], tmp_path / "x.ssp", step=1e-4)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("wrong", ["swapped", "missing", "renamed"])
+def test_verification_finds_wrong_wires(system, wrong):
+    there = files(system.path)
+    text = there["SystemStructure.ssd"].decode()
+    if wrong == "swapped":
+        text = text.replace('endConnector="force[1]"', 'endConnector="force[0]"')
+        text = text.replace('endConnector="force[2]"', 'endConnector="force[1]"').replace("force[0]", "force[2]")
+    elif wrong == "missing":
+        lines = [line for line in text.splitlines() if 'startConnector="approach[2]"' not in line]
+        assert len(lines) == len(text.splitlines()) - 1
+        text = "\n".join(lines)
+    else:
+        text = text.replace('startConnector="approach[2]"', 'startConnector="approach"')
+    there["SystemStructure.ssd"] = text.encode()
+    made = RotorModel(system.rotor, system.contacts)
+    content = pack(there)
+    if wrong == "renamed":
+        with pytest.raises(VerificationError, match="does not run"):
+            verify_system(content, made, STEP)
+    else:
+        assert not verify_system(content, made, STEP).passes
+    right = verify_system(system.path.read_bytes(), made, STEP)
+    assert right.passes and 0.0 < right.deviation < 1e-3
+
+
+def test_contents_are_readable_as_a_plain_zip(system):
+    with zipfile.ZipFile(io.BytesIO(system.path.read_bytes())) as archive:
+        assert archive.testzip() is None
+        assert {entry.compress_type for entry in archive.infolist()} <= {zipfile.ZIP_DEFLATED, zipfile.ZIP_STORED}
+
+
+@pytest.mark.parametrize("C1", [0.0, 1.0, 1e3, 1e5])
+@pytest.mark.parametrize("journal_mass", [0.05, 50.0])
+def test_default_step_runs_any_system(tmp_path, C1, journal_mass):
+    """Contacts without damper, and with one that stops the journal at once; journals light and heavy."""
+    rotor = dataclasses.replace(ROTOR, journal_mass=journal_mass)
+    element = dataclasses.replace(ELEMENT, C1=C1)
+    _, found = export_verified_system(RotorModel(rotor, [element]), tmp_path / "x.ssp")
+    assert found.passes and found.deviation < 0.005
