@@ -12,6 +12,7 @@ from ehlcontact.cli.explorer import COMPUTING, UNITS, script
 from ehlcontact.errors import InputError
 from reduced_models import Atlas, BallBearing
 from reduced_models.bearing.catalogue import ROWS
+from reduced_models.elements.film_response import FilterRates
 
 CLOSE = 1e-6  # of every number: what the issue asks for
 NUMBERS = ("approach", "h_central", "h_min", "film_share", "moment", "stiffness", "damping")
@@ -195,6 +196,15 @@ def same_refusal(here, there):
     if here is None or here["field"] != there.field or here["allowed"] != there.allowed:
         return False
     return there.field == "load" or here["value"] == pytest.approx(there.value, rel=CLOSE)
+
+
+def test_gains_that_would_feed_energy_are_found_as_in_python(ask):
+    """Interpolated gains are raised by their least dissipation where that is negative: 3 % of the box."""
+    rates, rng = FilterRates(**Atlas().metadata["rates"]), np.random.default_rng(5)
+    rows = (rng.uniform(0.0, 1.0, (60, 3 + rates.lags)) ** 4).tolist()
+    there = [rates.least_dissipation(row) for row in rows]
+    assert 10 < sum(least < 0.0 for least in there) < 50
+    assert ask("return leastDissipation(atlas.rates, asked);", rows) == pytest.approx(there, abs=1e-9)
 
 
 BORDERS = {
