@@ -91,6 +91,8 @@ def relative(folder, pattern):
         ("fmu", "*.h"),
         ("fmu", "*.txt"),
         ("ehlcontact", "*.j2"),
+        ("ehlcontact", "*.js"),
+        ("ehlcontact", "*.css"),
         ("ehlcontact", "*.csv"),
         ("reduced_models", "*.npz"),
     ],
@@ -107,7 +109,9 @@ def test_wheel_takes_whole_packages():
     wheel = project["tool"]["hatch"]["build"]["targets"]["wheel"]
     assert wheel == {"packages": list(PACKAGES)}
     ignored = (ROOT / ".gitignore").read_text(encoding="utf-8").split()
-    assert not {"*.c", "*.h", "csrc/", "fmu/", "*.j2"} & set(ignored)  # hatchling leaves out what git ignores
+    assert not {"*.c", "*.h", "csrc/", "fmu/", "*.j2", "*.js", "*.css"} & set(
+        ignored
+    )  # hatchling leaves out what git ignores
 
 
 @pytest.mark.parametrize("package", PACKAGES)

@@ -1,15 +1,14 @@
 """The page of ``ehlcontact explore``: one file that answers in the browser, from the atlas it carries.
 
-Its JavaScript stands in ``templates/explore``, written after the Python that it does the work of, name for name;
-the tests hold both together. What it computes from comes from here: no number of the library is written there twice
-that could change here.
+Its JavaScript stands in ``templates/explore``, written after the Python that it does the work of; the tests hold
+both together. The atlas, oils, bearings, ranges of inputs and the numbers of its rules are put in here.
 """
 
 from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, fields
 from importlib.resources import files
 from pathlib import Path
@@ -20,20 +19,34 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
 from ehlcontact import __version__
+from ehlcontact.assumptions.film import LEAST_LAMBDA, MIXED_LAMBDA
 from ehlcontact.checks.box import INPUTS, Quantity
 from ehlcontact.lubricant import MineralOil, oil
 from ehlcontact.lubricant.law import ROELANDS_LOG, ROELANDS_P0
+from ehlcontact.lubricant.oil import GRADES
 from reduced_models import BallBearing
+from reduced_models.atlas import frequency
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.surface import AtlasSurface
 from reduced_models.atlas.table import AtlasTable
-from reduced_models.bearing.catalogue import ROWS, USUAL_CONFORMITY
+from reduced_models.bearing import ball_bearing, linear, race, statics
+from reduced_models.bearing.catalogue import ROWS
+from reduced_models.elements import film_curve, film_response
 
-# In the order in which they are joined: each stands on those before it; the last two are about the page itself
+# In the order in which they are joined: each stands on those before it; the last two are about the page itself.
 SCRIPTS = ("numbers", "hertz", "oil", "atlas", "race", "bearing", "plot", "page")
 COMPUTING = SCRIPTS[:6]
-INDEX, DENSITY_15 = 95.0, 875.0  # of the oils that the page knows by grade: the defaults of `Lubricant.iso_vg`
 UNITS = {"ball_diameter": "mm", "pitch_diameter": "mm", "eta0": "mPa s", "alpha": "1/GPa"}  # others as in Python
+# Numbers of the library's own rules, by the modules that have them
+RULES: Mapping[Any, tuple[str, ...]] = {
+    frequency: ("SPLINE_SHARE",),
+    race: ("INSIDE", "PER_DECADE", "NEAR"),
+    film_curve: ("DECADE", "RIGID_SLOPE"),
+    film_response: ("DRY", "LEAST_VISCOUS", "SMALL_OMEGA"),
+    ball_bearing: ("LARGEST_PLAY", "POSITIONS"),
+    statics: ("SEATED",),
+    linear: ("TINY_OMEGA",),
+}
 OF_INPUTS = ("ball_diameter", "pitch_diameter", "conformity", "speed_rpm", "eta0", "alpha")
 
 
@@ -54,8 +67,11 @@ def write_explorer(path: Path) -> Path:
         The file cannot be written.
     """
     from ehlcontact.cli.page import write_page
+    from ehlcontact.cli.study.whole import USUAL_DAMPING
 
-    content = {"script": script(), "version": __version__, "index": INDEX, "density": DENSITY_15}
+    usual = MineralOil(GRADES[0], 40.0)  # what is left out is as in `Lubricant.iso_vg`
+    content = {"script": script(), "version": __version__, "ratio": USUAL_DAMPING}
+    content |= {"index": usual.viscosity_index, "density": usual.density_15}
     return write_page(path, "explore/page.html.j2", {}, **content)
 
 
@@ -65,9 +81,10 @@ def page_data() -> dict[str, Any]:
         "version": __version__,
         "atlas": _atlas(AtlasTable.load(SHIPPED)),
         "oil": _oils(),
-        "catalogue": {name: _dimensions(name) for name in ROWS},
+        "catalogue": {name: row._asdict() for name, row in ROWS.items()},
         "quantities": {name: _quantity(_in_units(name)) for name in OF_INPUTS},
-        "units": UNITS,
+        "rules": {name: getattr(module, name) for module, names in RULES.items() for name in names},
+        "lambda": {"smooth": LEAST_LAMBDA, "mixed": MIXED_LAMBDA},
     }
 
 
@@ -94,22 +111,17 @@ def _atlas(table: AtlasTable) -> dict[str, Any]:
 
 
 def _spline_slopes(x: np.ndarray) -> np.ndarray:
-    """What makes slopes at the nodes out of values there, shape (k, k): the splines of `atlas.frequency.Between`."""
+    """What makes slopes at the nodes out of values there, shape (k, k): splines of `atlas.frequency.Between`."""
     return np.asarray(CubicSpline(x, np.eye(x.size), bc_type=((1, np.zeros(x.size)), "not-a-knot"))(x, 1))
 
 
 def _oils() -> dict[str, Any]:
-    walther = {grade: MineralOil(grade, 40.0, INDEX, DENSITY_15).walther_slope for grade in oil.GRADES}
+    walther = {grade: MineralOil(grade, 40.0).walther_slope for grade in GRADES}
     names = ("TEMPERATURES", "THINNEST", "EXPANSION", "KELVIN", "GOLD_S", "GOLD_T", "GOLD_PRESSURE")
     numbers = {name.lower(): getattr(oil, name) for name in names}
-    numbers |= {"shift": oil.WALTHER_SHIFT, "density_15": DENSITY_15, "viscosity_index": INDEX}
+    numbers |= {"shift": oil.WALTHER_SHIFT, "density_15": MineralOil(GRADES[0], 40.0).density_15}
     numbers |= {"roelands_p0": ROELANDS_P0, "roelands_log": ROELANDS_LOG}
     return {"walther_slopes": walther, **numbers}
-
-
-def _dimensions(name: str) -> dict[str, Any]:
-
-    return ROWS[name]._asdict()
 
 
 def _in_units(name: str) -> Quantity:

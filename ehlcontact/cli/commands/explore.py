@@ -1,4 +1,4 @@
-"""``ehlcontact explore``: a page that answers for ball bearings in any browser, without this library or a network."""
+"""``ehlcontact explore``: a page that answers for ball bearings in any browser, without library or network."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def explore(
     output: Annotated[Path, typer.Option("--output", "-o", metavar="PAGE.html", help="Page to write.")],
     force: Annotated[bool, typer.Option("--force", help="Replace the page if there is one.")] = False,
 ) -> None:
-    """Write a page to explore ball bearings in: films, load zone, stiffness and damping of any oil, speed and load.
+    """Write a page to explore ball bearings in: films, load zone, stiffness and damping at any speed and load.
 
     One file of 1.4 MB that needs no network: the atlas stands in it, and the browser computes what Python does.
     """

@@ -1,7 +1,7 @@
 // The atlas: reduced_models.atlas.surface and .frequency. Points are { M, L, kappa, alpha, eta0 }, dimensionless.
 
 const LOBE = 2, LOW = 3, HEAD = 5; // of a row of answers: ln(Hm/Hc), low-frequency C; then K and C over frequency
-const SPLINE_SHARE = 0.5;
+const { SPLINE_SHARE } = DATA.rules;
 
 class Atlas {
   constructor(data) {

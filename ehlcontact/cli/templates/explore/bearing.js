@@ -2,7 +2,7 @@
 // Python balances every ball by its approach at the outer race; here ln of the force at the inner race is looked
 // for, from which the approaches of both contacts follow: the same balance, with one search instead of three.
 
-const LARGEST_PLAY = 0.05, POSITIONS = 12, SEATED = 1e-9, TINY_OMEGA = 1e-3;
+const { LARGEST_PLAY, POSITIONS, SEATED, TINY_OMEGA } = DATA.rules;
 const BALANCED = 1e-12, ROUNDING = 1e-9, REGULARISATION = 1e-6, FIRST_STEP = 1e-9;
 
 class Bearing {

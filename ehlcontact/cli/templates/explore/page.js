@@ -4,7 +4,7 @@ const FIELDS = [...document.querySelectorAll("#inputs input, #inputs select")].m
 const SIZES = ["balls", "ball_diameter", "pitch_diameter", "conformity_inner", "conformity_outer"];
 const OWN = "own", SIZE = { mm: 1e-3, "µm": 1e-6, "mPa s": 1e-3, "1/GPa": 1e-9 };
 const RANGED = { conformity_inner: "conformity", conformity_outer: "conformity" }; // that share a range of inputs
-const USUAL = [0.25e-5, 2.5e-5]; // s, of damping over stiffness: Kraemer, Dynamics of Rotors and Foundations, 1993
+const USUAL = [0.25e-5, 2.5e-5]; // s, damping over stiffness: Kraemer, Dynamics of Rotors and Foundations, 1993
 const FREQUENCIES = 90, SHOWN = 14; // of curves; of a table
 const field = name => document.getElementById(name);
 const atlas = new Atlas(DATA.atlas);
@@ -110,8 +110,9 @@ function headline({ state, films, rq, there, still, ratio, hz }) {
   const lambda = Math.min(...films[0].map(film => film.h_min)) / rq, C = there.along.damping;
   const times = ratio * still.along.stiffness / C;
   const guess = times > 1 ? `${show(times, 2)} times that` : `${show(100 * times, 2)} % of that`;
+  const { smooth, mixed } = DATA.lambda, rough = lambda >= mixed ? ", mixed: asperities touch" : ", boundary: asperities carry the load";
   return `${loaded} of ${state.balls.length} balls are pressed by both rings. The heaviest carries ${show(state.balls[0].force[0])} N `
-    + `on a film of at least ${show(lambda * rq * 1e6)} µm: lambda ${show(lambda)}. Along the load the films of the bearing damp `
+    + `on a film of at least ${show(lambda * rq * 1e6)} µm: lambda ${show(lambda)}${lambda >= smooth ? "" : rough}. Along the load the films of the bearing damp `
     + `${show(C)} N s/m at ${show(hz, 4)} Hz; the guess is ${guess}.`;
 }
 

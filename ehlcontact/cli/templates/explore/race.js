@@ -1,9 +1,7 @@
 // One race, and its contact with a ball at a speed, over any load: reduced_models.bearing.race and .law, and what
 // of reduced_models.elements they stand on. Loads run as x = ln(F/N): approach and film follow from x outright.
 
-const INSIDE = 1e-9, PER_DECADE = 7, NEAR = 1e-3; // of the loads between the ends of the atlas
-const DECADE = Math.log(10), RIGID_SLOPE = -2; // below the lightest load films fade as those of rigid bodies
-const LEAST_VISCOUS = 1e-3, DRY = 1.5, SMALL_OMEGA = 1e-5;
+const { INSIDE, PER_DECADE, NEAR, DECADE, RIGID_SLOPE, DRY, LEAST_VISCOUS, SMALL_OMEGA } = DATA.rules;
 
 class Race {
   constructor(name, bearing, atlas) {

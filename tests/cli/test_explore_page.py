@@ -1,0 +1,207 @@
+"""The page of ``ehlcontact explore`` in a browser: what it shows and refuses, its address, its command."""
+
+import html
+import json
+import re
+
+import pytest
+from browsers import dom
+
+from ehlcontact import Lubricant
+from reduced_models import BallBearing
+
+LARGEST = 3e6  # bytes
+WIDTHS = (400, 768, 1280)
+OWN = "bearing=own&balls=8&ball_diameter=7.94&pitch_diameter=39.04&conformity_inner=0.52&conformity_outer=0.53"
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory):
+    from ehlcontact.cli.explorer import write_explorer
+
+    return write_explorer(tmp_path_factory.mktemp("page") / "page.html")
+
+
+@pytest.fixture
+def seen(page, tmp_path):
+    """``seen(asked, address, width)``: what an expression is worth on the page; no word in its console."""
+
+    def run(asked, address="", width=None):
+        tell = '<pre id="told"></pre><script>field("told").textContent = told;</script>'
+        file = tmp_path / "asked.html"
+        text = page.read_text(encoding="utf-8")
+        script = f"<script>const told = JSON.stringify((() => {{ {asked} }})());</script>"
+        file.write_text(text.replace("</body>", f"{script}{tell}</body>"), encoding="utf-8")
+        if width is not None:  # no window of a browser is as narrow as a telephone
+            file = framed(file, width)
+        out, said = dom(file, address)
+        assert "CONSOLE" not in said, said[-2000:]
+        return json.loads(html.unescape(re.search(r'<pre id="told">(.*)</pre>', out, flags=re.S)[1]))
+
+    return run
+
+
+def framed(file, width):
+    """A file that has another one in a frame of so many pixels, and takes over what it told."""
+    frame = file.with_name("framed.html")
+    inside = html.escape(file.read_text(encoding="utf-8"))
+    take = "document.getElementById('told').textContent = this.contentDocument.getElementById('told').textContent"
+    style = f'style="border: 0; width: {width}px; height: 4000px"'
+    frame.write_text(
+        f'<pre id="told"></pre><iframe {style} onload="{take}" srcdoc="{inside}"></iframe>', encoding="utf-8"
+    )
+    return frame
+
+
+TEXTS = """return { refused: !field("refusal").hidden && field("refusal").textContent, address: location.hash,
+  headline: field("headline").textContent, python: field("python").textContent,
+  invalid: [...document.querySelectorAll("[aria-invalid]")].map(input => input.id),
+  pictures: document.querySelectorAll("#results svg[role=img]").length,
+  shown: !field("results").hidden, hz: field("at").textContent };"""
+
+
+def test_it_stands_alone(page):
+    """Nothing is fetched: no address of a network, no other file."""
+    text = page.read_text(encoding="utf-8")
+    assert page.stat().st_size < LARGEST
+    assert "://" not in text and "@import" not in text and "fetch(" not in text
+    assert re.findall(r"<(?:link|img|iframe|script [^>]*src)", text) == []
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_nothing_sticks_out(seen, width):
+    body = """for (const one of document.querySelectorAll("details")) one.open = true;
+    const texts = [...document.querySelectorAll("#results svg text")];
+    const grown = ({ a, b }) => Math.hypot(a, b), within = ({ left, right }) => left >= 0 && right <= innerWidth;
+    const size = text => parseFloat(getComputedStyle(text).fontSize) * grown(text.getScreenCTM());
+    const out = text => !within(text.getBoundingClientRect());
+    return { width: innerWidth, needed: document.documentElement.scrollWidth, texts: texts.length,
+      smallest: Math.min(...texts.map(size)), out: texts.filter(out).map(text => text.textContent) };"""
+    found = seen(body, width=width)
+    assert found["width"] == width and found["needed"] <= width
+    assert found["texts"] > 40 and found["out"] == []
+    assert found["smallest"] > 9.0  # px
+
+
+def test_what_it_shows_is_what_python_answers(seen):
+    found = seen(TEXTS, "#bearing=6206&grade=32&temperature=45.5&speed_rpm=2400&load=750&rq=0.2&clearance=5")
+    assert found["refused"] is False and found["shown"] and found["pictures"] == 5
+    state = eval(found["python"], {"BallBearing": BallBearing, "Lubricant": Lubricant})
+    oil = Lubricant.iso_vg(32, temperature=45.5)
+    bearing = BallBearing.catalogue("6206", oil=oil, rq_race=0.2e-6, clearance=5e-6)
+    mine = bearing.equilibrium((0, -750), speed_rpm=2400)
+    assert state.to_dict() == mine.to_dict()
+    at = bearing.coefficients((0, -750), speed_rpm=2400, rpm=2400)
+    K, C = at.stiffness[0, 1, 1], at.damping[0, 1, 1]
+    still = bearing.coefficients((0, -750), speed_rpm=2400, hz=0.0).stiffness[0, 1, 1]
+    told = [mine.loaded, mine.force[0, 0], mine.h_min[0].min() * 1e6, mine.lambda_ratio[0].min(), C, 40.0]
+    words = [float(word) for word in re.findall(r"(?<![\w.])\d+(?:\.\d+)?(?![\w]|\.\d)", found["headline"])]
+    del words[1]  # how many balls there are
+    assert words[:6] == pytest.approx(told, rel=6e-3)
+    ratio = 1.25e-5 * still / C
+    assert words[6] == pytest.approx(ratio if ratio > 1.0 else 100.0 * ratio, rel=6e-2)
+    assert any(f"{K * 1e-6:.{decimals}f}" in found["hz"] for decimals in (0, 1))
+
+
+def test_a_bearing_of_ones_own(seen):
+    found = seen(TEXTS, f"#{OWN}&grade=own&eta0=37&alpha=20&load=486&hz=120")
+    assert found["refused"] is False and "120 Hz" in found["hz"]
+    state = eval(found["python"], {"BallBearing": BallBearing, "Lubricant": Lubricant})
+    oil = Lubricant(eta0=0.037, alpha=2e-8)
+    sizes = {"ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3, "conformity_outer": 0.53}
+    mine = BallBearing(balls=8, **sizes, oil=oil, rq_race=1e-7).equilibrium((0, -486), speed_rpm=3000)
+    assert state.force == pytest.approx(mine.force)
+
+
+REFUSED = [
+    ("temperature=333.15", "temperature", ["333.15 °C", "between 20 and 120", "given in K?"]),
+    ("load=abc", "load", ["abc", "a number"]),
+    ("load=", "load", ["nothing", "a number"]),
+    ("load=-5", "load", [">= 0"]),
+    ("load=1e5", "load", ["1e5 N", "the end of the atlas"]),
+    ("speed_rpm=90000", "speed_rpm", ["at most", "where the atlas ends"]),
+    ("speed_rpm=0", "speed_rpm", ["without rolling there is no film"]),
+    ("clearance=900", "clearance", ["900 µm", "between -0.000397 and 0.000397 m"]),
+    (OWN.replace("7.94", "0.00794"), "ball_diameter", ["mm", "in m? then 7.94 mm"]),
+    (OWN.replace("balls=8", "balls=8.5"), "balls", ["a whole number"]),
+    (OWN.replace("0.53", "0.502"), "conformity_outer", ["lies outside the atlas"]),
+    ("grade=own&eta0=5000&alpha=20", "eta0", ["the range of the atlas"]),
+    ("grade=680&temperature=20", "eta0", ["the range of the atlas"]),
+    ("hz=1e7", "hz", ["there the atlas ends"]),
+    ("rq=0", "rq", ["> 0"]),
+    ("ratio=-1", "ratio", [">= 0"]),
+    ("load=900", None, []),
+]
+
+
+def test_what_it_cannot_answer_it_says_of_the_field(seen):
+    """And is as it was before when it can again."""
+    addresses = json.dumps([f"#{address}" for address, _, _ in REFUSED])
+    body = f"""const told = () => {{ {TEXTS} }};
+    const go = address => {{ history.replaceState(null, "", address); fromAddress(); return told(); }};
+    return {addresses}.map(go);"""
+    for (_, field, words), found in zip(REFUSED, seen(body), strict=True):
+        assert found["shown"] == (field is None) and found["invalid"] == ([field] if field else [])
+        assert (found["refused"] is False) == (field is None)
+        for word in words:
+            assert word in found["refused"]
+
+
+def test_strange_addresses_are_the_first_case(seen):
+    first = seen(TEXTS)
+    assert first["refused"] is False
+    strange = seen(TEXTS, "#bearing=<b>x</b>&grade=47&nothing=1&%%")
+    assert strange["headline"] == first["headline"] and strange["refused"] is False
+
+
+def test_the_address_brings_a_case_back(seen):
+    """As typed: by the events of a user, a name and a grade that fill in, and what is left as it was."""
+    typed = json.dumps([["bearing", "own"], ["balls", "7"], ["load", "640"], ["grade", "100"]])
+    body = (
+        f"for (const [name, value] of {typed})"
+        + """ {
+      field(name).value = value;
+      field("inputs").requestSubmit();
+    }"""
+    )
+    there = seen(body + TEXTS)
+    assert there["refused"] is False and "load=640" in there["address"] and "temperature" not in there["address"]
+    back = seen(TEXTS, there["address"])
+    assert {**back, "address": ""} == {**there, "address": ""}
+    assert "balls=7" in back["python"] and "iso_vg(100" in back["python"]
+
+
+def test_every_input_has_a_label_and_takes_the_keyboard(seen):
+    body = """const inputs = [...document.querySelectorAll("input, select, button")];
+    return inputs.map(input => [input.id, input.tabIndex, (input.labels?.[0] ?? input).textContent.trim()]);"""
+    found = seen(body)
+    assert len(found) == 17
+    assert all(index == 0 and len(text) > 3 for _, index, text in found)
+
+
+def test_pictures_are_told_in_words(seen):
+    pictures = 'document.querySelectorAll("#results svg[role=img]")'
+    body = f'return [...{pictures}].map(one => one.getAttribute("aria-label"));'
+    found = seen(body)
+    assert len(found) == 5 and all(len(text) > 40 for text in found)
+
+
+def test_the_command_writes_it_and_replaces_none(call, refused, tmp_path, page):
+    target = tmp_path / "p.html"
+    done = call("explore", "-o", target)
+    assert done.code == 0 and str(target) in done.out.replace("\n", "") and done.err == ""
+    assert target.read_bytes() == page.read_bytes()
+    target.write_text("mine")
+    refused(["--output", "replaced with --force"], "explore", "-o", target)
+    assert target.read_text() == "mine"
+    assert call("explore", "-o", target, "--force").code == 0 and target.stat().st_size > 1e6
+    refused(["--output", ".html"], "explore", "-o", tmp_path / "p.txt")
+    refused(["--output", "folder that exists"], "explore", "-o", tmp_path / "none" / "p.html")
+
+
+def test_a_full_disk_keeps_the_old_page(refused, tmp_path, no_room):
+    target = tmp_path / "p.html"
+    target.write_text("mine")
+    no_room()
+    refused(["--output", "No space left"], "explore", "-o", target, "--force")
+    assert target.read_text() == "mine"
