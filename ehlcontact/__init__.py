@@ -111,3 +111,8 @@ __all__ = [
     "solve_steady",
     "track_wave",
 ]
+
+
+def __dir__() -> list[str]:
+    """Public names, without the rooms that were imported on the way."""
+    return sorted(__all__)

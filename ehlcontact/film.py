@@ -19,6 +19,7 @@ from ehlcontact.checks import require_finite, require_instance, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from ehlcontact.results import SteadyResult, require_scales
+from ehlcontact.results.story import Told
 from ehlcontact.solver.lowest_film import lowest_film
 from ehlcontact.transient.result import SimulationResult
 
@@ -31,7 +32,7 @@ SLOWEST = 4.0  # times slower than the surfaces: the slowest wave that is found
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Profile:
+class Profile(Told):
     """Film and pressure along a line through the centre.
 
     Attributes
@@ -98,7 +99,7 @@ class Constriction:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Film:
+class Film(Told):
     """Film and pressure at one instant over the whole plane.
 
     Attributes
@@ -215,7 +216,7 @@ def _mirrored(field: Array) -> Array:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Interferogram:
+class Interferogram(Told):
     """Fringes of a film, shape (nx + 1, 2 ny + 1) each: `intensity` in [0, 1], and `order`.
 
     That is the path difference in wavelengths: bright fringes at the whole numbers.
@@ -262,7 +263,7 @@ def interferogram(
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FilmHistory:
+class FilmHistory(Told):
     """Central and minimum film over time.
 
     Attributes
@@ -298,7 +299,7 @@ def film_history(run: SimulationResult) -> FilmHistory:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FilmWave:
+class FilmWave(Told):
     """Change of the film along Y = 0 over place and time: what the surfaces carry through.
 
     `X` is of shape (nx + 1,), `T` (steps + 1,), and `change` (steps + 1, nx + 1) the film less that at rest.
@@ -310,7 +311,7 @@ class FilmWave:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class WaveTrack:
+class WaveTrack(Told):
     """Delay of a film wave from place to place.
 
     Attributes

@@ -14,6 +14,8 @@ To come: adapters (to other programs' rotors and controllers).
 Symbols and units: `ehlcontact.point`.
 """
 
+from inspect import ismodule as _ismodule
+
 from reduced_models.atlas.answer import AtlasAnswer as AtlasAnswer
 from reduced_models.atlas.answer import AtlasAnswers as AtlasAnswers
 from reduced_models.atlas.answer import AtlasSI as AtlasSI
@@ -94,3 +96,8 @@ from reduced_models.vibration.linearised import linearise as linearise
 from reduced_models.vibration.mode import WhirlMode as WhirlMode
 from reduced_models.vibration.unbalance import UnbalanceResponse as UnbalanceResponse
 from reduced_models.vibration.unbalance import unbalance_response as unbalance_response
+
+
+def __dir__() -> list[str]:
+    """Public names, without the rooms that they are in."""
+    return sorted(name for name, value in globals().items() if name[0] != "_" and not _ismodule(value))

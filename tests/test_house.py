@@ -59,7 +59,8 @@ def test_every_folder_opens_with_a_table_of_its_rooms(folder):
 
 @pytest.mark.parametrize("folder", FOLDERS)
 def test_folder_is_one_room(folder):
-    entries = [path.name for path in (ROOT / folder).iterdir() if path.name != "__pycache__"]
+    beside = ("__pycache__", "py.typed")  # the mark of PEP 561 has its place, and is no room
+    entries = [path.name for path in (ROOT / folder).iterdir() if path.name not in beside]
     assert len(entries) <= MOST_ENTRIES
 
 
@@ -93,6 +94,9 @@ def relative(folder, pattern):
         ("ehlcontact", "*.j2"),
         ("ehlcontact", "*.js"),
         ("ehlcontact", "*.css"),
+        ("ehlcontact", "py.typed"),
+        ("reduced_models", "py.typed"),
+        ("fmu", "py.typed"),
         ("ehlcontact", "*.csv"),
         ("reduced_models", "*.npz"),
     ],

@@ -5,6 +5,7 @@ room           responsibility
 =============  =======================================================================================
 ``app``        the program: subcommands, errors to one line and an exit code
 ``contact``    options of a point: a ball of a bearing in SI, or M, L and kappa
+``examples``   of every command, for its help
 ``oils``       "ISO VG 68" as it is written
 ``options``    options that subcommands share, in groups, and the inputs they stand for
 ``output``     tables, JSON, complaints, checks of where results go

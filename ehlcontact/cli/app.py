@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import warnings
 from collections.abc import Sequence
@@ -25,6 +26,7 @@ from ehlcontact.cli.commands import (
     validate,
     verify,
 )
+from ehlcontact.cli.examples import epilog
 from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain
 from ehlcontact.cli.streams import StdoutError, watched_stdout
 from ehlcontact.cli.usage import by_option, command_of, lower_case_note, usage_line
@@ -36,11 +38,12 @@ UsageFailure: type[Exception] = [base for base in typer.BadParameter.__mro__ if 
     -1
 ]
 
+COMPLETION = "_EHLCONTACT_COMPLETE"  # set by the scripts that --install-completion leaves
+
 app = typer.Typer(
     name="ehlcontact",
     help="Transient elastohydrodynamic rolling contacts, reduced to elements for rotordynamics.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -70,10 +73,14 @@ commands = (
 )
 for module in commands:
     module.register(app)
+for shown in app.registered_commands:
+    shown.epilog = epilog(shown.name or "")
 
 
 def execute(arguments: Sequence[str] | None = None) -> int:
     """Run one command line; returns the exit code, and says on stderr in one line what was wrong."""
+    if COMPLETION in os.environ and arguments is None:  # a shell asks what may come next
+        typer.main.get_command(app).main(prog_name="ehlcontact")
     given = list(sys.argv[1:] if arguments is None else arguments)
     try:
         with watched_stdout(), warnings.catch_warnings():

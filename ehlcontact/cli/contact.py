@@ -35,23 +35,25 @@ NO_TIME = (
 )
 
 
-def _option(name: str, panel: str, *others: str, metavar: str | None = None, shown: str | None = None) -> Any:
+def _option(name: str, panel: str, **more: Any) -> Any:
     text = MEANING[name]
     return typer.Option(
-        name,
-        *others,
-        help=f"{text[0].upper()}{text[1:]}.",
-        rich_help_panel=panel,
-        metavar=metavar,
-        show_default=shown or False,
+        name, help=f"{text[0].upper()}{text[1:]}.", rich_help_panel=panel, show_default=False, **more
     )
+
+
+def known_bearings() -> list[str]:
+    """For the completion of a shell."""
+    from reduced_models.bearing.catalogue import ROWS
+
+    return list(ROWS)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Contact:
     """Which contact it is: that of a bearing's most loaded ball, or M, L and kappa."""
 
-    bearing: Annotated[str | None, _option("--bearing", _SI, metavar="NAME")] = None
+    bearing: Annotated[str | None, _option("--bearing", _SI, metavar="NAME", autocompletion=known_bearings)] = None
     oil: Annotated[str | None, typer.Option("--oil", metavar="GRADE", help=OIL_HELP, rich_help_panel=_SI)] = None
     temp: Annotated[float | None, typer.Option("--temp", "--temperature", help=TEMP_HELP, rich_help_panel=_SI)] = (
         None

@@ -6,6 +6,7 @@ module        responsibility
 ``steady``    `SteadyResult`: the film at rest
 ``impedance`` `ImpedanceResult`: stiffness and damping over frequency
 ``si``        what their ``.si`` gives: every quantity in SI
+``story``     what results and elements say of themselves at the prompt and in a notebook
 ============= =================================================================================
 """
 

@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 
 from ehlcontact.origin import Origin
 from ehlcontact.results.si import ImpedanceSI
+from ehlcontact.results.story import Told, contact_text, span
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class ImpedanceResult(Origin):
+class ImpedanceResult(Told, Origin):
     """Stiffness and damping of a contact over frequency, dimensionless; ``si`` has it in SI.
 
     Attributes
@@ -58,6 +59,16 @@ class ImpedanceResult(Origin):
         import control
 
         return control.frd(self.impedance, self.Omega, inputs="u", outputs="F", name="contact")
+
+    def _story(self) -> list[str]:
+        at = f"{self.Omega.size} frequencies, Omega {span(self.Omega)}"
+        if self.scales is None:
+            found = [at, f"stiffness K {span(self.stiffness)}", f"damping C {span(self.damping)}"]
+        else:
+            si = self.si
+            found = [f"{at}, {span(si.hz, 1.0, 'Hz')}", f"stiffness K {span(si.stiffness, 1e-6, 'N/µm')}"]
+            found.append(f"damping C {span(si.damping, 1.0, 'N s/m')}")
+        return [contact_text(self.point, self.scales), *found, f"linearised on n = {self.n}"]
 
     def summary(self) -> dict[str, Any]:
         """The JSON form of the command line; ``omega`` is ``Omega``, dimensionless, under its name of old.

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ehlcontact.errors import InputError
 from ehlcontact.origin import freeze
 from ehlcontact.point import Scales
+from ehlcontact.results.story import Told
 from ehlcontact.solver.accuracy import ErrorEstimate
 
 if TYPE_CHECKING:  # they import this module
@@ -33,7 +34,7 @@ def require_scales(scales: Scales | None) -> Scales:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class View:
+class View(Told):
     """Numbers in SI, arrays read-only."""
 
     def __post_init__(self) -> None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.origin import Origin
 from ehlcontact.results.si import SteadySI
+from ehlcontact.results.story import Told, contact_text
 from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.status import Status
 
@@ -18,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class SteadyResult(Origin):
+class SteadyResult(Told, Origin):
     """Steady film of a contact under constant load, or at a prescribed approach, dimensionless; ``si`` is in SI.
 
     Attributes
@@ -128,6 +129,20 @@ class SteadyResult(Origin):
     def p_max(self) -> float:
         """Largest pressure / p_hertz."""
         return float(self.P.max())
+
+    def _story(self) -> list[str]:
+        bars = ["", ""]
+        if self.error is not None:
+            bars = [f" (± {100.0 * e:.2g} %)" for e in (self.error.h_central, self.error.h_min)]
+        s = self.scales
+        size, unit = (1.0, "of the dry approach") if s is None else (s.length * 1e6, "µm")
+        central, least = size * self.h_central, size * self.h_min
+        return [
+            contact_text(self.point, s),
+            f"{self.status} on n = {self.n}, P and H of {len(self.X)} x {len(self.Y)} nodes",
+            f"approach {size * self.approach:.5g} {unit}; largest pressure {self.p_max:.4g} of the Hertz pressure",
+            f"film {central:.4g}{bars[0]} in the centre, {least:.4g}{bars[1]} at least, {unit}",
+        ]
 
     def summary(self) -> dict[str, Any]:
         """The JSON form of the command line."""

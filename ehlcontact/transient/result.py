@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin, freeze
+from ehlcontact.results.story import Told, contact_text, span
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.si import SimulationSI
@@ -21,7 +22,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Instants:
+class Instants(Told):
     """A simulation between its steps, continuous with continuous slopes, dimensionless.
 
     Attributes
@@ -41,9 +42,15 @@ class Instants:
     def __post_init__(self) -> None:
         freeze(self)
 
+    def _story(self) -> list[str]:
+        return [
+            f"{self.T.size} times, T {span(self.T)}",
+            f"approach {span(self.approach)}, force {span(self.force)}",
+        ]
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class SimulationResult(Origin):
+class SimulationResult(Told, Origin):
     """History of a transient contact, dimensionless; entry 0 is the initial state at T = 0. ``si`` has it in SI.
 
     Attributes
@@ -158,6 +165,25 @@ class SimulationResult(Origin):
         """Work ``integral of force d(approach)`` over T in [start, end]: what the film took up."""
         keep = (self.T >= start) & (self.T <= end)
         return float(np.trapezoid(self.force[keep], self.approach[keep]))
+
+    def _story(self) -> list[str]:
+        told = [
+            contact_text(self.point, self.scales),
+            f"{self.motion.kind}: {self.status} after {self.steps} steps on n = {self.n} to T = {self.T[-1]:.4g}",
+        ]
+        if self.scales is None:
+            told += [
+                f"approach {span(self.approach)}, force {span(self.force)}",
+                f"film at least {self.h_min.min():.4g}",
+            ]
+        else:
+            s = self.scales
+            told[1] += f", {1e3 * s.time * self.T[-1]:.4g} ms"
+            told += [
+                f"approach {span(self.approach, 1e6 * s.length, 'µm')}, force {span(self.force, s.force, 'N')}"
+            ]
+            told += [f"film at least {1e6 * s.length * self.h_min.min():.4g} µm"]
+        return told
 
     def summary(self) -> dict[str, Any]:
         """The JSON form of the command line."""

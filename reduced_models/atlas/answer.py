@@ -12,13 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.results import require_scales
+from ehlcontact.results.story import Told, contact_text, span
 from reduced_models.atlas.frequency import AtlasImpedance, Between
 
 _Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class AtlasAnswer:
+class AtlasAnswer(Told):
     """One point, dimensionless; ``si`` has it in SI, ``impedance`` K and C at any frequency.
 
     Attributes
@@ -52,6 +53,20 @@ class AtlasAnswer:
     damping: _Floats
     error: dict[str, Any]
     scales: Scales | None = None
+
+    def _story(self) -> list[str]:
+        s, bar = self.scales, self.error
+        size, unit = (1.0, "of the dry approach") if s is None else (s.length * 1e6, "µm")
+        rigid, damps = (1.0, 1.0) if s is None else (s.stiffness * 1e-6, s.damping)
+        names = ("", "") if s is None else (" N/µm", " N s/m")
+        return [
+            contact_text(self.point, s),
+            f"approach {size * self.approach:.5g} ± {size * bar['approach']:.1g} {unit}",
+            f"film {size * self.h_central:.4g} ± {size * bar['h_central']:.1g} in the centre, "
+            f"{size * self.h_min:.4g} ± {size * bar['h_min']:.1g} at least, {unit}",
+            f"static tangent {rigid * self.stiffness[0]:.4g}{names[0]}, "
+            f"damping {span(self.damping, damps)}{names[1]}",
+        ]
 
     @by_name(1)
     def impedance(
@@ -93,7 +108,7 @@ class AtlasAnswer:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasSI:
+class AtlasSI(Told):
     """An `AtlasAnswer` in SI.
 
     Attributes
@@ -140,7 +155,7 @@ class AtlasSI:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasAnswers:
+class AtlasAnswers(Told):
     """Many points at once, dimensionless: what `AtlasAnswer` has of one, with a first axis for the points.
 
     Attributes

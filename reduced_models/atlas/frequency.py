@@ -12,6 +12,7 @@ from scipy.interpolate import CubicSpline
 
 from ehlcontact.point import Scales
 from ehlcontact.results import require_scales
+from ehlcontact.results.story import Told
 
 _Floats = NDArray[np.float64]
 
@@ -52,7 +53,7 @@ class Between:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasImpedance:
+class AtlasImpedance(Told):
     """Impedance of an `AtlasAnswer` at frequencies of one's own, dimensionless; ``si`` has it in SI.
 
     Attributes
@@ -89,7 +90,7 @@ class AtlasImpedance:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasImpedanceSI:
+class AtlasImpedanceSI(Told):
     """An `AtlasImpedance` in SI.
 
     Attributes

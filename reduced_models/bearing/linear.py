@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.results.story import Told, span
 from reduced_models.bearing.balls import Balls, Turn
 from reduced_models.bearing.law import RaceLaw, carried, curve
 from reduced_models.bearing.loss import response
@@ -25,7 +26,7 @@ _Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
-class BearingCoefficients:
+class BearingCoefficients(Told):
     """Matrices of a small vibration of the ring, in the order x, y.
 
     Attributes
@@ -54,6 +55,16 @@ class BearingCoefficients:
     damping: _Floats
     displacement: _Floats
     swing: _Floats
+
+    def _story(self) -> list[str]:
+        x, y = self.load.tolist()
+        K, C = self.stiffness, self.damping
+        return [
+            f"load ({x:.4g}, {y:.4g}) N at {self.speed_rpm:.5g} rev/min, {span(self.hz, 1.0, 'Hz')}",
+            f"K_xx {span(K[:, 0, 0], 1e-6, 'N/µm')}, K_yy {span(K[:, 1, 1], 1e-6, 'N/µm')}",
+            f"C_xx {span(C[:, 0, 0], 1.0, 'N s/m')}, C_yy {span(C[:, 1, 1], 1.0, 'N s/m')}",
+            "means over a ball passage" if self.cage_angle is None else f"cage at {self.cage_angle:.4g} rad",
+        ]
 
     @property
     def hz(self) -> _Floats:

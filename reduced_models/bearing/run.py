@@ -16,6 +16,7 @@ from ehlcontact import Status
 from ehlcontact.checks import as_column, require_integer, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import hdf5
+from ehlcontact.results.story import Told, span
 from reduced_models.bearing.ball_bearing import RACES
 from reduced_models.bearing.balls import begin_rest, directions, films_of, press_balls, rest_balls, turning
 from reduced_models.bearing.contact import Films
@@ -36,7 +37,7 @@ FARTHEST = 0.05  # of a ball diameter, that a ring may go from the middle: no cl
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class BearingRun:
+class BearingRun(Told):
     """Histories of a rotor on ball bearings, SI; entry 0 is the start.
 
     Attributes
@@ -71,6 +72,15 @@ class BearingRun:
     status: Status
     nodes: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 2), np.int64), metadata={"later": True})
     names: tuple[str, ...] = field(default=(), metadata={"later": True})
+
+    def _story(self) -> list[str]:
+        return [
+            f"{self.status} after {len(self.t) - 1} steps to {self.t[-1]:.4g} s, {span(self.speed_rpm)} rev/min",
+            f"{self.displacement.shape[1]} degrees of freedom on {self.ring.shape[1]} bearings",
+            f"rings within {1e6 * float(np.hypot(*np.moveaxis(self.ring, -1, 0)).max()):.4g} µm of the centre",
+            f"largest force on a ball {self.largest_load.max():.4g} N",
+            f"nodes {', '.join(self.names)}" if self.names else "nodes without names",
+        ]
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write as HDF5; raises `InputError` where the file cannot be written."""

@@ -14,6 +14,7 @@ from ehlcontact.checks import as_column, require_choice, require_finite, require
 from ehlcontact.checks.frequency import fields_by_name, renamed_keys
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Scales
+from ehlcontact.results.story import Told, contact_text, span
 from reduced_models.elements.file import UNITS
 
 # Samples below which there is no history to speak of; a fit asks for more than its parameters itself.
@@ -27,7 +28,7 @@ _HISTORIES = (*_REQUIRED, "load", "acceleration")
 
 @fields_by_name(6, omega_n="Omega_n, dimensionless")
 @dataclass(frozen=True, eq=False)
-class ContactRecord:
+class ContactRecord(Told):
     """One history of a contact, simulated or measured.
 
     Parameters
@@ -73,6 +74,14 @@ class ContactRecord:
     Omega_n: float | None = None
     static_load: float | None = None
     units: str = "dimensionless"
+
+    def _story(self) -> list[str]:
+        kind = "" if self.motion is None else f", {self.motion.get('kind', 'a motion')}"
+        return [
+            f"{self.units}{kind}, {self.T.size} samples up to T = {self.T[-1]:.4g}",
+            contact_text(self.point, self.scales),
+            f"approach {span(self.approach)}, force {span(self.force)}",
+        ]
 
     def __post_init__(self) -> None:
         require_choice("units", self.units, UNITS)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.results.story import Told
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.memory import FilmMemoryContact
 from reduced_models.elements.spring import MemorylessContact
@@ -17,7 +18,7 @@ _Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ElementFit:
+class ElementFit(Told):
     """An element and how well it stands for its data; judge by ``rms``.
 
     Attributes
@@ -48,6 +49,16 @@ class ElementFit:
     tangent: float | None
     valid: Mapping[str, Any]
     condition: float | None
+
+    def _story(self) -> list[str]:
+        numbers = [f"{k} {v:.4g}" for k, v in self.parameters.items() if isinstance(v, int | float)]
+        rest = [
+            f"{name} {value:.5g}" for name in ("root", "tangent") if (value := getattr(self, name)) is not None
+        ]
+        told = [f"{self.model}, {self.element.units}", ", ".join(numbers), ", ".join(rest) or "no root"]
+        if self.rms is not None:
+            told.append(f"rms error {100.0 * self.rms:.2g} % of the standard deviation of the force")
+        return told
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the element, ready for JSON."""

@@ -14,6 +14,7 @@ from ehlcontact import Status
 from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
 from ehlcontact.checks.frequency import Frequency, by_name
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.results.story import Told, span
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.validity import frequency_of
 
@@ -26,7 +27,7 @@ Load = float | ArrayLike | Callable[[float], float]
 
 
 @dataclass(frozen=True, eq=False)
-class OscillatorResult:
+class OscillatorResult(Told):
     """Histories in the units of the element, dimensionless or SI.
 
     Attributes
@@ -49,6 +50,12 @@ class OscillatorResult:
     load: _Floats
     evaluations: int
     status: Status
+
+    def _story(self) -> list[str]:
+        return [
+            f"{self.status}, {self.T.size} times up to {self.T[-1]:.4g}, {self.evaluations} evaluations",
+            f"approach {span(self.approach)}, force {span(self.force)}",
+        ]
 
 
 @by_name(2, omega_n="Omega_n (dimensionless), or mass [kg] with an element in SI")

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ehlcontact import Status
 from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.results.story import Told, span
 from reduced_models.elements.validity import frequency_of
 from reduced_models.rotor.contact import Contact
 from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
@@ -22,7 +23,7 @@ RotorStatus = Status  # its public name; a run ends as converged, interrupted or
 
 
 @dataclass(frozen=True, eq=False)
-class RotorResult:
+class RotorResult(Told):
     """Histories of a rotor run in SI; entry 0 is the start.
 
     Attributes
@@ -54,6 +55,14 @@ class RotorResult:
     iterations: NDArray[np.int64]
     status: Status
     rotor: JeffcottRotor
+
+    def _story(self) -> list[str]:
+        swing = 1e6 * np.ptp(self.disc, axis=0)
+        return [
+            f"{self.status} after {len(self.t) - 1} steps to {self.t[-1]:.4g} s, {self.force.shape[1]} contacts",
+            f"disc moves over {swing[0]:.4g} x {swing[1]:.4g} µm",
+            f"contact forces {span(self.force, 1.0, 'N')}",
+        ]
 
     def __post_init__(self) -> None:
         for values in vars(self).values():

@@ -15,6 +15,7 @@ from scipy.optimize import linear_sum_assignment
 from ehlcontact.checks import as_column, require_integer, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import hdf5
+from ehlcontact.results.story import Told, span
 from reduced_models.bearing.rotor import MatrixRotor
 from reduced_models.vibration.linearised import SHOWN, linearise
 from reduced_models.vibration.mode import WhirlMode, unlike
@@ -50,7 +51,7 @@ class CriticalSpeed:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Campbell:
+class Campbell(Told):
     """Modes over the speed of the shaft; a column of an array is one mode, followed from speed to speed.
 
     Attributes
@@ -67,6 +68,18 @@ class Campbell:
     omega: _Floats
     growth: _Floats
     whirl: _Floats
+
+    def _story(self) -> list[str]:
+        told = [
+            f"{self.omega.shape[1]} modes at {self.speed_rpm.size} speeds, {span(self.speed_rpm)} rev/min",
+            f"{span(self.hz, 1.0, 'Hz')}, logarithmic decrements {span(self.decrement)}",
+        ]
+        if self.speed_rpm.size > 1:
+            speeds = [f"{found.speed_rpm:.5g}" for found in self.critical_speeds()]
+            told.append(
+                f"critical speeds {', '.join(speeds)} rev/min" if speeds else "no critical speed among them"
+            )
+        return told
 
     @property
     def hz(self) -> _Floats:

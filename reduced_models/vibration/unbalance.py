@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import as_column
 from ehlcontact.errors import InputError
 from ehlcontact.files import hdf5
+from ehlcontact.results.story import Told, span
 from reduced_models.bearing.rotor import MatrixRotor
 from reduced_models.vibration.linearised import linearise
 
@@ -21,7 +22,7 @@ _Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class UnbalanceResponse:
+class UnbalanceResponse(Told):
     """Amplitudes over the speed, about rest: q(t) = cosine cos(w t) + sine sin(w t), the shaft's angle being w t.
 
     They are linear in the unbalance, however large; what a ring does that moves as far as its balls are pressed in
@@ -44,6 +45,15 @@ class UnbalanceResponse:
     sine: _Floats
     nodes: NDArray[np.int64]
     names: tuple[str, ...] = field(default=(), metadata={"later": True})
+
+    def _story(self) -> list[str]:
+        largest = np.unravel_index(int(np.argmax(self.major)), self.major.shape)
+        name = next(iter(self.names[largest[1] : largest[1] + 1]), "") or f"node {largest[1]}"
+        return [
+            f"{len(self.nodes)} nodes at {self.speed_rpm.size} speeds, {span(self.speed_rpm)} rev/min",
+            f"largest orbit: {name}, half axis {1e6 * self.major[largest]:.4g} µm "
+            f"at {self.speed_rpm[largest[0]]:.5g} rev/min",
+        ]
 
     @property
     def amplitude(self) -> _Complex:

@@ -1,5 +1,7 @@
 """The program itself: help, version, and usage errors in one line."""
 
+import os
+import shlex
 import subprocess
 import sys
 
@@ -26,6 +28,38 @@ def test_help_lists_the_subcommands(call):
 def test_every_subcommand_has_help(call, name):
     result = call(name, "--help")
     assert result.code == 0 and result.err == "" and "Usage" in result.out
+
+
+@pytest.mark.parametrize("name", [*SUBCOMMANDS[:-1], "atlas build"])
+def test_help_ends_in_examples_that_the_parser_takes(call, name):
+    """Every one of them is shown, and is a command line of that command."""
+    import typer
+
+    from ehlcontact.cli.app import app
+    from ehlcontact.cli.examples import EXAMPLES
+
+    said = " ".join(word for word in call(*name.split(), "--help").out.split() if word != "│")
+    for example in EXAMPLES[name]:
+        assert " ".join(example.split()) in said
+        command, words = typer.main.get_command(app), shlex.split(example)[1:]
+        for part in name.split():
+            command, words = command.commands[part], words[1:]
+        command.make_context(name, words)
+
+
+@pytest.mark.parametrize(
+    ("line", "offered"),
+    [
+        ("ehlcontact imp", ["impedance"]),
+        ("ehlcontact steady --bea", ["--bearing"]),
+        ("ehlcontact steady --bearing 630", ["6305", "6306"]),
+    ],
+)
+def test_a_shell_is_told_what_may_come_next(line, offered):
+    asked = {"_EHLCONTACT_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(len(line.split()) - 1)}
+    command = [sys.executable, "-c", "from ehlcontact.cli import main; main()"]
+    found = subprocess.run(command, capture_output=True, text=True, check=False, env=os.environ | asked)
+    assert (found.returncode, found.stdout.split(), found.stderr) == (0, offered, "")
 
 
 def test_version(call):

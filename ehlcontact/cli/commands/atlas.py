@@ -10,6 +10,7 @@ import typer
 
 from ehlcontact.checks import require_integer
 from ehlcontact.cli import options as o
+from ehlcontact.cli.examples import epilog
 from ehlcontact.cli.output import (
     FAILED,
     check_apart,
@@ -30,7 +31,7 @@ def register(app: typer.Typer) -> None:
     group = typer.Typer(
         no_args_is_help=True, help="Build the table of solved contacts that elements are taken from."
     )
-    group.command("build")(build)
+    group.command("build", epilog=epilog("atlas build"))(build)
     group.callback()(_group)
     app.add_typer(group, name="atlas")
 

@@ -9,7 +9,7 @@ import typer
 
 from ehlcontact.checks import require_finite, require_positive
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import MEANING
+from ehlcontact.cli.contact import MEANING, known_bearings
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.oils import OIL_HELP, TEMP_HELP, oil_grade
 from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, say, write_json
@@ -24,7 +24,10 @@ def register(app: typer.Typer) -> None:
 
 def init(
     file: Annotated[Path, typer.Argument(metavar="[FILE.toml]", help="Study file to write.")] = Path("study.toml"),
-    bearing: Annotated[str, typer.Option("--bearing", metavar="NAME", help=f"{MEANING['--bearing']}.")] = "6205",
+    bearing: Annotated[
+        str,
+        typer.Option("--bearing", metavar="NAME", help=f"{MEANING['--bearing']}.", autocompletion=known_bearings),
+    ] = "6205",
     oil: Annotated[str, typer.Option("--oil", metavar="GRADE", help=OIL_HELP)] = "ISO VG 68",
     temp: Annotated[float, typer.Option("--temp", "--temperature", help=TEMP_HELP)] = 50.0,
     rpm: Annotated[float, typer.Option("--rpm", help=f"{MEANING['--rpm']}.")] = 3000.0,

@@ -1,0 +1,63 @@
+"""What an object says of itself at Python's prompt and in a notebook: a few lines, arrays left out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import fields
+from html import escape
+from textwrap import fill
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ehlcontact.point import MoesPoint, Scales
+
+LINES, WIDTH = 5, 90  # of what is said, and characters of a line
+
+
+class Told:
+    """Base of what tells its story: a subclass says it in `_story`, the first line beside its name."""
+
+    __slots__ = ()
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        cls.__repr__ = Told.__repr__  # type: ignore[method-assign]  # in the class itself: a dataclass leaves it
+
+    def _story(self) -> Sequence[str]:
+        """Five lines at most; where a class has none of its own, its numbers, and the shapes of its arrays."""
+        names = [field.name for field in fields(self) if field.name[0] != "_"]  # type: ignore[arg-type]
+        values = {name: getattr(self, name) for name in names}
+        numbers = (f"{name} {value:.5g}" for name, value in values.items() if isinstance(value, int | float))
+        shapes = {name: value.shape for name, value in values.items() if isinstance(value, np.ndarray)}
+        arrays = (f"{name} [{'x'.join(map(str, shape))}]" for name, shape in shapes.items())
+        text = fill(", ".join([*numbers, *arrays]), WIDTH, max_lines=LINES, placeholder=" ...")
+        return text.splitlines() or [""]
+
+    def __repr__(self) -> str:
+        first, *others = self._story()
+        return "\n".join([f"{type(self).__name__}: {first}", *(f"  {line}" for line in others)])
+
+    def _repr_html_(self) -> str:
+        """The same for a notebook."""
+        first, *others = (escape(line) for line in self._story())
+        return "<br>".join([f"<strong>{type(self).__name__}</strong>: {first}", *others])
+
+
+def contact_text(point: MoesPoint | None, scales: Scales | None) -> str:
+    """Which contact it is; with load and Hertz pressure where it has units."""
+    if point is None:
+        return "a contact that is not known"
+    text = f"M {point.M:.4g}, L {point.L:.4g}, kappa {point.kappa:.4g}"
+    return text if scales is None else f"{text}; {scales.force:.4g} N, {scales.pressure * 1e-9:.3g} GPa"
+
+
+def span(values: ArrayLike, factor: float = 1.0, unit: str = "") -> str:
+    """Smallest and largest of some numbers, one where they are alike."""
+    array = np.asarray(values, float)
+    array = array[np.isfinite(array)] * factor
+    if not array.size:
+        return "none"
+    low, high = (f"{value:.4g}" for value in (array.min(), array.max()))
+    return f"{low if low == high else f'{low} .. {high}'} {unit}".rstrip()
