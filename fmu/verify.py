@@ -69,6 +69,10 @@ def verify(path: str | os.PathLike[str], element: Element) -> Verification:
     ------
     InputError
         Not an FMU with a contact element for this platform.
+
+    See Also
+    --------
+    fmu.verify_references : without an element, against the reference results inside the FMU.
     """
     file = Path(path)
     contact_spec(element)  # first of all, whether it is one
