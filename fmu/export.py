@@ -50,8 +50,8 @@ def export_contact(
     are tunable parameters that start at the element's values; those of a film memory are constants, for others
     could put energy into a vibration. The fixed parameter `input_meaning` says what the inputs of a
     co-simulation step are: extrapolated (1, the default), those of its end (2), or held (3). Units are the
-    element's: SI, or "1" for a dimensionless element. The same element, name, library version and compiler give
-    the same bytes.
+    element's: SI, or "1" for a dimensionless element. Reference inputs and results of the element are inside, for
+    `verify_references`. The same element, name, library version and compiler give the same bytes.
 
     Parameters
     ----------

@@ -97,6 +97,10 @@ def verify(path: str | os.PathLike[str], element: Element | RotorModel) -> Verif
     ------
     InputError
         Not an FMU of such an element or rotor for this platform.
+
+    See Also
+    --------
+    fmu.verify_references : without an element, against the reference results inside the FMU.
     """
     file = Path(path)
     spec_of(element)  # first of all, whether it is one

@@ -73,7 +73,7 @@ def verify_references(path: str | os.PathLike[str]) -> ReferenceCheck:
 
     See Also
     --------
-    fmu.verify : the same against the element in Python, at more states.
+    fmu.verify : the same against the element in Python, at more states, with the directional derivatives.
     """
     file = Path(path)
     with opened(file) as (folder, description):

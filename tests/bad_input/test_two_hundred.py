@@ -35,6 +35,7 @@ SAMPLE = [
     ("fit", RECORD, RECORD),
     at("element", eta0="36.7"),
     ("export", RECORD, "-o", "new.fmu"),
+    ("verify", ELEMENT),
     ("validate", STUDY, "--json", STUDY),
     ("run", STUDY, "--jobs", "0"),
     ("reproduce", "--table", "7"),
