@@ -37,7 +37,7 @@ def described():
 @pytest.mark.parametrize("name", PACKAGES)
 def test_reference_has_every_public_name_once(name):
     entries = [entry for package, _, entry in described() if package == name]
-    assert sorted(entries) == sorted(public(PACKAGES[name]))
+    assert sorted(entries) == sorted(public(PACKAGES[name])), "a line in a page of docs/api for each"
 
 
 @pytest.mark.parametrize(("package", "directive", "name"), described())
