@@ -235,8 +235,8 @@ TAIL = """\
 ## Its own numbers
 
 Solved far below what the grid leaves open, and compared in every run of the tests (`tests/golden/test_golden.py`,
-films within 1e-6 of these); a change of one is a line under *Numerics* in [changes](guide/changelog.md). Dimensionless;
-`python tests/golden/regenerate.py` writes them.
+films within 1e-6 of these); a change of one is a line under *Numerics* in [changes](guide/changelog.md). They are
+dimensionless; `python tests/golden/regenerate.py` writes them.
 """
 
 

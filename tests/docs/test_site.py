@@ -71,7 +71,9 @@ def test_marks_of_the_readme():
     marks = re.findall(r"<!-- docs: (.*?) -->", text)
     assert marks == ["what it is", "how it is used", "its limits", "end"]
     asked = {
-        mark for page in DOCS.glob("*.md") for mark in re.findall(r"<!-- docs: (.*?) -->", page.read_text("utf-8"))
+        mark
+        for page in DOCS.rglob("*.md")
+        for mark in re.findall(r"<!-- docs: (.*?) -->", page.read_text("utf-8"))
     }
     assert asked == set(marks)
 
