@@ -197,7 +197,7 @@ def cells(found: Row) -> str:
     case = found["case"].replace(" = ", "\u00a0=\u00a0")  # broken between commas only
     if theirs == 0.0:
         return f"| {case} | {found['quantity']} | {ours:.1e} |"
-    share = f"{100.0 * (ours / theirs - 1.0):+.2f} %"
+    share = f"{100.0 * (ours / theirs - 1.0):+.2f}\u00a0%"
     return f"| {case} | {found['quantity']} | {ours:.5g} | {theirs:.5g} | {share} |"
 
 
