@@ -31,7 +31,6 @@ PUBLIC = {
 project = "ehlcontact"
 version = release = ehlcontact.__version__
 author = "the authors of ehlcontact"
-copyright = "BSD-3-Clause"
 
 extensions = ["myst_nb", "sphinx.ext.autodoc", "numpydoc"]
 nitpicky = True
@@ -42,7 +41,7 @@ html_title = f"ehlcontact {version}"
 html_static_path = ["site/wide.css"]
 html_css_files = ["wide.css"]
 html_copy_source = False
-html_show_sphinx = False
+html_show_sphinx = html_show_copyright = False
 html_math_renderer = "mathml"
 pygments_style, pygments_dark_style = "friendly", "github-dark"
 html_theme_options = {"navigation_with_keys": True}

@@ -194,10 +194,11 @@ def measured() -> dict[str, Any]:
 def cells(found: Row) -> str:
     """A row as markdown; a difference of nothing has no share."""
     ours, theirs = found["ours"], found["theirs"]
+    case = found["case"].replace(" = ", "\u00a0=\u00a0")  # broken between commas only
     if theirs == 0.0:
-        return f"| {found['case']} | {found['quantity']} | {ours:.1e} |"
-    share = f"{100.0 * (ours / theirs - 1.0):+.2f} %"
-    return f"| {found['case']} | {found['quantity']} | {ours:.5g} | {theirs:.5g} | {share} |"
+        return f"| {case} | {found['quantity']} | {ours:.1e} |"
+    share = f"{100.0 * (ours / theirs - 1.0):+.2f}\u00a0%"
+    return f"| {case} | {found['quantity']} | {ours:.5g} | {theirs:.5g} | {share} |"
 
 
 def table(rows: list[Row]) -> str:
@@ -234,8 +235,8 @@ TAIL = """\
 ## Its own numbers
 
 Solved far below what the grid leaves open, and compared in every run of the tests (`tests/golden/test_golden.py`,
-films within 1e-6 of these); a change of one is a line under *Numerics* in [changes](changelog.md). Dimensionless;
-`python tests/golden/regenerate.py` writes them.
+films within 1e-6 of these); a change of one is a line under *Numerics* in [changes](guide/changelog.md). They are
+dimensionless; `python tests/golden/regenerate.py` writes them.
 """
 
 

@@ -35,12 +35,24 @@ class Interface:
 
 @dataclass(frozen=True, slots=True)
 class ReferenceCheck:
-    """What was found; see `verify_references`."""
+    """What was found; see `verify_references`.
 
-    fmi: str  # version
-    findings: tuple[str, ...]  # of fmpy's validation; files that were changed; interfaces that do not run
+    Attributes
+    ----------
+    fmi : str
+        Version.
+    findings : tuple of str
+        Of fmpy's validation; files that were changed; interfaces that do not run.
+    interfaces : tuple of Interface
+        Each beside the references.
+    tolerance : float
+        That the references ask for.
+    """
+
+    fmi: str
+    findings: tuple[str, ...]
     interfaces: tuple[Interface, ...]
-    tolerance: float  # that the references ask for
+    tolerance: float
 
     @property
     def passes(self) -> bool:

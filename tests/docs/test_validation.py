@@ -57,6 +57,6 @@ def test_published_numbers_are_those_of_the_tests(validation, data):
 
 def test_differences_are_of_the_right_sign(validation):
     row = {"case": "a", "quantity": "b", "ours": 1.1, "theirs": 1.0}
-    assert "+10.00 %" in validation.cells(row)
+    assert "+10.00\u00a0%" in validation.cells(row)
     assert validation.table([row, row | {"case": "c", "ours": 0.8}]).endswith("Farthest off: b of c, -20.00 %.")
     assert validation.cells(row | {"theirs": 0.0}) == "| a | b | 1.1e+00 |"
