@@ -134,6 +134,6 @@ def test_frequencies_in_si_are_sent_to_their_dimensionless_name(refused, point, 
 def test_export_options(refused, tmp_path):
     refused(("--model", "quartic", "linear"), "fit", "r.h5", "--model", "quartic")
     refused(("--fmi", "7", "2 or 3"), "export", "e.json", "-o", "x.fmu", "--fmi", "7")
-    refused(("bearing.toml", "not built yet"), "export", "bearing.toml", "-o", "x.fmu")
+    refused(("bearing.toml", "readable TOML"), "export", "bearing.toml", "-o", "x.fmu")
     refused(("--output", ".fmu"), "export", "e.json", "-o", tmp_path / "x.zip")
     refused(("--output", "exists"), "export", "e.json", "-o", tmp_path / "none" / "x.fmu")
