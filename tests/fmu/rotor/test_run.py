@@ -28,7 +28,8 @@ def run(slave, names, steps, h, *, meaning=EXTRAPOLATED, inputs=None, **settings
 
 def reference(model, steps, dt, **options):
     contacts = [element.copy() for element in model.elements]
-    return simulate_rotor(model.rotor, contacts, dt=dt, until=steps * dt, tolerance=1e-10, **options)
+    # its own imbalances shake a rotor that is hardly damped: at 1e-10 they make 7e-7 of the orbit in a second
+    return simulate_rotor(model.rotor, contacts, dt=dt, until=steps * dt, tolerance=1e-11, **options)
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
@@ -51,7 +52,7 @@ def test_closed_rotor_is_that_of_simulate_rotor(instance, rotors, motion_of, mov
 @pytest.mark.parametrize("name", ["wide", "cubic"])
 def test_a_second_of_it(instance, rotors, motion_of, moving, name):
     model, dt = rotors[name], 1e-5
-    wanted = motion_of(reference(model, 100_000, dt))[:, :4]
+    wanted = motion_of(reference(model, 100_000, dt))[:100_001, :4]
     found = run(instance(name), moving(model.rotor)[:4], 100_000, dt, inner_step=dt)
     assert (np.abs(found - wanted).max(axis=0) <= 1e-7 * np.ptp(wanted, axis=0)).all()
 
