@@ -139,7 +139,7 @@ def test_nothing_is_written_that_is_not_right(elements, tmp_path, monkeypatch, f
     if fault == "differs":
         wrong = dataclasses.replace(elements["cubic"], C1=0.02)
         spec = contact_spec(wrong)
-        monkeypatch.setattr("fmu.export.contact_spec", lambda *_: spec)
+        monkeypatch.setattr("fmu.export.spec_of", lambda *_: spec)
     elif fault == "computes otherwise":  # and says nothing wrong of itself
         monkeypatch.setattr(build, "pack", spoiled("model_contact.c", "times(3.0, K3)", "times(3.001, K3)"))
     elif fault == "does not run":
