@@ -106,6 +106,20 @@ def test_instances_do_not_know_of_each_other(instance):
     assert all(np.array_equal(found, alone) for found in mixed)
 
 
+@pytest.mark.parametrize("push", [-1500.0, 1500.0])
+def test_one_contact_outside_is_enough(instance, push):
+    """Whichever it is; the flags of the contacts say so too."""
+    slave = started(instance, "cubic")
+    slave.set(journal_force_x=push)
+    seen = set()
+    for _ in range(60):
+        slave.step(2e-6)
+        flags = tuple(slave.flag(f"contact[{i}].outside_validity") for i in (1, 2))
+        assert slave.flag("outside_validity") == any(flags)
+        seen.add(flags)
+    assert ((True, False) if push > 0.0 else (False, True)) in seen, seen
+
+
 def test_the_log_names_the_contact_that_left_its_box(unit):
     """Once, until it is another one."""
     from fmu.driver import Slave

@@ -152,6 +152,23 @@ def test_rotor_alone_converges_to_its_analytic_twin(instance, rotors, moving, na
         assert ratio == pytest.approx(order, abs=0.3), meaning
 
 
+def test_a_force_that_jumps_is_felt_at_once(instance, rotors):
+    """Between two steps, held: half an acceleration times the square of the time, from the next step on."""
+    slave, rotor, h, force = instance("alone"), rotors["alone"].rotor, 1e-6, 1000.0
+    carried = rotor.static_load / rotor.bearings
+    F = dict(zip(("force[1]", "force[2]"), np.linalg.solve(rotor.normals.T, carried), strict=True))
+    slave.start(input_meaning=HELD, inner_step=h, unbalance=0.0, **F)
+    for _ in range(3):
+        slave.step(h)
+    before = np.array(slave.get("journal_x", "journal_y"))
+    assert np.abs(before).max() < 1e-16
+    slave.set(journal_force_x=force)
+    slave.step(h)
+    moved, velocity = slave.get("journal_x", "journal_velocity_x")
+    assert moved == pytest.approx(0.5 * force / rotor.journal_mass * h**2, rel=1e-3)
+    assert velocity == pytest.approx(force / rotor.journal_mass * h, rel=1e-3)
+
+
 def test_speed_and_unbalance_can_be_tuned_on_the_way(instance, rotors, motion_of, moving):
     """The angle goes on; the unbalance is of the new speed from there."""
     model, dt = rotors["wide"], 1e-5
