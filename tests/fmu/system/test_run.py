@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 from fmu import RotorModel
+from fmu.system.export import export_verified_system
 from fmu.system.master import SystemRun
-from reduced_models import simulate_rotor
+from reduced_models import CubicContact, JeffcottRotor, simulate_rotor
 
 STEP, UNTIL = 5e-6, 0.02  # s: one turn
 JOURNAL = ("journal_x", "journal_y")
@@ -117,6 +118,22 @@ def test_error_goes_down_with_the_step(system, python, master):
             there = expected[::2]
         errors.append(float((np.abs(found - there[-len(found) :]) / orbit).max()))
     assert errors[0] < 0.3 * errors[1]
+
+
+def test_default_step_leaves_the_damping(tmp_path):
+    """A journal on one contact that hardly damps, its disc held by a soft shaft: the decay of its vibration."""
+    element = CubicContact(1e8, 0.0, 0.0, 5.0, 3e-6, 9e-6, units="SI")
+    rotor = JeffcottRotor.vertical(
+        disc_mass=1e3, journal_mass=1.0, shaft_stiffness=1e4, gravity=(0.0, 0.0), load=(0.0, -500.0)
+    )
+    path, found = export_verified_system(RotorModel(rotor, [element]), tmp_path / "x.ssp")
+    y, w = rotor.static_equilibrium([element]).journal[1], 1e4  # rad/s
+    with SystemRun(path.read_bytes(), {"rotor": {"journal_velocity_y": 1e-3 * abs(y) * w}}) as run:
+        steps = round(20.0 * 2.0 * np.pi / w / found.step)
+        rows = run.run(found.step, steps, [("rotor", "journal_y"), ("rotor", "journal_velocity_y")])
+    swing = np.hypot(rows[:, 0] - y, rows[:, 1] / w)
+    damping = -2.0 * np.polyfit(found.step * np.arange(swing.size), np.log(swing), 1)[0]
+    assert damping == pytest.approx(element.C1, rel=0.05)
 
 
 def test_default_step(system):
