@@ -90,8 +90,8 @@ def export_contact(
     Notes
     -----
     This machine's binary is compiled by the system's ``cc``, or by ``ziglang`` where there is none or the result
-    would need a glibc newer than 2.17; all others by ``ziglang``, the first one for Windows in two minutes. As many
-    are compiled at a time as there are processors.
+    would need a glibc newer than 2.17; all others by ``ziglang``, the first one for Windows in two minutes. As
+    many are compiled at a time as there are processors.
     ``EHLCONTACT_CC`` names another compiler for this machine. Libraries are kept in the user's cache folder, or in
     ``EHLCONTACT_CACHE``, by their sources, flags and compiler.
     """

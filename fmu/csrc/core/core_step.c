@@ -61,7 +61,7 @@ static double missed(const State *s, int k, double turn, double time)
 {
     const double before = time - s->last_time, most = fabs(turn);
     const double mean = 0.5 * (s->model.value[rate_of[k]] + s->last[rate_of[k]]);
-    const double again = 2.0 * (s->model.value[k] - s->last[k] - before * mean) / (before * before);
+    const double again = 2.0 * (s->model.value[k] - s->last[k] - before * mean) / before / before;
     return again > most ? most : again < -most ? -most : isfinite(again) ? again : 0.0;
 }
 

@@ -1,59 +1,13 @@
-/* FMI 2.0 around the core: instances, logging, call sequence. A call that fails leaves the instance as it was. */
+/* FMI 2.0 around the core: instances, call sequence. A call that fails leaves the instance as it was. */
 #include "fmi2_instance.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const category_names[LOG_CATEGORIES] = {
-    "logStatusError", "logStatusDiscard", "logStatusWarning"};
-
-/* ---- logging and guards ---- */
-
-void log_call(const Instance *instance, fmi2Status status, LogCategory category, const char *function,
-              const char *message)
-{
-    char text[256];
-    if (instance->callbacks.logger != NULL && instance->logged[category]) {
-        snprintf(text, sizeof text, "%s: %s.", function, message);
-        instance->callbacks.logger(instance->callbacks.componentEnvironment, instance->name, status,
-                                   category_names[category], text);
-    }
-}
-
-fmi2Status fail(const Instance *instance, const char *function, const char *message)
-{
-    log_call(instance, fmi2Error, LOG_ERROR, function, message);
-    return fmi2Error;
-}
-
-fmi2Status refused(const Instance *instance, Fault fault, const char *function)
-{
-    if (fault.severity == REFUSE) {
-        return fail(instance, function, fault.reason);
-    }
-    log_call(instance, fmi2Discard, LOG_DISCARD, function, fault.reason);
-    return fmi2Discard;
-}
-
-Instance *enter_as(fmi2Component c, Kind kind, int phases, const char *function)
-{
-    Instance *instance = (Instance *)c;
-    if (instance != NULL && instance->state.kind != (int)kind) {
-        fail(instance, function,
-             kind == CO_SIMULATION ? "this instance is for model exchange" : "this instance is for co-simulation");
-        return NULL;
-    }
-    return enter(c, phases, function);
-}
-
-void notice(Instance *instance, const char *function)
-{
-    char text[160];
-    if (core_notice(&instance->state, text, sizeof text) != NULL) {
-        log_call(instance, fmi2Warning, LOG_WARNING, function, text);
-    }
-}
+typedef struct {
+    Instance common;
+    fmi2CallbackFunctions callbacks;
+} Component;
 
 /* ---- versions, logging ---- */
 
@@ -67,54 +21,29 @@ const char *fmi2GetVersion(void)
     return "2.0";
 }
 
-/* Errors are always logged; the rest as asked for. */
-static void set_logging(Instance *instance, int on)
-{
-    instance->logged[LOG_ERROR] = 1;
-    instance->logged[LOG_DISCARD] = on;
-    instance->logged[LOG_WARNING] = on;
-}
-
 fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nCategories,
                                const fmi2String categories[])
 {
-    Instance *instance = enter(c, ANY_PHASE, "fmi2SetDebugLogging");
-    int chosen[LOG_CATEGORIES] = {0};
-    size_t i;
-    int k;
-    if (instance == NULL || (nCategories > 0 && categories == NULL)) {
-        return fmi2Error;
-    }
-    for (i = 0; i < nCategories; i++) {
-        for (k = 0; k < LOG_CATEGORIES; k++) {
-            if (categories[i] != NULL && strcmp(categories[i], category_names[k]) == 0) {
-                chosen[k] = 1;
-                break;
-            }
-        }
-        if (k == LOG_CATEGORIES) {
-            return fail(instance, "fmi2SetDebugLogging", "unknown log category");
-        }
-    }
-    if (nCategories == 0) {
-        set_logging(instance, loggingOn != fmi2False);
-    }
-    for (k = 0; k < LOG_CATEGORIES; k++) {
-        if (chosen[k]) {
-            instance->logged[k] = loggingOn != fmi2False || k == LOG_ERROR;
-        }
-    }
-    return fmi2OK;
+    return (fmi2Status)choose_logging(c, loggingOn != fmi2False, nCategories, categories, "fmi2SetDebugLogging");
 }
 
-/* ---- creation and destruction ---- */
+/* ---- what the core asks ---- */
 
-void *allocate(const fmi2CallbackFunctions *callbacks, size_t size)
+static void log_text(const Instance *instance, int status, const char *category, const char *text)
+{
+    const fmi2CallbackFunctions *callbacks = &((const Component *)instance)->callbacks;
+    if (callbacks->logger != NULL) { /* the text is free of percent signs */
+        callbacks->logger(callbacks->componentEnvironment, instance->name, (fmi2Status)status, category, text);
+    }
+}
+
+/* Zeroed memory from the importer's allocator, where it has one. */
+static void *allocate(const fmi2CallbackFunctions *callbacks, size_t size)
 {
     return callbacks->allocateMemory != NULL ? callbacks->allocateMemory(1, size) : calloc(1, size);
 }
 
-void release(const fmi2CallbackFunctions *callbacks, void *memory)
+static void release(const fmi2CallbackFunctions *callbacks, void *memory)
 {
     if (callbacks->allocateMemory == NULL) {
         free(memory);
@@ -123,11 +52,25 @@ void release(const fmi2CallbackFunctions *callbacks, void *memory)
     }
 }
 
+static void *allocate_for(const Instance *instance, size_t size)
+{
+    return allocate(&((const Component *)instance)->callbacks, size);
+}
+
+static void release_of(const Instance *instance, void *memory)
+{
+    release(&((const Component *)instance)->callbacks, memory);
+}
+
+static const Version version = {"FMI 2.0 " MODEL_TOKEN, log_text, allocate_for, release_of};
+
+/* ---- creation and destruction ---- */
+
 static fmi2Component refuse(fmi2String name, const fmi2CallbackFunctions *callbacks, const char *message)
 {
     if (callbacks != NULL && callbacks->logger != NULL) {
         callbacks->logger(callbacks->componentEnvironment, name != NULL ? name : "", fmi2Error,
-                          category_names[LOG_ERROR], message);
+                          log_categories[LOG_ERROR], message);
     }
     return NULL;
 }
@@ -136,7 +79,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
                               fmi2String fmuResourceLocation, const fmi2CallbackFunctions *functions,
                               fmi2Boolean visible, fmi2Boolean loggingOn)
 {
-    Instance *instance;
+    Component *made;
     size_t length;
     (void)fmuResourceLocation; /* nothing is read from there */
     (void)visible;
@@ -152,30 +95,31 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
     if (fmuGUID == NULL || strcmp(fmuGUID, MODEL_TOKEN) != 0) {
         return refuse(instanceName, functions, "fmi2Instantiate: wrong GUID, expected " MODEL_TOKEN ".");
     }
-    instance = (Instance *)allocate(functions, sizeof *instance);
-    if (instance == NULL) {
+    made = (Component *)allocate(functions, sizeof *made);
+    if (made == NULL) {
         return refuse(instanceName, functions, "fmi2Instantiate: out of memory.");
     }
     length = strlen(instanceName) + 1;
-    instance->callbacks = *functions;
-    instance->name = (char *)allocate(functions, length);
-    if (instance->name == NULL) {
-        release(functions, instance);
+    made->callbacks = *functions;
+    made->common.version = &version;
+    made->common.name = (char *)allocate(functions, length);
+    if (made->common.name == NULL) {
+        release(functions, made);
         return refuse(instanceName, functions, "fmi2Instantiate: out of memory.");
     }
-    memcpy(instance->name, instanceName, length);
-    set_logging(instance, loggingOn != fmi2False);
-    core_start(&instance->state, fmuType == fmi2CoSimulation ? CO_SIMULATION : MODEL_EXCHANGE);
-    return instance;
+    memcpy(made->common.name, instanceName, length);
+    set_logging(&made->common, loggingOn != fmi2False);
+    core_start(&made->common.state, fmuType == fmi2CoSimulation ? CO_SIMULATION : MODEL_EXCHANGE);
+    return made;
 }
 
 void fmi2FreeInstance(fmi2Component c)
 {
-    Instance *instance = (Instance *)c;
-    if (instance != NULL) {
-        const fmi2CallbackFunctions callbacks = instance->callbacks;
-        release(&callbacks, instance->name);
-        release(&callbacks, instance);
+    Component *component = (Component *)c;
+    if (component != NULL) {
+        const fmi2CallbackFunctions callbacks = component->callbacks;
+        release(&callbacks, component->common.name);
+        release(&callbacks, component);
     }
 }
 
@@ -196,12 +140,7 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fm
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c)
 {
-    Instance *instance = enter(c, INSTANTIATED, "fmi2EnterInitializationMode");
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    instance->state.phase = INITIALIZATION;
-    return fmi2OK;
+    return (fmi2Status)go_on(c, INSTANTIATED, INITIALIZATION, "fmi2EnterInitializationMode");
 }
 
 fmi2Status fmi2ExitInitializationMode(fmi2Component c)
@@ -220,20 +159,10 @@ fmi2Status fmi2ExitInitializationMode(fmi2Component c)
 
 fmi2Status fmi2Terminate(fmi2Component c)
 {
-    Instance *instance = enter(c, STEPPING | EVENT | CONTINUOUS, "fmi2Terminate");
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    instance->state.phase = TERMINATED;
-    return fmi2OK;
+    return (fmi2Status)go_on(c, STEPPING | EVENT | CONTINUOUS, TERMINATED, "fmi2Terminate");
 }
 
 fmi2Status fmi2Reset(fmi2Component c)
 {
-    Instance *instance = enter(c, ANY_PHASE, "fmi2Reset");
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    core_start(&instance->state, (Kind)instance->state.kind);
-    return fmi2OK;
+    return (fmi2Status)reset(c, "fmi2Reset");
 }

@@ -1,61 +1,27 @@
-/* One FMI 2.0 instance, and what the files of the FMI 2.0 glue share. */
+/* What the files of the FMI 2.0 glue share. */
 #ifndef FMI2_INSTANCE_H
 #define FMI2_INSTANCE_H
 
 #include "fmi2Functions.h"
 
-#include "core.h"
+#include "instance.h"
 
-typedef enum { LOG_ERROR, LOG_DISCARD, LOG_WARNING, LOG_CATEGORIES } LogCategory;
+/* Logs "function: message." as an error and returns fmi2Error. */
+static inline fmi2Status fail(const Instance *instance, const char *function, const char *message)
+{
+    return (fmi2Status)failed(instance, function, message);
+}
 
-typedef struct {
-    State state;
-    fmi2CallbackFunctions callbacks;
-    int logged[LOG_CATEGORIES];
-    char *name;
-} Instance;
-
-/* Logs "function: message.", free of percent signs, if the importer asked for this category. */
-void log_call(const Instance *instance, fmi2Status status, LogCategory category, const char *function,
-              const char *message);
-
-/* Logs "function: message" as an error and returns fmi2Error. */
-fmi2Status fail(const Instance *instance, const char *function, const char *message);
-
-/* Logs what a fault says and returns its status. */
-fmi2Status refused(const Instance *instance, Fault fault, const char *function);
-
-/* fmi2OK for no fault. */
+/* Logs what a fault says and returns its status; fmi2OK for none. */
 static inline fmi2Status outcome(const Instance *instance, Fault fault, const char *function)
 {
-    return fault.severity == FINE ? fmi2OK : refused(instance, fault, function);
+    return fault.severity == FINE ? fmi2OK : (fmi2Status)told(instance, fault, function);
 }
-
-/* The instance behind c, or NULL (and the error logged) if the function may not be called in its phase. */
-static inline Instance *enter(fmi2Component c, int phases, const char *function)
-{
-    Instance *instance = (Instance *)c;
-    if (instance != NULL && (instance->state.phase & phases) == 0) {
-        fail(instance, function, "not allowed at this point of the call sequence");
-        return NULL;
-    }
-    return instance;
-}
-
-/* As `enter`, for one kind of instance alone. */
-Instance *enter_as(fmi2Component c, Kind kind, int phases, const char *function);
-
-/* Tells once that the validity box has been left. */
-void notice(Instance *instance, const char *function);
 
 /* NULL arrays are legal only for no elements. */
 static inline int missing(const void *references, const void *values, size_t count)
 {
     return count > 0 && (references == NULL || values == NULL);
 }
-
-/* Zeroed memory from the importer's allocator, where it has one. */
-void *allocate(const fmi2CallbackFunctions *callbacks, size_t size);
-void release(const fmi2CallbackFunctions *callbacks, void *memory);
 
 #endif

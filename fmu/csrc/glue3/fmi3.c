@@ -1,81 +1,8 @@
-/* FMI 3.0 around the core: instances, logging, call sequence. A call that fails leaves the instance as it was. */
+/* FMI 3.0 around the core: instances, call sequence. A call that fails leaves the instance as it was. */
 #include "fmi3_instance.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const char *const category_names[LOG_CATEGORIES] = {
-    "logStatusError", "logStatusDiscard", "logStatusWarning"};
-
-/* ---- logging and guards ---- */
-
-void log_call(const Instance *instance, fmi3Status status, LogCategory category, const char *function,
-              const char *message)
-{
-    char text[256];
-    if (instance->log != NULL && instance->logged[category]) {
-        snprintf(text, sizeof text, "%s: %s.", function, message);
-        instance->log(instance->environment, status, category_names[category], text);
-    }
-}
-
-fmi3Status fail(const Instance *instance, const char *function, const char *message)
-{
-    log_call(instance, fmi3Error, LOG_ERROR, function, message);
-    return fmi3Error;
-}
-
-fmi3Status outcome(const Instance *instance, Fault fault, const char *function)
-{
-    if (fault.severity == REFUSE) {
-        return fail(instance, function, fault.reason);
-    }
-    if (fault.severity == DISCARD) {
-        log_call(instance, fmi3Discard, LOG_DISCARD, function, fault.reason);
-        return fmi3Discard;
-    }
-    return fmi3OK;
-}
-
-Instance *enter_to_read(fmi3Instance c, int phases, const char *function)
-{
-    Instance *instance = (Instance *)c;
-    if (instance != NULL && (instance->state.phase & phases) == 0) {
-        fail(instance, function, "not allowed at this point of the call sequence");
-        return NULL;
-    }
-    return instance;
-}
-
-Instance *enter(fmi3Instance c, int phases, const char *function)
-{
-    Instance *instance = enter_to_read(c, phases, function);
-    if (instance != NULL && instance->within_step) {
-        fail(instance, function, "not allowed within fmi3IntermediateUpdate");
-        return NULL;
-    }
-    return instance;
-}
-
-Instance *enter_as(fmi3Instance c, Kind kind, int phases, const char *function)
-{
-    Instance *instance = (Instance *)c;
-    if (instance != NULL && instance->state.kind != (int)kind) {
-        fail(instance, function,
-             kind == CO_SIMULATION ? "this instance is for model exchange" : "this instance is for co-simulation");
-        return NULL;
-    }
-    return enter(c, phases, function);
-}
-
-void notice(Instance *instance, const char *function)
-{
-    char text[160];
-    if (core_notice(&instance->state, text, sizeof text) != NULL) {
-        log_call(instance, fmi3Warning, LOG_WARNING, function, text);
-    }
-}
 
 int unsuitable(const Instance *instance, const void *references, size_t count, const void *values, size_t n_values,
                const char *function)
@@ -94,53 +21,43 @@ const char *fmi3GetVersion(void)
     return "3.0";
 }
 
-/* Errors are always logged; the rest as asked for. */
-static void set_logging(Instance *instance, int on)
-{
-    instance->logged[LOG_ERROR] = 1;
-    instance->logged[LOG_DISCARD] = on;
-    instance->logged[LOG_WARNING] = on;
-}
-
 fmi3Status fmi3SetDebugLogging(fmi3Instance c, fmi3Boolean loggingOn, size_t nCategories,
                                const fmi3String categories[])
 {
-    Instance *instance = enter(c, ANY_PHASE, "fmi3SetDebugLogging");
-    int chosen[LOG_CATEGORIES] = {0};
-    size_t i;
-    int k;
-    if (instance == NULL || (nCategories > 0 && categories == NULL)) {
-        return fmi3Error;
-    }
-    for (i = 0; i < nCategories; i++) {
-        for (k = 0; k < LOG_CATEGORIES; k++) {
-            if (categories[i] != NULL && strcmp(categories[i], category_names[k]) == 0) {
-                chosen[k] = 1;
-                break;
-            }
-        }
-        if (k == LOG_CATEGORIES) {
-            return fail(instance, "fmi3SetDebugLogging", "unknown log category");
-        }
-    }
-    if (nCategories == 0) {
-        set_logging(instance, loggingOn);
-    }
-    for (k = 0; k < LOG_CATEGORIES; k++) {
-        if (chosen[k]) {
-            instance->logged[k] = loggingOn || k == LOG_ERROR;
-        }
-    }
-    return fmi3OK;
+    return (fmi3Status)choose_logging(c, loggingOn, nCategories, categories, "fmi3SetDebugLogging");
 }
+
+/* ---- what the core asks ---- */
+
+static void log_text(const Instance *instance, int status, const char *category, const char *text)
+{
+    const Unit *unit = (const Unit *)instance;
+    if (unit->log != NULL) {
+        unit->log(unit->environment, (fmi3Status)status, category, text);
+    }
+}
+
+static void *allocate(const Instance *instance, size_t size)
+{
+    (void)instance;
+    return calloc(1, size);
+}
+
+static void release(const Instance *instance, void *memory)
+{
+    (void)instance;
+    free(memory);
+}
+
+static const Version version = {"FMI 3.0 " MODEL_TOKEN, log_text, allocate, release};
 
 /* ---- creation and destruction ---- */
 
-static Instance *make(fmi3String name, fmi3String token, fmi3Boolean loggingOn, fmi3InstanceEnvironment environment,
-                      fmi3LogMessageCallback log, Kind kind)
+static Unit *make(fmi3String name, fmi3String token, fmi3Boolean loggingOn, fmi3InstanceEnvironment environment,
+                  fmi3LogMessageCallback log, Kind kind)
 {
     const char *reason = NULL;
-    Instance *instance = NULL;
+    Unit *unit = NULL;
     size_t length;
     if (name == NULL || name[0] == '\0') {
         reason = "fmi3Instantiate: the instance has no name.";
@@ -148,29 +65,30 @@ static Instance *make(fmi3String name, fmi3String token, fmi3Boolean loggingOn, 
         reason = "fmi3Instantiate: wrong instantiation token, expected " MODEL_TOKEN ".";
     } else {
         length = strlen(name) + 1;
-        instance = (Instance *)calloc(1, sizeof *instance);
-        if (instance != NULL) {
-            instance->name = (char *)malloc(length);
+        unit = (Unit *)calloc(1, sizeof *unit);
+        if (unit != NULL) {
+            unit->common.name = (char *)malloc(length);
         }
-        if (instance == NULL || instance->name == NULL) {
-            free(instance);
-            instance = NULL;
+        if (unit == NULL || unit->common.name == NULL) {
+            free(unit);
+            unit = NULL;
             reason = "fmi3Instantiate: out of memory.";
         } else {
-            memcpy(instance->name, name, length);
+            memcpy(unit->common.name, name, length);
         }
     }
-    if (instance == NULL) {
+    if (unit == NULL) {
         if (log != NULL) {
-            log(environment, fmi3Error, category_names[LOG_ERROR], reason);
+            log(environment, fmi3Error, log_categories[LOG_ERROR], reason);
         }
         return NULL;
     }
-    instance->environment = environment;
-    instance->log = log;
-    set_logging(instance, loggingOn);
-    core_start(&instance->state, kind);
-    return instance;
+    unit->common.version = &version;
+    unit->environment = environment;
+    unit->log = log;
+    set_logging(&unit->common, loggingOn);
+    core_start(&unit->common.state, kind);
+    return unit;
 }
 
 fmi3Instance fmi3InstantiateModelExchange(fmi3String instanceName, fmi3String instantiationToken,
@@ -191,16 +109,16 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String instanceName, fmi3String ins
                                          fmi3LogMessageCallback logMessage,
                                          fmi3IntermediateUpdateCallback intermediateUpdate)
 {
-    Instance *instance;
+    Unit *unit;
     (void)resourcePath, (void)visible;
     (void)requiredIntermediateVariables, (void)nRequiredIntermediateVariables; /* all can be read there */
-    instance = make(instanceName, instantiationToken, loggingOn, instanceEnvironment, logMessage, CO_SIMULATION);
-    if (instance != NULL) {
-        instance->event_mode = eventModeUsed;
-        instance->early_return = earlyReturnAllowed;
-        instance->update = intermediateUpdate;
+    unit = make(instanceName, instantiationToken, loggingOn, instanceEnvironment, logMessage, CO_SIMULATION);
+    if (unit != NULL) {
+        unit->event_mode = eventModeUsed;
+        unit->early_return = earlyReturnAllowed;
+        unit->update = intermediateUpdate;
     }
-    return instance;
+    return unit;
 }
 
 fmi3Instance fmi3InstantiateScheduledExecution(fmi3String instanceName, fmi3String instantiationToken,
@@ -213,7 +131,7 @@ fmi3Instance fmi3InstantiateScheduledExecution(fmi3String instanceName, fmi3Stri
     (void)instanceName, (void)instantiationToken, (void)resourcePath, (void)visible, (void)loggingOn;
     (void)clockUpdate, (void)lockPreemption, (void)unlockPreemption;
     if (logMessage != NULL) {
-        logMessage(instanceEnvironment, fmi3Error, category_names[LOG_ERROR],
+        logMessage(instanceEnvironment, fmi3Error, log_categories[LOG_ERROR],
                    "fmi3InstantiateScheduledExecution: this FMU has no clocks.");
     }
     return NULL;
@@ -221,10 +139,10 @@ fmi3Instance fmi3InstantiateScheduledExecution(fmi3String instanceName, fmi3Stri
 
 void fmi3FreeInstance(fmi3Instance c)
 {
-    Instance *instance = (Instance *)c;
-    if (instance != NULL) {
-        free(instance->name);
-        free(instance);
+    Unit *unit = (Unit *)c;
+    if (unit != NULL) {
+        free(unit->common.name);
+        free(unit);
     }
 }
 
@@ -254,7 +172,7 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance c)
     }
     fault = core_exit_initialization(&instance->state);
     if (fault.severity == FINE) {
-        if (instance->state.kind == CO_SIMULATION && instance->event_mode) {
+        if (instance->state.kind == CO_SIMULATION && ((const Unit *)c)->event_mode) {
             instance->state.phase = EVENT;
         }
         notice(instance, "fmi3ExitInitializationMode");
@@ -264,36 +182,21 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance c)
 
 fmi3Status fmi3EnterEventMode(fmi3Instance c)
 {
-    Instance *instance = (Instance *)c;
-    if (instance != NULL && instance->state.kind == CO_SIMULATION && !instance->event_mode) {
-        return fail(instance, "fmi3EnterEventMode", "this instance was made without event mode");
+    const Unit *unit = (const Unit *)c;
+    if (unit != NULL && unit->common.state.kind == CO_SIMULATION && !unit->event_mode) {
+        return fail(&unit->common, "fmi3EnterEventMode", "this instance was made without event mode");
     }
-    instance = enter(c, CONTINUOUS | STEPPING, "fmi3EnterEventMode");
-    if (instance == NULL) {
-        return fmi3Error;
-    }
-    instance->state.phase = EVENT;
-    return fmi3OK;
+    return (fmi3Status)go_on(c, CONTINUOUS | STEPPING, EVENT, "fmi3EnterEventMode");
 }
 
 fmi3Status fmi3Terminate(fmi3Instance c)
 {
-    Instance *instance = enter(c, STEPPING | EVENT | CONTINUOUS, "fmi3Terminate");
-    if (instance == NULL) {
-        return fmi3Error;
-    }
-    instance->state.phase = TERMINATED;
-    return fmi3OK;
+    return (fmi3Status)go_on(c, STEPPING | EVENT | CONTINUOUS, TERMINATED, "fmi3Terminate");
 }
 
 fmi3Status fmi3Reset(fmi3Instance c)
 {
-    Instance *instance = enter(c, ANY_PHASE, "fmi3Reset");
-    if (instance == NULL) {
-        return fmi3Error;
-    }
-    core_start(&instance->state, (Kind)instance->state.kind);
-    return fmi3OK;
+    return (fmi3Status)reset(c, "fmi3Reset");
 }
 
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *discreteStatesNeedUpdate,

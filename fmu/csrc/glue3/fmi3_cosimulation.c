@@ -7,24 +7,20 @@
 
 fmi3Status fmi3EnterStepMode(fmi3Instance c)
 {
-    Instance *instance = enter_as(c, CO_SIMULATION, EVENT, "fmi3EnterStepMode");
-    if (instance == NULL) {
-        return fmi3Error;
-    }
-    instance->state.phase = STEPPING;
-    return fmi3OK;
+    return (fmi3Status)go_on_as(c, CO_SIMULATION, EVENT, STEPPING, "fmi3EnterStepMode");
 }
 
 /* Lets the importer read what there is at the end of a step, where it returns anyway. */
-static void tell(Instance *instance)
+static void tell(Unit *unit)
 {
+    const State *state = &unit->common.state;
     fmi3Boolean return_requested = fmi3False;
-    fmi3Float64 return_time = instance->state.time;
-    if (instance->update != NULL) {
-        instance->within_step = 1;
-        instance->update(instance->environment, instance->state.time, fmi3False, fmi3True, fmi3True,
-                         fmi3False, &return_requested, &return_time);
-        instance->within_step = 0;
+    fmi3Float64 return_time = state->time;
+    if (unit->update != NULL) {
+        unit->common.within_step = 1;
+        unit->update(unit->environment, state->time, fmi3False, fmi3True, fmi3True, fmi3False, &return_requested,
+                     &return_time);
+        unit->common.within_step = 0;
     }
 }
 
@@ -53,6 +49,7 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 currentCommunicationPoint, fmi
                       fmi3Boolean *terminateSimulation, fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime)
 {
     Instance *instance = enter_as(c, CO_SIMULATION, STEPPING, "fmi3DoStep");
+    Unit *unit = (Unit *)c;
     State before;
     Fault fault;
     (void)noSetFMUStatePriorToCurrentPoint; /* no history is kept beyond the state */
@@ -65,26 +62,26 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 currentCommunicationPoint, fmi
     }
     *eventHandlingNeeded = *terminateSimulation = *earlyReturn = fmi3False;
     *lastSuccessfulTime = instance->state.time;
-    if (instance->event_mode && instance->early_return) {
+    if (unit->event_mode && unit->early_return) {
         before = instance->state;
     }
     fault = core_step(&instance->state, currentCommunicationPoint, communicationStepSize);
     if (fault.severity != FINE) {
         return outcome(instance, fault, "fmi3DoStep");
     }
-    if (!instance->event_mode) {
+    if (!unit->event_mode) {
         instance->state.contact = core_contact(&instance->state);
     } else if (core_contact(&instance->state) != instance->state.contact) {
         *eventHandlingNeeded = fmi3True;
         /* only an extrapolated motion is known within the step */
-        if (instance->early_return && instance->state.model.value[VR_input_meaning] < 1.5) {
+        if (unit->early_return && instance->state.model.value[VR_input_meaning] < 1.5) {
             stop_at_event(&instance->state, &before, currentCommunicationPoint, communicationStepSize);
             *earlyReturn = instance->state.time < currentCommunicationPoint + communicationStepSize;
         }
     }
     *lastSuccessfulTime = instance->state.time;
     notice(instance, "fmi3DoStep");
-    tell(instance);
+    tell(unit);
     return fmi3OK;
 }
 

@@ -1,0 +1,212 @@
+/* Guards, logging and phases of an instance of any FMI version, and its saved states; see instance.h. */
+#include "instance.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const char *const log_categories[LOG_CATEGORIES] = {"logStatusError", "logStatusDiscard", "logStatusWarning"};
+
+/* ---- logging and guards ---- */
+
+static int log_call(const Instance *instance, int status, LogCategory category, const char *function,
+                    const char *message)
+{
+    char text[256];
+    if (instance->logged[category]) {
+        snprintf(text, sizeof text, "%s: %s.", function, message);
+        instance->version->log(instance, status, log_categories[category], text);
+    }
+    return status;
+}
+
+int failed(const Instance *instance, const char *function, const char *message)
+{
+    return log_call(instance, FAILED, LOG_ERROR, function, message);
+}
+
+int told(const Instance *instance, Fault fault, const char *function)
+{
+    if (fault.severity == FINE) {
+        return DONE;
+    }
+    return fault.severity == REFUSE ? failed(instance, function, fault.reason)
+                                    : log_call(instance, DISCARDED, LOG_DISCARD, function, fault.reason);
+}
+
+void notice(Instance *instance, const char *function)
+{
+    char text[160];
+    if (core_notice(&instance->state, text, sizeof text) != NULL) {
+        log_call(instance, WARNED, LOG_WARNING, function, text);
+    }
+}
+
+Instance *enter_as(void *c, Kind kind, int phases, const char *function)
+{
+    const Instance *instance = (const Instance *)c;
+    if (instance != NULL && instance->state.kind != (int)kind) {
+        failed(instance, function,
+               kind == CO_SIMULATION ? "this instance is for model exchange" : "this instance is for co-simulation");
+        return NULL;
+    }
+    return enter(c, phases, function);
+}
+
+void set_logging(Instance *instance, int on)
+{
+    instance->logged[LOG_ERROR] = 1;
+    instance->logged[LOG_DISCARD] = on;
+    instance->logged[LOG_WARNING] = on;
+}
+
+int choose_logging(void *c, int on, size_t count, const char *const categories[], const char *function)
+{
+    Instance *instance = enter(c, ANY_PHASE, function);
+    int chosen[LOG_CATEGORIES] = {0};
+    size_t i;
+    int k;
+    if (instance == NULL || (count > 0 && categories == NULL)) {
+        return FAILED;
+    }
+    for (i = 0; i < count; i++) {
+        for (k = 0; k < LOG_CATEGORIES; k++) {
+            if (categories[i] != NULL && strcmp(categories[i], log_categories[k]) == 0) {
+                chosen[k] = 1;
+                break;
+            }
+        }
+        if (k == LOG_CATEGORIES) {
+            return failed(instance, function, "unknown log category");
+        }
+    }
+    if (count == 0) {
+        set_logging(instance, on);
+    }
+    for (k = 0; k < LOG_CATEGORIES; k++) {
+        if (chosen[k]) {
+            instance->logged[k] = on || k == LOG_ERROR;
+        }
+    }
+    return DONE;
+}
+
+/* ---- call sequence ---- */
+
+static int go(Instance *instance, Phase next)
+{
+    if (instance == NULL) {
+        return FAILED;
+    }
+    instance->state.phase = (int)next;
+    return DONE;
+}
+
+int go_on(void *c, int phases, Phase next, const char *function)
+{
+    return go(enter(c, phases, function), next);
+}
+
+int go_on_as(void *c, Kind kind, int phases, Phase next, const char *function)
+{
+    return go(enter_as(c, kind, phases, function), next);
+}
+
+int reset(void *c, const char *function)
+{
+    Instance *instance = enter(c, ANY_PHASE, function);
+    if (instance == NULL) {
+        return FAILED;
+    }
+    core_start(&instance->state, (Kind)instance->state.kind);
+    return DONE;
+}
+
+/* ---- saved states ---- */
+
+/* Memory for a state, where there is none yet. */
+static int make_room(const Instance *instance, void **saved, const char *function)
+{
+    if (*saved == NULL) {
+        *saved = instance->version->allocate(instance, sizeof(Saved));
+    }
+    return *saved == NULL ? failed(instance, function, "out of memory") : DONE;
+}
+
+int save_state(void *c, void **saved, const char *function)
+{
+    const Instance *instance = enter(c, ANY_PHASE, function);
+    if (instance == NULL || saved == NULL || make_room(instance, saved, function) != DONE) {
+        return FAILED;
+    }
+    core_save(&instance->state, instance->version->token, (Saved *)*saved);
+    return DONE;
+}
+
+int load_state(void *c, const void *saved, const char *function)
+{
+    Instance *instance = enter(c, ANY_PHASE, function);
+    if (instance == NULL || saved == NULL) {
+        return FAILED;
+    }
+    return told(instance, core_load(&instance->state, instance->version->token, (const Saved *)saved), function);
+}
+
+int free_state(void *c, void **saved, const char *function)
+{
+    const Instance *instance = enter(c, ANY_PHASE, function);
+    if (instance == NULL) {
+        return FAILED;
+    }
+    if (saved != NULL && *saved != NULL) {
+        instance->version->release(instance, *saved);
+        *saved = NULL;
+    }
+    return DONE;
+}
+
+int size_state(void *c, const void *saved, size_t *size, const char *function)
+{
+    if (enter(c, ANY_PHASE, function) == NULL || saved == NULL || size == NULL) {
+        return FAILED;
+    }
+    *size = sizeof(Saved);
+    return DONE;
+}
+
+int write_state(void *c, const void *saved, void *bytes, size_t size, const char *function)
+{
+    const Instance *instance = enter(c, ANY_PHASE, function);
+    if (instance == NULL || saved == NULL || bytes == NULL) {
+        return FAILED;
+    }
+    if (size < sizeof(Saved)) {
+        return failed(instance, function, "the buffer is too small");
+    }
+    memcpy(bytes, saved, sizeof(Saved));
+    return DONE;
+}
+
+int read_state(void *c, const void *bytes, size_t size, void **saved, const char *function)
+{
+    const Instance *instance = enter(c, ANY_PHASE, function);
+    State probe;
+    Saved found;
+    Fault fault;
+    if (instance == NULL || bytes == NULL || saved == NULL) {
+        return FAILED;
+    }
+    if (size != sizeof found) {
+        return failed(instance, function, "not a state of this FMU: wrong size");
+    }
+    memcpy(&found, bytes, sizeof found);
+    probe = instance->state;
+    fault = core_load(&probe, instance->version->token, &found);
+    if (fault.severity != FINE) {
+        return told(instance, fault, function);
+    }
+    if (make_room(instance, saved, function) != DONE) {
+        return FAILED;
+    }
+    memcpy(*saved, &found, sizeof found);
+    return DONE;
+}

@@ -1,0 +1,93 @@
+/* An instance as both versions of FMI have it, and the calls that are the same in both: guards, logging, model exchange,
+ * saved states. Functions of FMI return what these do, cast: the numbers of their statuses are the same. */
+#ifndef INSTANCE_H
+#define INSTANCE_H
+
+#include "core.h"
+
+typedef enum { LOG_ERROR, LOG_DISCARD, LOG_WARNING, LOG_CATEGORIES } LogCategory;
+
+enum { DONE = 0, WARNED = 1, DISCARDED = 2, FAILED = 3 }; /* statuses of a call */
+
+typedef struct Instance Instance;
+
+/* What the glue of a version lends. */
+typedef struct {
+    const char *token; /* of saved states */
+    void (*log)(const Instance *instance, int status, const char *category, const char *text); /* to the importer */
+    void *(*allocate)(const Instance *instance, size_t size);                                  /* zeroed, or NULL */
+    void (*release)(const Instance *instance, void *memory);
+} Version;
+
+/* The first member of what the glue of a version has for an instance. */
+struct Instance {
+    State state;
+    const Version *version;
+    int logged[LOG_CATEGORIES];
+    int within_step; /* the importer is called from a step: reading is all that it may do */
+    char *name;
+};
+
+extern const char *const log_categories[LOG_CATEGORIES];
+
+/* Errors are always logged; the rest as asked for. */
+void set_logging(Instance *instance, int on);
+int choose_logging(void *c, int on, size_t count, const char *const categories[], const char *function);
+
+/* Logs "function: message." as an error and returns FAILED. */
+int failed(const Instance *instance, const char *function, const char *message);
+
+/* Logs what a fault says and returns its status. */
+int told(const Instance *instance, Fault fault, const char *function);
+
+/* Tells once that the validity box has been left. */
+void notice(Instance *instance, const char *function);
+
+/* The instance behind c, or NULL (and the error logged) if the function may not be called in its phase; for what may be
+ * called from within a step too. */
+static inline Instance *enter_to_read(void *c, int phases, const char *function)
+{
+    Instance *instance = (Instance *)c;
+    if (instance != NULL && (instance->state.phase & phases) == 0) {
+        failed(instance, function, "not allowed at this point of the call sequence");
+        return NULL;
+    }
+    return instance;
+}
+
+/* As above, for what may not; for one kind of instance alone. */
+static inline Instance *enter(void *c, int phases, const char *function)
+{
+    Instance *instance = enter_to_read(c, phases, function);
+    if (instance != NULL && instance->within_step) {
+        failed(instance, function, "not allowed within fmi3IntermediateUpdate");
+        return NULL;
+    }
+    return instance;
+}
+
+Instance *enter_as(void *c, Kind kind, int phases, const char *function);
+
+/* On to another phase of the call sequence. */
+int go_on(void *c, int phases, Phase next, const char *function);
+int go_on_as(void *c, Kind kind, int phases, Phase next, const char *function);
+int reset(void *c, const char *function);
+
+/* Model exchange. */
+int set_time(void *c, double time, const char *function);
+int set_states(void *c, const double states[], size_t count, const char *function);
+int get_states(void *c, double states[], size_t count, const char *function);
+int get_nominals(void *c, double nominals[], size_t count, const char *function);
+int get_rates(void *c, double rates[], size_t count, const char *function);
+int get_indicators(void *c, double indicators[], size_t count, const char *function);
+int complete_step(void *c, const char *function);
+
+/* Saved states. */
+int save_state(void *c, void **saved, const char *function);
+int load_state(void *c, const void *saved, const char *function);
+int free_state(void *c, void **saved, const char *function);
+int size_state(void *c, const void *saved, size_t *size, const char *function);
+int write_state(void *c, const void *saved, void *bytes, size_t size, const char *function);
+int read_state(void *c, const void *bytes, size_t size, void **saved, const char *function);
+
+#endif
