@@ -217,10 +217,7 @@ def _mirrored(field: Array) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Interferogram(Told):
-    """Fringes of a film, shape (nx + 1, 2 ny + 1) each: `intensity` in [0, 1], and `order`.
-
-    That is the path difference in wavelengths: bright fringes at the whole numbers.
-    """
+    """Fringes, shape (nx + 1, 2 ny + 1): `intensity` in [0, 1]; `order`, the path difference in wavelengths."""
 
     intensity: Array
     order: Array
