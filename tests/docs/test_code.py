@@ -80,7 +80,7 @@ def test_tutorial_of_the_bearing_in_ross(capsys):
         found = {}
         run("docs/tutorials/bearing.md", found, have={"ross"})
     omega = found["speeds"][5] * np.pi / 30.0
-    np.testing.assert_allclose(found["held"][0].K(omega), found["K"][5], rtol=1e-6, atol=1.0)
+    np.testing.assert_allclose(found["held"][0].K(omega)[:2, :2], found["K"][5], rtol=1e-6, atol=1.0)
     assert 150.0 < found["modal"].wn[0] / (2.0 * np.pi) < 300.0
     assert np.all(found["modal"].log_dec[:2] > 0.0)
 
