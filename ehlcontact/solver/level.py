@@ -15,7 +15,7 @@ from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.kernels import boundary, flanks, relax, reynolds
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS
 from ehlcontact.solver.lowest_film import lowest_film
-from ehlcontact.solver.mesh import LINES_APART, Mesh, is_too_coarse
+from ehlcontact.solver.mesh import LINES_APART, Mesh
 
 Array = NDArray[np.float64]
 
@@ -225,6 +225,4 @@ def build_hierarchy(point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str
         apart = (domain.y_max / ny) / (point.kappa * (domain.x_out - domain.x_in) / nx)
         both = apart < LINES_APART or nx == last[0]
         sizes.append((nx // 2 if nx > last[0] else nx, ny // 2 if both and ny > last[1] else ny))
-    while is_too_coarse(point, sizes[-1][0], n):
-        sizes.pop()
     return [Level(point, domain, nx, ny, deflection) for nx, ny in reversed(sizes)]

@@ -22,7 +22,7 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse import CoarseNewton
 from ehlcontact.solver.kernels import transfer
 from ehlcontact.solver.level import Level, build_hierarchy
-from ehlcontact.solver.mesh import LONG, Mesh, coarsest_intervals, resolved_load
+from ehlcontact.solver.mesh import LONG, Mesh, coarsest_intervals, corrects, resolved_load
 
 PRE_SWEEPS, POST_SWEEPS = 2, 1
 REPEATED_LEVELS = 2  # of a long contact: the finest, which alone repeat their sweeps
@@ -43,7 +43,8 @@ class Multigrid:
     ) -> None:
         self.point, self.mesh = point, mesh
         self._options: dict[str, Any] = {"deflection": deflection, "effort": effort, "threads": threads}
-        self.levels = build_hierarchy(point, mesh, coarsest_intervals(point, mesh.n), deflection)
+        levels = build_hierarchy(point, mesh, coarsest_intervals(point, mesh.n), deflection)
+        self.levels = [level for level in levels if corrects(point, level.nx, mesh.n)]
         for level in self.levels:
             level.share(threads)
         self.effort = self.least_effort = effort  # how often the sweeps of a cycle are repeated
