@@ -35,7 +35,7 @@ SQUEEZE = 10.0  # how much more the squeeze term raises it than the wedge term
 FLOW_SLOPE = 0.75  # share of the derivatives of eps; see above
 LARGEST_CHANGE = 0.3  # of P in one sweep, along one line; far from the solution the linear model overshoots
 FILM_CHANGE = 1.0  # of the film there by the near coefficient alone, over the film: more would turn it negative
-LEAST_OPENING = 0.003  # of a node's own term, from which the film of the next lines counts in the equations of a line
+LEAST_OPENING = 0.003  # of a node's own term, from which the film of the next lines counts in its equation
 
 
 @jit_node
@@ -139,8 +139,8 @@ def assemble_at(j, i, P, flow, theta, stencil, c_t, films, near, band, r):
     A unit change at node k of the line raises P there by 1, lowers its neighbours by their shares and deflects the
     film near it by ``films[k]``. The film of the next lines counts where oil flows there: beside the side lobes of
     long contacts pressure opens its own way out, by more than the flow that it drives through the gap as it is.
-    Without that lines of few nodes across a lobe move by twice what they should and more, and sweeps diverge. Where
-    oil comes from the next line such a term has the other sign; it would take away what holds the solve together.
+    Without that the last lines of a lobe move by twice what they should and more, and sweeps diverge. Where oil
+    comes from the next line that term has the other sign: it would take away what holds the solve together.
     """
     pc, pw, pe, ps, pn, pww, hc, hw, he, hs, hn, hww = linearise_at(j, i, P, flow, stencil, c_t, FLOW_SLOPE)
     last = P.shape[1] - 1

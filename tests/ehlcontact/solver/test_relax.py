@@ -258,7 +258,7 @@ def test_dry_node_joins_only_if_its_residual_asks_for_pressure(level):
     assert (f.w[inner][dry & ~pushed_down] != 0.0).all()
 
 
-@pytest.mark.parametrize("kappa", [0.2, 1.0])
+@pytest.mark.parametrize("kappa", [0.2, 1.0, 3.0])
 def test_converged_film_is_a_fixed_point(solve_by_newton, kappa):
     """Relaxation must stand still on a solution: no term may differ between it and the residual."""
     level, u = solve_by_newton(MoesPoint(20, 8, kappa))
