@@ -17,8 +17,8 @@ module          responsibility
 ``gate``        nothing unverified is written
 ``verify``      `verify`: the FMU against fmpy's rules and, state by state, against the Python element
 ``comparison``  forces, tangents and derivatives of both, side by side
-``driver``      an instance of an FMU of FMI 2.0, by hand, through fmpy
-``driver3``     the same of FMI 3.0
+``references``  reference results inside an FMU, and `verify_references`: the FMU against them alone
+``driver``      an instance of an FMU, by hand, through fmpy
 ``csrc/``       the C sources: common core, glue of each FMI version, models; equations in its README
 ==============  ====================================================================================
 
@@ -29,5 +29,7 @@ the two cannot be installed into one environment.
 from fmu.binaries import BuildError as BuildError
 from fmu.export import export_contact as export_contact
 from fmu.gate import VerificationError as VerificationError
+from fmu.references.check import ReferenceCheck as ReferenceCheck
+from fmu.references.check import verify_references as verify_references
 from fmu.verify import Verification as Verification
 from fmu.verify import verify as verify

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,7 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu.spec import ModelSpec
-from reduced_models.elements.film_law import CHAIN, RATE, THETA, film_rest, film_step, static
+from reduced_models.elements.film_law import (
+    CHAIN,
+    DIRECT,
+    INLET,
+    RATE,
+    THETA,
+    film_rest,
+    film_step,
+    squeezed,
+    static,
+)
 
 _Floats = NDArray[np.float64]
 
@@ -59,7 +70,7 @@ def run(slave: Any, approach: _Floats, rate: _Floats) -> tuple[_Floats, _Floats,
     """Step through all states; returns force and tangents, partial derivatives of the force, and flags."""
     values, partials = np.empty((approach.size, 3)), np.empty((approach.size, 2))
     flags = np.empty(approach.size, dtype=bool)
-    slave.start(END)
+    slave.start(input_meaning=END)
     for n, (u, v) in enumerate(zip(approach.tolist(), rate.tolist(), strict=True)):
         slave.set(approach=u, rate=v)
         slave.step(1.0)
@@ -101,11 +112,18 @@ def state_grid(element: Any) -> tuple[_Floats, _Floats]:
 
 def outside(element: Any, approach: _Floats, rate: _Floats, force: _Floats) -> NDArray[np.bool_]:
     """Where an element would tell that it is outside its validity box."""
+    return bounds(element, approach, rate, force)["outside_validity"]
+
+
+def bounds(element: Any, approach: _Floats, rate: _Floats, force: _Floats) -> dict[str, NDArray[np.bool_]]:
+    """The flags of an FMU by name: where the box is left, and over which of its bounds."""
     low, high, fastest, least, most = element.validity.reach
-    inside = (
-        (low <= approach) & (approach <= high) & (np.abs(rate) <= fastest) & (least <= force) & (force <= most)
-    )
-    return np.asarray(~inside)
+    found = {
+        "outside_approach": ~((low <= approach) & (approach <= high)),
+        "outside_rate": ~(np.abs(rate) <= fastest),
+        "outside_force": ~((least <= force) & (force <= most)),
+    }
+    return {"outside_validity": np.logical_or.reduce(list(found.values())), **found}
 
 
 # ---- with a film memory
@@ -123,63 +141,80 @@ def film_motion(element: Any) -> tuple[_Floats, _Floats, _Floats]:
     return T * time, u * length, v * length / time
 
 
+def film_walk(
+    element: Any, T: _Floats, approach: _Floats, rate: _Floats
+) -> Iterator[tuple[float, float, float, _Floats]]:
+    """Force, both tangents of the step and the states after each step from rest at the first approach."""
+    f, length, time = element._units
+    old, new = np.empty((2, CHAIN + element.lags))
+    film_rest(element.law, approach[0] / length, old)
+    old[RATE] = old[THETA] * rate[0] / length * time  # moving from the start, as `drive` has it
+    for k in range(1, T.size):
+        u, v = approach[k] / length, rate[k] / length * time
+        force, K, C = film_step(element.law, old, new, (T[k] - T[k - 1]) / time, u, v)
+        old, new = new, old
+        yield force * f, K * f / length, C * f / length * time, old[INLET:].copy()
+
+
+def film_rates_at(element: Any, states: _Floats, approach: float, rate: float) -> tuple[float, _Floats]:
+    """Force and derivatives of the states in continuous time, the clock bounded as the FMU has it."""
+    force, rates = element.continuous(states, approach, rate)
+    theta = static(approach / element._units[1], element.law)[1] ** 0.5
+    return force, rates * min(1.0, theta / LEAST_THETA)
+
+
+def _terms(element: Any, states: _Floats, approach: float, rate: float) -> _Floats:
+    """What cancels in each derivative: the filter's rate times the sizes of what it is fed and what it holds."""
+    _, length, time = element._units
+    law = element.law
+    theta = static(approach / length, law)[1] ** 0.5
+    moved = theta * rate / length * time
+    fed = np.array([moved, moved, squeezed(states[0], law.squeeze)[0], *states[DIRECT - 1 : -1]])
+    clock = np.full(states.size, law.lag_rate)
+    clock[: DIRECT - 1] = law.inlet_rate, law.fast_rate
+    return np.asarray(clock * (np.abs(fed) + np.abs(states)) / max(theta, LEAST_THETA) / time)
+
+
 def compare_film(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> Comparison:
     """Compare an element with a memory, along `film_motion`."""
     f, length, time = element._units
     T, u, v = film_motion(element)
-    expected = element.drive(T, u, v)
     names = [variable.name for variable in spec.states]
-    old, new = np.empty((2, CHAIN + element.lags))
-    film_rest(element.law, u[0] / length, old)
-    old[RATE] = old[THETA] * v[0] / length * time  # moving from the start, as `drive` has it
-    slave.start(END, approach=u[0], rate=v[0])
+    slave.start(input_meaning=END, approach=u[0], rate=v[0])
     exchange.start()
-    rows: list[list[float]] = []  # force, step tangents, tangents, derivatives, force and rates in model exchange
+    rows: list[list[float]] = []  # force, step tangents, tangents, derivatives, force in model exchange
     wanted: list[list[float]] = []
+    rates = 0.0
     wrong = 0
-    for k in range(1, T.size):
+    for k, (force, K, C, _) in enumerate(film_walk(element, T, u, v), start=1):
         slave.set(approach=u[k], rate=v[k])
-        slave.raw.doStep(currentCommunicationPoint=T[k - 1], communicationStepSize=T[k] - T[k - 1])
-        K, C = film_step(element.law, old, new, (T[k] - T[k - 1]) / time, u[k] / length, v[k] / length * time)[1:]
-        old, new = new, old
+        slave.step_to(T[k])
         states = np.array(slave.get(*names))
-        force, rates = element.continuous(states, u[k], v[k])
-        k_now, c_now = tangents(element, states, u[k], v[k])
-        bound = min(1.0, static(u[k] / length, element.law)[1] ** 0.5 / LEAST_THETA)
+        now = tangents(element, states, u[k], v[k])
         instant, derivatives = exchange.evaluate(states, approach=u[k], rate=v[k])
         rows.append(
             slave.get("force", "step_stiffness", "step_damping", "stiffness", "damping")
-            + [slave.gradient("force", name) for name in ("approach", "rate")] + [instant, *derivatives]
+            + [slave.gradient("force", name) for name in ("approach", "rate")] + [instant]
         )  # fmt: skip
-        wanted.append(
-            [
-                expected[k],
-                K * f / length,
-                C * f / length * time,
-                k_now,
-                c_now,
-                k_now,
-                c_now,
-                force,
-                *(rates * bound),
-            ]
-        )
-        wrong += slave.flag("outside_validity") != bool(outside(element, u[k], v[k], expected[k]))
+        expected, expected_rates = film_rates_at(element, states, u[k], v[k])
+        wanted.append([force, K, C, *now, *now, expected])
+        # a derivative is a difference that may cancel: it is as good as its terms
+        terms = _terms(element, states, u[k], v[k])
+        rates = max(rates, over(np.abs(derivatives - expected_rates), terms))
+        wrong += slave.flag("outside_validity") != bool(outside(element, u[k], v[k], np.asarray(force)))
     slave.raw.terminate()
     ours, theirs = np.array(rows), np.array(wanted)
-    # a state's derivative is its filter's rate times a difference of numbers of size 1, which may cancel
-    rate = 1e3 * element.law.fast_rate / time
-    scales = [f, *[f / length, f / length * time] * 3, f, *[rate] * len(names)]
+    scales = [f, *[f / length, f / length * time] * 3, f]
     gaps = [difference(ours[:, k], theirs[:, k], scale) for k, scale in enumerate(scales)]
     return Comparison(
         states=T.size - 1,
         outside=int(((u[1:] < element.low) | (u[1:] > element.high)).sum()),
-        parted=int((expected[1:] == 0.0).sum()),
+        parted=int((theirs[:, 0] == 0.0).sum()),
         force=gaps[0],
         tangents=max(gaps[1:5]),
         derivatives=max(gaps[5:7]),
         flags=wrong,
-        exchange=max(gaps[7:]),
+        exchange=max(gaps[7], rates),
     )
 
 
@@ -204,8 +239,16 @@ def tangents(element: Any, states: _Floats, approach: float, rate: float) -> tup
 
 def difference(ours: _Floats, expected: _Floats, scale: float) -> float:
     """Largest difference, relative to what is expected and at least to 1e-3 of `scale`."""
-    size = np.maximum(np.abs(expected), 1e-3 * abs(scale))
-    error = np.abs(ours - expected)
+    return over(np.abs(ours - expected), floored(expected, scale))
+
+
+def floored(expected: _Floats, scale: float) -> _Floats:
+    """Size of what is expected, at least 1e-3 of `scale`."""
+    return np.asarray(np.maximum(np.abs(expected), 1e-3 * abs(scale)))
+
+
+def over(error: _Floats, size: _Floats) -> float:
+    """Largest error, relative to its size; where that is nothing, any error is infinite."""
     if not np.all(np.isfinite(error)):
         return float("inf")
     return float(np.max(np.divide(error, size, out=np.where(error > 0.0, np.inf, 0.0), where=size > 0.0)))

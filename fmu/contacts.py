@@ -103,7 +103,11 @@ class Common:
 
     def input(self, name: str, si: str, start: float, nominal: float, text: str) -> None:
         """Append an input."""
-        self.add(name, "input", "continuous", text, unit=self.unit(si), start=start, nominal=_nominal(nominal))
+        rate = "rate" if name == "approach" else None
+        self.add(
+            name, "input", "continuous", text,
+            unit=self.unit(si), start=start, nominal=_nominal(nominal), rate=rate,
+        )  # fmt: skip
 
     def output(self, name: str, si: str, nominal: float, depends: tuple[str, ...], text: str) -> None:
         """Append a real output that is never negative."""
@@ -181,17 +185,18 @@ def default_step(element: Element) -> float:
     period, or of the time that its largest rate takes through its interval.
     """
     if element.units == "dimensionless" or element.time is not None:
-        return _round_down(SHARE_OF_TRANSIT * (1.0 if element.time is None else element.time))
+        return round_down(SHARE_OF_TRANSIT * (1.0 if element.time is None else element.time))
     times = [1e-3]
     if element.omega_range is not None and element.omega_range[1] > 0.0:
         times.append(0.1 / element.omega_range[1])
     if element.rate:
         low, high = element.validity.approach
         times.append(SHARE_OF_TRANSIT * (high - low) / element.rate)
-    return _round_down(min(times))
+    return round_down(min(times))
 
 
-def _round_down(value: float) -> float:
+def round_down(value: float) -> float:
+    """1, 2 or 5 times a power of ten, at most `value` > 0."""
     power = math.floor(math.log10(value))
     digit = max(d for d in (1, 2, 5) if d <= value / 10.0**power * (1.0 + 1e-12))
     return float(f"{digit}e{power}")

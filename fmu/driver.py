@@ -1,8 +1,9 @@
-"""FMUs by hand, through fmpy: one instance for co-simulation or model exchange, variables by name."""
+"""FMUs by hand, through fmpy: one instance of FMI 2.0 or 3.0, variables by name."""
 
 from __future__ import annotations
 
-from typing import Any
+from ctypes import POINTER, c_double
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,16 +14,40 @@ _Floats = NDArray[np.float64]
 class _Instance:
     """What both kinds of instance have in common."""
 
+    section: ClassVar[str]  # of the model description
+    maker: ClassVar[str]  # class of fmpy, behind the version
     raw: Any
 
-    def __init__(self, folder: str, description: Any, messages: list[str]) -> None:
-        self.reference = {variable.name: variable.valueReference for variable in description.modelVariables}
-        self.description = description
-        self.raw = self._make(folder, description)
-        self.raw.instantiate(callbacks=collecting_callbacks(messages))
+    def __init__(self, folder: str, description: Any, messages: list[str], **options: Any) -> None:
+        from fmpy import fmi2, fmi3
 
-    def _make(self, folder: str, description: Any) -> Any:
-        raise NotImplementedError
+        self.description = description
+        self.fmi = int(description.fmiVersion.partition(".")[0])
+        self.types = {variable.name: variable.type for variable in description.modelVariables}
+        self.reference = {variable.name: variable.valueReference for variable in description.modelVariables}
+        self.time = 0.0
+        self.raw = getattr(fmi2 if self.fmi == 2 else fmi3, f"FMU{self.fmi}{self.maker}")(
+            guid=description.guid,
+            unzipDirectory=folder,
+            modelIdentifier=getattr(description, self.section).modelIdentifier,
+            instanceName="verify",
+        )
+        if self.fmi == 2:
+            self.raw.instantiate(callbacks=collecting_callbacks(messages), **options)
+        else:
+            self.raw.instantiate(logMessage=_collecting_logger(messages), **options)
+
+    def _call(self, name2: str, name3: str, *arguments: Any) -> Any:
+        """Call what has two names, one of each version."""
+        return getattr(self.raw, name2 if self.fmi == 2 else name3)(*arguments)
+
+    def _initialize(self, **values: float) -> None:
+        if self.fmi == 2:
+            self.raw.setupExperiment(startTime=0.0)
+        self.assign(**values)
+        self.raw.enterInitializationMode()
+        self.raw.exitInitializationMode()
+        self.time = 0.0
 
     def free(self) -> None:
         """Free the instance."""
@@ -30,19 +55,34 @@ class _Instance:
 
     def set(self, **values: float) -> None:
         """Set real variables."""
-        self.raw.setReal([self.reference[name] for name in values], [float(v) for v in values.values()])
+        numbers = [float(value) for value in values.values()]
+        self._call("setReal", "setFloat64", [self.reference[name] for name in values], numbers)
 
     def choose(self, **values: int) -> None:
         """Set enumerations."""
-        self.raw.setInteger([self.reference[name] for name in values], list(values.values()))
+        self._call("setInteger", "setInt64", [self.reference[name] for name in values], list(values.values()))
+
+    def assign(self, **values: float) -> None:
+        """Set real variables and enumerations."""
+        choices = {name: int(value) for name, value in values.items() if self.types[name] == "Enumeration"}
+        if choices:
+            self.choose(**choices)
+        if len(values) > len(choices):
+            self.set(**{name: value for name, value in values.items() if name not in choices})
 
     def get(self, *names: str) -> list[float]:
         """Read real variables."""
-        return list(self.raw.getReal([self.reference[name] for name in names]))
+        return list(self._call("getReal", "getFloat64", [self.reference[name] for name in names]))
 
     def flag(self, name: str) -> bool:
         """Read a Boolean."""
         return bool(self.raw.getBoolean([self.reference[name]])[0])
+
+    def read(self, *names: str) -> list[float]:
+        """Read real variables, and Booleans as 0 and 1."""
+        real = [name for name in names if self.types[name] != "Boolean"]
+        found = dict(zip(real, self.get(*real), strict=True)) if real else {}
+        return [found[name] if name in found else float(self.flag(name)) for name in names]
 
     def gradient(self, unknown: str, known: str) -> float:
         """Partial derivative of one variable by another."""
@@ -53,67 +93,53 @@ class _Instance:
 class Slave(_Instance):
     """A co-simulation instance, not yet started."""
 
-    def _make(self, folder: str, description: Any) -> Any:
-        from fmpy.fmi2 import FMU2Slave
+    section, maker = "coSimulation", "Slave"
 
-        return FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=folder,
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName="verify",
-        )
+    def start(self, **values: float) -> None:
+        """Go through initialization with these values of variables."""
+        self._initialize(**values)
 
-    def start(self, meaning: int, **values: float) -> None:
-        """Go through initialization with these values of variables and of `input_meaning`."""
-        self.raw.setupExperiment(startTime=0.0)
-        self.choose(input_meaning=meaning)
-        self.set(**values)
-        self.raw.enterInitializationMode()
-        self.raw.exitInitializationMode()
-        self.time = 0.0
+    def step(self, h: float) -> tuple[bool, ...]:
+        """One communication step.
 
-    def step(self, h: float) -> None:
-        """One communication step."""
-        self.raw.doStep(currentCommunicationPoint=self.time, communicationStepSize=h)
-        self.time += h
+        In FMI 3.0 it returns whether it wants event handling, ends the run, returned early, and till when.
+        """
+        found = self.raw.doStep(currentCommunicationPoint=self.time, communicationStepSize=h)
+        self.time = self.time + h if self.fmi == 2 else float(found[-1])
+        return () if self.fmi == 2 else tuple(found)
+
+    def step_to(self, time: float) -> None:
+        """One communication step that ends at this very time."""
+        self.raw.doStep(currentCommunicationPoint=self.time, communicationStepSize=time - self.time)
+        self.time = time
 
 
 class Exchange(_Instance):
     """A model-exchange instance, not yet started."""
 
-    def _make(self, folder: str, description: Any) -> Any:
-        from fmpy.fmi2 import FMU2Model
+    section, maker = "modelExchange", "Model"
 
-        return FMU2Model(
-            guid=description.guid,
-            unzipDirectory=folder,
-            modelIdentifier=description.modelExchange.modelIdentifier,
-            instanceName="verify",
-        )
-
-    def start(self) -> None:
+    def start(self, **values: float) -> None:
         """Go to continuous time."""
-        self.raw.setupExperiment(startTime=0.0)
-        self.raw.enterInitializationMode()
-        self.raw.exitInitializationMode()
-        self.raw.newDiscreteStates()
+        self._initialize(**values)
+        self._call("newDiscreteStates", "updateDiscreteStates")
         self.raw.enterContinuousTimeMode()
 
-    def evaluate(self, states: _Floats, **inputs: float) -> tuple[float, _Floats]:
-        """Force and derivatives of the states at these states and inputs."""
-        self.set(**inputs)
+    def place(self, states: _Floats, **inputs: float) -> _Floats:
+        """Set states and inputs; returns the derivatives of the states."""
+        if inputs:
+            self.set(**inputs)
         x, rates = np.ascontiguousarray(states, np.float64), np.zeros(states.size)
         if states.size:
-            self.raw.setContinuousStates(x.ctypes.data_as(pointer()), x.size)
-            self.raw.getDerivatives(rates.ctypes.data_as(pointer()), rates.size)
+            self.raw.setContinuousStates(x.ctypes.data_as(POINTER(c_double)), x.size)
+            names = "getDerivatives", "getContinuousStateDerivatives"
+            self._call(*names, rates.ctypes.data_as(POINTER(c_double)), rates.size)
+        return rates
+
+    def evaluate(self, states: _Floats, **inputs: float) -> tuple[float, _Floats]:
+        """Force of a contact, and derivatives of the states, at these states and inputs."""
+        rates = self.place(states, **inputs)
         return self.get("force")[0], rates
-
-
-def pointer() -> Any:
-    """Ctypes' type of an array of doubles."""
-    from ctypes import POINTER, c_double
-
-    return POINTER(c_double)
 
 
 def collecting_callbacks(messages: list[str]) -> Any:
@@ -132,3 +158,12 @@ def collecting_callbacks(messages: list[str]) -> Any:
     callbacks.allocateMemory = fmi2.fmi2CallbackAllocateMemoryTYPE(calloc)
     callbacks.freeMemory = fmi2.fmi2CallbackFreeMemoryTYPE(free)
     return callbacks
+
+
+def _collecting_logger(messages: list[str]) -> Any:
+    """The same for FMI 3."""
+
+    def log(environment: object, status: int, category: bytes, message: bytes) -> None:
+        messages.append(message.decode("utf-8", "replace"))
+
+    return log

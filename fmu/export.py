@@ -18,6 +18,9 @@ from fmu.c_headers import c_headers
 from fmu.contacts import Element, contact_spec
 from fmu.gate import require_finite, require_verified
 from fmu.glue import GLUE, compiled
+from fmu.references.contacts import contact_references
+from fmu.references.files import reference_files
+from fmu.references.series import References
 from fmu.spec import ModelSpec
 from fmu.texts import documentation, model_description
 from fmu.texts3 import model_description_3, terminals
@@ -115,12 +118,13 @@ def export_verified(
     require_finite(element)
     wanted = choose(platforms, fmi)
     target = _free_target(path, overwrite)  # before compiling
-    files = fmu_files(spec, wanted, fmi, progress)
+    references = contact_references(element, spec)
+    files = fmu_files(spec, wanted, fmi, progress, references)
     found = None
     own = this_machine()
     if own is not None and own.folder(fmi) is not None:
         # An FMU for other machines is verified by this one's binary of the same sources.
-        runnable = files if own in wanted else fmu_files(spec, (own,), fmi)
+        runnable = files if own in wanted else fmu_files(spec, (own,), fmi, references=references)
         found = require_verified(build.pack(runnable), element)
     _free_target(path, overwrite)  # still
     return write_bytes(target, build.pack(files)), found
@@ -149,7 +153,11 @@ def _free_target(path: str | os.PathLike[str], overwrite: bool) -> Path:
 
 
 def fmu_files(
-    spec: ModelSpec, platforms: Sequence[Platform], fmi: int, progress: Progress | None = None
+    spec: ModelSpec,
+    platforms: Sequence[Platform],
+    fmi: int,
+    progress: Progress | None = None,
+    references: References | None = None,
 ) -> dict[str, bytes]:
     """Everything in the FMU by its path, the compiled binaries included."""
     guid = content_guid(spec, fmi)
@@ -163,10 +171,11 @@ def fmu_files(
     files |= {f"sources/{name}": content for name, content in sources.items() if name not in brought}
     if fmi == 3:
         files["sources/buildDescription.xml"] = build_description(spec.identifier, units)
-        files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals()
+        if spec.flanges:
+            files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(spec)
     for name in filter(None, ("license.txt", glue.licence)):
         files[f"documentation/licenses/{name}"] = (build.CSRC / "licenses" / name).read_bytes()
-    return files
+    return files | ({} if references is None else reference_files(references, spec))
 
 
 def _description(spec: ModelSpec, guid: str, fmi: int) -> bytes:

@@ -40,9 +40,9 @@ def film_parts(element: Film, common: Common) -> dict[str, Any]:
     return {
         "description": f"Rolling contact with a film memory ({element.kind} element, {lags} lags)",
         "sources": ("core.c", "core_step.c", "validity.c", "model_film.c", "film_law.c", "film_curve.c"),
-        "headers": ("core.h", "model.h", "jet.h", "film_law.h", "film_curve.h"),
+        "headers": ("core.h", "model.h", "validity.h", "jet.h", "film_law.h", "film_curve.h"),
         "variables": tuple(common.variables),
-        "macros": common.macros() | _macros(element, nominal),
+        "macros": common.macros() | _macros(element),
         "tables": {
             "film_curve_data.h": _header(
                 "ln F_s, ln h_s, its slope and the approach at the nodes of the static curve",
@@ -73,14 +73,13 @@ def _states(common: Common, states: tuple[str, ...], nominal: float) -> None:
         )  # fmt: skip
 
 
-def _macros(element: Film, nominal: float) -> dict[str, str]:
+def _macros(element: Film) -> dict[str, str]:
     law = element.law
     numbers = {
         "LAG_RATE": law.lag_rate,
         "INLET_RATE": law.inlet_rate,
         "FAST_RATE": law.fast_rate,
         "SQUEEZE": law.squeeze,
-        "STATE_NOMINAL": nominal,
         **dict(zip(("SCALE_FORCE", "SCALE_LENGTH", "SCALE_TIME"), element._units, strict=True)),
     }
     counts = {"N_CACHE": 5, "LAGS": element.lags, "CURVE_NODES": law.x.size, "GAIN_ROWS": law.gain_x.size}

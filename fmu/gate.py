@@ -9,7 +9,8 @@ import numpy as np
 
 from ehlcontact.errors import InputError
 from fmu.contacts import Element
-from fmu.verify import Verification, verify
+from fmu.references.check import check_references
+from fmu.verify import Verification, opened, verify
 
 REACH = 3.0  # validity intervals above `high` up to which `verify` asks for a force
 
@@ -39,7 +40,7 @@ def require_finite(element: Element) -> None:
 
 
 def require_verified(content: bytes, element: Element) -> Verification:
-    """Run an FMU, before it is written, against the element.
+    """Run an FMU, before it is written, against the element and against its own references.
 
     Raises
     ------
@@ -51,6 +52,8 @@ def require_verified(content: bytes, element: Element) -> Verification:
             trial = Path(folder) / "trial.fmu"
             trial.write_bytes(content)
             found = verify(trial, element)
+            with opened(trial) as (unpacked, description):
+                own = check_references(trial, unpacked, description)
     except InputError as error:
         raise VerificationError(f"the FMU is not {error.allowed}") from None
     except OSError as error:
@@ -60,4 +63,8 @@ def require_verified(content: bytes, element: Element) -> Verification:
         raise VerificationError(f"the FMU does not run: {error}") from None
     if not found.passes:
         raise VerificationError(f"the FMU differs from the element: {'; '.join(found.findings) or found}", found)
+    if not own.passes:
+        raise VerificationError(
+            f"the FMU differs from its reference results: {'; '.join(own.findings) or own}", found
+        )
     return found

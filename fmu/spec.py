@@ -58,6 +58,7 @@ class Variable:
     nominal: float | None = None
     depends: tuple[str, ...] = ()  # names of inputs, parameters and states
     derivative_of: str | None = None  # name of a state
+    rate: str | None = None  # of an input: name of the input that is its rate
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,12 +88,20 @@ class ModelSpec:
     choices: tuple[Choice, ...] = ()
     step: float = 1e-3  # that resolves the contact
     time_unit: str = "s"
+    # Event indicators, one for each contact: name in FMI 3.0, and the output that depends on the same.
+    indicators: tuple[tuple[str, str], ...] = (("contact_indicator", "force"),)
+    # Terminals of FMI 3.0: name, description, and the variables that are approach, rate and force.
+    flanges: tuple[tuple[str, str, tuple[str, str, str]], ...] = (
+        ("flange", "Mutual approach and its rate in, force between the bodies out", ("approach", "rate", "force")),
+    )
 
     def __post_init__(self) -> None:
         names = [variable.name for variable in self.variables]
         references = [variable.value_reference for variable in self.variables]
         if len(set(names)) < len(names) or references != list(range(len(references))):
             raise InputError("variables", names, "unique in name, with value references from 0 on")
+        if self.inputs != self.variables[: len(self.inputs)]:
+            raise InputError("variables", names, "inputs first")
 
     @property
     def identifier(self) -> str:

@@ -48,7 +48,7 @@ def spring_parts(element: Spring, common: Common) -> dict[str, Any]:
     return {
         "description": f"Rolling contact as a {element.kind} spring with a {damper} damper",
         "sources": ("core.c", "core_step.c", "validity.c", "model_contact.c"),
-        "headers": ("core.h", "model.h", "dual.h"),
+        "headers": ("core.h", "model.h", "validity.h", "dual.h"),
         "variables": tuple(common.variables),
         "macros": common.macros() | _macros(law, element, levels_off),
     }

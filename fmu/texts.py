@@ -60,7 +60,7 @@ def model_description(spec: ModelSpec, guid: str) -> bytes:
         license="BSD-3-Clause",
         generationTool=f"ehlcontact {__version__}",
         variableNamingConvention="structured",
-        numberOfEventIndicators="1",
+        numberOfEventIndicators=str(len(spec.indicators)),
     )
     _interfaces(root, spec)
     _units(root, spec)

@@ -11,8 +11,9 @@ from ehlcontact import __version__
 from fmu.spec import ModelSpec, Variable
 from fmu.texts import LOG_CATEGORIES, default_experiment, used_units, value_attributes
 
-TIME, INDICATOR = "time", "contact_indicator"  # variables behind the others
+TIME = "time"  # behind the others, and before the event indicators
 FLANGE = "Modelica.Mechanics.Translational.Interfaces.Flange_a"
+MEMBERS = (("s", "signal"), ("v", "signal"), ("f", "inflow"))  # of a flange: approach, rate, force
 _BOTH = {
     "canGetAndSetFMUState": "true",
     "canSerializeFMUState": "true",
@@ -71,6 +72,7 @@ def model_description_3(spec: ModelSpec, token: str) -> bytes:
 
 
 def _variables(root: ElementTree.Element, spec: ModelSpec) -> None:
+    text = "Above zero while the surfaces push: force, or a film's power 2/3 of it, before it is clipped"
     parent = ElementTree.SubElement(root, "ModelVariables")
     for variable in spec.variables:
         _variable(parent, variable, spec)
@@ -84,16 +86,17 @@ def _variables(root: ElementTree.Element, spec: ModelSpec) -> None:
         variability="continuous",
         description="Time" if spec.time_unit == "s" else "Time in 2a/u_sum",
     )
-    ElementTree.SubElement(
-        parent,
-        "Float64",
-        name=INDICATOR,
-        valueReference=str(behind + 1),
-        causality="local",
-        variability="continuous",
-        initial="calculated",
-        description="Above zero while the surfaces push: force, or a film's power 2/3 of it, before it is clipped",
-    )
+    for k, (name, _) in enumerate(spec.indicators, start=1):
+        ElementTree.SubElement(
+            parent,
+            "Float64",
+            name=name,
+            valueReference=str(behind + k),
+            causality="local",
+            variability="continuous",
+            initial="calculated",
+            description=text,
+        )
 
 
 def _variable(parent: ElementTree.Element, variable: Variable, spec: ModelSpec) -> None:
@@ -129,8 +132,9 @@ def _structure(root: ElementTree.Element, spec: ModelSpec) -> None:
         for variable in variables:
             named = [name for name in variable.depends if all_knowns or name in moving]
             _unknown(structure, section, variable.value_reference, spec, named)
-    force = [name for name in spec["force"].depends if name in moving]
-    _unknown(structure, "EventIndicator", len(spec.variables) + 1, spec, force)
+    for k, (_, like) in enumerate(spec.indicators, start=1):
+        named = [name for name in spec[like].depends if name in moving]
+        _unknown(structure, "EventIndicator", len(spec.variables) + k, spec, named)
 
 
 def _unknown(parent: ElementTree.Element, section: str, reference: int, spec: ModelSpec, named: list[str]) -> None:
@@ -144,20 +148,17 @@ def _unknown(parent: ElementTree.Element, section: str, reference: int, spec: Mo
     )
 
 
-def terminals() -> bytes:
-    """``terminalsAndIcons.xml``: approach, rate and force of a contact as one mechanical flange."""
+def terminals(spec: ModelSpec) -> bytes:
+    """``terminalsAndIcons.xml``: approach, rate and force of each contact as a mechanical flange."""
     root = ElementTree.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
-    flange = ElementTree.SubElement(
-        ElementTree.SubElement(root, "Terminals"),
-        "Terminal",
-        name="flange",
-        matchingRule="bus",
-        terminalKind=FLANGE,
-        description="Mutual approach and its rate in, force between the bodies out",
-    )
-    for variable, member, kind in (("approach", "s", "signal"), ("rate", "v", "signal"), ("force", "f", "inflow")):
-        ElementTree.SubElement(
-            flange, "TerminalMemberVariable", variableName=variable, memberName=member, variableKind=kind
+    parent = ElementTree.SubElement(root, "Terminals")
+    for name, text, variables in spec.flanges:
+        flange = ElementTree.SubElement(
+            parent, "Terminal", name=name, matchingRule="bus", terminalKind=FLANGE, description=text
         )
+        for variable, (member, kind) in zip(variables, MEMBERS, strict=True):
+            ElementTree.SubElement(
+                flange, "TerminalMemberVariable", variableName=variable, memberName=member, variableKind=kind
+            )
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)

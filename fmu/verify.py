@@ -15,7 +15,6 @@ from ehlcontact.errors import InputError
 from fmu.comparison import Comparison, compare_film, compare_spring
 from fmu.contacts import Element, Film, contact_spec
 from fmu.driver import Exchange, Slave
-from fmu.driver3 import Exchange3, Slave3
 from fmu.spec import ModelSpec
 
 TOLERANCE = 1e-12
@@ -77,7 +76,7 @@ def verify(path: str | os.PathLike[str], element: Element) -> Verification:
     with opened(file) as (folder, description):
         known = _known_variables(description, spec, file)
         findings = (*validate_fmu(str(file)), *_declarations(spec, known))
-        with _running(file, folder, description) as (slave, exchange):
+        with running(file, folder, description) as (slave, exchange):
             if isinstance(element, Film):
                 found = compare_film(slave, exchange, element, spec)
             else:
@@ -90,14 +89,15 @@ def _verdict(findings: tuple[str, ...], found: Comparison) -> Verification:
 
 
 @contextmanager
-def _running(file: Path, folder: str, description: Any) -> Iterator[tuple[Any, Any]]:
-    """One instance of either kind, freed at the end."""
+def running(file: Path, folder: str, description: Any) -> Iterator[tuple[Any, Any]]:
+    """One instance of either kind, None where the FMU has no such interface, freed at the end."""
     made: list[Any] = []
     messages: list[str] = []
     try:
         with chdir(Path.cwd()):  # fmpy leaves the process in another folder when a library does not load
-            for kind in (Slave3, Exchange3) if description.fmiVersion.startswith("3") else (Slave, Exchange):
-                made.append(kind(folder, description, messages))
+            for kind in (Slave, Exchange):
+                there = getattr(description, kind.section) is not None
+                made.append(kind(folder, description, messages) if there else None)
     except Exception as error:  # fmpy raises bare Exception among others
         _free(made)
         reason = " ".join([str(error), *messages])
@@ -109,7 +109,7 @@ def _running(file: Path, folder: str, description: Any) -> Iterator[tuple[Any, A
 
 
 def _free(made: list[Any]) -> None:
-    for instance in made:
+    for instance in filter(None, made):
         instance.free()
 
 

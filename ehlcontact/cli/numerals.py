@@ -55,7 +55,7 @@ def numeral(value: SupportsFloat | None, digits: int = 4) -> str:
         return "-"
     number = float(value)
     if number == 0.0 or not math.isfinite(number):
-        return f"{number:g}"
+        return f"{number + 0.0:g}"  # no "-0"
     mantissa, exponent = f"{number:.{digits - 1}e}".split("e")
     if not PLAIN[0] <= abs(float(f"{mantissa}e{exponent}")) < PLAIN[1]:
         return f"{_short(mantissa)}e{int(exponent)}"

@@ -19,10 +19,13 @@ COLOURS = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9"  # of
 LAST_TURNS = 20.0  # of the shaft, that orbits show
 WINDOW, FEWEST = 2.0, 5  # length of the pieces of a waterfall, see there; and that many at least side by side
 ROWS, SPREAD = 120, 4.0  # spectra of a waterfall; its colours: decades below the highest
+BEYOND = 1.1  # where a waterfall ends, over the highest line in it
 LINE = 0.045  # height of a name over that of the diagram
 STRAIGHT = 0.1  # |whirl| below which a mode is called so
 DECADES = 6.0  # that spectra show
 MICRO = 1e6  # um in a metre
+
+_Ends = tuple[float | None, float]  # of the frequencies shown [Hz]: as asked for, and the usual one
 
 
 def draw_state(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
@@ -105,16 +108,15 @@ def films(axes: Any, state: Any) -> None:
 
 
 def draw_run(
-    run: Any, path: str | os.PathLike[str] | None, kind: str, most_hz: float, node: tuple[int, int] | None
+    run: Any,
+    path: str | os.PathLike[str] | None,
+    kind: str,
+    most_hz: _Ends,
+    shown: list[tuple[str, Any]],
 ) -> Any:
-    """Orbits, spectra or waterfalls of all rings of a `BearingRun` side by side, or of one node of the rotor."""
+    """Orbits, spectra or waterfalls of motions of a `BearingRun` side by side, under their titles."""
     from matplotlib.figure import Figure
 
-    bearings = run.ring.shape[1]
-    if node is None:
-        shown = [(f"bearing {b}", run.ring[:, b]) for b in range(bearings)]
-    else:
-        shown = [(f"degrees of freedom {node[0]}, {node[1]}", run.displacement[:, list(node)])]
     figure = Figure(figsize=(max(4.6 * len(shown), SIZE[0]), SIZE[1]), layout="constrained")
     draw = {"orbit": _orbit, "spectrum": _spectrum, "waterfall": _waterfall}[kind]
     for k, (name, motion) in enumerate(shown):
@@ -123,11 +125,11 @@ def draw_run(
         axes.set_title(name, fontsize=10)
     low, high = float(run.speed_rpm.min()), float(run.speed_rpm.max())
     speed = f"{low:g} rev/min" if low == high else f"{low:g} to {high:g} rev/min"
-    figure.suptitle(f"{kind} of the {'inner ring' if node is None else 'rotor'}, {speed}")
+    figure.suptitle(f"{kind}, {speed}")
     return _written(figure, path)
 
 
-def _orbit(axes: Any, run: Any, motion: Any, most_hz: float, colour: str) -> None:
+def _orbit(axes: Any, run: Any, motion: Any, _: _Ends, colour: str) -> None:
     """Path over the last turns; a dot where it ends."""
     turned = (
         np.concatenate([[0.0], np.cumsum(0.5 * (run.speed_rpm[1:] + run.speed_rpm[:-1]) * np.diff(run.t))]) / 60.0
@@ -150,8 +152,9 @@ def _amplitudes(signal: Any, dt: float) -> tuple[Any, Any]:
     return np.fft.rfftfreq(signal.size, dt), lines
 
 
-def _spectrum(axes: Any, run: Any, motion: Any, most_hz: float, _: str) -> None:
+def _spectrum(axes: Any, run: Any, motion: Any, ends: _Ends, _: str) -> None:
     """Amplitudes of the second half of a run, when its start is forgotten."""
+    most_hz = ends[0] or ends[1]
     half, dt = run.t.size // 2, float(run.t[1] - run.t[0])
     for k, (name, colour) in enumerate((("x", OUTER), ("y", INNER))):
         hz, lines = _amplitudes(motion[half:, k], dt)
@@ -167,7 +170,7 @@ def _spectrum(axes: Any, run: Any, motion: Any, most_hz: float, _: str) -> None:
     axes.legend(frameon=False, fontsize=8)
 
 
-def _waterfall(axes: Any, run: Any, motion: Any, most_hz: float, _: str) -> None:
+def _waterfall(axes: Any, run: Any, motion: Any, ends: _Ends, _: str) -> None:
     """Spectra of y piece by piece, over the time, or over the speed where it changes one way."""
     dt, count = float(run.t[1] - run.t[0]), run.t.size
     # a line that moves by r Hz/s is sharpest in pieces of 1/sqrt(r) s; the window sees half of one
@@ -178,7 +181,7 @@ def _waterfall(axes: Any, run: Any, motion: Any, most_hz: float, _: str) -> None
     middle = np.minimum(starts + piece // 2, count - 1)
     rows = [_amplitudes(motion[start : start + piece, 1], dt) for start in starts.tolist()]
     hz = rows[0][0]
-    shown = hz <= most_hz
+    shown = hz <= (ends[0] or ends[1])
     level = np.log10(np.array([row[1][shown] for row in rows]) * MICRO + 1e-12)
     rises = np.diff(run.speed_rpm)
     over_speed = bool(rises.any() and (np.all(rises >= 0.0) or np.all(rises <= 0.0)))
@@ -197,7 +200,10 @@ def _waterfall(axes: Any, run: Any, motion: Any, most_hz: float, _: str) -> None
         color="white",
         fontsize=8,
     )
-    axes.set_xlim(0.0, hz[shown][-1])
+    seen = hz[shown][(level > most - SPREAD).any(axis=0)]
+    turning = float(run.speed_rpm.max()) / 60.0
+    last = hz[shown][-1]
+    axes.set_xlim(0.0, last if ends[0] else min(last, BEYOND * max(float(seen.max()), turning)))
     axes.set_xlabel("frequency [Hz]")
     axes.set_ylabel("speed [rev/min]" if over_speed else "time [s]")
 

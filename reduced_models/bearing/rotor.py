@@ -62,6 +62,13 @@ class BearingMount:
             raise InputError("cage_angle", self.cage_angle, "between -2 pi and 2 pi; angles are in radians")
 
 
+class _Names(dict[str, tuple[int, int]]):
+    """Degrees of freedom by name; a name that is not there is told with those that are."""
+
+    def __missing__(self, name: object) -> tuple[int, int]:
+        raise InputError("node", name, f"one of {', '.join(self)}" if self else "none: the rotor has no names")
+
+
 @dataclass(frozen=True, kw_only=True)
 class Unbalance:
     """Mass times eccentricity [kg m] at two degrees of freedom; `phase` [rad] ahead of the shaft's angle."""
@@ -138,7 +145,9 @@ class MatrixRotor:
             taken.append(ends[0])
         for i, unbalance in enumerate(self.unbalances):
             self._require_there(f"unbalances[{i}]", (unbalance.x, unbalance.y))
-        object.__setattr__(self, "nodes", MappingProxyType({name: tuple(at) for name, at in self.nodes.items()}))
+        object.__setattr__(
+            self, "nodes", MappingProxyType(_Names((k, (at[0], at[1])) for k, at in self.nodes.items()))
+        )
         for name, pair in self.nodes.items():
             self._require_there(f"nodes[{name!r}]", pair)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import ceil
 from pathlib import Path
 from typing import Any, Self
@@ -54,6 +54,10 @@ class BearingRun:
     largest_load : ndarray, shape (bearings, 2)
         Largest force that any ball had, on the inner and on the outer race [N].
     status : Status
+    nodes : ndarray, shape (n, 2)
+        Degrees of freedom x, y of the nodes of the rotor that have a name.
+    names : tuple of str
+        Those names.
     """
 
     t: _Floats
@@ -65,6 +69,8 @@ class BearingRun:
     iterations: NDArray[np.int64]
     largest_load: _Floats
     status: Status
+    nodes: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 2), np.int64), metadata={"later": True})
+    names: tuple[str, ...] = field(default=(), metadata={"later": True})
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write as HDF5; raises `InputError` where the file cannot be written."""
@@ -82,7 +88,7 @@ class BearingRun:
         *,
         kind: str = "orbit",
         most_hz: float | None = None,
-        node: tuple[int, int] | None = None,
+        node: str | tuple[int, int] | None = None,
     ) -> Any:
         """Matplotlib figure of the rings' motion, or of another node's; into a file too where a path is given.
 
@@ -94,9 +100,10 @@ class BearingRun:
             Paths over the last turns; amplitudes over frequency, of the second half of the run; such amplitudes
             of y piece by piece, over the speed or, where that is constant, the time.
         most_hz : float, optional
-            End of the frequencies shown; by default 20 times the highest speed, as far as the steps resolve it.
-        node : (int, int), optional
-            Degrees of freedom x, y of the rotor that are shown in place of the rings, as ``rotor.nodes["disc"]``.
+            End of the frequencies shown; by default 20 times the highest speed, as far as the steps resolve it and
+            a waterfall shows anything there.
+        node : str or (int, int), optional
+            What is shown in place of the rings: the name of a node, as "disc", or its degrees of freedom x, y.
 
         Raises
         ------
@@ -109,17 +116,23 @@ class BearingRun:
             raise InputError("kind", kind, f"one of {', '.join(KINDS)}")
         if self.t.size <= LEAST_STEPS:
             raise InputError("steps of the run", self.t.size - 1, f"at least {LEAST_STEPS}, for a figure")
-        highest = 0.5 / float(self.t[1] - self.t[0])
-        if most_hz is None:
-            turning = float(self.speed_rpm.max()) / 60.0
-            most_hz = min(ORDERS_SHOWN * turning, highest) if turning > 0.0 else highest
-        if node is not None:
-            most = self.displacement.shape[1] - 1
-            if len(node) != 2 or not all(
-                0 <= require_integer("node", at, "whole numbers", 0) <= most for at in node
-            ):
-                raise InputError("node", node, f"two degrees of freedom from 0 to {most}")
-        return draw_run(self, path, kind, min(require_positive("most_hz", most_hz), highest), node)
+        highest, turning = 0.5 / float(self.t[1] - self.t[0]), float(self.speed_rpm.max()) / 60.0
+        if most_hz is not None:
+            most_hz = min(require_positive("most_hz", most_hz), highest)
+        usual = min(ORDERS_SHOWN * turning, highest) if turning > 0.0 else highest
+        return draw_run(self, path, kind, (most_hz, usual), self._shown(node))
+
+    def _shown(self, node: str | tuple[int, int] | None) -> list[tuple[str, _Floats]]:
+        """Motions x, y of what a figure shows, with their titles."""
+        if node is None:
+            return [(f"inner ring of bearing {b}", self.ring[:, b]) for b in range(self.ring.shape[1])]
+        named = dict(zip(self.names, map(tuple, self.nodes.tolist()), strict=True))
+        pair, most = named.get(node, ()) if isinstance(node, str) else node, self.displacement.shape[1] - 1
+        if len(pair) != 2 or not all(0 <= require_integer("node", at, "whole numbers", 0) <= most for at in pair):
+            known = f"one of {', '.join(named)}, or " if named else ""
+            raise InputError("node", node, f"{known}two degrees of freedom from 0 to {most}")
+        titles = {at: name for name, at in named.items()}
+        return [(titles.get(pair, f"degrees of freedom {pair[0]}, {pair[1]}"), self.displacement[:, list(pair)])]
 
 
 def simulate_on_bearings(
@@ -325,4 +338,6 @@ class _Run:
             iterations=iterations[kept],
             largest_load=np.array([films.largest for films in self.films]),
             status=status,
+            nodes=np.array(list(self.rotor.nodes.values()), np.int64).reshape(-1, 2),
+            names=tuple(self.rotor.nodes),
         )

@@ -23,8 +23,8 @@ SAME = 1e-6  # of the shaft's length: positions nearer than that are one
 def rotor_on_bearings(
     shaft: Shaft,
     *,
-    discs: Sequence[Disc],
     supports: Sequence[Support],
+    discs: Sequence[Disc] = (),
     gravity: tuple[float, float] = (0.0, -9.81),
 ) -> MatrixRotor:
     """Jeffcott's rotor and its relatives on ball bearings, which may differ: discs anywhere, beyond a bearing too.
@@ -37,9 +37,10 @@ def rotor_on_bearings(
     ----------
     shaft : Shaft
         Without mass: its nodes between discs and bearings are left out, which is exact.
-    discs : sequence of Disc
     supports : sequence of Support
         At least two, at different places.
+    discs : sequence of Disc
+        None of a bare shaft with a mass of its own.
     gravity : (float, float)
         Acceleration [m/s2] along x and y; (0, 0) of a rotor that stands upright.
 

@@ -54,8 +54,10 @@ def test_json_is_what_the_library_has(call):
     assert found["speed_rpm"] == [1000.0, 3000.0] and found["highest_speed_rpm"] == bearing.highest_speed
     for k, speed in enumerate(found["speed_rpm"]):
         at = bearing.coefficients((0.0, -1000.0), speed_rpm=speed, rpm=speed)
-        np.testing.assert_array_equal(found["stiffness"][k], at.stiffness[0])
-        np.testing.assert_array_equal(found["damping"][k], at.damping[0])
+        np.testing.assert_array_equal(found["coefficients"][k]["stiffness"], at.stiffness[0])
+        np.testing.assert_array_equal(found["coefficients"][k]["damping"], at.damping[0])
+        assert found["coefficients"][k]["frequency_hz"] == pytest.approx(speed / 60.0)
+        np.testing.assert_array_equal(found["coefficients"][k]["mean_displacement"], at.displacement)
         state = bearing.equilibrium((0.0, -1000.0), speed_rpm=speed)
         assert found["states"][k]["rolling_torque"] == state.rolling_torque
         for name in ("force", "h_min", "lambda_ratio", "angles", "moment"):
@@ -86,7 +88,7 @@ def test_a_dry_bearing_has_no_film_and_no_highest_speed(call):
     # Harris, Rolling Bearing Analysis, ch. 7
     loads = np.array(found["states"][0]["force"])[:3, 0]
     np.testing.assert_allclose(loads, [4527.0, 2840.0, 61.0], rtol=0.01)
-    assert found["highest_speed_rpm"] is None and not np.any(found["damping"])
+    assert found["highest_speed_rpm"] is None and not np.any(found["coefficients"][0]["damping"])
 
 
 def test_a_file_and_options_that_stand_in_for_its_entries(call, file):
@@ -97,8 +99,21 @@ def test_a_file_and_options_that_stand_in_for_its_entries(call, file):
     assert hot["load"] == 500.0 and hot["bearing"]["oil"]["eta0"] < 0.5 * alone["bearing"]["oil"]["eta0"]
     sizes = 'balls = 9\nball_diameter_mm = 7.94004\npitch_diameter_mm = 39.0398\nname = "mine"'
     own = json.loads(call("bearing", file({'catalogue = "6205"': sizes}), "--json", "-").out)
-    np.testing.assert_allclose(own["stiffness"], alone["stiffness"], rtol=1e-6, atol=1.0)
+    np.testing.assert_allclose(
+        own["coefficients"][0]["stiffness"], alone["coefficients"][0]["stiffness"], rtol=1e-6, atol=1.0
+    )
     assert own["bearing"]["name"] == "mine"
+    heavy = json.loads(call("bearing", file({"# ball_inertia": "ball_inertia"}), "--json", "-").out)
+    assert heavy["bearing"]["ball_inertia"] is True and alone["bearing"]["ball_inertia"] is False
+
+
+def test_every_entry_with_a_unit_is_there_and_zero_has_no_sign(call):
+    result = call("bearing", "6205", *OIL, "--rq", "0.1", "--load", "0", "--speed", "3000", "--json", "-")
+    found = json.loads(result.out)
+    assert found["coefficients"][0]["frequency_hz"] == 50.0
+    inner = found["coefficients"][0].keys() | found["states"][0].keys()
+    assert found["units"].keys() <= found.keys() | inner
+    assert "-0 " not in call("bearing", "6205", *OIL, "--load", "0", "--speed", "3000").out
 
 
 @pytest.mark.parametrize(("speeds", "oil"), [(("3000",), OIL), (("500", "6000"), OIL), (("0",), ())])

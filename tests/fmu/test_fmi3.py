@@ -15,7 +15,7 @@ from fmpy.validation import validate_fmu
 
 from fmu import export_contact, verify
 from fmu.build import CSRC
-from fmu.driver3 import Exchange3, Slave3
+from fmu.driver import Exchange, Slave
 
 EXTRAPOLATED, END, HELD = 1, 2, 3
 STRICT = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Werror"]
@@ -37,16 +37,16 @@ def folders3(fmus3, tmp_path_factory):
 
 @pytest.fixture
 def made3(folders3):
-    """Make instances of FMI 3.0: ``made3(Slave3, "wide", meaning)``."""
+    """Make instances of FMI 3.0: ``made3(Slave, "wide", meaning)``."""
     made = []
 
     def make(kind, name, meaning=None, **options):
         values = options.pop("values", {})
         unit = kind(folders3[name], fmpy.read_model_description(folders3[name]), [], **options)
         made.append(unit)
-        if kind is Slave3 and meaning is not None:
-            unit.start(meaning, **values)
-        elif kind is Exchange3:
+        if kind is Slave and meaning is not None:
+            unit.start(input_meaning=meaning, **values)
+        elif kind is Exchange:
             unit.start()
         return unit
 
@@ -86,7 +86,7 @@ def test_archive_has_what_the_standard_wants(fmus3):
 
 @pytest.mark.parametrize("kind", ["cubic", "wide_si"])
 def test_both_versions_give_the_same_digits(made3, slave, kind, elements):
-    old, new = slave(kind, meaning=EXTRAPOLATED), made3(Slave3, kind, EXTRAPOLATED)
+    old, new = slave(kind, meaning=EXTRAPOLATED), made3(Slave, kind, EXTRAPOLATED)
     _, length, time = getattr(elements[kind], "_units", (1.0, 1.0, 1.0))
     for k in range(200):
         at = {"approach": (0.4 + 0.9 * np.cos(0.05 * k)) * length, "rate": -0.9 * np.sin(0.05 * k) * length / time}
@@ -98,7 +98,7 @@ def test_both_versions_give_the_same_digits(made3, slave, kind, elements):
 
 @pytest.mark.parametrize("kind", ["polynomial", "memory", "wide_si"])
 def test_adjoint_is_the_transposed_jacobian(made3, kind):
-    unit = made3(Exchange3, kind)
+    unit = made3(Exchange, kind)
     states = [v.variable.name[4:-1] for v in unit.description.derivatives]
     x = 0.1 * np.sin(np.arange(len(states)))
     start = unit.get("approach")[0]
@@ -121,7 +121,7 @@ def test_event_mode_at_lift_off(made3, elements, kind):
     u0, v0 = 0.9, -3.0 if kind == "cubic" else -30.0
     ends = {}
     for early in (True, False):
-        unit = made3(Slave3, kind, EXTRAPOLATED, eventModeUsed=True, earlyReturnAllowed=early,
+        unit = made3(Slave, kind, EXTRAPOLATED, eventModeUsed=True, earlyReturnAllowed=early,
                      values={"approach": u0, "rate": v0})  # fmt: skip
         unit.raw.updateDiscreteStates()
         unit.raw.enterStepMode()
@@ -140,7 +140,7 @@ def test_event_mode_at_lift_off(made3, elements, kind):
             unit.set(approach=u0 + v0 * until)
             assert not unit.step(0.1)[0]
     assert ends[False] == 2.0
-    fine = made3(Slave3, kind, EXTRAPOLATED, values={"approach": u0, "rate": v0})
+    fine = made3(Slave, kind, EXTRAPOLATED, values={"approach": u0, "rate": v0})
     z = fine.reference["contact_indicator"]
     fine.raw.doStep(0.0, ends[True] * (1.0 - 1e-4))
     assert fine.raw.getFloat64([z])[0] > 0.0
@@ -151,7 +151,7 @@ def test_event_mode_at_lift_off(made3, elements, kind):
 @pytest.mark.parametrize("meaning", [END, HELD])
 def test_only_an_extrapolated_step_returns_early(made3, meaning):
     """Of the others no motion within the step is known."""
-    unit = made3(Slave3, "cubic", meaning, eventModeUsed=True, earlyReturnAllowed=True, values={"approach": 0.9})
+    unit = made3(Slave, "cubic", meaning, eventModeUsed=True, earlyReturnAllowed=True, values={"approach": 0.9})
     unit.raw.updateDiscreteStates()
     unit.raw.enterStepMode()
     unit.set(approach=-0.5)
@@ -171,8 +171,8 @@ def test_intermediate_update_may_read_and_nothing_else(made3):
         except FMICallException:
             failed.append(True)
 
-    unit = made3(Slave3, "wide", intermediateUpdate=update)
-    unit.start(END)
+    unit = made3(Slave, "wide", intermediateUpdate=update)
+    unit.start(input_meaning=END)
     for _ in range(3):
         unit.set(approach=0.9)
         unit.step(0.1)
@@ -185,7 +185,7 @@ def test_intermediate_update_may_read_and_nothing_else(made3):
 
 
 def test_derivatives_of_outputs_and_states_saved(made3):
-    unit = made3(Slave3, "wide", EXTRAPOLATED, values={"approach": 0.9, "rate": 0.1})
+    unit = made3(Slave, "wide", EXTRAPOLATED, values={"approach": 0.9, "rate": 0.1})
     unit.step(0.01)
     slope = unit.raw.getOutputDerivatives([unit.reference["force"]], [1])[0]
     assert slope == pytest.approx(
@@ -200,12 +200,12 @@ def test_derivatives_of_outputs_and_states_saved(made3):
     blob = unit.raw.serializeFMUState(state)
     unit.step(0.01)
     first = unit.get("force", "time")
-    other = made3(Slave3, "wide", END)
+    other = made3(Slave, "wide", END)
     other.raw.setFMUState(other.raw.deserializeFMUState(blob))
     other.time = 0.01
     other.step(0.01)
     assert other.get("force", "time") == first
-    exchange = made3(Exchange3, "wide")
+    exchange = made3(Exchange, "wide")
     with pytest.raises(FMICallException):
         exchange.raw.deserializeFMUState(blob)
     with pytest.raises(FMICallException):

@@ -61,7 +61,7 @@ import fmpy
 from fmu.driver import Slave
 folder = {str(extracted[kind])!r}
 unit = Slave(folder, fmpy.read_model_description(folder), [])
-unit.start(1)
+unit.start(input_meaning=1)
 unit.raw.setFMUState(unit.raw.deserializeFMUState(open({str(file)!r}, "rb").read()))
 unit.set(approach={0.7 * element._units[1]!r})
 unit.raw.doStep(

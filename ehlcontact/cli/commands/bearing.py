@@ -33,6 +33,29 @@ if TYPE_CHECKING:
 CURVE = 15  # speeds of the curves of a figure
 BESIDE = (0.5, 2.0)  # over a single speed: where its curves begin and end
 _OIL, _BEARING = "Oil", "Bearing"
+# Of the entries of the JSON, whatever they are nested in; what is not here has no unit, or is told by its name.
+UNITS = {
+    "load": "N; (x, y), downwards is -y",
+    "force": "N",
+    "speed_rpm": "rev/min, of the shaft",
+    "orders": "per turn of the shaft",
+    "coefficients": "of small vibrations at frequency_hz, that of the shaft; means over a ball passage; in x, y",
+    "stiffness": "N/m; of a state: slope of the static force",
+    "damping": "N s/m",
+    "mean_displacement": "m; of the inner ring, mean over a ball passage",
+    "swing": "m; peak to peak, as a ball passes slowly",
+    "states": "at rest with a ball right under the load",
+    "displacement": "m; of the inner ring in that state",
+    "angles": "rad",
+    "cage_angle": "rad, of the first ball",
+    "approach": "m",
+    "h_central": "m",
+    "h_min": "m",
+    "lambda_ratio": "smallest film over composite roughness",
+    "moment": "N m",
+    "rolling_torque": "N m",
+    "bearing": "SI, roughness and clearance too",
+}
 
 
 @dataclass(frozen=True)
@@ -44,17 +67,25 @@ class BearingReport:
     coefficients: tuple[BearingCoefficients, ...]
 
     def summary(self) -> dict[str, Any]:
-        """For JSON; SI units and rev/min, arrays over balls with inner and outer race."""
+        """For JSON; arrays over balls have a row per ball, with inner and outer race."""
         bearing = self.job.bearing
         return {
+            "units": UNITS,
             "bearing": bearing.to_dict(),
             "load": self.job.load,
             "highest_speed_rpm": bearing.highest_speed,
             "orders": asdict(bearing.orders),
             "speed_rpm": list(self.job.speeds),
-            "stiffness": [c.stiffness[0] for c in self.coefficients],
-            "damping": [c.damping[0] for c in self.coefficients],
-            "displacement": [c.displacement for c in self.coefficients],
+            "coefficients": [
+                {
+                    "frequency_hz": float(c.hz[0]),
+                    "stiffness": c.stiffness[0],
+                    "damping": c.damping[0],
+                    "mean_displacement": c.displacement,
+                    "swing": c.swing,
+                }
+                for c in self.coefficients
+            ],
             "frequencies_hz": [asdict(bearing.frequencies(speed)) for speed in self.job.speeds],
             "states": [state.to_dict() for state in self.states],
         }

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import Field, ValidationError
+from pydantic import Field, StrictBool, ValidationError
 
 from ehlcontact.cli.study.schema import Finite, NotNegative, Oil, Positive, Roughness, Section
 from ehlcontact.cli.study.slips import QUANTITIES, broken_line, first_error, in_other_kind
@@ -55,6 +55,7 @@ class Bearing(Section):
     clearance_um: Finite | None = None  # below 0: preload
     film_limit_um: Positive | None = None
     loss_factor: NotNegative | None = None  # of rings and fits
+    ball_inertia: StrictBool | None = None  # balls vibrate between the rings
     youngs_modulus: Positive | None = None
     poisson_ratio: Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)] | None = None
 
@@ -160,7 +161,7 @@ def _bearing(found: BearingFile) -> BallBearing:
         if both:
             raise InputError(f"surface.{both[0]}_um", lengths[both[0]] * 1e6, "left out where rq_um is given")
         lengths["rq_race"] = surface.rq_um * 1e-6
-    names = ["name", "balls", "conformity_inner", "conformity_outer", "loss_factor"]
+    names = ["name", "balls", "conformity_inner", "conformity_outer", "loss_factor", "ball_inertia"]
     names += ["youngs_modulus", "poisson_ratio"]
     others = {name: getattr(b, name) for name in names if getattr(b, name) is not None}
     oil = found.oil.lubricant if "oil" in found.model_fields_set else None

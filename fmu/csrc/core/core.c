@@ -2,7 +2,6 @@
 #include "core.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "variables.h"
@@ -25,21 +24,19 @@ void core_start(State *s, Kind kind)
     for (i = 0; i < N_VARIABLES; i++) {
         s->model.value[i] = core_variables[i].start;
     }
-    s->model.approach = s->model.value[VR_approach];
-    s->model.rate = s->model.value[VR_rate];
+    memcpy(s->model.input, s->model.value, sizeof s->model.input);
     s->tolerance = DEFAULT_TOLERANCE;
     s->phase = INSTANTIATED;
     s->kind = (int)kind;
     s->stale = STALE_LAW | STALE_OUTPUTS | STALE_RATES;
 }
 
-Fault core_may_get(unsigned int reference, Type type)
+static int is_known(unsigned int reference, Type type)
 {
-    if (reference >= N_VARIABLES || core_variables[reference].type != type) {
-        return refuse("no variable of this type has this value reference");
-    }
-    return fine;
+    return reference < N_VARIABLES && core_variables[reference].type == type;
 }
+
+static const char unknown[] = "no variable of this type has this value reference";
 
 /* The phases in which a variable of this role may be set; none for what is computed. */
 static int settable_in(Role role, int kind)
@@ -55,10 +52,9 @@ static int settable_in(Role role, int kind)
 
 Fault core_may_set(const State *s, unsigned int reference, Type type, double value)
 {
-    const Fault unknown = core_may_get(reference, type);
     int phases;
-    if (unknown.severity != FINE) {
-        return unknown;
+    if (!is_known(reference, type)) {
+        return refuse(unknown);
     }
     phases = settable_in(core_variables[reference].role, s->kind);
     if (phases == 0) {
@@ -73,27 +69,39 @@ Fault core_may_set(const State *s, unsigned int reference, Type type, double val
     return fine;
 }
 
-void core_set(State *s, unsigned int reference, double value)
+Fault core_set(State *s, const unsigned int references[], size_t count, Type type, const double values[])
 {
-    const Role role = core_variables[reference].role;
-    s->model.value[reference] = value;
-    if (role == INPUT) {
-        s->model.approach = s->model.value[VR_approach];
-        s->model.rate = s->model.value[VR_rate];
+    size_t i;
+    for (i = 0; i < count; i++) {
+        const Fault fault = core_may_set(s, references[i], type, values[i]);
+        if (fault.severity != FINE) {
+            return fault;
+        }
     }
-    s->stale |= STALE_OUTPUTS | STALE_RATES | (role == TUNABLE ? STALE_LAW : 0);
+    for (i = 0; i < count; i++) {
+        const Role role = core_variables[references[i]].role;
+        s->model.value[references[i]] = values[i];
+        if (role == INPUT) {
+            memcpy(s->model.input, s->model.value, sizeof s->model.input);
+        }
+        s->stale |= STALE_OUTPUTS | STALE_RATES | (role == TUNABLE ? STALE_LAW : 0);
+    }
+    return fine;
 }
 
 /* Outputs that do not exist are no error of the call: other inputs or parameters can help. */
 Fault core_outputs(State *s)
 {
     Model prepared;
-    Fault fault = {DISCARD, "approach and rate must be finite"};
+    Fault fault = {DISCARD, INPUT_NAMES " must be finite"};
+    int k;
     if ((s->stale & (STALE_LAW | STALE_OUTPUTS)) == 0) {
         return fine;
     }
-    if (!(isfinite(s->model.approach) && isfinite(s->model.rate))) {
-        return fault;
+    for (k = 0; k < N_INPUTS; k++) {
+        if (!isfinite(s->model.input[k])) {
+            return fault;
+        }
     }
     if ((s->stale & STALE_LAW) == 0) {
         fault = model_evaluate(&s->model);
@@ -125,19 +133,27 @@ Fault core_rates(State *s)
     return fault;
 }
 
-Fault core_get(State *s, unsigned int reference, double *value)
+Fault core_get(State *s, const unsigned int references[], size_t count, Type type, double values[])
 {
-    const Role role = core_variables[reference].role;
-    Fault fault = fine;
-    if (role == OUTPUT || role == MEASURE) {
-        fault = core_outputs(s);
-    } else if (role == DERIVATIVE) {
-        fault = core_rates(s);
+    size_t i;
+    for (i = 0; i < count; i++) {
+        Role role;
+        Fault fault = fine;
+        if (!is_known(references[i], type)) {
+            return refuse(unknown);
+        }
+        role = core_variables[references[i]].role;
+        if (role == OUTPUT || role == MEASURE) {
+            fault = core_outputs(s);
+        } else if (role == DERIVATIVE) {
+            fault = core_rates(s);
+        }
+        if (fault.severity != FINE) {
+            return fault;
+        }
+        values[i] = s->model.value[references[i]];
     }
-    if (fault.severity == FINE) {
-        *value = s->model.value[reference];
-    }
-    return fault;
+    return fine;
 }
 
 /* ---- call sequence ---- */
@@ -163,9 +179,8 @@ Fault core_exit_initialization(State *s)
     if (fault.severity != FINE) {
         return refuse(fault.reason);
     }
-    s->now_approach = s->model.approach;
-    s->now_rate = s->model.rate;
-    s->in_contact = s->model.indicator > 0.0;
+    memcpy(s->now, s->model.input, sizeof s->now);
+    s->contact = core_contact(s);
     s->phase = s->kind == MODEL_EXCHANGE ? EVENT : STEPPING;
     return fine;
 }
@@ -190,13 +205,23 @@ Fault core_set_time(State *s, double time)
     return fine;
 }
 
+unsigned long long core_contact(const State *s)
+{
+    unsigned long long contact = 0;
+    int i;
+    for (i = 0; i < N_CONTACTS; i++) {
+        contact |= (s->model.indicator[i] > 0.0 ? 1ULL : 0ULL) << i;
+    }
+    return contact;
+}
+
 Fault core_contact_changed(State *s, int *changed)
 {
     const Fault fault = core_outputs(s);
     if (fault.severity == FINE) {
-        const int in_contact = s->model.indicator > 0.0;
-        *changed = in_contact != s->in_contact;
-        s->in_contact = in_contact;
+        const unsigned long long contact = core_contact(s);
+        *changed = contact != s->contact;
+        s->contact = contact;
     }
     return fault;
 }
@@ -205,18 +230,14 @@ Fault core_contact_changed(State *s, int *changed)
 
 const char *core_notice(State *s, char *text, size_t size)
 {
-    const double *value = s->model.value;
-    const int outside = (value[VR_outside_approach] > 0.0 ? 1 : 0) | (value[VR_outside_rate] > 0.0 ? 2 : 0)
-                        | (value[VR_outside_force] > 0.0 ? 4 : 0);
-    const int before = s->noticed;
+    static const char lead[] = "outside the validity box:";
+    const unsigned long long outside = model_outside(&s->model), before = s->noticed;
     s->noticed = outside;
     if ((outside & ~before) == 0) {
         return NULL;
     }
-    snprintf(text, size, "outside the validity box:%s%s%s",
-             (outside & 1) == 0 ? "" : s->model.approach < value[VR_low] ? " approach below low;" : " approach above high;",
-             (outside & 2) == 0 ? "" : " rate;", (outside & 4) == 0 ? "" : " force;");
-    text[strlen(text) - 1] = '\0';
+    memcpy(text, lead, sizeof lead);
+    model_name_outside(&s->model, outside, text + sizeof lead - 1, size - sizeof lead + 1);
     return text;
 }
 

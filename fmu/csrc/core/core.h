@@ -30,24 +30,24 @@ typedef enum { INPUT, TUNABLE, FIXED, CONSTANT, STATE, DERIVATIVE, OUTPUT, MEASU
 typedef struct {
     Type type;
     Role role;
-    double start;
+    double start, nominal;
 } Variable;
 
-enum { STALE_LAW = 1, STALE_OUTPUTS = 2, STALE_RATES = 4 };            /* what must be computed anew */
-enum { APPROACH_1 = 1, APPROACH_2 = 2, RATE_1 = 4, N_INPUT_SLOPES = 3 }; /* input derivatives that were set */
+enum { STALE_LAW = 1, STALE_OUTPUTS = 2, STALE_RATES = 4 }; /* what must be computed anew */
 
 /* All of an instance that can change, without padding: its bytes are the serialized state. */
 typedef struct {
     Model model;
     double time, stop_time, tolerance;
-    double now_approach, now_rate;              /* the motion at `time`, as far as the model has come */
-    double last_time, last_approach, last_rate; /* where the last step began, and the inputs that were set there */
-    double turn;                                /* d(rate)/dt at `time`, for the derivatives of outputs */
-    double input_slope[N_INPUT_SLOPES];         /* derivatives of the inputs, for the next step alone */
+    double now[N_INPUTS];                /* the inputs at `time`, as far as the model has come */
+    double last_time, last[N_INPUTS];    /* where the last step began, and the inputs that were set there */
+    double turn[N_INPUTS];               /* their slopes at `time`, for the derivatives of outputs */
+    double input_slope[2][N_INPUTS];     /* first and second derivatives of the inputs, for the next step alone */
+    unsigned long long slopes_set[2];    /* which of them were set: bit k is input k */
+    unsigned long long contact, noticed; /* bits: contacts that push; bounds whose leaving has been told */
     int phase, kind;
     int has_stop_time, has_last;
-    int input_slopes, stale;
-    int in_contact, noticed;
+    int stale, unused;
 } State;
 
 /* What saving a state keeps of it. */
@@ -59,15 +59,14 @@ typedef struct {
 
 void core_start(State *state, Kind kind);
 
-/* Why a variable of this type may not be set or read now; FINE if it may. */
+/* Why a variable of this type may not be set now; FINE if it may. */
 Fault core_may_set(const State *state, unsigned int reference, Type type, double value);
-Fault core_may_get(unsigned int reference, Type type);
 
-/* Sets what core_may_set has allowed. */
-void core_set(State *state, unsigned int reference, double value);
+/* Sets variables of a type, all or none: a bad reference must not leave half of them set. */
+Fault core_set(State *state, const unsigned int references[], size_t count, Type type, const double values[]);
 
-/* Reads what core_may_get has allowed, outputs after bringing them up to date. */
-Fault core_get(State *state, unsigned int reference, double *value);
+/* Reads variables of a type, outputs after bringing them up to date. */
+Fault core_get(State *state, const unsigned int references[], size_t count, Type type, double values[]);
 
 /* Brings outputs, or outputs and derivatives of the states, up to date. */
 Fault core_outputs(State *state);
@@ -94,6 +93,7 @@ Fault core_adjoint(State *state, const unsigned int unknowns[], size_t n_unknown
 void core_set_states(State *state, const double states[]);
 Fault core_set_time(State *state, double time);
 Fault core_contact_changed(State *state, int *changed);
+unsigned long long core_contact(const State *state); /* contacts that push, as bits; of an evaluated model */
 
 /* What is to be told of the validity box, once until it is something else: NULL, or written to `text`. */
 const char *core_notice(State *state, char *text, size_t size);

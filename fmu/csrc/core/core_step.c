@@ -33,49 +33,87 @@ static Fault check_step(const State *s, double time, double h)
     return fine;
 }
 
+static const int rate_of[N_INPUTS] = INPUT_RATES;
+
+static int is_set(const State *s, int order, int k)
+{
+    return (s->slopes_set[order - 1] >> k & 1U) != 0;
+}
+
+static int has_history(const State *s, double time)
+{
+    return s->has_last && time > s->last_time;
+}
+
+/* The slope of an input that is no approach, at the start of a step. */
+static double turn_of(const State *s, int k, double time)
+{
+    if (is_set(s, 1, k)) {
+        return s->input_slope[0][k];
+    }
+    return has_history(s, time) ? (s->model.value[k] - s->last[k]) / (time - s->last_time) : 0.0;
+}
+
 /* What the mean rate has missed of the last change of the approach, for the step to come. A master that advances the
  * approach by the rate at the end of its steps (symplectic Euler) misses half the change of the rate, in the next step
  * again; more than that is a jump, which tells nothing of the next step. */
-static double missed(const State *s, double turn, double time, double h)
+static double missed(const State *s, int k, double turn, double time, double h)
 {
     const double before = time - s->last_time, most = 0.5 * h * h * fabs(turn);
-    const double mean = 0.5 * (s->model.value[VR_rate] + s->last_rate);
-    const double again = (s->model.value[VR_approach] - s->last_approach - before * mean) * (h / before) * (h / before);
+    const double mean = 0.5 * (s->model.value[rate_of[k]] + s->last[rate_of[k]]);
+    const double again = (s->model.value[k] - s->last[k] - before * mean) * (h / before) * (h / before);
     return again > most ? most : again < -most ? -most : isfinite(again) ? again : 0.0;
 }
 
-/* The motion of a step, from the inputs and what they mean. */
-static Motion motion_of(const State *s, double time, double h)
+/* An input that goes on by its derivatives: those that were set, or an approach by its rate, others by their last change. */
+static void extrapolate(const State *s, int k, double time, double h, Motion *motion)
 {
-    const double u = s->model.value[VR_approach], v = s->model.value[VR_rate];
-    const double *slope = s->input_slope;
-    Motion m;
-    m.meaning = s->model.value[VR_input_meaning] < 1.5 ? EXTRAPOLATED
-                : s->model.value[VR_input_meaning] < 2.5 ? AT_THE_END : HELD;
-    m.approach = u;
-    m.rate = v;
-    m.slope = m.bend = m.turn = 0.0;
-    m.end_approach = u;
-    m.end_rate = v;
-    if (m.meaning == EXTRAPOLATED) {
-        if ((s->input_slopes & RATE_1) != 0) {
-            m.turn = slope[2];
-        } else if (s->has_last && time > s->last_time) {
-            m.turn = (v - s->last_rate) / (time - s->last_time);
-        }
-        m.slope = (s->input_slopes & APPROACH_1) != 0 ? slope[0] : v;
-        m.bend = (s->input_slopes & APPROACH_2) != 0 ? slope[1] : m.turn;
-        if (s->input_slopes == 0 && s->has_last && time > s->last_time) {
-            m.bend += 2.0 * missed(s, m.turn, time, h) / (h * h);
-        }
-        m.end_approach = u + h * (m.slope + 0.5 * h * m.bend);
-        m.end_rate = v + h * m.turn;
-    } else if (m.meaning == AT_THE_END) {
-        m.approach = s->now_approach;
-        m.rate = s->now_rate;
-        m.turn = (v - s->now_rate) / h;
+    const double x = s->model.value[k];
+    Path *p = &motion->input[k];
+    p->bend = 0.0;
+    if (rate_of[k] < 0) {
+        p->slope = turn_of(s, k, time);
+        p->end = x + h * p->slope;
+        return;
     }
-    return m;
+    p->slope = is_set(s, 1, k) ? s->input_slope[0][k] : s->model.value[rate_of[k]];
+    if (is_set(s, 2, k)) {
+        p->bend = s->input_slope[1][k];
+    } else {
+        p->bend = motion->input[rate_of[k]].slope;
+        if ((s->slopes_set[0] | s->slopes_set[1]) == 0 && has_history(s, time)) {
+            p->bend += 2.0 * missed(s, k, p->bend, time, h) / (h * h);
+        }
+    }
+    p->end = x + h * (p->slope + 0.5 * h * p->bend);
+}
+
+/* The motion of a step, from the inputs and what they mean. */
+static Fault motion_of(const State *s, double time, double h, Motion *motion)
+{
+    const Fault too_large = {DISCARD, "the motion of the inputs within the step is too large for a floating-point number"};
+    const double meaning = s->model.value[VR_input_meaning];
+    int k;
+    motion->meaning = meaning < 1.5 ? EXTRAPOLATED : meaning < 2.5 ? AT_THE_END : HELD;
+    for (k = N_INPUTS - 1; k >= 0; k--) { /* a rate before its approach */
+        const double x = s->model.value[k];
+        Path *p = &motion->input[k];
+        if (!isfinite(x)) {
+            return refuse(INPUT_NAMES " must be finite");
+        }
+        p->start = p->end = x;
+        p->slope = p->bend = 0.0;
+        if (motion->meaning == EXTRAPOLATED) {
+            extrapolate(s, k, time, h, motion);
+        } else if (motion->meaning == AT_THE_END) {
+            p->start = s->now[k];
+            p->slope = rate_of[k] < 0 ? (x - p->start) / h : 0.0;
+        }
+        if (!(isfinite(p->end) && isfinite(p->slope))) {
+            return too_large;
+        }
+    }
+    return fine;
 }
 
 /* Parameters that were tuned, before a step; on a copy, so that a law that is refused changes nothing. */
@@ -90,16 +128,12 @@ Fault core_step(State *s, double time, double h)
     Fault fault = check_step(s, time, h);
     Model tuned;
     Motion motion;
+    int k;
     if (fault.severity != FINE) {
         return fault;
     }
-    if (!(isfinite(s->model.value[VR_approach]) && isfinite(s->model.value[VR_rate]))) {
-        return refuse("approach and rate must be finite");
-    }
-    motion = motion_of(s, time, h);
-    if (!(isfinite(motion.end_approach) && isfinite(motion.end_rate) && isfinite(motion.turn))) {
-        fault.severity = DISCARD;
-        fault.reason = "the motion of the inputs within the step is too large for a floating-point number";
+    fault = motion_of(s, time, h, &motion);
+    if (fault.severity != FINE) {
         return fault;
     }
     if ((s->stale & STALE_LAW) != 0) {
@@ -117,32 +151,24 @@ Fault core_step(State *s, double time, double h)
         return fault;
     }
     s->last_time = time;
-    s->last_approach = s->model.value[VR_approach];
-    s->last_rate = s->model.value[VR_rate];
+    memcpy(s->last, s->model.value, sizeof s->last);
     s->has_last = 1;
     s->time = time + h;
-    s->now_approach = motion.end_approach;
-    s->now_rate = motion.end_rate;
-    s->turn = motion.turn;
-    s->input_slopes = 0;
+    for (k = 0; k < N_INPUTS; k++) {
+        s->now[k] = motion.input[k].end;
+        s->turn[k] = motion.input[k].slope;
+    }
+    s->slopes_set[0] = s->slopes_set[1] = 0;
     s->stale = N_STATES == 0 ? 0 : STALE_RATES;
     return fine;
 }
 
 /* ---- derivatives of inputs and outputs in time ---- */
 
-static int slope_entry(unsigned int reference, int order)
-{
-    if (reference == VR_approach && (order == 1 || order == 2)) {
-        return order - 1;
-    }
-    return reference == VR_rate && order == 1 ? 2 : -1;
-}
-
 Fault core_may_set_slope(const State *s, unsigned int reference, int order, double value)
 {
-    if (slope_entry(reference, order) < 0) {
-        return refuse("only derivatives of approach (order 1, 2) and rate (order 1) can be set");
+    if (reference >= N_INPUTS || !(order == 1 || (order == 2 && rate_of[reference] >= 0))) {
+        return refuse("only first derivatives of inputs can be set, and the second one of an approach");
     }
     if (!isfinite(value)) {
         return refuse("a derivative must be finite");
@@ -155,18 +181,20 @@ Fault core_may_set_slope(const State *s, unsigned int reference, int order, doub
 
 void core_set_slope(State *s, unsigned int reference, int order, double value)
 {
-    const int entry = slope_entry(reference, order);
-    s->input_slope[entry] = value;
-    s->input_slopes |= 1 << entry;
+    s->input_slope[order - 1][reference] = value;
+    s->slopes_set[order - 1] |= 1ULL << reference;
 }
 
 /* ---- partial derivatives ---- */
 
 static int is_unknown(unsigned int reference)
 {
-    return reference < N_VARIABLES
-           && (core_variables[reference].role == OUTPUT || core_variables[reference].role == DERIVATIVE)
-           && core_variables[reference].type == REAL;
+    Role role;
+    if (reference >= N_VARIABLES || core_variables[reference].type != REAL) {
+        return 0;
+    }
+    role = core_variables[reference].role;
+    return role == OUTPUT || role == DERIVATIVE || role == STATE; /* a state may be an output too */
 }
 
 static int is_known(unsigned int reference)
@@ -186,7 +214,7 @@ static Fault check_references(State *s, const unsigned int unknowns[], size_t n_
     int rates = 0;
     for (i = 0; i < n_unknowns; i++) {
         if (!is_unknown(unknowns[i])) {
-            return refuse("an unknown is a real output or the derivative of a state");
+            return refuse("an unknown is a real output, a state or its derivative");
         }
         rates |= core_variables[unknowns[i]].role == DERIVATIVE;
     }
@@ -196,6 +224,14 @@ static Fault check_references(State *s, const unsigned int unknowns[], size_t n_
         }
     }
     return rates ? core_rates(s) : core_outputs(s);
+}
+
+/* What is computed, and the states themselves, along a direction. */
+static void go_along(const State *s, const double direction[], double along[])
+{
+    memset(along, 0, N_VARIABLES * sizeof along[0]);
+    memcpy(&along[FIRST_STATE], &direction[FIRST_STATE], N_STATES * sizeof along[0]);
+    model_direction(&s->model, direction, along);
 }
 
 /* Derivatives along a direction may be too large even where the outputs are not. */
@@ -221,11 +257,10 @@ Fault core_directional(State *s, const unsigned int unknowns[], size_t n_unknown
         return fault;
     }
     memset(direction, 0, sizeof direction);
-    memset(along, 0, sizeof along);
     for (i = 0; i < n_knowns; i++) {
         direction[knowns[i]] += seed[i];
     }
-    model_direction(&s->model, direction, along);
+    go_along(s, direction, along);
     for (i = 0; i < n_unknowns; i++) {
         fault = check_finite(&along[unknowns[i]], 1);
         if (fault.severity != FINE) {
@@ -250,9 +285,8 @@ Fault core_adjoint(State *s, const unsigned int unknowns[], size_t n_unknowns, c
     memset(sums, 0, sizeof sums);
     for (j = 0; j < n_knowns; j++) {
         memset(direction, 0, sizeof direction);
-        memset(along, 0, sizeof along);
         direction[knowns[j]] = 1.0;
-        model_direction(&s->model, direction, along);
+        go_along(s, direction, along);
         sums[knowns[j]] = 0.0;
         for (i = 0; i < n_unknowns; i++) {
             sums[knowns[j]] += along[unknowns[i]] * seed[i];
@@ -273,8 +307,7 @@ Fault core_output_slope(State *s, unsigned int reference, double *value)
     double direction[N_VARIABLES], along[N_VARIABLES];
     Fault fault;
     int i;
-    if (reference >= N_VARIABLES || core_variables[reference].role != OUTPUT
-        || core_variables[reference].type != REAL) {
+    if (!is_unknown(reference) || core_variables[reference].role == DERIVATIVE) {
         return refuse("not a real output");
     }
     fault = core_rates(s);
@@ -282,13 +315,13 @@ Fault core_output_slope(State *s, unsigned int reference, double *value)
         return fault;
     }
     memset(direction, 0, sizeof direction);
-    memset(along, 0, sizeof along);
-    direction[VR_approach] = s->model.rate;
-    direction[VR_rate] = s->turn;
+    for (i = 0; i < N_INPUTS; i++) {
+        direction[i] = rate_of[i] < 0 ? s->turn[i] : s->model.input[rate_of[i]];
+    }
     for (i = 0; i < N_STATES; i++) {
         direction[FIRST_STATE + i] = s->model.value[FIRST_DERIVATIVE + i];
     }
-    model_direction(&s->model, direction, along);
+    go_along(s, direction, along);
     fault = check_finite(&along[reference], 1);
     if (fault.severity == FINE) {
         *value = along[reference];

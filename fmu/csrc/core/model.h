@@ -1,7 +1,10 @@
-/* What the common core asks of a model, and a model of the core. config.h is generated: it numbers the variables,
- * counts the states and says where the validity box ends. A Model is plain numbers, so copying it saves it. */
+/* What the common core asks of a model, and a model of the core. config.h is generated: it numbers the variables, the
+ * inputs first, counts them, states and contacts, says which later input is the rate of one (INPUT_RATES, -1 for none) and
+ * where a validity box ends. A Model is plain numbers, so copying it saves it. */
 #ifndef MODEL_H
 #define MODEL_H
+
+#include <stddef.h>
 
 #include "config.h"
 
@@ -20,31 +23,33 @@ typedef struct {
 typedef enum { EXTRAPOLATED = 1, AT_THE_END = 2, HELD = 3 } Meaning;
 
 typedef struct {
-    double value[N_VARIABLES]; /* by value reference; a Boolean is 0 or 1 */
-    double approach, rate;     /* that the outputs belong to: those of the inputs, or of the end of a step */
-    double indicator;          /* of contact: > 0 while the surfaces push */
-    double cache[N_CACHE];     /* what follows from parameters, approach and rate alone */
+    double value[N_VARIABLES];   /* by value reference; a Boolean is 0 or 1 */
+    double input[N_INPUTS];      /* that the outputs belong to: those that were set, or those of the end of a step */
+    double indicator[N_CONTACTS > 0 ? N_CONTACTS : 1]; /* of each contact: > 0 while the surfaces push */
+    double cache[N_CACHE];       /* what a model remembers besides */
 } Model;
 
-/* How approach and rate go through a step, t from its start:
- * approach + slope t + bend t^2/2, and rate + turn t; with AT_THE_END only both ends are known. */
+/* How an input goes through a step, t from its start: start + slope t + bend t^2/2, until end. */
+typedef struct {
+    double start, slope, bend, end;
+} Path;
+
+/* The inputs of a step; with AT_THE_END only both ends of an approach are known. */
 typedef struct {
     Meaning meaning;
-    double approach, slope, bend;
-    double rate, turn;
-    double end_approach, end_rate;
+    Path input[N_INPUTS];
 } Motion;
 
 /* Checks the parameters and fills the cache with what follows from them. May leave anything in a model it refuses. */
 Fault model_prepare(Model *model);
 
-/* Outputs and indicator at model->approach, model->rate and the states; untouched if it refuses. */
+/* Outputs and indicators at model->input and the states; untouched if it refuses. */
 Fault model_evaluate(Model *model);
 
 /* Derivatives of the states, of an evaluated model. */
 Fault model_rates(Model *model);
 
-/* Moves the states along `motion` for a time h, approach and rate to its end, and evaluates there;
+/* Moves the states along `motion` for a time h, the inputs to its end, and evaluates there;
  * a relative error of the force of about `tolerance` is allowed. Untouched if it refuses. */
 Fault model_step(Model *model, const Motion *motion, double h, double tolerance);
 
@@ -52,7 +57,8 @@ Fault model_step(Model *model, const Motion *motion, double h, double tolerance)
  * of an evaluated model. Entries of `along` that are neither stay as they are. */
 void model_direction(const Model *model, const double seed[], double along[]);
 
-/* Says which bounds of the validity box are left; of an evaluated model. */
-void model_watch(Model *model);
+/* Which bounds of validity boxes an evaluated model has left, as bits, and in words those in `which`. */
+unsigned long long model_outside(const Model *model);
+void model_name_outside(const Model *model, unsigned long long which, char *text, size_t size);
 
 #endif

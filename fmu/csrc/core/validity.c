@@ -1,18 +1,35 @@
-/* Which bounds of the validity box a state leaves, as reduced_models.elements.validity has it: a margin goes unmentioned. */
-#include <math.h>
+/* Which bounds of the validity box a contact leaves, as reduced_models.elements.validity has it: a margin goes
+ * unmentioned. */
+#include "validity.h"
 
-#include "model.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 void model_watch(Model *m)
 {
     double *value = m->value;
     const double slack = BOX_MARGIN * (value[VR_high] - value[VR_low]);
-    const double force = value[VR_force];
-    const int approach = !(value[VR_low] - slack <= m->approach && m->approach <= value[VR_high] + slack);
-    const int rate = !(fabs(m->rate) <= (1.0 + BOX_MARGIN) * BOX_RATE);
+    const double force = value[VR_force], u = m->input[VR_approach], v = m->input[VR_rate];
+    const int approach = !(value[VR_low] - slack <= u && u <= value[VR_high] + slack);
+    const int rate = !(fabs(v) <= (1.0 + BOX_MARGIN) * BOX_RATE);
     const int load = !(BOX_LEAST_FORCE <= force && force <= BOX_MOST_FORCE);
     value[VR_outside_approach] = approach;
     value[VR_outside_rate] = rate;
     value[VR_outside_force] = load;
     value[VR_outside_validity] = approach || rate || load;
+}
+
+unsigned long long model_outside(const Model *m)
+{
+    return (m->value[VR_outside_approach] > 0.0 ? 1U : 0U) | (m->value[VR_outside_rate] > 0.0 ? 2U : 0U)
+           | (m->value[VR_outside_force] > 0.0 ? 4U : 0U);
+}
+
+void model_name_outside(const Model *m, unsigned long long which, char *text, size_t size)
+{
+    const char *approach = m->input[VR_approach] < m->value[VR_low] ? " approach below low;" : " approach above high;";
+    snprintf(text, size, "%s%s%s", (which & 1U) == 0 ? "" : approach, (which & 2U) == 0 ? "" : " rate;",
+             (which & 4U) == 0 ? "" : " force;");
+    text[strlen(text) - 1] = '\0';
 }

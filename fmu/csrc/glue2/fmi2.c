@@ -68,11 +68,6 @@ void notice(Instance *instance, const char *function)
     }
 }
 
-int missing(const void *references, const void *values, size_t count)
-{
-    return count > 0 && (references == NULL || values == NULL);
-}
-
 /* ---- versions, logging ---- */
 
 const char *fmi2GetTypesPlatform(void)

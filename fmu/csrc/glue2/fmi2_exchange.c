@@ -113,7 +113,7 @@ fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real x_nominal
         return fmi2Error;
     }
     for (i = 0; i < N_STATES; i++) {
-        x_nominal[i] = STATE_NOMINAL;
+        x_nominal[i] = core_variables[FIRST_STATE + i].nominal;
     }
     return fmi2OK;
 }
@@ -138,8 +138,9 @@ fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real derivatives[], size_t nx
 
 fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real eventIndicators[], size_t ni)
 {
-    Instance *instance = sized(c, READABLE, eventIndicators, ni, 1, "fmi2GetEventIndicators");
+    Instance *instance = sized(c, READABLE, eventIndicators, ni, N_CONTACTS, "fmi2GetEventIndicators");
     Fault fault;
+    int i;
     if (instance == NULL) {
         return fmi2Error;
     }
@@ -147,6 +148,8 @@ fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real eventIndicators[], s
     if (fault.severity != FINE) {
         return outcome(instance, fault, "fmi2GetEventIndicators");
     }
-    eventIndicators[0] = instance->state.model.indicator;
+    for (i = 0; i < N_CONTACTS; i++) {
+        eventIndicators[i] = instance->state.model.indicator[i];
+    }
     return fmi2OK;
 }

@@ -35,7 +35,10 @@ Instance *enter_as(fmi2Component c, Kind kind, int phases, const char *function)
 void notice(Instance *instance, const char *function);
 
 /* NULL arrays are legal only for no elements. */
-int missing(const void *references, const void *values, size_t count);
+static inline int missing(const void *references, const void *values, size_t count)
+{
+    return count > 0 && (references == NULL || values == NULL);
+}
 
 /* Zeroed memory from the importer's allocator, where it has one. */
 void *allocate(const fmi2CallbackFunctions *callbacks, size_t size);

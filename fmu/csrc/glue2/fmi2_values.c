@@ -1,89 +1,60 @@
 /* FMI 2.0 around the core: variables and directional derivatives. */
 #include "fmi2_instance.h"
 
-static fmi2Status get(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, Type type, const void *values,
-                      Instance **instance, const char *function)
-{
-    size_t i;
-    *instance = enter(c, READABLE, function);
-    if (*instance == NULL || missing(vr, values, nvr)) {
-        return fmi2Error;
-    }
-    for (i = 0; i < nvr; i++) {
-        const Fault fault = core_may_get(vr[i], type);
-        if (fault.severity != FINE) {
-            return outcome(*instance, fault, function);
-        }
-    }
-    return fmi2OK;
-}
-
 fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Real value[])
 {
-    Instance *instance;
-    const fmi2Status status = get(c, vr, nvr, REAL, value, &instance, "fmi2GetReal");
-    size_t i;
-    for (i = 0; status == fmi2OK && i < nvr; i++) {
-        const Fault fault = core_get(&instance->state, vr[i], &value[i]);
-        if (fault.severity != FINE) {
-            return outcome(instance, fault, "fmi2GetReal");
-        }
+    Instance *instance = enter(c, READABLE, "fmi2GetReal");
+    if (instance == NULL || missing(vr, value, nvr)) {
+        return fmi2Error;
     }
-    return status;
+    return outcome(instance, core_get(&instance->state, vr, nvr, REAL, value), "fmi2GetReal");
+}
+
+fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Real value[])
+{
+    Instance *instance = enter(c, ANY_PHASE, "fmi2SetReal");
+    if (instance == NULL || missing(vr, value, nvr)) {
+        return fmi2Error;
+    }
+    return outcome(instance, core_set(&instance->state, vr, nvr, REAL, value), "fmi2SetReal");
 }
 
 fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Boolean value[])
 {
-    Instance *instance;
-    const fmi2Status status = get(c, vr, nvr, BOOLEAN, value, &instance, "fmi2GetBoolean");
-    size_t i;
-    for (i = 0; status == fmi2OK && i < nvr; i++) {
-        double found = 0.0;
-        const Fault fault = core_get(&instance->state, vr[i], &found);
-        if (fault.severity != FINE) {
-            return outcome(instance, fault, "fmi2GetBoolean");
-        }
-        value[i] = found > 0.0 ? fmi2True : fmi2False;
-    }
-    return status;
-}
-
-fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Integer value[])
-{
-    Instance *instance;
-    const fmi2Status status = get(c, vr, nvr, ENUMERATION, value, &instance, "fmi2GetInteger");
-    size_t i;
-    for (i = 0; status == fmi2OK && i < nvr; i++) {
-        double found = 0.0;
-        const Fault fault = core_get(&instance->state, vr[i], &found);
-        if (fault.severity != FINE) {
-            return outcome(instance, fault, "fmi2GetInteger");
-        }
-        value[i] = (fmi2Integer)found;
-    }
-    return status;
-}
-
-/* All values or none: a bad reference must not leave half of them set. */
-fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Real value[])
-{
-    Instance *instance = enter(c, ANY_PHASE, "fmi2SetReal");
+    Instance *instance = enter(c, READABLE, "fmi2GetBoolean");
     size_t i;
     if (instance == NULL || missing(vr, value, nvr)) {
         return fmi2Error;
     }
     for (i = 0; i < nvr; i++) {
-        const Fault fault = core_may_set(&instance->state, vr[i], REAL, value[i]);
+        double found = 0.0;
+        const Fault fault = core_get(&instance->state, &vr[i], 1, BOOLEAN, &found);
         if (fault.severity != FINE) {
-            return outcome(instance, fault, "fmi2SetReal");
+            return outcome(instance, fault, "fmi2GetBoolean");
         }
-    }
-    for (i = 0; i < nvr; i++) {
-        core_set(&instance->state, vr[i], value[i]);
+        value[i] = found > 0.0 ? fmi2True : fmi2False;
     }
     return fmi2OK;
 }
 
+fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Integer value[])
+{
+    Instance *instance = enter(c, READABLE, "fmi2GetInteger");
+    size_t i;
+    if (instance == NULL || missing(vr, value, nvr)) {
+        return fmi2Error;
+    }
+    for (i = 0; i < nvr; i++) {
+        double found = 0.0;
+        const Fault fault = core_get(&instance->state, &vr[i], 1, ENUMERATION, &found);
+        if (fault.severity != FINE) {
+            return outcome(instance, fault, "fmi2GetInteger");
+        }
+        value[i] = (fmi2Integer)found;
+    }
+    return fmi2OK;
+}
+/* All values or none, as `core_set` has it for real ones. */
 fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer value[])
 {
     Instance *instance = enter(c, ANY_PHASE, "fmi2SetInteger");
@@ -98,7 +69,8 @@ fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
         }
     }
     for (i = 0; i < nvr; i++) {
-        core_set(&instance->state, vr[i], value[i]);
+        const double number = value[i];
+        core_set(&instance->state, &vr[i], 1, ENUMERATION, &number);
     }
     return fmi2OK;
 }

@@ -28,11 +28,6 @@ static void tell(Instance *instance)
     }
 }
 
-static int touches(const State *state)
-{
-    return state->model.indicator > 0.0;
-}
-
 /* Goes from `before` to just behind where the surfaces meet or part, which they do within h. */
 static void stop_at_event(State *state, const State *before, double time, double h)
 {
@@ -40,7 +35,7 @@ static void stop_at_event(State *state, const State *before, double time, double
     while (behind - short_of > EVENT_ERROR * h) {
         const double middle = 0.5 * (short_of + behind);
         *state = *before;
-        if (core_step(state, time, middle).severity == FINE && touches(state) == before->in_contact) {
+        if (core_step(state, time, middle).severity == FINE && core_contact(state) == before->contact) {
             short_of = middle;
         } else {
             behind = middle;
@@ -78,8 +73,8 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 currentCommunicationPoint, fmi
         return outcome(instance, fault, "fmi3DoStep");
     }
     if (!instance->event_mode) {
-        instance->state.in_contact = touches(&instance->state);
-    } else if (touches(&instance->state) != instance->state.in_contact) {
+        instance->state.contact = core_contact(&instance->state);
+    } else if (core_contact(&instance->state) != instance->state.contact) {
         *eventHandlingNeeded = fmi3True;
         /* only an extrapolated motion is known within the step */
         if (instance->early_return && instance->state.model.value[VR_input_meaning] < 1.5) {

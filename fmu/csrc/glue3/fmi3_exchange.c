@@ -82,7 +82,7 @@ fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance c, fmi3Float64 nominal
         return fmi3Error;
     }
     for (i = 0; i < N_STATES; i++) {
-        nominals[i] = STATE_NOMINAL;
+        nominals[i] = core_variables[FIRST_STATE + i].nominal;
     }
     return fmi3OK;
 }
@@ -108,8 +108,10 @@ fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance c, fmi3Float64 derivat
 
 fmi3Status fmi3GetEventIndicators(fmi3Instance c, fmi3Float64 eventIndicators[], size_t nEventIndicators)
 {
-    Instance *instance = sized(c, READABLE, eventIndicators, nEventIndicators, 1, "fmi3GetEventIndicators");
+    Instance *instance = sized(c, READABLE, eventIndicators, nEventIndicators, N_CONTACTS,
+                               "fmi3GetEventIndicators");
     Fault fault;
+    int i;
     if (instance == NULL) {
         return fmi3Error;
     }
@@ -117,7 +119,9 @@ fmi3Status fmi3GetEventIndicators(fmi3Instance c, fmi3Float64 eventIndicators[],
     if (fault.severity != FINE) {
         return outcome(instance, fault, "fmi3GetEventIndicators");
     }
-    eventIndicators[0] = instance->state.model.indicator;
+    for (i = 0; i < N_CONTACTS; i++) {
+        eventIndicators[i] = instance->state.model.indicator[i];
+    }
     return fmi3OK;
 }
 
@@ -133,7 +137,7 @@ static fmi3Status counted(fmi3Instance c, size_t count, size_t *found, const cha
 
 fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance c, size_t *nEventIndicators)
 {
-    return counted(c, 1, nEventIndicators, "fmi3GetNumberOfEventIndicators");
+    return counted(c, N_CONTACTS, nEventIndicators, "fmi3GetNumberOfEventIndicators");
 }
 
 fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance c, size_t *nContinuousStates)

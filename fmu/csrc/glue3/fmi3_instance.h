@@ -26,7 +26,7 @@ typedef struct {
     char *name;
 } Instance;
 
-/* Value references behind those of the core: the independent variable, and the event indicator. */
+/* Value references behind those of the core: the independent variable, and the event indicators. */
 enum { VR_time = N_VARIABLES, VR_indicator };
 
 /* Logs "function: message." if the importer asked for this category. */

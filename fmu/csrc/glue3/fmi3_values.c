@@ -1,12 +1,11 @@
 /* FMI 3.0 around the core: variables, dependencies, directional and adjoint derivatives. */
 #include "fmi3_instance.h"
 
-/* ---- real variables, the time and the event indicator among them ---- */
+/* ---- real variables, the time and the event indicators among them ---- */
 
-static Fault may_get(unsigned int reference)
+static int is_indicator(unsigned int reference)
 {
-    const Fault fine = {FINE, NULL};
-    return reference == VR_time || reference == VR_indicator ? fine : core_may_get(reference, REAL);
+    return reference >= VR_indicator && reference < VR_indicator + N_CONTACTS;
 }
 
 static Fault get(Instance *instance, unsigned int reference, double *value)
@@ -16,12 +15,12 @@ static Fault get(Instance *instance, unsigned int reference, double *value)
         *value = instance->state.time;
         return fault;
     }
-    if (reference != VR_indicator) {
-        return core_get(&instance->state, reference, value);
+    if (!is_indicator(reference)) {
+        return core_get(&instance->state, &reference, 1, REAL, value);
     }
     fault = core_outputs(&instance->state);
     if (fault.severity == FINE) {
-        *value = instance->state.model.indicator;
+        *value = instance->state.model.indicator[reference - VR_indicator];
     }
     return fault;
 }
@@ -36,12 +35,6 @@ fmi3Status fmi3GetFloat64(fmi3Instance c, const fmi3ValueReference valueReferenc
         return fmi3Error;
     }
     for (i = 0; i < nValueReferences; i++) {
-        const Fault fault = may_get(valueReferences[i]);
-        if (fault.severity != FINE) {
-            return outcome(instance, fault, "fmi3GetFloat64");
-        }
-    }
-    for (i = 0; i < nValueReferences; i++) {
         const Fault fault = get(instance, valueReferences[i], &values[i]);
         if (fault.severity != FINE) {
             return outcome(instance, fault, "fmi3GetFloat64");
@@ -50,26 +43,16 @@ fmi3Status fmi3GetFloat64(fmi3Instance c, const fmi3ValueReference valueReferenc
     return fmi3OK;
 }
 
-/* All values or none: a bad reference must not leave half of them set. */
 fmi3Status fmi3SetFloat64(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                           const fmi3Float64 values[], size_t nValues)
 {
     Instance *instance = enter(c, ANY_PHASE, "fmi3SetFloat64");
-    size_t i;
     if (instance == NULL
         || unsuitable(instance, valueReferences, nValueReferences, values, nValues, "fmi3SetFloat64")) {
         return fmi3Error;
     }
-    for (i = 0; i < nValueReferences; i++) {
-        const Fault fault = core_may_set(&instance->state, valueReferences[i], REAL, values[i]);
-        if (fault.severity != FINE) {
-            return outcome(instance, fault, "fmi3SetFloat64");
-        }
-    }
-    for (i = 0; i < nValueReferences; i++) {
-        core_set(&instance->state, valueReferences[i], values[i]);
-    }
-    return fmi3OK;
+    return outcome(instance, core_set(&instance->state, valueReferences, nValueReferences, REAL, values),
+                   "fmi3SetFloat64");
 }
 
 /* ---- flags and input_meaning ---- */
@@ -85,10 +68,7 @@ fmi3Status fmi3GetBoolean(fmi3Instance c, const fmi3ValueReference valueReferenc
     }
     for (i = 0; i < nValueReferences; i++) {
         double found = 0.0;
-        Fault fault = core_may_get(valueReferences[i], BOOLEAN);
-        if (fault.severity == FINE) {
-            fault = core_get(&instance->state, valueReferences[i], &found);
-        }
+        const Fault fault = core_get(&instance->state, &valueReferences[i], 1, BOOLEAN, &found);
         if (fault.severity != FINE) {
             return outcome(instance, fault, "fmi3GetBoolean");
         }
@@ -108,10 +88,7 @@ fmi3Status fmi3GetInt64(fmi3Instance c, const fmi3ValueReference valueReferences
     }
     for (i = 0; i < nValueReferences; i++) {
         double found = 0.0;
-        Fault fault = core_may_get(valueReferences[i], ENUMERATION);
-        if (fault.severity == FINE) {
-            fault = core_get(&instance->state, valueReferences[i], &found);
-        }
+        const Fault fault = core_get(&instance->state, &valueReferences[i], 1, ENUMERATION, &found);
         if (fault.severity != FINE) {
             return outcome(instance, fault, "fmi3GetInt64");
         }
@@ -136,7 +113,8 @@ fmi3Status fmi3SetInt64(fmi3Instance c, const fmi3ValueReference valueReferences
         }
     }
     for (i = 0; i < nValueReferences; i++) {
-        core_set(&instance->state, valueReferences[i], (double)values[i]);
+        const double number = (double)values[i];
+        core_set(&instance->state, &valueReferences[i], 1, ENUMERATION, &number);
     }
     return fmi3OK;
 }

@@ -22,8 +22,9 @@ int film_before(const double nodes[], int count, double x, int at)
     return low;
 }
 
-/* Film h_s, dh_s/dx and d2h_s/dx2 at x = ln F: Hermite between the nodes, straight beyond them. */
-static double film(double x, double *slope, double *curvature)
+/* Film h_s, dh_s/dx and d2h_s/dx2 at x = ln F: Hermite between the nodes, straight beyond them; x is most likely behind
+ * node `guess`. */
+static double film(double x, int guess, double *slope, double *curvature)
 {
     const int n = CURVE_NODES;
     double w, t, d, a, b, y, dy, ddy, h;
@@ -35,7 +36,7 @@ static double film(double x, double *slope, double *curvature)
         *curvature = *slope * curve_slope[k];
         return h;
     }
-    k = film_before(curve_x, n, x, 0);
+    k = curve_x[guess] < x && x <= curve_x[guess + 1] ? guess : film_before(curve_x, n, x, 0);
     w = curve_x[k + 1] - curve_x[k];
     t = (x - curve_x[k]) / w;
     d = curve_y[k + 1] - curve_y[k];
@@ -50,23 +51,22 @@ static double film(double x, double *slope, double *curvature)
     return h;
 }
 
-Rest film_static(double u, const Rest *near)
+void film_static(double u, const Rest *near, Rest *rest)
 {
     const int n = CURVE_NODES;
     double low = -HUGE_VAL, high = HUGE_VAL, x, g, h, dh, ddh, du, r, new_x, step;
-    Rest rest;
-    int i, k;
-    rest.u = u;
+    int i, k = 0;
     if (u < curve_u[0]) {
         high = curve_x[0];
         x = high;
         if (-u > exp(curve_y[0])) { /* F hardly matters there: h_s is nearly -u */
             x += (log(-u) - curve_y[0]) / curve_slope[0];
             if (x < nothing) {
-                rest.x = nothing;
-                rest.g = exp(2.0 / 3.0 * nothing);
-                rest.g_u = 0.0;
-                return rest;
+                rest->u = u;
+                rest->x = nothing;
+                rest->g = exp(2.0 / 3.0 * nothing);
+                rest->g_u = 0.0;
+                return;
             }
         }
     } else if (!(u < curve_u[n - 1])) {
@@ -85,7 +85,7 @@ Rest film_static(double u, const Rest *near)
     }
     for (i = 0; i < 100; i++) {
         g = exp(2.0 / 3.0 * x);
-        h = film(x, &dh, &ddh);
+        h = film(x, k, &dh, &ddh);
         du = 2.0 / 3.0 * g - dh;
         r = g - h - u;
         if (r > 0.0) {
@@ -109,10 +109,10 @@ Rest film_static(double u, const Rest *near)
     r = 2.0 / 3.0 * step;
     g = i < 100 ? g * (1.0 + r * (1.0 + 0.5 * r)) : HUGE_VAL;
     dh += ddh * step;
-    rest.x = x;
-    rest.g = g;
-    rest.g_u = i < 100 ? 2.0 / 3.0 * g / (2.0 / 3.0 * g - dh) : 1.0;
-    return rest;
+    rest->u = u;
+    rest->x = x;
+    rest->g = g;
+    rest->g_u = i < 100 ? 2.0 / 3.0 * g / (2.0 / 3.0 * g - dh) : 1.0;
 }
 
 void film_curvature(const Rest *rest, double *x_uu, double *g_uu)
@@ -122,7 +122,7 @@ void film_curvature(const Rest *rest, double *x_uu, double *g_uu)
         *x_uu = *g_uu = 0.0;
         return;
     }
-    film(rest->x, &dh, &ddh);
+    film(rest->x, 0, &dh, &ddh);
     du = 2.0 / 3.0 * rest->g - dh;
     ddu = 4.0 / 9.0 * rest->g - ddh;
     x_u = 1.0 / du;

@@ -150,34 +150,39 @@ typedef struct {
 static Chain advance_chain(const double before[FILM_SIZE], double after[FILM_SIZE], double mu, double f0, double f,
                            double hump, const Between *b)
 {
-    double poisson[LAGS + 3], share[LAGS + 3], held[LAGS + 1] = {0.0};
-    const double per_mu = 1.0 / mu;
+    const double *row = gains[b->row], *next = gains[b->after];
+    const double share_of_next = b->weight, share_of_row = 1.0 - b->weight, per_x = b->per_x, per_mu = 1.0 / mu;
+    double poisson[LAGS + 3], share[LAGS + 3], earlier = 0.0;
     Chain sum = {0.0, 0.0, 0.0, 0.0, 0.0};
     int i, j;
     residence(mu, LAGS + 2, poisson, share);
-    for (i = 0; i < LAGS; i++) { /* what the lags now have of what they held at the start */
-        for (j = i + 1; j <= LAGS; j++) {
-            held[j] += poisson[i] * before[CHAIN + j - 1 - i];
-        }
-    }
     for (j = 1; j <= LAGS; j++) {
         const double r0 = share[j], r1 = j * share[j + 1] * per_mu, r2 = j * (j + 1) * share[j + 2] * (per_mu * per_mu);
-        const double d0 = poisson[j - 1], d1 = (j * poisson[j] - r1) * per_mu;
-        const double d2 = (j * (j + 1) * poisson[j + 1] * per_mu - 2.0 * r2) * per_mu;
-        const double value = held[j] + f0 * r1 + f * (r0 - r1) + 6.0 * hump * (r1 - r2);
-        const double slope = held[j - 1] - held[j] + f0 * d1 + f * (d0 - d1) + 6.0 * hump * (d1 - d2);
-        const double weight = gain(DIRECT - 1 + j, b);
-        sum.value += weight * value;
-        sum.by_gain += gain_slope(DIRECT - 1 + j, b) * value;
-        sum.by_mu += weight * slope;
-        sum.by_end += weight * (r0 - r1);
-        sum.by_hump += weight * (6.0 * (r1 - r2));
+        const double low = row[DIRECT - 1 + j], high = next[DIRECT - 1 + j];
+        double held = 0.0, value;
+        for (i = 0; i < j; i++) { /* what the lag now has of what the chain held at the start */
+            held += poisson[i] * before[CHAIN + j - 1 - i];
+        }
+        value = held + f0 * r1 + f * (r0 - r1) + 6.0 * hump * (r1 - r2);
         after[CHAIN + j - 1] = value;
+        if (low != 0.0 || high != 0.0) { /* many lags have no part in the force */
+            const double d0 = poisson[j - 1], d1 = (j * poisson[j] - r1) * per_mu;
+            const double d2 = (j * (j + 1) * poisson[j + 1] * per_mu - 2.0 * r2) * per_mu;
+            const double slope = earlier - held + f0 * d1 + f * (d0 - d1) + 6.0 * hump * (d1 - d2);
+            const double weight = low * share_of_row + high * share_of_next;
+            sum.value += weight * value;
+            sum.by_gain += (high - low) * per_x * value;
+            sum.by_mu += weight * slope;
+            sum.by_end += weight * (r0 - r1);
+            sum.by_hump += weight * (6.0 * (r1 - r2));
+        }
+        earlier = held;
     }
     return sum;
 }
 
-FilmStep film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double dt, const Rest *rest, double v)
+void film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double dt, const Rest *rest, double v,
+               FilmStep *found)
 {
     const Jet g = jet(rest->g, rest->g_u, 0.0);
     const Jet theta = root(g);
@@ -196,7 +201,6 @@ FilmStep film_step(const double before[FILM_SIZE], double after[FILM_SIZE], doub
     const Between b = between(rest->x);
     const double x_u = 1.5 * g.u / g.x;
     double f0, f, f_s, ignored, by_gain;
-    FilmStep found;
     Chain chain;
     Jet hump, m, w;
     f0 = film_squeezed(before[INLET], &ignored);
@@ -216,10 +220,9 @@ FilmStep film_step(const double before[FILM_SIZE], double after[FILM_SIZE], doub
     after[INLET] = s.x;
     after[FAST] = y.x;
     w = plus(g, m);
-    found.step = force_of(w.x, w.u, w.v);
+    found->step = force_of(w.x, w.u, w.v);
     by_gain = gain_slope(1, &b) * s.x + gain_slope(2, &b) * y.x + chain.by_gain;
-    found.now = force_of(w.x, frozen_slope(rest, &b, theta.x, theta.u, v, by_gain), gain(VISCOUS, &b) * theta.x);
-    return found;
+    found->now = force_of(w.x, frozen_slope(rest, &b, theta.x, theta.u, v, by_gain), gain(VISCOUS, &b) * theta.x);
 }
 
 /* ---- at an instant ---- */

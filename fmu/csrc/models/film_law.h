@@ -37,11 +37,12 @@ typedef struct {
     double second_state[2][FILM_RATES]; /* of dF/du and dF/dv by each state */
 } FilmInstant;
 
-/* At approach u; `near` is a point close by, or NULL. */
-Rest film_static(double u, const Rest *near);
+/* At approach u; `near` is a point close by, which may be `rest` itself, or NULL. */
+void film_static(double u, const Rest *near, Rest *rest);
 
-/* Advances `before` into `after`, which is at rest->u, moving at v. */
-FilmStep film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double dt, const Rest *rest, double v);
+/* Advances `before` into `after`, another one, which is at rest->u, moving at v. */
+void film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double dt, const Rest *rest, double v,
+               FilmStep *found);
 
 /* Force and first derivatives alone; and all of it. */
 FilmForce film_now(const double states[FILM_RATES], const Rest *rest, double v);

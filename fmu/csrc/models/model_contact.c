@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "dual.h"
-#include "model.h"
+#include "validity.h"
 
 /* What of the law follows from the parameters alone. */
 typedef struct {
@@ -325,9 +325,9 @@ static Fault enter(Model *m, double u, double v)
     if (!(isfinite(r.force.x) && isfinite(r.stiffness.x) && isfinite(r.damping.x) && isfinite(r.indicator))) {
         return fault(DISCARD, "the force is too large for a floating-point number");
     }
-    m->approach = u;
-    m->rate = v;
-    m->indicator = r.indicator;
+    m->input[VR_approach] = u;
+    m->input[VR_rate] = v;
+    m->indicator[0] = r.indicator;
     m->value[VR_force] = r.force.x;
     m->value[VR_stiffness] = r.stiffness.x;
     m->value[VR_damping] = r.damping.x;
@@ -337,7 +337,7 @@ static Fault enter(Model *m, double u, double v)
 
 Fault model_evaluate(Model *m)
 {
-    return enter(m, m->approach, m->rate);
+    return enter(m, m->input[VR_approach], m->input[VR_rate]);
 }
 
 Fault model_rates(Model *m)
@@ -349,7 +349,7 @@ Fault model_rates(Model *m)
 Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
 {
     (void)h, (void)tolerance; /* without memory only the end of a step counts */
-    return enter(m, motion->end_approach, motion->end_rate);
+    return enter(m, motion->input[VR_approach].end, motion->input[VR_rate].end);
 }
 
 void model_direction(const Model *m, const double seed[], double along[])
@@ -360,7 +360,7 @@ void model_direction(const Model *m, const double seed[], double along[])
     if (join_law(&law).severity != FINE) {
         return;
     }
-    r = contact(dual(m->approach, seed[VR_approach]), dual(m->rate, seed[VR_rate]), &law);
+    r = contact(dual(m->input[VR_approach], seed[VR_approach]), dual(m->input[VR_rate], seed[VR_rate]), &law);
     along[VR_force] = r.force.d;
     along[VR_stiffness] = r.stiffness.d;
     along[VR_damping] = r.damping.d;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "film_law.h"
-#include "model.h"
+#include "validity.h"
 
 /* Entries of the cache: the static curve where it was last asked for. */
 enum { KNOWN, REST_U, REST_X, REST_G, REST_G_U };
@@ -39,24 +39,17 @@ static const double damping_unit = SCALE_FORCE / SCALE_LENGTH * SCALE_TIME;
 
 /* ---- static curve, remembered ---- */
 
-static Rest rest_at(const Model *m, double u)
+static void rest_at(const Model *m, double u, Rest *rest)
 {
-    Rest rest;
-    if (m->cache[KNOWN] > 0.0 && m->cache[REST_U] == u) {
-        rest.u = u;
-        rest.x = m->cache[REST_X];
-        rest.g = m->cache[REST_G];
-        rest.g_u = m->cache[REST_G_U];
-        return rest;
+    rest->u = m->cache[REST_U];
+    rest->x = m->cache[REST_X];
+    rest->g = m->cache[REST_G];
+    rest->g_u = m->cache[REST_G_U];
+    if (!(m->cache[KNOWN] > 0.0)) {
+        film_static(u, NULL, rest);
+    } else if (rest->u != u) {
+        film_static(u, rest, rest);
     }
-    if (m->cache[KNOWN] > 0.0) {
-        rest.u = m->cache[REST_U];
-        rest.x = m->cache[REST_X];
-        rest.g = m->cache[REST_G];
-        rest.g_u = m->cache[REST_G_U];
-        return film_static(u, &rest);
-    }
-    return film_static(u, NULL);
 }
 
 static void remember(Model *m, const Rest *rest)
@@ -80,9 +73,9 @@ static int is_finite(const FilmForce *found)
 static void show(Model *m, double approach, double rate, const Rest *rest, const FilmForce *now,
                  const FilmForce *step)
 {
-    m->approach = approach;
-    m->rate = rate;
-    m->indicator = now->argument;
+    m->input[VR_approach] = approach;
+    m->input[VR_rate] = rate;
+    m->indicator[0] = now->argument;
     m->value[VR_force] = now->force * SCALE_FORCE;
     m->value[VR_stiffness] = now->stiffness * stiffness_unit;
     m->value[VR_damping] = now->damping * damping_unit;
@@ -102,9 +95,11 @@ Fault model_prepare(Model *m)
 
 Fault model_evaluate(Model *m)
 {
-    const Rest rest = rest_at(m, own_approach(m->approach));
-    const FilmForce now = film_now(&m->value[FIRST_STATE], &rest, own_rate(m->rate));
+    Rest rest;
+    FilmForce now;
     int k;
+    rest_at(m, own_approach(m->input[VR_approach]), &rest);
+    now = film_now(&m->value[FIRST_STATE], &rest, own_rate(m->input[VR_rate]));
     for (k = 0; k < FILM_RATES; k++) {
         if (!isfinite(m->value[FIRST_STATE + k])) {
             return fault(REFUSE, "the states must be finite");
@@ -113,16 +108,17 @@ Fault model_evaluate(Model *m)
     if (!is_finite(&now)) {
         return fault(DISCARD, too_large);
     }
-    show(m, m->approach, m->rate, &rest, &now, &now);
+    show(m, m->input[VR_approach], m->input[VR_rate], &rest, &now, &now);
     return fine;
 }
 
 Fault model_rates(Model *m)
 {
-    const Rest rest = rest_at(m, own_approach(m->approach));
     double rates[FILM_RATES];
+    Rest rest;
     int k;
-    film_rates(&m->value[FIRST_STATE], &rest, own_rate(m->rate), rates);
+    rest_at(m, own_approach(m->input[VR_approach]), &rest);
+    film_rates(&m->value[FIRST_STATE], &rest, own_rate(m->input[VR_rate]), rates);
     for (k = 0; k < FILM_RATES; k++) {
         if (!isfinite(rates[k] / SCALE_TIME)) {
             return fault(DISCARD, "a derivative of the film's states is too large for a floating-point number");
@@ -144,34 +140,36 @@ static void begin(double state[FILM_SIZE], const Rest *rest, double v)
     state[APPROACH] = rest->u;
 }
 
-/* Goes through a step in equal parts, from `state` to `state`; the rest at its end goes to `rest`. */
-static FilmStep walk(const Motion *motion, double h, int parts, double state[FILM_SIZE], Rest *rest)
+/* Goes through a step in equal parts, from `first` to `last`, whose rest goes to `rest`; 0 if the approach is too large. */
+static int walk(const Motion *motion, double h, int parts, double first[FILM_SIZE], double last[FILM_SIZE],
+                 Rest *rest, FilmStep *found)
 {
+    const Path *approach = &motion->input[VR_approach], *rate = &motion->input[VR_rate];
     const double part = h / parts;
-    double next[FILM_SIZE];
-    FilmStep found = {{0.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}};
+    double other[FILM_SIZE];
+    double *from = first, *to = parts % 2 == 1 ? last : other;
     int i;
     for (i = 1; i <= parts; i++) {
         const double t = i * part;
-        double u = motion->end_approach, v = motion->end_rate;
+        double u = approach->end, v = rate->end;
         if (i < parts && motion->meaning == EXTRAPOLATED) {
-            u = motion->approach + t * (motion->slope + 0.5 * t * motion->bend);
-            v = motion->rate + t * motion->turn;
+            u = approach->start + t * (approach->slope + 0.5 * t * approach->bend);
+            v = rate->start + t * rate->slope;
         }
         if (motion->meaning == HELD) { /* an approach that moves on, so that the rate is what it is throughout */
-            state[APPROACH] = own_approach(u) - own_rate(v) * (part / SCALE_TIME);
+            from[APPROACH] = own_approach(u) - own_rate(v) * (part / SCALE_TIME);
         }
         if (own_approach(u) != rest->u) {
-            *rest = film_static(own_approach(u), rest);
+            film_static(own_approach(u), rest, rest);
         }
         if (!isfinite(rest->g)) {
-            found.step.argument = HUGE_VAL;
-            return found;
+            return 0;
         }
-        found = film_step(state, next, part / SCALE_TIME, rest, own_rate(v));
-        memcpy(state, next, sizeof next);
+        film_step(from, to, part / SCALE_TIME, rest, own_rate(v), found);
+        from = to;
+        to = to == last ? other : last;
     }
-    return found;
+    return 1;
 }
 
 /* How far a step is from one in which every filter is advanced exactly: theta and the slope of phi would be constant. */
@@ -191,22 +189,24 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
     if (!(h / SCALE_TIME >= SHORTEST_STEP)) {
         return fault(REFUSE, "the step size is too small for the film");
     }
-    start = rest_at(m, own_approach(motion->approach));
+    rest_at(m, own_approach(motion->input[VR_approach].start), &start);
     if (!isfinite(start.g)) {
         return fault(DISCARD, too_large);
     }
-    begin(first, &start, own_rate(motion->rate));
+    begin(first, &start, own_rate(motion->input[VR_rate].start));
     memcpy(&first[INLET], &m->value[FIRST_STATE], FILM_RATES * sizeof first[0]);
-    memcpy(state, first, sizeof first);
-    rest = own_approach(motion->end_approach) == start.u ? start : film_static(own_approach(motion->end_approach), &start);
-    found = walk(motion, h, 1, state, &rest);
+    rest = start;
+    if (!walk(motion, h, 1, first, state, &rest, &found)) {
+        return fault(DISCARD, too_large);
+    }
     if (motion->meaning != AT_THE_END && unevenness(first, state) > smooth) {
         for (parts = 2; parts <= MOST_PARTS; parts *= 2) {
             const double coarse = found.step.argument;
             double scale;
-            memcpy(state, first, sizeof first);
             rest = start;
-            found = walk(motion, h, parts, state, &rest);
+            if (!walk(motion, h, parts, first, state, &rest, &found)) {
+                return fault(DISCARD, too_large);
+            }
             scale = fabs(found.step.argument) > rest.g ? fabs(found.step.argument) : rest.g;
             if (fabs(found.step.argument - coarse) <= tolerance * scale) {
                 break;
@@ -222,7 +222,7 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
         return fault(DISCARD, too_large);
     }
     memcpy(&m->value[FIRST_STATE], &state[INLET], FILM_RATES * sizeof state[0]);
-    show(m, motion->end_approach, motion->end_rate, &rest, &found.now, &found.step);
+    show(m, motion->input[VR_approach].end, motion->input[VR_rate].end, &rest, &found.now, &found.step);
     return fine;
 }
 
@@ -232,11 +232,12 @@ void model_direction(const Model *m, const double seed[], double along[])
 {
     const double du = own_approach(seed[VR_approach]), dv = own_rate(seed[VR_rate]);
     const double *states = &m->value[FIRST_STATE], *ds = &seed[FIRST_STATE];
-    const Rest rest = rest_at(m, own_approach(m->approach));
     double change[FILM_RATES], force, stiffness, damping;
     FilmInstant now;
+    Rest rest;
     int k;
-    film_instant(states, &rest, own_rate(m->rate), &now);
+    rest_at(m, own_approach(m->input[VR_approach]), &rest);
+    film_instant(states, &rest, own_rate(m->input[VR_rate]), &now);
     force = now.by[0] * du + now.by[1] * dv;
     stiffness = now.second[0][0] * du + now.second[0][1] * dv;
     damping = now.second[1][0] * du + now.second[1][1] * dv;
@@ -248,7 +249,7 @@ void model_direction(const Model *m, const double seed[], double along[])
     along[VR_force] = force * SCALE_FORCE;
     along[VR_stiffness] = stiffness * stiffness_unit;
     along[VR_damping] = damping * damping_unit;
-    film_rates_along(states, &rest, own_rate(m->rate), du, dv, ds, change);
+    film_rates_along(states, &rest, own_rate(m->input[VR_rate]), du, dv, ds, change);
     for (k = 0; k < FILM_RATES; k++) {
         along[FIRST_DERIVATIVE + k] = change[k] / SCALE_TIME;
     }

@@ -1,5 +1,7 @@
 """Modes and responses over the speed; their files and figures."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -116,6 +118,20 @@ def test_figures(film, block, diagram, tmp_path):
             assert (tmp_path / f"{kind}.png").read_bytes().startswith(PNG)
     for name in ("c", "u"):
         assert (tmp_path / f"{name}.png").read_bytes().startswith(PNG)
+
+
+def test_figures_of_a_named_node(film, block):
+    rotor = replace(block(film), nodes={"block": (0, 1)})
+    run = simulate_on_bearings(rotor, speed_rpm=3000.0, dt=5e-5, until=0.05)
+    for node in ("block", (0, 1)):
+        figure = run.plot(kind="orbit", node=node)
+        assert figure.axes[0].get_title() == "block"
+        np.testing.assert_array_equal(figure.axes[0].lines[0].get_xdata()[-1], run.displacement[-1, 0] * 1e6)
+    with pytest.raises(InputError, match=r"node = 'disc'.*one of block"):
+        run.plot(node="disc")
+    with pytest.raises(InputError, match=r"node = 'disc'.*one of block"):
+        rotor.nodes["disc"]
+    assert "disc" not in rotor.nodes and rotor.nodes.get("disc") is None
 
 
 def test_lines_of_a_spectrum_are_the_amplitudes(film, block):

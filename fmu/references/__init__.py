@@ -1,0 +1,22 @@
+"""Reference inputs and results inside an FMU, and a check of the FMU against them that needs nothing else.
+
+=============  =======================================================================================
+module         responsibility
+=============  =======================================================================================
+``series``     `References`: what goes in and what comes out, row by row, for each FMI interface
+``contacts``   those of a contact element, computed by the element in Python
+``files``      to and from ``extra/org.fmi-standard.fmi-ls-ref/`` of an FMU
+``check``      `verify_references`: an FMU against its own references
+=============  =======================================================================================
+
+The files are those that the FMI cross-check has (``x_in.csv``, ``x_ref.csv``, ``x_ref.opt``), in the folder and
+with the manifest of the layered standard FMI-LS-REF 1.0.0-beta.1 (https://github.com/modelica/fmi-ls-ref), told of
+as experiments (https://github.com/modelica/ma-hs-experiments).
+"""
+
+from fmu.references.check import ReferenceCheck as ReferenceCheck
+from fmu.references.check import verify_references as verify_references
+from fmu.references.contacts import contact_references as contact_references
+from fmu.references.files import reference_files as reference_files
+from fmu.references.series import References as References
+from fmu.references.series import Trial as Trial

@@ -1,0 +1,164 @@
+"""An FMU against the references inside it: nothing else is needed, no element and no rotor."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu.comparison import END, floored, over
+from fmu.references.files import POINTS, STEPS, changed_files, read_references
+from fmu.references.series import References, Trial
+from fmu.verify import opened, running
+
+_Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Interface:
+    """One FMI interface of an FMU beside the references."""
+
+    name: str  # co-simulation, model exchange
+    rows: int  # compared
+    variables: tuple[str, ...]  # compared
+    difference: (
+        float  # largest, over the number, and at least 1e-3 of the largest of its column; inf if not finite
+    )
+    variable: str  # where that is
+    time: float  # row where that is, by its time or number
+
+
+@dataclass(frozen=True, slots=True)
+class ReferenceCheck:
+    """What was found; see `verify_references`."""
+
+    fmi: str  # version
+    findings: tuple[str, ...]  # of fmpy's validation; files that were changed; interfaces that do not run
+    interfaces: tuple[Interface, ...]
+    tolerance: float  # that the references ask for
+
+    @property
+    def passes(self) -> bool:
+        """No finding, and all differences within the tolerance."""
+        return not self.findings and all(one.difference <= self.tolerance for one in self.interfaces)
+
+    def to_dict(self) -> dict[str, Any]:
+        """All fields and the verdict, for storage."""
+        return asdict(self) | {"passes": self.passes}
+
+
+def verify_references(path: str | os.PathLike[str]) -> ReferenceCheck:
+    """Run an FMU through fmpy and compare it with the reference results inside it.
+
+    Parameters
+    ----------
+    path : path-like
+        An FMU that this library exported, with a binary for this machine.
+
+    Returns
+    -------
+    ReferenceCheck
+        For co-simulation and model exchange the largest difference, and in which variable; and what fmpy's
+        validation and the checksums of the files tell.
+
+    Raises
+    ------
+    InputError
+        Not an FMU for this platform, or one without reference results.
+
+    See Also
+    --------
+    fmu.verify : the same against the element in Python, at more states.
+    """
+    from fmpy.validation import validate_fmu
+
+    file = Path(path)
+    with opened(file) as (folder, description):
+        return check_references(file, folder, description, tuple(validate_fmu(str(file))))
+
+
+def check_references(file: Path, folder: str, description: Any, findings: tuple[str, ...] = ()) -> ReferenceCheck:
+    """The same of an FMU that is unpacked; with findings made before."""
+    references = read_references(folder, description, file)
+    broken, interfaces = _interfaces(file, folder, description, references)
+    found = (*findings, *changed_files(folder), *broken)
+    return ReferenceCheck(description.fmiVersion, found, interfaces, references.tolerance)
+
+
+def _interfaces(
+    file: Path, folder: str, description: Any, references: References
+) -> tuple[tuple[str, ...], tuple[Interface, ...]]:
+    """Findings of interfaces that do not run or have no references, and the others beside theirs."""
+    findings, interfaces = [], []
+    with running(file, folder, description) as (slave, exchange):
+        cases: tuple[tuple[str, Trial | None, Any, Callable[[Any, References], _Floats]], ...] = (
+            (STEPS, references.steps, slave, _walk),
+            (POINTS, references.points, exchange, _visit),
+        )
+        for name, trial, instance, run in cases:
+            if instance is None:
+                continue
+            if trial is None:
+                findings.append(f"{name}: no reference results")
+                continue
+            try:
+                found = run(instance, references)
+            except Exception as error:  # fmpy raises bare Exception among others, also for a call that is refused
+                findings.append(f"{name}: does not run ({' '.join(str(error).split())})")
+                continue
+            interfaces.append(_compared(name, trial, found))
+    return tuple(findings), tuple(interfaces)
+
+
+def _walk(slave: Any, references: References) -> _Floats:
+    """What co-simulation makes of the inputs, shape (rows, variables)."""
+    trial = references.steps
+    assert trial is not None
+    names = tuple(trial.unknowns)
+    rows = _rows(trial)
+    ends = references.parameters.get("input_meaning") == END
+    slave.start(**references.parameters, **rows[0])
+    found = [slave.read(*names)]
+    for k in range(1, trial.time.size):
+        slave.assign(**rows[k if ends else k - 1])
+        slave.step_to(float(trial.time[k]))
+        found.append(slave.read(*names))
+    return np.array(found)
+
+
+def _visit(exchange: Any, references: References) -> _Floats:
+    """Derivatives and outputs at the points for model exchange, shape (rows, variables)."""
+    trial = references.points
+    assert trial is not None
+    derivatives = [unknown.variable for unknown in exchange.description.derivatives]
+    states = [variable.derivative.name for variable in derivatives]
+    places = {variable.name: k for k, variable in enumerate(derivatives)}
+    others = [name for name in trial.unknowns if name not in places]
+    exchange.start()
+    found = []
+    for row in _rows(trial):
+        x = np.array([row.pop(name) for name in states])
+        rates = exchange.place(x, **row)
+        read = dict(zip(others, exchange.read(*others), strict=True))
+        found.append([rates[places[name]] if name in places else read[name] for name in trial.unknowns])
+    return np.array(found)
+
+
+def _rows(trial: Trial) -> list[dict[str, float]]:
+    return [{name: float(values[k]) for name, values in trial.knowns.items()} for k in range(trial.time.size)]
+
+
+def _compared(name: str, trial: Trial, found: _Floats) -> Interface:
+    worst = (-1.0, "", 0.0)
+    for column, (variable, expected) in zip(found.T, trial.unknowns.items(), strict=True):
+        size = floored(expected, np.abs(expected).max())
+        each = np.array([over(np.abs(column[k : k + 1] - expected[k]), size[k : k + 1]) for k in range(size.size)])
+        at = int(np.argmax(each))
+        if each[at] > worst[0]:
+            worst = (float(each[at]), variable, float(trial.time[at]))
+    return Interface(name, trial.time.size, tuple(trial.unknowns), *worst)

@@ -1,0 +1,55 @@
+"""What goes into a model and what comes out of it, row by row."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu.verify import TOLERANCE
+
+_Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Trial:
+    """Rows of one experiment.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        Increasing; of points that do not follow one another, their number.
+    knowns : mapping of str to ndarray, shape (n,)
+        What is set, by variable: inputs, for model exchange states too. May be empty.
+    unknowns : mapping of str to ndarray, shape (n,)
+        What is read then, by variable; a Boolean is 0 or 1.
+    """
+
+    time: _Floats
+    knowns: Mapping[str, _Floats]
+    unknowns: Mapping[str, _Floats]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class References:
+    """Reference inputs and results of a model.
+
+    Attributes
+    ----------
+    steps : Trial or None
+        Co-simulation, one step from each row to the next. The inputs of a row are set before the step that ends
+        there where `parameters` has ``input_meaning`` 2 (end), else before the one that begins there.
+    points : Trial or None
+        Model exchange: inputs and states, and the derivatives and outputs there.
+    parameters : mapping of str to float
+        What is set before initialization; of an enumeration its number.
+    tolerance : float
+        Largest difference that passes, over the number itself and at least 1e-3 of the largest of its column.
+    """
+
+    steps: Trial | None
+    points: Trial | None
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    tolerance: float = TOLERANCE
