@@ -207,16 +207,21 @@ class _Attempt:
             mg.u = balance.rhs
         goal = Goal(self.scale, LARGEST_RESIDUAL, most, LOAD_TOLERANCE, APPROACH_TOLERANCE, pressure=tol)
         try:
-            mg.full_multigrid(balance)
-            if self.method.newton:
-                mg.cycle(balance)
-            advance = NewtonKrylov(mg).step if self.method.newton else mg.cycle
-            status = iterate(mg, balance, advance, goal, self.track, watch)
-            if status.ok:
-                self.error = estimate_error(mg, balance)
-            return status
+            return self._run(goal, balance, watch)
         except KeyboardInterrupt:
             return Status.INTERRUPTED
+
+    @np.errstate(over="ignore", invalid="ignore")  # of a film that runs away: its status says so
+    def _run(self, goal: Goal, balance: Balance, watch: Callable[[int, float], None] | None) -> Status:
+        mg = self.multigrid
+        mg.full_multigrid(balance)
+        if self.method.newton:
+            mg.cycle(balance)
+        advance = NewtonKrylov(mg).step if self.method.newton else mg.cycle
+        status = iterate(mg, balance, advance, goal, self.track, watch)
+        if status.ok:
+            self.error = estimate_error(mg, balance)
+        return status
 
     def result(self, status: Status, scales: Scales | None, seconds: float) -> SteadyResult:
         """Everything that is kept."""

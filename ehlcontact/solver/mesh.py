@@ -92,8 +92,11 @@ LARGEST_NEWTON = 300_000  # nodes for Newton as a last resort: sparse factors ta
 LINES_APART = 5.0  # physical distance of lines over that of nodes, from which a level is coarsened along X alone
 NEGATIVE_FILM = 0.8  # mesh over inlet width above which a film comes out negative: a level carries less load then,
 LOADING_MESH = 0.4  # as much as it resolves this well
+LONG = 1.0  # kappa above which the side lobes of thin films are so much thinner than the inlet
+LOBE_SHARE = 0.5  # that it is this share of both mesh sizes
 HIGH_LOAD = 1000.0  # M from which the coarsest grid has to see more of the inlet
-NARROW = 2.0  # kappa above which it needs more lines across rolling
+NARROW = 2.0  # kappa above which it needs more lines across rolling:
+NARROW_COARSEST = 64  # levels of fewer intervals, on larger grids, have one or two and correct nothing
 
 
 # What does a point of the atlas get? ----------------------------------------------------------------------------
@@ -325,8 +328,15 @@ def coarsest_intervals(point: MoesPoint, n: int) -> int:
     return min(fewest, max(32, n // 4))
 
 
+def corrects(point: MoesPoint, nx: int, n: int) -> bool:
+    """Whether a level of `nx` intervals below `n` has the lines to correct anything in a narrow ellipse."""
+    return point.kappa <= NARROW or nx >= min(NARROW_COARSEST, n // 4)
+
+
 def resolved_load(point: MoesPoint, mesh: float) -> float:
     """Moes load, at most that of `point`, which a mesh size (in semi-axes) carries with a positive film."""
+    if point.kappa > LONG and point.inlet_width < INLET_NEAR:
+        mesh /= LOBE_SHARE
 
     def excess(log_load: float) -> float:
         return replace(point, M=exp(log_load)).inlet_width * LOADING_MESH - mesh

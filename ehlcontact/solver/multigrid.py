@@ -22,9 +22,10 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse import CoarseNewton
 from ehlcontact.solver.kernels import transfer
 from ehlcontact.solver.level import Level, build_hierarchy
-from ehlcontact.solver.mesh import Mesh, coarsest_intervals, resolved_load
+from ehlcontact.solver.mesh import LONG, Mesh, coarsest_intervals, corrects, resolved_load
 
 PRE_SWEEPS, POST_SWEEPS = 2, 1
+REPEATED_LEVELS = 2  # of a long contact: the finest, which alone repeat their sweeps
 CYCLES_PER_LEVEL = 1  # of full multigrid, before the finest level
 LARGEST_LOADING = 5.0  # factor by which the load of a level rises at once
 CYCLES_AFTER_LOADING = 3  # on a level that carries more load than the one below
@@ -42,7 +43,8 @@ class Multigrid:
     ) -> None:
         self.point, self.mesh = point, mesh
         self._options: dict[str, Any] = {"deflection": deflection, "effort": effort, "threads": threads}
-        self.levels = build_hierarchy(point, mesh, coarsest_intervals(point, mesh.n), deflection)
+        levels = build_hierarchy(point, mesh, coarsest_intervals(point, mesh.n), deflection)
+        self.levels = [level for level in levels if corrects(point, level.nx, mesh.n)]
         for level in self.levels:
             level.share(threads)
         self.effort = self.least_effort = effort  # how often the sweeps of a cycle are repeated
@@ -150,7 +152,9 @@ class Multigrid:
     def _sweeps(self, level: Level, count: int) -> Sequence[Callable[[], None]]:
         """Sweeps on a level before or after its coarse correction, the last of them along its flanks first."""
         last = level.relax if level.squeeze_dominates else level.relax_flanks_first
-        return (*(level.relax,) * (count - 1), last) * self.effort
+        # Coarse levels of a long contact see its side lobes on a line or two: more sweeps lead away from there.
+        once = self.point.kappa > LONG and level not in self.levels[-REPEATED_LEVELS:]
+        return (*(level.relax,) * (count - 1), last) * (1 if once else self.effort)
 
 
 def initial_approach(point: MoesPoint) -> float:

@@ -135,7 +135,7 @@ def weigh_segments(first, last, felt, fields, stencil, c_t):
     for s in range(first, last):
         j = felt[s, 0]
         for i in range(felt[s, 1], felt[s, 2]):
-            fields.theta[j, i] = distribution_weight(j, i, fields.flow, stencil, switch)
+            fields.theta[j, i] = distribution_weight(j, i, fields.P, fields.flow, stencil, switch)
 
 
 @jit

@@ -35,11 +35,14 @@ SQUEEZE = 10.0  # how much more the squeeze term raises it than the wedge term
 FLOW_SLOPE = 0.75  # share of the derivatives of eps; see above
 LARGEST_CHANGE = 0.3  # of P in one sweep, along one line; far from the solution the linear model overshoots
 FILM_CHANGE = 1.0  # of the film there by the near coefficient alone, over the film: more would turn it negative
+LEAST_OPENING = 0.003  # of a node's own term, from which the film of the next lines counts in its equation
 
 
 @jit_node
-def distribution_weight(j, i, flow, stencil, switch):
-    """Weight theta of the distributed change at one interior node."""
+def distribution_weight(j, i, P, flow, stencil, switch):
+    """Weight theta of the distributed change at one interior node; a dry one has no pressure to take back from."""
+    if P[j, i] <= 0.0:
+        return 0.0
     face = j - 1 if j > 0 else 0
     along = stencil.cx * max(flow.along[j, i - 1], flow.along[j, i])
     across = stencil.cy * max(flow.across[face, i], flow.across[j, i])
@@ -63,7 +66,7 @@ def distribution_weights(first, last, P, flow, stencil, c_t, theta):
     switch = switch_value(stencil, c_t)
     for j in range(first, last):
         for i in range(1, P.shape[1] - 1):
-            theta[j, i] = distribution_weight(j, i, flow, stencil, switch)
+            theta[j, i] = distribution_weight(j, i, P, flow, stencil, switch)
 
 
 @jit
@@ -130,19 +133,28 @@ def responses(line, j, start, stop, theta, near, reach, films):
 
 
 @jit_node
-def assemble_at(j, i, P, flow, theta, stencil, c_t, films, band, r):
+def assemble_at(j, i, P, flow, theta, stencil, c_t, films, near, band, r):
     """Row of one node in the matrix of the distributed changes of its line; column `r` of `band` written.
 
     A unit change at node k of the line raises P there by 1, lowers its neighbours by their shares and deflects the
-    film near it by ``films[k]``.
+    film near it by ``films[k]``. The film of the next lines counts where oil flows there: beside the side lobes of
+    long contacts pressure opens its own way out, by more than the flow that it drives through the gap as it is.
+    Without that the last lines of a lobe move by twice what they should and more, and sweeps diverge. Where oil
+    comes from the next line that term has the other sign: it would take away what holds the solve together.
     """
-    pc, pw, pe, ps, pn, pww, hc, hw, he, _, _, hww = linearise_at(j, i, P, flow, stencil, c_t, FLOW_SLOPE)
+    pc, pw, pe, ps, pn, pww, hc, hw, he, hs, hn, hww = linearise_at(j, i, P, flow, stencil, c_t, FLOW_SLOPE)
     last = P.shape[1] - 1
     centre = ALONG + FILM_MARGIN
     for o in range(-BAND_LOWER, BAND_UPPER + 1):
         k, at = min(max(i + o, 0), last), centre - o
         film = hc * films[k, at] + hw * films[k, at - 1] + hww * films[k, at - 2] + he * films[k, at + 1]
         band[BAND_LOWER + o, r] = film
+    hs, hn = min(hs, 0.0), min(hn, 0.0)
+    if -(hs + hn) * near[1, 0] > LEAST_OPENING * abs(pc + hc * near[0, 0]):
+        for o in range(max(-NEAR, 1 - i), min(NEAR, last - 1 - i) + 1):
+            shares = shares_at(j, i + o, theta)
+            film = hs * response(-1, -o, shares, near) + hn * response(1, -o, shares, near)
+            band[BAND_LOWER + o, r] += film
     own = theta[j, i]
     far_west = SHARE * min(theta[j, max(i - 3, 0)], theta[j, max(i - 2, 0)])
     west = SHARE * min(theta[j, max(i - 2, 0)], theta[j, i - 1])
@@ -174,7 +186,7 @@ def relax_line(j, start, stop, fields, rhs, stencil, c_t, near, work):
         r = i - start
         b[r] = rhs[j, i] - operator_at(j, i, P, flow, stencil, c_t)
         if P[j, i] > 0.0 or b[r] < 0.0:
-            assemble_at(j, i, P, flow, theta, stencil, c_t, films, band, r)
+            assemble_at(j, i, P, flow, theta, stencil, c_t, films, near, band, r)
         else:
             band[:, r] = 0.0
             band[BAND_LOWER, r] = 1.0
