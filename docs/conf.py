@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import inspect
 import os
+import re
 from typing import Any
 
 from docutils import nodes
@@ -43,6 +44,7 @@ html_css_files = ["wide.css"]
 html_copy_source = False
 html_show_sphinx = html_show_copyright = False
 html_math_renderer = "mathml"
+highlight_language = "text"  # of blocks that say none: command lines
 pygments_style, pygments_dark_style = "friendly", "github-dark"
 html_theme_options = {"navigation_with_keys": True}
 
@@ -80,6 +82,16 @@ def public(app: Any, env: Any, node: Any, contnode: Any) -> Any:
     return contnode
 
 
+def short(
+    app: Any, what: str, name: str, obj: Any, options: Any, signature: str | None, returns: str | None
+) -> Any:
+    """An array is an array: its shape and what is in it stand in the text."""
+    if not signature:
+        return None
+    array = re.compile(r"~?numpy\.ndarray\[.*?dtype\[[\w.~]+\]\]")
+    return array.sub("ndarray", signature), array.sub("ndarray", returns or "")
+
+
 def mathml(node: Any, *, block: bool) -> str:
     """An equation; what the translator does not know is a warning, and that is an error."""
     try:
@@ -106,3 +118,4 @@ def setup(app: Any) -> None:
     """Called by Sphinx."""
     app.add_html_math_renderer("mathml", (inline, None), (display, None))
     app.connect("missing-reference", public)
+    app.connect("autodoc-process-signature", short)
