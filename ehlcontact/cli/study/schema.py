@@ -80,12 +80,10 @@ class Oil(Section):
 
     @property
     def label(self) -> str:
-        """Its name; where it has none of its own, by its grade or its numbers."""
-        if "name" in self.model_fields_set:
+        """Its name; by its grade where it has none of its own."""
+        if self.iso_vg is None or "name" in self.model_fields_set:
             return self.name
-        if self.iso_vg is not None:
-            return f"ISO VG {self.iso_vg} at {numeral(self.temperature)} °C"
-        return f"{self.name}: {numeral(self.eta0)} Pa s, alpha {numeral(self.alpha)} 1/Pa"
+        return f"ISO VG {self.iso_vg} at {numeral(self.temperature)} °C"
 
     @property
     def lubricant(self) -> Lubricant:
