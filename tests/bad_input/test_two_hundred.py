@@ -37,6 +37,7 @@ SAMPLE = [
     ("export", RECORD, "-o", "new.fmu"),
     ("verify", ELEMENT),
     ("validate", STUDY, "--json", STUDY),
+    ("explore", "-o", "k.json"),
     ("run", STUDY, "--jobs", "0"),
     ("reproduce", "--table", "7"),
     ("atlas", "build", "-o", "new.npz", "--scheduler", "nowhere"),
