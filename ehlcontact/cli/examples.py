@@ -28,6 +28,8 @@ EXAMPLES = {
     "export": (
         "ehlcontact export ball.json -o ball.fmu",
         "ehlcontact export ball.json -o ball.fmu --fmi 3 --platform all --force",
+        "ehlcontact export examples/small_study.toml -o rotor.fmu",
+        "ehlcontact export examples/small_study.toml -o rotor.ssp",
     ),
     "validate": ("ehlcontact validate examples/small_study.toml",),
     "run": (
@@ -40,6 +42,7 @@ EXAMPLES = {
         "ehlcontact bearing examples/bearing_6205.toml --json -",
     ),
     "verify": ("ehlcontact verify ball.fmu",),
+    "explore": ("ehlcontact explore -o page.html",),
     "atlas build": ("ehlcontact atlas build -o atlas.npz --draws 200 --processes 4",),
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 import warnings
 from collections.abc import Callable, Mapping, Sequence
@@ -21,6 +22,8 @@ from fmu.binaries.process import BuildError, run
 # Binaries shall run on Linux from here on; what a newer system's compiler makes may need that system.
 OLDEST_GLIBC = (2, 17)
 LAYOUT = b"2"  # of what is kept: another number where compiled libraries would differ for a reason not in the key
+
+MACRO = re.compile(rb"^#define (\w+)", flags=re.MULTILINE)
 
 Progress = Callable[[int, int], None]
 
@@ -120,10 +123,14 @@ def _library(work: Work, target: Platform) -> tuple[bytes, Compiler]:
 
 
 def _key_of_too_new(work: Work, compiler: Compiler) -> str:
-    """Key of what is kept where a compiler's library needs a newer system: another element's would as well."""
-    return cache.key_of(
-        [LAYOUT, b"too new", compiler.identity.encode(), *(work.sources[unit] for unit in work.units)]
-    )
+    """Key of what is kept where a compiler's library needs a newer system: another element's would as well.
+
+    Which functions of the C library a code calls is decided by its files and by which macros its headers define,
+    not by their values: a power law calls pow, a cubic none, from the same file.
+    """
+    defined = sorted({name for content in work.sources.values() for name in MACRO.findall(content)})
+    files = (work.sources[unit] for unit in work.units)
+    return cache.key_of([LAYOUT, b"too new", compiler.identity.encode(), *defined, b"", *files])
 
 
 def _made(work: Work, target: Platform, compiler: Compiler) -> tuple[bytes, Library]:

@@ -10,8 +10,8 @@ import pytest
 import ehlcontact
 
 SUBCOMMANDS = (
-    "init", "steady", "simulate", "impedance", "fit", "element", "export", "validate", "run", "reproduce",
-    "bearing", "atlas",
+    "init", "validate", "run", "reproduce", "steady", "simulate", "impedance", "fit", "element", "export",
+    "verify", "bearing", "explore", "atlas",
 )  # fmt: skip
 
 

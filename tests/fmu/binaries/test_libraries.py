@@ -134,7 +134,7 @@ def test_a_binary_for_newer_systems_only_is_passed_over(monkeypatch):
 
 @pytest.mark.skipif(OWN.system != "linux", reason="glibc is on Linux")
 def test_a_compiler_whose_libraries_are_too_new_is_asked_once(monkeypatch, tmp_path):
-    """Not again for the same code with other numbers; for other code it is."""
+    """Not again for the same code with other numbers; for other code, or another part of it, it is."""
     monkeypatch.setenv("EHLCONTACT_CACHE", str(tmp_path))
     asked = []
 
@@ -149,9 +149,10 @@ def test_a_compiler_whose_libraries_are_too_new_is_asked_once(monkeypatch, tmp_p
     monkeypatch.setattr(libraries, "compilers", lambda target: [new, old])
     monkeypatch.setattr(libraries, "_compile", compile_)
     monkeypatch.setattr(libraries, "_checked", checked)
-    for code, numbers in ((b"f", b"1"), (b"f", b"2"), (b"g", b"2")):
-        build_binaries({"a.c": code, "a.h": numbers}, ["a.c"], "a", [OWN], fmi=3)
-    assert asked == ["cc", "zig", "zig", "cc", "zig"]
+    one, two, power = b"#define N 1\n", b"#define N 2\n", b"#define N 2\n#define LAW_POWER 1\n"
+    for code, header in ((b"f", one), (b"f", two), (b"g", two), (b"f", power)):
+        build_binaries({"a.c": code, "a.h": header}, ["a.c"], "a", [OWN], fmi=3)
+    assert asked == ["cc", "zig", "zig", "cc", "zig", "cc", "zig"]
 
 
 def test_where_one_platform_fails_the_others_are_ended(monkeypatch, tmp_path):
