@@ -93,7 +93,7 @@ LINES_APART = 5.0  # physical distance of lines over that of nodes, from which a
 NEGATIVE_FILM = 0.8  # mesh over inlet width above which a film comes out negative: a level carries less load then,
 LOADING_MESH = 0.4  # as much as it resolves this well
 LONG = 1.0  # kappa above which the side lobes of thin films are so much thinner than the inlet
-LOBE_SHARE = 0.5  # that it is this share of both mesh sizes
+LOBE_SHARE = 0.5  # that a second attempt takes this share of both mesh sizes: stiff oil does better without
 HIGH_LOAD = 1000.0  # M from which the coarsest grid has to see more of the inlet
 NARROW = 2.0  # kappa above which it needs more lines across rolling:
 NARROW_COARSEST = 64  # levels of fewer intervals, on larger grids, have one or two and correct nothing
@@ -335,8 +335,6 @@ def corrects(point: MoesPoint, nx: int, n: int) -> bool:
 
 def resolved_load(point: MoesPoint, mesh: float) -> float:
     """Moes load, at most that of `point`, which a mesh size (in semi-axes) carries with a positive film."""
-    if point.kappa > LONG and point.inlet_width < INLET_NEAR:
-        mesh /= LOBE_SHARE
 
     def excess(log_load: float) -> float:
         return replace(point, M=exp(log_load)).inlet_width * LOADING_MESH - mesh

@@ -22,7 +22,7 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse import CoarseNewton
 from ehlcontact.solver.kernels import transfer
 from ehlcontact.solver.level import Level, build_hierarchy
-from ehlcontact.solver.mesh import LONG, Mesh, coarsest_intervals, corrects, resolved_load
+from ehlcontact.solver.mesh import LOBE_SHARE, LONG, Mesh, coarsest_intervals, corrects, resolved_load
 
 PRE_SWEEPS, POST_SWEEPS = 2, 1
 REPEATED_LEVELS = 2  # of a long contact: the finest, which alone repeat their sweeps
@@ -71,7 +71,9 @@ class Multigrid:
         Every level carries the load that its mesh can resolve: a film thinner than its errors comes out negative
         there, and is no start for anything. In Hertz units the pressure hardly changes with load.
         """
-        loads = [resolved_load(self.point, max(level.hx, level.hy)) for level in self.levels[:-1]] + [self.point.M]
+        share = LOBE_SHARE if self.point.kappa > LONG and self.least_effort > 1 else 1.0
+        sizes = [max(level.hx, level.hy) / share for level in self.levels[:-1]]
+        loads = [*(resolved_load(self.point, size) for size in sizes), self.point.M]
         self._set_load(0, loads[0])
         self.levels[0].set_dry_hertz()
         self.u = self.newton.solve(self.u, balance, max_steps=60, tol=1e-9)

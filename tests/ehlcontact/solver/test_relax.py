@@ -196,12 +196,13 @@ def nodes(request):
 
 
 @jit_and_python(relax.relax_line)
+@pytest.mark.parametrize(("pressure", "jumps"), [(0.5, 0.02), (0.01, 0.3)], ids=["stiff", "steep"])
 @pytest.mark.parametrize("j", [0, 1, 2, 5])
-def test_line_solves_its_linear_system(point, kernel, j, nodes):
+def test_line_solves_its_linear_system(point, kernel, j, pressure, jumps, nodes):
     """Under pressure all along, w solves ``A w = residual`` within the limit on changes, and elsewhere stays."""
     level = Level(point, Domain(), 16, 8)
     f = level.fields
-    f.P[:-1, 1:-1] = 0.5 + 0.02 * np.random.default_rng(7).uniform(size=(8, 15))
+    f.P[:-1, 1:-1] = pressure + jumps * np.random.default_rng(7).uniform(size=(8, 15))
     level.update_film(0.4)
     level.c_t = 0.5
     level.update_residual()
