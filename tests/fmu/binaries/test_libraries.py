@@ -174,7 +174,8 @@ def test_where_one_platform_fails_the_others_are_ended(monkeypatch, tmp_path):
     asked = [PLATFORMS[name] for name in ("x86_64-linux", "x86_64-windows", "x86_64-darwin")]
     with pytest.raises(BuildError, match=r"^no$"):
         build_binaries({"a.c": b""}, ["a.c"], "a", asked, 3, lambda *step: told.append(step))
-    assert ended == [True] and told == [(0, 3)]
+    assert set(ended) == {True}  # the third may have begun at that moment, and is told likewise
+    assert told[0] == (0, 3) and (3, 3) not in told
 
 
 def test_no_room_to_compile(spec, sources, monkeypatch, tmp_path):
