@@ -259,12 +259,13 @@ def step_advice(element: Element) -> list[tuple[str, str, str]]:
         (
             "largest step, inputs extrapolated",
             f"{late / FAST_STEP**2:.3g}{unit}",
-            f"where K h (w h)^2 is C, at w h = {FAST_STEP:g} of the fastest motion w; it goes like (w h)^-2",
+            f"where K h (w h)^2 is C, twice the damping then, at w h = {FAST_STEP:g} of the fastest "
+            "motion w; it goes like (w h)^-2",
         ),
         (
             "largest step, force read after inputs are set, or iterated",
             "the master's",
-            "set, get, then fmi2DoStep has no delay; input_meaning 2 (end) is for rollback",
+            "set, get, then doStep has no delay; input_meaning 2 (end) is for rollback",
         ),
     ]
 

@@ -164,10 +164,14 @@ def opened(file: Path) -> Iterator[tuple[str, Any]]:
         Not a readable FMU for this platform.
     """
     try:
-        with zipfile.ZipFile(file):
-            pass
+        with zipfile.ZipFile(file) as archive:
+            names = set(archive.namelist())
     except (OSError, ValueError, zipfile.BadZipFile) as error:
         raise InputError("path", str(file), f"a readable FMU ({' '.join(str(error).split())})") from None
+    if "modelDescription.xml" not in names:
+        system = "SystemStructure.ssd" in names
+        reason = "a system archive, with FMUs in its resources/" if system else "no modelDescription.xml in it"
+        raise InputError("path", str(file), f"a readable FMU ({reason})")
     import fmpy
 
     folder = tempfile.mkdtemp(prefix="ehlcontact-verify-")

@@ -37,7 +37,11 @@ def rotor_spec(model: RotorModel, model_name: str | None = None) -> ModelSpec:
     closed = bool(model.elements)
     mounts = range(1, len(model.rotor.mounts) + 1)
     body = "rotor_contacts.c" if closed else "rotor_free.c"
-    words = f"closed with {len(mounts)} contacts in each bearing" if closed else "its contacts outside"
+    words = (
+        f"closed with {len(mounts)} contact{'s' * (len(mounts) != 1)} in each bearing"
+        if closed
+        else "its contacts outside"
+    )
     return ModelSpec(
         name=name,
         description=f"Jeffcott rotor, {words}; SI units",
@@ -213,7 +217,7 @@ class _Variables:
         r = self.rotor
         for name, unit, text in (
             ("unbalance", "kg.m", "Unbalance of the disc: mass times eccentricity"),
-            ("speed_rpm", "rev/min", "Speed"),
+            ("speed_rpm", "rev/min", "Speed of the unbalance; the films of contacts stay as made"),
         ):
             self.add(name, "parameter", "tunable", text, unit=unit, start=float(getattr(r, name)), minimum=0.0)
         self.add(

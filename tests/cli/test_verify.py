@@ -52,12 +52,20 @@ def test_an_fmu_whose_references_say_otherwise(call, good, tmp_path):
     assert ["verified", "no"] in [line.split() for line in result.out.splitlines()]
 
 
+def archive(path, name):
+    with zipfile.ZipFile(path, "w") as file:
+        file.writestr(name, "")
+    return path
+
+
 def test_what_is_no_such_fmu(refused, good, tmp_path):
     (tmp_path / "text.fmu").write_text("no zip")
     for path, words in {
         tmp_path / "none.fmu": ("file = ", "a readable FMU", "No such file"),
         tmp_path / "text.fmu": ("file = ", "a readable FMU", "not a zip file"),
         tmp_path: ("file = ", "a readable FMU"),
+        archive(tmp_path / "rotor.ssp", "SystemStructure.ssd"): ("a system archive, with FMUs in its resources/",),
+        archive(tmp_path / "other.fmu", "x.py"): ("other.fmu", "a readable FMU (no modelDescription.xml in it)"),
         without(good, tmp_path / "bare.fmu", "extra/"): ("bare.fmu", "an FMU with reference results in extra/"),
         without(good, tmp_path / "sources.fmu", "binaries/"): ("sources.fmu", "an FMU for co-simulation on"),
     }.items():

@@ -165,7 +165,10 @@ def claim_fmus(page, folder):
     late = "a force one step h late takes K h off the damping C; K = #, C = #"
     page.claim(f"largest step, inputs held | # s | # s | {late}; K = #, C = #", *steps["held"], *whys)
     page.claim("largest step, inputs extrapolated | # s | # s | where K h (w h)^#", *steps["extrapolated"], 2)
-    page.claim("is C, at w h = # of the fastest motion w; it goes like (w h)^-2", 0.1)
+    page.claim(
+        "is C, twice the damping then, at w h = # of the fastest motion w; it goes like (w h)^-2",
+        0.1,
+    )
     page.claim("input_meaning 2 (end) is for rollback")
 
 

@@ -192,7 +192,7 @@ def _rows(found: Verification | SystemVerification | None, *, rotor: bool) -> li
 
     if isinstance(found, SystemVerification):
         return [
-            ("findings", str(len(found.findings)), "of the schema of the standard; none is right"),
+            ("findings", str(len(found.findings)), "against the schema of the standard; there should be none"),
             (
                 "deviation",
                 f"{found.deviation:.1e}",
@@ -200,7 +200,7 @@ def _rows(found: Verification | SystemVerification | None, *, rotor: bool) -> li
             ),
             ("verified", "yes", "and every FMU by itself"),
         ]
-    findings = ("findings", str(len(found.findings)), "of fmpy's validation; none is right")
+    findings = ("findings", str(len(found.findings)), "of fmpy's validation; there should be none")
     if rotor:
         return [
             findings,
