@@ -96,6 +96,7 @@ class ModelSpec:
     tables: Mapping[str, str] = field(default_factory=dict)  # generated files, name to C text; a .c is compiled
     choices: tuple[Choice, ...] = ()
     step: float = 1e-3  # that resolves the contact
+    tolerance: float = 1e-6  # relative, that model exchange needs for three digits of what moves
     time_unit: str = "s"
     # Event indicators, one for each contact: name in FMI 3.0, and the output that depends on the same.
     indicators: tuple[tuple[str, str], ...] = (("contact_indicator", "force"),)

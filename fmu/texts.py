@@ -85,7 +85,8 @@ def model_description(spec: ModelSpec, guid: str) -> bytes:
 def default_experiment(spec: ModelSpec) -> dict[str, str]:
     """Start, stop and step that resolve the contact."""
     stop = float(f"{DEFAULT_STEPS * spec.step:.6g}")
-    return {"startTime": "0.0", "stopTime": repr(stop), "tolerance": "1e-06", "stepSize": repr(spec.step)}
+    numbers = {"startTime": 0.0, "stopTime": stop, "tolerance": spec.tolerance, "stepSize": spec.step}
+    return {name: repr(value) for name, value in numbers.items()}
 
 
 def _interfaces(root: ElementTree.Element, spec: ModelSpec) -> None:

@@ -8,13 +8,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.results.story import Told
 from fmu.verify import TOLERANCE
 
 _Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Trial:
+class Trial(Told):
     """Rows of one experiment.
 
     Attributes
@@ -30,6 +31,9 @@ class Trial:
     time: _Floats
     knowns: Mapping[str, _Floats]
     unknowns: Mapping[str, _Floats]
+
+    def _story(self) -> list[str]:
+        return [f"{self.time.size} rows", f"set {', '.join(self.knowns)}", f"read {', '.join(self.unknowns)}"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

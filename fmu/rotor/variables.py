@@ -14,6 +14,7 @@ from fmu.rotor.model import RotorModel
 from fmu.spec import ModelSpec, Variable
 
 BODIES = ("disc", "journal")
+EXCHANGE_TOLERANCE = 1e-8  # an orbit is some thousandths of the approach; 1e-6 of that is a tenth of it
 _FORCES = {"journal": "Further force on the journal", "disc": "Further force on the disc"}
 
 
@@ -53,6 +54,7 @@ def rotor_spec(model: RotorModel, model_name: str | None = None) -> ModelSpec:
         tables={"rotor_data.h": _data(model), **(law_tables(model.elements) if closed else {})},
         choices=(MEANINGS,),
         step=model.inner_step,
+        tolerance=EXCHANGE_TOLERANCE,
         indicators=tuple((f"contact_indicator[{i}]", f"force[{i}]") for i in mounts) if closed else (),
         flanges=()
         if closed

@@ -2,11 +2,22 @@
 
 from ctypes import POINTER, c_double
 
+import fmpy
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from reduced_models import simulate_rotor
+from fmu import export_rotor
+from reduced_models import JeffcottRotor, simulate_rotor
+
+BALL, WEIGHT = 850.0, 2.3 * 9.81  # N
+BODIES = {
+    "disc_mass": 2.0,
+    "journal_mass": 0.3,
+    "shaft_stiffness": 2e8,
+    "shaft_damping": 60.0,
+    "disc_damping": 1.0,
+}
 
 pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 
@@ -135,3 +146,21 @@ def test_one_event_indicator_for_each_contact(instance, rotors, fmi):
     assert sorted(np.sign(pushing)) == [-1.0, 1.0] and (np.sign(pushing) == np.where(force > 0.0, 1.0, -1.0)).all()
     alone, _, _ = started(instance, "alone", fmi)
     assert alone.description.numberOfEventIndicators == 0 if fmi == 2 else not alone.description.eventIndicators
+
+
+def test_the_tolerance_that_it_proposes_keeps_the_orbit(elements, tmp_path):
+    """Of an orbit of some 30 nm, by fmpy, which takes the tolerance of the FMU; a hundred times that would not do."""
+    rotor = JeffcottRotor.vertical(load=(0.0, WEIGHT - BALL), unbalance=2e-6, speed_rpm=8000.0, **BODIES)
+    path = export_rotor(rotor, tmp_path / "x.fmu", [elements["wide_si"]])
+    asked = {"stop_time": 0.005, "output": ["journal_y"], "output_interval": 2e-5}
+
+    def journal(**more):
+        found = fmpy.simulate_fmu(str(path), **asked, **more)
+        return np.interp(np.arange(0.001, 0.005, 2e-5), found["time"], found["journal_y"])
+
+    exact = journal(fmi_type="CoSimulation")
+    gaps = [
+        np.max(np.abs(journal(fmi_type="ModelExchange", **more) - exact)) / np.ptp(exact)
+        for more in ({}, {"relative_tolerance": 1e-6})
+    ]
+    assert gaps[0] < 3e-3 and gaps[1] > 10.0 * gaps[0]
