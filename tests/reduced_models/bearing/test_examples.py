@@ -47,6 +47,8 @@ def test_ross_drop_in():
     np.testing.assert_allclose(run.ring[:, :, 1].mean(axis=0), alone.displacement[1], rtol=0.02)
 
 
+# scipy's BDF subtracts room it has not written yet, in its first steps: a warning where that holds an infinity.
+@pytest.mark.filterwarnings("ignore:invalid value encountered in subtract:RuntimeWarning:scipy")
 def test_a_control_loop(tmp_path):
     """Must-show of issue 12: linearised by differences within 1e-4, Bode is the impedance; the damper damps."""
     control = pytest.importorskip("control")

@@ -117,6 +117,8 @@ def test_linearize_of_a_beam(film, beam):
         np.testing.assert_allclose(response(found, w), expected, rtol=0.0, atol=1e-4 * abs(expected).max())
 
 
+# scipy's BDF subtracts room it has not written yet, in its first steps: a warning where that holds an infinity.
+@pytest.mark.filterwarnings("ignore:invalid value encountered in subtract:RuntimeWarning:scipy")
 def test_block_in_time_is_the_run(film, block):
     """A block that is pushed while balls go round, with the tolerances of python-control, against our own run."""
     rotor = block(film, damping=500.0 * np.eye(2), unbalances=())
