@@ -41,6 +41,7 @@ def test_page(page, tmp_path):
     run(page, {})
 
 
+@pytest.mark.filterwarnings("ignore::UserWarning")  # what ROSS brings says at import, where ROSS is
 def test_an_error_tells_its_page_and_line():
     with pytest.raises((NameError, ImportError)) as failed:
         run("docs/tutorials/bearing.md", {}, have={"ross"}, only="ross")
