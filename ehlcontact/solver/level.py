@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 FLANK_SQUEEZE = 0.5  # squeeze term over wedge term, above which a step needs no passes along the flanks
 FORCE_FACTOR = 1.5 / np.pi  # eq. 4: force = 3/(2 pi) iint P
-SHARED_FROM = 8000  # nodes: on smaller levels threads wait longer for each other than they work
+SHARED_FROM = 20000  # nodes: on smaller levels threads wait longer for each other than they work
 
 
 class Fields(NamedTuple):
@@ -184,7 +184,7 @@ class Level:
         """Passes along the steep flanks from the state of the last `update`; P, H and flow written there."""
         self._weigh()
         f = self.fields
-        flanks.relax_flanks(f, self.rhs, self.law, self.stencil, self.c_t, self.near, self.marks, self.team)
+        flanks.relax_flanks(f, self.rhs, self.law, self.stencil, self.c_t, self.near, self.marks)
 
     def relax_flanks_first(self) -> None:
         """`relax_flanks`, then `relax`: away from them the film hardly feels their distributed changes."""

@@ -144,30 +144,12 @@ def passes_of(nx):
     return min(max(nx // INTERVALS_EACH, LEAST_PASSES), MOST_PASSES)
 
 
-def relax_flanks(fields, rhs, law, stencil, c_t, near, marks, team):
+@jit
+def relax_flanks(fields, rhs, law, stencil, c_t, near, marks):
     """Relax along the fronts of ``fields.theta``; P, and near them H, flow and theta of `fields` written.
 
-    The work is that of `relax_flanks_alone`, shared by a `team` of threads.
+    By one thread: a pass takes less than another thread needs to wake (shared, n = 1024 took twice as long).
     """
-    if team.threads == 1:
-        relax_flanks_alone(fields, rhs, law, stencil, c_t, near, marks)
-        return
-    mark_front(fields.P, fields.flow.eps, marks)
-    solved, felt = segments(marks, SOLVED), segments(marks, FELT)
-    if len(solved) == 0:
-        return
-    fields.w[:] = 0.0
-    for _ in range(passes_of(fields.P.shape[1] - 1)):
-        for colour in range(2):
-            team.run(solve_segments, len(solved), solved, colour, fields, rhs, stencil, c_t, near)
-            team.run(spread_segments, len(felt), felt, colour, fields, law, stencil, near)
-            team.run(update_between_segments, len(felt), felt, fields.flow)
-        team.run(weigh_segments, len(felt), felt, fields, stencil, c_t)
-
-
-@jit
-def relax_flanks_alone(fields, rhs, law, stencil, c_t, near, marks):
-    """`relax_flanks` by one thread, compiled as a whole: small grids have no time for calls."""
     mark_front(fields.P, fields.flow.eps, marks)
     solved, felt = segments(marks, SOLVED), segments(marks, FELT)
     if len(solved) == 0:
