@@ -7,6 +7,7 @@ EXAMPLES = {
     "init": (
         "ehlcontact init",
         'ehlcontact init mine.toml --bearing 6206 --oil "ISO VG 46" --temp 65 --rpm 6000 --load 200',
+        "ehlcontact init --rpm 1500 --rpm 3000 --load 100 --load 500",
     ),
     "steady": (f"ehlcontact steady {_BALL}", "ehlcontact steady --M 200 --L 10 --kappa 0.5 --figure film.png"),
     "simulate": (
@@ -35,6 +36,7 @@ EXAMPLES = {
     "run": (
         "ehlcontact run examples/small_study.toml",
         "ehlcontact run examples/deep_groove_6205.toml -o results/mine --jobs 4",
+        "ehlcontact run study.toml --scheduler tcp://127.0.0.1:8786",
     ),
     "reproduce": ("ehlcontact reproduce --table 3", "ehlcontact reproduce -o results/paper"),
     "bearing": (

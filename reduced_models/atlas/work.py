@@ -12,7 +12,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import Any, Self, TypeVar
 
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import parse_json
@@ -22,6 +22,7 @@ from ehlcontact.process.workers import end_when, interrupts_held
 Job = tuple[str, MoesPoint]
 Entry = dict[str, Any]
 Solve = Callable[[MoesPoint], Entry]
+Work = TypeVar("Work")  # what one job is about: a point of an atlas, a stage of a study
 Solved = Iterator[tuple[str, Entry]]
 
 SCHEMA = "ehlcontact-atlas-work"
@@ -184,7 +185,7 @@ def require_scheduler(scheduler: str) -> None:
         raise InputError("--scheduler", scheduler, f"the address of a Dask scheduler ({reason})") from None
 
 
-def on_cluster(solve: Solve, jobs: Sequence[Job], scheduler: str) -> Solved:
+def on_cluster(solve: Callable[[Work], Entry], jobs: Sequence[tuple[str, Work]], scheduler: str) -> Solved:
     """Solve on the Dask cluster at that address; what a lost worker was at goes to another one.
 
     Raises
@@ -204,8 +205,8 @@ def on_cluster(solve: Solve, jobs: Sequence[Job], scheduler: str) -> Solved:
         raise InputError("--scheduler", scheduler, f"the address of a Dask scheduler ({reason})") from None
     with client:
         futures = {
-            client.submit(solve, point, key=f"atlas-{name}-{os.getpid()}", retries=ATTEMPTS, pure=False): name
-            for name, point in jobs
+            client.submit(solve, work, key=f"ehlcontact-{name}-{os.getpid()}", retries=ATTEMPTS, pure=False): name
+            for name, work in jobs
         }
         finished = distributed.as_completed(futures, loop=client.loop, with_results=True)
         try:

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import HarmonicLoad, MoesPoint, save, simulate, solve_steady
-from ehlcontact.cli.study.runner import read_ledger
+from ehlcontact.cli.study.points.ledger import read_ledger
 from reduced_models import CubicContact
 from reduced_models.atlas.atlas import SHIPPED
 

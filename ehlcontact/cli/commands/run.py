@@ -1,25 +1,43 @@
-"""``ehlcontact run``: a study file to elements, FMUs, rotor comparison and report."""
+"""``ehlcontact run``: a study file to elements, FMUs, rotor comparison and report, at one point or at several."""
 
 from __future__ import annotations
 
 import os
+import sys
+import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from rich.console import Console
+from rich.table import Table
 
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, USAGE, check_apart, check_json, complain, prepare_folder, say, write_json
-from ehlcontact.errors import InputError
-from ehlcontact.files import read_text, write_text
+from ehlcontact.cli.numerals import spelled
+from ehlcontact.cli.output import (
+    FAILED,
+    STDOUT,
+    USAGE,
+    check_apart,
+    check_json,
+    complain,
+    prepare_folder,
+    say,
+    write_json,
+)
+from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.files import write_text
 from ehlcontact.point import moes_point
-from ehlcontact.status import Status
 
 if TYPE_CHECKING:
+    from ehlcontact.cli.study.points.board import Board
+    from ehlcontact.cli.study.points.journal import Journal
+    from ehlcontact.cli.study.points.lists import Point
+    from ehlcontact.cli.study.points.summary import Row
+    from ehlcontact.cli.study.runner import Share
     from ehlcontact.cli.study.schema import Study
-
-STUDY_COPY = "study.toml"
 
 
 def register(app: typer.Typer) -> None:
@@ -35,35 +53,39 @@ def run(
     ] = None,
     jobs: Annotated[int, typer.Option("--jobs", min=1, max=16, help="Computations side by side.")] = 2,
     threads: Annotated[int, typer.Option("--threads", help="Threads of each, at most the cores.")] = 1,
+    scheduler: Annotated[
+        str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Solve the stages on this Dask cluster.")
+    ] = None,
     json_to: o.JsonTo = None,
 ) -> None:
     """Do a whole study: steady film, transients, elements, FMUs, rotor, report.
 
-    Run it again to resume: what is finished in the folder and belongs to the same study is kept.
+    With lists of speeds or loads at every point of them, and a report over all. Run it again to resume: what is
+    finished in the folder and belongs to the same study is kept, and after a change only what changed is done.
     """
-    from ehlcontact.cli.study.schema import load_study
+    from ehlcontact.cli.study.points.lists import load_points, write_studies
 
-    study = load_study(study_file)
     folder = output if output is not None else Path("results") / study_file.stem
+    points = load_points(study_file, folder)
     require_threads("threads", threads)
-    _require_room(study, study_file)
+    for point in points:
+        _require_room(point.study, study_file)
     check_json(json_to)
     check_apart({"--json": json_to}, (study_file,))
+    if scheduler is not None:
+        from reduced_models.atlas.work import require_scheduler
+
+        require_scheduler(scheduler)
     prepare_folder(folder)
-    copy = folder / STUDY_COPY
-    if not copy.exists() or not copy.samefile(study_file):
-        write_text(copy, read_text(study_file), "file")
+    write_studies(points, study_file, folder)
 
-    from ehlcontact.cli.study.runner import StorageError
+    from ehlcontact.cli.study.points.journal import LOG, Journal
+    from ehlcontact.cli.study.runner import Share
 
-    try:
-        _compute(study, copy, folder, (min(jobs, os.cpu_count() or 1), threads), json_to)
-    except StorageError as error:
-        complain(f"{error}; what was computed before is in {folder}, the same command resumes")
-        raise typer.Exit(USAGE) from None
-    except KeyboardInterrupt:
-        complain(f"interrupted; what was computed is in {folder}, the same command resumes")
-        raise typer.Exit(FAILED) from None
+    journal = Journal(folder / LOG)
+    share = Share(min(jobs, os.cpu_count() or 1), threads, scheduler)
+    board, seconds = _compute(points, folder, share, journal)
+    _tell(points, folder, board, seconds, json_to)
 
 
 def _require_room(study: Study, path: Path) -> None:
@@ -78,28 +100,83 @@ def _require_room(study: Study, path: Path) -> None:
             raise InputError(f"{path}: solver.{name}", error.value, error.allowed) from None
 
 
-def _compute(study: Study, copy: Path, folder: Path, share: tuple[int, int], json_to: str | None) -> None:
-    """Stages, so many side by side with so many threads each, then elements, FMUs, reduced rotors and report."""
-    from ehlcontact.cli.study.runner import run_stages
+def _compute(points: Sequence[Point], folder: Path, share: Share, journal: Journal) -> tuple[Board, float]:
+    """Everything that is not done yet, and how long it took [s]."""
+    from ehlcontact.cli.study.points.board import StorageError
+    from ehlcontact.cli.study.points.journal import versions
+    from ehlcontact.cli.study.runner import run_points
 
-    ledger = run_stages(study, copy, folder, *share)
-    failed = {name: note for name, note in ledger.items() if note["status"] != Status.CONVERGED}
-    if failed:
-        for name, note in failed.items():
-            complain(f"{name}: {note['status']}: {note['message']}; what was reached is in {folder}")
-        write_json({"status": "not converged", "stages": ledger}, json_to)
-        raise typer.Exit(FAILED)
+    started = time.perf_counter()
+    where = share.scheduler or f"{share.jobs} side by side, threads of each: {share.threads}"
+    journal.line("run", f"{folder}, points: {len(points)}, {where}")
+    journal.line("versions", ", ".join(f"{name} {number}" for name, number in versions().items()))
+    try:
+        board = run_points(points, folder, share, journal)
+    except StorageError as error:
+        journal.line("stopped", str(error))
+        complain(f"{error}; what was computed before is in {folder}, the same command resumes")
+        raise typer.Exit(USAGE) from None
+    except ConvergenceError as error:  # of a cluster
+        journal.line("stopped", str(error))
+        complain(f"{error}; what was computed is in {folder}, the same command resumes")
+        raise typer.Exit(FAILED) from None
+    except KeyboardInterrupt:
+        journal.line("stopped", "interrupted")
+        complain(f"interrupted; what was computed is in {folder}, the same command resumes")
+        raise typer.Exit(FAILED) from None
+    return board, time.perf_counter() - started
 
-    from ehlcontact.cli.study.report import write_report
-    from ehlcontact.cli.study.results import evaluate
 
-    found = evaluate(study, folder, ledger)
-    write_json(found.to_dict(), str(folder / "results.json"), "file")
-    write_json(found.to_dict(), json_to)
-    report = write_report(found, folder / "report.html")
-    say(f"{found.answer}\nreport: {report}", json_to)
-    missing = [entry for entry in found.fmus if not entry["passes"]]
-    for entry in missing:
-        complain(f"{entry['file']}: {entry.get('error') or 'differs from the element'}; the rest is in {folder}")
-    if missing:
-        raise typer.Exit(FAILED)
+def _tell(points: Sequence[Point], folder: Path, board: Board, seconds: float, json_to: str | None) -> None:
+    """Summary, table and report of all points; what failed, by the exit code too."""
+    from ehlcontact.cli.study.points import summary as s
+    from ehlcontact.cli.study.points.closing import REPORT, read_results
+
+    rows = [s.row_of(point, board.ledgers[point.name], folder) for point in points]
+    several, journal = len(rows) > 1, board.journal
+    run = {"seconds": seconds, "solved": board.solved, "kept": board.kept, "warnings": journal.warnings}
+    document = s.summary(rows, points[0].study_title, run)
+    write_json(document, str(folder / s.SUMMARY), "file")
+    write_text(folder / s.TABLE, s.table(rows), "file")
+    failed = [(row, text) for row in rows for text in row.messages]
+    for row, text in failed:
+        journal.warn(row.point.titled(f"{text}; what was reached is in {row.point.folder}"))
+    for row in rows:
+        for text in row.faults:
+            journal.warn(row.point.titled(f"{text}; the rest is in {row.point.folder}"))
+    if several:
+        from ehlcontact.cli.study.points.page import write_overview
+
+        report = write_overview(rows, document, folder)
+        _show(rows, json_to)
+        write_json(document, json_to)
+    elif failed:
+        write_json({"status": "not converged", "stages": board.ledgers[rows[0].point.name]}, json_to)
+    else:
+        report = folder / REPORT
+        write_json(read_results(folder), json_to)
+        say(str(rows[0].answer), json_to)
+    if several or not failed:
+        say(f"report: {report}", json_to)
+    journal.line("done", f"{len(board.solved)} solved, {len(board.kept)} kept, {seconds:.1f} s")
+    if failed or any(row.faults for row in rows):
+        bad_input = not several and any(
+            board.ledgers[row.point.name].get("report", {}).get("bad_input") for row in rows
+        )
+        raise typer.Exit(USAGE if bad_input else FAILED)
+
+
+def _show(rows: Sequence[Row], json_to: str | None) -> None:
+    """A row per point, unless JSON goes to stdout."""
+    if json_to == STDOUT:
+        return
+    from ehlcontact.cli.study.points.page import NARROW, cells
+
+    table = Table(
+        title=spelled(rows[0].point.study_title, sys.stdout), title_justify="left", pad_edge=False, box=None
+    )
+    for head in (*(head for head, *_ in NARROW), "status"):
+        table.add_column(spelled(head, sys.stdout), justify="right")
+    for row in rows:
+        table.add_row(*(spelled(text, sys.stdout) for text in cells(row, NARROW)), row.status)
+    Console().print(table)

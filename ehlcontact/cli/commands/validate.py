@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import os
+import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.console import Console
 from rich.table import Table
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.numerals import numeral, spelled
 from ehlcontact.cli.output import STDOUT, check_apart, check_json, check_place, say, show_table, write_json
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.forecast import Forecast
+    from ehlcontact.cli.study.points.lists import Point
 
 
 def register(app: typer.Typer) -> None:
@@ -34,16 +37,66 @@ def validate(
 ) -> None:
     """Check a study file and say what `run` will do with it, and about how long it takes. Nothing is solved."""
     from ehlcontact.cli.study.forecast import forecast
-    from ehlcontact.cli.study.schema import load_study
+    from ehlcontact.cli.study.points.lists import load_points
 
-    study = load_study(study_file)
+    folder = output if output is not None else Path("results") / study_file.stem
+    points = load_points(study_file, folder)
     check_json(json_to)
     check_apart({"--json": json_to}, (study_file,))
-    folder = output if output is not None else Path("results") / study_file.stem
     check_place(folder)
-    found = forecast(study, folder, min(jobs, os.cpu_count() or 1))
-    write_json(found.to_dict(), json_to)
-    _show(found, json_to)
+    found = [forecast(point.study, point.folder, min(jobs, os.cpu_count() or 1)) for point in points]
+    if len(found) == 1:
+        write_json(found[0].to_dict(), json_to)
+        _show(found[0], json_to)
+        return
+    document = whole(points, found, folder)
+    write_json(document, json_to)
+    _show_points(document, json_to)
+
+
+def whole(points: Sequence[Point], found: Sequence[Forecast], folder: Path) -> dict[str, Any]:
+    """What a study of several points will do."""
+    warnings: dict[str, list[str]] = {}
+    for point, one in zip(points, found, strict=True):
+        for text in one.warnings:
+            warnings.setdefault(text, []).append(point.name)
+    return {
+        "title": points[0].study_title,
+        "folder": str(folder),
+        "points": [
+            {"name": point.name, "speed_rpm": point.study.bearing.speed_rpm}
+            | {"radial_load": point.study.bearing.radial_load}
+            | one.to_dict()
+            for point, one in zip(points, found, strict=True)
+        ],
+        "jobs": found[0].jobs,
+        "seconds": sum(one.work for one in found) / found[0].jobs,
+        "warnings": [f"{', '.join(names)}: {text}" for text, names in warnings.items()],
+    }
+
+
+def _show_points(document: Mapping[str, Any], json_to: str | None) -> None:
+    """One row per point."""
+    if json_to == STDOUT:
+        return
+    table = Table(title=spelled(document["title"], sys.stdout), title_justify="left", pad_edge=False, box=None)
+    for column in ("point", "M", "L", "kappa", "p_h [GPa]", "h_c [µm]", "kept", "to do"):
+        table.add_column(spelled(column, sys.stdout), justify="left" if column == "point" else "right")
+    for one in document["points"]:
+        p, kept = one["operating_point"], sum(stage["kept"] for stage in one["stages"])
+        numbers = (numeral(p[key]) for key in ("M", "L", "kappa"))
+        pressure, film = numeral(p["p_hertz"] * 1e-9, 3), numeral(p["h_central_expected"] * 1e6, 2)
+        stages = f"{kept} of {len(one['stages'])}"
+        table.add_row(one["name"], *numbers, pressure, film, stages, _time(one["seconds"]))
+    Console().print(table)
+    for warning in document["warnings"]:
+        say(f"warning: {warning}")
+    _say_whole(document["seconds"], document["jobs"])
+
+
+def _say_whole(seconds: float, jobs: int) -> None:
+    idle = "on cores with nothing else to do, where an earlier run has compiled the solver"
+    say(f"whole study: about {_time(seconds)}, {jobs} side by side; good to a factor of two {idle}")
 
 
 def _show(found: Forecast, json_to: str | None) -> None:
@@ -79,9 +132,7 @@ def _show(found: Forecast, json_to: str | None) -> None:
     _show_stages(found)
     for warning in found.warnings:
         say(f"warning: {warning}")
-    together = f"about {_time(found.seconds)}, {found.jobs} side by side"
-    idle = "on cores with nothing else to do, where an earlier run has compiled the solver"
-    say(f"whole study: {together}; good to a factor of two {idle}")
+    _say_whole(found.seconds, found.jobs)
 
 
 def _show_stages(found: Forecast) -> None:
@@ -92,7 +143,7 @@ def _show_stages(found: Forecast) -> None:
         table.add_column(column, justify="left" if column == "stage" else "right")
     for plan in found.plans:
         nodes = f"{plan.mesh.nodes(kappa):.0f}" + (f" x {plan.contacts}" if plan.contacts > 1 else "")
-        cost = "kept" if plan.kept else "unknown" if plan.seconds is None else _time(plan.seconds)
+        cost = "kept" if plan.kept else _time(plan.seconds)
         step = "" if plan.step is None else numeral(plan.step, 3)
         table.add_row(plan.stage.title, str(plan.mesh.n), nodes, str(plan.steps or ""), step, cost)
     Console().print(table)

@@ -13,6 +13,7 @@ module         shows
 ``rotor``      the rotor under its unbalance: orbit, time response, spectrum
 ``vibration``  the rotor's own vibrations: free decay, and unbalance over frequency
 ``bearing``    a ball bearing: load zone, films, stiffness and damping over speed
+``points``     films, stiffness, damping and decay over speeds and loads
 ``whole``      the rotor on whole bearings: load zone, orbits, spectra, K and C over frequency, Campbell diagram
 ``paper``      histories, approaches and springs as the paper shows them
 =============  ======================================================================================

@@ -4,6 +4,7 @@
 module      responsibility
 =========== ===============================================================================
 ``meaning`` what each entry of a study is, in words
+``toml``    values, sections and files in TOML
 ``text``    the file: values, what they may be, defaults as comments; grids that suit the film
 =========== ===============================================================================
 """

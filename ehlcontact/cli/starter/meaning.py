@@ -6,7 +6,8 @@ A test holds these tables and the schema together: no entry without a meaning, n
 from __future__ import annotations
 
 SECTIONS = {
-    "bearing": "The bearing, its load and speed. The contact is that of its most loaded ball.",
+    "bearing": "The bearing, its load and speed. The contact is that of its most loaded ball. Lists, as "
+    "[1500.0, 3000.0], make a study of several points: every speed with every load.",
     "oil": "The oil in the inlet of the contact: a grade and a temperature, or eta0 and alpha in their place.",
     "surface": "Roughness, for the lambda ratio alone: films are solved between smooth surfaces.",
     "solver": "Grids and computed region. Finer ones take longer: `ehlcontact validate` says how long.",
@@ -27,8 +28,8 @@ MEANINGS = {
     "bearing.race": "race of the contact",
     "bearing.youngs_modulus": "Pa, of balls and rings",
     "bearing.poisson_ratio": "of balls and rings",
-    "bearing.radial_load": "N, on this bearing",
-    "bearing.speed_rpm": "rev/min, of the shaft",
+    "bearing.radial_load": "N, on this bearing, or a list",
+    "bearing.speed_rpm": "rev/min, of the shaft, or a list",
     "oil.name": "as the report calls it; by its grade where left out",
     "oil.eta0": "Pa s, viscosity at ambient pressure",
     "oil.alpha": "1/Pa, pressure-viscosity coefficient",

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from textwrap import wrap
 from typing import Any, Literal, get_args, get_origin
 
@@ -13,7 +14,9 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from ehlcontact.cli.starter.meaning import MEANINGS, SECTIONS
-from ehlcontact.cli.study.schema import Study, catalogue_entries, study_of
+from ehlcontact.cli.starter.toml import toml_value
+from ehlcontact.cli.study.points.lists import points_of
+from ehlcontact.cli.study.schema import Study, catalogue_entries
 from ehlcontact.cli.study.slips import range_of
 from ehlcontact.cli.study.whole_input import require_whole_bearing
 from ehlcontact.errors import InputError
@@ -48,13 +51,13 @@ HEAD = """\
 
 @dataclass(frozen=True)
 class Wish:
-    """What a study is asked to be about: catalogue name, ISO grade, C, rev/min, N."""
+    """What a study is asked to be about: catalogue name, ISO grade, C, speeds in rev/min, loads in N."""
 
     bearing: str
     grade: int
     temperature: float
-    rpm: float
-    load: float
+    rpm: tuple[float, ...]
+    load: tuple[float, ...]
 
 
 def study_text(wish: Wish, name: str) -> str:
@@ -74,36 +77,47 @@ def study_text(wish: Wish, name: str) -> str:
     entries = {
         "title": f"study of a {wish.bearing}",
         "bearing.catalogue": wish.bearing,
-        "bearing.radial_load": float(wish.load),
-        "bearing.speed_rpm": float(wish.rpm),
+        "bearing.radial_load": _one_or_all(wish.load),
+        "bearing.speed_rpm": _one_or_all(wish.rpm),
         "oil.iso_vg": wish.grade,
         "oil.temperature": float(wish.temperature),
     }
     try:
-        study = study_of(tomllib.loads(_written(entries, name, "")))
-        entries |= dict(_fitting(study))
+        studies = [point.study for point in points_of(tomllib.loads(_written(entries, name, "")), Path())]
+        entries |= _fitting(studies)
         try:
-            require_whole_bearing(study)
+            for study in studies:
+                require_whole_bearing(study)
         except InputError as error:  # the rest of the study runs without
             return _written(entries, name, str(error))
         text = _written(entries, name)
-        study_of(tomllib.loads(text))
+        points_of(tomllib.loads(text), Path())
     except InputError as error:
         raise InputError(OPTIONS.get(error.field, error.field), error.value, error.allowed) from None
     return text
 
 
-def _fitting(study: Study) -> Iterator[tuple[str, Any]]:
-    """Grids and region where those of the schema do not suit the film."""
-    point = study.point.moes
-    wide, domain = default_domain(point, study.largest_load), study.domain
-    if wide.x_in < domain.x_in or wide.y_max > domain.y_max or wide.x_out > domain.x_out:
-        domain = type(domain)(*(_outward(end) for end in wide.as_tuple()))
-        yield "solver.domain", domain.as_tuple()
+def _one_or_all(values: Sequence[float]) -> float | list[float]:
+    """As the file says it: a list where there are several."""
+    return float(values[0]) if len(values) == 1 else [float(value) for value in values]
+
+
+def _fitting(studies: Sequence[Study]) -> dict[str, Any]:
+    """Grids and region that suit the films of all points, where those of the schema do not."""
+    found: dict[str, Any] = {}
+    own = studies[0].domain
+    wide = [default_domain(study.point.moes, study.largest_load) for study in studies]
+    ends = own.as_tuple(), *(domain.as_tuple() for domain in wide)
+    x_in, x_out, y_max = min(e[0] for e in ends), max(e[1] for e in ends), max(e[2] for e in ends)
+    domain = own
+    if (x_in, x_out, y_max) != own.as_tuple():
+        domain = type(own)(*(_outward(end) for end in (x_in, x_out, y_max)))
+        found["solver.domain"] = domain.as_tuple()
     for key, purpose in (("n", Purpose.FILM), ("n_transient", Purpose.RUN)):
-        n = mesh_for(point, purpose, domain=domain).n
-        if n > getattr(study.solver, key):
-            yield f"solver.{key}", n
+        n = max(mesh_for(study.point.moes, purpose, domain=domain).n for study in studies)
+        if n > getattr(studies[0].solver, key):
+            found[f"solver.{key}"] = n
+    return found
 
 
 def _outward(end: float) -> float:
@@ -138,8 +152,10 @@ def _line(name: str, entry: FieldInfo, entries: Mapping[str, Any], shown: Mappin
     value = entries.get(name, default)
     what = "; ".join(part for part in (MEANINGS[name], _allowed(name, entry)) if part)
     if name in entries and default is not None and name not in shown:
-        what += f" (default {_toml(default)}{', too small for this film' if name.startswith('solver.') else ''})"
-    written = f"{'' if name in entries else '# '}{key} = {'?' if value is None else _toml(value)}"
+        what += (
+            f" (default {toml_value(default)}{', too small for this film' if name.startswith('solver.') else ''})"
+        )
+    written = f"{'' if name in entries else '# '}{key} = {'?' if value is None else toml_value(value)}"
     line = f"{written.ljust(COMMENT)}# {what}"
     if len(line) <= WIDTH:
         return line
@@ -157,14 +173,3 @@ def _allowed(name: str, entry: FieldInfo) -> str:
     if name in LIBRARY:
         return LIBRARY[name]
     return range_of(Study, name).removeprefix("a finite number ")
-
-
-def _toml(value: Any) -> str:
-    """A value of the schema in TOML."""
-    if isinstance(value, tuple | list):
-        return f"[{', '.join(map(_toml, value))}]"
-    if isinstance(value, float):
-        short = f"{value:g}"
-        text = short if float(short) == value else repr(value)
-        return text if "." in text or "e" in text else f"{text}.0"
-    return json.dumps(value, ensure_ascii=False)

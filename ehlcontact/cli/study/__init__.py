@@ -9,6 +9,7 @@ module           responsibility
 ``stages``       the long computations, each a function of the study that leaves one file
 ``worker``       one stage in its own process
 ``runner``       stages side by side, with progress, resume and Ctrl-C
+``points``       its points, what is finished of each, and all of them together
 ``reduction``    fits, element files, FMU
 ``response``     the film's impedance down to the rotor's frequency, and the linear rotors on it
 ``rotor``        the rotor turning with its unbalance, on full contacts and on elements, and its file

@@ -12,8 +12,8 @@ import numpy as np
 from scipy import fft
 
 from ehlcontact.checks.box import MEASURED
+from ehlcontact.cli.study.points.ledger import is_closed, is_done, read_ledger
 from ehlcontact.cli.study.rotor import build_rotor
-from ehlcontact.cli.study.runner import is_done, read_ledger
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import STAGES, Stage
 from ehlcontact.solver.mesh import FINENESS, LARGEST_MESH, Mesh, Purpose, default_domain, mesh_for
@@ -50,7 +50,7 @@ class Plan:
     contacts: int
     steps: int  # 0: one steady film
     step: float | None  # dimensionless time; None where it follows from the film
-    seconds: float | None  # estimated; None where nothing is known
+    seconds: float  # estimated
     kept: bool  # finished in the folder already
 
     def to_dict(self, kappa: float) -> dict[str, Any]:
@@ -77,6 +77,7 @@ class Forecast:
     jobs: int
     conv: float  # seconds of one convolution here and now
     plans: tuple[Plan, ...]
+    closed: bool  # results and report are there, of this study
     warnings: tuple[str, ...]
 
     @property
@@ -85,11 +86,17 @@ class Forecast:
         loads = [0.0] * self.jobs
         for plan in self.plans:
             if not plan.kept:
-                loads[int(np.argmin(loads))] += plan.seconds or 0.0
-        whole = self.study.whole_bearing
-        steps = whole.revolutions * whole.steps_per_revolution
-        asked = "whole_bearing" in self.study.model_fields_set
-        return max(loads) + (REST + (WHOLE + WHOLE_STEP * steps if asked else 0.0)) * self.conv
+                loads[int(np.argmin(loads))] += plan.seconds
+        return max(loads) + self._closing
+
+    @property
+    def work(self) -> float:
+        """Seconds of one processor: what points of one study share among them."""
+        return sum(plan.seconds for plan in self.plans if not plan.kept) + self._closing
+
+    @property
+    def _closing(self) -> float:
+        return 0.0 if self.closed else closing_cost(self.study) * self.conv
 
     @property
     def operating_point(self) -> dict[str, Any]:
@@ -139,15 +146,27 @@ def forecast(study: Study, folder: Path, jobs: int) -> Forecast:
         Computations side by side.
     """
     conv, ledger = convolution_seconds(), read_ledger(folder)
-    kappa = study.point.moes.kappa
     plans = []
     for stage in STAGES:
         mesh, contacts, steps, step = _work(stage.name, study)
-        cost = STEADY_COST if not steps else steps * contacts * COST.get(stage.name, np.nan)
-        seconds = cost * conv * mesh.nodes(kappa) * 1e-3
-        estimate = float(seconds) if np.isfinite(seconds) else None
+        estimate = conv * stage_cost(stage.name, study)
         plans.append(Plan(stage, mesh, contacts, steps, step, estimate, is_done(stage, study, folder, ledger)))
-    return Forecast(study, folder, jobs, conv, tuple(plans), tuple(cautions(study)))
+    closed = all(plan.kept for plan in plans) and is_closed(study, folder, ledger)
+    return Forecast(study, folder, jobs, conv, tuple(plans), closed, tuple(cautions(study)))
+
+
+def stage_cost(name: str, study: Study) -> float:
+    """Estimated cost of a stage, in convolutions."""
+    mesh, contacts, steps, _ = _work(name, study)
+    cost = STEADY_COST if not steps else steps * contacts * COST[name]
+    return float(cost * mesh.nodes(study.point.moes.kappa) * 1e-3)
+
+
+def closing_cost(study: Study) -> float:
+    """Likewise of what is made of all stages: fits, FMUs, reduced rotors, rotors on whole bearings, report."""
+    whole = study.whole_bearing
+    asked = "whole_bearing" in study.model_fields_set
+    return REST + (WHOLE + WHOLE_STEP * whole.revolutions * whole.steps_per_revolution if asked else 0.0)
 
 
 def convolution_seconds() -> float:

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import platform
-import sys
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib.metadata import version as distribution_version
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -17,6 +14,7 @@ import numpy as np
 from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.cli.study.differences import RotorFindings, compare_rotors
 from ehlcontact.cli.study.headline import headline
+from ehlcontact.cli.study.points.journal import versions
 from ehlcontact.cli.study.reduction import (
     CHOSEN,
     CONTACTS,
@@ -31,13 +29,10 @@ from ehlcontact.cli.study.response import at_rotor_speed, film_response
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.whole import WholeFindings, run_whole
 from ehlcontact.errors import InputError
-from ehlcontact.origin import __version__
 from ehlcontact.results import SteadyResult
 from ehlcontact.storage import load
 from ehlcontact.transient.result import SimulationResult
 from reduced_models import film_impedance
-
-LIBRARIES = ("numpy", "scipy", "numba", "fmpy", "h5py")
 
 
 @dataclass(frozen=True)
@@ -119,8 +114,7 @@ class Findings:
     @property
     def versions(self) -> dict[str, str]:
         """Software the numbers come from."""
-        found = {name: distribution_version(name) for name in LIBRARIES}
-        return {"ehlcontact": __version__, "python": platform.python_version(), **found, "platform": sys.platform}
+        return versions()
 
     @property
     def fits(self) -> list[dict[str, Any]]:

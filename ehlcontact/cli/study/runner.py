@@ -1,13 +1,12 @@
-"""Run the stages of a study side by side, each in its own process, with progress, resume and Ctrl-C.
+"""Run the stages of all points of a study side by side, each in its own process, with progress, resume and Ctrl-C.
 
 Separate processes use the cores better than threads of one film: each worker gets one thread, unless told
-otherwise. What is finished is noted in ``stages.json`` with the fingerprint of the study sections it depends on
-and a checksum of its file, and skipped the next time.
+otherwise. What is finished is noted (`points.ledger`) and skipped the next time. What is made of a point's
+stages in the end is a task like them, that waits for them.
 """
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 import queue
@@ -17,38 +16,42 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from ehlcontact.cli.output import complain, write_json
 from ehlcontact.cli.progress import progressing
-from ehlcontact.cli.study.schema import Study
-from ehlcontact.cli.study.stages import STAGES, Stage
+from ehlcontact.cli.study.points.board import Board, StorageError, Task
+from ehlcontact.cli.study.points.journal import Journal
+from ehlcontact.cli.study.points.lists import Point
+from ehlcontact.cli.study.stages import STAGES
 from ehlcontact.errors import InputError
-from ehlcontact.files import parse_json, read_text
 from ehlcontact.status import Status
 
-LEDGER = "stages.json"
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 ROOT = Path(__file__).parents[3]  # holds the package, also in a checkout that is not installed
 PATIENCE = 30.0  # seconds that an interrupted worker has for saving
 
 
-class StorageError(Exception):
-    """The result of a stage could not be written; the message says which, where and why."""
+class Share(NamedTuple):
+    """Of the machine, or whose machines."""
+
+    jobs: int  # processes side by side
+    threads: int = 1  # of each
+    scheduler: str | None = None  # of a Dask cluster, which solves the stages
 
 
 class _Worker:
     """One process and the thread that reads its events into the common queue."""
 
-    def __init__(self, stage: Stage, study_file: Path, folder: Path, events: queue.Queue, threads: int) -> None:
-        self.stage = stage
+    def __init__(self, task: Task, events: queue.Queue, threads: int) -> None:
+        self.task = task
         self.last: dict[str, Any] = {}
         path = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))
         environment = os.environ | dict.fromkeys(THREADS, str(threads)) | {"PYTHONPATH": path}
-        command = [sys.executable, "-m", f"{__package__}.worker", str(study_file), str(folder), stage.name]
+        where = str(task.point.study_file), str(task.point.folder)
+        command = [sys.executable, "-m", f"{__package__}.worker", *where, task.name]
         self._errors = tempfile.TemporaryFile(mode="w+", encoding="utf-8")
         # Its own session: Ctrl-C in the terminal comes to us alone, and we pass it on once.
         self.process = subprocess.Popen(
@@ -92,122 +95,82 @@ class _Worker:
         return self.last
 
 
-def read_ledger(folder: Path) -> dict[str, dict[str, Any]]:
-    """What earlier runs finished here; nothing where there was none or its notes are unreadable."""
-    try:
-        found = parse_json(read_text(folder / LEDGER))
-    except (OSError, ValueError):
-        return {}
-    notes = found if isinstance(found, dict) else {}
-    return {stage.name: notes[stage.name] for stage in STAGES if _is_note(notes.get(stage.name))}
+def run_points(
+    points: Sequence[Point], root: Path, share: Share, journal: Journal, *, closing: bool = True
+) -> Board:
+    """Run what is not done yet; what is done is noted on disk after every stage, and told by the board.
 
+    One that fails does not stop the others, but nothing is made of the rest of its point. Ctrl-C, the signal of a
+    `kill`, and a file that cannot be written let the workers save their partial results, and are raised then, the
+    signal as `KeyboardInterrupt`. However this ends, no worker stays behind.
 
-def _is_note(note: Any) -> bool:
-    texts, seconds = ("status", "message", "fingerprint"), (int, float)
-    if not isinstance(note, dict) or not isinstance(note.get("seconds"), seconds):
-        return False
-    return all(isinstance(note.get(key), str) for key in texts)
-
-
-def is_done(stage: Stage, study: Study, folder: Path, ledger: Mapping[str, Any]) -> bool:
-    """Whether the stage's file is there, converged, and belongs to this study."""
-    note = ledger.get(stage.name, {})
-    same = note.get("fingerprint") == study.fingerprint(*stage.sections)
-    return same and note.get("status") == Status.CONVERGED and stage.file(folder).is_file()
-
-
-def is_sound(stage: Stage, study: Study, folder: Path, note: Mapping[str, Any]) -> bool:
-    """Whether the file of a stage that is done is what was written: by its checksum, where one was noted."""
-    if "sha256" in note:
-        return bool(note["sha256"] == checksum(stage.file(folder)))
-    try:
-        stage.load(study, stage.file(folder))
-    except InputError:
-        return False
-    return True
-
-
-def checksum(path: Path) -> str | None:
-    """SHA-256 of a file, None where it cannot be read."""
-    try:
-        with path.open("rb") as stream:
-            return hashlib.file_digest(stream, "sha256").hexdigest()
-    except OSError:
-        return None
-
-
-def _to_do(study: Study, folder: Path, ledger: Mapping[str, Mapping[str, Any]]) -> list[Stage]:
-    """Stages whose file is not there, belongs to another study, or is damaged, which is said."""
-    todo = []
-    for stage in STAGES:
-        if not is_done(stage, study, folder, ledger):
-            todo.append(stage)
-        elif not is_sound(stage, study, folder, ledger[stage.name]):
-            complain(f"{stage.file(folder)} is damaged: it is made again")
-            todo.append(stage)
-    return todo
-
-
-def run_stages(
-    study: Study, study_file: Path, folder: Path, jobs: int, threads: int = 1
-) -> dict[str, dict[str, Any]]:
-    """Run what is not done yet; returns the ledger, which is on disk after every stage.
-
-    `jobs` of them run side by side, with `threads` each. One that fails does not stop the others. Ctrl-C, the
-    signal of a `kill`, and a file that cannot be written let the workers save their partial results, and are
-    raised then, the signal as `KeyboardInterrupt`. However this ends, no worker stays behind.
+    Parameters
+    ----------
+    points : sequence of Point
+        Their folders hold their study files.
+    root : Path
+        Of the results of all.
+    share : Share
+        How many run side by side, and where.
+    journal : Journal
+    closing : bool
+        Whether results and report are made too.
 
     Raises
     ------
     StorageError
         There is no room for the result of a stage.
     InputError
-        Nor for the ledger.
+        Nor for the notes; no cluster at that address.
+    ConvergenceError
+        Workers of the cluster keep dying.
     """
-    ledger = read_ledger(folder)
-    todo = _to_do(study, folder, ledger)
-    for stage in todo:
-        ledger.pop(stage.name, None)
+    board = Board(points, STAGES, root, journal, closing=closing)
+    with progressing() as shown, _ended_like_ctrl_c() as interrupts:
+        board.show(shown)
+        if share.scheduler is not None:
+            from ehlcontact.cli.study.points.cluster import solve_on_cluster
+
+            solve_on_cluster(board, share.scheduler)
+        _side_by_side(board, share, interrupts)
+        board.finish()
+    return board
+
+
+def _side_by_side(board: Board, share: Share, interrupts: _Interrupts) -> None:
+    """All that is left to do, on this machine."""
     events: queue.Queue = queue.Queue()
     running: list[_Worker] = []
-    with progressing() as shown, _ended_like_ctrl_c():
-        tasks = {stage.name: shown.add(stage.title, started=False) for stage in todo}
 
-        def end(worker: _Worker) -> None:
-            last = worker.finish()
-            running.remove(worker)
-            stage, done = worker.stage, last["status"] == Status.CONVERGED
-            ended = "done" if done else last["status"]
-            shown.end(tasks[stage.name], f"{stage.title}: {ended}, {last['seconds']:.1f} s")
-            ledger[stage.name] = last | {"fingerprint": study.fingerprint(*stage.sections)}
-            if done:
-                ledger[stage.name]["sha256"] = checksum(stage.file(folder))
-            write_json(ledger, str(folder / LEDGER), "file")
-            if not last.get("stored", True):
-                raise StorageError(last["message"])
+    def end(worker: _Worker) -> None:
+        last = worker.finish()
+        running.remove(worker)
+        board.end(worker.task, last)
 
-        try:
-            while todo or running:
-                while todo and len(running) < jobs:
-                    stage = todo.pop(0)
-                    running.append(_Worker(stage, study_file, folder, events, threads))
-                    shown.start(tasks[stage.name])
-                worker, event = events.get()
-                if event is None:
+    try:
+        while True:
+            while len(running) < share.jobs and (task := board.take()) is not None:
+                with interrupts.held():  # else a process could begin and nobody would know
+                    running.append(_Worker(task, events, share.threads))
+                    board.begin(task)
+            if not running:
+                return
+            worker, event = events.get()
+            if event is None:
+                with interrupts.held():
                     end(worker)
-                else:
-                    shown.update(tasks[worker.stage.name], event["done"], event["total"])
-        except BaseException:
-            _interrupt(running)
-            for worker in list(running):
-                with suppress(InputError, StorageError):  # the first error says why
-                    end(worker)
-            raise
-        finally:  # after a second Ctrl-C, or an error of our own
-            for worker in running:
-                worker.process.kill()
-                worker.finish()
-    return ledger
+            else:
+                board.move(worker.task, event["done"], event["total"])
+    except BaseException:
+        _interrupt(running)
+        for worker in list(running):
+            with suppress(InputError, StorageError):  # the first error says why
+                end(worker)
+        raise
+    finally:  # after a second Ctrl-C, or an error of our own
+        for worker in running:
+            worker.process.kill()
+            worker.finish()
 
 
 def _interrupt(running: list[_Worker]) -> None:
@@ -223,17 +186,42 @@ def _interrupt(running: list[_Worker]) -> None:
             worker.process.kill()
 
 
+class _Interrupts:
+    """What Ctrl-C and its like do: `KeyboardInterrupt`, but at the end of a block that holds it."""
+
+    def __init__(self) -> None:
+        self._holding = self._waiting = False
+
+    def __call__(self, *_: object) -> None:
+        """As a handler of signals."""
+        if not self._holding:
+            raise KeyboardInterrupt
+        self._waiting = True
+
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """No interrupt within the block."""
+        self._holding = True
+        try:
+            yield
+        finally:
+            self._holding, waiting = False, self._waiting
+            self._waiting = False
+            if waiting:
+                raise KeyboardInterrupt
+
+
 @contextmanager
-def _ended_like_ctrl_c() -> Iterator[None]:
+def _ended_like_ctrl_c() -> Iterator[_Interrupts]:
     """Let `kill`, `timeout` and the end of a session do as Ctrl-C does: workers have sessions of their own."""
-
-    def interrupt(*_: object) -> None:
-        raise KeyboardInterrupt
-
-    asked = [signal.SIGTERM, signal.SIGHUP] if threading.current_thread() is threading.main_thread() else []
-    before = {number: signal.signal(number, interrupt) for number in asked}
+    interrupts, asked = _Interrupts(), []
+    if threading.current_thread() is threading.main_thread():
+        asked = [signal.SIGTERM, signal.SIGHUP]
+        if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # ignored by jobs in the background
+            asked.append(signal.SIGINT)
+    before = {number: signal.signal(number, interrupts) for number in asked}
     try:
-        yield
+        yield interrupts
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)

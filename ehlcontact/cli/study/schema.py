@@ -276,8 +276,8 @@ class Study(Section):
         """Largest load of the motions, in static loads."""
         return max(m.largest_load for m in (self.free_motion, self.harmonic_motion, self.rotor_motion))
 
-    def fingerprint(self, *sections: str) -> str:
-        """Hash of the bearing, the oil, the version and further sections: what a stage's result depends on."""
+    def fingerprint(self, *sections: str, names: bool = True) -> str:
+        """Hash of what a stage depends on: bearing, oil, version, further sections; of old with `names` too."""
         dump = self.model_dump(exclude_none=True)  # so that an entry more in the schema changes nothing
         # however it was given, and under its name of old: so that a finished study stays finished
         for section, name, given, value in (
@@ -286,6 +286,9 @@ class Study(Section):
         ):
             kept = {key: entry for key, entry in dump[section].items() if key not in (given, "hz")}
             dump[section] = kept | {name: value}
+        if not names:
+            for section, key in (("bearing", "catalogue"), ("bearing", "name"), ("oil", "name")):
+                dump[section].pop(key, None)
         content = {name: dump[name] for name in ("bearing", "oil", *sections)}
         text = json.dumps([__version__, content], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:16]
@@ -299,7 +302,7 @@ def _once(section: str, name: str, *given: float | None) -> None:
 
 
 def load_study(path: Path) -> Study:
-    """Read and check a study file.
+    """Read and check a study file of one speed and load.
 
     Raises
     ------
@@ -307,18 +310,29 @@ def load_study(path: Path) -> Study:
         No such file, not TOML, an unknown, missing or impossible entry, or a contact that the solvers are not made
         for; the line names file, field, value, allowed range and, where there is one, a likely slip.
     """
-    text = ""
-    try:
-        text = read_text(path)
-        document = tomllib.loads(text)
-    except OSError as error:
-        raise InputError("study", str(path), f"a readable TOML file ({error.strerror})") from None
-    except (ValueError, RecursionError) as error:
-        raise InputError("study", str(path), f"complete TOML ({broken_line(text, error)})") from None
+    document = read_document(path)
     try:
         return study_of(document)
     except InputError as error:
         raise InputError(f"{path}: {error.field}", error.value, error.allowed) from None
+
+
+def read_document(path: Path) -> dict[str, Any]:
+    """What a study file says, not checked yet.
+
+    Raises
+    ------
+    InputError
+        No such file, or not TOML.
+    """
+    text = ""
+    try:
+        text = read_text(path)
+        return tomllib.loads(text)
+    except OSError as error:
+        raise InputError("study", str(path), f"a readable TOML file ({error.strerror})") from None
+    except (ValueError, RecursionError) as error:
+        raise InputError("study", str(path), f"complete TOML ({broken_line(text, error)})") from None
 
 
 def study_of(document: dict[str, Any]) -> Study:

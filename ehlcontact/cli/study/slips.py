@@ -41,6 +41,7 @@ RENAMED = {"free.omega_n": "Omega_n", "harmonic.omega": "Omega"}
 # Where pydantic speaks of Python: what TOML calls it.
 RANGE = ("greater_than", "greater_than_equal", "less_than", "less_than_equal", "multiple_of")
 LIST = "a list of three numbers"
+SEVERAL = ("bearing.speed_rpm", "bearing.radial_load")  # may be lists, which other commands do not take
 PLAIN_WORDS = {
     "float_type": "a number (true or quoted text is none)",
     "int_type": "a whole number (9, not 9.0, true or quoted text)",
@@ -76,6 +77,8 @@ def first_error(error: ValidationError, study: type[BaseModel]) -> InputError:
         field, allowed = ".".join(str(part) for part in loc[:-1]), LIST
     elif first["type"] == "missing":
         value, allowed = None, "given" + (BY_NAME if field in DIMENSIONS else "")
+    elif isinstance(value, list) and field in SEVERAL:
+        allowed = "one number here; a list is for `ehlcontact run` and `validate`"
     else:
         allowed = first["msg"].removeprefix("Input should be ").removeprefix("Value error, ")
         allowed = PLAIN_WORDS.get(first["type"], allowed).format(field=field)

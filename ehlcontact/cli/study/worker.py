@@ -1,4 +1,6 @@
-"""One stage in a process of its own: ``python -m ehlcontact.cli.study.worker STUDY.toml FOLDER STAGE``.
+"""One task in a process of its own: ``python -m ehlcontact.cli.study.worker STUDY.toml FOLDER TASK``.
+
+A task is a stage of a study of one point, or what is made of all its stages.
 
 Events go to stdout as lines of JSON: ``{"done": k, "total": n}`` and, last, ``{"status": ..., "message": ...,
 "seconds": ...}``. Interrupt it with SIGINT; it saves what it has.
@@ -11,9 +13,12 @@ import signal
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
-from ehlcontact.cli.study.schema import load_study
-from ehlcontact.cli.study.stages import Outcome, stage_named
+from ehlcontact.cli.study.points.closing import close
+from ehlcontact.cli.study.points.ledger import CLOSING
+from ehlcontact.cli.study.points.lists import load_points
+from ehlcontact.cli.study.stages import stage_named
 from ehlcontact.errors import InputError
 from ehlcontact.process.workers import end_when, stdin_closed
 from ehlcontact.status import Status
@@ -22,7 +27,7 @@ SPACING = 0.1  # seconds between progress lines
 
 
 def work(study_file: Path, folder: Path, name: str) -> None:
-    """Run the stage and report on stdout."""
+    """Do it and report on stdout."""
     end_when(stdin_closed)  # the runner holds the other end, and is gone then
     # A parent in the background may have left the signal ignored.
     signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -39,11 +44,16 @@ def work(study_file: Path, folder: Path, name: str) -> None:
             last = now
             emit(done=done, total=total)
 
+    outcome: dict[str, Any]
     try:
-        outcome = stage_named(name).run(load_study(study_file), folder, update)
+        (point,) = load_points(study_file, folder)
+        if name == CLOSING:
+            outcome = close(point.study, folder)._asdict()
+        else:
+            outcome = stage_named(name).run(point.study, folder, update)._asdict()
     except InputError as error:
-        outcome = Outcome(Status.FAILED, str(error))
-    emit(**outcome._asdict(), seconds=time.perf_counter() - started)
+        outcome = {"status": Status.FAILED, "message": str(error)}
+    emit(**outcome, seconds=time.perf_counter() - started)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,120 @@
+"""What is finished in a folder: noted in ``stages.json`` with what it depends on and checksums of its files.
+
+A note holds for whoever has the same contents: a stage that another point of the study, or the study before it had
+lists, has finished is copied and not solved again.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import shutil
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from ehlcontact.cli.output import write_json
+from ehlcontact.cli.study.schema import Study
+from ehlcontact.cli.study.stages import STAGES, Stage
+from ehlcontact.errors import InputError
+from ehlcontact.files import parse_json, read_text, replacing
+from ehlcontact.status import Status
+
+LEDGER, CLOSING = "stages.json", "report"  # and the entry of what is made of all stages
+
+Note = Mapping[str, Any]
+Ledger = dict[str, dict[str, Any]]
+
+
+def read_ledger(folder: Path) -> Ledger:
+    """What earlier runs finished here; nothing where there was none or its notes are unreadable."""
+    try:
+        found = parse_json(read_text(folder / LEDGER))
+    except (OSError, ValueError):
+        return {}
+    notes = found if isinstance(found, dict) else {}
+    names = [*(stage.name for stage in STAGES), CLOSING]
+    return {name: notes[name] for name in names if _is_note(notes.get(name))}
+
+
+def write_ledger(ledger: Ledger, folder: Path) -> None:
+    """Keep it, in one move.
+
+    Raises
+    ------
+    InputError
+        There is no room.
+    """
+    write_json(ledger, str(folder / LEDGER), "file")
+
+
+def _is_note(note: Any) -> bool:
+    texts, seconds = ("status", "message", "fingerprint"), (int, float)
+    if not isinstance(note, dict) or not isinstance(note.get("seconds"), seconds):
+        return False
+    return all(isinstance(note.get(key), str) for key in texts)
+
+
+def is_done(stage: Stage, study: Study, folder: Path, ledger: Mapping[str, Note]) -> bool:
+    """Whether the stage's file is there, converged, and belongs to this study."""
+    return _holds(stage, study, ledger.get(stage.name, {})) and stage.file(folder).is_file()
+
+
+def _holds(stage: Stage, study: Study, note: Note) -> bool:
+    """Whether a note is of this stage's contents; that of earlier versions had names in it."""
+    own = {study.fingerprint(*stage.sections, names=names) for names in (False, True)}
+    return note.get("fingerprint") in own and note.get("status") == Status.CONVERGED
+
+
+def is_sound(stage: Stage, study: Study, folder: Path, note: Note) -> bool:
+    """Whether the file of a stage that is done is what was written: by its checksum, where one was noted."""
+    if "sha256" in note:
+        return bool(note["sha256"] == checksum(stage.file(folder)))
+    try:
+        stage.load(study, stage.file(folder))
+    except InputError:
+        return False
+    return True
+
+
+def checksum(path: Path) -> str | None:
+    """SHA-256 of a file, None where it cannot be read."""
+    try:
+        with path.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError:
+        return None
+
+
+def adopted(stage: Stage, study: Study, folder: Path, others: Iterable[Path]) -> dict[str, Any] | None:
+    """The note of another folder whose file is this stage's, copied here; None where there is none.
+
+    Raises
+    ------
+    InputError
+        There is no room for the copy.
+    """
+    for other in others:
+        note = read_ledger(other).get(stage.name, {})
+        if other == folder or "sha256" not in note or not _holds(stage, study, note):
+            continue
+        if is_sound(stage, study, other, note):
+            with replacing(stage.file(folder), "file") as temporary:
+                shutil.copyfile(stage.file(other), temporary)
+            return dict(note)
+    return None
+
+
+def closing_fingerprint(study: Study, ledger: Mapping[str, Note]) -> str:
+    """Hash of what results and report are made of: the whole study, names and all, and the files of its stages."""
+    files = {stage.name: ledger.get(stage.name, {}).get("sha256") for stage in STAGES}
+    text = f"{study.model_dump_json(exclude_none=True)} {study.fingerprint()} {sorted(files.items())}"
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def is_closed(study: Study, folder: Path, ledger: Mapping[str, Note]) -> bool:
+    """Whether results, report, elements and FMUs are all there, as they were written, and of this study."""
+    note = ledger.get(CLOSING, {})
+    files = note.get("files")
+    if not isinstance(files, dict) or note.get("fingerprint") != closing_fingerprint(study, ledger):
+        return False
+    return bool(note.get("whole")) and all(checksum(folder / name) == kept for name, kept in files.items())

@@ -1,0 +1,155 @@
+"""The points of a study file: every speed with every load, each a study of its own with a folder of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+from ehlcontact.cli.starter.toml import toml_of
+from ehlcontact.cli.study.schema import Study, read_document, study_of
+from ehlcontact.cli.study.slips import SEVERAL
+from ehlcontact.errors import InputError
+from ehlcontact.files import read_text, write_text
+
+LISTS = [name.removeprefix("bearing.") for name in SEVERAL]
+MOST = 100  # points: at some minutes each what a night has room for
+TITLE = Study.model_fields["title"].default
+STUDY_FILE, POINTS = "study.toml", "points"
+
+
+@dataclass(frozen=True)
+class Point:
+    """One speed and load of a study."""
+
+    study: Study
+    name: str  # "3000rpm_100N"
+    folder: Path  # of its results
+    study_title: str = ""  # of all points together
+    of_several: bool = False
+
+    @property
+    def study_file(self) -> Path:
+        """The study of this point alone, in its folder."""
+        return self.folder / STUDY_FILE
+
+    def titled(self, text: str) -> str:
+        """The text, with the point in front where there are several."""
+        return f"{self.name}: {text}" if self.of_several else text
+
+
+def load_points(path: Path, folder: Path) -> tuple[Point, ...]:
+    """Read and check a study file of one point or of several.
+
+    Parameters
+    ----------
+    path : Path
+        The study.
+    folder : Path
+        Of its results: of the point itself where there is one, else of a folder for each, below ``points/``.
+
+    Returns
+    -------
+    tuple of Point
+        Speeds in the order of the file, and under each the loads.
+
+    Raises
+    ------
+    InputError
+        As `load_study`; lists that are empty, name a number twice, or make too many points.
+    """
+    document = read_document(path)
+    try:
+        return points_of(document, folder)
+    except InputError as error:
+        raise InputError(f"{path}: {error.field}", error.value, error.allowed) from None
+
+
+def points_of(document: Mapping[str, Any], folder: Path) -> tuple[Point, ...]:
+    """The points of a document, as `load_points` without the name of the file."""
+    documents = expanded(document)
+    several = len(documents) > 1
+    points = []
+    for one in documents:
+        try:
+            study = study_of(one)
+        except InputError as error:
+            where = f", at {_said(one)}" if several and not error.field.startswith("bearing.") else ""
+            raise InputError(error.field, error.value, error.allowed + where) from None
+        name = point_name(study)
+        title = str(document.get("title", TITLE)) if several else study.title
+        points.append(Point(study, name, folder / POINTS / name if several else folder, title, several))
+    return tuple(points)
+
+
+def expanded(document: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """A document without lists for every point of it.
+
+    Raises
+    ------
+    InputError
+        A list that is none of several numbers.
+    """
+    bearing = document.get("bearing")
+    if not isinstance(bearing, Mapping) or not any(isinstance(bearing.get(key), list) for key in LISTS):
+        return [dict(document)]
+    values = [
+        _values(key, bearing[key]) if isinstance(bearing.get(key), list) else [bearing.get(key)] for key in LISTS
+    ]
+    count = len(values[0]) * len(values[1])
+    if count > MOST:
+        allowed = f"at most {MOST} points: speeds times loads"
+        raise InputError("bearing.speed_rpm, bearing.radial_load", f"{len(values[0])} x {len(values[1])}", allowed)
+    found = []
+    for pair in product(*values):
+        own = {key: value for key, value in zip(LISTS, pair, strict=True) if value is not None}
+        one = dict(document) | {"bearing": dict(bearing) | own}
+        if count > 1 and isinstance(document.get("title", ""), str):
+            one["title"] = f"{document.get('title', TITLE)}, {_said(one)}"
+        found.append(one)
+    return found
+
+
+def _values(key: str, given: list[Any]) -> list[Any]:
+    """The numbers of a list, each once."""
+    field = f"bearing.{key}"
+    if not given:
+        raise InputError(field, given, f"a number, or a list of 1 to {MOST} numbers, as [1000, 3000]")
+    for i, value in enumerate(given):
+        if isinstance(value, list | dict):
+            raise InputError(field, value, "a number, in a list of numbers")
+        if value in given[:i]:
+            raise InputError(field, value, "once in its list")
+    return given
+
+
+def _said(document: Mapping[str, Any]) -> str:
+    """Speed and load of a document of one point, in words."""
+    speed, load = (document["bearing"].get(key) for key in LISTS)
+    return f"{speed} rpm, {load} N"
+
+
+def point_name(study: Study) -> str:
+    """Of a folder: different for different points."""
+    speed, load = (_short(getattr(study.bearing, key)) for key in LISTS)
+    return f"{speed}rpm_{load}N"
+
+
+def _short(value: float) -> str:
+    """All digits of a number, and no more than it has."""
+    text = f"{value:g}"
+    return text if float(text) == value else repr(value)
+
+
+def write_studies(points: tuple[Point, ...], path: Path, folder: Path) -> None:
+    """A copy of the study file beside its results, and of each of several points a study of its own."""
+    copy = folder / STUDY_FILE
+    if not copy.exists() or not copy.samefile(path):
+        write_text(copy, read_text(path), "file")
+    for point in points:
+        if point.of_several:
+            point.folder.mkdir(parents=True, exist_ok=True)
+            entries = point.study.model_dump(exclude_unset=True, exclude_none=True)
+            write_text(point.study_file, f"# One point of {path.name}\n{toml_of(entries)}", "file")

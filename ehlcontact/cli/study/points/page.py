@@ -1,0 +1,62 @@
+"""The report over several points: what was found at each, over speed and load, and the way to each report."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.page import write_page
+from ehlcontact.cli.plots.points import over_points
+from ehlcontact.cli.plots.style import write_figure
+from ehlcontact.cli.study.points.closing import REPORT
+from ehlcontact.cli.study.points.summary import PICTURE, Row
+
+# Columns of the table for people: head, number, factor, figures.
+COLUMNS = (
+    ("speed [rpm]", "speed_rpm", 1.0, 6),
+    ("load [N]", "radial_load", 1.0, 6),
+    ("p_h [GPa]", "p_hertz", 1e-9, 3),
+    ("h_c [µm]", "h_central", 1e6, 3),
+    ("h_min [µm]", "h_min", 1e6, 3),
+    ("lambda", "lambda", 1.0, 3),
+    ("K [N/µm]", "stiffness", 1e-6, 3),
+    ("C [N s/m]", "damping", 1.0, 3),
+    ("decay [Hz]", "decay_hz", 1.0, 4),
+    ("decrement", "decrement", 1.0, 3),
+)
+
+
+NARROW = tuple(column for column in COLUMNS if column[1] not in ("p_hertz", "decay_hz"))  # for 80 characters
+
+
+def cells(row: Row, columns: Sequence[tuple[str, str, float, int]] = COLUMNS) -> list[str]:
+    """Numbers of a point as people read them; a dash where one was not reached."""
+    return [
+        numeral(None if (value := row.numbers[name]) is None else factor * value, figures)
+        for _, name, factor, figures in columns
+    ]
+
+
+def write_overview(rows: Sequence[Row], document: Mapping[str, Any], folder: Path) -> Path:
+    """Write the picture and the page; returns where the page is.
+
+    Raises
+    ------
+    InputError
+        One of them cannot be written.
+    """
+    numbers = [row.numbers for row in rows]
+    drawings = {"over_points": lambda: over_points(numbers)} if document["converged"] else {}
+    if drawings:
+        write_figure(over_points, numbers, folder / PICTURE)
+    return write_page(
+        folder / REPORT,
+        "points.html.j2",
+        drawings,
+        summary=document,
+        rows=rows,
+        heads=[head for head, *_ in COLUMNS],
+        cells=cells,
+    )

@@ -1,0 +1,179 @@
+"""All points of a study in numbers, with units and files: ``summary.json``, ``summary.csv``.
+
+Two runs of one study give the same summary, however often they were interrupted: what differs between them, as
+times do, stands under ``run``, and in ``run.log``.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import hypot
+from pathlib import Path
+from typing import Any
+
+from ehlcontact.cli.output import plain
+from ehlcontact.cli.study.forecast import cautions
+from ehlcontact.cli.study.points.closing import REPORT, faults, products, read_results
+from ehlcontact.cli.study.points.journal import LOG, versions
+from ehlcontact.cli.study.points.ledger import CLOSING, Note
+from ehlcontact.cli.study.points.lists import STUDY_FILE, Point
+from ehlcontact.cli.study.stages import STAGES
+from ehlcontact.status import Status
+
+FORMAT = 1  # of the summary
+SUMMARY, TABLE, PICTURE = "summary.json", "summary.csv", "summary.png"
+# Numbers of a point, with their units; those of the contact of its most loaded ball.
+UNITS = {
+    "speed_rpm": "rev/min",
+    "radial_load": "N",
+    "ball_load": "N",
+    "M": "-",
+    "L": "-",
+    "kappa": "-",
+    "p_hertz": "Pa",
+    "u_sum": "m/s",
+    "h_central": "m",
+    "h_central_error": "of h_central",
+    "h_min": "m",
+    "h_min_error": "of h_min",
+    "lambda": "-",
+    "stiffness": "N/m",
+    "damping": "N s/m",
+    "decay_hz": "Hz",
+    "decrement": "-",
+}
+MEANINGS = {
+    "lambda": "smallest film over the roughness of both surfaces",
+    "stiffness": "of one contact, at the frequency of the shaft",
+    "damping": "of one contact, at the frequency of the shaft",
+    "decay_hz": "vibration of the kicked rotor, on the full film",
+    "decrement": "logarithmic, of that vibration",
+}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One point: how it ended, what was found, and where it is."""
+
+    point: Point
+    status: str
+    messages: tuple[str, ...]  # by stages that did not converge, and why
+    warnings: tuple[str, ...]
+    numbers: Mapping[str, float | None]  # by `UNITS`; None where not reached
+    files: Mapping[str, str]  # by what they are, relative to the folder of the study
+    stages: Mapping[str, str]  # how each ended
+    answer: str | None
+    faults: tuple[str, ...]  # FMUs that could not be made
+
+    @property
+    def ok(self) -> bool:
+        """Whether its numbers can be relied on."""
+        return self.status == Status.CONVERGED
+
+    def to_dict(self) -> dict[str, Any]:
+        """All of it."""
+        return {
+            "name": self.point.name,
+            "status": self.status,
+            "messages": list(self.messages),
+            "warnings": list(self.warnings),
+            **self.numbers,
+            "answer": self.answer,
+            "stages": dict(self.stages),
+            "files": dict(self.files),
+        }
+
+
+def row_of(point: Point, ledger: Mapping[str, Note], root: Path) -> Row:
+    """What the folder of a point holds."""
+    names = [*(stage.name for stage in STAGES), CLOSING]
+    stages = {name: ledger[name]["status"] for name in names if name in ledger}
+    lacking = [name for name, status in stages.items() if status != Status.CONVERGED]
+    closed = stages.get(CLOSING) == Status.CONVERGED
+    results = read_results(point.folder) if closed else None
+    made = {"study": STUDY_FILE} | ({} if results is None else products(results))
+    made |= {
+        stage.title: stage.file(Path()).name for stage in STAGES if stages.get(stage.name) == Status.CONVERGED
+    }
+    made |= {
+        f"{stage.title}, as far as it went": stage.partial(Path()).name
+        for stage in STAGES
+        if stage.name in lacking and stage.partial(point.folder).is_file()
+    }
+    below = point.folder.relative_to(root)
+    broken = () if results is None else tuple(faults(results))
+    return Row(
+        point=point,
+        status=str(Status.CONVERGED) if closed else _worst(stages, lacking),
+        messages=tuple(f"{name}: {stages[name]}: {ledger[name]['message']}" for name in lacking),
+        warnings=(*cautions(point.study), *ledger.get(CLOSING, {}).get("warnings", ()), *broken),
+        numbers=_numbers(point, results),
+        files={what: (below / name).as_posix() for what, name in made.items()},
+        stages=stages,
+        answer=None if results is None else results["answer"],
+        faults=broken,
+    )
+
+
+def _worst(stages: Mapping[str, str], lacking: Sequence[str]) -> str:
+    """Status of a point that did not get to its end: of its first stage that did not."""
+    return next((stages[name] for name in lacking), str(Status.INTERRUPTED))
+
+
+def _numbers(point: Point, results: Mapping[str, Any] | None) -> dict[str, float | None]:
+    """Numbers by `UNITS`: what follows from the study alone is there whatever happened."""
+    study, rough = point.study, point.study.roughness
+    m, s = study.point.moes, study.point.scales
+    found: dict[str, float | None] = dict.fromkeys(UNITS)
+    found |= {"speed_rpm": study.bearing.speed_rpm, "radial_load": study.bearing.radial_load}
+    found |= {"ball_load": study.ball_load, "M": m.M, "L": m.L, "kappa": m.kappa}
+    found |= {"p_hertz": s.pressure, "u_sum": study.point.u_sum}
+    if results is not None:
+        at, moved = results["operating_point"], results["at_rotor_speed"]
+        decayed = results["rotor"]["decay"]["decrements"]["full"]
+        h_central, h_min = (1e-6 * at[name] for name in ("h_central_um", "h_min_um"))
+        found |= {"h_central": h_central, "h_min": h_min}
+        found |= {name: at[name] for name in ("h_central_error", "h_min_error")}
+        found |= {"lambda": None if rough is None else h_min / hypot(*rough)}
+        found |= {name: moved[name] for name in ("stiffness", "damping")}
+        found |= {"decay_hz": decayed["hz"], "decrement": decayed["decrement"]}
+    return found
+
+
+def summary(rows: Sequence[Row], title: str, run: Mapping[str, Any]) -> dict[str, Any]:
+    """Content of ``summary.json``; `run` is what may differ between two runs of one study."""
+    first, several = rows[0].point.study, len(rows) > 1
+    files = {"study": STUDY_FILE, "summary": SUMMARY, "table": TABLE, "log": LOG}
+    converged = sum(row.ok for row in rows)
+    files |= {"report": REPORT} if several or converged else {}
+    files |= {"picture": PICTURE} if several and converged else {}
+    return {
+        "format": FORMAT,
+        "title": title,
+        "bearing": first.bearing.name,
+        "oil": first.oil.label,
+        "status": "converged" if converged == len(rows) else "not converged",
+        "converged": converged,
+        "units": UNITS,
+        "meanings": MEANINGS,
+        "points": [row.to_dict() for row in rows],
+        "files": files,
+        "versions": versions(),
+        "run": dict(run),
+    }
+
+
+def table(rows: Sequence[Row]) -> str:
+    """Content of ``summary.csv``: a row per point, units in the first line; what was not reached is left empty."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(["point", *(f"{name} [{unit}]" for name, unit in UNITS.items()), "status"])
+    for row in rows:
+        values = plain(dict(row.numbers))
+        writer.writerow(
+            [row.point.name, *("" if v is None else repr(float(v)) for v in values.values()), row.status]
+        )
+    return stream.getvalue()

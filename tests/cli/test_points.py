@@ -1,0 +1,343 @@
+"""A study of several points: lists, what is kept, what is solved, what fails, and what is said of all together."""
+
+import csv
+import json
+import os
+import random
+import shutil
+import signal
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+from matplotlib.figure import Figure
+from tiny_study import STUDY
+
+from ehlcontact import InputError
+from ehlcontact.cli.study import runner
+from ehlcontact.cli.study.points.lists import MOST, load_points, points_of
+from ehlcontact.cli.study.points.summary import MEANINGS, UNITS
+from ehlcontact.cli.study.schema import load_study
+from ehlcontact.cli.study.stages import stage_named
+
+STUB = Path(__file__).with_name("stub_worker.py")
+NAMES = ["steady", "free", "harmonic"]
+TASKS = len(NAMES) + 1
+
+
+def with_lists(speeds="[3000.0, 4000, 5000]", loads="20.0", **changes):
+    """The tiny study at these."""
+    text = STUDY.replace("speed_rpm = 3000.0", f"speed_rpm = {speeds}").replace(
+        "radial_load = 20.0", f"radial_load = {loads}"
+    )
+    for old, new in changes.values():
+        assert old in text
+        text = text.replace(old, new)
+    return text
+
+
+@pytest.fixture
+def stub(tmp_path, monkeypatch):
+    """Workers that leave files at once; ``stub()`` is what they have done since it was asked last."""
+    home = tmp_path / "stub"
+    home.mkdir()
+    script = home / "python"
+    script.write_text(f"#!{sys.executable} -SE\n" + STUB.read_text())
+    script.chmod(0o755)
+    monkeypatch.setattr(sys, "executable", str(script))
+    monkeypatch.setattr(runner, "STAGES", tuple(stage_named(name) for name in NAMES))
+
+    def calls():
+        file = home / "calls"
+        done = file.read_text().splitlines() if file.exists() else []
+        file.unlink(missing_ok=True)
+        return sorted(done)
+
+    calls.orders = home / "orders"
+    return calls
+
+
+@pytest.fixture(autouse=True)
+def no_pictures(request, monkeypatch):
+    """Drawn in one test: they take longer than all the rest."""
+    if request.node.name != "test_all_points_are_solved_and_summed_up":
+        monkeypatch.setattr("ehlcontact.cli.study.points.page.over_points", lambda numbers: Figure((1.0, 1.0)))
+
+
+@pytest.fixture
+def run(call, tmp_path):
+    """``run(text, *options)``: the command on a study file; the folder is ``run.folder``."""
+
+    def go(text, *options):
+        file = tmp_path / "mine.toml"
+        file.write_text(text)
+        return call("run", file, "-o", go.folder, *options)
+
+    go.folder = tmp_path / "out"
+    return go
+
+
+def of(name):
+    """All tasks of a point, as the stub tells them."""
+    return sorted(f"{name} {task}" for task in [*NAMES, "report"])
+
+
+def lasting(folder):
+    """The summary but for what may differ between two runs of one study."""
+    found = json.loads((folder / "summary.json").read_text())
+    del found["run"]
+    return found, (folder / "summary.csv").read_bytes()
+
+
+def test_every_speed_with_every_load(tmp_path):
+    file = tmp_path / "s.toml"
+    file.write_text(with_lists("[3000, 4500.5]", "[20.0, 30.0]"))
+    points = load_points(file, tmp_path / "out")
+    assert [point.name for point in points] == ["3000rpm_20N", "3000rpm_30N", "4500.5rpm_20N", "4500.5rpm_30N"]
+    assert points[3].folder == tmp_path / "out" / "points" / "4500.5rpm_30N"
+    one = points[3].study
+    assert (one.bearing.speed_rpm, one.bearing.radial_load) == (4500.5, 30.0) and one.title.endswith(
+        "4500.5 rpm, 30.0 N"
+    )
+    assert one.rotor == points[0].study.rotor and one.point.load == pytest.approx(1.5 * points[2].study.point.load)
+    # of its own study alone, and of one with lists of one number, it is the same
+    file.write_text(with_lists("4500.5", "30.0"))
+    alone = load_study(file)
+    file.write_text(with_lists("[4500.5]", "[30.0]"))
+    (single,) = load_points(file, tmp_path / "out")
+    assert single.study == alone and single.folder == tmp_path / "out"
+    assert alone.fingerprint(names=False) == one.fingerprint(names=False)
+
+
+@pytest.mark.parametrize(
+    ("speeds", "loads", "words"),
+    [
+        ("[]", "20.0", ("bearing.speed_rpm = []", "1 to 100")),
+        ("[3000, -5]", "20.0", ("bearing.speed_rpm = -5", "between 0.001 and")),
+        ("[3000, 3000.0]", "20.0", ("bearing.speed_rpm = 3000.0", "once")),
+        ('["3000"]', "20.0", ("bearing.speed_rpm", "a number")),
+        ("[[3000]]", "20.0", ("bearing.speed_rpm = [3000]", "a number, in a list")),
+        ("[3000, nan]", "20.0", ("bearing.speed_rpm = nan",)),
+        (str(list(range(1000, 1011))), str(list(range(10, 20))), ("11 x 10", f"at most {MOST} points")),
+        ("[3000, 4000]", "[20.0, 1e7]", ("M = ", "at 3000 rpm, 10000000.0 N")),
+    ],
+)
+def test_lists_that_are_none_of_points(refused, tmp_path, speeds, loads, words):
+    file = tmp_path / "s.toml"
+    file.write_text(with_lists(speeds, loads))
+    for command in ("run", "validate"):
+        refused(("s.toml: ", *words), command, file, "-o", tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_commands_of_one_point_say_so(refused, tmp_path):
+    file = tmp_path / "s.toml"
+    file.write_text(with_lists())
+    refused(
+        ("bearing.speed_rpm = ", "one number here", "ehlcontact run"), "export", file, "-o", tmp_path / "r.fmu"
+    )
+    with pytest.raises(InputError, match="one number here"):
+        load_study(file)
+
+
+def test_all_points_are_solved_and_summed_up(run, stub):
+    found = run(with_lists("[3000.0, 4000]", "[20.0, 30.0]"), "--jobs", "2")
+    assert found.code == 0
+    assert stub() == sorted(name for n in (3000, 4000) for f in (20, 30) for name in of(f"{n}rpm_{f}N"))
+    summary = json.loads((run.folder / "summary.json").read_text())
+    assert summary["status"] == "converged" and summary["converged"] == 4 and summary["units"] == UNITS
+    assert set(MEANINGS) < set(UNITS) and summary["versions"]["ehlcontact"]
+    point = summary["points"][3]
+    assert point["name"] == "4000rpm_30N" and set(UNITS) < set(point)
+    assert point["h_central"] == pytest.approx(0.4e-6) and point["h_min"] == pytest.approx(0.2e-6)
+    assert point["lambda"] == pytest.approx(0.2e-6 / (0.02e-6**2 + 0.15e-6**2) ** 0.5)
+    assert point["stiffness"] == 3e7 and point["damping"] == 25.0 and point["p_hertz"] > 1e8
+    for name in [*summary["files"].values(), *point["files"].values()]:
+        if "fmu" not in name and "elements" not in name:  # which the stub does not make
+            assert (run.folder / name).is_file(), name
+    rows = list(csv.DictReader((run.folder / "summary.csv").read_text().splitlines()))
+    assert [row["point"] for row in rows] == [one["name"] for one in summary["points"]]
+    assert float(rows[3]["damping [N s/m]"]) == 25.0 and rows[3]["h_min_error [of h_min]"] == ""
+    page = (run.folder / "report.html").read_text()
+    assert all(f'href="points/{row["point"]}/report.html"' in page for row in rows) and "data:image/png" in page
+    assert (
+        "3000" in found.out
+        and "report: " in found.out
+        and "ehlcontact: 3000rpm_20N: warning: a warning" in found.err
+    )
+
+
+def test_json_is_the_summary(run, stub):
+    found = run(with_lists("[3000.0, 4000]"), "--json", "-")
+    assert found.code == 0 and json.loads(found.out) == json.loads((run.folder / "summary.json").read_text())
+
+
+def test_one_point_is_what_it_was(run, stub):
+    """In the folder itself, with its results as JSON; and a summary of the one."""
+    found = run(STUDY, "--json", "-")
+    assert found.code == 0 and json.loads(found.out) == json.loads((run.folder / "results.json").read_text())
+    assert not (run.folder / "points").exists() and (run.folder / "study.toml").read_text() == STUDY
+    summary = json.loads((run.folder / "summary.json").read_text())
+    assert [point["name"] for point in summary["points"]] == ["3000rpm_20N"]
+    assert (run.folder / summary["files"]["report"]).is_file() and "picture" not in summary["files"]
+
+
+def test_only_what_changed_is_done_again(run, stub):
+    run(with_lists())
+    assert len(stub()) == 3 * TASKS
+    assert run(with_lists("[3000.0, 4000, 6000]")).code == 0
+    assert stub() == of("6000rpm_20N")
+    summary = json.loads((run.folder / "summary.json").read_text())
+    assert [point["speed_rpm"] for point in summary["points"]] == [3000.0, 4000.0, 6000.0]
+    assert sorted(summary["run"]["solved"]) == of("6000rpm_20N") and len(summary["run"]["kept"]) == 2 * TASKS
+    run(with_lists())  # as it was: the folder of the third is still there
+    assert stub() == []
+    run(with_lists(motion=("[harmonic]", "[harmonic]\namplitude = 0.2")))
+    assert stub() == sorted(f"{n}rpm_20N {task}" for n in (3000, 4000, 5000) for task in ("harmonic", "report"))
+
+
+def test_what_only_the_report_shows_solves_nothing(run, stub):
+    run(STUDY)
+    stub()
+    for old, new in (
+        ("[bearing]", 'title = "another"\n[bearing]'),
+        ("[bearing]", '[bearing]\nname = "mine"'),
+        ("[oil]", '[oil]\nname = "good oil"'),
+        ("rq_race_um = 0.15", "rq_race_um = 0.2"),
+    ):
+        assert run(STUDY.replace(old, new)).code == 0
+        assert stub() == ["3000rpm_20N report"], new
+
+
+def test_contents_are_found_wherever_they_are(run, stub):
+    """From a study of one point to a list and back: nothing is solved twice."""
+    run(STUDY)
+    assert len(stub()) == TASKS
+    run(with_lists("[3000.0, 4000]"))
+    assert stub() == sorted([*of("4000rpm_20N"), "3000rpm_20N report"])
+    shutil.rmtree(run.folder / "points" / "4000rpm_20N")
+    run(with_lists("4000.0"))
+    assert stub() == of("4000rpm_20N")
+    run(STUDY)
+    assert stub() == ["3000rpm_20N report"]
+
+
+def test_files_that_are_damaged_or_gone_are_made_again(run, stub):
+    run(with_lists("[3000.0, 4000]"))
+    stub()
+    point = run.folder / "points" / "4000rpm_20N"
+    (point / "free.h5").write_text("else")
+    found = run(with_lists("[3000.0, 4000]"))
+    assert stub() == ["4000rpm_20N free", "4000rpm_20N report"]
+    assert f"{point / 'free.h5'} is damaged" in found.err
+
+
+def test_points_that_fail_do_not_stop_the_others(run, stub):
+    stub.orders.write_text("4000rpm_20N free\n")
+    found = run(with_lists(), "--json", "-")
+    assert found.code == 1
+    said = [line for line in found.err.splitlines() if "diverged" in line]
+    assert any("ehlcontact: 4000rpm_20N: free: diverged: The residual grows: use a finer grid" in s for s in said)
+    assert stub() == sorted([*of("3000rpm_20N"), *of("5000rpm_20N"), *(f"4000rpm_20N {name}" for name in NAMES)])
+    summary = json.loads(found.out)
+    assert summary["status"] == "not converged" and summary["converged"] == 2
+    first, failed, _ = summary["points"]
+    assert (first["status"], failed["status"]) == ("converged", "diverged")
+    assert failed["messages"] == ["free: diverged: The residual grows: use a finer grid."]
+    assert failed["h_central"] is None and failed["M"] > 1.0 and "report" not in failed["files"]
+    row = (run.folder / "summary.csv").read_text().splitlines()[2]
+    assert row.endswith(",diverged") and ",,," in row
+    page = (run.folder / "report.html").read_text()
+    assert "2 of 3 points converged" in page and "use a finer grid" in page
+    stub.orders.write_text("")
+    assert run(with_lists()).code == 0 and stub() == ["4000rpm_20N free", "4000rpm_20N report"]
+
+
+def test_fmus_that_fail_are_tried_again(run, stub):
+    stub.orders.write_text("4000rpm_20N report without FMU\n")
+    found = run(with_lists())
+    assert found.code == 1 and "4000rpm_20N: contact.fmu: differs from the element" in found.err
+    stub()
+    stub.orders.write_text("")
+    assert run(with_lists()).code == 0 and stub() == ["4000rpm_20N report"]
+
+
+def test_the_log_tells_what_was_kept_and_solved(run, stub):
+    run(with_lists("[3000.0, 4000]"))
+    run(with_lists("[3000.0, 5000]"))
+    lines = [line.split(maxsplit=2) for line in (run.folder / "run.log").read_text().splitlines()]
+    kinds = [kind for _, kind, _ in lines]
+    assert kinds.count("run") == kinds.count("versions") == kinds.count("done") == 2
+    assert kinds.count("kept") == TASKS and kinds.count("solved") == 3 * TASKS
+    assert kinds.count("warning") == 3 and all(time.strptime(when[:19], "%Y-%m-%dT%H:%M:%S") for when, *_ in lines)
+    assert any(text == "5000rpm_20N: free vibration: done, 0.0 s" for _, _, text in lines)
+
+
+def test_interrupted_at_random_moments_it_gives_the_same(run, stub):
+    """Ctrl-C, seeded; the slow test does so with a real study, and with kill -9."""
+    stub.orders.write_text("slow")
+    started = time.monotonic()
+    run(with_lists("[3000.0, 4000]"))
+    took, expected = time.monotonic() - started, lasting(run.folder)
+    shutil.rmtree(run.folder)
+    stub()
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    rng, codes = random.Random(21), []
+    try:
+        for _ in range(5):
+            timer = threading.Timer(rng.uniform(0.02, 0.3) * took, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            found = run(with_lists("[3000.0, 4000]"))
+            timer.cancel()
+            timer.join()
+            codes.append(found.code)
+            if found.code == 0:
+                break
+            assert "interrupted" in found.err.splitlines()[-1] and "Traceback" not in found.err
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert 1 in codes
+    assert run(with_lists("[3000.0, 4000]")).code == 0
+    assert lasting(run.folder) == expected
+    assert set(stub()) == {*of("3000rpm_20N"), *of("4000rpm_20N")}
+
+
+def test_validate_tells_of_all_points(call, tmp_path):
+    file = tmp_path / "s.toml"
+    file.write_text(with_lists("[3000.0, 4000]", "[20.0, 30.0]"))
+    found = call("validate", file, "-o", tmp_path / "none", "--jobs", "2", "--json", "-")
+    document = json.loads(found.out)
+    assert [point["name"] for point in document["points"]][::3] == ["3000rpm_20N", "4000rpm_30N"]
+    assert document["seconds"] == pytest.approx(sum(point["seconds"] for point in document["points"]) / 2, rel=0.5)
+    assert any(text.startswith("3000rpm_30N") for text in document["warnings"])
+    shown = call("validate", file, "-o", tmp_path / "none").out
+    assert "4000rpm_30N" in shown and "0 of 8" in shown and "whole study" in shown
+
+
+def test_init_writes_lists(call, tmp_path):
+    file = tmp_path / "s.toml"
+    options = ("--rpm", "1500", "--rpm", "3000", "--load", "100", "--load", "3000", "--json", "-")
+    document = json.loads(call("init", file, *options).out)
+    assert document["speed_rpm"] == [1500.0, 3000.0] and document["radial_load"] == [100.0, 3000.0]
+    points = load_points(file, tmp_path)
+    assert [point.name for point in points] == ["1500rpm_100N", "1500rpm_3000N", "3000rpm_100N", "3000rpm_3000N"]
+    # the grid is that of the thinnest film
+    alone = tmp_path / "alone.toml"
+    call("init", alone, "--rpm", "1500", "--load", "3000")
+    assert points[0].study.solver.n == load_study(alone).solver.n
+
+
+def test_no_cluster_at_that_address(refused, tmp_path):
+    pytest.importorskip("distributed")
+    file = tmp_path / "s.toml"
+    file.write_text(with_lists())
+    words = ("--scheduler = 'tcp://127.0.0.1:1'", "Dask scheduler")
+    refused(words, "run", file, "-o", tmp_path / "out", "--scheduler", "tcp://127.0.0.1:1")
+    assert not (tmp_path / "out").exists()
+
+
+def test_points_of_a_document_without_a_bearing():
+    with pytest.raises(InputError, match="bearing"):
+        points_of({"bearing": [3000]}, Path())

@@ -1,0 +1,83 @@
+"""A real study that is interrupted again and again: Ctrl-C and kill -9 at ten random moments, the same summary."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from tiny_study import STUDY
+
+ROOT = Path(__file__).parents[2]
+MOMENTS, SEED = 10, 2026
+
+
+def begin(study, folder):
+    """The program in a process of its own."""
+    command = [sys.executable, "-m", "ehlcontact.cli", "run", str(study), "-o", str(folder), "--jobs", "2"]
+    return subprocess.Popen(
+        command,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+
+
+def lasting(folder):
+    """Summary and table but for what may differ between two runs, and the results but for times and paths."""
+    found = json.loads((folder / "summary.json").read_text())
+    del found["run"]
+    results = [json.loads((folder / point["files"]["results"]).read_text()) for point in found["points"]]
+    for one in results:
+        timeless(one)
+    return found, (folder / "summary.csv").read_bytes(), results
+
+
+def timeless(value):
+    """Take out how long things took, wherever it stands."""
+    if isinstance(value, dict):
+        value.pop("seconds", None)
+        for inner in value.values():
+            timeless(inner)
+    elif isinstance(value, list):
+        for inner in value:
+            timeless(inner)
+
+
+@pytest.mark.slow
+def test_interrupted_at_ten_random_moments_it_gives_the_same_bit_for_bit(tmp_path):
+    study = tmp_path / "two.toml"
+    study.write_text(STUDY.replace("speed_rpm = 3000.0", "speed_rpm = [3000.0, 4000.0]"))
+    first = begin(study, tmp_path / "warm")  # compiles
+    first.communicate()
+    started = time.monotonic()
+    whole = begin(study, tmp_path / "whole")
+    whole.communicate()
+    took = time.monotonic() - started
+    assert first.returncode == whole.returncode == 0
+    expected = lasting(tmp_path / "whole")
+    assert lasting(tmp_path / "warm") == expected
+
+    rng, folder, ends = random.Random(SEED), tmp_path / "out", []
+    while len(ends) < MOMENTS:
+        blow = rng.choice([signal.SIGINT, signal.SIGKILL])
+        process = begin(study, folder)
+        try:  # so soon that the study is rarely done before the tenth
+            _, said = process.communicate(timeout=rng.uniform(0.0, 0.3) * took)
+        except subprocess.TimeoutExpired:
+            process.send_signal(blow)
+            _, said = process.communicate(timeout=60)
+        ends.append(process.returncode)
+        assert process.returncode in (0, 1, -signal.SIGKILL, -signal.SIGINT) and "Traceback" not in said
+    assert {1, -signal.SIGKILL} <= set(ends)
+    last = begin(study, folder)
+    last.communicate()
+    assert last.returncode == 0
+    assert lasting(folder) == expected
+    assert not list(folder.rglob("*.tmp"))
