@@ -70,7 +70,7 @@ def write_explorer(path: Path) -> Path:
     from ehlcontact.cli.study.whole import USUAL_DAMPING
 
     usual = MineralOil(GRADES[0], 40.0)  # what is left out is as in `Lubricant.iso_vg`
-    content = {"script": script(), "version": __version__, "ratio": USUAL_DAMPING}
+    content: dict[str, Any] = {"script": script(), "version": __version__, "ratio": USUAL_DAMPING}
     content |= {"index": usual.viscosity_index, "density": usual.density_15}
     return write_page(path, "explore/page.html.j2", {}, **content)
 

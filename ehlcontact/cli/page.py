@@ -10,12 +10,23 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from matplotlib.figure import Figure
 
 from ehlcontact.cli.numerals import numeral, percent
+from ehlcontact.cli.plots.live.bundle import bundle
+from ehlcontact.cli.plots.live.scene import scene_of
 from ehlcontact.cli.plots.style import embedded, styled
 from ehlcontact.files import write_text
 
 
-def write_page(path: Path, template: str, drawings: Mapping[Any, Callable[[], Figure]], **content: Any) -> Path:
+def write_page(
+    path: Path,
+    template: str,
+    drawings: Mapping[Any, Callable[[], Figure]],
+    scenes: Mapping[str, Callable[[], Any]] | None = None,
+    **content: Any,
+) -> Path:
     """Draw all figures, which the template finds under ``images``, and write the page.
+
+    With `scenes` the page can be zoomed into: its template finds plotly.js and the scenes of all figures, those
+    given or else those of `cli.plots.live`, under ``live``.
 
     Raises
     ------
@@ -30,9 +41,15 @@ def write_page(path: Path, template: str, drawings: Mapping[Any, Callable[[], Fi
         lstrip_blocks=True,
     )
     environment.filters |= {"sig": numeral, "percent": percent, "cell": cell}
+    images, found = {}, {}
     with styled():
-        images = {name: embedded(draw()) for name, draw in drawings.items()}
-    return write_text(path, environment.get_template(template).render(images=images, **content), "file")
+        for name, draw in drawings.items():
+            figure = draw()
+            images[name] = embedded(figure)
+            if scenes is not None:
+                found[name] = scenes[name]() if name in scenes else scene_of(figure)
+    live = None if scenes is None else bundle(found)
+    return write_text(path, environment.get_template(template).render(images=images, live=live, **content), "file")
 
 
 def cell(value: float | str | None, digits: int = 5) -> str:

@@ -5,6 +5,7 @@ import platform
 
 import fmpy
 import numpy as np
+from plotly.offline import get_plotlyjs_version
 
 from report.contact import MODELS, POWERS, RECORDS, shape
 
@@ -177,5 +178,6 @@ def claim_origin(page, results):
     made |= {name: importlib.metadata.version(name) for name in ("numpy", "scipy", "numba", "fmpy", "h5py")}
     for name, version in made.items():
         page.claim(f"{name} {version},")
+    page.claim(f"plotly.js {get_plotlyjs_version()}, MIT licence")
     for name, seconds in results["seconds"].items():
         page.claim(f"{name} # s", seconds)

@@ -1,8 +1,8 @@
-"""What a study found, in one paragraph: every sentence is computed; those with nothing to say are empty."""
+"""What a study found, in sentences: every one is computed; those with nothing to say are empty."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 from ehlcontact.cli.numerals import numeral, percent
@@ -19,9 +19,22 @@ STEP_TOLD = 0.01
 
 
 def headline(found: Findings) -> str:
-    """The paragraph."""
-    parts = (contact, damper, decay, unbalance, whole, unsettled, step_check, grids, happenings, failures, assumed)
-    return " ".join(text for text in (part(found) for part in parts) if text)
+    """All in one paragraph."""
+    return " ".join((*findings(found), *reservations(found)))
+
+
+def findings(found: Findings) -> list[str]:
+    """What was found, a text per subject."""
+    return _told(found, contact, damper, decay, unbalance, whole)
+
+
+def reservations(found: Findings) -> list[str]:
+    """What to keep in mind with it."""
+    return _told(found, unsettled, step_check, grids, happenings, failures, assumed)
+
+
+def _told(found: Findings, *parts: Callable[[Findings], str]) -> list[str]:
+    return [text for text in (part(found) for part in parts) if text]
 
 
 def contact(found: Findings) -> str:

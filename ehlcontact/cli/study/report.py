@@ -12,12 +12,29 @@ from ehlcontact.cli.page import write_page
 from ehlcontact.cli.plots import film, motion, rotor, vibration, whole
 from ehlcontact.cli.plots.fringes import three_lights
 from ehlcontact.cli.plots.impedance import impedance
+from ehlcontact.cli.plots.instants import instants
+from ehlcontact.cli.plots.live.instants import instants_scene
+from ehlcontact.cli.study.headline import findings, reservations
 from ehlcontact.cli.study.reduction import CONTACTS, FULL, MEMORY, RECORDS
 from ehlcontact.cli.study.results import Findings
+from ehlcontact.cli.study.stages import STAGES
 from ehlcontact.cli.study.whole import NAMES, USUAL_DAMPING
 from reduced_models.rotor.events import LOST
 from reduced_models.rotor.settled import MOST_REVOLUTIONS
 
+# Files of a study, and what to say of them; STAGE is what computed one.
+FILES = {
+    "results.json": "every number of this page, and more, with all digits",
+    "study.toml": "the study itself; the same command with it resumes, or makes this page again",
+    "contact.fmu": "FMU of the cubic element fitted in the rotor's band",
+    "contact_film.fmu": "FMU of the element with a film memory",
+    "elements/*_si.json": "an element in SI units, for ehlcontact export and for reduced_models.load_element",
+    "elements/*.json": "the same, dimensionless",
+    "on_bearings_*.h5": "motion of the rotor on whole bearings",
+    "*.h5": "STAGE: fields or histories",
+    "stages.json": "what was computed, when it was done, and checksums",
+}
+STAGE_TITLES = {stage.name: stage.title for stage in STAGES}
 TITLES = RECORDS | {MEMORY: "all bands, with film memory"}
 
 
@@ -27,7 +44,10 @@ def write_report(found: Findings, path: Path) -> Path:
         path,
         "report.html.j2",
         drawings(found),
+        {"instants": lambda: instants_scene(found.simulations["harmonic"])},
         found=found,
+        story={"findings": findings(found), "reservations": reservations(found)},
+        files=files_beside(path.parent),
         op=found.operating_point,
         scales=found.study.point.scales,
         titles=TITLES,
@@ -38,6 +58,17 @@ def write_report(found: Findings, path: Path) -> Path:
         bearings=NAMES,
         usual_damping=USUAL_DAMPING,
     )
+
+
+def files_beside(folder: Path) -> dict[str, str]:
+    """What lies in the folder of a study, in the order of `FILES`, and what each file holds."""
+    found = {}
+    for pattern, text in FILES.items():
+        for path in sorted(folder.glob(pattern)):
+            name = path.relative_to(folder).as_posix()
+            if name not in found and not name.endswith(".partial.h5"):
+                found[name] = text.replace("STAGE", STAGE_TITLES.get(path.stem, path.stem))
+    return found
 
 
 def ways_of_coupling(fmus: Iterable[Mapping[str, Any]]) -> list[tuple[str, list[str], str]]:
@@ -67,6 +98,7 @@ def drawings(found: Findings) -> dict[str, Callable[[], Figure]]:
         "convergence": lambda: film.convergence(found.steady),
         "free": lambda: motion.histories(free, cubic.get("free")),
         "film_wave": lambda: motion.wave(found.simulations["harmonic"]),
+        "instants": lambda: instants(found.simulations["harmonic"]),
         "loops": lambda: motion.loops(found.simulations, cubic, RECORDS),
         "impedance": lambda: impedance(reduction.impedance, memory, list(cubic.values()), frequencies),
         "orbit": lambda: rotor.orbit(turning, how, CONTACTS),

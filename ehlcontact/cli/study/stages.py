@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -13,6 +13,7 @@ from ehlcontact.status import Status
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
 
 Update = Callable[[float, float], None]  # done, total
+FRAMES = 24  # of a period: whole fields that the report can run through
 
 
 class Outcome(NamedTuple):
@@ -105,7 +106,12 @@ def _steady(study: Study, update: Update) -> Any:
 
 
 def _simulate(
-    study: Study, motion: FreeVibration | HarmonicLoad, periods: float, steps: int, update: Update
+    study: Study,
+    motion: FreeVibration | HarmonicLoad,
+    periods: float,
+    steps: int,
+    update: Update,
+    snapshots: Sequence[float] = (),
 ) -> Any:
     from ehlcontact.transient.simulate import simulate
 
@@ -116,6 +122,7 @@ def _simulate(
         domain=study.domain,
         until=periods * motion.period,
         dT=motion.period / steps,
+        snapshots=snapshots,
         throw=False,
         callback=update,
     )
@@ -127,7 +134,16 @@ def _free(study: Study, update: Update) -> Any:
 
 def _harmonic(study: Study, update: Update) -> Any:
     settings = study.harmonic
-    return _simulate(study, study.harmonic_motion, settings.periods, settings.steps_per_period, update)
+    kept = frame_times(study.harmonic_motion.period, settings.periods, settings.steps_per_period)
+    return _simulate(study, study.harmonic_motion, settings.periods, settings.steps_per_period, update, kept)
+
+
+def frame_times(period: float, periods: float, steps: int) -> list[float]:
+    """Times of steps of the last period whose whole fields the report shows, `FRAMES` at most and its start."""
+    stride = -(-steps // FRAMES)
+    last = round(periods * steps)
+    first = max(last - steps, 0)
+    return [k * period / steps for k in range(first, last + 1, stride)]
 
 
 def _rotor_band(study: Study, update: Update) -> Any:
