@@ -1,9 +1,9 @@
-"""An atlas of one's own, solved by a Dask cluster: here a small one, on the cores of this machine.
+"""An atlas of one's own, solved by a Dask cluster: here of a few light contacts, on the cores of this machine.
 
     python examples/atlas_on_a_cluster.py [atlas_on_a_cluster.png]     # some minutes; needs ehlcontact[cluster]
 
 What one learns: any scheduler's address makes a cluster of many machines do the work, what was solved survives a
-kill, and an atlas knows how right it is: this one has a few contacts where the shipped one has hundreds, and its
+kill, and an atlas knows how right it is: this one has 30 contacts where the shipped one has hundreds, and its
 error bars say so.
 """
 
@@ -16,8 +16,8 @@ from ehlcontact import MoesPoint
 from reduced_models import Atlas
 from reduced_models.atlas.build import build_atlas
 
-DRAWS, LIGHT = 32, 8  # sample points over the box, and at light loads
-POINTS = [MoesPoint(M, 10.0, 0.3) for M in (20.0, 100.0, 500.0, 2500.0)]
+DRAWS, LIGHT = 0, 20  # sample points over the whole box, and at light loads, where they are solved soon
+POINTS = [MoesPoint(M, 10.0, 0.3) for M in (2.0, 5.0, 10.0, 20.0)]
 
 
 def build(folder: Path, draws: int = DRAWS, light: int = LIGHT, workers: int = 2, **options: Any) -> Atlas:

@@ -75,7 +75,7 @@ def main(picture: str = "full_against_reduced.png") -> None:
         label = f"{name}, decrement {decrement(run):.4f}"
         print(label)
         axes.plot(run.t * 1e3, (run.journal[:, 1] - run.journal[0, 1]) * 1e9, look, label=label)
-    axes.set(xlabel="time [ms]", ylabel="journal [nm]")
+    axes.set(xlabel="time [ms]", ylabel="journal [nm]", ylim=(-90.0, 130.0))
     axes.legend(frameon=False, ncols=2, loc="upper right")
     figure.savefig(picture, dpi=110)
 

@@ -77,9 +77,9 @@ def test_it_has_a_test(name):
 
 
 def test_every_one_has_its_row_and_picture():
-    """In the table of the folder and, under `docs/images/examples`, in that of the gallery."""
+    """In the table of the folder, which the gallery of the documentation shows; `docs/site/gallery.py` draws."""
     table = (FOLDER / "README.md").read_text(encoding="utf-8")
-    rows = re.findall(r"^\| \[`?([\w./]+)`?\]\(([\w./]+)\) \|", table, flags=re.M)
+    rows = re.findall(r"^\| \[([\w./]+)\]\(\./([\w./]+)\) \|", table, flags=re.M)
     assert all(shown == target for shown, target in rows)
     scripts = {path.name for path in FOLDER.iterdir() if path.suffix in (".py", ".toml")}
     scripts |= {f"studies/{name}.py" for name in LONG}
