@@ -1,19 +1,13 @@
 """A rotor on two 6205 bearings runs up through its critical speeds, and down again, films and all.
 
-Run ``python examples/run_up.py [--seconds 2] [--out DIR]``: prints where modes cross the speed and where the disc
-swings most, and draws ``run_up.png``. Under a minute.
+    python examples/run_up.py [run_up.png]     # under a minute
 
-A rotor that speeds up swings most some time after the crossing; one that slows down likewise, so at a lower speed:
-the critical speed lies in the middle. There are two, close together: the bearings are not as stiff across their
-load as along it.
+What one learns: a Campbell diagram tells where modes cross the speed; a rotor that speeds up swings most some time
+after the crossing, one that slows down likewise, so at a lower speed. There are two crossings, close together:
+bearings are not as stiff across their load as along it.
 """
 
-from __future__ import annotations
-
-import argparse
-from math import pi
-from pathlib import Path
-from typing import Any
+import sys
 
 import numpy as np
 
@@ -25,111 +19,76 @@ from reduced_models import (
     MatrixRotor,
     SpeedCourse,
     Unbalance,
+    campbell,
     simulate_on_bearings,
 )
 
-DISC, JOURNAL = 40.0, 1.0  # kg
-SHAFT = 3.0e7  # N/m, of the disc against both journals
-UNBALANCE = 2.0e-5  # kg m: half a micrometre on the disc, balance quality G 0.4
-LOAD = (0.0, -0.5 * 9.81 * DISC)  # N on a bearing, but for its journal
+MASSES = np.array([1.0, 40.0, 1.0])  # kg, of journal, disc, journal
+SHAFT = 1.5e7 * np.array([[1.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]])  # N/m
+UNBALANCE = 2e-5  # kg m: half a micrometre on the disc, balance quality G 0.4
 RANGE = 4000.0, 9000.0  # rev/min
-DT = 5e-5  # s
 
 
-def bearing() -> BallBearing:
-    """Bearing and oil."""
-    return BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
-
-
-def rotor(held: BallBearing) -> MatrixRotor:
-    """Disc between two journals; degrees of freedom x, y of the left journal, of the disc and of the right one."""
-    spring = 0.5 * SHAFT * np.array([[1.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]])
-    masses = np.array([JOURNAL, DISC, JOURNAL])
+def rotor() -> MatrixRotor:
+    """Places x, y of the left journal, of the disc and of the right one."""
+    held = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
     return MatrixRotor(
-        mass=np.kron(np.diag(masses), np.eye(2)),
-        stiffness=np.kron(spring, np.eye(2)),
-        load=np.kron(masses, [0.0, -9.81]),
+        mass=np.kron(np.diag(MASSES), np.eye(2)),
+        stiffness=np.kron(SHAFT, np.eye(2)),
+        load=np.kron(MASSES, [0.0, -9.81]),
         mounts=tuple(BearingMount(bearing=held, x=x, y=x + 1) for x in (0, 4)),
         unbalances=(Unbalance(x=2, y=3, amount=UNBALANCE),),
     )
 
 
-def critical_speeds(held: BallBearing) -> tuple[float, float]:
-    """Speeds [rev/min] that the first mode across and along the load crosses."""
-    line = rotor(held)
-    speeds = np.linspace(*RANGE, 11)
-    found = []
-    for k in (0, 1):
-        modes = []
-        for speed in speeds:
-            at = held.coefficients(LOAD, speed_rpm=speed, rpm=speed).stiffness[0, k, k]
-            K, M = line.stiffness[k::2, k::2].copy(), line.mass[k::2, k::2]
-            K[[0, 2], [0, 2]] += at
-            modes.append(np.sqrt(np.linalg.eigvals(np.linalg.solve(M, K)).real.min()) * 30.0 / pi)
-        found.append(float(np.interp(0.0, speeds - modes, speeds)))
-    return found[0], found[1]
+def critical_speeds(line: MatrixRotor) -> list[float]:
+    """Speeds [rev/min] at which the unbalance meets a mode."""
+    return [found.speed_rpm for found in campbell(line, np.linspace(*RANGE, 6), count=2).critical_speeds()]
 
 
-def runs(held: BallBearing, seconds: float) -> tuple[BearingRun, BearingRun]:
-    """The rotor speeding up and slowing down, in so many seconds each."""
-    both = []
-    for ends in (RANGE, RANGE[::-1]):
-        course = SpeedCourse(np.array([0.0, seconds]), np.array(ends))
-        both.append(simulate_on_bearings(rotor(held), speed_rpm=course, dt=DT, until=seconds))
-    return both[0], both[1]
+def runs(line: MatrixRotor, seconds: float) -> dict[str, BearingRun]:
+    """Speeding up and slowing down, in so many seconds each."""
+    courses = {"up": SpeedCourse.ramp(*RANGE, seconds), "down": SpeedCourse.ramp(*RANGE[::-1], seconds)}
+    return {
+        way: simulate_on_bearings(line, speed_rpm=course, dt=5e-5, until=seconds)
+        for way, course in courses.items()
+    }
 
 
-def swing(run: BearingRun, direction: int) -> tuple[np.ndarray, np.ndarray]:
-    """Speeds [rev/min] and swing of the disc [m] in every full turn: half of what it goes back and forth."""
+def swing(run: BearingRun) -> tuple[np.ndarray, np.ndarray]:
+    """Speed [rev/min] and swing of the disc [m] in every full turn: half the way back and forth."""
     turns = np.cumsum(run.speed_rpm[:-1] / 60.0 * np.diff(run.t)).astype(int)
     starts = np.flatnonzero(np.diff(turns, prepend=-1))
-    y = run.displacement[:-1, 2 + direction]
-    size = 0.5 * (np.maximum.reduceat(y, starts) - np.minimum.reduceat(y, starts))
+    disc = run.displacement[:-1, 2:4]
+    size = 0.5 * (np.maximum.reduceat(disc, starts) - np.minimum.reduceat(disc, starts)).max(axis=1)
     return run.speed_rpm[starts[:-1]], size[:-1]
 
 
-def peaks(up: BearingRun, down: BearingRun, direction: int) -> tuple[float, float]:
-    """Speeds at which the disc swings most on the way up and on the way down."""
-    speeds = []
-    for run in (up, down):
-        at, size = swing(run, direction)
-        speeds.append(float(at[np.argmax(size)]))
-    return speeds[0], speeds[1]
+def most(run: BearingRun, crossings: list[float]) -> float:
+    """Speed [rev/min] of most swing near the crossings; further on the disc still rings."""
+    speed, size = swing(run)
+    near = np.abs(speed / np.mean(crossings) - 1.0) < 0.1
+    return float(speed[near][np.argmax(size[near])])
 
 
-def picture(path: Path, up: BearingRun, down: BearingRun, critical: tuple[float, float]) -> Any:
-    """Swing of the disc over speed, up and down."""
+def main(picture: str = "run_up.png", seconds: float = 2.0) -> None:
+    """Print where the disc swings most, and draw it."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(9.0, 3.8), layout="constrained")
-    for k, name in ((0, "across the load"), (1, "along the load")):
-        axes = figure.add_subplot(1, 2, k + 1)
-        for run, colour, way in ((up, "#0072b2", "speeding up"), (down, "#d55e00", "slowing down")):
-            speed, size = swing(run, k)
-            axes.plot(speed, size * 1e6, color=colour, label=way)
-        axes.axvline(critical[k], color="#7f7f7f", linestyle=":", label="the mode crosses the speed")
-        axes.set(title=f"disc, {name}", xlabel="speed [rev/min]", ylabel="swing [µm]")
-        axes.legend(frameon=False)
-    figure.savefig(path, dpi=110)
-    return figure
-
-
-def main() -> None:
-    """Run, print and draw."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--seconds", type=float, default=2.0, help="of each run")
-    parser.add_argument("--out", type=Path, default=Path())
-    arguments = parser.parse_args()
-    held = bearing()
-    critical = critical_speeds(held)
-    up, down = runs(held, arguments.seconds)
-    for k, name in ((0, "across"), (1, "along")):
-        rising, falling = peaks(up, down, k)
-        print(f"{name} the load: crossing at {critical[k]:.0f} rpm, ", end="")
-        print(f"most swing at {rising:.0f} speeding up and {falling:.0f} slowing down")
-    arguments.out.mkdir(parents=True, exist_ok=True)
-    picture(arguments.out / "run_up.png", up, down, critical)
+    line = rotor()
+    crossings = critical_speeds(line)
+    print("modes cross the speed at", " and ".join(f"{speed:.0f}" for speed in crossings), "rev/min")
+    axes = (figure := Figure(figsize=(9.0, 3.6), layout="constrained")).add_subplot()
+    for (way, run), colour in zip(runs(line, seconds).items(), ("#0072b2", "#d55e00"), strict=True):
+        print(f"on the way {way} the disc swings most at {most(run, crossings):.0f}")
+        speed, size = swing(run)
+        axes.plot(speed, size * 1e6, color=colour, label=f"on the way {way}")
+    for k, crossing in enumerate(crossings):
+        axes.axvline(crossing, color="#7f7f7f", linestyle=":", label=None if k else "modes cross the speed")
+    axes.set(xlabel="speed [rev/min]", ylabel="swing of the disc [µm]")
+    axes.legend(frameon=False)
+    figure.savefig(picture, dpi=110)
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])

@@ -1,4 +1,4 @@
-"""Blocks of Python in pages of markdown, as a reader would run them: from the top of a page to its end."""
+"""Blocks of code in pages of markdown, as a reader would run them: from the top of a page to its end."""
 
 import re
 from pathlib import Path
@@ -6,11 +6,16 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).parents[1]
 BLOCK = re.compile(r"(?:<!-- needs: (\w+) -->\n)?^```(python|\{code-cell\})\n(.*?)^```$", flags=re.M | re.S)
-PAGES = {
+FENCE = re.compile(r"^ *(?P<ticks>`{3,}|:{3,})(?P<kind>\S*).*\n(?P<text>(?:.*\n)*?) *(?P=ticks)$", flags=re.M)
+WRITTEN = {  # every page that there is
     str(path.relative_to(ROOT)): path
-    for path in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
-    if BLOCK.search(path.read_text(encoding="utf-8"))
+    for path in (
+        *sorted(ROOT.glob("*.md")),
+        *sorted(ROOT.glob("examples/**/*.md")),
+        *sorted(ROOT.glob("docs/**/*.md")),
+    )
 }
+PAGES = {name: path for name, path in WRITTEN.items() if BLOCK.search(path.read_text(encoding="utf-8"))}
 
 
 class Block(NamedTuple):
@@ -49,6 +54,27 @@ def run(
             for old, new in (put or {}).items():
                 source = source.replace(old, new)
             exec(compile(source, str(PAGES[page]), "exec"), names)
+
+
+class Fence(NamedTuple):
+    """A fenced block of any kind."""
+
+    kind: str  # what stands behind the ticks
+    text: str
+    line: int  # of the page, of its ticks
+
+
+def fences(page: str) -> list[Fence]:
+    """All of a page, in its order."""
+    text = WRITTEN[page].read_text(encoding="utf-8")
+    return [Fence(f["kind"], f["text"], text[: f.start()].count("\n") + 1) for f in FENCE.finditer(text)]
+
+
+def shell_lines(page: str) -> list[str]:
+    """Every command of a page's plain blocks, without comments; what `&&` joins is two."""
+    lines = [line for fence in fences(page) if not fence.kind for line in fence.text.splitlines()]
+    parts = [part.strip() for line in lines for part in re.sub(r"(^|\s{2,})#.*", "", line).split("&&")]
+    return [part for part in parts if part]
 
 
 def commands(page: str) -> list[str]:

@@ -1,6 +1,6 @@
 """The page of validation: this library beside what others published, from numbers that were measured and kept.
 
-    python docs/site/validation.py --measure   # solve everything anew into docs/validation.json: about a minute
+    python docs/site/validation.py --measure   # solve everything anew into validation.json: about a minute
     python docs/site/validation.py --page      # docs/validation.md from it
 
 What others published stands in the tests, which hold the library to it; here it is only read from there.

@@ -1,8 +1,8 @@
 """What every number of the library does: halved and doubled, each in a fresh process, against a set of probes.
 
     python tests/benchmarks/vary.py NAME ...               # prints; a NAME of many rooms as room:NAME
-    python tests/benchmarks/vary.py --room ehlcontact.solver --record   # and writes it into numbers.json
-    python tests/benchmarks/vary.py --all --record         # those that numbers.json does not know yet
+    python tests/benchmarks/vary.py --room ehlcontact.solver --json tests/benchmarks/numbers.json   # writes, too
+    python tests/benchmarks/vary.py --all --json ...       # those that numbers.json does not know yet
     python tests/benchmarks/vary.py --check                # numbers without certificate, and stale ones
     python tests/benchmarks/vary.py --update               # follow constants that moved to another module
     python tests/benchmarks/vary.py --page                 # docs/numbers.md from numbers.json

@@ -1,12 +1,15 @@
 """Every block of Python in README, pages and tutorials runs, without a warning; every command line is one."""
 
+import importlib.util
 import shlex
+import sys
 import warnings
+from pathlib import Path
 
 import matplotlib
 import numpy as np
 import pytest
-from page_blocks import PAGES, blocks, commands, run
+from page_blocks import PAGES, ROOT, blocks, commands, run
 
 from ehlcontact.cli import main
 
@@ -84,6 +87,25 @@ def test_tutorial_of_the_bearing_in_ross(capsys):
     np.testing.assert_allclose(found["held"][0].K(omega)[:2, :2], found["K"][5], rtol=1e-6, atol=1.0)
     assert 150.0 < found["modal"].wn[0] / (2.0 * np.pi) < 300.0
     assert np.all(found["modal"].log_dec[:2] > 0.0)
+
+
+@pytest.mark.parametrize("master", ["ecospy", "libcosimpy"])
+def test_a_system_archive_in_other_masters(master):
+    """The lines of the page on coupling that load an archive, of the small study's rotor."""
+    if importlib.util.find_spec(master) is None:
+        pytest.skip(f"{master} is not installed: pip install 'ehlcontact[importers]'")
+    if master == "ecospy" and not list((Path(sys.prefix) / "lib").glob("libtbb.so.12")):
+        pytest.skip("no libtbb.so.12 beside ecospy: pip install tbb, in a virtual environment")
+    with pytest.raises(SystemExit) as stop:
+        main(["export", str(ROOT / "examples" / "small_study.toml"), "-o", "rotor.ssp"])
+    assert not stop.value.code
+    found = {}
+    run("docs/coupling.md", found, have={master}, only=master)
+    if master == "ecospy":
+        assert -1e-5 < found["height"] < 0.0  # the journal has come some micrometres down into its contacts
+    else:
+        status = found["execution"].status()
+        assert status.error_code == 0 and status.current_time > 1000 * 100  # ns, in its own step
 
 
 def test_tutorial_of_the_fmu():

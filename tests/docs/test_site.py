@@ -66,13 +66,16 @@ def test_every_field_is_described(package, name):
 
 
 def test_marks_of_the_readme():
-    """The site shows parts of the README between marks, in this order."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    marks = re.findall(r"<!-- docs: (.*?) -->", text)
-    assert marks == ["what it is", "how it is used", "its limits", "end"]
+    """The site shows parts of the README, and of that of the examples, between marks, in this order."""
+    marks = {}
+    for name in ("README.md", "examples/README.md"):
+        text = (ROOT / name).read_text(encoding="utf-8")
+        marks[name] = re.findall(r"<!-- docs: (.*?) -->", text)
+    assert marks["README.md"] == ["what it is", "how it is used", "its limits", "end"]
+    assert marks["examples/README.md"] == ["examples", "end of the examples"]
     pages = "".join(page.read_text(encoding="utf-8") for page in DOCS.rglob("*.md"))
     asked = re.findall(r"<!-- docs: (.*?) -->", pages)
-    assert set(asked) == set(marks)
+    assert set(asked) == {mark for found in marks.values() for mark in found}
 
 
 def test_docs_is_one_room():

@@ -1,4 +1,4 @@
-"""`examples/coupling.py`: three ways of coupling a mass to the FMU of a contact, and the limits of each."""
+"""`examples/studies/coupling.py`: ways of coupling a mass to the FMU of a contact, and the limits of each."""
 
 from pathlib import Path
 from runpy import run_path
@@ -6,7 +6,7 @@ from runpy import run_path
 import numpy as np
 import pytest
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "coupling.py"
+EXAMPLE = Path(__file__).parents[2] / "examples" / "studies" / "coupling.py"
 
 
 @pytest.fixture(scope="module")

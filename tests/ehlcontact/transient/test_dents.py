@@ -91,7 +91,7 @@ def test_on_the_faster_surface_it_stays_behind(passages):
 
 def test_example_draws_both_passages(tmp_path, capsys):
     """The oil that ran ahead is told and drawn; M and L are those of the rolling dimple in `dimple.py`."""
-    path = Path(__file__).parents[3] / "examples" / "fine_features.py"
+    path = Path(__file__).parents[3] / "examples" / "studies" / "fine_features.py"
     spec = importlib.util.spec_from_file_location("fine_features", path)
     example = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(example)

@@ -1,6 +1,6 @@
 """The dimple of Mourier et al. (2006): smooth film, their computed gaps, and the deep dimple they measured.
 
-Runs `examples/dimple.py`, whose data file names the sources.
+Runs `examples/studies/dimple.py`, whose data file names the sources.
 """
 
 import importlib.util
@@ -12,7 +12,7 @@ import pytest
 
 from ehlcontact import solve_steady
 
-EXAMPLE = Path(__file__).parents[3] / "examples" / "dimple.py"
+EXAMPLE = Path(__file__).parents[3] / "examples" / "studies" / "dimple.py"
 
 
 @pytest.fixture(scope="module")

@@ -23,7 +23,7 @@ from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.statics import StaticBalls
 
 RANGE = np.array([500.0, 9000.0])
-EXAMPLE = Path(__file__).parents[3] / "examples" / "ball_passage.py"
+EXAMPLE = Path(__file__).parents[3] / "examples" / "studies" / "ball_passage.py"
 
 
 def test_forces_at_rest_do_not_jump_where_laws_change(film):

@@ -14,7 +14,7 @@ from reduced_models import ContactRecord, fit_memory
 
 POINT = MoesPoint(200, 10, 0.5)
 OMEGAS = np.concatenate([[0.0], np.geomspace(0.03, 60.0, 24)])
-EXAMPLE = Path(__file__).parents[3] / "examples" / "one_element_for_all.py"
+EXAMPLE = Path(__file__).parents[3] / "examples" / "studies" / "one_element_for_all.py"
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +92,7 @@ def test_bad_data_for_the_fit(coarse):
 
 @pytest.mark.slow
 def test_one_element_for_all():
-    """What issue 4 asks for, on n = 64; `examples/one_element_for_all.py` prints it at any n."""
+    """What issue 4 asks for, on n = 64; `examples/studies/one_element_for_all.py` prints it at any n."""
     spec = importlib.util.spec_from_file_location("one_element_for_all", EXAMPLE)
     example = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(example)

@@ -1,7 +1,7 @@
 """A mass on the FMU of a contact, coupled by fmpy in three ways, and where each of them ends.
 
-Run ``python examples/coupling.py``: half a minute. It prints what is left of the amplitude after 40 periods and
-draws `coupling.png` beside it.
+Run ``python examples/studies/coupling.py``: half a minute. It prints what is left of the amplitude after 40
+periods and draws `coupling.png` beside it.
 
 A ball of a 6305 carries 1 kN, the weight of the mass. The contact is stiff and damps little, so a loop lives on
 what it does with time:

@@ -8,7 +8,7 @@ it let in at the inlet runs ahead at the mean speed: more film where there is no
 The roughness is made, self-affine, with an rms of a tenth of the central film and waves down to 8 nodes of the
 mesh. Half a minute on one core with n = 256 (the default), eight times as long with every doubling:
 
-    python examples/fine_features.py [--n 512] [--folder docs/images]
+    python examples/studies/fine_features.py [--n 512] [--folder docs/images]
 """
 
 import argparse
@@ -167,6 +167,7 @@ def draw_rough(run: SimulationResult, surface: Roughness, path: Path) -> None:
 
 
 def main() -> None:
+    """Run, print and draw."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--n", type=int, default=256, help="intervals along X")
     parser.add_argument("--folder", type=Path, default=Path(), help="where the pictures go")

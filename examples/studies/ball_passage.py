@@ -1,7 +1,7 @@
 """The balls of two 6205 bearings shake a rotor of 34 kg as it runs up from 500 to 9000 rev/min, and down again.
 
-Run ``python examples/ball_passage.py [--out DIR]``: prints where the ball passage, and twice it, meet the modes of
-the Campbell diagram, and where they swing most; draws ``ball_passage.png``. Half a minute.
+Run ``python examples/studies/ball_passage.py [--out DIR]``: prints where the ball passage, and twice it, meet the
+modes of the Campbell diagram, and where they swing most; draws ``ball_passage.png``. Half a minute.
 
 The speed never reaches a mode itself (225 Hz and more), but balls pass 3.6 times in a turn. Nothing is out of
 round: it is the changing number of balls under the load that shakes the rotor. Two cages do not start at the same

@@ -1,8 +1,8 @@
 """One film-memory element against full EHL: free vibration, harmonic load, chirp and load step at one point.
 
-Run ``python examples/one_element_for_all.py [--n 64] [--out DIR]``: prints the table of force errors beside those
-of viscous cubics and writes ``one_element_for_all.png`` and ``memory_element.json``. About a minute with n = 64,
-four with n = 128.
+Run ``python examples/studies/one_element_for_all.py [--n 64] [--out DIR]``: prints the table of force errors
+beside those of viscous cubics and writes ``one_element_for_all.png`` and ``memory_element.json``. About a minute
+with n = 64, four with n = 128.
 """
 
 from __future__ import annotations

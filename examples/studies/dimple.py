@@ -6,7 +6,7 @@ about 7 um deep, thirty times the film, and compute one 0.175 um deep; both are 
 dimple stands out in a rim of 1.7 % of its depth: of the deep one 0.12 um, more than half the film, which the
 measured one evidently had not. About two minutes on one core:
 
-    python examples/dimple.py [dimple.png]
+    python examples/studies/dimple.py [dimple.png]
 """
 
 import argparse
@@ -116,6 +116,7 @@ def difference(ours: Curve, theirs: Curve, centre: float) -> np.ndarray:
 
 
 def rms(values: np.ndarray) -> float:
+    """Root of the mean square."""
     return float(np.sqrt(np.mean(values**2)))
 
 
@@ -173,6 +174,7 @@ def draw(shallow: SimulationResult, deep: SimulationResult, rimless: SimulationR
 
 
 def main() -> None:
+    """Roll, print and draw."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("picture", nargs="?", type=Path, default=Path("dimple.png"))
     target = parser.parse_args().picture

@@ -1,0 +1,60 @@
+"""An atlas of one's own, solved by a Dask cluster: here of a few light contacts, on the cores of this machine.
+
+    python examples/atlas_on_a_cluster.py [atlas_on_a_cluster.png]     # some minutes; needs ehlcontact[cluster]
+
+What one learns: any scheduler's address makes a cluster of many machines do the work, what was solved survives a
+kill, and an atlas knows how right it is: this one has 30 contacts where the shipped one has hundreds, and its
+error bars say so.
+"""
+
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from ehlcontact import MoesPoint
+from reduced_models import Atlas
+from reduced_models.atlas.build import build_atlas
+
+DRAWS, LIGHT = 0, 20  # sample points over the whole box, and at light loads, where they are solved soon
+POINTS = [MoesPoint(M, 10.0, 0.3) for M in (2.0, 5.0, 10.0, 20.0)]
+
+
+def build(folder: Path, draws: int = DRAWS, light: int = LIGHT, workers: int = 2, **options: Any) -> Atlas:
+    """Solve and put together; called again with the same folder it goes on where it was."""
+    from distributed import LocalCluster
+
+    with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster:
+        # a cluster of many machines: the address that `dask scheduler` prints
+        address = cluster.scheduler_address
+        build_atlas(folder / "small.npz", folder / "small.jsonl", draws, light, scheduler=address, **options)
+    return Atlas(folder / "small.npz")
+
+
+def films(atlas: Atlas) -> list[tuple[float, float]]:
+    """Central film at the points, and its error bar."""
+    answers = [atlas.at(point) for point in POINTS]
+    return [(answer.h_central, answer.error["h_central"]) for answer in answers]
+
+
+def main(picture: str = "atlas_on_a_cluster.png") -> None:
+    """Build, and draw films of both atlases with their error bars."""
+    from matplotlib.figure import Figure
+
+    with tempfile.TemporaryDirectory() as folder:
+        small = build(Path(folder), progress=lambda done, of: print(f"\r{done} of {of} solved", end=""))
+    axes = (figure := Figure(figsize=(9.0, 3.6), layout="constrained")).add_subplot()
+    print("\n     M  film, this atlas      film, shipped atlas")
+    for point, mine, theirs in zip(POINTS, films(small), films(shipped := Atlas()), strict=True):
+        print(f"{point.M:6g}  {mine[0]:.4f} +- {mine[1]:.4f}      {theirs[0]:.4f} +- {theirs[1]:.4f}")
+    for atlas, name, mark in ((small, "this one", "o"), (shipped, "shipped", "s")):
+        h, bar = zip(*films(atlas), strict=True)
+        label = f"{name}, {atlas.metadata['points']} contacts"
+        axes.errorbar([point.M for point in POINTS], h, yerr=bar, fmt=mark, capsize=4, label=label)
+    axes.set(xscale="log", yscale="log", xlabel="M", ylabel="central film")
+    axes.legend(frameon=False)
+    figure.savefig(picture, dpi=110)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
