@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import as_column, require_nonnegative, require_positive
+from ehlcontact.checks.quantity import fields_take, takes
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.rotor import MatrixRotor
 
@@ -17,6 +18,7 @@ _Floats = NDArray[np.float64]
 SPEED_RATIO = 1.25  # of neighbouring speeds at which laws are made
 
 
+@fields_take(t="s", speed_rpm="rev/min")
 @dataclass(frozen=True, eq=False)
 class SpeedCourse:
     """Speed of the shaft over time, straight between given times.
@@ -40,11 +42,13 @@ class SpeedCourse:
         require_nonnegative("t[0]", float(self.t[0]))
 
     @classmethod
+    @takes(speed_rpm="rev/min")
     def constant(cls, speed_rpm: float) -> SpeedCourse:
         """One speed all the time."""
         return cls(np.array([0.0, 1.0]), np.full(2, require_nonnegative("speed_rpm", speed_rpm)))
 
     @classmethod
+    @takes(first_rpm="rev/min", last_rpm="rev/min", seconds="s")
     def ramp(cls, first_rpm: float, last_rpm: float, seconds: float) -> SpeedCourse:
         """From one speed to another at a constant rate: a run-up, or a coast-down."""
         ends = require_nonnegative("first_rpm", first_rpm), require_nonnegative("last_rpm", last_rpm)

@@ -23,6 +23,7 @@ from ehlcontact.checks import (
     require_instance,
     require_integer,
 )
+from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.statics import StaticBalls
@@ -35,6 +36,7 @@ BALANCED = 1e-10  # imbalance over the load that ends it
 MOST_STEPS, MOST_HALVINGS = 60, 30  # of that search
 
 
+@fields_take(cage_angle="rad")
 @dataclass(frozen=True, kw_only=True)
 class BearingMount:
     """A bearing between two degrees of freedom of the shaft and the ground, or those of a housing.
@@ -69,6 +71,7 @@ class _Names(dict[str, tuple[int, int]]):
         raise InputError("node", name, f"one of {', '.join(self)}" if self else "none: the rotor has no names")
 
 
+@fields_take(amount="kg m", phase="rad")
 @dataclass(frozen=True, kw_only=True)
 class Unbalance:
     """Mass times eccentricity [kg m] at two degrees of freedom; `phase` [rad] ahead of the shaft's angle.

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ehlcontact import Status
 from ehlcontact.checks import as_column, require_integer, require_positive
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import hdf5
 from ehlcontact.results.story import Told, span
@@ -145,6 +146,7 @@ class BearingRun(Told):
         return [(titles.get(pair, f"degrees of freedom {pair[0]}, {pair[1]}"), self.displacement[:, list(pair)])]
 
 
+@takes(speed_rpm="rev/min", dt="s", until="s")
 def simulate_on_bearings(
     rotor: MatrixRotor,
     *,

@@ -27,6 +27,7 @@ from ehlcontact.checks import (
     require_nonnegative,
     require_positive,
 )
+from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, moes_point
 from reduced_models.rotor.equilibrium import StaticContacts, equilibrium
@@ -37,6 +38,7 @@ DOWN = -pi / 2.0  # direction of gravity [rad]
 REACHED = 1e-9  # distance from wanted approaches, over the largest, that rounding may leave
 
 
+@fields_take(angle="rad", offset="m")
 @dataclass(frozen=True, slots=True)
 class ContactMount:
     """Where a contact sits: approach = n . q_journal + offset, n = (cos angle, sin angle).
@@ -95,6 +97,10 @@ class RotorState:
             object.__setattr__(self, name, as_column(name, getattr(self, name), size=2))
 
 
+@fields_take(
+    disc_mass="kg", journal_mass="kg", shaft_stiffness="N/m", shaft_damping="N s/m", disc_damping="N s/m",
+    unbalance="kg m", speed_rpm="rev/min", gravity="m/s2", load="N",
+)  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
 class JeffcottRotor:
     """Jeffcott rotor on contacts, after the equations at the head of this module.

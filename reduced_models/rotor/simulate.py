@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ehlcontact import Status
 from ehlcontact.checks import require_integer, require_positive
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.results.story import Told, span
 from reduced_models.elements.validity import frequency_of
@@ -70,6 +71,7 @@ class RotorResult(Told):
                 values.setflags(write=False)
 
 
+@takes(dt="s", until="s")
 def simulate_rotor(
     rotor: JeffcottRotor,
     contacts: Sequence[Contact],

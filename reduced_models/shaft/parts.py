@@ -20,6 +20,7 @@ from ehlcontact.checks import (
     require_nonnegative,
     require_positive,
 )
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.rotor import BearingMount, Unbalance
@@ -40,6 +41,7 @@ def _metres(field: str, value: float, largest: float) -> float:
     return float(value)
 
 
+@fields_take(length="m", diameter="m", bore="m", youngs_modulus="Pa", density="kg/m3", damping_time="s")
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Shaft:
     """A round shaft, of one section or several from left to right, bending and shearing as a Timoshenko beam.
@@ -99,6 +101,7 @@ class Shaft:
         require_integer("elements", self.elements, "a whole number >= 1", 1)
 
     @classmethod
+    @takes(stiffness="N/m", span="m", damping="N s/m")
     def jeffcott(cls, stiffness: float, span: float, *, damping: float = 0.0) -> Self:
         """Shaft without mass that only bends, as stiff in the middle between bearings at its ends as is asked.
 
@@ -131,6 +134,10 @@ class Shaft:
         ]
 
 
+@fields_take(
+    position="m", mass="kg", diametral_inertia="kg m2", polar_inertia="kg m2", unbalance="kg m", phase="rad",
+    damping="N s/m", load="N",
+)  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
 class Disc:
     """A rigid disc on the shaft.
@@ -174,6 +181,7 @@ class Disc:
         object.__setattr__(self, "load", tuple(as_column("load", self.load, size=2).tolist()))
 
     @classmethod
+    @takes(position="m", diameter="m", width="m", bore="m", density="kg/m3")
     def cylinder(
         cls,
         *,
@@ -205,6 +213,10 @@ class Disc:
         return cls(position=position, mass=mass, diametral_inertia=across, polar_inertia=polar, **others)
 
 
+@fields_take(
+    position="m", cage_angle="rad", journal_mass="kg", housing_mass="kg", housing_stiffness="N/m",
+    housing_damping="N s/m",
+)  # fmt: skip
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Support:
     """A ball bearing under the shaft, on the ground or in a housing on springs.

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
 from ehlcontact.checks import as_column, require_integer, require_positive
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import hdf5
 from ehlcontact.results.story import Told, span
@@ -140,6 +141,7 @@ class Campbell(Told):
         return diagram
 
 
+@takes(speeds_rpm="rev/min")
 def campbell(rotor: MatrixRotor, speeds_rpm: ArrayLike, *, count: int = SHOWN, passage: bool = True) -> Campbell:
     """Modes of a rotor on ball bearings at increasing speeds.
 

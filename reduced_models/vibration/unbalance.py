@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.files import hdf5
 from ehlcontact.results.story import Told, span
@@ -97,6 +98,7 @@ class UnbalanceResponse(Told):
         return response
 
 
+@takes(speeds_rpm="rev/min")
 def unbalance_response(rotor: MatrixRotor, speeds_rpm: ArrayLike, *, passage: bool = True) -> UnbalanceResponse:
     """Steady response of a rotor on ball bearings to its unbalances, at increasing speeds, films those of each.
 
