@@ -7,6 +7,7 @@ Upper-case attributes are dimensionless as in `results`; their lower-case proper
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,15 +17,22 @@ from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from ehlcontact.results import SteadyResult, require_scales
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told
 from ehlcontact.solver.lowest_film import lowest_film
 from ehlcontact.transient.result import SimulationResult
 
 Array = NDArray[np.float64]
 
+IN_SI = Layout(
+    rows="x y",
+    panels=("p", "h"),
+    quantities={"x": ("m", "x"), "y": ("m", "y"), "p": ("Pa", "x y"), "h": ("m", "x y")},
+)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Profile(Told):
+class Profile(Told, Tabled):
     """Film and pressure along a line through the centre.
 
     Attributes
@@ -41,6 +49,17 @@ class Profile(Told):
     P: Array
     scales: Scales | None
     across: bool
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="X",
+        panels=("H", "P"),
+        quantities={"X": ("semi-axes", "X"), "H": ("delta_H", "X"), "P": ("p_h", "X")},
+    )
+
+    def _layout(self) -> Layout:
+        if self.scales is None:
+            return self.LAYOUT
+        return Layout(rows="x", panels=("h", "p"), quantities={"x": ("m", "x"), "h": ("m", "x"), "p": ("Pa", "x")})
 
     @property
     def x(self) -> Array:
@@ -91,7 +110,7 @@ class Constriction:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Film(Told):
+class Film(Told, Tabled):
     """Film and pressure at one instant over the whole plane.
 
     Attributes
@@ -109,6 +128,15 @@ class Film(Told):
     H: Array
     P: Array
     scales: Scales | None
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="X Y",
+        panels=("P", "H"),
+        quantities={"X": ("a", "X"), "Y": ("b", "Y"), "P": ("p_h", "X Y"), "H": ("delta_H", "X Y")},
+    )
+
+    def _layout(self) -> Layout:
+        return self.LAYOUT if self.scales is None else IN_SI
 
     @property
     def x(self) -> Array:
@@ -208,11 +236,17 @@ def _mirrored(field: Array) -> Array:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Interferogram(Told):
+class Interferogram(Told, Tabled):
     """Fringes, shape (nx + 1, 2 ny + 1): `intensity` in [0, 1]; `order`, the path difference in wavelengths."""
 
     intensity: Array
     order: Array
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="node_x node_y",
+        panels=("intensity",),
+        quantities={"intensity": ("", "node_x node_y"), "order": ("", "node_x node_y")},
+    )
 
     @property
     def resolved(self) -> NDArray[np.bool_]:

@@ -8,6 +8,7 @@ the measured speed, by 1 % at Omega = pi and more in slower motion.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from ehlcontact.checks import require_finite, require_instance
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from ehlcontact.results import require_scales
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told
 from ehlcontact.transient.result import SimulationResult
 
@@ -28,7 +30,7 @@ SLOWEST = 4.0  # times slower than the surfaces: the slowest wave that is found
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FilmHistory(Told):
+class FilmHistory(Told, Tabled):
     """Central and minimum film over time.
 
     Attributes
@@ -41,6 +43,18 @@ class FilmHistory(Told):
     central: Array
     minimum: Array
     scales: Scales | None
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="T",
+        panels=("central minimum",),
+        quantities={"T": ("2a/u_sum", "T"), "central": ("delta_H", "T"), "minimum": ("delta_H", "T")},
+    )
+
+    def _layout(self) -> Layout:
+        if self.scales is None:
+            return self.LAYOUT
+        quantities = {"t": ("s", "t"), "h_central": ("m", "t"), "h_min": ("m", "t")}
+        return Layout(rows="t", panels=("h_central h_min",), quantities=quantities)
 
     @property
     def t(self) -> Array:
@@ -64,7 +78,7 @@ def film_history(run: SimulationResult) -> FilmHistory:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FilmWave(Told):
+class FilmWave(Told, Tabled):
     """Change of the film along Y = 0 over place and time: what the surfaces carry through.
 
     `X` is of shape (nx + 1,), `T` (steps + 1,), and `change` (steps + 1, nx + 1) the film less that at rest.
@@ -74,9 +88,15 @@ class FilmWave(Told):
     T: Array
     change: Array
 
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="T X",
+        panels=("change",),
+        quantities={"T": ("2a/u_sum", "T"), "X": ("a", "X"), "change": ("delta_H", "T X")},
+    )
+
 
 @dataclass(frozen=True, slots=True, eq=False)
-class WaveTrack(Told):
+class WaveTrack(Told, Tabled):
     """Delay of a film wave from place to place.
 
     Attributes
@@ -93,6 +113,17 @@ class WaveTrack(Told):
     delay: Array
     speed: float
     spread: float
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="X",
+        panels=("delay",),
+        quantities={
+            "X": ("a", "X"),
+            "delay": ("2a/u_sum", "X"),
+            "speed": ("u_sum/2", ""),
+            "spread": ("2a/u_sum", ""),
+        },
+    )
 
 
 def film_wave(run: SimulationResult) -> FilmWave:

@@ -42,6 +42,7 @@ from reduced_models.bearing.loss import loss_of, require_loss_factor
 from reduced_models.bearing.race import RACES, Race, films_under, race_of
 from reduced_models.bearing.state import BearingState
 from reduced_models.bearing.statics import Standing, angle_of, direction_of, radial_load, stand
+from reduced_models.bearing.told import ToldBearing
 from reduced_models.elements.kinds import WideRangeContact
 
 _Floats = NDArray[np.float64]
@@ -56,7 +57,7 @@ POSITIONS = 12  # of the cage over a ball passage for means: those of 6205 are w
     youngs_modulus="Pa", density="kg/m3",
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
-class BallBearing:
+class BallBearing(ToldBearing):
     """Deep-groove ball bearing under radial load, the outer ring standing still. SI units, y upwards.
 
     Every ball has a contact with either race, each with a film and its memory; both carry the ball in series, the
@@ -194,8 +195,7 @@ class BallBearing:
         """The contact with the "inner" or the "outer" race."""
         if name not in RACES:
             raise InputError("race", name, f"one of {', '.join(RACES)}")
-        race: Race = self._known["races"][name]
-        return race
+        return self._known["races"][name]
 
     @takes(speed_rpm="rev/min")
     def element(self, race: str, speed_rpm: float) -> WideRangeContact:
@@ -205,8 +205,7 @@ class BallBearing:
             raise InputError("oil", None, "given, for a film")
         if (race, speed) not in self._known:
             self._known[race, speed] = contact.element(speed)
-        element: WideRangeContact = self._known[race, speed]
-        return element
+        return self._known[race, speed]
 
     def kernel(self, speeds_rpm: ArrayLike) -> Balls:
         """What the compiled kernels know of it, over increasing speeds [rev/min]: `reduced_models.bearing.balls`.
@@ -228,8 +227,7 @@ class BallBearing:
                 loss=loss_of(self.loss_factor),
                 inertia=ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0,
             )
-        kernel: Balls = self._known[key]
-        return kernel
+        return self._known[key]
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
     def equilibrium(
@@ -398,3 +396,5 @@ class BallBearing:
         """Read what `save` wrote; raises `InputError` for anything else."""
         entries = read(path, SCHEMA, cls)
         return cls(**entries | {"oil": oil_of(entries["oil"], str(path))})
+
+    read = load  # as of states and runs

@@ -25,6 +25,7 @@ from ehlcontact.checks import (
 )
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.results.story import Told
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.statics import StaticBalls
 
@@ -38,7 +39,7 @@ MOST_STEPS, MOST_HALVINGS = 60, 30  # of that search
 
 @fields_take(cage_angle="rad")
 @dataclass(frozen=True, kw_only=True)
-class BearingMount:
+class BearingMount(Told):
     """A bearing between two degrees of freedom of the shaft and the ground, or those of a housing.
 
     Parameters
@@ -57,6 +58,10 @@ class BearingMount:
     y: int
     housing: tuple[int, int] | None = None
     cage_angle: float = -pi / 2.0
+
+    def _story(self) -> list[str]:
+        on = "the ground" if self.housing is None else f"a housing at {self.housing[0]}, {self.housing[1]}"
+        return [f"{self.bearing.name or 'ball bearing'} at degrees of freedom {self.x}, {self.y}, on {on}"]
 
     def __post_init__(self) -> None:
         require_instance("bearing", self.bearing, BallBearing, "a BallBearing")
@@ -98,7 +103,7 @@ class Unbalance:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class MatrixRotor:
+class MatrixRotor(Told):
     """A linear rotor on ball bearings, SI units.
 
     Parameters
@@ -128,6 +133,15 @@ class MatrixRotor:
     load: _Floats = None  # type: ignore[assignment]
     unbalances: tuple[Unbalance, ...] = ()
     nodes: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+
+    def _story(self) -> list[str]:
+        bearings = ", ".join(mount.bearing.name or "ball bearing" for mount in self.mounts)
+        amounts = ", ".join(f"{1e6 * abs(unbalance.amount):.4g}" for unbalance in self.unbalances)
+        return [
+            f"{len(self.mass)} degrees of freedom on {len(self.mounts)} bearings: {bearings}",
+            f"nodes {', '.join(self.nodes)}" if self.nodes else "nodes without names",
+            f"unbalances {amounts} g mm" if amounts else "no unbalance",
+        ]
 
     def __post_init__(self) -> None:
         size = len(np.atleast_1d(np.asarray(self.mass, float)))

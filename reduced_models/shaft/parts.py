@@ -22,6 +22,7 @@ from ehlcontact.checks import (
 )
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
+from ehlcontact.results.story import Told, span
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.rotor import BearingMount, Unbalance
 from reduced_models.shaft.beam import Piece
@@ -43,7 +44,7 @@ def _metres(field: str, value: float, largest: float) -> float:
 
 @fields_take(length="m", diameter="m", bore="m", youngs_modulus="Pa", density="kg/m3", damping_time="s")
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Shaft:
+class Shaft(Told):
     """A round shaft, of one section or several from left to right, bending and shearing as a Timoshenko beam.
 
     Parameters
@@ -76,6 +77,17 @@ class Shaft:
     shear: bool = True
     damping_time: float = 0.0
     elements: int = 8
+
+    def _story(self) -> list[str]:
+        sections = f"{self.length.size} sections" if self.length.size > 1 else "one section"
+        hollow = f", bore {span(self.bore, 1e3, 'mm')}" if self.bore.any() else ""
+        beam = "Timoshenko" if self.shear else "Euler and Bernoulli"
+        area = 0.25 * pi * (self.diameter**2 - self.bore**2)
+        weighs = f"{self.density * float(np.sum(area * self.length)):.4g} kg" if self.density else "without mass"
+        return [
+            f"{1e3 * self.end:.5g} mm long in {sections}, diameter {span(self.diameter, 1e3, 'mm')}{hollow}",
+            f"{1e-9 * self.youngs_modulus:.4g} GPa, {weighs}, beam of {beam} in {self.elements} pieces or more",
+        ]
 
     def __post_init__(self) -> None:
         lengths = as_column("length", np.atleast_1d(np.asarray(self.length, float)))
@@ -139,7 +151,7 @@ class Shaft:
     damping="N s/m", load="N",
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
-class Disc:
+class Disc(Told):
     """A rigid disc on the shaft.
 
     Parameters
@@ -166,6 +178,14 @@ class Disc:
     phase: float = 0.0
     damping: float = 0.0
     load: tuple[float, float] = (0.0, 0.0)
+
+    def _story(self) -> list[str]:
+        turns = f"inertias {self.diametral_inertia:.4g} and {self.polar_inertia:.4g} kg m2"
+        body = turns if self.diametral_inertia else "a point"
+        return [
+            f"{self.mass:.4g} kg at {1e3 * self.position:.5g} mm, {body}",
+            f"unbalance {1e6 * self.unbalance:.4g} g mm, load ({self.load[0]:.4g}, {self.load[1]:.4g}) N",
+        ]
 
     def __post_init__(self) -> None:
         require_finite("position", self.position)
@@ -218,7 +238,7 @@ class Disc:
     housing_damping="N s/m",
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Support:
+class Support(Told):
     """A ball bearing under the shaft, on the ground or in a housing on springs.
 
     Parameters
@@ -243,6 +263,13 @@ class Support:
     housing_mass: float | None = None
     housing_stiffness: Any = None
     housing_damping: Any = 0.0
+
+    def _story(self) -> list[str]:
+        told = [f"{self.bearing.name or 'ball bearing'} at {1e3 * self.position:.5g} mm"]
+        if self.housing_mass is None:
+            return [f"{told[0]}, on the ground"]
+        springs = span(self.housing_stiffness, 1e-6, "N/µm")
+        return [*told, f"in a housing of {self.housing_mass:.4g} kg on springs of {springs}"]
 
     def __post_init__(self) -> None:
         require_finite("position", self.position)
