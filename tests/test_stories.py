@@ -1,6 +1,8 @@
 """What results and elements say and show of themselves: five short lines without an array, a figure, tables."""
 
+import importlib
 import inspect
+import pkgutil
 import re
 import sys
 from dataclasses import fields, is_dataclass, replace
@@ -287,9 +289,27 @@ def test_span():
     assert span([1.0, 3.0], 2.0, "N") == "2 .. 6 N" and span([2.0, 2.0]) == "2" and span([np.nan]) == "none"
 
 
-@pytest.mark.parametrize("package", [ehlcontact, reduced_models])
+def rooms():
+    """The three packages, and every room in them whose `__init__` shows names."""
+    for package in (ehlcontact, reduced_models, fmu):
+        yield package
+        for found in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            if found.ispkg and not found.name.startswith(("ehlcontact.cli", "ehlcontact.solver")):  # insides
+                room = importlib.import_module(found.name)
+                shown = [k for k, v in vars(room).items() if k[0] != "_" and not inspect.ismodule(v)]
+                if set(shown) - {"annotations"}:
+                    yield room
+
+
+@pytest.mark.parametrize("package", list(rooms()), ids=lambda package: package.__name__)
 def test_dir_lists_public_names_only(package):
     listed = dir(package)
-    rooms = [name for name in listed if inspect.ismodule(getattr(package, name))]
-    assert rooms == [] and len(listed) > 40 and "annotations" not in listed
+    inner = [name for name in listed if inspect.ismodule(getattr(package, name))]
+    assert inner == [] and listed and "annotations" not in listed
     assert not [name for name in listed if name.startswith("_") and name != "__version__"]
+    assert set(getattr(package, "__all__", listed)) == set(listed)
+
+
+def test_the_three_packages_list_what_they_show():
+    assert {len(dir(package)) > 12 for package in (ehlcontact, reduced_models, fmu)} == {True}
+    assert {"export_contact", "verify", "RotorModel"} <= set(dir(fmu))

@@ -32,3 +32,8 @@ __all__ = [
     "require_nonnegative",
     "require_positive",
 ]
+
+
+def __dir__() -> list[str]:
+    """Public names, without the rooms that they are in."""
+    return sorted(__all__)

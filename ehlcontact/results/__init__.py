@@ -23,3 +23,8 @@ __all__ = [
     "SteadySI",
     "require_scales",
 ]
+
+
+def __dir__() -> list[str]:
+    """Public names, without the rooms that they are in."""
+    return sorted(__all__)

@@ -155,8 +155,10 @@ class ContactElement(ToldElement, _Common, ABC):
         if approach is not None and load is not None:
             raise InputError("approach and load", (approach, load), "one of the two")
         found = self.copy()
-        if approach is not None or load is not None:
-            found.rest(self.approach_at(load) if approach is None else approach)  # type: ignore[arg-type]
+        if load is not None:
+            approach = self.approach_at(require_positive("load", load))
+        if approach is not None:
+            found.rest(approach)
         return found
 
     @abstractmethod
