@@ -14,7 +14,7 @@ room             responsibility
 ``assumptions/`` what every solve assumes, and the numbers that tell when it matters
 ``results/``     frozen results of one instant (those of a run are in ``transient/``); all of them in SI
 ``origin``       where numbers come from: what all results have in common; the version
-``film``         the film to look at: maps, mid-planes, fringes, what the surfaces carry through
+``film/``        the film to look at: maps, mid-planes, fringes, what the surfaces carry through
 ``storage``      `save` and `load`
 ``files/``       files that are replaced in one move; texts of any origin; any dataclass in an HDF5 file
 ``process/``     processes that end with their parent, and on Ctrl-C; threads

@@ -8,12 +8,13 @@ Nonato and Cavalca (2010), eqs. 2-4; Johnson, Contact Mechanics (1985), section 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import log, pi
+from math import cos, log, pi
 
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
-from ehlcontact.checks import require_positive
+from ehlcontact.checks import require_integer, require_positive
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 
 
@@ -102,3 +103,22 @@ def hertz_contact(load: float, radius_x: float, radius_y: float, e_reduced: floa
     a = (6.0 * kappa * E * load * R / (pi * e_reduced)) ** (1.0 / 3.0)
     b = a / kappa
     return HertzContact(a, b, 1.5 * load / (pi * a * b), a * a * K / (2.0 * R * E), kappa)
+
+
+@takes(radial_load="N")
+def most_loaded_ball(radial_load: float, balls: int) -> float:
+    """Load on the ball that stands under the radial load of a bearing, without clearance or contact angle [N].
+
+    Rigid rings that come closer by d in the load's direction compress the ball at angle psi by d cos(psi), so
+    with Hertz' law Q(psi) = Q_max cos(psi)^(3/2) over the loaded half, and F_r = Q_max sum cos(psi)^(5/2).
+    For 9 balls Q_max = 0.4872 F_r; Stribeck's 4.37/Z, the limit of many, is 0.4856. Harris, Rolling Bearing
+    Analysis, ch. 7.
+
+    Raises
+    ------
+    InputError
+        Load not positive, or fewer than 3 balls.
+    """
+    load = require_positive("radial_load", radial_load)
+    count = require_integer("balls", balls, "a whole number >= 3", 3)
+    return load / sum(max(cos(2.0 * pi * k / count), 0.0) ** 2.5 for k in range(count))

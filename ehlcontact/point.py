@@ -16,16 +16,18 @@ The full table is in docs/notation.md.
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field, replace
-from math import cos, inf, pi, sqrt
+from math import inf, pi, sqrt
 
-from ehlcontact.checks import require_finite, require_integer, require_nonnegative, require_positive
+from ehlcontact.checks import require_finite, require_nonnegative, require_positive
 from ehlcontact.checks.box import INPUTS, Given, require_in_box
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.formulas import expected_film, film_to_moes, load_number, moes_pressure
 from ehlcontact.hertz import HertzContact, ellipse_ratio, hertz_contact, scaled_axis, shape_factor
 from ehlcontact.lubricant import FluidLaw, Lubricant, log_viscosity
 
 
+@fields_take(alpha="1/Pa", eta0="Pa s")
 @dataclass(frozen=True, slots=True)
 class MoesPoint:
     """Dimensionless operating point: Moes load M, Moes lubricant L, ellipse ratio kappa = a/b.
@@ -120,6 +122,7 @@ class MoesPoint:
         return asdict(self)
 
 
+@fields_take(radius_x="m", radius_y="m", e1="Pa", e2="Pa")
 @dataclass(frozen=True, slots=True)
 class Geometry:
     """Two bodies in point contact.
@@ -149,6 +152,7 @@ class Geometry:
         ellipse_ratio(self.radius_x, self.radius_y)
 
     @classmethod
+    @takes(ball_diameter="m", pitch_diameter="m")
     def ball_bearing(
         cls,
         ball_diameter: float,
@@ -231,6 +235,7 @@ class Scales:
         return self.length / self.time
 
 
+@fields_take(load="N", u_sum="m/s")
 @dataclass(frozen=True, slots=True)
 class OperatingPoint:
     """A contact in SI units; every solver takes it, or a `MoesPoint`.
@@ -280,6 +285,7 @@ class OperatingPoint:
         object.__setattr__(self, "scales", scales)
 
     @classmethod
+    @takes(ball_diameter="m", pitch_diameter="m", speed_rpm="rev/min", load="N")
     def ball_bearing(
         cls,
         lubricant: Lubricant,
@@ -313,28 +319,11 @@ class OperatingPoint:
         u_sum = omega * pitch_diameter * (1.0 - gamma * gamma) / 2.0
         return cls(geometry, lubricant, load, u_sum)
 
+    @takes(mass="kg")
     def Omega_n(self, mass: float) -> float:
         """Omega_n, dimensionless, of a mass [kg] on the contact: ``sqrt(8 f0 R E/(m u_sum^2 K))``, eq. 5."""
         s = self.scales
         return sqrt(s.force * s.time**2 / (require_positive("mass", mass) * s.length))
-
-
-def most_loaded_ball(radial_load: float, balls: int) -> float:
-    """Load on the ball that stands under the radial load of a bearing, without clearance or contact angle [N].
-
-    Rigid rings that come closer by d in the load's direction compress the ball at angle psi by d cos(psi), so
-    with Hertz' law Q(psi) = Q_max cos(psi)^(3/2) over the loaded half, and F_r = Q_max sum cos(psi)^(5/2).
-    For 9 balls Q_max = 0.4872 F_r; Stribeck's 4.37/Z, the limit of many, is 0.4856. Harris, Rolling Bearing
-    Analysis, ch. 7.
-
-    Raises
-    ------
-    InputError
-        Load not positive, or fewer than 3 balls.
-    """
-    load = require_positive("radial_load", radial_load)
-    count = require_integer("balls", balls, "a whole number >= 3", 3)
-    return load / sum(max(cos(2.0 * pi * k / count), 0.0) ** 2.5 for k in range(count))
 
 
 Point = MoesPoint | OperatingPoint

@@ -29,6 +29,8 @@ The import name ``fmu`` is also that of the geoscience distribution fmu-tools (a
 the two cannot be installed into one environment.
 """
 
+from inspect import ismodule as _ismodule
+
 from fmu.binaries import BuildError as BuildError
 from fmu.export import export_contact as export_contact
 from fmu.gate import VerificationError as VerificationError
@@ -42,3 +44,8 @@ from fmu.rotor.model import RotorModel as RotorModel
 from fmu.system.export import export_system as export_system
 from fmu.verify import Verification as Verification
 from fmu.verify import verify as verify
+
+
+def __dir__() -> list[str]:
+    """Public names, without the rooms that they are in."""
+    return sorted(name for name, value in globals().items() if name[0] != "_" and not _ismodule(value))

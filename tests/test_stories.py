@@ -1,7 +1,10 @@
-"""What results and elements say of themselves: five short lines without an array, of what they hold."""
+"""What results and elements say and show of themselves: five short lines without an array, a figure, tables."""
 
+import importlib
 import inspect
+import pkgutil
 import re
+import sys
 from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
@@ -11,36 +14,72 @@ import ehlcontact
 import fmu
 import reduced_models
 from ehlcontact import (
+    FullContact,
     HarmonicLoad,
     Lubricant,
     MoesPoint,
     OperatingPoint,
+    film_history,
     film_of,
+    film_wave,
     impedance,
+    interferogram,
     simulate,
     solve_steady,
 )
+from ehlcontact.results.layout import Tabled
 from ehlcontact.results.story import Told, span
+from fmu import References, Trial
 from reduced_models import (
     Atlas,
     BallBearing,
     BearingMount,
+    ContactMount,
     ContactRecord,
+    Disc,
+    JeffcottRotor,
+    LinearRotor,
     MatrixRotor,
+    Settling,
+    Shaft,
+    SpeedCourse,
+    Support,
     Unbalance,
     campbell,
+    compare,
     fit,
+    impedance_about,
     linearise,
+    rotor_on_bearings,
+    sensitivity,
     simulate_on_bearings,
     simulate_oscillator,
+    simulate_rotor,
     unbalance_response,
 )
 
 # What a user gives, or a few numbers: shown as they are.
-SHOWN = (
-    "LinearRotor", "MatrixRotor", "PrescribedApproach", "PrescribedLoad", "RotorMode", "RotorState", "Roughness",
-    "SpeedCourse", "WhirlMode",
-)  # fmt: skip
+SHOWN = "PrescribedApproach", "PrescribedLoad", "Roughness"
+INPUT, NUMBERS, KIND = "an input", "a few numbers, which its story has", "no result: it is used by its kind"
+# Public classes without `plot`, and why.
+WITHOUT_PLOT = {
+    **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Mesh", "Purpose"), INPUT),
+    **dict.fromkeys(("MoesPoint", "OperatingPoint", "Geometry", "Lubricant", "Scales"), INPUT),
+    **dict.fromkeys(("FreeVibration", "HarmonicLoad", "RampLoad", "PrescribedApproach", "PrescribedLoad"), INPUT),
+    **dict.fromkeys(("BallBearing", "BearingMount", "Unbalance", "ContactMount", "MatrixRotor"), INPUT),
+    **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support", "RotorModel"), INPUT),
+    **dict.fromkeys(("Assumption", "Assumptions"), "words and one number each: print it"),
+    **dict.fromkeys(("ContactSI", "CriticalSpeed", "DefectFrequencies", "RotorState", "SensitivityRow"), NUMBERS),
+    **dict.fromkeys(("SignalDifference", "Decrement", "ContactEvents", "RotorMode", "WhirlMode"), NUMBERS),
+    **dict.fromkeys(("ReferenceCheck", "Verification"), NUMBERS),
+    **dict.fromkeys(("InputError", "ConvergenceError", "OutsideValidityWarning", "BuildError"), KIND),
+    **dict.fromkeys(("VerificationError", "Status", "RotorStatus"), KIND),
+    **dict.fromkeys(("Contact", "TangentContact"), "a protocol"),
+    **dict.fromkeys(("ScaledContact", "RossCallback", "BearingMotion", "FullContact"), "stepped: its run has one"),
+    "Atlas": "what it answers has one",
+    "LinearRotor": "asked for modes and responses, by frequency",
+    "LinearisedRotor": "one speed: Campbell and UnbalanceResponse show them all",
+}
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +94,7 @@ def told(point):
     """One of everything."""
     moes, motion = MoesPoint(20, 5, 0.5), HarmonicLoad(Omega=3.0)
     film = solve_steady(point, n=32)
-    run = simulate(point, motion, n=16, until=1.0, dT=0.1, throw=False)
+    run = simulate(point, motion, n=16, until=1.0, dT=0.05, throw=False)
     record, atlas = ContactRecord.from_result(run), Atlas()
     oil = point.lubricant
     bearing = BallBearing.catalogue("6205", oil=oil, rq_race=1e-7)
@@ -77,12 +116,43 @@ def told(point):
         bearing.coefficients(down, speed_rpm=3000.0, hz=50.0), campbell(rotor, speeds, count=1),
         unbalance_response(rotor, speeds), simulate_on_bearings(rotor, speed_rpm=3000.0, dt=1e-4, until=1e-3),
         simulate_oscillator(element, np.linspace(0.0, 1.0, 5), Omega_n=3.0, u0=0.87),
-        fit(record, model="linear"), linearise(rotor, 3000.0),
+        fit(record, model="linear"), linearise(rotor, 3000.0), linearise(rotor, 3000.0).modes(1)[0],
+        *films_of(film, run), *rotors(atlas.element(point, "cubic", rpm=3000), bearing), sensitivity(record),
+        SpeedCourse.ramp(0.0, 3000.0, 1.0), bearing, BearingMount(bearing=bearing, x=0, y=1),
+        FullContact(point, n=32),
+        References(Trial(np.arange(3.0), {"u": np.ones(3)}, {"F": np.arange(3.0)}), None),
+        Trial(np.arange(3.0), {}, {"F": np.arange(3.0)}),
+    ]  # fmt: skip
+
+
+def films_of(film, run):
+    whole = film_of(film)
+    return whole.along, whole.across, interferogram(whole, 5e-7), film_history(run), film_wave(run)
+
+
+def rotors(element, bearing):
+    """Those of the one rotor room and of the other, and what comes of them."""
+    mount = ContactMount(angle=-np.pi / 2)
+    rotor = JeffcottRotor(
+        disc_mass=9.0, journal_mass=0.5, shaft_stiffness=5e6, mounts=(mount,), speed_rpm=3000.0, unbalance=1e-5,
+        directions="y",
+    )  # fmt: skip
+    run = simulate_rotor(rotor, [element], dt=1e-4, until=0.01)
+    linear = LinearRotor(rotor, [impedance_about(element, 45.0)])
+    shaft, disc = Shaft(length=[0.1, 0.2], diameter=0.02, bore=[0.0, 0.01]), Disc(position=0.1, mass=2.0)
+    supports = [Support(position=0.0, bearing=bearing, housing_mass=1.0, housing_stiffness=1e8)]
+    supports.append(Support(position=0.3, bearing=bearing))
+    whole = rotor_on_bearings(shaft, supports=supports, discs=[disc])
+    return [
+        rotor, run, compare(run, run), linear, linear.modes()[0], rotor.static_equilibrium([element]), shaft, disc,
+        *supports, whole, Settling((0.5, 0.1, 0.001), 0.01),
     ]  # fmt: skip
 
 
 def test_stories_are_short(told):
     for thing in told:
+        if not isinstance(thing, Told):
+            continue
         lines = repr(thing).splitlines()
         assert 1 <= len(lines) <= 5, repr(thing)
         assert lines[0].startswith(f"{type(thing).__name__}: ")
@@ -116,13 +186,130 @@ def test_every_public_result_of_arrays_is_told():
     assert left == []
 
 
+def public_classes():
+    return {
+        name: value
+        for package in (ehlcontact, reduced_models, fmu)
+        for name in dir(package)
+        if inspect.isclass(value := getattr(package, name))
+    }
+
+
+def test_every_public_result_has_a_figure():
+    """A new class without one stands in the list, with its reason."""
+    without = {name for name, kind in public_classes().items() if not hasattr(kind, "plot")}
+    assert without == set(WITHOUT_PLOT)
+
+
+def test_figures_are_drawn(told, tmp_path):
+    """Every axis says what it shows, and in which unit where it has one."""
+    drawn = set()
+    for thing in told:
+        long_enough = not isinstance(thing, reduced_models.BearingRun) or thing.t.size > 16
+        if hasattr(thing, "plot") and long_enough and type(thing) not in drawn:
+            figure = thing.plot(tmp_path / "figure.png")
+            drawn.add(type(thing))
+            assert figure.axes and (tmp_path / "figure.png").stat().st_size > 5000, thing
+            if type(thing).plot is Tabled.plot:
+                assert all(axes.get_xlabel() or axes.get_label() == "<colorbar>" for axes in figure.axes), thing
+                assert all(axes.get_ylabel() for axes in figure.axes), thing
+    wanted = {kind for kind in public_classes().values() if hasattr(kind, "plot") and not inspect.isabstract(kind)}
+    alike = {"LinearContact", "PolynomialContact", "PowerLawContact", "MemoryFit", "ElementFit", "WaveTrack"}
+    own_tests = {"BearingRun"}
+    assert {kind.__name__ for kind in wanted - drawn} == alike | own_tests
+
+
+def test_a_figure_of_a_point_in_si_is_in_si(told):
+    labels = [axes.get_xlabel() for axes in told[0].plot().axes[::2]]
+    assert labels == ["place along rolling [µm]"] * 2
+    assert told[3].plot().axes[0].get_xlabel() == "place along rolling [a]"
+    with pytest.raises(ehlcontact.InputError, match=r"path = .*a file name ending in one of"):
+        told[0].plot("figure.docx")
+
+
+def test_tables_of_xarray(told):
+    xarray = pytest.importorskip("xarray")
+    for thing in told:
+        if isinstance(thing, Tabled):
+            data = thing.to_xarray()
+            assert isinstance(data, xarray.Dataset) and data.attrs["result"] == type(thing).__name__
+            assert all(values.attrs["units"] and values.attrs["long_name"] for values in data.data_vars.values())
+            assert not [dim for dim in data.dims if dim.startswith("dim_")]
+    film, run = told[0].si.to_xarray(), told[4].to_xarray()
+    assert film.h.dims == ("x", "y") and film.h.attrs == {"units": "m", "long_name": "film"}
+    assert float(film.h.sel(x=0.0, y=0.0, method="nearest")) == pytest.approx(float(film.h_central), rel=0.05)
+    assert run.force.dims == ("T",) and run.h_midplane.dims == ("T", "X") and run.force.attrs["units"] == "f0"
+    state = next(thing for thing in told if isinstance(thing, reduced_models.BearingState)).to_xarray()
+    assert list(state.race.values) == ["inner", "outer"] and state.force.sel(race="outer").shape == (9,)
+    answer = next(thing for thing in told if isinstance(thing, reduced_models.AtlasAnswer))
+    data = answer.to_xarray()
+    assert np.array_equal(data.stiffness_error, answer.error["stiffness"]) and data.attrs["M"] == answer.point.M
+
+
+def test_tables_of_pandas(told):
+    pandas = pytest.importorskip("pandas")
+    for thing in told:
+        if hasattr(thing, "to_pandas"):
+            assert isinstance(thing.to_pandas(), pandas.DataFrame) and len(thing.to_pandas()), thing
+    film, run, response = told[0], told[4], told[8]
+    grid = film.si.to_pandas()
+    assert list(grid.columns) == ["p [Pa]", "h [m]"] and grid.index.names == ["x [m]", "y [m]"]
+    assert np.array_equal(grid["h [m]"].to_numpy().reshape(film.H.shape), film.si.h)
+    history = run.si.to_pandas()
+    assert np.array_equal(history["force [N]"], run.si.force) and history.index.name == "t [s]"
+    assert np.array_equal(response.si.to_pandas()["damping [N s/m]"], response.si.damping)
+    kind = {type(thing): thing for thing in told}
+    balls = kind[reduced_models.BearingState].to_pandas()
+    assert np.array_equal(balls["force_outer [N]"], kind[reduced_models.BearingState].force[:, 1])
+    K = kind[reduced_models.BearingCoefficients].to_pandas()
+    assert np.array_equal(K["stiffness_xy [N/m]"], kind[reduced_models.BearingCoefficients].stiffness[:, 0, 1])
+    turned = kind[reduced_models.RotorResult]
+    assert np.array_equal(turned.to_pandas()["disc_y [m]"], turned.disc[:, 1])
+    many = kind[reduced_models.AtlasAnswers].to_pandas()
+    assert np.array_equal(many["h_min [delta_H]"], kind[reduced_models.AtlasAnswers].h_min) and len(many) == 2
+    found = kind[reduced_models.FitResult]
+    table = found.to_pandas()
+    assert table.loc["K1", "value"] == found.parameters["K1"] and table.attrs["rms"] == found.rms
+    assert (
+        table.loc["K1", "low"] == found.intervals["K1"][0]
+        and table.loc["K1", "std_error"] == found.std_errors["K1"]
+    )
+
+
+@pytest.mark.parametrize(("library", "method"), [("xarray", "to_xarray"), ("pandas", "to_pandas")])
+def test_a_missing_library_is_one_line(told, monkeypatch, library, method):
+    monkeypatch.setitem(sys.modules, library, None)
+    with pytest.raises(
+        ehlcontact.InputError, match=rf"^{library} = None: must be installed: pip install 'ehl.*tables"
+    ):
+        getattr(told[0], method)()
+
+
 def test_span():
     assert span([1.0, 3.0], 2.0, "N") == "2 .. 6 N" and span([2.0, 2.0]) == "2" and span([np.nan]) == "none"
 
 
-@pytest.mark.parametrize("package", [ehlcontact, reduced_models])
+def rooms():
+    """The three packages, and every room in them whose `__init__` shows names."""
+    for package in (ehlcontact, reduced_models, fmu):
+        yield package
+        for found in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            if found.ispkg and not found.name.startswith(("ehlcontact.cli", "ehlcontact.solver")):  # insides
+                room = importlib.import_module(found.name)
+                shown = [k for k, v in vars(room).items() if k[0] != "_" and not inspect.ismodule(v)]
+                if set(shown) - {"annotations"}:
+                    yield room
+
+
+@pytest.mark.parametrize("package", list(rooms()), ids=lambda package: package.__name__)
 def test_dir_lists_public_names_only(package):
     listed = dir(package)
-    rooms = [name for name in listed if inspect.ismodule(getattr(package, name))]
-    assert rooms == [] and len(listed) > 40 and "annotations" not in listed
+    inner = [name for name in listed if inspect.ismodule(getattr(package, name))]
+    assert inner == [] and listed and "annotations" not in listed
     assert not [name for name in listed if name.startswith("_") and name != "__version__"]
+    assert set(getattr(package, "__all__", listed)) == set(listed)
+
+
+def test_the_three_packages_list_what_they_show():
+    assert {len(dir(package)) > 12 for package in (ehlcontact, reduced_models, fmu)} == {True}
+    assert {"export_contact", "verify", "RotorModel"} <= set(dir(fmu))

@@ -18,3 +18,8 @@ from ehlcontact.assumptions.judge import assumptions
 from ehlcontact.assumptions.table import Assumption, Assumptions
 
 __all__ = ["Assumption", "Assumptions", "assumptions"]
+
+
+def __dir__() -> list[str]:
+    """Public names, without the rooms that they are in."""
+    return sorted(__all__)

@@ -22,6 +22,7 @@ from typing import Any, ParamSpec, TypedDict, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact.checks.quantity import in_unit
 from ehlcontact.errors import InputError
 
 Array = NDArray[np.float64]
@@ -29,6 +30,7 @@ P = ParamSpec("P")
 Result = TypeVar("Result")
 
 _RADIANS = {"omega": 1.0, "hz": 2.0 * pi, "rpm": pi / 30.0}  # rad/s in one of each
+_UNITS = {"Omega": "", "omega": "rad/s", "hz": "Hz", "rpm": "rev/min"}
 _KEYWORDS = "Omega (dimensionless), omega (rad/s), hz or rpm"
 _RENAMED = {"omega": "Omega", "omega_n": "Omega_n", "omegas": "Omega"}  # in files, before the rule
 
@@ -170,7 +172,8 @@ def _the_one(time: float | None, values: Mapping[str, ArrayLike | None]) -> tupl
     if len(given) != 1:
         allowed = "given once, as Omega (dimensionless)" if time is None else f"given once, as {_KEYWORDS}"
         raise InputError("frequency", " and ".join(given) or None, allowed)
-    return next(iter(given.items()))
+    name, value = next(iter(given.items()))
+    return name, in_unit(name, value, _UNITS[name])
 
 
 def _checked(name: str, value: ArrayLike, most: float) -> Array:

@@ -9,6 +9,7 @@ from types import UnionType
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact.checks.quantity import has_quantity
 from ehlcontact.errors import InputError
 
 Array = NDArray[np.float64]
@@ -115,6 +116,8 @@ def as_rows(field: str, values: ArrayLike, rows: int, least: int) -> Array:
 def _numbers(field: str, values: ArrayLike, allowed: str) -> Array:
     if values is None:
         raise InputError(field, None, "given")
+    if has_quantity(values):  # numpy would drop its unit, whatever it is
+        raise InputError(field, type(values).__name__, f"{allowed}, which takes no quantity with a unit here")
     try:
         return np.array(values, dtype=np.float64)
     except (TypeError, ValueError):

@@ -15,8 +15,9 @@ from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.oils import OIL_HELP, TEMP_HELP, oil_grade
 from ehlcontact.cli.options import called
 from ehlcontact.errors import InputError
+from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant import Lubricant
-from ehlcontact.point import MoesPoint, OperatingPoint, Point, most_loaded_ball, require_solvable
+from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
 
 _SI, _MOES, _LAWS = "A ball of a bearing, in SI", "Or a point without dimensions", "Laws of the oil"
 RACES = ("inner", "outer")

@@ -11,3 +11,8 @@ room            responsibility
 from ehlcontact.files.replacement import is_file, parse_json, read_text, replacing, write_bytes, write_text
 
 __all__ = ["is_file", "parse_json", "read_text", "replacing", "write_bytes", "write_text"]
+
+
+def __dir__() -> list[str]:
+    """Public names, without the rooms that they are in."""
+    return sorted(__all__)

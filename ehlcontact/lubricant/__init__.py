@@ -27,3 +27,8 @@ __all__ = [
     "density",
     "log_viscosity",
 ]
+
+
+def __dir__() -> list[str]:
+    """Public names, without the rooms that they are in."""
+    return sorted(__all__)

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from ehlcontact.checks import require_choice, require_nonnegative, require_positive
 from ehlcontact.checks.box import INPUTS
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_node
 from ehlcontact.lubricant.oil import ALPHA_SCATTER, GOLD_PRESSURE, GRADE_SCATTER, MineralOil
@@ -42,6 +43,7 @@ class FluidLaw(NamedTuple):
     d: float  # 5.9e8 Pa / p_h
 
 
+@fields_take(eta0="Pa s", alpha="1/Pa", temperature_slope="1/K")
 @dataclass(frozen=True, slots=True)
 class Lubricant:
     """Oil at inlet temperature; `iso_vg` makes one from its grade.
@@ -87,6 +89,7 @@ class Lubricant:
             raise InputError("eta0", self.eta0, f"{allowed} ({guess})" if guess else allowed)
 
     @classmethod
+    @takes(temperature="degrees Celsius", density_15="kg/m3")
     def iso_vg(
         cls,
         grade: int,

@@ -16,6 +16,7 @@ from operator import attrgetter
 from typing import NamedTuple
 
 from ehlcontact.checks import require_finite
+from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 
 KELVIN = 273.15  # of 0 C
@@ -102,6 +103,7 @@ def typical_temperature_slope(eta0: float) -> float:
     return max(TYPICAL_SLOPE * log(eta0 / TYPICAL_DENSITY * 1e6 + WALTHER_SHIFT), LEAST_SLOPE)
 
 
+@fields_take(temperature="degrees Celsius", density_15="kg/m3")
 @dataclass(frozen=True, slots=True)
 class MineralOil:
     """A mineral oil at a temperature.

@@ -6,6 +6,8 @@ module        responsibility
 ``steady``    `SteadyResult`: the film at rest
 ``impedance`` `ImpedanceResult`: stiffness and damping over frequency
 ``si``        what their ``.si`` gives: every quantity in SI
+``layout``    what their quantities are: as xarray, as pandas, as a figure
+``picture``   plain figures; matplotlib is imported where one is drawn
 ``story``     what results and elements say of themselves at the prompt and in a notebook
 ============= =================================================================================
 """
@@ -21,3 +23,8 @@ __all__ = [
     "SteadySI",
     "require_scales",
 ]
+
+
+def __dir__() -> list[str]:
+    """Public names, without the rooms that they are in."""
+    return sorted(__all__)

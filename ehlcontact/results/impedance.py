@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.origin import Origin
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.si import ImpedanceSI
 from ehlcontact.results.story import Told, contact_text, span
 
@@ -16,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class ImpedanceResult(Told, Origin):
+class ImpedanceResult(Told, Tabled, Origin):
     """Stiffness and damping of a contact over frequency, dimensionless; ``si`` has it in SI.
 
     Attributes
@@ -43,6 +44,22 @@ class ImpedanceResult(Told, Origin):
     h_central: float
     h_min: float
     moment: float
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="Omega",
+        panels=("stiffness", "damping"),
+        quantities={
+            "Omega": ("u_sum/(2a)", "Omega"),
+            "stiffness": ("f0/delta_H", "Omega"),
+            "damping": ("f0/delta_H 2a/u_sum", "Omega"),
+            "residual": ("", "Omega"),
+            "approach": ("delta_H", ""),
+            "h_central": ("delta_H", ""),
+            "h_min": ("delta_H", ""),
+            "moment": ("f0 a", ""),
+        },
+        logs="xy",
+    )
 
     @property
     def impedance(self) -> NDArray[np.complex128]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, replace
 from math import pi
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ehlcontact.errors import InputError
 from ehlcontact.origin import freeze
 from ehlcontact.point import Scales
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told
 from ehlcontact.solver.accuracy import ErrorEstimate
 
@@ -34,7 +35,7 @@ def require_scales(scales: Scales | None) -> Scales:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class View(Told):
+class View(Told, Tabled):
     """Numbers in SI, arrays read-only."""
 
     def __post_init__(self) -> None:
@@ -79,6 +80,24 @@ class SteadySI(View):
     moment: float
     pressure_error: float
     error: ErrorEstimate | None
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="x y",
+        panels=("p", "h"),
+        quantities={
+            "x": ("m", "x"),
+            "y": ("m", "y"),
+            "p": ("Pa", "x y"),
+            "h": ("m", "x y"),
+            "approach": ("m", ""),
+            "force": ("N", ""),
+            "h_central": ("m", ""),
+            "h_min": ("m", ""),
+            "p_max": ("Pa", ""),
+            "moment": ("N m", ""),
+            "pressure_error": ("Pa", ""),
+        },
+    )
 
     @classmethod
     def of(cls, result: SteadyResult) -> Self:
@@ -135,6 +154,23 @@ class ImpedanceSI(View):
     h_central: float
     h_min: float
     moment: float
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="hz",
+        panels=("stiffness", "damping"),
+        quantities={
+            "omega": ("rad/s", "hz"),
+            "hz": ("Hz", "hz"),
+            "stiffness": ("N/m", "hz"),
+            "damping": ("N s/m", "hz"),
+            "approach": ("m", ""),
+            "force": ("N", ""),
+            "h_central": ("m", ""),
+            "h_min": ("m", ""),
+            "moment": ("N m", ""),
+        },
+        logs="xy",
+    )
 
     @classmethod
     def of(cls, result: ImpedanceResult) -> Self:

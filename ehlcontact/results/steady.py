@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
 from math import nan, pi
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.origin import Origin
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.si import SteadySI
 from ehlcontact.results.story import Told, contact_text
 from ehlcontact.solver.accuracy import ErrorEstimate
@@ -19,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class SteadyResult(Told, Origin):
+class SteadyResult(Told, Tabled, Origin):
     """Steady film of a contact under constant load, or at a prescribed approach, dimensionless; ``si`` is in SI.
 
     Attributes
@@ -70,6 +71,21 @@ class SteadyResult(Told, Origin):
     # files of earlier versions have neither
     pressure_changes: Array = field(default_factory=lambda: np.empty(0), metadata={"later": True})
     error: ErrorEstimate | None = field(default=None, metadata={"later": True})
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="X Y",
+        panels=("P", "H"),
+        quantities={
+            "X": ("a", "X"),
+            "Y": ("b", "Y"),
+            "P": ("p_h", "X Y"),
+            "H": ("delta_H", "X Y"),
+            "approach": ("delta_H", ""),
+            "force": ("f0", ""),
+            "h_central": ("delta_H", ""),
+            "h_min": ("delta_H", ""),
+        },
+    )
 
     @property
     def si(self) -> SteadySI:

@@ -7,6 +7,7 @@ from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
+from ehlcontact.results.story import Told, contact_text
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
@@ -16,7 +17,7 @@ from ehlcontact.transient.film import FilmState, Step, TransientFilm
 from ehlcontact.transient.si import ContactSI
 
 
-class FullContact:
+class FullContact(Told):
     """Transient EHL contact driven by its approach, for a rotor or any other time integrator.
 
     It starts at rest, steady under load 1. Everything is dimensionless: approach in dry approaches, force in
@@ -76,6 +77,17 @@ class FullContact:
         self._check(start if start.status.ok else left or start)
         self.static_approach = self._film.u
         self.force = self._film.level.force()
+
+    def _story(self) -> list[str]:
+        s = self.scales
+        size, unit, load, newton = (1.0, "", 1.0, "") if s is None else (1e6 * s.length, " µm", s.force, " N")
+        return [
+            contact_text(self.point, s),
+            f"whole film on n = {self.n}, x from {self.domain.x_in:g} to {self.domain.x_out:g} semi-axes",
+            f"now: force {load * self.force:.5g}{newton}, film {size * self.h_central:.4g}{unit} in the centre, "
+            f"{size * self.h_min:.4g}{unit} at least",
+            f"at rest approach {size * self.static_approach:.5g}{unit}",
+        ]
 
     @one_blas_thread()
     def advance(self, dt: float, approach: float, rate: float = 0.0) -> float:

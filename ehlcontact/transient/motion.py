@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 
 from ehlcontact.checks import require_finite, require_positive
 from ehlcontact.checks.frequency import dimensionless, fields_by_name, is_given, one
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint, Scales
 from ehlcontact.solver.balance import Balance
@@ -77,6 +78,7 @@ class FreeVibration(UnderLoad):
             raise InputError("offset", self.offset, "nonzero, or rate nonzero: nothing would move")
 
     @classmethod
+    @takes(mass="kg", offset="m", rate="m/s")
     def at(
         cls,
         point: OperatingPoint,

@@ -6,23 +6,33 @@ Everything is dimensionless, with the SI scales beside.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin, freeze
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told, contact_text, span
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.si import SimulationSI
 
 Array = NDArray[np.float64]
+HISTORY = {
+    "T": ("2a/u_sum", "T"),
+    "approach": ("delta_H", "T"),
+    "rate": ("delta_H u_sum/(2a)", "T"),
+    "force": ("f0", "T"),
+    "load": ("f0", "T"),
+    "h_central": ("delta_H", "T"),
+    "h_min": ("delta_H", "T"),
+}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Instants(Told):
+class Instants(Told, Tabled):
     """A simulation between its steps, continuous with continuous slopes, dimensionless.
 
     Attributes
@@ -39,6 +49,10 @@ class Instants(Told):
     h_central: Array
     h_min: Array
 
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="T", panels=("force load", "approach", "h_central h_min"), quantities=HISTORY
+    )
+
     def __post_init__(self) -> None:
         freeze(self)
 
@@ -50,7 +64,7 @@ class Instants(Told):
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class SimulationResult(Told, Origin):
+class SimulationResult(Told, Tabled, Origin):
     """History of a transient contact, dimensionless; entry 0 is the initial state at T = 0. ``si`` has it in SI.
 
     Attributes
@@ -106,6 +120,25 @@ class SimulationResult(Told, Origin):
     snapshot_P: Array
     static_approach: float
     status: Status
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="T",
+        panels=("force load", "approach", "h_central h_min", "h_midplane"),
+        quantities={
+            **HISTORY,
+            "acceleration": ("delta_H (u_sum/(2a))^2", "T"),
+            "residuals": ("", "T"),
+            "cycles": ("", "T"),
+            "X": ("a", "X"),
+            "Y": ("b", "Y"),
+            "h_midplane": ("delta_H", "T X"),
+            "p_midplane": ("p_h", "T X"),
+            "snapshot_T": ("2a/u_sum", "snapshot_T"),
+            "snapshot_H": ("delta_H", "snapshot_T X Y"),
+            "snapshot_P": ("p_h", "snapshot_T X Y"),
+            "static_approach": ("delta_H", ""),
+        },
+    )
 
     @property
     def si(self) -> SimulationSI:

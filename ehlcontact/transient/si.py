@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.results.layout import Layout
 from ehlcontact.results.si import View, require_scales
 
 if TYPE_CHECKING:  # they import this module
@@ -70,6 +71,33 @@ class SimulationSI(View):
     mass: float | None
     omega: float | None
     hz: float | None
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="t",
+        panels=("force load", "approach", "h_central h_min", "h_midplane"),
+        quantities={
+            "t": ("s", "t"),
+            "approach": ("m", "t"),
+            "rate": ("m/s", "t"),
+            "acceleration": ("m/s2", "t"),
+            "force": ("N", "t"),
+            "load": ("N", "t"),
+            "h_central": ("m", "t"),
+            "h_min": ("m", "t"),
+            "x": ("m", "x"),
+            "y": ("m", "y"),
+            "h_midplane": ("m", "t x"),
+            "p_midplane": ("Pa", "t x"),
+            "snapshot_t": ("s", "snapshot_t"),
+            "snapshot_h": ("m", "snapshot_t x y"),
+            "snapshot_p": ("Pa", "snapshot_t x y"),
+            "static_approach": ("m", ""),
+            "static_load": ("N", ""),
+            "mass": ("kg", ""),
+            "omega": ("rad/s", ""),
+            "hz": ("Hz", ""),
+        },
+    )
 
     @classmethod
     def of(cls, result: SimulationResult) -> Self:

@@ -16,6 +16,8 @@ room           responsibility
 ============== ================================================================================================
 """
 
+from inspect import ismodule as _ismodule
+
 from fmu.binaries.headers import Library as Library
 from fmu.binaries.headers import read_library as read_library
 from fmu.binaries.libraries import build_binaries as build_binaries
@@ -25,3 +27,8 @@ from fmu.binaries.platforms import choose as choose
 from fmu.binaries.platforms import this_machine as this_machine
 from fmu.binaries.process import BuildError as BuildError
 from fmu.binaries.recipe import build_description as build_description
+
+
+def __dir__() -> list[str]:
+    """Public names, without the rooms that they are in."""
+    return sorted(name for name, value in globals().items() if name[0] != "_" and not _ismodule(value))

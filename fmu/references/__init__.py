@@ -14,9 +14,16 @@ with the manifest of the layered standard FMI-LS-REF 1.0.0-beta.1 (https://githu
 as experiments (https://github.com/modelica/ma-hs-experiments).
 """
 
+from inspect import ismodule as _ismodule
+
 from fmu.references.check import ReferenceCheck as ReferenceCheck
 from fmu.references.check import verify_references as verify_references
 from fmu.references.contacts import contact_references as contact_references
 from fmu.references.files import reference_files as reference_files
 from fmu.references.series import References as References
 from fmu.references.series import Trial as Trial
+
+
+def __dir__() -> list[str]:
+    """Public names, without the rooms that they are in."""
+    return sorted(name for name, value in globals().items() if name[0] != "_" and not _ismodule(value))

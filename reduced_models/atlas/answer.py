@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from math import pi
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,14 +12,22 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.results import require_scales
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told, contact_text, span
 from reduced_models.atlas.frequency import AtlasImpedance, Between
 
 _Floats = NDArray[np.float64]
+_MOES = {
+    **dict.fromkeys(("approach", "h_central", "h_min", "film_share"), ("delta_H", "")),
+    "moment": ("f0 a", ""),
+    "Omega": ("u_sum/(2a)", "Omega"),
+    "stiffness": ("f0/delta_H", "Omega"),
+    "damping": ("f0/delta_H 2a/u_sum", "Omega"),
+}
 
 
 @dataclass(frozen=True, eq=False)
-class AtlasAnswer(Told):
+class AtlasAnswer(Told, Tabled):
     """One point, dimensionless; ``si`` has it in SI, ``impedance`` K and C at any frequency.
 
     Attributes
@@ -53,6 +61,8 @@ class AtlasAnswer(Told):
     damping: _Floats
     error: dict[str, Any]
     scales: Scales | None = None
+
+    LAYOUT: ClassVar[Layout] = Layout(rows="Omega", panels=("stiffness", "damping"), quantities=_MOES, logs="xy")
 
     def _story(self) -> list[str]:
         s, bar = self.scales, self.error
@@ -108,7 +118,7 @@ class AtlasAnswer(Told):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasSI(Told):
+class AtlasSI(Told, Tabled):
     """An `AtlasAnswer` in SI.
 
     Attributes
@@ -142,6 +152,21 @@ class AtlasSI(Told):
     damping: _Floats
     error: dict[str, Any]
 
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="hz",
+        panels=("stiffness", "damping"),
+        quantities={
+            **dict.fromkeys(("approach", "h_central", "h_min", "film_share"), ("m", "")),
+            "moment": ("N m", ""),
+            "force": ("N", ""),
+            "omega": ("rad/s", "hz"),
+            "hz": ("Hz", "hz"),
+            "stiffness": ("N/m", "hz"),
+            "damping": ("N s/m", "hz"),
+        },
+        logs="xy",
+    )
+
     @classmethod
     def of(cls, answer: AtlasAnswer) -> Self:
         """View of an answer; raises `InputError` if its point is dimensionless."""
@@ -155,7 +180,7 @@ class AtlasSI(Told):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasAnswers(Told):
+class AtlasAnswers(Told, Tabled):
     """Many points at once, dimensionless: what `AtlasAnswer` has of one, with a first axis for the points.
 
     Attributes
@@ -180,3 +205,14 @@ class AtlasAnswers(Told):
     stiffness: _Floats
     damping: _Floats
     error: dict[str, _Floats]
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="point",
+        panels=("h_central", "h_min", "approach", "damping"),
+        quantities={
+            **{name: ("", "point") for name in ("M", "L", "kappa")},
+            **{name: (unit, f"point {dims}".strip()) for name, (unit, dims) in _MOES.items() if name != "Omega"},
+            "Omega": ("u_sum/(2a)", "Omega"),
+        },
+        first=0,
+    )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,7 @@ from scipy.interpolate import CubicSpline
 
 from ehlcontact.point import Scales
 from ehlcontact.results import require_scales
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told
 
 _Floats = NDArray[np.float64]
@@ -53,7 +55,7 @@ class Between:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasImpedance(Told):
+class AtlasImpedance(Told, Tabled):
     """Impedance of an `AtlasAnswer` at frequencies of one's own, dimensionless; ``si`` has it in SI.
 
     Attributes
@@ -74,6 +76,17 @@ class AtlasImpedance(Told):
     error: dict[str, _Floats]
     scales: Scales | None = None
 
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="Omega",
+        panels=("stiffness", "damping"),
+        quantities={
+            "Omega": ("u_sum/(2a)", "Omega"),
+            "stiffness": ("f0/delta_H", "Omega"),
+            "damping": ("f0/delta_H 2a/u_sum", "Omega"),
+        },
+        logs="xy",
+    )
+
     @property
     def impedance(self) -> NDArray[np.complex128]:
         """Z(Omega) = K + i Omega C, shape (k,)."""
@@ -90,7 +103,7 @@ class AtlasImpedance(Told):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasImpedanceSI(Told):
+class AtlasImpedanceSI(Told, Tabled):
     """An `AtlasImpedance` in SI.
 
     Attributes
@@ -108,6 +121,18 @@ class AtlasImpedanceSI(Told):
     stiffness: _Floats
     damping: _Floats
     error: dict[str, _Floats]
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="hz",
+        panels=("stiffness", "damping"),
+        quantities={
+            "omega": ("rad/s", "hz"),
+            "hz": ("Hz", "hz"),
+            "stiffness": ("N/m", "hz"),
+            "damping": ("N s/m", "hz"),
+        },
+        logs="xy",
+    )
 
     @property
     def impedance(self) -> NDArray[np.complex128]:

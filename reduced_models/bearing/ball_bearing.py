@@ -22,10 +22,11 @@ from ehlcontact.checks import (
 )
 from ehlcontact.checks.box import INPUTS
 from ehlcontact.checks.frequency import by_name, radians_per_second
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from reduced_models.bearing.balls import Balls, Turn, turning
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
-from reduced_models.bearing.file import plain, read, write
+from reduced_models.bearing.file import oil_of, plain, read, write
 from reduced_models.bearing.kinematics import (
     HERTZ,
     RADIANS,
@@ -41,6 +42,7 @@ from reduced_models.bearing.loss import loss_of, require_loss_factor
 from reduced_models.bearing.race import RACES, Race, films_under, race_of
 from reduced_models.bearing.state import BearingState
 from reduced_models.bearing.statics import Standing, angle_of, direction_of, radial_load, stand
+from reduced_models.bearing.told import ToldBearing
 from reduced_models.elements.kinds import WideRangeContact
 
 _Floats = NDArray[np.float64]
@@ -50,8 +52,12 @@ LARGEST_PLAY = 0.05  # clearance or preload over ball diameter: five times what 
 POSITIONS = 12  # of the cage over a ball passage for means: those of 6205 are within 1e-3 of those of 48
 
 
+@fields_take(
+    ball_diameter="m", pitch_diameter="m", clearance="m", rq_ball="m", rq_race="m", film_limit="m",
+    youngs_modulus="Pa", density="kg/m3",
+)  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
-class BallBearing:
+class BallBearing(ToldBearing):
     """Deep-groove ball bearing under radial load, the outer ring standing still. SI units, y upwards.
 
     Every ball has a contact with either race, each with a film and its memory; both carry the ball in series, the
@@ -169,6 +175,7 @@ class BallBearing:
         """Defect frequencies per turn of the shaft."""
         return DefectFrequencies.of(self.balls, self.gamma)
 
+    @takes(speed_rpm="rev/min")
     def frequencies(self, speed_rpm: float) -> DefectFrequencies:
         """Defect frequencies [Hz] at a speed of the shaft [rev/min]."""
         return DefectFrequencies.of(self.balls, self.gamma, require_nonnegative("speed_rpm", speed_rpm) * HERTZ)
@@ -188,9 +195,9 @@ class BallBearing:
         """The contact with the "inner" or the "outer" race."""
         if name not in RACES:
             raise InputError("race", name, f"one of {', '.join(RACES)}")
-        race: Race = self._known["races"][name]
-        return race
+        return self._known["races"][name]
 
+    @takes(speed_rpm="rev/min")
     def element(self, race: str, speed_rpm: float) -> WideRangeContact:
         """Element of a ball's contact with one race [SI], for all loads that the atlas has at this speed."""
         contact, speed = self.race(race), self.speed(speed_rpm)
@@ -198,8 +205,7 @@ class BallBearing:
             raise InputError("oil", None, "given, for a film")
         if (race, speed) not in self._known:
             self._known[race, speed] = contact.element(speed)
-        element: WideRangeContact = self._known[race, speed]
-        return element
+        return self._known[race, speed]
 
     def kernel(self, speeds_rpm: ArrayLike) -> Balls:
         """What the compiled kernels know of it, over increasing speeds [rev/min]: `reduced_models.bearing.balls`.
@@ -221,9 +227,9 @@ class BallBearing:
                 loss=loss_of(self.loss_factor),
                 inertia=ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0,
             )
-        kernel: Balls = self._known[key]
-        return kernel
+        return self._known[key]
 
+    @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
     def equilibrium(
         self, load: ArrayLike, *, speed_rpm: float = 0.0, cage_angle: float | None = None
     ) -> BearingState:
@@ -259,6 +265,7 @@ class BallBearing:
             **({} if self.oil is None else films_under(self, speed, at.force, at.approach)),
         )
 
+    @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
     @by_name(2)
     def coefficients(
         self,
@@ -301,6 +308,7 @@ class BallBearing:
         angles = first + 2.0 * pi / self.balls * steps
         return [self._stand(force, speed, angle) for angle in angles.tolist()]
 
+    @takes(load="N", speeds_rpm="rev/min")
     @by_name(2)
     def to_ross(
         self,
@@ -387,13 +395,6 @@ class BallBearing:
     def load(cls, path: str | os.PathLike[str]) -> Self:
         """Read what `save` wrote; raises `InputError` for anything else."""
         entries = read(path, SCHEMA, cls)
-        if entries["oil"] is not None:
-            require_instance("oil", entries["oil"], dict, "an object, or null")
-            known = [f.name for f in fields(Lubricant)]
-            strange = [name for name in entries["oil"] if name not in known]
-            if strange:
-                raise InputError(
-                    f"{path}: oil.{strange[0]}", entries["oil"][strange[0]], f"one of {', '.join(known)}"
-                )
-            entries["oil"] = Lubricant(**entries["oil"])
-        return cls(**entries)
+        return cls(**entries | {"oil": oil_of(entries["oil"], str(path))})
+
+    read = load  # as of states and runs

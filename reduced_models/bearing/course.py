@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import as_column, require_nonnegative, require_positive
+from ehlcontact.checks.quantity import fields_take, takes
+from ehlcontact.results.layout import Layout, Tabled
+from ehlcontact.results.story import Told, span
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.rotor import MatrixRotor
 
@@ -17,8 +21,9 @@ _Floats = NDArray[np.float64]
 SPEED_RATIO = 1.25  # of neighbouring speeds at which laws are made
 
 
+@fields_take(t="s", speed_rpm="rev/min")
 @dataclass(frozen=True, eq=False)
-class SpeedCourse:
+class SpeedCourse(Told, Tabled):
     """Speed of the shaft over time, straight between given times.
 
     Parameters
@@ -32,6 +37,14 @@ class SpeedCourse:
     t: _Floats
     speed_rpm: _Floats
 
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="t", panels=("speed_rpm",), quantities={"t": ("s", "t"), "speed_rpm": ("rev/min", "t")}
+    )
+
+    def _story(self) -> list[str]:
+        over = f"{self.t.size} times from {self.t[0]:.4g} to {self.t[-1]:.4g} s"
+        return [f"{span(self.speed_rpm, 1.0, 'rev/min')}, {over}"]
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "t", as_column("t", self.t, least=2, increasing=True))
         object.__setattr__(self, "speed_rpm", as_column("speed_rpm", self.speed_rpm, size=self.t.size))
@@ -40,11 +53,13 @@ class SpeedCourse:
         require_nonnegative("t[0]", float(self.t[0]))
 
     @classmethod
+    @takes(speed_rpm="rev/min")
     def constant(cls, speed_rpm: float) -> SpeedCourse:
         """One speed all the time."""
         return cls(np.array([0.0, 1.0]), np.full(2, require_nonnegative("speed_rpm", speed_rpm)))
 
     @classmethod
+    @takes(first_rpm="rev/min", last_rpm="rev/min", seconds="s")
     def ramp(cls, first_rpm: float, last_rpm: float, seconds: float) -> SpeedCourse:
         """From one speed to another at a constant rate: a run-up, or a coast-down."""
         ends = require_nonnegative("first_rpm", first_rpm), require_nonnegative("last_rpm", last_rpm)

@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from ehlcontact import Lubricant
+from ehlcontact.checks import require_instance
 from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json, read_text, write_text
 
@@ -66,3 +68,15 @@ def read(path: str | os.PathLike[str], schema: str, cls: Any) -> dict[str, Any]:
         if key not in entries:
             raise InputError(f"{name}: {key}", None, "there")
     return entries
+
+
+def oil_of(entry: Any, name: str) -> Lubricant | None:
+    """The oil of an entry of file `name`, None where it has none; raises `InputError` for anything else."""
+    if entry is None:
+        return None
+    require_instance("oil", entry, dict, "an object, or null")
+    known = [f.name for f in fields(Lubricant)]
+    for key, value in entry.items():
+        if key not in known:
+            raise InputError(f"{name}: oil.{key}", value, f"one of {', '.join(known)}")
+    return Lubricant(**entry)

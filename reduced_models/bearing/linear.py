@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told, span
 from reduced_models.bearing.balls import Balls, Turn
 from reduced_models.bearing.law import RaceLaw, carried, curve
@@ -26,7 +27,7 @@ _Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
-class BearingCoefficients(Told):
+class BearingCoefficients(Told, Tabled):
     """Matrices of a small vibration of the ring, in the order x, y.
 
     Attributes
@@ -55,6 +56,23 @@ class BearingCoefficients(Told):
     damping: _Floats
     displacement: _Floats
     swing: _Floats
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="hz",
+        panels=("stiffness", "damping"),
+        quantities={
+            "omega": ("rad/s", "hz"),
+            "hz": ("Hz", "hz"),
+            "stiffness": ("N/m", "hz axis by"),
+            "damping": ("N s/m", "hz axis by"),
+            "load": ("N", "axis"),
+            "displacement": ("m", "axis"),
+            "swing": ("m", "axis"),
+            "speed_rpm": ("rev/min", ""),
+        },
+        labels={"axis": ("x", "y"), "by": ("x", "y")},
+        logs="x",
+    )
 
     def _story(self) -> list[str]:
         x, y = self.load.tolist()

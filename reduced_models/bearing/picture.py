@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import os
-from io import BytesIO
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ehlcontact.files import write_bytes
+from ehlcontact.results.picture import COLOURS, GRID, written
 
 INNER, OUTER, LOAD, GREY = "#0072b2", "#e69f00", "#d55e00", "#7f7f7f"  # Okabe and Ito, for colour-blind eyes
-SIZE, DPI = (9.0, 4.4), 130  # inches; of files
+SIZE = (9.0, 4.4)  # inches
 BAR = 0.5  # width of a bar over the angle between two balls
 ROOM = 1.25  # radius of the load zone over its longest bar
-COLOURS = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9"  # of bearings and modes, in turn
 LAST_TURNS = 20.0  # of the shaft, that orbits show
 WINDOW, FEWEST = 2.0, 5  # length of the pieces of a waterfall, see there; and that many at least side by side
 ROWS, SPREAD = 120, 4.0  # spectra of a waterfall; its colours: decades below the highest
@@ -41,15 +38,7 @@ def draw_state(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
     torque = state.rolling_torque
     resists = "" if torque is None else f"; films resist rolling by {torque * 1e3:.3g} N mm"
     figure.suptitle(f"{state.name or 'ball bearing'}, {np.hypot(*state.load):.4g} N, {speed}{resists}")
-    return _written(figure, path)
-
-
-def _written(figure: Any, path: str | os.PathLike[str] | None) -> Any:
-    if path is not None:
-        buffer = BytesIO()
-        figure.savefig(buffer, format=Path(path).suffix[1:] or "png", dpi=DPI)
-        write_bytes(path, buffer.getvalue())
-    return figure
+    return written(figure, path)
 
 
 def load_zone(axes: Any, state: Any) -> None:
@@ -60,7 +49,7 @@ def load_zone(axes: Any, state: Any) -> None:
     axes.bar(state.angles, state.force[:, 0], width=0.6 * width, color=INNER, label="inner race")
     axes.set_rlim(0.0, ROOM * most)
     axes.set_rlabel_position(_free_angle(state))
-    axes.grid(color="#dddddd", linewidth=0.6)
+    axes.grid(**GRID)
     axes.set_axisbelow(True)
     if state.load.any():
         angle = float(np.arctan2(state.load[1], state.load[0]))
@@ -91,7 +80,7 @@ def films(axes: Any, state: Any) -> None:
     axes.set_title(title)
     axes.set_xlabel("angle from the load [degrees]")
     axes.set_xticks(np.arange(-180, 181, 60))
-    axes.grid(color="#dddddd", linewidth=0.6)
+    axes.grid(**GRID)
     if state.lambda_ratio is not None and state.h_min is not None:
         least = float(np.nanmin(state.lambda_ratio))
         roughness = float(state.h_min.flat[0] / state.lambda_ratio.flat[0])
@@ -126,7 +115,7 @@ def draw_run(
     low, high = float(run.speed_rpm.min()), float(run.speed_rpm.max())
     speed = f"{low:g} rev/min" if low == high else f"{low:g} to {high:g} rev/min"
     figure.suptitle(f"{kind}, {speed}")
-    return _written(figure, path)
+    return written(figure, path)
 
 
 def _orbit(axes: Any, run: Any, motion: Any, _: _Ends, colour: str) -> None:
@@ -142,7 +131,7 @@ def _orbit(axes: Any, run: Any, motion: Any, _: _Ends, colour: str) -> None:
     axes.locator_params(nbins=6)
     axes.set_xlabel("x [um]")
     axes.set_ylabel("y [um]")
-    axes.grid(color="#dddddd", linewidth=0.6)
+    axes.grid(**GRID)
 
 
 def _amplitudes(signal: Any, dt: float) -> tuple[Any, Any]:
@@ -166,7 +155,7 @@ def _spectrum(axes: Any, run: Any, motion: Any, ends: _Ends, _: str) -> None:
     axes.set_xlim(0.0, most_hz)
     axes.set_xlabel("frequency [Hz]")
     axes.set_ylabel("amplitude [um]")
-    axes.grid(color="#dddddd", linewidth=0.6)
+    axes.grid(**GRID)
     axes.legend(frameon=False, fontsize=8)
 
 
@@ -234,9 +223,9 @@ def draw_campbell(campbell: Any, path: str | os.PathLike[str] | None) -> Any:
     below.set_xlabel("speed [rev/min]")
     for axes in (above, below):
         axes.margins(x=0.0)
-        axes.grid(color="#dddddd", linewidth=0.6)
+        axes.grid(**GRID)
     figure.suptitle("Campbell diagram")
-    return _written(figure, path)
+    return written(figure, path)
 
 
 def _name_modes(axes: Any, campbell: Any, most: float) -> None:
@@ -284,6 +273,6 @@ def draw_unbalance(response: Any, path: str | os.PathLike[str] | None) -> Any:
     below.set_xlabel("speed [rev/min]")
     for axes in (above, below):
         axes.margins(x=0.0)
-        axes.grid(color="#dddddd", linewidth=0.6)
+        axes.grid(**GRID)
     figure.suptitle("unbalance response")
-    return _written(figure, path)
+    return written(figure, path)

@@ -23,7 +23,9 @@ from ehlcontact.checks import (
     require_instance,
     require_integer,
 )
+from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.results.story import Told
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.statics import StaticBalls
 
@@ -35,8 +37,9 @@ BALANCED = 1e-10  # imbalance over the load that ends it
 MOST_STEPS, MOST_HALVINGS = 60, 30  # of that search
 
 
+@fields_take(cage_angle="rad")
 @dataclass(frozen=True, kw_only=True)
-class BearingMount:
+class BearingMount(Told):
     """A bearing between two degrees of freedom of the shaft and the ground, or those of a housing.
 
     Parameters
@@ -56,6 +59,10 @@ class BearingMount:
     housing: tuple[int, int] | None = None
     cage_angle: float = -pi / 2.0
 
+    def _story(self) -> list[str]:
+        on = "the ground" if self.housing is None else f"a housing at {self.housing[0]}, {self.housing[1]}"
+        return [f"{self.bearing.name or 'ball bearing'} at degrees of freedom {self.x}, {self.y}, on {on}"]
+
     def __post_init__(self) -> None:
         require_instance("bearing", self.bearing, BallBearing, "a BallBearing")
         if abs(require_finite("cage_angle", self.cage_angle)) > 2.0 * pi:
@@ -69,6 +76,7 @@ class _Names(dict[str, tuple[int, int]]):
         raise InputError("node", name, f"one of {', '.join(self)}" if self else "none: the rotor has no names")
 
 
+@fields_take(amount="kg m", phase="rad")
 @dataclass(frozen=True, kw_only=True)
 class Unbalance:
     """Mass times eccentricity [kg m] at two degrees of freedom; `phase` [rad] ahead of the shaft's angle.
@@ -95,7 +103,7 @@ class Unbalance:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class MatrixRotor:
+class MatrixRotor(Told):
     """A linear rotor on ball bearings, SI units.
 
     Parameters
@@ -125,6 +133,15 @@ class MatrixRotor:
     load: _Floats = None  # type: ignore[assignment]
     unbalances: tuple[Unbalance, ...] = ()
     nodes: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+
+    def _story(self) -> list[str]:
+        bearings = ", ".join(mount.bearing.name or "ball bearing" for mount in self.mounts)
+        amounts = ", ".join(f"{1e6 * abs(unbalance.amount):.4g}" for unbalance in self.unbalances)
+        return [
+            f"{len(self.mass)} degrees of freedom on {len(self.mounts)} bearings: {bearings}",
+            f"nodes {', '.join(self.nodes)}" if self.nodes else "nodes without names",
+            f"unbalances {amounts} g mm" if amounts else "no unbalance",
+        ]
 
     def __post_init__(self) -> None:
         size = len(np.atleast_1d(np.asarray(self.mass, float)))

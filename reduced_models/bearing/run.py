@@ -7,15 +7,17 @@ import warnings
 from dataclasses import dataclass, field
 from math import ceil
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact import Status
 from ehlcontact.checks import as_column, require_integer, require_positive
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import hdf5
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told, span
 from reduced_models.bearing.ball_bearing import RACES
 from reduced_models.bearing.balls import begin_rest, directions, films_of, press_balls, rest_balls, turning
@@ -37,7 +39,7 @@ FARTHEST = 0.05  # of a ball diameter, that a ring may go from the middle: no cl
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class BearingRun(Told):
+class BearingRun(Told, Tabled):
     """Histories of a rotor on ball bearings, SI; entry 0 is the start.
 
     Attributes
@@ -72,6 +74,23 @@ class BearingRun(Told):
     status: Status
     nodes: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 2), np.int64), metadata={"later": True})
     names: tuple[str, ...] = field(default=(), metadata={"later": True})
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="t",
+        panels=(),
+        quantities={
+            "t": ("s", "t"),
+            "speed_rpm": ("rev/min", "t"),
+            "ring": ("m", "t bearing axis"),
+            "force": ("N", "t bearing axis"),
+            "displacement": ("m, or rad where it turns", "t dof"),
+            "velocity": ("m/s, or rad/s where it turns", "t dof"),
+            "iterations": ("", "t"),
+            "largest_load": ("N", "bearing race"),
+        },
+        labels={"axis": ("x", "y"), "race": ("inner", "outer")},
+        first=0,
+    )
 
     def _story(self) -> list[str]:
         return [
@@ -145,6 +164,7 @@ class BearingRun(Told):
         return [(titles.get(pair, f"degrees of freedom {pair[0]}, {pair[1]}"), self.displacement[:, list(pair)])]
 
 
+@takes(speed_rpm="rev/min", dt="s", until="s")
 def simulate_on_bearings(
     rotor: MatrixRotor,
     *,

@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told
 from reduced_models.bearing.file import plain, write
 from reduced_models.bearing.file import read as read_entries
@@ -29,7 +30,7 @@ OF_FILMS = "h_central", "h_min", "lambda_ratio", "moment"  # arrays that a dry b
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class BearingState(Told):
+class BearingState(Told, Tabled):
     """A bearing at rest; arrays over the balls have two columns, inner and outer race.
 
     Attributes
@@ -77,6 +78,26 @@ class BearingState(Told):
     lambda_ratio: _Floats | None = None
     moment: _Floats | None = None
     rolling_torque: float | None = None
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="ball",
+        panels=(),
+        quantities={
+            "angles": ("rad", "ball"),
+            "force": ("N", "ball race"),
+            **dict.fromkeys(("approach", "h_central", "h_min"), ("m", "ball race")),
+            "lambda_ratio": ("", "ball race"),
+            "moment": ("N m", "ball race"),
+            "load": ("N", "axis"),
+            "displacement": ("m", "axis"),
+            "stiffness": ("N/m", "axis by"),
+            "speed_rpm": ("rev/min", ""),
+            "rolling_torque": ("N m", ""),
+        },
+        labels={"race": ("inner", "outer"), "axis": ("x", "y"), "by": ("x", "y")},
+        coordinates="angles",
+        first=0,
+    )
 
     def __post_init__(self) -> None:
         balls = np.asarray(self.angles).size

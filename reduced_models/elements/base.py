@@ -26,13 +26,11 @@ from ehlcontact.checks.frequency import (
 from ehlcontact.errors import InputError
 from ehlcontact.point import Point, Scales
 from reduced_models.elements.file import UNITS, naming, numbers, read_document, write_document
-from reduced_models.elements.made_for import MadeFor, known_scale
+from reduced_models.elements.made_for import MadeFor, known_scale, require_own_scales
 from reduced_models.elements.told import ToldElement
 from reduced_models.elements.validity import Band, OutsideValidityWarning, Validity
 
 UNWATCHED = (-math.inf, math.inf, math.inf, -math.inf, math.inf)  # a reach that nothing leaves
-SAME_SCALES = 1e-6  # relative; more than a rounded file or another order of the same arithmetic makes
-_SCALED_BY = ("force", "length", "time")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -151,6 +149,17 @@ class ContactElement(ToldElement, _Common, ABC):
     def copy(self) -> Self:
         """The same element with a state of its own, at rest."""
         return replace(self)
+
+    def at_rest(self, approach: float | None = None, *, load: float | None = None) -> Self:
+        """A copy at rest at an approach or under a load > 0, by default as `copy`; its states are zero."""
+        if approach is not None and load is not None:
+            raise InputError("approach and load", (approach, load), "one of the two")
+        found = self.copy()
+        if load is not None:
+            approach = self.approach_at(require_positive("load", load))
+        if approach is not None:
+            found.rest(approach)
+        return found
 
     @abstractmethod
     def _si_coefficients(self, scales: Scales) -> dict[str, Any]:
@@ -327,7 +336,7 @@ class ContactElement(ToldElement, _Common, ABC):
         require_instance("scales", scales, Scales, "the Scales of an operating point")
         if self.units == "SI":
             raise InputError("units", self.units, "dimensionless, to be taken to SI")
-        _require_own_scales(scales, self.source)
+        require_own_scales(scales, self.source)
         changes = self._si_coefficients(scales) | self.validity.to_si(scales).fields()
         source = {**(self.source or {}), "scales": asdict(scales)}  # so that it knows its unit of time
         return replace(self, **changes, units="SI", source=source)
@@ -354,8 +363,8 @@ class ContactElement(ToldElement, _Common, ABC):
         return write_document(path, self.to_dict())
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Self:
-        """Read an element of this class.
+    def read(cls, path: str | os.PathLike[str]) -> Self:
+        """Read an element of this class; `load_element` reads one of any.
 
         Raises
         ------
@@ -363,6 +372,8 @@ class ContactElement(ToldElement, _Common, ABC):
             Not a readable element file of this kind; the message names the file and what is wrong.
         """
         return cls.from_document(str(path), read_document(path))
+
+    load = read  # its name of old: that of a wide element stood beside its table ``loads``
 
     @classmethod
     def from_document(cls, name: str, document: Mapping[str, Any]) -> Self:
@@ -388,13 +399,3 @@ class ContactElement(ToldElement, _Common, ABC):
 def _watch(validity: Validity) -> dict[str, Any]:
     """What a fresh element remembers of what it has told."""
     return {"_told": set(), "_reach": validity.reach}
-
-
-def _require_own_scales(scales: Scales, source: Mapping[str, Any] | None) -> None:
-    fitted = None if source is None else source.get("scales")
-    if not isinstance(fitted, Mapping):
-        return
-    known = {name: fitted[name] for name in _SCALED_BY if isinstance(fitted.get(name), int | float)}
-    given = {name: getattr(scales, name) for name in known}
-    if any(not math.isclose(given[name], known[name], rel_tol=SAME_SCALES) for name in known):
-        raise InputError("scales", given, f"those of the point the element was fitted at: {known}")

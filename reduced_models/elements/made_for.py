@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Self
 
-from ehlcontact.point import OperatingPoint, Point, moes_point
+from ehlcontact.errors import InputError
+from ehlcontact.point import OperatingPoint, Point, Scales, moes_point
 from reduced_models.elements.validity import MARGIN
 
 UNIT = {"u_sum": " m/s", "eta0": " Pa s", "alpha": " 1/Pa"}
+SAME_SCALES = 1e-6  # relative; more than a rounded file or another order of the same arithmetic makes
 POWER = {"L": 0.25}  # of the speed, which is what a difference in L stands for
 
 
@@ -17,6 +20,15 @@ def known_scale(source: Mapping[str, Any] | None, name: str) -> float | None:
     """SI value of a unit of the point that an element was made at, where its source has it."""
     scales = (source or {}).get("scales")
     return _number(scales, name) if isinstance(scales, Mapping) else None
+
+
+def require_own_scales(scales: Scales, source: Mapping[str, Any] | None) -> None:
+    """Raise `InputError` where the source of an element knows its scales, and they are others."""
+    made_at = {name: known_scale(source, name) for name in ("force", "length", "time")}
+    known = {name: value for name, value in made_at.items() if value is not None}
+    given = {name: getattr(scales, name) for name in known}
+    if any(not math.isclose(given[name], known[name], rel_tol=SAME_SCALES) for name in known):
+        raise InputError("scales", given, f"those of the point the element was fitted at: {known}")
 
 
 @dataclass(frozen=True)

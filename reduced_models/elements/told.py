@@ -2,14 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import os
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from ehlcontact.errors import InputError
+from ehlcontact.results.layout import Layout
+from ehlcontact.results.picture import Panel, draw
 from ehlcontact.results.story import Told
 from reduced_models.elements.validity import frequency_text, text_of
 
 if TYPE_CHECKING:
     from reduced_models.elements.validity import Band, Validity
+
+
+BAND = 0.01, 30.0  # Omega of figures, of an element that knows no band
+BEYOND = 0.25  # of the interval of approach, that figures show on either side of it
+_NAMES = "T", "approach", "rate", "force", "load"
+_IN_MOES = "2a/u_sum", "delta_H", "delta_H u_sum/(2a)", "f0", "f0"
+_IN_SI = "s", "m", "m/s", "N", "N"
+
+
+def _history(units: tuple[str, ...]) -> Layout:
+    quantities = {name: (unit, "T") for name, unit in zip(_NAMES, units, strict=True)}
+    return Layout(rows="T", panels=("force load", "approach", "rate"), quantities=quantities)
+
+
+HISTORY, HISTORY_SI = _history(_IN_MOES), _history(_IN_SI)  # of one contact, in the units of its element
 
 
 class ToldElement(Told):
@@ -22,6 +43,54 @@ class ToldElement(Told):
     fit: Mapping[str, Any] | None
     parameters: Any
     state_count: Any
+    low: float
+    high: float
+    time: Any
+    spring: Any
+    impedance: Any
+
+    def __dir__(self) -> Iterable[str]:
+        """Without `load`, the name of old of `read`, which is next to nothing like the ``loads`` of a table."""
+        return [name for name in object.__dir__(self) if name != "load"]
+
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """Matplotlib figure of static force, and of K and C over frequency; into a file too where a path is given.
+
+        Beyond the interval that the element stands for, the force has another colour. An element in SI that knows
+        neither its unit of time nor its band has no frequencies to show.
+
+        Raises
+        ------
+        InputError
+            The file cannot be written.
+        """
+        reach = BEYOND * (self.high - self.low)
+        u = np.linspace(self.low - reach, self.high + reach, 301)
+        force, inside = np.asarray(self.spring(u)), (u >= self.low) & (u <= self.high)
+        units = _IN_SI if self.units == "SI" else _IN_MOES
+        lines = [
+            ("within its validity box", np.where(inside, force, np.nan), None),
+            ("beyond", np.where(inside, np.nan, force), None),
+        ]
+        panels = [Panel((u, ("mutual approach", units[1])), lines, ("static force", units[3]))]
+        return draw(f"{type(self).__name__}, {self.units}", [*panels, *self._over_frequency()], path)
+
+    def _over_frequency(self) -> list[Panel]:
+        """K and C about rest under the load that the element was made at, or at the middle of its interval."""
+        si, band = self.units == "SI", self.omega_range
+        if si and band is None and self.time is None:
+            return []
+        low, high = band or tuple(end / (self.time if si else 1.0) for end in BAND)
+        w = np.geomspace(max(low, 1e-3 * high), high, 121)
+        frequency = {"omega" if si else "Omega": w}
+        try:
+            Z = self.impedance(**frequency)
+        except InputError:  # a load that is not known
+            Z = self.impedance(load=float(self.spring(0.5 * (self.low + self.high))), **frequency)
+        x = (w / (2.0 * np.pi), ("frequency", "Hz")) if si else (w, ("angular frequency", "u_sum/(2a)"))
+        K, C = ("N/m", "N s/m") if si else ("f0/delta_H", "f0/delta_H 2a/u_sum")
+        found = ("stiffness", Z.real, K), ("damping", Z.imag / w, C)
+        return [Panel(x, [("", values, None)], (name, unit), "xy") for name, values, unit in found]
 
     def _story(self) -> list[str]:
         si = self.units == "SI"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +14,10 @@ from ehlcontact.checks import as_column, require_choice, require_finite, require
 from ehlcontact.checks.frequency import fields_by_name, renamed_keys
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Scales
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told, contact_text, span
 from reduced_models.elements.file import UNITS
+from reduced_models.elements.told import HISTORY, HISTORY_SI
 
 # Samples below which there is no history to speak of; a fit asks for more than its parameters itself.
 FEWEST_SAMPLES = 4
@@ -28,7 +30,7 @@ _HISTORIES = (*_REQUIRED, "load", "acceleration")
 
 @fields_by_name(6, omega_n="Omega_n, dimensionless")
 @dataclass(frozen=True, eq=False)
-class ContactRecord(Told):
+class ContactRecord(Told, Tabled):
     """One history of a contact, simulated or measured.
 
     Parameters
@@ -74,6 +76,11 @@ class ContactRecord(Told):
     Omega_n: float | None = None
     static_load: float | None = None
     units: str = "dimensionless"
+
+    LAYOUT: ClassVar[Layout] = HISTORY
+
+    def _layout(self) -> Layout:
+        return HISTORY_SI if self.units == "SI" else self.LAYOUT
 
     def _story(self) -> list[str]:
         kind = "" if self.motion is None else f", {self.motion.get('kind', 'a motion')}"

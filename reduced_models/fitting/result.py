@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import nan
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.results.layout import frame_of
 from ehlcontact.results.story import Told
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.memory import FilmMemoryContact
@@ -59,6 +62,28 @@ class ElementFit(Told):
         if self.rms is not None:
             told.append(f"rms error {100.0 * self.rms:.2g} % of the standard deviation of the force")
         return told
+
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """Figure of the element, as `ContactElement.plot`."""
+        return self.element.plot(path)
+
+    def to_pandas(self) -> Any:
+        """``pandas.DataFrame``, a row for each coefficient: value, and standard error and 95 % interval if known.
+
+        Raises
+        ------
+        InputError
+            pandas is not installed.
+        """
+        errors, intervals = getattr(self, "std_errors", {}), getattr(self, "intervals", {})
+        rows = []
+        for name, value in self.parameters.items():
+            for k, one in enumerate(np.ravel(value).tolist()):
+                low, high = intervals.get(name, (nan, nan))
+                row = {"value": one, "std_error": errors.get(name, nan), "low": low, "high": high}
+                rows.append({"parameter": f"{name}[{k}]" if np.ndim(value) else name, **row})
+        about = {"model": self.model, "units": self.element.units, "rms": self.rms}
+        return frame_of(rows, "parameter", about)
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the element, ready for JSON."""

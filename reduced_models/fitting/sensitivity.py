@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -9,6 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.results.layout import frame_of
+from ehlcontact.results.picture import Panel, draw
+from ehlcontact.results.story import Told
 from reduced_models.elements.polynomial import PolynomialContact
 from reduced_models.fitting.models import COLUMNS, linear_estimate
 from reduced_models.fitting.records import ContactRecord
@@ -51,7 +55,7 @@ class SensitivityRow:
 
 
 @dataclass(frozen=True, slots=True)
-class Sensitivity:
+class Sensitivity(Told):
     """Table 2 for our records; the first row is the full model.
 
     Attributes
@@ -71,6 +75,13 @@ class Sensitivity:
     independent_samples: float
     lag_one: float
 
+    def _story(self) -> list[str]:
+        told = [
+            f"terms by their weight: {', '.join(self.ranking)}",
+            f"rms error {self.rows[0].rms:.2g} of the standard deviation of the force with all of them",
+        ]
+        return [*told, *([self.warning] if self.warning else [])]
+
     @property
     def ranking(self) -> tuple[str, ...]:
         """Terms from the one whose removal does most harm (rms) to the one whose does least."""
@@ -86,6 +97,32 @@ class Sensitivity:
             f"residuals hang together (autocorrelation {self.lag_one:.2f}): AIC and BIC count "
             f"{self.independent_samples:.0f} independent samples instead of {self.samples}, and are a rough guide"
         )
+
+    def to_pandas(self) -> Any:
+        """``pandas.DataFrame``, a row for each term left out; raises `InputError` where pandas is missing."""
+        rows = [asdict(row) | {"removed": row.removed or "none"} for row in self.rows]
+        return frame_of(
+            rows, "removed", {"samples": self.samples, "independent_samples": self.independent_samples}
+        )
+
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """Matplotlib figure: error without each term; into a file too where a path is given.
+
+        Raises
+        ------
+        InputError
+            The file cannot be written.
+        """
+        names = np.array([row.removed or "none" for row in self.rows])
+        found = {
+            "fitted again": [row.rms for row in self.rows],
+            "as it was": [r.rms_without_refit for r in self.rows],
+        }
+        panels = [
+            Panel((names, "term left out"), [("", np.array(values), None)], f"rms error, the rest {how}")
+            for how, values in found.items()
+        ]
+        return draw("Sensitivity: rms error over the standard deviation of the force", panels, path)
 
     def to_dict(self) -> dict[str, Any]:
         """All numbers, ready for JSON."""

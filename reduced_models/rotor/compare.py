@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
+from math import nan
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import require_nonnegative
 from ehlcontact.errors import InputError
+from ehlcontact.results.layout import frame_of
+from ehlcontact.results.picture import Panel, draw
+from ehlcontact.results.story import Told
 from reduced_models.rotor.simulate import RotorResult
 
 _Floats = NDArray[np.float64]
@@ -49,7 +55,7 @@ class SignalDifference:
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison:
+class Comparison(Told):
     """Differences by signal: disc_x, disc_y, journal_x, journal_y, approach_i [m], force_i [N]; i from 1.
 
     Attributes
@@ -85,6 +91,36 @@ class Comparison:
     def force_vibration(self) -> float | None:
         """Largest `vibration_over_std` of the contact forces."""
         return self._worst(("force",), "vibration_over_std")
+
+    def _story(self) -> list[str]:
+        shares = {"displacements": self.displacement, "contact forces": self.force}
+        said = (f"{name} differ by {100.0 * share:.2g} %" for name, share in shares.items() if share is not None)
+        return [
+            f"{self.samples} samples from {self.t_start:.4g} to {self.t_end:.4g} s",
+            ", ".join(said) or "nothing moves",
+            "percentages: largest rms difference, of the standard deviation of the full signal",
+        ]
+
+    def to_pandas(self) -> Any:
+        """``pandas.DataFrame``, a row for each signal; raises `InputError` where pandas is not installed."""
+        rows = [{"signal": name, **asdict(one)} for name, one in self.signals.items()]
+        return frame_of(rows, "signal", {"t_start [s]": self.t_start, "t_end [s]": self.t_end})
+
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """Matplotlib figure: error of every signal that moves; into a file too where a path is given.
+
+        Raises
+        ------
+        InputError
+            The file cannot be written.
+        """
+        names = np.array(list(self.signals))
+        panels = []
+        for figure, words in (("rms_over_std", "rms error"), ("vibration_over_std", "rms error without offset")):
+            shares = (getattr(one, figure) for one in self.signals.values())
+            values = np.array([nan if share is None else share for share in shares])
+            panels.append(Panel((names, "signal"), [("", values, None)], f"{words} / standard deviation"))
+        return draw("Comparison: reduced less full", panels, path)
 
     def to_dict(self) -> dict[str, object]:
         """All figures, ready for JSON."""

@@ -27,8 +27,10 @@ from ehlcontact.checks import (
     require_nonnegative,
     require_positive,
 )
+from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, moes_point
+from ehlcontact.results.story import Told
 from reduced_models.rotor.equilibrium import StaticContacts, equilibrium
 
 _Floats = NDArray[np.float64]
@@ -37,6 +39,7 @@ DOWN = -pi / 2.0  # direction of gravity [rad]
 REACHED = 1e-9  # distance from wanted approaches, over the largest, that rounding may leave
 
 
+@fields_take(angle="rad", offset="m")
 @dataclass(frozen=True, slots=True)
 class ContactMount:
     """Where a contact sits: approach = n . q_journal + offset, n = (cos angle, sin angle).
@@ -74,7 +77,7 @@ class ContactMount:
 
 
 @dataclass(frozen=True, eq=False)
-class RotorState:
+class RotorState(Told):
     """Positions [m] and velocities [m/s] of disc and journal, each of shape (2,).
 
     Attributes
@@ -90,13 +93,25 @@ class RotorState:
     disc_velocity: _Floats
     journal_velocity: _Floats
 
+    def _story(self) -> list[str]:
+        disc, journal = (1e6 * q for q in (self.disc, self.journal))
+        fast = [1e3 * float(np.hypot(*v)) for v in (self.disc_velocity, self.journal_velocity)]
+        return [
+            f"disc at ({disc[0]:.4g}, {disc[1]:.4g}) µm, journal at ({journal[0]:.4g}, {journal[1]:.4g}) µm",
+            f"moving at {fast[0]:.4g} and {fast[1]:.4g} mm/s",
+        ]
+
     def __post_init__(self) -> None:
         for name in ("disc", "journal", "disc_velocity", "journal_velocity"):
             object.__setattr__(self, name, as_column(name, getattr(self, name), size=2))
 
 
+@fields_take(
+    disc_mass="kg", journal_mass="kg", shaft_stiffness="N/m", shaft_damping="N s/m", disc_damping="N s/m",
+    unbalance="kg m", speed_rpm="rev/min", gravity="m/s2", load="N",
+)  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
-class JeffcottRotor:
+class JeffcottRotor(Told):
     """Jeffcott rotor on contacts, after the equations at the head of this module.
 
     On ball bearings, with a disc anywhere, gyroscopic moments or housings: `rotor_on_bearings`.
@@ -142,6 +157,16 @@ class JeffcottRotor:
     load: tuple[float, float] = (0.0, 0.0)
     bearings: int = 2
     directions: str = "xy"
+
+    def _story(self) -> list[str]:
+        alone = np.sqrt(self.shaft_stiffness / self.disc_mass) / (2.0 * pi)
+        x, y = self.static_load.tolist() if self.static_load.size == 2 else (0.0, float(self.static_load[-1]))
+        return [
+            f"disc {self.disc_mass:.4g} kg, journals {self.journal_mass:.4g} kg, {self.speed_rpm:.5g} rev/min",
+            f"shaft {1e-6 * self.shaft_stiffness:.4g} N/µm: {alone:.4g} Hz on rigid bearings",
+            f"bearings: {self.bearings}, contacts in each: {len(self.mounts)}, moving in {self.directions}",
+            f"static load ({x:.4g}, {y:.4g}) N, unbalance {1e6 * self.unbalance:.4g} g mm",
+        ]
 
     def __post_init__(self) -> None:
         for name in ("disc_mass", "journal_mass", "shaft_stiffness"):

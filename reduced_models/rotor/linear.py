@@ -20,6 +20,7 @@ from scipy.interpolate import PchipInterpolator
 from ehlcontact import ImpedanceResult
 from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.results.story import Told
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
 
@@ -65,7 +66,7 @@ def film_impedance(response: ImpedanceResult) -> Impedance:
 
 
 @dataclass(frozen=True, eq=False)
-class RotorMode:
+class RotorMode(Told):
     """One damped vibration of the rotor on its contacts.
 
     Attributes
@@ -82,6 +83,12 @@ class RotorMode:
     disc: _Complex
     journal: _Complex
     contact_share: float
+
+    def _story(self) -> list[str]:
+        return [
+            f"{self.hz:.5g} Hz, logarithmic decrement {self.decrement:.4g}",
+            f"{100.0 * self.contact_share:.3g} % of the strain energy in the contacts",
+        ]
 
     @property
     def omega(self) -> float:
@@ -106,7 +113,7 @@ class RotorMode:
 
 
 @dataclass(frozen=True, eq=False)
-class LinearRotor:
+class LinearRotor(Told):
     """A rotor and the impedance of each of its contacts about rest [N/m] over omega [rad/s].
 
     Parameters
@@ -124,6 +131,9 @@ class LinearRotor:
     rotor: JeffcottRotor
     impedances: Sequence[Impedance]
     _normals: _Floats = field(init=False, repr=False)
+
+    def _story(self) -> list[str]:
+        return [f"about rest, {len(self.impedances)} contacts in each bearing", *self.rotor._story()]
 
     def __post_init__(self) -> None:
         if len(self.impedances) != len(self.rotor.mounts):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,8 +14,10 @@ from ehlcontact import Status
 from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
 from ehlcontact.checks.frequency import Frequency, by_name
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told, span
 from reduced_models.elements.base import ContactElement
+from reduced_models.elements.told import HISTORY, HISTORY_SI
 from reduced_models.elements.validity import frequency_of
 
 _Floats = NDArray[np.float64]
@@ -27,7 +29,7 @@ Load = float | ArrayLike | Callable[[float], float]
 
 
 @dataclass(frozen=True, eq=False)
-class OscillatorResult(Told):
+class OscillatorResult(Told, Tabled):
     """Histories in the units of the element, dimensionless or SI.
 
     Attributes
@@ -41,6 +43,8 @@ class OscillatorResult(Told):
     evaluations : int
         Of the equations of motion.
     status : Status
+    units : {"dimensionless", "SI"}
+        Of the element, and so of the histories.
     """
 
     T: _Floats
@@ -50,6 +54,12 @@ class OscillatorResult(Told):
     load: _Floats
     evaluations: int
     status: Status
+    units: str = "dimensionless"
+
+    LAYOUT: ClassVar[Layout] = HISTORY
+
+    def _layout(self) -> Layout:
+        return HISTORY_SI if self.units == "SI" else self.LAYOUT
 
     def _story(self) -> list[str]:
         return [
@@ -213,4 +223,4 @@ def _result(
     rate = y[1] if inertia else np.array([rates(time, y[:, i])[0] for i, time in enumerate(T)])
     states = y[2 if inertia else 1 :].T
     force = np.array([element.continuous(*at)[0] for at in zip(states, y[0], rate, strict=True)])
-    return OscillatorResult(T, y[0], rate, force, load, int(solution.nfev), status)
+    return OscillatorResult(T, y[0], rate, force, load, int(solution.nfev), status, element.units)

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import require_integer
 from ehlcontact.errors import InputError
+from ehlcontact.results.picture import Panel, draw
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.validity import OutsideValidityWarning
 from reduced_models.rotor.decay import STILL
@@ -63,6 +66,23 @@ class Settling:
     def last_change(self) -> float | None:
         """Change of the last revolution; None where there was only one."""
         return self.changes[-1] if self.changes else None
+
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """Matplotlib figure: changes over the revolutions; into a file too where a path is given.
+
+        Raises
+        ------
+        InputError
+            The file cannot be written.
+        """
+        turns = 1 + np.arange(len(self.changes))
+        lines = [
+            ("change", np.array(self.changes), None),
+            ("settled below", np.full(turns.size, self.limit), None),
+        ]
+        return draw(
+            "Settling", [Panel((turns, "revolution"), lines, "change over the revolution before", "y")], path
+        )
 
     def to_dict(self) -> dict[str, object]:
         """All of it, ready for JSON."""

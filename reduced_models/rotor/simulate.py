@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact import Status
 from ehlcontact.checks import require_integer, require_positive
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told, span
 from reduced_models.elements.validity import frequency_of
 from reduced_models.rotor.contact import Contact
@@ -23,7 +26,7 @@ RotorStatus = Status  # its public name; a run ends as converged, interrupted or
 
 
 @dataclass(frozen=True, eq=False)
-class RotorResult(Told):
+class RotorResult(Told, Tabled):
     """Histories of a rotor run in SI; entry 0 is the start.
 
     Attributes
@@ -56,6 +59,21 @@ class RotorResult(Told):
     status: Status
     rotor: JeffcottRotor
 
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="t",
+        panels=("disc", "journal", "approach", "force"),
+        quantities={
+            "t": ("s", "t"),
+            **dict.fromkeys(("disc", "journal"), ("m", "t axis")),
+            **dict.fromkeys(("disc_velocity", "journal_velocity"), ("m/s", "t axis")),
+            "approach": ("m", "t contact"),
+            "rate": ("m/s", "t contact"),
+            "force": ("N", "t contact"),
+            "iterations": ("", "t"),
+        },
+        labels={"axis": ("x", "y")},
+    )
+
     def _story(self) -> list[str]:
         swing = 1e6 * np.ptp(self.disc, axis=0)
         return [
@@ -70,6 +88,7 @@ class RotorResult(Told):
                 values.setflags(write=False)
 
 
+@takes(dt="s", until="s")
 def simulate_rotor(
     rotor: JeffcottRotor,
     contacts: Sequence[Contact],

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import as_column, require_instance
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from reduced_models.bearing.rotor import BearingMount, MatrixRotor, Unbalance
 from reduced_models.shaft.beam import matrices
@@ -20,6 +21,7 @@ LEAST_SUPPORTS = 2  # planar bearings hold no tilt
 SAME = 1e-6  # of the shaft's length: positions nearer than that are one
 
 
+@takes(gravity="m/s2")
 def rotor_on_bearings(
     shaft: Shaft,
     *,

@@ -20,7 +20,9 @@ from ehlcontact.checks import (
     require_nonnegative,
     require_positive,
 )
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
+from ehlcontact.results.story import Told, span
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.rotor import BearingMount, Unbalance
 from reduced_models.shaft.beam import Piece
@@ -40,8 +42,9 @@ def _metres(field: str, value: float, largest: float) -> float:
     return float(value)
 
 
+@fields_take(length="m", diameter="m", bore="m", youngs_modulus="Pa", density="kg/m3", damping_time="s")
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Shaft:
+class Shaft(Told):
     """A round shaft, of one section or several from left to right, bending and shearing as a Timoshenko beam.
 
     Parameters
@@ -75,6 +78,17 @@ class Shaft:
     damping_time: float = 0.0
     elements: int = 8
 
+    def _story(self) -> list[str]:
+        sections = f"{self.length.size} sections" if self.length.size > 1 else "one section"
+        hollow = f", bore {span(self.bore, 1e3, 'mm')}" if self.bore.any() else ""
+        beam = "Timoshenko" if self.shear else "Euler and Bernoulli"
+        area = 0.25 * pi * (self.diameter**2 - self.bore**2)
+        weighs = f"{self.density * float(np.sum(area * self.length)):.4g} kg" if self.density else "without mass"
+        return [
+            f"{1e3 * self.end:.5g} mm long in {sections}, diameter {span(self.diameter, 1e3, 'mm')}{hollow}",
+            f"{1e-9 * self.youngs_modulus:.4g} GPa, {weighs}, beam of {beam} in {self.elements} pieces or more",
+        ]
+
     def __post_init__(self) -> None:
         lengths = as_column("length", np.atleast_1d(np.asarray(self.length, float)))
         for name in ("length", "diameter", "bore"):
@@ -99,6 +113,7 @@ class Shaft:
         require_integer("elements", self.elements, "a whole number >= 1", 1)
 
     @classmethod
+    @takes(stiffness="N/m", span="m", damping="N s/m")
     def jeffcott(cls, stiffness: float, span: float, *, damping: float = 0.0) -> Self:
         """Shaft without mass that only bends, as stiff in the middle between bearings at its ends as is asked.
 
@@ -131,8 +146,12 @@ class Shaft:
         ]
 
 
+@fields_take(
+    position="m", mass="kg", diametral_inertia="kg m2", polar_inertia="kg m2", unbalance="kg m", phase="rad",
+    damping="N s/m", load="N",
+)  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
-class Disc:
+class Disc(Told):
     """A rigid disc on the shaft.
 
     Parameters
@@ -160,6 +179,14 @@ class Disc:
     damping: float = 0.0
     load: tuple[float, float] = (0.0, 0.0)
 
+    def _story(self) -> list[str]:
+        turns = f"inertias {self.diametral_inertia:.4g} and {self.polar_inertia:.4g} kg m2"
+        body = turns if self.diametral_inertia else "a point"
+        return [
+            f"{self.mass:.4g} kg at {1e3 * self.position:.5g} mm, {body}",
+            f"unbalance {1e6 * self.unbalance:.4g} g mm, load ({self.load[0]:.4g}, {self.load[1]:.4g}) N",
+        ]
+
     def __post_init__(self) -> None:
         require_finite("position", self.position)
         require_positive("mass", self.mass)
@@ -174,6 +201,7 @@ class Disc:
         object.__setattr__(self, "load", tuple(as_column("load", self.load, size=2).tolist()))
 
     @classmethod
+    @takes(position="m", diameter="m", width="m", bore="m", density="kg/m3")
     def cylinder(
         cls,
         *,
@@ -205,8 +233,12 @@ class Disc:
         return cls(position=position, mass=mass, diametral_inertia=across, polar_inertia=polar, **others)
 
 
+@fields_take(
+    position="m", cage_angle="rad", journal_mass="kg", housing_mass="kg", housing_stiffness="N/m",
+    housing_damping="N s/m",
+)  # fmt: skip
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Support:
+class Support(Told):
     """A ball bearing under the shaft, on the ground or in a housing on springs.
 
     Parameters
@@ -231,6 +263,13 @@ class Support:
     housing_mass: float | None = None
     housing_stiffness: Any = None
     housing_damping: Any = 0.0
+
+    def _story(self) -> list[str]:
+        told = [f"{self.bearing.name or 'ball bearing'} at {1e3 * self.position:.5g} mm"]
+        if self.housing_mass is None:
+            return [f"{told[0]}, on the ground"]
+        springs = span(self.housing_stiffness, 1e-6, "N/µm")
+        return [*told, f"in a housing of {self.housing_mass:.4g} kg on springs of {springs}"]
 
     def __post_init__(self) -> None:
         require_finite("position", self.position)

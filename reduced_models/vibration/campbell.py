@@ -6,15 +6,17 @@ import os
 from dataclasses import dataclass
 from math import pi
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
 from ehlcontact.checks import as_column, require_integer, require_positive
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import hdf5
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told, span
 from reduced_models.bearing.rotor import MatrixRotor
 from reduced_models.vibration.linearised import SHOWN, linearise
@@ -51,7 +53,7 @@ class CriticalSpeed:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Campbell(Told):
+class Campbell(Told, Tabled):
     """Modes over the speed of the shaft; a column of an array is one mode, followed from speed to speed.
 
     Attributes
@@ -68,6 +70,20 @@ class Campbell(Told):
     omega: _Floats
     growth: _Floats
     whirl: _Floats
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="speed_rpm",
+        panels=(),
+        quantities={
+            "speed_rpm": ("rev/min", "speed_rpm"),
+            "omega": ("rad/s", "speed_rpm mode"),
+            "hz": ("Hz", "speed_rpm mode"),
+            "growth": ("1/s", "speed_rpm mode"),
+            "decrement": ("", "speed_rpm mode"),
+            "whirl": ("", "speed_rpm mode"),
+        },
+        first=0,
+    )
 
     def _story(self) -> list[str]:
         told = [
@@ -140,6 +156,7 @@ class Campbell(Told):
         return diagram
 
 
+@takes(speeds_rpm="rev/min")
 def campbell(rotor: MatrixRotor, speeds_rpm: ArrayLike, *, count: int = SHOWN, passage: bool = True) -> Campbell:
     """Modes of a rotor on ball bearings at increasing speeds.
 

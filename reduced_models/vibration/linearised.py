@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_instance, require_integer, require_nonnegative
 from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.results.story import Told
 from reduced_models.bearing.kinematics import RADIANS
@@ -200,6 +201,7 @@ class LinearisedRotor(Told):
         raise ConvergenceError(f"mode near {s.imag / (2.0 * np.pi):.4g} Hz not found", None)
 
 
+@takes(speed_rpm="rev/min")
 def linearise(rotor: MatrixRotor, speed_rpm: float, *, passage: bool = True) -> LinearisedRotor:
     """Linearise a rotor on ball bearings about rest under its load.
 

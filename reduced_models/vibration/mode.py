@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from scipy import linalg
 
 from ehlcontact.errors import ConvergenceError
+from ehlcontact.results.story import Told
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -34,7 +35,7 @@ NO_OSCILLATION = 1e-7  # of the fastest mode: below, a frequency is the rounding
 
 
 @dataclass(frozen=True, eq=False)
-class WhirlMode:
+class WhirlMode(Told):
     """One damped vibration of a rotor.
 
     Attributes
@@ -51,6 +52,9 @@ class WhirlMode:
     eigenvalue: complex
     shape: _Complex
     whirl: float
+
+    def _story(self) -> list[str]:
+        return [f"{self.hz:.5g} Hz, logarithmic decrement {self.decrement:.4g}, whirl {self.whirl:.3g}"]
 
     @property
     def omega(self) -> float:

@@ -5,14 +5,16 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.files import hdf5
+from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told, span
 from reduced_models.bearing.rotor import MatrixRotor
 from reduced_models.vibration.linearised import linearise
@@ -22,7 +24,7 @@ _Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class UnbalanceResponse(Told):
+class UnbalanceResponse(Told, Tabled):
     """Amplitudes over the speed, about rest: q(t) = cosine cos(w t) + sine sin(w t), the shaft's angle being w t.
 
     They are linear in the unbalance, however large; what a ring does that moves as far as its balls are pressed in
@@ -45,6 +47,18 @@ class UnbalanceResponse(Told):
     sine: _Floats
     nodes: NDArray[np.int64]
     names: tuple[str, ...] = field(default=(), metadata={"later": True})
+
+    LAYOUT: ClassVar[Layout] = Layout(
+        rows="speed_rpm",
+        panels=(),
+        quantities={
+            "speed_rpm": ("rev/min", "speed_rpm"),
+            "major": ("m", "speed_rpm node"),
+            "cosine": ("m, or rad where it turns", "speed_rpm dof"),
+            "sine": ("m, or rad where it turns", "speed_rpm dof"),
+        },
+        first=0,
+    )
 
     def _story(self) -> list[str]:
         largest = np.unravel_index(int(np.argmax(self.major)), self.major.shape)
@@ -97,6 +111,7 @@ class UnbalanceResponse(Told):
         return response
 
 
+@takes(speeds_rpm="rev/min")
 def unbalance_response(rotor: MatrixRotor, speeds_rpm: ArrayLike, *, passage: bool = True) -> UnbalanceResponse:
     """Steady response of a rotor on ball bearings to its unbalances, at increasing speeds, films those of each.
 

@@ -260,7 +260,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "ehlcontact.steady": ("steady", "fallbacks", "transient"),
     "ehlcontact.status": ("steady", "fallbacks", "transient", "full_contact"),
     "ehlcontact.film_wave": ("wave",),
-    "ehlcontact.film": ("wave",),
+    "ehlcontact.film.waves": ("wave",),
     "ehlcontact.impedance": ("impedances",),
     "ehlcontact.solver": ("steady", "fallbacks", "transient"),
     "ehlcontact.solver.accuracy": ("accuracy",),

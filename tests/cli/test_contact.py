@@ -8,8 +8,8 @@ from ehlcontact import Lubricant, OperatingPoint, SimulationResult, impedance, l
 from ehlcontact.cli.contact import Contact
 from ehlcontact.cli.oils import oil_grade
 from ehlcontact.errors import InputError
+from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant.oil import GRADES
-from ehlcontact.point import most_loaded_ball
 from reduced_models import Atlas, BallBearing, load_element
 
 GIVEN = {"--bearing": "6205", "--oil": "ISO VG 68", "--temp": "60", "--rpm": "3000", "--load": "100"}

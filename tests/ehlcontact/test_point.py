@@ -8,9 +8,9 @@ import pytest
 
 from ehlcontact import Geometry, InputError, Lubricant, MoesPoint, OperatingPoint
 from ehlcontact.formulas import nvm_central_film
-from ehlcontact.hertz import elliptic_integrals, shape_factor
+from ehlcontact.hertz import elliptic_integrals, most_loaded_ball, shape_factor
 from ehlcontact.lubricant import density, log_viscosity
-from ehlcontact.point import moes_point, most_loaded_ball, scales_of
+from ehlcontact.point import moes_point, scales_of
 
 NAN, INF = float("nan"), float("inf")
 BAD_POSITIVE = [0.0, -1.0, NAN, INF, True, None, "two", [1.0, 2.0], 1j]

@@ -15,9 +15,10 @@ from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.study.slips import ROTOR, broken_line, first_error, in_other_kind, inputs_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import read_text
+from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.origin import __version__
-from ehlcontact.point import OperatingPoint, most_loaded_ball, require_solvable
+from ehlcontact.point import OperatingPoint, require_solvable
 from ehlcontact.solver.domain import Domain
 from ehlcontact.transient.motion import FASTEST, SLOWEST, FreeVibration, HarmonicLoad
 from reduced_models.bearing.catalogue import catalogue_row

@@ -19,7 +19,7 @@ from ehlcontact import (
     mesh_for,
     solve_steady,
 )
-from ehlcontact.point import most_loaded_ball
+from ehlcontact.hertz import most_loaded_ball
 from reduced_models import Atlas, load_element
 from reduced_models.atlas.atlas import MODELS, SHIPPED
 from reduced_models.atlas.build import BOX, INTERPOLATION, assemble

@@ -326,3 +326,68 @@ def test_bad_coefficients_and_forces_are_named(element):
     for bad in (0.0, -1.0, math.nan, "x"):
         with pytest.raises(InputError, match="force"):
             element.approach_at(bad)
+
+
+def one_loop(contact, dt, u, v):
+    """What a user writes once, whatever the element: forces along a motion, and rates of the states at rest."""
+    at = contact.at_rest(u[0])
+    forces = [at.advance(dt, float(a), float(b)) for a, b in zip(u, v, strict=True)]
+    still, rates = at.state_rates(np.zeros(at.state_count), float(u[0]), 0.0)
+    return at, np.array(forces), still, rates
+
+
+def test_one_loop_serves_every_kind(asked):
+    element = asked.element
+    T = np.linspace(0.0, 1.0, 21)
+    u = (0.87 + 0.01 * np.sin(3.0 * T)) * asked.length
+    v = 0.03 * np.cos(3.0 * T) * asked.length / asked.time
+    before = element.save_state()
+    moved, forces, still, rates = one_loop(element, T[1] * asked.time, u, v)
+    assert type(moved) is type(element) and moved is not element
+    assert np.array_equal(element.save_state(), before)  # its own state stayed
+    assert np.all(forces > 0.0) and np.ptp(forces) > 0.01 * forces.mean()
+    assert still == pytest.approx(element.spring(float(u[0])), rel=1e-12)
+    assert rates.shape == (element.state_count,) and np.all(rates == 0.0)
+    assert (element.state_count > 0) == (not isinstance(element, MemorylessContact))
+    if isinstance(element, MemorylessContact):  # what they have besides, at any place and rate
+        assert np.array_equal(forces, element.force(u, v))
+        for ask in (element.stiffness, element.damping):
+            assert ask(u, v).shape == u.shape
+
+
+def test_at_rest_by_place_or_by_load(asked):
+    element, load = asked.element, 0.9 * asked.force
+    place = element.approach_at(load)
+    by_load, by_place = element.at_rest(load=load), element.at_rest(place)
+    assert np.array_equal(by_load.save_state(), by_place.save_state())
+    still = 1e-9 * asked.time
+    assert by_load.advance(still, place, 0.0) == pytest.approx(load, rel=1e-9)
+    assert element.at_rest().save_state() is None or np.array_equal(
+        element.at_rest().save_state(), element.copy().save_state()
+    )
+    with pytest.raises(InputError, match=r"^approach and load = "):
+        element.at_rest(place, load=load)
+    with pytest.raises(InputError, match=r"^load = "):
+        element.at_rest(load=0.0)
+
+
+def test_read_and_its_name_of_old(element, tmp_path):
+    """`load` reads a file as ever; at the prompt it no longer stands beside the table `loads`."""
+    path = element.save(tmp_path / "element.json")
+    assert type(element).read(path) == type(element).load(path) == element
+    assert "read" in dir(element) and "load" not in dir(element)
+    assert ("loads" in dir(element)) == isinstance(element, WideRangeContact)
+
+
+def test_figure_of_every_kind(asked, tmp_path):
+    """Force over the approach, K and C over frequency, with the units of the element."""
+    figure = asked.element.plot(tmp_path / "element.png")
+    units = ["[µm]", "[Hz]", "[Hz]"] if asked.force != 1.0 else ["[delta_H]", "[u_sum/(2a)]", "[u_sum/(2a)]"]
+    assert [axes.get_xlabel().split()[-1] for axes in figure.axes] == units
+    force = figure.axes[0].lines[0].get_xydata()
+    inside = force[np.isfinite(force[:, 1])]
+    low, high = asked.element.low, asked.element.high
+    factor = 1e6 if asked.force != 1.0 else 1.0
+    assert low * factor <= inside[:, 0].min() and inside[:, 0].max() <= high * factor
+    assert inside[5, 1] == pytest.approx(asked.element.spring(inside[5, 0] / factor), rel=1e-9)
+    assert (tmp_path / "element.png").stat().st_size > 5000

@@ -1,0 +1,32 @@
+"""The film as a tribologist looks at it: what a rig would show of a `SteadyResult`, or of a run's snapshots.
+
+========= =====================================================================================
+module    responsibility
+========= =====================================================================================
+``plane`` one instant: `film_of` the whole plane, mid-planes, horseshoe, `interferogram`
+``waves`` over time: `film_history`; `film_wave`, what the surfaces carry, and `track_wave`
+========= =====================================================================================
+"""
+
+from ehlcontact.film.plane import Constriction, Film, Interferogram, Profile, film_of, interferogram
+from ehlcontact.film.waves import FilmHistory, FilmWave, WaveTrack, film_history, film_wave, track_wave
+
+__all__ = [
+    "Constriction",
+    "Film",
+    "FilmHistory",
+    "FilmWave",
+    "Interferogram",
+    "Profile",
+    "WaveTrack",
+    "film_history",
+    "film_of",
+    "film_wave",
+    "interferogram",
+    "track_wave",
+]
+
+
+def __dir__() -> list[str]:
+    """Public names, without the rooms that they are in."""
+    return sorted(__all__)
