@@ -297,6 +297,7 @@ def test_a_second_ctrl_c_waits_for_no_worker(monkeypatch, tmp_path):
         raise ValueError("ours")
 
     monkeypatch.setattr("queue.Queue.get", broken)
+    monkeypatch.setattr(runner, "PATIENCE", 0.5)  # nobody presses again: they are killed when it ends
     (tmp_path / "pids").unlink()
     with pytest.raises(ValueError, match="ours"):
         runner.run_stages(load_study(file), file, tmp_path, 2)
