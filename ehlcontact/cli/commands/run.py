@@ -90,13 +90,16 @@ def _compute(study: Study, copy: Path, folder: Path, share: tuple[int, int], jso
         write_json({"status": "not converged", "stages": ledger}, json_to)
         raise typer.Exit(FAILED)
 
+    from ehlcontact.cli.progress import progress
     from ehlcontact.cli.study.report import write_report
     from ehlcontact.cli.study.results import evaluate
 
-    found = evaluate(study, folder, ledger)
+    with progress("elements, their rotors and FMUs"):
+        found = evaluate(study, folder, ledger)
     write_json(found.to_dict(), str(folder / "results.json"), "file")
     write_json(found.to_dict(), json_to)
-    report = write_report(found, folder / "report.html")
+    with progress("report"):
+        report = write_report(found, folder / "report.html")
     say(f"{found.answer}\nreport: {report}", json_to)
     missing = [entry for entry in found.fmus if not entry["passes"]]
     for entry in missing:

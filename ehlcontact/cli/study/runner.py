@@ -195,6 +195,8 @@ def run_stages(
                 worker, event = events.get()
                 if event is None:
                     end(worker)
+                elif "compiling" in event:
+                    shown.compiling(tasks[worker.stage.name])
                 else:
                     shown.update(tasks[worker.stage.name], event["done"], event["total"])
         except BaseException:

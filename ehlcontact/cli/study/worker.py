@@ -1,7 +1,7 @@
 """One stage in a process of its own: ``python -m ehlcontact.cli.study.worker STUDY.toml FOLDER STAGE``.
 
-Events go to stdout as lines of JSON: ``{"done": k, "total": n}`` and, last, ``{"status": ..., "message": ...,
-"seconds": ...}``. Interrupt it with SIGINT; it saves what it has.
+Events go to stdout as lines of JSON: ``{"done": k, "total": n}``, ``{"compiling": true}`` and, last, ``{"status":
+..., "message": ..., "seconds": ...}``. Interrupt it with SIGINT; it saves what it has.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from pathlib import Path
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import Outcome, stage_named
 from ehlcontact.errors import InputError
+from ehlcontact.jit import compilation_told
 from ehlcontact.process.workers import end_when, stdin_closed
 from ehlcontact.status import Status
 
@@ -26,21 +27,25 @@ def work(study_file: Path, folder: Path, name: str) -> None:
     end_when(stdin_closed)  # the runner holds the other end, and is gone then
     # A parent in the background may have left the signal ignored.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    started, last = time.perf_counter(), 0.0
+    started = time.perf_counter()
+    last = {"update": 0.0, "compiling": 0.0}
 
     def emit(**event: object) -> None:
         sys.stdout.write(json.dumps(event) + "\n")
         sys.stdout.flush()
 
-    def update(done: float, total: float) -> None:
-        nonlocal last
+    def seldom(kind: str, **event: object) -> None:
         now = time.perf_counter()
-        if now - last > SPACING:
-            last = now
-            emit(done=done, total=total)
+        if now - last[kind] > SPACING:
+            last[kind] = now
+            emit(**event)
+
+    def update(done: float, total: float) -> None:
+        seldom("update", done=done, total=total)
 
     try:
-        outcome = stage_named(name).run(load_study(study_file), folder, update)
+        with compilation_told(lambda: seldom("compiling", compiling=True)):
+            outcome = stage_named(name).run(load_study(study_file), folder, update)
     except InputError as error:
         outcome = Outcome(Status.FAILED, str(error))
     emit(**outcome._asdict(), seconds=time.perf_counter() - started)
