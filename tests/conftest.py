@@ -1,7 +1,7 @@
 """What several test folders share: every steady film is solved once per session; and disks that are full.
 
-``pytest`` alone shares the suite among the cores, where pytest-xdist is there; files or tests that are named and slow
-ones, which take all cores themselves, stay in one process, and so does everything with ``-n 0`` or a debugger.
+``pytest`` alone shares the suite among the cores, where pytest-xdist is there. Files or tests that are named, and
+slow ones, which take all cores themselves, stay in one process; so does all with ``-n 0`` or a debugger.
 """
 
 import os
@@ -76,6 +76,8 @@ def no_room(monkeypatch):
 @pytest.fixture(scope="session", autouse=True)
 def own_cache(tmp_path_factory):
     """Libraries of FMUs are compiled by the tests, not found in the user's cache."""
+    base = tmp_path_factory.getbasetemp()
+    shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base  # what one worker compiled, all have
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("EHLCONTACT_CACHE", str(tmp_path_factory.mktemp("cache")))
+        patch.setenv("EHLCONTACT_CACHE", str(shared / "compiled"))
         yield
