@@ -3,10 +3,15 @@
 Not ``fastmath=True``: it would fold away the tests for NaN and infinity that the drivers rely on.
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from typing import Any
 
 from numba import njit
+from numba.core import event
 
 # Elements: no fused multiply-adds, for the same force must come out whatever a kernel was inlined into (and in C).
 jit_exact: Any = partial(njit, cache=True, error_model="numpy")
@@ -16,3 +21,21 @@ jit_node: Any = partial(jit, forceinline=True)  # for one node: a call with a do
 # that is handed a dozen arrays in tuples: such a kernel must not make arrays.
 jit_exact_node: Any = partial(jit_exact, forceinline=True, _nrt=False)
 jit_exact_loop: Any = partial(jit_exact, _nrt=False)  # the same for a loop over such
+
+
+class _Compilation(event.Listener):
+    def __init__(self, tell: Callable[[], None]) -> None:
+        self._tell = tell
+
+    def on_start(self, event: Any) -> None:
+        self._tell()
+
+    def on_end(self, event: Any) -> None:
+        pass
+
+
+@contextmanager
+def compilation_told(tell: Callable[[], None]) -> Iterator[None]:
+    """Call `tell` whenever a kernel begins to be compiled: one that is found compiled on disk is not told."""
+    with event.install_listener("numba:compile", _Compilation(tell)):
+        yield

@@ -1,4 +1,8 @@
-"""What several test folders share: every steady film is solved once per session; and disks that are full."""
+"""What several test folders share: every steady film is solved once per session; and disks that are full.
+
+``pytest`` alone shares the suite among the cores, where pytest-xdist is there. Files or tests that are named, and
+slow ones, which take all cores themselves, stay in one process; so does all with ``-n 0`` or a debugger.
+"""
 
 import os
 import signal
@@ -8,11 +12,25 @@ from functools import cache
 import pytest
 
 from ehlcontact import MoesPoint, solve_steady
+from ehlcontact.process.threads import cores
 
 # A shell starts what runs in the background with Ctrl-C ignored, and that is inherited: the programs under test,
 # which are interrupted here, would not notice.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_cmdline_main(config):
+    """Before pytest-xdist looks at its options."""
+    option = config.option
+    default = config.args_source is pytest.Config.ArgsSource.TESTPATHS and option.markexpr == "not slow"
+    asked = getattr(option, "numprocesses", 0) is not None or option.usepdb or option.collectonly
+    if not default or asked or hasattr(config, "workerinput"):
+        return
+    if option.dist == "no" and cores() > 1:
+        option.numprocesses, option.dist = cores(), "worksteal"  # whole runs of files: few fixtures are made twice
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # a solve has as many threads, and the cores are taken
 
 
 @cache
@@ -58,6 +76,8 @@ def no_room(monkeypatch):
 @pytest.fixture(scope="session", autouse=True)
 def own_cache(tmp_path_factory):
     """Libraries of FMUs are compiled by the tests, not found in the user's cache."""
+    base = tmp_path_factory.getbasetemp()
+    shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base  # what one worker compiled, all have
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("EHLCONTACT_CACHE", str(tmp_path_factory.mktemp("cache")))
+        patch.setenv("EHLCONTACT_CACHE", str(shared / "compiled"))
         yield

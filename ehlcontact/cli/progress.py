@@ -21,6 +21,7 @@ SPACING = 10.0  # seconds between lines, at least: what is done sooner needs non
 SHARE = 0.1  # of the work after which there is a line,
 SILENCE = 60.0  # and seconds after which there is one all the same
 TICK = 0.5  # seconds between looks at the clock
+COMPILING = "compiling, which later runs need not"
 
 
 class Progressing(Protocol):
@@ -34,6 +35,9 @@ class Progressing(Protocol):
 
     def update(self, task: Any, done: float, total: float | None, note: str = "") -> None:
         """Say how far it is."""
+
+    def compiling(self, task: Any) -> None:
+        """Say that kernels are compiled for it, until the next update."""
 
     def end(self, task: Any, line: str = "") -> None:
         """Take it off, with a last line."""
@@ -64,6 +68,10 @@ class Bars:
         """Move its bar."""
         self._bars.update(task, completed=done, total=total, note=note)
 
+    def compiling(self, task: Any) -> None:
+        """Note it beside the bar."""
+        self._bars.update(task, note=COMPILING)
+
     def end(self, task: Any, line: str = "") -> None:
         """Take its bar off."""
         self._bars.remove_task(task)
@@ -90,6 +98,7 @@ class Task:
     first: tuple[float, float] | None = None  # time and share of the first news: a run may go on from a file
     share: float | None = None  # None where the end is not known
     note: str = ""
+    compiling: bool = False  # since the last news
 
     def due(self, now: float) -> bool:
         """Whether it is time for a line."""
@@ -103,8 +112,8 @@ class Task:
     def line(self, now: float) -> str:
         """What to say now."""
         self.told, self.lines = now, self.lines + 1
-        if self.share is None:
-            said = [f"{duration(now - (self.begun or now))} so far", self.note]
+        if self.share is None or self.compiling:
+            said = [f"{duration(now - (self.begun or now))} so far", COMPILING if self.compiling else self.note]
             return f"{self.description}: {', '.join(filter(None, said))}"
         self.told_share = self.share
         first, share = self.first or (now, self.share)
@@ -139,9 +148,13 @@ class Lines:
     def update(self, task: Task, done: float, total: float | None, note: str = "") -> None:
         """Keep the news until a line is due."""
         with self._lock:
-            task.note, task.share = note, done / total if total else None
+            task.note, task.share, task.compiling = note, done / total if total else None, False
             if task.first is None and task.share is not None:
                 task.first, task.told_share = (time.monotonic(), task.share), task.share
+
+    def compiling(self, task: Task) -> None:
+        """Keep it for a line that is due meanwhile."""
+        task.compiling = True
 
     def end(self, task: Task, line: str = "") -> None:
         """Say the last line."""
@@ -179,14 +192,17 @@ def progressing() -> Progressing:
 
 @contextmanager
 def progress(description: str) -> Iterator[Any]:
-    """Show one task on stderr; yields ``update(done, total, note="")``."""
+    """Show one task on stderr, and whether it is compiling; yields ``update(done, total, note="")``."""
+    from ehlcontact.jit import compilation_told
+
     with progressing() as shown:
         task = shown.add(spelled(description, sys.stderr))
 
         def update(done: float, total: float | None, note: str = "") -> None:
             shown.update(task, done, total, note)
 
-        yield update
+        with compilation_told(lambda: shown.compiling(task)):
+            yield update
 
 
 def duration(seconds: float) -> str:

@@ -37,7 +37,8 @@ from ehlcontact.solver.level import Array, Level
 Mask = NDArray[np.bool_]
 Offsets = Sequence[tuple[int, int]]
 
-NEIGHBOUR_OFFSETS: Offsets = [(j - 2, i - 2) for j, i in (neighbour(q, 2, 2) for q in range(NEIGHBOURS))]
+# In plain Python: a first call of anything compiled takes a third of a second, and this is imported everywhere.
+NEIGHBOUR_OFFSETS: Offsets = [(j - 2, i - 2) for j, i in (neighbour.py_func(q, 2, 2) for q in range(NEIGHBOURS))]
 KRYLOV_VECTORS = 20
 KRYLOV_RESTARTS = 3
 REACH = 1  # of the near coefficients; 2 saves few iterations and doubles the time of the factors

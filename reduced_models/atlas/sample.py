@@ -13,7 +13,6 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import qmc
 
 from ehlcontact.formulas import load_number
 from ehlcontact.point import MoesPoint
@@ -73,6 +72,8 @@ def sample_points(draws: int, light_draws: int, seed: int, box: Box = SAMPLED) -
 
 def _drawn(which: _Set, seed: int, box: Box) -> Iterator[MoesPoint]:
     """All draws of a set."""
+    from scipy.stats import qmc  # of all that is imported here it takes longest
+
     # Sobol sequences are balanced by powers of 2, but any beginning will do here.
     found = qmc.Sobol(3, seed=seed).random_base2(math.ceil(math.log2(max(which.draws, 1))))[: which.draws]
     for u, v, w in np.clip(found * (1.0 + 2.0 * OVERSHOOT) - OVERSHOOT, 0.0, 1.0).tolist():

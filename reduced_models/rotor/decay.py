@@ -8,7 +8,8 @@ from math import pi
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import optimize, stats
+from scipy import optimize
+from scipy.special import stdtrit
 
 from ehlcontact.checks import as_column, require_positive
 from ehlcontact.errors import InputError
@@ -135,4 +136,4 @@ def _half_width(found: optimize.OptimizeResult, samples: int) -> float:
     r = float(residual[1:] @ residual[:-1]) / energy if energy > 0.0 else 0.0
     fewer = (1.0 + max(r, 0.0)) / max(1.0 - r, 1e-3)
     variance = energy / freedom * float(covariance[0, 0]) * fewer
-    return float(stats.t.ppf(0.975, max(freedom / fewer, 1.0))) * float(np.sqrt(variance))
+    return float(stdtrit(max(freedom / fewer, 1.0), 0.975)) * float(np.sqrt(variance))

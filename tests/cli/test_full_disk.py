@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tiny_study import STUDY
 
 from ehlcontact import InputError, load
 from ehlcontact.cli.study.rotor import FORMAT, HISTORIES
@@ -44,9 +45,11 @@ def test_results_on_a_disk_of_16_kb(full_disk, point, option):
     assert not (full_disk / name).exists()
 
 
-def test_a_study_on_a_disk_of_16_kb(full_disk):
+def test_a_study_on_a_disk_of_16_kb(full_disk, tmp_path):
     """The stages run in other processes, and none is left behind."""
-    found = program("run", SMALL, "-o", full_disk / "out", "--jobs", "1")
+    study = tmp_path / "tiny.toml"
+    study.write_text(STUDY)
+    found = program("run", study, "-o", full_disk / "out", "--jobs", "1")
     assert found.returncode == 2 and found.stdout == ""
     (line,) = [line for line in found.stderr.splitlines() if line.startswith("ehlcontact: ")]  # beside progress
     assert "Traceback" not in found.stderr

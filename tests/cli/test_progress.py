@@ -1,9 +1,13 @@
 """Progress where stderr is no terminal: now and then a line, with the time left."""
 
+import io
+
 import pytest
+from numba import njit
+from rich.console import Console
 
 from ehlcontact.cli import progress
-from ehlcontact.cli.progress import Lines, Task, duration
+from ehlcontact.cli.progress import COMPILING, Bars, Lines, Task, duration
 
 TELL = Lines.tell  # before the fixture of this folder takes it away
 
@@ -108,6 +112,47 @@ def test_the_thread_speaks_by_itself_and_ends(monkeypatch, capsys):
         while not (said := capsys.readouterr().err):
             pass
     assert said.startswith("film: ") and not thread.is_alive()
+
+
+def test_what_is_compiled_is_told_until_there_is_news(clock, capsys):
+    lines = Lines()
+    task = lines.add("film")
+    lines.compiling(task)
+    clock(lines, 10.0)
+    lines.update(task, 1, 10)
+    clock(lines, 10.0)
+    for share in (3, 5):
+        lines.update(task, share, 10)
+        clock(lines, 10.0)
+        lines.compiling(task)
+    clock(lines, 60.0)
+    assert capsys.readouterr().err.splitlines() == [
+        f"film: 10 s so far, {COMPILING}",
+        "film: 30 %, about 70 s left",
+        "film: 50 %, about 38 s left",
+        f"film: 2 min so far, {COMPILING}",
+    ]
+
+
+def test_only_what_was_not_compiled_yet_is_told(monkeypatch):
+    kernel, told = njit(lambda x: x + 1.0), []
+    monkeypatch.setattr(Lines, "compiling", lambda self, task: told.append(task.description))
+    for _ in range(2):
+        with progress.progress("film"):
+            assert kernel(1.0) == 2.0
+    assert told == ["film"]
+    kernel(1)  # compiled for whole numbers, when nobody asks
+    assert told == ["film"]
+
+
+def test_bars_show_it_at_once():
+    bars = Bars(Console(file=io.StringIO()))
+    task = bars.add("film")
+    (shown,) = bars._bars.tasks
+    bars.compiling(task)
+    assert shown.fields["note"] == COMPILING
+    bars.update(task, 1, 4, "cycle 1")
+    assert shown.fields["note"] == "cycle 1"
 
 
 def test_durations():

@@ -25,6 +25,7 @@ from ehlcontact.cli.output import (
     write_json,
     write_to,
 )
+from ehlcontact.cli.progress import progress
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
@@ -142,7 +143,7 @@ def bearing(
         grade = oil_grade(oil, "--oil")
     options = {"--load": load, "--speed": speed or None, "--grade": grade, "--temperature": temperature}
     job = load_job(source, options | {"--clearance": clearance, "--rq": rq})
-    with job.called():
+    with progress("bearing"), job.called():
         report = _computed(job)
 
     def draw(path: Path) -> None:

@@ -14,7 +14,6 @@ from ehlcontact.cli.contact import Contact, frequency
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.errors import InputError
-from reduced_models.elements.validity import MARGIN, frequency_text, text_of
 
 if TYPE_CHECKING:
     from reduced_models import AtlasAnswer
@@ -119,6 +118,8 @@ def _in_si(answer: AtlasAnswer, rpm: float) -> list[tuple[str, str, str]]:
 
 def _damper(made: Any) -> list[tuple[str, str, str]]:
     """The one damping of a cubic, and the band it is for."""
+    from reduced_models.elements.validity import MARGIN, frequency_text
+
     if not hasattr(made, "C1"):
         return []
     damper = f"{numeral(made.C1)} N s/m" if made.units == "SI" else f"{made.C1:.5f}"
@@ -127,6 +128,8 @@ def _damper(made: Any) -> list[tuple[str, str, str]]:
 
 def _valid(made: Any) -> list[tuple[str, str, str]]:
     """Where it holds."""
+    from reduced_models.elements.validity import text_of
+
     si = made.units == "SI"
     load = "" if made.load_range is None else f"load {text_of(made.load_range)}{' N' if si else ''}"
     ends = [f"{numeral(1e6 * end)} µm" if si else f"{end:.4f}" for end in (made.low, made.high)]

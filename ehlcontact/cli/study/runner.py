@@ -159,6 +159,8 @@ def _side_by_side(board: Board, share: Share, interrupts: _Interrupts) -> None:
             if event is None:
                 with interrupts.held():
                     end(worker)
+            elif "compiling" in event:
+                board.compiling(worker.task)
             else:
                 board.move(worker.task, event["done"], event["total"])
     except BaseException:

@@ -2,8 +2,8 @@
 
 A task is a stage of a study of one point, or what is made of all its stages.
 
-Events go to stdout as lines of JSON: ``{"done": k, "total": n}`` and, last, ``{"status": ..., "message": ...,
-"seconds": ...}``. Interrupt it with SIGINT; it saves what it has.
+Events go to stdout as lines of JSON: ``{"done": k, "total": n}``, ``{"compiling": true}`` and, last, ``{"status":
+..., "message": ..., "seconds": ...}``. Interrupt it with SIGINT; it saves what it has.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from ehlcontact.cli.study.points.ledger import CLOSING
 from ehlcontact.cli.study.points.lists import load_points
 from ehlcontact.cli.study.stages import stage_named
 from ehlcontact.errors import InputError
+from ehlcontact.jit import compilation_told
 from ehlcontact.process.workers import end_when, stdin_closed
 from ehlcontact.status import Status
 
@@ -31,26 +32,30 @@ def work(study_file: Path, folder: Path, name: str) -> None:
     end_when(stdin_closed)  # the runner holds the other end, and is gone then
     # A parent in the background may have left the signal ignored.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    started, last = time.perf_counter(), 0.0
+    started = time.perf_counter()
+    last = {"update": 0.0, "compiling": 0.0}
 
     def emit(**event: object) -> None:
         sys.stdout.write(json.dumps(event) + "\n")
         sys.stdout.flush()
 
-    def update(done: float, total: float) -> None:
-        nonlocal last
+    def seldom(kind: str, **event: object) -> None:
         now = time.perf_counter()
-        if now - last > SPACING:
-            last = now
-            emit(done=done, total=total)
+        if now - last[kind] > SPACING:
+            last[kind] = now
+            emit(**event)
+
+    def update(done: float, total: float) -> None:
+        seldom("update", done=done, total=total)
 
     outcome: dict[str, Any]
     try:
         (point,) = load_points(study_file, folder)
-        if name == CLOSING:
-            outcome = close(point.study, folder)._asdict()
-        else:
-            outcome = stage_named(name).run(point.study, folder, update)._asdict()
+        with compilation_told(lambda: seldom("compiling", compiling=True)):
+            if name == CLOSING:
+                outcome = close(point.study, folder)._asdict()
+            else:
+                outcome = stage_named(name).run(point.study, folder, update)._asdict()
     except InputError as error:
         outcome = {"status": Status.FAILED, "message": str(error)}
     emit(**outcome, seconds=time.perf_counter() - started)

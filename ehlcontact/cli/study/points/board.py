@@ -162,6 +162,11 @@ class Board:
             self._shown.update(self._bars[task], done, total)
             self._tell_whole()
 
+    def compiling(self, task: Task) -> None:
+        """Kernels are compiled for it."""
+        if self._shown is not None:
+            self._shown.compiling(self._bars[task])
+
     def _tell_whole(self) -> None:
         """By what all tasks are estimated to cost."""
         if self._shown is not None and None in self._bars:
