@@ -383,6 +383,14 @@ def test_a_dask_cluster(run, stub, monkeypatch, tmp_path):
     command = [PYTHON, "-m", "distributed.cli.dask_scheduler", "--port", "0", "--no-dashboard"]
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "env": environment}
     there = ["--host", "127.0.0.1", "--scheduler-file", str(place)]
+    (tmp_path / "one.toml").write_text(STUDY)
+    here = [PYTHON, "-m", "ehlcontact.cli.study.worker", tmp_path / "one.toml", tmp_path, "free"]
+    for _ in range(
+        2
+    ):  # where kernels are compiled, last digits may differ from where they are read from the cache
+        with subprocess.Popen(here, stdin=subprocess.PIPE, **quiet) as process:
+            assert process.wait() == 0
+    ours = load(tmp_path / "free.h5")
     processes = [subprocess.Popen([*command, *there], **quiet)]
     try:
         deadline = time.monotonic() + 60.0
@@ -399,12 +407,8 @@ def test_a_dask_cluster(run, stub, monkeypatch, tmp_path):
             process.kill()
             process.wait()
     assert stub() == ["3000rpm_20N report", "4000rpm_20N report"]
-    (run.folder / "s.toml").write_text(with_lists("[3000.0, 4000]"))
-    for point in load_points(run.folder / "s.toml", run.folder):
-        free = stage_named("free")
-        assert free.run(point.study, tmp_path, lambda done, total: None).status.ok
-        ours, theirs = load(tmp_path / "free.h5"), load(point.folder / "free.h5")
-        assert np.array_equal(ours.force, theirs.force)
+    theirs = load(run.folder / "points" / "3000rpm_20N" / "free.h5")
+    assert np.array_equal(ours.force, theirs.force)
 
 
 def test_no_cluster_at_that_address(refused, tmp_path):
