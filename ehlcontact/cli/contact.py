@@ -21,6 +21,7 @@ from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
 
 _SI, _MOES, _LAWS = "A ball of a bearing, in SI", "Or a point without dimensions", "Laws of the oil"
 RACES = ("inner", "outer")
+RQ_UM = 1e-3, 100.0  # um of a roughness: below, it was given in m
 # What each option of a point is, for its help and for who left it out.
 MEANING = {
     "--M": "Moes load parameter, > 0",
@@ -265,6 +266,45 @@ class Contact:
         if self.oil is None:
             return "by its numbers"
         return f"ISO VG {oil_grade(self.oil, '--oil')} at {numeral(self.temp)} °C"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Surfaces:
+    """How rough ball and race are, for the lambda ratio: films are solved between smooth surfaces."""
+
+    rq: Annotated[
+        float | None,
+        typer.Option(
+            "--rq",
+            help="Roughness of ball and race together, µm: how many times higher the film is (lambda).",
+            rich_help_panel=_SI,
+        ),
+    ] = None
+
+    def check(self, contact: Contact) -> None:
+        """Raise `InputError` for a roughness that is none, or at a point without a unit of length."""
+        if self.rq is None:
+            return
+        if not contact.in_si:
+            raise InputError("--rq", self.rq, "left out: a point of --M --L --kappa has no unit of length")
+        low, high = RQ_UM
+        if not low <= self.rq <= high:
+            raise InputError("--rq", self.rq, f"between {low:g} and {high:g} um")
+
+    def lambda_ratio(self, h_min: float) -> float | None:
+        """Smallest film [m] over roughness; None where none was given."""
+        return None if self.rq is None else h_min / (1e-6 * self.rq)
+
+    def rows(self, h_min: float) -> list[tuple[str, str, str]]:
+        """For a table: the lambda ratio where a roughness was given."""
+        ratio = self.lambda_ratio(h_min)
+        said = f"smallest film over a roughness of {numeral(self.rq)} µm"
+        return [] if ratio is None else [("lambda", numeral(ratio, 3), said)]
+
+    def about(self, h_min: float) -> dict[str, float]:
+        """For JSON, likewise."""
+        ratio = self.lambda_ratio(h_min)
+        return {} if ratio is None else {"lambda_ratio": ratio}
 
 
 def frequency(

@@ -9,7 +9,10 @@ EXAMPLES = {
         'ehlcontact init mine.toml --bearing 6206 --oil "ISO VG 46" --temp 65 --rpm 6000 --load 200',
         "ehlcontact init --rpm 1500 --rpm 3000 --load 100 --load 500",
     ),
-    "steady": (f"ehlcontact steady {_BALL}", "ehlcontact steady --M 200 --L 10 --kappa 0.5 --figure film.png"),
+    "steady": (
+        f"ehlcontact steady {_BALL} --rq 0.1",
+        "ehlcontact steady --M 200 --L 10 --kappa 0.5 --figure film.png",
+    ),
     "simulate": (
         f"ehlcontact simulate {_BALL} --harmonic-hz 2000 --save run.h5",
         "ehlcontact simulate --M 200 --L 10 --kappa 0.5 --free 5.13 --save free.h5",

@@ -8,9 +8,17 @@ room            responsibility
 =============== ===============================================================================================
 """
 
-from ehlcontact.files.replacement import is_file, parse_json, read_text, replacing, write_bytes, write_text
+from ehlcontact.files.replacement import (
+    is_file,
+    parse_json,
+    read_text,
+    remove_leftovers,
+    replacing,
+    write_bytes,
+    write_text,
+)
 
-__all__ = ["is_file", "parse_json", "read_text", "replacing", "write_bytes", "write_text"]
+__all__ = ["is_file", "parse_json", "read_text", "remove_leftovers", "replacing", "write_bytes", "write_text"]
 
 
 def __dir__() -> list[str]:

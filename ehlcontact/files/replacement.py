@@ -9,6 +9,7 @@ import json
 import os
 import re
 import stat
+import time
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -20,6 +21,8 @@ from ehlcontact.errors import InputError
 LARGEST_TEXT = 2**28  # bytes of a JSON or TOML file: a hundred times the largest of ours; /dev/zero has no end
 DEEPEST = 50  # levels of nested JSON: ours have six, and Python writes and compares some hundred at most
 LONGEST_INTEGER = 300  # digits: what is longer is no float any more
+STALE = 5.0  # seconds without a write after which nobody is at a file any more
+_TEMPORARY = re.compile(r"\.[0-9a-f]{12}\.tmp")
 _LONE_SURROGATE = re.compile("[\ud800-\udfff]")
 
 
@@ -66,6 +69,14 @@ def replacing(path: str | os.PathLike[str], field: str = "path") -> Iterator[Pat
         if not in_place:
             with suppress(OSError):  # the folder itself may be gone; the first error says why
                 temporary.unlink(missing_ok=True)
+
+
+def remove_leftovers(folder: Path) -> None:
+    """Remove files that `replacing` was writing to in this folder when its process was killed."""
+    for path in folder.glob(".*.tmp"):
+        with suppress(OSError):
+            if _TEMPORARY.fullmatch(path.name) and time.time() - path.stat().st_mtime > STALE:
+                path.unlink()
 
 
 def write_text(path: str | os.PathLike[str], text: str, field: str = "path") -> Path:

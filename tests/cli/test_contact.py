@@ -162,3 +162,36 @@ def test_bearing_takes_the_same_oil(call, refused):
     assert new.code == 0 and new.out == old.out
     refused(("--oil", "--grade"), "bearing", "6205", "--oil", "68", "--grade", "68")
     refused(("--oil = '70'", "ISO VG 10"), "bearing", "6205", "--oil", "70", "--load", "1", "--rpm", "1")
+
+
+def test_lambda_of_a_given_roughness(call, refused, point):
+    """--rq on every command that has a film."""
+    at = options()
+    found = json.loads(call("element", *at, "--rq", "0.1", "--json", "-").out)
+    answer = Atlas().at(ball()).si
+    assert found["lambda_ratio"] == pytest.approx(answer.h_min / 1e-7, rel=1e-9)
+    assert "lambda" in call("element", *at, "--rq", "0.1").out
+    assert "lambda_ratio" not in json.loads(call("element", *at, "--json", "-").out)
+    coarse = (*options(load="20"), *COARSE, "--rq", "0.1", "--json", "-")
+    film = json.loads(call("steady", *coarse).out)
+    assert film["lambda_ratio"] == pytest.approx(film["si"]["h_min"] / 1e-7)
+    run = json.loads(call("simulate", "--harmonic", "3", "--until", "0.2", "--dt", "0.1", *coarse).out)
+    assert 0.5 * film["lambda_ratio"] < run["lambda_ratio"] < 1.5 * film["lambda_ratio"]
+    for command, rest in (("steady", ()), ("element", ()), ("simulate", ("--free", "3"))):
+        refused(("--rq = 0.1", "no unit of length"), command, *point, *rest, "--rq", "0.1")
+        refused(("--rq = 1e-07", "between 0.001 and 100 um"), command, *at, *rest, "--rq", "1e-7")
+
+
+def test_method_and_tolerance(call, refused, point):
+    coarse = (*point, "--n", "32", "--json", "-")
+    usual = json.loads(call("steady", *coarse).out)
+    newton = json.loads(call("steady", *coarse, "--method", "newton", "--tol", "1e-8").out)
+    cycles = json.loads(call("steady", *coarse, "--method", "multigrid", "--tol", "1e-8").out)["cycles"]
+    assert newton["cycles"] < cycles > usual["cycles"]
+    assert newton["approach"] == pytest.approx(usual["approach"], abs=1e-4)
+    refused(("--method = 'magic'", "newton"), "steady", *point, "--method", "magic")
+    refused(("--tol = -1.0", "> 0"), "steady", *point, "--tol", "-1")
+    run = ("simulate", *coarse, "--harmonic", "3", "--until", "0.4", "--dt", "0.1")
+    tight, short = (json.loads(call(*run, *more).out) for more in (("--tol", "1e-6"), ()))
+    assert tight["force"] != short["force"] and tight["force"] == pytest.approx(short["force"], rel=1e-2)
+    refused(("--tol = 0.0", "> 0"), *run[:-4], "--tol", "0")

@@ -6,22 +6,26 @@ import os
 import random
 import shutil
 import signal
+import subprocess
 import sys
 import threading
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from tiny_study import STUDY
 
-from ehlcontact import InputError
+from ehlcontact import InputError, load, solve_steady
 from ehlcontact.cli.study import runner
+from ehlcontact.cli.study.points import cluster
 from ehlcontact.cli.study.points.lists import MOST, load_points, points_of
 from ehlcontact.cli.study.points.summary import MEANINGS, UNITS
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import stage_named
 
+PYTHON, ROOT = sys.executable, Path(__file__).parents[2]
 STUB = Path(__file__).with_name("stub_worker.py")
 NAMES = ["steady", "free", "harmonic"]
 TASKS = len(NAMES) + 1
@@ -327,6 +331,84 @@ def test_init_writes_lists(call, tmp_path):
     alone = tmp_path / "alone.toml"
     call("init", alone, "--rpm", "1500", "--load", "3000")
     assert points[0].study.solver.n == load_study(alone).solver.n
+
+
+def test_stages_of_a_cluster_are_those_of_this_machine(run, stub, monkeypatch):
+    """A cluster of one, in this process: workers get a document and give bytes; what is kept is not sent there."""
+    sent = []
+
+    def here(solve, jobs, scheduler):
+        for name, work in jobs:
+            sent.append(name)
+            yield name, solve(work)
+
+    monkeypatch.setattr(cluster, "on_cluster", here)
+    for home in ("reduced_models.atlas.work", "ehlcontact.cli.study.points.cluster"):
+        monkeypatch.setattr(f"{home}.require_scheduler", lambda scheduler: None)
+    monkeypatch.setattr(runner, "STAGES", (stage_named("steady"),))
+    text = with_lists("[3000.0, 4000]")
+    assert run(text, "--scheduler", "tcp://somewhere").code == 0
+    assert sent == ["3000rpm_20N-steady", "4000rpm_20N-steady"]
+    assert stub() == ["3000rpm_20N report", "4000rpm_20N report"]
+    (run.folder / "s.toml").write_text(text)
+    for point in load_points(run.folder / "s.toml", run.folder):
+        ours = solve_steady(point.study.point, n=32, domain=point.study.domain)
+        assert load(point.folder / "steady.h5").h_min == ours.h_min
+    assert run(text, "--scheduler", "tcp://somewhere").code == 0 and len(sent) == 2
+
+
+def test_a_stage_that_fails_on_a_cluster_is_told(run, stub, monkeypatch):
+    def nowhere(solve, jobs, scheduler):
+        for name, _ in jobs:
+            last = {"status": "diverged", "message": "The residual grows.", "seconds": 0.1}
+            yield name, {"last": last, "files": {"partial": b"some"}}
+
+    monkeypatch.setattr(cluster, "on_cluster", nowhere)
+    for home in ("reduced_models.atlas.work", "ehlcontact.cli.study.points.cluster"):
+        monkeypatch.setattr(f"{home}.require_scheduler", lambda scheduler: None)
+    found = run(STUDY, "--scheduler", "tcp://somewhere")
+    assert found.code == 1 and "free: diverged: The residual grows." in found.err and stub() == []
+    point = json.loads((run.folder / "summary.json").read_text())["points"][0]
+    assert point["files"]["free vibration, as far as it went"] == "free.partial.h5"
+    assert (run.folder / "free.partial.h5").read_bytes() == b"some"
+
+
+@pytest.mark.slow
+def test_a_dask_cluster(run, stub, monkeypatch, tmp_path):
+    """Scheduler and two workers as processes of their own."""
+    pytest.importorskip("distributed")
+    place = tmp_path / "scheduler.json"
+    monkeypatch.setattr(runner, "STAGES", (stage_named("steady"), stage_named("free")))
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    command = [PYTHON, "-m", "distributed.cli.dask_scheduler", "--port", "0", "--no-dashboard"]
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "env": environment}
+    there = ["--host", "127.0.0.1", "--scheduler-file", str(place)]
+    (tmp_path / "one.toml").write_text(STUDY)
+    here = [PYTHON, "-m", "ehlcontact.cli.study.worker", tmp_path / "one.toml", tmp_path, "free"]
+    for _ in range(
+        2
+    ):  # where kernels are compiled, last digits may differ from where they are read from the cache
+        with subprocess.Popen(here, stdin=subprocess.PIPE, **quiet) as process:
+            assert process.wait() == 0
+    ours = load(tmp_path / "free.h5")
+    processes = [subprocess.Popen([*command, *there], **quiet)]
+    try:
+        deadline = time.monotonic() + 60.0
+        while not place.exists() or not place.read_text():
+            assert processes[0].poll() is None and time.monotonic() < deadline
+            time.sleep(0.05)
+        scheduler = json.loads(place.read_text())["address"]
+        worker = [PYTHON, "-m", "distributed.cli.dask_worker", scheduler, "--nthreads", "1", "--no-nanny"]
+        folder = ["--local-directory", str(tmp_path), "--no-dashboard"]
+        processes += [subprocess.Popen([*worker, *folder], **quiet) for _ in range(2)]
+        assert run(with_lists("[3000.0, 4000]"), "--scheduler", scheduler).code == 0
+    finally:
+        for process in processes:
+            process.kill()
+            process.wait()
+    assert stub() == ["3000rpm_20N report", "4000rpm_20N report"]
+    theirs = load(run.folder / "points" / "3000rpm_20N" / "free.h5")
+    assert np.array_equal(ours.force, theirs.force)
 
 
 def test_no_cluster_at_that_address(refused, tmp_path):

@@ -10,7 +10,7 @@ import typer
 
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import Contact, frequency
+from ehlcontact.cli.contact import Contact, Surfaces, frequency
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, show_table, write_json, write_to
 from ehlcontact.errors import InputError
@@ -27,6 +27,7 @@ def register(app: typer.Typer) -> None:
 @o.grouped
 def element(
     contact: Contact,
+    surfaces: Surfaces,
     model: Annotated[str, typer.Option("--model", help="wide, memory or cubic.")] = "wide",
     Omega: Annotated[
         float | None,
@@ -56,25 +57,29 @@ def element(
     at = frequency(contact, Omega, hz) if model == "cubic" or Omega is not None or hz is not None else {}
     if at is None:
         raise InputError("--Omega", None, "given with --model cubic: a damper without memory is for one frequency")
+    surfaces.check(contact)
     check_file("--save", save, (".json",))
     check_json(json_to)
     check_apart({"--save": save, "--json": json_to}, (atlas,))
     table = Atlas(atlas)
     with contact.called():
         answer, made = table.at(point), table.element(point, model, **at)
+    rough = () if surfaces.rq is None else surfaces.rows(answer.si.h_min)
+    about = {} if surfaces.rq is None else surfaces.about(answer.si.h_min)
     shown = partial(
         show_table,
         f"{model} element from the atlas, version {table.metadata['version']}",
         [
             *contact.rows(point),
             *(_dimensionless(answer) if contact.rpm is None else _in_si(answer, contact.rpm)),
+            *rough,
             *_damper(made),
             *_valid(made),
         ],
         json_to,
     )
     kept = partial(write_to, "--save", save, made.save)
-    deliver(kept, lambda: write_json({**made.to_dict(), **contact.about(point)}, json_to), shown)
+    deliver(kept, lambda: write_json({**made.to_dict(), **contact.about(point), **about}, json_to), shown)
 
 
 def _dimensionless(answer: AtlasAnswer) -> list[tuple[str, str, str]]:

@@ -28,7 +28,7 @@ from ehlcontact.cli.output import (
     write_json,
 )
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.files import write_text
+from ehlcontact.files import remove_leftovers, write_text
 from ehlcontact.point import moes_point
 
 if TYPE_CHECKING:
@@ -158,6 +158,10 @@ def _tell(points: Sequence[Point], folder: Path, board: Board, seconds: float, j
         say(str(rows[0].answer), json_to)
     if several or not failed:
         say(f"report: {report}", json_to)
+    for row in rows:  # of runs that were killed
+        remove_leftovers(row.point.folder)
+        remove_leftovers(row.point.folder / "elements")
+    remove_leftovers(folder)
     journal.line("done", f"{len(board.solved)} solved, {len(board.kept)} kept, {seconds:.1f} s")
     if failed or any(row.faults for row in rows):
         bad_input = not several and any(

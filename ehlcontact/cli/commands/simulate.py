@@ -11,7 +11,7 @@ import typer
 
 from ehlcontact.checks import require_positive
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import NO_TIME, Contact
+from ehlcontact.cli.contact import NO_TIME, Contact, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, check_file, complain
 from ehlcontact.cli.progress import progress
@@ -181,13 +181,22 @@ class TimeOptions:
             rich_help_panel=_TIME,
         ),
     ] = None
+    tol: Annotated[
+        float,
+        typer.Option(
+            "--tol",
+            help="Residual at which a step counts as solved, over the central film at rest; with --error "
+            "at most three times that.",
+            rich_help_panel=_TIME,
+        ),
+    ] = 3e-3
 
     def chosen(self, point: Point) -> dict[str, float | None]:
         """Check the options and call them as `ehlcontact.simulate` does."""
-        for name in ("until", "dt", "error"):
+        for name in ("until", "dt", "error", "tol"):
             if getattr(self, name) is not None:
                 require_positive(name, getattr(self, name))
-        return {"until": self._end(point), "dT": self.dt, "error": self.error}
+        return {"until": self._end(point), "dT": self.dt, "error": self.error, "tol": self.tol}
 
     def _end(self, point: Point) -> float | None:
         if self.until_ms is None:
@@ -226,6 +235,7 @@ class RestartOptions:
 @o.grouped
 def simulate(
     contact: Contact,
+    surfaces: Surfaces,
     motion: MotionOptions,
     time: TimeOptions,
     grid: o.Grid,
@@ -237,6 +247,7 @@ def simulate(
 
     point = contact.solvable()
     arguments = (point, motion.chosen(point))
+    surfaces.check(contact)
     chosen = grid.chosen() | time.chosen(point)
     check_file("--checkpoint", restart.checkpoint, o.HDF5)
     files.check({"--checkpoint": restart.checkpoint}, restart.other)
@@ -252,7 +263,11 @@ def simulate(
             result, unkept = error.result, error
     # stopped before the first step, there is nothing to draw
     rows, drawn = [*contact.rows(point), *_rows(result)], _draw if result.steps else None
-    files.deliver(result, "transient film", rows, drawn, contact.about(point))
+    about = contact.about(point)
+    if result.scales is not None:
+        rows += surfaces.rows(result.si.h_min.min())
+        about |= surfaces.about(float(result.si.h_min.min()))
+    files.deliver(result, "transient film", rows, drawn, about)
     if unkept is not None:
         raise unkept
     if not result.status.ok:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ehlcontact.checks import require_choice, require_positive
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import Contact
+from ehlcontact.cli.contact import Contact, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
@@ -15,7 +17,7 @@ from ehlcontact.cli.progress import progress
 if TYPE_CHECKING:
     from ehlcontact.results import SteadyResult
 
-
+_SOLVER = "Solver"
 Refine = Annotated[
     bool,
     typer.Option(
@@ -32,12 +34,50 @@ def register(app: typer.Typer) -> None:
     app.command("steady")(steady)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Solving:
+    """How it is solved, and how far."""
+
+    method: Annotated[
+        str,
+        typer.Option(
+            "--method",
+            help="automatic, multigrid or newton: V cycles, Newton steps, or cycles and Newton where they fail.",
+            rich_help_panel=_SOLVER,
+        ),
+    ] = "automatic"
+    tol: Annotated[
+        float,
+        typer.Option(
+            "--tol",
+            help="Largest change of the pressure still to come, over the Hertz pressure.",
+            rich_help_panel=_SOLVER,
+        ),
+    ] = 1e-5
+
+    def chosen(self) -> dict[str, Any]:
+        """Check the options and call them as `ehlcontact.solve_steady` does."""
+        from ehlcontact.steady import METHODS
+
+        require_choice("--method", self.method, tuple(METHODS))
+        require_positive("--tol", self.tol)
+        return {"method": self.method, "tol": self.tol}
+
+
 @o.grouped
-def steady(contact: Contact, grid: o.Grid, files: o.Files, refine: Refine = True) -> None:
+def steady(
+    contact: Contact,
+    surfaces: Surfaces,
+    grid: o.Grid,
+    solving: Solving,
+    files: o.Files,
+    refine: Refine = True,
+) -> None:
     """Solve the steady film of a contact, in SI for a ball of a bearing."""
     from ehlcontact.steady import solve_steady
 
-    point, chosen = contact.solvable(), grid.chosen()
+    point, chosen = contact.solvable(), grid.chosen() | solving.chosen()
+    surfaces.check(contact)
     files.check()
     with progress("steady film") as update:
         result = solve_steady(
@@ -47,7 +87,9 @@ def steady(contact: Contact, grid: o.Grid, files: o.Files, refine: Refine = True
             throw=False,
             callback=lambda cycle, residual: update(cycle, None, f"cycle {cycle}, residual {residual:.1e}"),
         )
-    files.deliver(result, "steady film", [*contact.rows(point), *_rows(result)], _draw, contact.about(point))
+    rough = () if result.scales is None else surfaces.rows(result.si.h_min)
+    about = contact.about(point) | ({} if result.scales is None else surfaces.about(result.si.h_min))
+    files.deliver(result, "steady film", [*contact.rows(point), *_rows(result), *rough], _draw, about)
     if not result.status.ok:
         kept = f"; partial result in {files.save}" if files.save else ""
         complain(f"{result.status}: {result.status.advice}{kept}")

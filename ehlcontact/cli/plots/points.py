@@ -19,6 +19,7 @@ PANELS = (  # number, what it is shown in, label
     ("damping", 1.0, "damping of a contact [N s/m]"),
     ("decrement", 1.0, "logarithmic decrement"),
 )
+ROOM = 1.05  # height of a panel over its highest value
 COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, GREY)
 MARKS = "osD^v*"
 
@@ -43,7 +44,7 @@ def over_points(points: Sequence[Numbers]) -> Figure:
             said = f"{numeral(value)} {AXES[apart][1]}"
             axes.plot([x for x, _ in line], [y for _, y in line], marker=mark, color=colour, label=said)
         axes.set(xlabel=AXES[along][0], title=label)
-        axes.set_ylim(bottom=0.0)
+        axes.set_ylim(0.0, ROOM * axes.get_ylim()[1])
         if k == 1 and counts[apart] > 1:
             axes.legend(ncols=1 + counts[apart] // 7)
     return figure

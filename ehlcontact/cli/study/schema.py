@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from ehlcontact.cli.contact import RQ_UM
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.study.slips import ROTOR, broken_line, first_error, in_other_kind, inputs_of
 from ehlcontact.errors import InputError
@@ -39,7 +40,7 @@ Frequency = Annotated[float, Field(ge=SLOWEST, le=FASTEST, allow_inf_nan=False)]
 Grid = Annotated[int, Field(ge=16, le=2048, multiple_of=16, strict=True)]
 Steps = Annotated[int, Field(ge=20, le=2000, strict=True)]
 Amplitude = Annotated[float, Field(gt=0.0, lt=1.0, allow_inf_nan=False)]
-Roughness = Annotated[float, Field(ge=1e-3, le=100.0, allow_inf_nan=False)]  # um: below, it was given in m
+Roughness = Annotated[float, Field(ge=RQ_UM[0], le=RQ_UM[1], allow_inf_nan=False)]
 Periods = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
 
 

@@ -148,3 +148,17 @@ def test_a_text_without_end(tmp_path, monkeypatch):
     monkeypatch.setattr(files.replacement, "LARGEST_TEXT", 2**20)
     with pytest.raises(ValueError, match="more than 1 MiB"):
         files.read_text("/dev/zero")
+
+
+def test_what_a_killed_process_left_is_removed_and_nothing_else(tmp_path):
+    old, fresh = tmp_path / ".0123456789ab.tmp", tmp_path / ".ba9876543210.tmp"
+    mine = tmp_path / ".notes.tmp", tmp_path / "0123456789ab.tmp", tmp_path / ".0123456789ab.tmp.txt"
+    for path in (old, fresh, *mine):
+        path.write_text("some")
+        if path != fresh:
+            os.utime(path, (0.0, 0.0))
+    with files.replacing(tmp_path / "x.txt") as temporary:  # somebody is at it
+        files.remove_leftovers(tmp_path)
+        temporary.write_text("new")
+    assert names(tmp_path) == sorted([fresh.name, "x.txt", *(path.name for path in mine)])
+    files.remove_leftovers(tmp_path / "nowhere")
