@@ -81,8 +81,7 @@ def _panel(axes: Axes, height: float) -> tuple[Scene, list[str]]:
     if axes.name == "polar":
         most = float(axes.get_ylim()[1])
         return base | {"polar": most, "traces": polar_traces(axes), "marks": [], "notes": []}, []
-    traces, every = traces_of(axes)
-    told = [f"lines: of every {2 * every} samples the lowest and the highest"] if every > 1 else []
+    traces, told = traces_of(axes)
     contours = [contours_of(lines) for lines in axes.collections if isinstance(lines, ContourSet)]
     maps: list[Scene] = []
     pictures: list[Scene] = []
