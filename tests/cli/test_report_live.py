@@ -81,7 +81,7 @@ def test_it_stands_alone_and_links_to_what_is_there(page):
 def test_every_figure_has_a_picture_and_a_scene(page, scenes):
     text = page.read_text(encoding="utf-8")
     figures = re.findall(r'<figure id="figure-(\w+)" data-scene="(\w+)"><img src="data:image/png', text)
-    assert len(figures) == len(re.findall("<figure", text)) == 20
+    assert len(figures) == len(re.findall("<figure", text)) == 21
     assert {name for name, _ in figures} == {name for _, name in figures} == set(scenes)
 
 
@@ -160,6 +160,32 @@ def test_a_run_without_whole_fields_still_has_its_mid_planes(finished):
     assert scene["frames"]["values"][-1] == pytest.approx(run.si.t[-1] * 1e3, rel=2e-3)
     assert 10 <= len(scene["frames"]["values"]) <= 24 and "maps" not in scene["thinned"]
     assert len(instants(bare).axes) == 2
+
+
+def test_speeds_are_those_of_the_results(scenes, results):
+    """Every speed of the results has a frame, with its films, loads, stiffness and damping."""
+    scene, found = scenes["whole_speeds"], results["whole_bearing"]["over_speed"]
+    frames = scene["frames"]
+    assert len(found) == 10 and frames["values"] == pytest.approx([one["speed_rpm"] for one in found], rel=1e-3)
+    assert found[frames["start"]]["speed_rpm"] == results["whole_bearing"]["speed_rpm"]
+    balls = np.array([ball["h_min"] for ball in results["whole_bearing"]["balls"]])
+    assert np.array(found[frames["start"]]["h_min"]) == pytest.approx(balls)
+    panels = scene["panels"]
+    names = [trace["name"] for panel in panels for trace in panel["traces"]]
+    moving = {one["trace"]: one for one in frames["traces"]}
+    low, high = panels[1]["y"]["range"]
+    for k, one in enumerate(found):
+        force, film = np.array(one["force"]), np.array(one["h_min"]) * 1e6
+        close(moving[names.index("inner race")]["r"][k], force[:, 0])
+        shown = moving[names.index("inner race", 2)]["y"][k]
+        assert sorted(shown) == pytest.approx(sorted(film[:, 0]), rel=1e-4)
+        assert low <= film.min() and film.max() <= high
+        along, across = (moving[names.index("along the load") + i]["y"][k] for i in (0, 1))
+        assert along == pytest.approx(np.array(one["stiffness"]["along"]) * 1e-6, rel=1e-4)
+        assert across == pytest.approx(np.array(one["stiffness"]["across"]) * 1e-6, rel=1e-4)
+        damping = moving[names.index("along the load", names.index("across it"))]["y"][k]
+        assert damping == pytest.approx(one["damping"]["along"], rel=1e-4)
+    assert found[-1]["h_min"][0][0] > found[0]["h_min"][0][0]  # faster, thicker
 
 
 @pytest.mark.parametrize("width", WIDTHS)
@@ -245,7 +271,7 @@ def test_print_cuts_nothing(seen):
       letters: Math.min(...cells.map(one => parseFloat(style(one).fontSize))) };"""
     found = seen(body, SHEET)
     assert found["paper"] == SHEET and found["out"] == [] and found["columns"]
-    assert found["pictures"] == 20 and found["plots"] == 0 and found["parted"] == 0
+    assert found["pictures"] == 21 and found["plots"] == 0 and found["parted"] == 0
     assert found["letters"] >= 9.0  # px: 7 pt
 
 
@@ -255,4 +281,4 @@ def test_without_scripts_the_pictures_are_there(page):
     bare.write_text(text, encoding="utf-8")
     out, said = dom(bare)
     bare.unlink()
-    assert "CONSOLE" not in said and out.count("data:image/png") == 20 and "plotly-logo" not in out
+    assert "CONSOLE" not in said and out.count("data:image/png") == 21 and "plotly-logo" not in out

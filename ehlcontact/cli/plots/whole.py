@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.figure import Figure
 
 from ehlcontact.cli.plots.rotor import MICRO
@@ -24,6 +25,8 @@ LOOKS: dict[str, dict[str, Any]] = {
 ORDER = ("dry", "memory", "usual", "constant")  # in which they are drawn: lines over clouds
 ORDERS = 12.0  # multiples of the speed, that a spectrum shows
 DEEPEST = 1e-5  # of its largest line, the smallest that it shows
+# Of the bearing at a speed: place of the panel, what, in what unit, its label.
+COEFFICIENTS = ((3, "stiffness", 1e-6, f"stiffness [N/{MICRO}]"), (4, "damping", 1.0, "damping [N s/m]"))
 TURNS = 5.0  # of the shaft, on the orbits
 
 Names = Mapping[str, str]
@@ -36,6 +39,7 @@ def drawings(found: Any, names: Names) -> dict[str, Callable[[], Figure]]:
         "whole_orbits": lambda: orbits(found, names),
         "whole_spectra": lambda: spectra(found, names),
         "whole_coefficients": lambda: coefficients(found, names),
+        "whole_speeds": lambda: speeds(found),
         "whole_response": lambda: response(found, names),
     }
     if not isinstance(found.diagram, str):
@@ -137,4 +141,44 @@ def response(found: Any, names: Names) -> Figure:
         axes.margins(x=0.0)
     figure.axes[0].set_ylabel("displacement/eccentricity [-]")
     figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return figure
+
+
+def at_speed(one: Any) -> Figure:
+    """Load zone, films, stiffness and damping of the bearing at one speed."""
+    figure = new_figure(7.4)
+    load_zone(figure.add_subplot(2, 2, 1, projection="polar"), one.state)
+    films(figure.add_subplot(2, 2, 2), one.state)
+    for place, name, unit, label in COEFFICIENTS:
+        axes = figure.add_subplot(2, 2, place)
+        for k, which, look in ((1, "along the load", "-"), (0, "across it", ":")):
+            axes.plot(one.small.hz, getattr(one.small, name)[:, k, k] * unit, look, color=GREEN, label=which)
+        axes.set(xscale="log", yscale="log", xlabel="frequency of the vibration [Hz]", ylabel=label)
+    return figure
+
+
+def speeds(found: Any) -> Figure:
+    """Smallest films of the balls, and K and C along the load, a line for each speed."""
+    figure = new_figure(6.6)
+    panels: Any = figure.subplots(2, 2)
+    ends = 0.05, 0.85  # of the colours, the rest being too bright
+    shades = colormaps["viridis"](np.linspace(*ends, max(len(found.over_speed), 2)))
+    for one, shade in zip(found.over_speed, shades, strict=False):
+        label, state = f"{one.state.speed_rpm:.0f} rpm", one.state
+        place = np.degrees(
+            (state.angles - np.arctan2(state.load[1], state.load[0]) + np.pi) % (2.0 * np.pi) - np.pi
+        )
+        order = np.argsort(place)
+        for race, axes in enumerate(panels[0]):
+            if state.h_min is not None:
+                axes.semilogy(
+                    place[order], state.h_min[order, race] * 1e6, "o-", color=shade, label=label, markersize=3
+                )
+        for axes, (_, name, unit, _) in zip(panels[1], COEFFICIENTS, strict=True):
+            axes.loglog(one.small.hz, getattr(one.small, name)[:, 1, 1] * unit, color=shade)
+    for axes, name in zip(panels[0], ("inner", "outer"), strict=True):
+        axes.set(title=f"{name} race", xlabel="angle from the load [degrees]", ylabel=f"smallest film [{MICRO}]")
+    for axes, (*_, label) in zip(panels[1], COEFFICIENTS, strict=True):
+        axes.set(xlabel="frequency of the vibration [Hz]", ylabel=label)
+    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
     return figure

@@ -14,6 +14,7 @@ from ehlcontact.cli.plots.fringes import three_lights
 from ehlcontact.cli.plots.impedance import impedance
 from ehlcontact.cli.plots.instants import instants
 from ehlcontact.cli.plots.live.instants import instants_scene
+from ehlcontact.cli.plots.live.scene import running
 from ehlcontact.cli.study.headline import findings, reservations
 from ehlcontact.cli.study.reduction import CONTACTS, FULL, MEMORY, RECORDS
 from ehlcontact.cli.study.results import Findings
@@ -44,7 +45,7 @@ def write_report(found: Findings, path: Path) -> Path:
         path,
         "report.html.j2",
         drawings(found),
-        {"instants": lambda: instants_scene(found.simulations["harmonic"])},
+        scenes(found),
         found=found,
         story={"findings": findings(found), "reservations": reservations(found)},
         files=files_beside(path.parent),
@@ -80,6 +81,21 @@ def ways_of_coupling(fmus: Iterable[Mapping[str, Any]]) -> list[tuple[str, list[
         whys = dict.fromkeys(part for entry in found for part in entry["why"].split("; ") if part)  # each once
         rows.append((way, [entry["step"] for entry in found], "; ".join(whys)))
     return rows
+
+
+def scenes(found: Findings) -> dict[str, Callable[[], Any]]:
+    """Figures that have a slider, as a browser shows them, by the name of their static picture."""
+    with_slider: dict[str, Callable[[], Any]] = {
+        "instants": lambda: instants_scene(found.simulations["harmonic"]),
+    }
+    if found.whole is not None and found.whole.over_speed:
+        every = found.whole.over_speed
+        speeds = [one.state.speed_rpm for one in every]
+        own = min(range(len(speeds)), key=lambda k: abs(speeds[k] - found.study.bearing.speed_rpm))
+        with_slider["whole_speeds"] = lambda: running(
+            [whole.at_speed(one) for one in every], "speed", "rpm", speeds, own
+        )
+    return with_slider
 
 
 def drawings(found: Findings) -> dict[str, Callable[[], Figure]]:

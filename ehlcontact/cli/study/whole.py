@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import pi
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,6 +60,7 @@ BEGIN, BEYOND, COARSE, CLOSE = 0.2, 2.0, 120, 81
 NARROW = 0.04  # of the frequency of a mode: how far on either side they are close
 
 
+OVER_SPEED = 9  # speeds of that sweep at which films, stiffness and damping are told
 Linear = Callable[[_Floats], NDArray[np.complex128]]  # response (k, N) of all [m] to unbalance at hz (k,)
 
 
@@ -110,6 +111,25 @@ class Ran:
         }
 
 
+class AtSpeed(NamedTuple):
+    """The bearing at one speed: at rest under the load, a ball below, and K and C over the frequency."""
+
+    state: BearingState
+    small: BearingCoefficients
+
+    def to_dict(self) -> dict[str, Any]:
+        """Numbers in SI: force and film of every ball, inner and outer race, K and C along the load and across."""
+        both = {"along": 1, "across": 0}
+        return {
+            "speed_rpm": self.state.speed_rpm,
+            "force": self.state.force.tolist(),
+            "h_min": None if self.state.h_min is None else self.state.h_min.tolist(),
+            "hz": self.small.hz.tolist(),
+            "stiffness": {name: self.small.stiffness[:, k, k].tolist() for name, k in both.items()},
+            "damping": {name: self.small.damping[:, k, k].tolist() for name, k in both.items()},
+        }
+
+
 @dataclass(frozen=True)
 class WholeFindings:
     """Everything about the rotor on whole bearings."""
@@ -121,6 +141,7 @@ class WholeFindings:
     failed: Mapping[str, str]  # on which it could not be run, and why
     said: tuple[str, ...]  # warnings
     over_frequency: BearingCoefficients
+    over_speed: tuple[AtSpeed, ...]  # rising, the study's among them
     constants: Mapping[str, tuple[float, float]]  # K and C along the load of those that are constant
     diagram: Campbell | str  # or why there is none
     response_hz: _Floats
@@ -165,6 +186,7 @@ class WholeFindings:
             "critical_speeds_rpm": None if diagram is None else [c.speed_rpm for c in diagram.critical_speeds()],
             "no_diagram": self.diagram if isinstance(self.diagram, str) else None,
             "resonance": self.resonance,
+            "over_speed": [one.to_dict() for one in self.over_speed],
         }
 
     @property
@@ -222,6 +244,7 @@ def run_whole(study: Study, folder: Path) -> WholeFindings | None:
         failed=failed,
         said=tuple(dict.fromkeys(str(one.message) for one in said)),
         over_frequency=wet.coefficients(weight, speed_rpm=rpm, hz=hz),
+        over_speed=_over_speed(wet, weight, rpm, hz),
         constants={name: (float(K[1, 1]), float(C[1, 1])) for name, (K, C) in constant.items()},
         diagram=_diagram(study, whole_rotor(study, wet)),
         response_hz=grid,
@@ -305,6 +328,19 @@ def _response_grid(speed_hz: float, ran: Mapping[str, Ran]) -> _Floats:
     wide = np.geomspace(BEGIN * speed_hz, BEYOND * max([speed_hz, *modes]), COARSE)
     near = [hz * (1.0 + NARROW * np.linspace(-1.0, 1.0, CLOSE) ** 3) for hz in modes]
     return np.unique(np.concatenate([wide, *near]))
+
+
+def _over_speed(bearing: BallBearing, weight: tuple[float, float], rpm: float, hz: _Floats) -> tuple[AtSpeed, ...]:
+    """At the speeds of the Campbell diagram and some between them, as far as the atlas has films."""
+    sweep = np.linspace(SWEEP[0] * rpm, min(SWEEP[1] * rpm, bearing.highest_speed), OVER_SPEED)
+    found = []
+    for speed in np.unique(np.append(sweep[np.abs(sweep - rpm) > 1e-6 * rpm], rpm)).tolist():
+        try:
+            state = bearing.equilibrium(weight, speed_rpm=speed)
+            found.append(AtSpeed(state, bearing.coefficients(weight, speed_rpm=speed, hz=hz)))
+        except (ConvergenceError, InputError):  # slower, the atlas has no films under such loads
+            continue
+    return tuple(found)
 
 
 def _diagram(study: Study, rotor: MatrixRotor) -> Campbell | str:

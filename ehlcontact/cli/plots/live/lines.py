@@ -28,20 +28,20 @@ def label_of(artist: Any) -> str:
     return "" if label.startswith("_") else label
 
 
-def traces_of(axes: Axes) -> tuple[list[Trace], int]:
-    """Every line in coordinates of the data, and the thinnest that one was: every so many-th sample.
+def traces_of(axes: Axes) -> tuple[list[Trace], list[str]]:
+    """Every line in coordinates of the data, and how they were thinned.
 
     Lines right across the axes are traces where a legend names them; the others are marks, see `areas`.
     """
-    found, most = [], 1
+    found, told = [], []
     for line in axes.get_lines():
         if not crosses(line):
-            trace, every = _trace(axes, line)
-            most = max(most, every)
+            trace, thinned = _trace(axes, line)
+            told += [thinned] if thinned else []
             found.append(trace)
         elif label_of(line):
             found.append(_across(axes, line))
-    return found, most
+    return found, told
 
 
 def crosses(line: Line2D) -> bool:
@@ -67,13 +67,13 @@ def look_of(line: Line2D) -> Trace:
     return look
 
 
-def _trace(axes: Axes, line: Line2D) -> tuple[Trace, int]:
-    x, y, every = thin_line(*(np.asarray(data, dtype=float) for data in line.get_data(orig=False)))
+def _trace(axes: Axes, line: Line2D) -> tuple[Trace, str]:
+    x, y, told = thin_line(*(np.asarray(data, dtype=float) for data in line.get_data(orig=False)))
     numbers = {
         "x": rounded(x, logarithmic=axes.get_xscale() == "log"),
         "y": rounded(y, logarithmic=axes.get_yscale() == "log"),
     }
-    return {"type": "scatter", "name": label_of(line), **look_of(line), **numbers}, every
+    return {"type": "scatter", "name": label_of(line), **look_of(line), **numbers}, told
 
 
 def _across(axes: Axes, line: Line2D) -> Trace:

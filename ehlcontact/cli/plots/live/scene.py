@@ -5,6 +5,7 @@ The browser arranges the panels: side by side where there is room, else one belo
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -16,8 +17,10 @@ from matplotlib.ticker import FixedLocator
 
 from ehlcontact.cli.plots.live.areas import contours_of, map_of, marks_of, notes_of, picture_of
 from ehlcontact.cli.plots.live.lines import polar_traces, traces_of
+from ehlcontact.cli.plots.live.thinned import rounded
 from ehlcontact.cli.plots.style import WIDTH
 
+MOVING = ("x", "y", "theta", "r")  # of a trace, that frames may differ in
 PAGE = 940.0  # px that a figure is wide on a page; a figure's height is to it as in matplotlib
 
 Scene = dict[str, Any]
@@ -78,8 +81,7 @@ def _panel(axes: Axes, height: float) -> tuple[Scene, list[str]]:
     if axes.name == "polar":
         most = float(axes.get_ylim()[1])
         return base | {"polar": most, "traces": polar_traces(axes), "marks": [], "notes": []}, []
-    traces, every = traces_of(axes)
-    told = [f"lines: of every {2 * every} samples the lowest and the highest"] if every > 1 else []
+    traces, told = traces_of(axes)
     contours = [contours_of(lines) for lines in axes.collections if isinstance(lines, ContourSet)]
     maps: list[Scene] = []
     pictures: list[Scene] = []
@@ -124,3 +126,31 @@ def _beside(panel: Scene, axes: Axes) -> None:
     traces, _ = traces_of(axes)
     panel["y2"] = _axis(axes, "y", False)
     panel["traces"] += [trace | {"second": True} for trace in traces]
+
+
+def running(figures: Sequence[Figure], label: str, unit: str, values: Sequence[float], start: int) -> Scene:
+    """One scene of figures that differ in their numbers only: a slider runs through them, from `start` on.
+
+    Axes reach over all of them. Of a note the part before a semicolon is kept, for what follows may be a number of
+    one figure.
+    """
+    scenes = [scene_of(figure) for figure in figures]
+    base = scenes[start]
+    for panels in zip(*(scene["panels"] for scene in scenes), strict=True):
+        whole = panels[start]
+        if "polar" in whole:
+            whole["polar"] = max(panel["polar"] for panel in panels)
+        for name in ("x", "y"):
+            if whole.get(name, {}).get("range"):
+                ends = np.array([panel[name]["range"] for panel in panels])
+                whole[name]["range"] = [float(ends.min()), float(ends.max())]
+        for note in whole["notes"]:
+            note["text"] = note["text"].split(";")[0]
+    traces = zip(*([t for panel in scene["panels"] for t in panel["traces"]] for scene in scenes), strict=True)
+    moving = [
+        {"trace": k}
+        | {key: [trace[key] for trace in found] for key in ("x", "y", "theta", "r") if key in found[0]}
+        for k, found in enumerate(traces)
+    ]
+    frames = {"label": label, "unit": unit, "values": rounded(values, fineness=1e3), "start": start, "runs": False}
+    return base | {"frames": frames | {"traces": moving}}

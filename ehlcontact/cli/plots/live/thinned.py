@@ -46,23 +46,23 @@ def _texts(row: np.ndarray, logarithmic: bool, decimals: int) -> list[Any]:
     return [int(v) if v is not None and v == floor(v) and abs(v) < 1e15 else v for v in found]
 
 
-def thin_line(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
-    """A line of at most about `LINE` points, and every how many-th sample it has.
+def thin_line(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, str]:
+    """A line of at most about `LINE` points, and what was left out, in words.
 
     Where x rises, the lowest and the highest of every stretch are kept, so that no peak is lost; a path in the
     plane keeps every so many-th point, and its last.
     """
     every = ceil(x.size / LINE)
     if every <= 1:
-        return x, y, 1
+        return x, y, ""
     if not np.all(np.diff(x) >= 0.0):
         kept = np.unique(np.append(np.arange(0, x.size, every), x.size - 1))
-        return x[kept], y[kept], every
+        return x[kept], y[kept], f"paths: 1 in {every} points"
     stretch = 2 * every
     starts = range(0, x.size, stretch)
     ends = [start + pick(y[start : start + stretch]) for start in starts for pick in (np.argmin, np.argmax)]
     kept = np.unique([0, *ends, x.size - 1])
-    return x[kept], y[kept], every
+    return x[kept], y[kept], f"lines: of every {stretch} samples the lowest and the highest"
 
 
 def thin_map(values: np.ndarray) -> tuple[np.ndarray, tuple[int, int]]:

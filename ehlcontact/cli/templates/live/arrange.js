@@ -5,6 +5,7 @@ const FONT = 12, LINE = 16, LETTER = 7.2; // px: of letters, of a line, and what
 const NARROWEST = 300; // px of a column; with less, panels stand below each other
 const LEFT = 66, RIGHT = 14, BAR = 88, SECOND = 62; // px beside the axes: numbers, nothing, colours, a second axis
 const HEAD = 10, FOOT = 44, BARE = 26; // px over the axes; under them with a label, and without one
+const POLAR = 20, ROUND = 40; // px over a round panel and beside it, of its degrees
 const TOOLS = 26; // px over all, of plotly's buttons
 const TALLEST = 330, FLATTEST = 140; // px of a panel that stands alone on a narrow page, and of a map at least
 // What colours of paper become on a dark page, where the palette of Okabe and Ito is lightened.
@@ -64,25 +65,25 @@ function measured(panel, cell, alone) {
   // With the pixels that the panel takes inside its cell.
   const bar = panel.traces.some(trace => trace.label), outside = (panel.notes ?? []).some(note => note.shares[0] && note.x > 1);
   const right = bar ? BAR : panel.y2 ? SECOND : outside ? 84 : RIGHT;
-  const wide = cell - (panel.polar ? 24 : LEFT) - right;
+  const wide = cell - (panel.polar ? 2 * ROUND - RIGHT : LEFT) - right;
   const title = panel.title ? wrapped(panel.title, cell - 30) : [];
   const usual = alone ? Math.min(Math.max(panel.height - FOOT, 190), TALLEST) : Math.max(panel.height - FOOT, 110);
   const high = panel.polar ? Math.min(wide - 40, 300) : panel.box ? Math.max(wide * panel.box, FLATTEST) : panel.equal ? Math.min(wide, 360) : usual;
   const below = panel.x && (alone ? panel.x.alone : panel.x.label);
   const grown = panel.box ? high / (wide * panel.box) : 1;
-  return { ...panel, grown, cell, alone, wide, high, title, head: HEAD + LINE * title.length, foot: panel.polar ? 34 : below ? FOOT : BARE };
+  return { ...panel, grown, cell, alone, wide, high, title, head: HEAD + LINE * title.length + (panel.polar ? POLAR : 0), foot: panel.polar ? 34 : below ? FOOT : BARE };
 }
 
 function place(panel, at) {
   const { data, layout, width, height, ink, tint } = at;
   const k = panel.number, id = k ? String(k + 1) : "";
-  const x0 = panel.left + (panel.polar ? 12 : LEFT), y1 = height - panel.top;
+  const x0 = panel.left + (panel.polar ? ROUND : LEFT), y1 = height - panel.top;
   const domains = { x: [x0 / width, (x0 + panel.wide) / width], y: [(y1 - panel.high) / height, y1 / height] };
   if (panel.title.length)
     layout.annotations.push({ text: panel.title.join("<br>"), showarrow: false, xref: "paper", yref: "paper", align: "center",
-      x: (panel.left + panel.cell / 2) / width, y: (y1 + 4) / height, xanchor: "center", yanchor: "bottom", font: { size: FONT + 1 } });
+      x: (panel.left + panel.cell / 2) / width, y: (y1 + 4 + (panel.polar ? POLAR : 0)) / height, xanchor: "center", yanchor: "bottom", font: { size: FONT + 1 } });
   if (panel.polar) {
-    layout[`polar${id}`] = { domain: domains, bgcolor: "rgba(0,0,0,0)", radialaxis: { range: [0, panel.polar], gridcolor: ink.line, nticks: 4, angle: 20, tickangle: 0 },
+    layout[`polar${id}`] = { barmode: "overlay", domain: domains, bgcolor: "rgba(0,0,0,0)", radialaxis: { range: [0, panel.polar], gridcolor: ink.line, nticks: 4, angle: 20, tickangle: 0 },
       angularaxis: { gridcolor: ink.line, linecolor: ink.line, dtick: 45 } };
     for (const trace of panel.traces)
       data.push({ ...tinted(trace, tint), subplot: `polar${id}`, hovertemplate: `%{theta:.0f}°: %{r:.4g}<extra>${trace.name}</extra>` });
