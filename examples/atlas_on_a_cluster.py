@@ -26,7 +26,7 @@ def build(folder: Path, draws: int = DRAWS, light: int = LIGHT, workers: int = 2
     """Solve and put together; called again with the same folder it goes on where it was."""
     from distributed import LocalCluster
 
-    with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster:
+    with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0") as cluster:
         # a cluster of many machines: the address that `dask scheduler` prints
         address = cluster.scheduler_address
         build_atlas(folder / "small.npz", folder / "small.jsonl", draws, light, scheduler=address, **options)
