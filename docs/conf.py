@@ -10,6 +10,7 @@ from __future__ import annotations
 import inspect
 import os
 import re
+from pathlib import Path
 from typing import Any
 
 from docutils import nodes
@@ -20,6 +21,7 @@ from sphinx.util import logging
 import ehlcontact
 import fmu
 import reduced_models
+from ehlcontact.cli.explorer import write_explorer
 
 LOG = logging.getLogger(__name__)
 PUBLIC = {
@@ -114,8 +116,15 @@ def display(self: Any, node: Any) -> None:
     raise nodes.SkipNode
 
 
+def explorer(app: Any, error: Exception | None) -> None:
+    """The page of `ehlcontact explore`, as it is written now, beside the pages that show it."""
+    if error is None and app.builder.format == "html":
+        write_explorer(Path(app.outdir) / "explore.html")
+
+
 def setup(app: Any) -> None:
     """Called by Sphinx."""
     app.add_html_math_renderer("mathml", (inline, None), (display, None))
     app.connect("missing-reference", public)
     app.connect("autodoc-process-signature", short)
+    app.connect("build-finished", explorer)

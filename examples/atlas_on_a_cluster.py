@@ -12,6 +12,8 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ehlcontact import MoesPoint
 from reduced_models import Atlas
 from reduced_models.atlas.build import build_atlas
@@ -24,7 +26,7 @@ def build(folder: Path, draws: int = DRAWS, light: int = LIGHT, workers: int = 2
     """Solve and put together; called again with the same folder it goes on where it was."""
     from distributed import LocalCluster
 
-    with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster:
+    with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0") as cluster:
         # a cluster of many machines: the address that `dask scheduler` prints
         address = cluster.scheduler_address
         build_atlas(folder / "small.npz", folder / "small.jsonl", draws, light, scheduler=address, **options)
@@ -38,21 +40,23 @@ def films(atlas: Atlas) -> list[tuple[float, float]]:
 
 
 def main(picture: str = "atlas_on_a_cluster.png") -> None:
-    """Build, and draw films of both atlases with their error bars."""
+    """Build, and compare films of both atlases by their error bars."""
     from matplotlib.figure import Figure
 
     with tempfile.TemporaryDirectory() as folder:
         small = build(Path(folder), progress=lambda done, of: print(f"\r{done} of {of} solved", end=""))
     axes = (figure := Figure(figsize=(9.0, 3.6), layout="constrained")).add_subplot()
+    mine, theirs = films(small), films(shipped := Atlas())
     print("\n     M  film, this atlas      film, shipped atlas")
-    for point, mine, theirs in zip(POINTS, films(small), films(shipped := Atlas()), strict=True):
-        print(f"{point.M:6g}  {mine[0]:.4f} +- {mine[1]:.4f}      {theirs[0]:.4f} +- {theirs[1]:.4f}")
-    for atlas, name, mark in ((small, "this one", "o"), (shipped, "shipped", "s")):
-        h, bar = zip(*films(atlas), strict=True)
+    for point, (h, bar), (other, narrow) in zip(POINTS, mine, theirs, strict=True):
+        print(f"{point.M:6g}  {h:.4f} +- {bar:.4f}      {other:.4f} +- {narrow:.4f}")
+    for atlas, found, name, aside in ((small, mine, "this one", 0.97), (shipped, theirs, "shipped", 1.03)):
+        M = [aside * point.M for point in POINTS]
+        h, bar = (np.array(one) / [film for film, _ in theirs] for one in zip(*found, strict=True))
         label = f"{name}, {atlas.metadata['points']} contacts"
-        axes.errorbar([point.M for point in POINTS], h, yerr=bar, fmt=mark, capsize=4, label=label)
-    axes.set(xscale="log", yscale="log", xlabel="M", ylabel="central film")
-    axes.legend(frameon=False)
+        axes.errorbar(M, h, yerr=bar, fmt="o", capsize=4, label=label)
+    axes.set(xscale="log", xlabel="M", ylabel="central film over that of the shipped atlas")
+    axes.legend(frameon=False, loc="lower left")
     figure.savefig(picture, dpi=110)
 
 

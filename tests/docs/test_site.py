@@ -6,6 +6,7 @@ import re
 import tomllib
 from dataclasses import fields, is_dataclass
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -16,6 +17,14 @@ import reduced_models
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 PACKAGES = {package.__name__: package for package in (ehlcontact, reduced_models, fmu)}
+
+
+def module(path):
+    """A file of the site, which is no part of a package."""
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    found = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(found)
+    return found
 
 
 def public(package):
@@ -78,6 +87,25 @@ def test_marks_of_the_readme():
     assert set(asked) == {mark for found in marks.values() for mark in found}
 
 
+def test_the_explorer_is_part_of_the_site(tmp_path):
+    """Made anew as the site is built, framed and linked by a page of its own, which the index names first."""
+    page = (DOCS / "guide" / "explorer.md").read_text(encoding="utf-8")
+    assert re.findall(r'(?:src|href)="([^"]+)"', page) == ["../explore.html"] * 2
+    index = (DOCS / "index.md").read_text(encoding="utf-8")
+    assert "\nguide/explorer\n" in index and "(guide/explorer.md)" in index
+    assert "ehlcontact explore" in (ROOT / "README.md").read_text(encoding="utf-8")
+    pytest.importorskip("sphinx", reason="no Sphinx is installed: pip install 'ehlcontact[docs]'")
+    conf = module(DOCS / "conf.py")
+    connected = {}
+    app = SimpleNamespace(builder=SimpleNamespace(format="html"), outdir=tmp_path, connect=connected.__setitem__)
+    app.add_html_math_renderer = lambda *_: None
+    conf.setup(app)
+    connected["build-finished"](app, ValueError("a build that failed"))
+    assert list(tmp_path.iterdir()) == []
+    connected["build-finished"](app, None)
+    assert "Ball bearing explorer" in (tmp_path / "explore.html").read_text(encoding="utf-8")
+
+
 def test_docs_is_one_room():
     assert len([path for path in DOCS.iterdir() if path.name != "__pycache__"]) <= 21
     assert "build/" in (ROOT / ".gitignore").read_text(encoding="utf-8").split()
@@ -94,10 +122,7 @@ def test_extra_and_step_of_ci():
 
 @pytest.fixture(scope="module")
 def links():
-    spec = importlib.util.spec_from_file_location("links", DOCS / "site" / "links.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return module(DOCS / "site" / "links.py")
 
 
 GOOD = '<a href="b.html#there">x</a><a href="#here">x</a><p id="here"></p><a href="https://fmi-standard.org">x</a>'
