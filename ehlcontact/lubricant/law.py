@@ -183,6 +183,6 @@ def log_viscosity(P, law):
     """Logarithm of viscosity over eta0 at P = p/p_h, Roelands or Barus, and its derivative."""
     if law.roelands:
         base = 1.0 + law.s * P
-        power = math.exp(law.z * math.log(base))
+        power = math.exp(law.z * math.log(base)) if P != 0.0 else 1.0  # many nodes are dry: two functions less
         return law.q * (power - 1.0), law.q * law.z * law.s * power / base
     return law.alpha_bar * P, law.alpha_bar

@@ -9,7 +9,7 @@ the near film of what has changed.
 
 import numpy as np
 
-from ehlcontact.jit import jit, jit_node
+from ehlcontact.jit import jit
 from ehlcontact.solver.kernels.relax import (
     NEAR,
     change_at,
@@ -76,49 +76,50 @@ def segments(marks, mark):
     return found
 
 
-@jit_node
-def film_at(j, i, colour, theta, w, near):
-    """Film at one node by the distributed changes of the lines of one colour within NEAR lines and nodes."""
-    film = 0.0
-    ny, nx = w.shape[0] - 1, w.shape[1] - 1
-    for line in range(-NEAR, NEAR + 1):
-        source = abs(j - line)
-        if (source - colour) % 2 == 0 and source < ny:
-            toward = line if j >= line else -line  # the image of a line lies, and gives, the other way round
-            for k in range(max(i - NEAR, 1), min(i + NEAR, nx - 1) + 1):
-                if w[source, k] != 0.0:
-                    film += w[source, k] * response(toward, i - k, shares_at(source, k, theta), near)
-    return film
+@jit
+def add_films(solved, colour, theta, w, near, H):
+    """Add to film H what the changes of the segments on lines of one colour cause within NEAR lines and nodes."""
+    ny, nx = H.shape[0] - 1, H.shape[1] - 1
+    for s in range(solved.shape[0]):
+        source = solved[s, 0]
+        if source % 2 != colour:
+            continue
+        for line in range(-NEAR if source > 0 else 0, min(NEAR, ny - 1 - source) + 1):
+            target = abs(source + line)  # at Y < 0: what the image of this change does at Y > 0
+            images = 2.0 if target == 0 and source > 0 else 1.0
+            for k in range(solved[s, 1], solved[s, 2]):
+                shares, change = shares_at(source, k, theta), images * w[source, k]
+                for i in range(max(k - NEAR, 1), min(k + NEAR, nx - 1) + 1):
+                    H[target, i] += change * response(line, i - k, shares, near)
 
 
 @jit
-def solve_segments(first, last, solved, colour, fields, rhs, stencil, c_t, near):
-    """`relax_line` on those of segments `first` to `last` - 1 that lie on lines of one colour."""
-    work = line_work(fields.P.shape[1])
-    for s in range(first, last):
+def solve_segments(solved, colour, fields, rhs, stencil, c_t, near, work):
+    """`relax_line` on those segments that lie on lines of one colour; `work` by `line_work`."""
+    for s in range(solved.shape[0]):
         if solved[s, 0] % 2 == colour:
             relax_line(solved[s, 0], solved[s, 1], solved[s, 2], fields, rhs, stencil, c_t, near, work)
 
 
 @jit
-def spread_segments(first, last, felt, colour, fields, law, stencil, near):
-    """P, film and flow at nodes of segments `first` to `last` - 1 by the changes of the lines of one colour."""
+def spread_segments(solved, felt, colour, fields, law, stencil, near):
+    """P, film and flow at the nodes of segments `felt` by the changes of those `solved` on lines of one colour."""
     P, H, flow, theta, w = fields.P, fields.H, fields.flow, fields.theta, fields.w
-    for s in range(first, last):
+    add_films(solved, colour, theta, w, near, H)
+    for s in range(felt.shape[0]):
         j = felt[s, 0]
         for i in range(felt[s, 1], felt[s, 2]):
             P[j, i] = max(P[j, i] + change_at(j, i, colour, P, theta, w), 0.0)
-            H[j, i] += film_at(j, i, colour, theta, w, near)
             update_node(j, i, P, H, law, stencil, flow)
 
 
 @jit
-def update_between_segments(first, last, felt, flow):
-    """Flow between the nodes of segments `first` to `last` - 1 and all their neighbours.
+def update_between_segments(felt, flow):
+    """Flow between the nodes of segments and all their neighbours.
 
     Faces between two segments are done by both, which write the same.
     """
-    for s in range(first, last):
+    for s in range(felt.shape[0]):
         j = felt[s, 0]
         for i in range(felt[s, 1] - 1, felt[s, 2]):
             update_along(j, i, flow)
@@ -129,10 +130,10 @@ def update_between_segments(first, last, felt, flow):
 
 
 @jit
-def weigh_segments(first, last, felt, fields, stencil, c_t):
-    """Weights of the distributed changes at the nodes of segments `first` to `last` - 1."""
+def weigh_segments(felt, fields, stencil, c_t):
+    """Weights of the distributed changes at the nodes of segments."""
     switch = switch_value(stencil, c_t)
-    for s in range(first, last):
+    for s in range(felt.shape[0]):
         j = felt[s, 0]
         for i in range(felt[s, 1], felt[s, 2]):
             fields.theta[j, i] = distribution_weight(j, i, fields.P, fields.flow, stencil, switch)
@@ -155,9 +156,10 @@ def relax_flanks(fields, rhs, law, stencil, c_t, near, marks):
     if len(solved) == 0:
         return
     fields.w[:] = 0.0
+    work = line_work(fields.P.shape[1])
     for _ in range(passes_of(fields.P.shape[1] - 1)):
         for colour in range(2):
-            solve_segments(0, len(solved), solved, colour, fields, rhs, stencil, c_t, near)
-            spread_segments(0, len(felt), felt, colour, fields, law, stencil, near)
-            update_between_segments(0, len(felt), felt, fields.flow)
-        weigh_segments(0, len(felt), felt, fields, stencil, c_t)
+            solve_segments(solved, colour, fields, rhs, stencil, c_t, near, work)
+            spread_segments(solved, felt, colour, fields, law, stencil, near)
+            update_between_segments(felt, fields.flow)
+        weigh_segments(felt, fields, stencil, c_t)

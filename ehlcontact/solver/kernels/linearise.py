@@ -4,6 +4,8 @@
 C, W, E, S, N, WW. The elastic part ``dH = -du + K dP`` is left to the caller: transforms, dense or truncated.
 """
 
+import numpy as np
+
 from ehlcontact.jit import jit, jit_node
 
 NEIGHBOURS = 6
@@ -78,33 +80,61 @@ def linearise(P, flow, stencil, c_t, flow_slope, p_coef, h_coef):
 
 
 @jit
+def films_of_lines(kernel):
+    """Film on line j by unit pressures on line l and its image, (ny + 1, ny, 2 nx + 1); the last by i - k + nx."""
+    ny, nx = kernel.shape[0] // 2, kernel.shape[1] - 1
+    films = np.empty((ny + 1, ny, 2 * nx + 1))
+    for j in range(ny + 1):
+        for line in range(ny):
+            for lag in range(nx + 1):
+                film = kernel[abs(j - line), lag]
+                if line > 0:
+                    film += kernel[j + line, lag]
+                films[j, line, nx + lag] = film
+                films[j, line, nx - lag] = film
+    return films
+
+
+@jit
 def dense_jacobian(free, p_coef, h_coef, kernel, number, J):
     """Jacobian over the free interior nodes with full elasticity; `J` written, its column m is dN/du.
 
-    `free` (m,) lists flat node numbers ``j (nx + 1) + i``; `kernel` holds the influence coefficients by lag;
-    `number` is work space for one integer per node.
+    `free` (m,) lists flat node numbers ``j (nx + 1) + i``, ascending; `kernel` holds the influence coefficients by
+    lag; `number` is work space for one integer per node.
+
+    Line by line, because the film by a line of pressures depends on distances along it only: sums over its nodes
+    run through memory one after the other.
     """
     width = p_coef.shape[2]
-    m = free.shape[0]
+    m, nx = free.shape[0], width - 1
     lines, columns = free // width, free % width
     number[:] = -1
     for c in range(m):
         number[free[c]] = c
+    films = films_of_lines(kernel)
+    row = np.empty(width, J.dtype)
     for r in range(m):
         j, i = lines[r], columns[r]
-        J[r, : m + 1] = 0.0
+        south, _ = neighbour(3, j, i)
+        hc, hw, he = h_coef[0, j, i], h_coef[1, j, i], h_coef[2, j, i]
+        hs, hn, hww = h_coef[3, j, i], h_coef[4, j, i], h_coef[5, j, i]
+        begin = 0
+        while begin < m:
+            line, start = lines[begin], columns[begin]
+            end = begin + 1
+            while end < m and lines[end] == line:
+                end += 1
+            own, below, above = films[j, line], films[south, line], films[j + 1, line]
+            first = nx + start - i
+            for k in range(columns[end - 1] - start + 1):
+                at = first + k
+                along = hc * own[at] + hw * own[at + 1] + he * own[at - 1] + hww * own[at + 2]
+                row[k] = along + hs * below[at] + hn * above[at]
+            for c in range(begin, end):
+                J[r, c] = row[columns[c] - start]
+            begin = end
+        J[r, m] = -(hc + hw + he + hs + hn + hww)
         for q in range(NEIGHBOURS):
-            h = h_coef[q, j, i]
-            p = p_coef[q, j, i]
-            if h == 0.0 and p == 0.0:
-                continue
             jq, iq = neighbour(q, j, i)
-            J[r, m] -= h
-            for c in range(m):
-                lag = abs(iq - columns[c])
-                k = kernel[abs(jq - lines[c]), lag]
-                if lines[c] > 0:  # the image at Y < 0
-                    k += kernel[jq + lines[c], lag]
-                J[r, c] += h * k
-            if number[jq * width + iq] >= 0:
-                J[r, number[jq * width + iq]] += p
+            if iq >= 0 and number[jq * width + iq] >= 0:
+                J[r, number[jq * width + iq]] += p_coef[q, j, i]

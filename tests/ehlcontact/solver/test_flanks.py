@@ -94,11 +94,20 @@ def random_change(level):
     return level.fields.theta, level.fields.w
 
 
-@jit_and_python(flanks.film_at)
+def films_by_changes(kernel, level, colour):
+    """What the changes of all lines of one colour add to a film of none."""
+    H = np.zeros_like(level.H)
+    whole = np.array([[j, 1, level.nx] for j in range(level.ny)])
+    kernel(whole, colour, level.fields.theta, level.fields.w, level.near, H)
+    return H
+
+
+@jit_and_python(flanks.add_films)
 @pytest.mark.parametrize("colour", [0, 1])
 def test_near_film_of_all_changes(level, kernel, colour):
     """Term by term on the whole domain: those of the colour within NEAR, the images at Y < 0 among them."""
     theta, w = random_change(level)
+    films = films_by_changes(kernel, level, colour)
     full_theta, full_w, ny, K = oracles.mirrored(theta), oracles.mirrored(w), level.ny, level.deflection.kernel
     for j in range(ny):
         for i in range(1, level.nx):
@@ -109,10 +118,10 @@ def test_near_film_of_all_changes(level, kernel, colour):
                         parts = oracles.nodes_of_a_distributed_change(row, k, full_theta)
                         change = sum(K[abs(r - ny - j), abs(c - i)] * part for (r, c), part in parts.items())
                         expected += full_w[row, k] * change
-            assert kernel(j, i, colour, theta, w, level.near) == pytest.approx(expected, rel=1e-11, abs=1e-13)
+            assert films[j, i] == pytest.approx(expected, rel=1e-11, abs=1e-13)
 
 
-@jit_and_python(flanks.film_at)
+@jit_and_python(flanks.add_films)
 @pytest.mark.parametrize(("target", "source"), [(0, 0), (0, 1), (0, 2), (1, 1), (4, 5), (5, 3)])
 def test_near_film_is_the_deflection_of_the_change(make_level, point, kernel, target, source):
     """One distributed change and its image, against the dense sum; far images reach no near line."""
@@ -125,15 +134,15 @@ def test_near_film_is_the_deflection_of_the_change(make_level, point, kernel, ta
     for row in rows:
         for node, part in oracles.nodes_of_a_distributed_change(row, 7, oracles.mirrored(theta)).items():
             full[node] += w[source, 7] * part
+    films = films_by_changes(kernel, level, source % 2)
     for i in range(5, 10):
         expected = sum(
             oracles.influence((i - c) * level.hx, (r - ny - target) * level.hy, level.hx, level.hy, point.kappa)
             * full[r, c]
             for r, c in np.argwhere(full)
         )
-        got = kernel(target, i, source % 2, theta, w, level.near)
-        assert got == pytest.approx(expected, rel=1e-9, abs=1e-12)
-        assert kernel(target, i, 1 - source % 2, theta, w, level.near) == 0.0
+        assert films[target, i] == pytest.approx(expected, rel=1e-9, abs=1e-12)
+    assert not films_by_changes(kernel, level, 1 - source % 2).any()
 
 
 @pytest.fixture(scope="module")
