@@ -281,4 +281,13 @@ def _slow(element: Element) -> NDArray[np.float64]:
 
 
 def _flat(details: Mapping[str, object]) -> str:
-    return "; ".join(f"{key}: {details[key]}" for key in sorted(details))
+    return "; ".join(f"{key}: {_plain(details[key])}" for key in sorted(details) if details[key] is not None)
+
+
+def _plain(value: object) -> str:
+    """A value in words and short numbers, what it holds in brackets."""
+    if isinstance(value, Mapping):
+        return f"({', '.join(f'{key} {_plain(one)}' for key, one in value.items() if one is not None)})"
+    if isinstance(value, list | tuple):
+        return f"({', '.join(map(_plain, value))})"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -122,6 +122,7 @@ def test_wheel_takes_whole_packages():
 def test_import_is_light(package):
     """Heavy or optional libraries are imported where they are used."""
     heavy = ("matplotlib", "fmpy", "control", "typer", "rich", "pydantic", "jinja2", "ross", "plotly")
+    heavy += ("xarray", "pandas", "pint")
     code = f"import sys, {package}; print(*[m for m in {heavy!r} if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == []

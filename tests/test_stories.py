@@ -223,6 +223,8 @@ def test_a_figure_of_a_point_in_si_is_in_si(told):
     labels = [axes.get_xlabel() for axes in told[0].plot().axes[::2]]
     assert labels == ["place along rolling [µm]"] * 2
     assert told[3].plot().axes[0].get_xlabel() == "place along rolling [a]"
+    answer = next(thing for thing in told if isinstance(thing, reduced_models.AtlasAnswer))
+    assert [axes.get_xscale() for axes in answer.plot().axes] == ["symlog"] * 2  # it begins at rest
     with pytest.raises(ehlcontact.InputError, match=r"path = .*a file name ending in one of"):
         told[0].plot("figure.docx")
 

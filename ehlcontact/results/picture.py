@@ -62,6 +62,8 @@ class Panel:
                 axes.fill_between(at, y - bars * size, y + bars * size, color=colour, alpha=0.2, linewidth=0.0)
         if "x" in self.logs and not words and far_apart(at):
             axes.set_xscale("log")
+        elif "x" in self.logs and not words and at.min() == 0.0 and far_apart(at[at > 0.0]):
+            axes.set_xscale("symlog", linthresh=at[at > 0.0].min())  # from rest on
         if "y" in self.logs and far_apart(np.concatenate([np.ravel(values) for _, values, _ in self.lines])):
             axes.set_yscale("log")
         if words:

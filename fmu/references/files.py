@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import hashlib
 import io
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -217,12 +218,24 @@ def _read_table(path: Path, known: Mapping[str, Any]) -> tuple[_Floats, dict[str
     for name in names[1:]:
         if name not in known:
             raise ValueError(f"{path.name}: no variable {name} in the FMU")
-    if any(len(row) != len(names) for row in rows):
-        raise ValueError(f"{path.name}: rows of different lengths")
-    values = np.array([[float(text) for text in row] for row in rows[1:]])
-    if not np.all(np.isfinite(values)):
-        raise ValueError(f"{path.name}: numbers that are not finite")
+    values = np.array([_numbers(row, names, f"{path.name}, row {k}") for k, row in enumerate(rows[1:], start=2)])
     return values[:, 0], {name: values[:, k] for k, name in enumerate(names[1:], start=1)}
+
+
+def _numbers(row: list[str], names: list[str], where: str) -> list[float]:
+    """A row of a table, all of it finite numbers."""
+    if len(row) != len(names):
+        raise ValueError(f"{where}: {len(row)} entries, there must be {len(names)}")
+    found = []
+    for name, text in zip(names, row, strict=True):
+        try:
+            number = float(text)
+        except ValueError:
+            number = math.nan
+        if not math.isfinite(number):
+            raise ValueError(f"{where}: {name} is {text!r}, must be a finite number")
+        found.append(number)
+    return found
 
 
 def _read_parameters(path: Path, known: Mapping[str, Any]) -> dict[str, float]:

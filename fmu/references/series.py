@@ -85,7 +85,7 @@ class References(Told):
     points: Trial | None
     parameters: Mapping[str, float] = field(default_factory=dict)
     tolerance: float = TOLERANCE
-    about: str = "One step from each row to the next"
+    about: str = "Inputs, and what the model makes of them"
 
     def _story(self) -> list[str]:
         sizes = {"co-simulation": self.steps, "model exchange": self.points}

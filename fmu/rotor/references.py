@@ -15,6 +15,7 @@ _Floats = NDArray[np.float64]
 
 EVERY = 20  # steps of the run between states for model exchange
 FILM = 0.02  # size of the states of the films there
+ABOUT = "A short run from beside its rest, with an unbalance that shows and further forces, computed in Python"
 TOLERANCE = 1e-5  # of references: Python and C balance the contacts to a billionth of the load, each for itself
 
 
@@ -37,7 +38,7 @@ def rotor_references(model: RotorModel, spec: ModelSpec) -> References:
     if model.elements:
         results |= {f"force[{i}]": history for i, history in enumerate(run.force.T, start=1)}
     steps = Trial(np.asarray(run.dt * np.arange(len(run.motion)), np.float64), run.inputs, results)
-    return References(steps, _points(model, names), parameters, TOLERANCE)
+    return References(steps, _points(model, names), parameters, TOLERANCE, ABOUT)
 
 
 def _points(model: RotorModel, names: list[str]) -> Trial:

@@ -7,13 +7,16 @@ from typing import Any
 
 import numpy as np
 
+from ehlcontact.errors import InputError
 from fmu.c_headers import c_double, c_table
 from fmu.contacts import ALLOWED_ERROR, MEANINGS, Element, checked_name, contact_spec
 from fmu.rotor.laws import law_tables, numbers_of_laws
 from fmu.rotor.model import RotorModel
 from fmu.spec import ModelSpec, Variable
+from reduced_models import JeffcottRotor
 
 BODIES = ("disc", "journal")
+LEAST_INNER_STEP = 1e-6  # of the default: below it, importers repeat what is refused without end
 EXCHANGE_TOLERANCE = 1e-8  # an orbit is some thousandths of the approach; 1e-6 of that is a tenth of it
 _FORCES = {"journal": "Further force on the journal", "disc": "Further force on the disc"}
 
@@ -71,6 +74,9 @@ def rotor_spec(model: RotorModel, model_name: str | None = None) -> ModelSpec:
 
 def spec_of(element: Element | RotorModel, model_name: str | None = None) -> ModelSpec:
     """Specification of whatever can be exported."""
+    if isinstance(element, JeffcottRotor):
+        allowed = "RotorModel(rotor, contacts), of `fmu`: what export_rotor makes an FMU of"
+        raise InputError("element", type(element).__name__, allowed)
     if isinstance(element, RotorModel):
         return rotor_spec(element, model_name)
     return contact_spec(element, model_name)
@@ -229,7 +235,7 @@ class _Variables:
         )  # fmt: skip
         self.add(
             "inner_step", "parameter", "fixed", "Longest step inside one of co-simulation, which is cut evenly",
-            unit="s", start=self.model.inner_step, minimum=0.0,
+            unit="s", start=self.model.inner_step, minimum=LEAST_INNER_STEP * self.model.inner_step,
         )  # fmt: skip
         for name, unit, text in (
             ("disc_mass", "kg", "Mass of the disc"),
@@ -269,7 +275,11 @@ def _macros(model: RotorModel, made: _Variables) -> dict[str, str]:
         "N_CACHE": 3 + 2 * freedoms + axes + numbers_of_laws(model.elements),
         **{f"FIRST_{name}": at for name, at in made.first.items() if name != "STATE"},
     }
-    numbers = {"BEARINGS": float(model.rotor.bearings), "DEFAULT_TOLERANCE": ALLOWED_ERROR}
+    numbers = {
+        "BEARINGS": float(model.rotor.bearings),
+        "DEFAULT_TOLERANCE": ALLOWED_ERROR,
+        "LEAST_INNER_STEP": LEAST_INNER_STEP * model.inner_step,
+    }
     return {k: str(v) for k, v in counts.items()} | {k: c_double(v) for k, v in numbers.items()}
 
 

@@ -155,10 +155,9 @@ class ContactElement(ToldElement, _Common, ABC):
         if approach is not None and load is not None:
             raise InputError("approach and load", (approach, load), "one of the two")
         found = self.copy()
-        if load is not None:
-            approach = self.approach_at(require_positive("load", load))
-        if approach is not None:
-            found.rest(approach)
+        place = approach if load is None else self.approach_at(require_positive("load", load))
+        if place is not None:
+            found.rest(place)
         return found
 
     @abstractmethod

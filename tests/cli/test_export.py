@@ -201,6 +201,7 @@ def test_a_study_as_a_system(call, refused, element, tmp_path):
     result = call("export", study, "-o", target, "--json", "-", "--name", "of a study")
     document = json.loads(result.out)
     assert result.code == 0 and document["passes"] is True and document["system"] == str(target)
+    assert document["fmi"] == "2.0"
     assert document["step"] > 0.0 and 0.0 < document["deviation"] < 0.01
     with zipfile.ZipFile(target) as archive:
         assert set(archive.namelist()) == {
@@ -214,4 +215,5 @@ def test_a_study_as_a_system(call, refused, element, tmp_path):
     assert target.read_bytes() == kept
     table = call("export", study, "-o", target, "--force")
     assert table.code == 0 and "wired" in table.out and f"{document['step']:g} s" in table.out
-    refused(("--output", ".fmu"), "export", element, "-o", tmp_path / "x.ssp")
+    assert any(line.split()[:2] == ["FMI", "2.0"] for line in table.out.splitlines())
+    refused(("--output", ".fmu", "a study (.toml) with a rotor"), "export", element, "-o", tmp_path / "x.ssp")

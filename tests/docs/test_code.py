@@ -41,7 +41,13 @@ def test_pages_are_found():
 
 @pytest.mark.parametrize("page", sorted(set(PAGES) - TUTORIALS))
 def test_page(page, tmp_path):
-    run(page, {})
+    found = {}
+    run(page, found)
+    if page == "README.md":  # what it says of the blocks of python-control
+        memory, loop = found["memory"], found["loop"]
+        assert (loop.input_labels, loop.output_labels, loop.nstates) == (["u", "v"], ["F"], memory.state_count)
+        tangent = memory.spring_tangent(memory.approach_at(1.0))
+        assert found["static_stiffness"] == pytest.approx(tangent, rel=1e-9)
 
 
 @pytest.mark.filterwarnings("ignore::UserWarning")  # what ROSS brings says at import, where ROSS is

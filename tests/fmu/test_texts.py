@@ -126,6 +126,13 @@ def test_page_tells_where_the_element_comes_from(elements):
         assert text in page
 
 
+def test_a_source_is_in_words(elements):
+    """Not as Python prints what it holds."""
+    made = {"point": {"M": 200.0, "alpha": 2.2e-8, "law": None}, "omega": [0.1, 3.14159265], "n": None}
+    notes = dict(contact_spec(dataclasses.replace(elements["cubic"], source=made)).notes)
+    assert notes["Source"] == "omega: (0.1, 3.14159); point: (M 200, alpha 2.2e-08)"
+
+
 def test_page_names_the_largest_step_of_each_coupling(elements):
     """Of a held input the delay eats the damping: C over K, at the static load."""
     for name in ("cubic_si", "wide_si", "power"):

@@ -76,6 +76,9 @@ def export(
     study = file.suffix.lower() == ".toml"
     if contact is not None and not study:
         raise InputError("--contact", str(contact), "left out, but for a study (.toml) with a rotor")
+    if not study and output.suffix.lower() == ".ssp":
+        allowed = "a file name ending in .fmu: a system (.ssp) is made of a study (.toml) with a rotor"
+        raise InputError("--output", str(output), allowed)
     check_file("--output", output, (".fmu", ".ssp") if study else (".fmu",))
     check_json(json_to)
     check_apart({"--output": output, "--json": json_to}, (file, *([contact] if contact else [])))
@@ -106,11 +109,18 @@ def export(
     verdict = {"passes": None} if found is None else found.to_dict()
     document = {
         "system" if system else "fmu": str(output),
+        "fmi": f"{fmi}.0",
         "units": "SI" if study else exported.units,
         "platforms": built,
         **verdict,
     }
-    rows = [*_about(exported, system), ("binaries", str(len(built)), ", ".join(built)), *_advice(exported, found)]
+    version = "FMI", f"{fmi}.0", "co-simulation and model exchange"
+    rows = [
+        *_about(exported, system),
+        version,
+        ("binaries", str(len(built)), ", ".join(built)),
+        *_advice(exported, found),
+    ]
     deliver(
         lambda: write_json(document, json_to),
         lambda: show_table(str(output), [*rows, *_rows(found, rotor=study)], json_to),

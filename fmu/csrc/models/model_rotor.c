@@ -105,8 +105,8 @@ Fault model_prepare(Model *m)
     if (!(value[VR_speed_rpm] >= 0.0 && isfinite(value[VR_speed_rpm]))) {
         return fault(REFUSE, "speed_rpm must be finite and >= 0");
     }
-    if (!(value[VR_inner_step] > 0.0 && isfinite(value[VR_inner_step]))) {
-        return fault(REFUSE, "inner_step must be finite and > 0");
+    if (!(value[VR_inner_step] >= LEAST_INNER_STEP && isfinite(value[VR_inner_step]))) {
+        return fault(REFUSE, "inner_step must be finite and at least a millionth of its default");
     }
     if (m->cache[READY] == 0.0) {
         m->cache[READY] = 1.0;

@@ -23,7 +23,7 @@ def status_of(call, *arguments, **named):
 @pytest.mark.parametrize(
     ("name", "value"),
     [("unbalance", -1e-6), ("unbalance", np.nan), ("speed_rpm", -1.0), ("speed_rpm", np.inf), ("inner_step", 0.0),
-     ("inner_step", np.nan), ("journal_x", np.nan), ("disc_velocity_y", np.inf)],
+     ("inner_step", 1e-15),      ("inner_step", np.nan), ("journal_x", np.nan), ("disc_velocity_y", np.inf)],
 )  # fmt: skip
 def test_impossible_settings_are_refused_at_the_start(instance, name, value):
     slave = instance("mixed")

@@ -106,6 +106,22 @@ def test_verification_tells_another_rotor(unit, rotors):
         assert not verify(one.path, RotorModel(other, one.model.contacts, one.model.state)).passes
     with pytest.raises(InputError, match="export_rotor"):
         verify(one.path, rotors["alone"])
+    with pytest.raises(InputError, match=r"^element = 'JeffcottRotor': must be RotorModel\(rotor, contacts\)"):
+        verify(one.path, rotor)
+
+
+@SAYS_NOTHING
+def test_page_of_a_rotor_reads_well(unit):
+    """What its references are is said once."""
+    one = unit("mixed")
+    page = zipfile.ZipFile(one.path).read("documentation/index.html").decode()
+    assert page.lower().count("from each row") == 1 and "with an unbalance that shows" in page
+
+
+def test_least_inner_step_is_declared(rotors):
+    """So that an importer refuses it itself, before it repeats what is refused for ever."""
+    spec = rotor_spec(rotors["mixed"])
+    assert 0.0 < spec["inner_step"].minimum <= 1e-6 * spec["inner_step"].start
 
 
 def test_elements_for_another_speed_say_so(rotors, elements, tmp_path):
