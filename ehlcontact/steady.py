@@ -59,6 +59,9 @@ METHODS = {
     "multigrid": (Method(False, 1),),
     "newton": (Method(True, 1),),
 }
+# Where lines lie close, twice the sweeps settle nothing that single ones do not.
+CLOSE_LAST_RESORT = Method(newton=True, effort=1)
+CLOSE_METHODS = (Method(False, 1), CLOSE_LAST_RESORT)
 
 
 @one_blas_thread()
@@ -154,20 +157,20 @@ def solve_steady(
         most=max_cycles,
         watch=callback,
     )
-    solved, status = work(mesh, METHODS[method])
+    solved, status = work(mesh, _methods(method, mesh))
     for _ in range(1, LARGEST_ATTEMPTS):
         error = solved.error if refine else None
         other = remedy(solved.mesh, status, moes, n=n, domain=domain, error=error)
         if other is None:
             break
-        attempt, ended = work(other, METHODS[method][: 1 if status.ok else None])
+        attempt, ended = work(other, _methods(method, other)[: 1 if status.ok else None])
         if status.ok and not ended.ok:  # a film that is solved stays, whatever becomes of a finer one
             status = ended if ended is Status.INTERRUPTED else status
             break
         solved, status = attempt, ended
     coarser = newton_mesh(solved.mesh, moes)
     if n is None and status in FAILED and LAST_RESORT in METHODS[method] and coarser != solved.mesh:
-        attempt, ended = work(coarser, (LAST_RESORT,))
+        attempt, ended = work(coarser, _methods(method, coarser)[-1:])
         if ended not in FAILED:  # its smallest film may be far off, and says so; better than none
             solved, status = attempt, ended
     result = solved.result(status, scales_of(point), time.perf_counter() - started)
@@ -176,12 +179,17 @@ def solve_steady(
     return result
 
 
+def _methods(method: str, mesh: Mesh) -> tuple[Method, ...]:
+    """What is tried on this mesh, one after the other."""
+    return CLOSE_METHODS if mesh.lines > 1 and LAST_RESORT in METHODS[method] else METHODS[method]
+
+
 def _solve(
     point: MoesPoint, mesh: Mesh, methods: Sequence[Method], *, deflection: str, threads: int, **run: Any
 ) -> tuple[_Attempt, Status]:
     """The first of `methods` that solves the film on this mesh, or the last that could be tried."""
     for way in methods:
-        if way is LAST_RESORT and not allows_newton(mesh, point):
+        if (way is LAST_RESORT or way is CLOSE_LAST_RESORT) and not allows_newton(mesh, point):
             break
         attempt = _Attempt(point, mesh, way, deflection, threads)
         status = attempt.run(**run)
@@ -214,7 +222,9 @@ class _Attempt:
     @np.errstate(over="ignore", invalid="ignore")  # of a film that runs away: its status says so
     def _run(self, goal: Goal, balance: Balance, watch: Callable[[int, float], None] | None) -> Status:
         mg = self.multigrid
-        mg.full_multigrid(balance)
+        # With close lines cycles need the better start, which raises the load by cycles on the grid of half the
+        # intervals; where those fail, in stiff oil, Newton steps do with the other one.
+        mg.full_multigrid(balance, nested=not self.method.newton)
         if self.method.newton:
             mg.cycle(balance)
         advance = NewtonKrylov(mg).step if self.method.newton else mg.cycle

@@ -4,6 +4,7 @@
 room            responsibility
 =============== ==========================================================================================
 ``mesh``        `mesh_for`, `remedy`: which region and grid a film needs, what to try after a failure
+``buildup``     where coarse grids end, and the load that each carries
 ``domain``      `Domain`: the computed region
 ``memory``      what a grid takes, told before it is tried
 ``level``       `Level`: the arrays of one mesh and the equations on it; a hierarchy of them

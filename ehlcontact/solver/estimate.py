@@ -18,8 +18,8 @@ CYCLES = 2  # on each of both grids: what is left is a hundredth of the differen
 def estimate_error(solved: Multigrid, balance: Balance) -> ErrorEstimate | None:
     """Error of the film solved; the levels below the finest are written. None where there is none.
 
-    Where the level below has the same lines (`level.build_hierarchy`), it says nothing about theirs: the grid with
-    half of them is made.
+    Where the level below has the same lines, or as many nodes on them (`level.build_hierarchy`), it says nothing
+    about theirs: the grid with half of both is made.
     """
     multigrid, k, u = solved, len(solved.levels) - 1, solved.u
     found = [_numbers(solved.finest, u)]
@@ -28,7 +28,7 @@ def estimate_error(solved: Multigrid, balance: Balance) -> ErrorEstimate | None:
         if fine.nx == coarsest.nx:
             break
         k -= 1
-        if multigrid.levels[k].ny == fine.ny:
+        if multigrid.levels[k].ny == fine.ny or multigrid.levels[k].nx == fine.nx:
             multigrid = multigrid.halved()
             k = len(multigrid.levels) - 1
         transfer.restrict_pressure(fine.P, multigrid.levels[k].P, 2, 2)

@@ -209,19 +209,25 @@ def build_hierarchy(point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str
     sweeps leave such stripes (factor .96 each at kappa = .09, n = 512), and a grid with half the lines does not
     see them. One with half the nodes on every line does. So these meshes are coarsened along X until lines lie
     less than LINES_APART node distances apart.
+
+    Lines that lie closer together than nodes (`Mesh.lines`) are halved alone first: relaxation along X is that by
+    points across them, which the next grid has to see coarser across only (`tests/benchmarks/modes.py`).
     """
     n, domain = mesh.n, mesh.domain
     halvings = 0
     while (n >> halvings) % 2 == 0 and (n >> (halvings + 1)) >= coarsest:
         halvings += 1
     hx = (domain.x_out - domain.x_in) / n
-    # hy as near to hx as the halvings allow, but physically no finer: relaxation by lines along X fails where the
-    # lines lie closer together than their nodes
+    # hy as near to hx as the halvings allow, but physically no finer unless asked for: where the lines lie closer
+    # together than their nodes, relaxation by lines along X fails if both meshes are halved
     hy = hx * max(1.0, point.kappa)
     ny = max(4, round(domain.y_max / hy / 2**halvings)) * 2**halvings
-    sizes, last = [(n, ny)], (n >> halvings, ny >> halvings)
+    sizes, last = [(n, ny * mesh.lines)], (n >> halvings, ny >> halvings)
     while sizes[-1] != last:
         nx, ny = sizes[-1]
+        if nx == n and ny * mesh.lines > sizes[0][1]:
+            sizes.append((nx, ny // 2))
+            continue
         apart = (domain.y_max / ny) / (point.kappa * (domain.x_out - domain.x_in) / nx)
         both = apart < LINES_APART or nx == last[0]
         sizes.append((nx // 2 if nx > last[0] else nx, ny // 2 if both and ny > last[1] else ny))

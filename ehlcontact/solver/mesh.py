@@ -13,8 +13,6 @@ from enum import StrEnum
 from math import exp, floor, log, log2
 from typing import NamedTuple
 
-from scipy.optimize import brentq
-
 from ehlcontact.checks import require_instance
 from ehlcontact.errors import InputError
 from ehlcontact.formulas import lightness
@@ -57,6 +55,9 @@ LARGEST_MESH = 0.12  # semi-axes: what the pressure itself asks for, however thi
 # those for which it is within some ten per cent, taken as long as the grid has no more nodes than AFFORDABLE_GRID.
 MESH_OF_THIN_SIDES = 0.4
 FINE_SIDES, FINE_THIN_SIDES, AFFORDABLE_GRID = 0.3, 0.17, 500_000
+# The thinnest of them change across rolling within a tenth of the inlet width: where no mesh as fine along as
+# across shows them, lines lie so many times closer together than nodes, in metres. A power of two.
+CLOSE_LINES = 4
 DOUBLED = (128, 256, 512, 1024, 2048)  # intervals, for multigrid from the coarsest to each
 STEPPED = (80, 96, 128, 160, 192, 256, 320, 384, 512, 640, 768, 1024)  # closer, and all of many halvings
 
@@ -79,6 +80,10 @@ FINENESS = {
     Purpose.CONTACT: Fineness(1.0 / 3.0, STEPPED, 70_000),
 }
 
+# Which contacts are wide, which long? ------------------------------------------------------------------------
+LINES_APART = 5.0  # physical distance of lines over that of nodes, from which a level is coarsened along X alone
+LONG = 1.0  # kappa above which the side lobes of thin films are so much thinner than the inlet
+
 # What is tried after a failure, or a film that is not yet exact? ------------------------------------------------
 FAILED = (Status.STAGNATED, Status.DIVERGED, Status.MAX_CYCLES, Status.NONFINITE)
 REFINED = (*FAILED, Status.UNRESOLVED)  # what a finer mesh may cure
@@ -87,16 +92,6 @@ DOMAIN_GROWTH = 1.5  # of a region that pressure fills
 ACCURACY = ErrorEstimate(approach=0.002, h_central=0.01, h_min=0.03)
 LARGEST_ATTEMPTS = 4  # meshes for one film, the first one included
 LARGEST_NEWTON = 300_000  # nodes for Newton as a last resort: sparse factors take minutes and gigabytes beyond
-
-# How is a film built up from coarse grids? ----------------------------------------------------------------------
-LINES_APART = 5.0  # physical distance of lines over that of nodes, from which a level is coarsened along X alone
-NEGATIVE_FILM = 0.8  # mesh over inlet width above which a film comes out negative: a level carries less load then,
-LOADING_MESH = 0.4  # as much as it resolves this well
-LONG = 1.0  # kappa above which the side lobes of thin films are so much thinner than the inlet
-LOBE_SHARE = 0.5  # that a second attempt takes this share of both mesh sizes: stiff oil does better without
-HIGH_LOAD = 1000.0  # M from which the coarsest grid has to see more of the inlet
-NARROW = 2.0  # kappa above which it needs more lines across rolling:
-NARROW_COARSEST = 64  # levels of fewer intervals, on larger grids, have one or two and correct nothing
 
 
 # What does a point of the atlas get? ----------------------------------------------------------------------------
@@ -140,20 +135,23 @@ class Mesh:
     n : int
         Intervals along X.
     domain : Domain
+    lines : int
+        How many times closer together than nodes they lie, in metres: 1, or in long contacts a power of two.
     """
 
     n: int
     domain: Domain
+    lines: int = 1
 
     def nodes(self, kappa: float) -> float:
         """Nodes of the grid, about; infinite beyond `MOST_INTERVALS`."""
         if self.n > MOST_INTERVALS:
             return float("inf")
-        return self.n * self.n * self.domain.y_max / (self._length * max(1.0, kappa))
+        return self.n * self.n * self.lines * self.domain.y_max / (self._length * max(1.0, kappa))
 
     def levels(self, kappa: float) -> float:
-        """Nodes of all levels over those of this grid, about: at first wide contacts halve their lines alone."""
-        halvings = max(floor(log2(max(1.0, 1.0 / kappa) / LINES_APART)) + 1, 0)
+        """Nodes of all levels over those of this grid, about: the first may be halved in one direction alone."""
+        halvings = max(floor(log2(max(1.0, 1.0 / kappa) / LINES_APART)) + 1, 0) + round(log2(self.lines))
         return 2.0 - 2.0 / 3.0 * 0.5**halvings
 
     def fits(self, kappa: float, solve: Solve = Solve.CYCLES) -> bool:
@@ -162,7 +160,7 @@ class Mesh:
 
     def size(self, kappa: float) -> float:
         """Mesh size over the longer semi-axis."""
-        return self._length / self.n * max(1.0, kappa)
+        return self._length / self.n * max(1.0, kappa / self.lines)
 
     @property
     def near(self) -> bool:
@@ -244,9 +242,10 @@ def remedy(
     far = domain is None and mesh.domain not in {NEAR_DOMAIN, NEAREST_DOMAIN}
     if far and not inexact and point.inlet_width < INLET_NEAR:
         return Mesh(mesh.n, NEAR_DOMAIN)
-    finer = Mesh(2 * mesh.n, mesh.domain)
-    affordable = finer.nodes(point.kappa) <= FINENESS[Purpose.FILM].largest
-    return finer if affordable and finer.fits(point.kappa) else None
+    finer = replace(mesh, n=2 * mesh.n)
+    if point.kappa > LONG and mesh.lines == 1 and (status in REFINED or not _affordable(finer, point)):
+        finer = _with_close_lines(mesh.domain, point)
+    return finer if _affordable(finer, point) else None
 
 
 def widened(
@@ -304,48 +303,13 @@ def allows_newton(mesh: Mesh, point: MoesPoint) -> bool:
 def newton_mesh(mesh: Mesh, point: MoesPoint) -> Mesh:
     """Return the mesh, with as many halvings as it takes until Newton steps are affordable."""
     while not allows_newton(mesh, point) and mesh.n > DOUBLED[0]:
-        mesh = Mesh(mesh.n // 2, mesh.domain)
+        mesh = replace(mesh, n=mesh.n // 2)
     return mesh
 
 
 def require_room(mesh: Mesh, point: MoesPoint, solve: Solve = Solve.CYCLES) -> None:
     """Raise `InputError` for a mesh that would not fit into memory."""
     require_memory(mesh.n, mesh.nodes(point.kappa), solve, mesh.levels(point.kappa))
-
-
-def coarsest_intervals(point: MoesPoint, n: int) -> int:
-    """Intervals of the coarsest grid below n: 16; more at high load, to see the inlet, and for narrow ellipses.
-
-    With thin sides too few lines across the contact correct nothing: cycles diverge from 32 intervals. A small
-    grid is left some levels.
-    """
-    if thin_sides(point):
-        fewest = 64
-    elif point.kappa > NARROW:
-        fewest = 32
-    else:
-        fewest = 16 if point.M < HIGH_LOAD else 24
-    return min(fewest, max(32, n // 4))
-
-
-def corrects(point: MoesPoint, nx: int, n: int) -> bool:
-    """Whether a level of `nx` intervals below `n` has the lines to correct anything in a narrow ellipse."""
-    return point.kappa <= NARROW or nx >= min(NARROW_COARSEST, n // 4)
-
-
-def resolved_load(point: MoesPoint, mesh: float) -> float:
-    """Moes load, at most that of `point`, which a mesh size (in semi-axes) carries with a positive film."""
-
-    def excess(log_load: float) -> float:
-        return replace(point, M=exp(log_load)).inlet_width * LOADING_MESH - mesh
-
-    highest = log(point.M)
-    lowest = min(0.0, highest)
-    if mesh <= NEGATIVE_FILM * point.inlet_width or excess(highest) >= 0.0:
-        return point.M
-    if excess(lowest) <= 0.0:
-        return exp(lowest)
-    return exp(float(brentq(excess, lowest, highest, xtol=1e-3)))
 
 
 def _thin_film_domain(point: MoesPoint) -> Domain | None:
@@ -369,11 +333,27 @@ def _intervals(point: MoesPoint, domain: Domain, purpose: Purpose) -> int:
     return _first(point, domain, needed, counts, largest)
 
 
-def _first(point: MoesPoint, domain: Domain, wanted: float, counts: Sequence[int], largest: int) -> int:
+def _affordable(mesh: Mesh, point: MoesPoint) -> bool:
+    """Whether a steady film may be tried on it."""
+    return mesh.nodes(point.kappa) <= FINENESS[Purpose.FILM].largest and mesh.fits(point.kappa)
+
+
+def _with_close_lines(domain: Domain, point: MoesPoint) -> Mesh:
+    """Mesh whose lines show the side lobes of thin films, and its nodes the inlet; as fine as is affordable."""
+    _, counts, largest = FINENESS[Purpose.FILM]
+    wanted = FINE_SIDES * point.inlet_width
+    mesh = Mesh(_first(point, domain, wanted, counts, largest, CLOSE_LINES), domain, CLOSE_LINES)
+    finer = Mesh(2 * mesh.n, domain, CLOSE_LINES // 2)  # no fewer lines
+    return finer if mesh.size(point.kappa) > wanted and _affordable(finer, point) else mesh
+
+
+def _first(
+    point: MoesPoint, domain: Domain, wanted: float, counts: Sequence[int], largest: int, lines: int = 1
+) -> int:
     """First of `counts` that meshes as finely as `wanted` and as pressure needs; the last of `largest` nodes."""
     wanted = min(wanted, LARGEST_MESH)
-    affordable = [n for n in counts if Mesh(n, domain).nodes(point.kappa) <= largest] or counts[:1]
-    return next((n for n in affordable if Mesh(n, domain).size(point.kappa) <= wanted), affordable[-1])
+    affordable = [n for n in counts if Mesh(n, domain, lines).nodes(point.kappa) <= largest] or counts[:1]
+    return next((n for n in affordable if Mesh(n, domain, lines).size(point.kappa) <= wanted), affordable[-1])
 
 
 def _table_mesh(point: MoesPoint, purpose: Purpose) -> Mesh:

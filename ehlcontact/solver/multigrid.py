@@ -19,16 +19,18 @@ from scipy.interpolate import RectBivariateSpline
 
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.buildup import LEAST_NESTED, LOBE_SHARE, coarsest_intervals, corrects, resolved_load
 from ehlcontact.solver.coarse import CoarseNewton
 from ehlcontact.solver.kernels import transfer
 from ehlcontact.solver.level import Level, build_hierarchy
-from ehlcontact.solver.mesh import LOBE_SHARE, LONG, Mesh, coarsest_intervals, corrects, resolved_load
+from ehlcontact.solver.mesh import LONG, Mesh
 
 PRE_SWEEPS, POST_SWEEPS = 2, 1
 REPEATED_LEVELS = 2  # of a long contact: the finest, which alone repeat their sweeps
 CYCLES_PER_LEVEL = 1  # of full multigrid, before the finest level
 LARGEST_LOADING = 5.0  # factor by which the load of a level rises at once
 CYCLES_AFTER_LOADING = 3  # on a level that carries more load than the one below
+NESTED_CYCLES = 4  # on a grid of half the intervals, its lines as close: its film is solved, and a start
 
 
 class Multigrid:
@@ -65,15 +67,43 @@ class Multigrid:
         for level in self.levels:
             level.c_t = c_t
 
-    def full_multigrid(self, balance: Balance) -> None:
+    def full_multigrid(self, balance: Balance, nested: bool = True) -> None:
         """Solve from the coarsest level upwards, with few cycles on each level below the finest.
 
         Every level carries the load that its mesh can resolve: a film thinner than its errors comes out negative
-        there, and is no start for anything. In Hertz units the pressure hardly changes with load.
+        there, and is no start for anything. In Hertz units the pressure hardly changes with load. Where lines lie
+        close, it starts from the grid of half the intervals instead, unless `nested` is False.
         """
+        if nested and self.mesh.lines > 1 and self.mesh.n > LEAST_NESTED:
+            self._start_from_half(balance, self.point.M)
+        else:
+            self._start_from_coarsest(balance, self.point.M)
+        self.finest.update(self.u)
+
+    def _start_from_half(self, balance: Balance, M: float) -> None:
+        """From the film on half the intervals, its lines as close, under the load M at last.
+
+        The levels of this grid have ever fewer lines before they have fewer nodes: side lobes are negative there.
+        """
+        half, last = self.halved(), len(self.levels) - 1
+        load = min(resolved_load(self.point, max(half.finest.hx, half.finest.hy) / LOBE_SHARE), M)
+        if half.mesh.n > LEAST_NESTED:
+            half._start_from_half(balance, load)
+        else:
+            half._start_from_coarsest(balance, load)
+        half.finest.update(half.u)
+        for _ in range(NESTED_CYCLES):
+            half.cycle(balance)
+        _interpolate_solution(half.finest, self.finest)
+        self.u = half.u
+        self._set_load(last, load)
+        self._raise_load(last, load, M, balance)
+
+    def _start_from_coarsest(self, balance: Balance, M: float) -> None:
+        """Level by level, under the load M at last."""
         share = LOBE_SHARE if self.point.kappa > LONG and self.least_effort > 1 else 1.0
         sizes = [max(level.hx, level.hy) / share for level in self.levels[:-1]]
-        loads = [*(resolved_load(self.point, size) for size in sizes), self.point.M]
+        loads = [*(min(resolved_load(self.point, size), M) for size in sizes), M]
         self._set_load(0, loads[0])
         self.levels[0].set_dry_hertz()
         self.u = self.newton.solve(self.u, balance, max_steps=60, tol=1e-9)
@@ -82,14 +112,17 @@ class Multigrid:
             fine.rhs[...] = 0.0
             fine.film_shift = 0.0
             _interpolate_solution(coarse, fine)
-            steps = ceil(log(loads[k] / loads[k - 1]) / log(LARGEST_LOADING) - 1e-9)
-            for step in range(1, steps + 1):
-                self._set_load(k, loads[k - 1] * (loads[k] / loads[k - 1]) ** (step / steps))
-                self._repeat(k, CYCLES_AFTER_LOADING, balance)
-            if steps == 0:
+            if not self._raise_load(k, loads[k - 1], loads[k], balance):
                 self._set_load(k, loads[k])
                 self._repeat(k, CYCLES_PER_LEVEL if fine is not self.finest else 0, balance)
-        self.finest.update(self.u)
+
+    def _raise_load(self, k: int, lower: float, higher: float, balance: Balance) -> int:
+        """Take level k from one Moes load to another; returns in how many steps, none where they are the same."""
+        steps = ceil(log(higher / lower) / log(LARGEST_LOADING) - 1e-9)
+        for step in range(1, steps + 1):
+            self._set_load(k, lower * (higher / lower) ** (step / steps))
+            self._repeat(k, CYCLES_AFTER_LOADING, balance)
+        return steps
 
     def _set_load(self, k: int, M: float) -> None:
         """Moes load on levels 0 to k."""

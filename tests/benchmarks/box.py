@@ -30,6 +30,7 @@ from ehlcontact.solver.mesh import Mesh
 
 LARGEST_MOVE = 0.1  # of the smallest film on twice the grid
 LARGEST_GRID = 4_000_000  # nodes of the twice finer grid: some gigabytes
+CLOSE = 0.75  # distance of lines over that of nodes, in metres, below which `solve_steady` chose close lines
 SHOWN = 10
 
 
@@ -65,6 +66,7 @@ def solve(M: float, L: float, kappa: float) -> Row:
         "cycles": result.cycles,
         "factor": float(drop ** (1.0 / result.cycles)) if result.cycles and np.isfinite(drop) else None,
         "n": result.n,
+        "apart": float((result.Y[1] - result.Y[0]) / (kappa * (result.X[1] - result.X[0]))),
         "domain": result.domain.as_tuple(),
         "approach": result.approach,
         "h_central": result.h_central,
@@ -81,6 +83,8 @@ def solve_finer(row: Row) -> Row:
     found: Row = {"of": row["key"], "M": row["M"], "L": row["L"], "kappa": row["kappa"], "n": n}
     if not Mesh(n, domain).nodes(point.kappa) <= LARGEST_GRID:
         return found | {"status": "not solved: the grid has too many nodes", "move": None}
+    if row.get("apart", 1.0) < CLOSE:
+        return found | {"status": "not solved: a grid with n given has fewer lines", "move": None}
     try:
         result = solve_steady(point, n=n, domain=domain, throw=False)
     except InputError as refused:

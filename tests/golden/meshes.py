@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from ehlcontact import Domain, InputError, MoesPoint, Purpose, Status, mesh_for
-from ehlcontact.solver.mesh import Mesh, allows_newton, coarsest_intervals, default_domain, remedy, resolved_load
+from ehlcontact.solver.buildup import coarsest_intervals, resolved_load
+from ehlcontact.solver.mesh import Mesh, allows_newton, default_domain, remedy
 
 FILE = Path(__file__).with_name("meshes.json")
 PICKED = [
@@ -35,8 +36,9 @@ def points():
 
 
 def plain(mesh):
-    """A mesh as JSON."""
-    return None if mesh is None else [mesh.n, *mesh.domain.as_tuple()]
+    """A mesh as JSON; how close its lines lie only where that is closer than its nodes."""
+    close = [] if mesh is None or mesh.lines == 1 else [mesh.lines]
+    return None if mesh is None else [mesh.n, *mesh.domain.as_tuple(), *close]
 
 
 def chain(point, purpose, statuses, **given):

@@ -84,6 +84,17 @@ def test_lines_far_apart_are_coarsened_along_x_first(kappa, n, coarsest, alone):
     assert 0.6 < levels[-1].hy / levels[-1].hx / max(1.0, kappa) < 1.25
 
 
+@pytest.mark.parametrize(("lines", "alone"), [(1, 0), (2, 1), (4, 2)])
+def test_close_lines_are_halved_first(lines, alone):
+    """So many halvings across alone; nodes along X, and all coarser grids, are those without."""
+    point, domain = MoesPoint(5000, 2, 3.7), Domain(-1.5, 1.2, 1.25)
+    plain = build_hierarchy(point, Mesh(256, domain), 64)
+    levels = build_hierarchy(point, Mesh(256, domain, lines), 64)
+    sizes, usual = ([(level.nx, level.ny) for level in some] for some in (levels, plain))
+    assert sizes == usual + [(256, usual[-1][1] * 2**k) for k in range(1, alone + 1)]
+    assert apart(levels[-1], 3.7) * lines == pytest.approx(apart(plain[-1], 3.7), rel=1e-12)
+
+
 def test_a_sweep_moves_the_pressure(level):
     """Which stays positive, and zero on the border; the next update needs nothing else of what it leaves."""
     P = level.P.copy()

@@ -71,10 +71,12 @@ def test_estimate_is_within_30_percent_of_what_is_taken(what, n, kappa):
     assert told == pytest.approx(float(done.stdout), rel=0.3)
 
 
-@pytest.mark.parametrize("kappa", [0.046, 0.11, 0.21, 1.0, 3.0])
-def test_nodes_of_all_levels(kappa):
-    """Against the hierarchy itself: levels of wide contacts keep their lines at first."""
-    mesh = Mesh(256, Domain())
+@pytest.mark.parametrize(
+    ("kappa", "lines"), [(0.046, 1), (0.11, 1), (0.21, 1), (1.0, 1), (3.0, 1), (3.0, 2), (3.0, 4)]
+)
+def test_nodes_of_all_levels(kappa, lines):
+    """Against the hierarchy itself: levels of wide contacts keep their lines at first, close lines nodes."""
+    mesh = Mesh(256, Domain(), lines)
     sizes = [level.gap.size for level in build_hierarchy(MoesPoint(200, 10, kappa), mesh, 32)]
     assert mesh.levels(kappa) == pytest.approx(sum(sizes) / sizes[-1], rel=0.05)
 

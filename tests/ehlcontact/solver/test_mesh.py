@@ -22,6 +22,7 @@ from ehlcontact import (
 )
 from ehlcontact.formulas import LIGHT_BLEND, LIGHT_LOAD
 from ehlcontact.solver import mesh as m
+from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.domain import check_intervals
 
 BOX = [
@@ -71,7 +72,9 @@ def test_region_closes_in_on_thin_films():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("M", "L", "kappa"), [(1625, 6.82, 4.73), (3786, 5.9, 2.74), (12834, 3.2, 1.09)])
+@pytest.mark.parametrize(
+    ("M", "L", "kappa"), [(1625, 6.82, 4.73), (3786, 5.9, 2.74), (12834, 3.2, 1.09), (4861.8, 1.884, 3.6985)]
+)
 def test_side_lobes_of_long_contacts(M, L, kappa):
     """Films of 1e-4 dry approaches in the side lobes, long axis along rolling, unattended."""
     result = solve_steady(MoesPoint(M, L, kappa))
@@ -120,6 +123,37 @@ def test_no_remedy_for_what_was_asked_for_or_is_done():
         assert m.remedy(mesh, status, point, n=128) is None
         assert m.remedy(mesh, status, point) is not None
     assert m.remedy(Mesh(2048, Domain()), Status.UNRESOLVED, point) is None
+
+
+POOR = ErrorEstimate(approach=1e-5, h_central=1e-3, h_min=0.5)
+
+
+@pytest.mark.parametrize(
+    ("M", "L", "kappa"), [(4862, 1.9, 3.7), (14082, 2.8, 2.5), (1351, 3.5, 4.7), (16188, 1, 1.7)]
+)
+def test_lines_lie_close_where_side_lobes_are_not_resolved(M, L, kappa):
+    """In grids that are affordable; whose lines are closer than those of the mesh that failed; once."""
+    point = MoesPoint(M, L, kappa)
+    first = mesh_for(point, Purpose.FILM)
+    close = m.remedy(first, Status.UNRESOLVED, point)
+    assert first.lines == 1 < close.lines and close.domain == first.domain
+    assert close.n * close.lines >= 2 * first.n or close.n * close.lines == 2 * 1024
+    assert close.nodes(kappa) <= m.FINENESS[Purpose.FILM].largest
+    assert close.nodes(kappa) == pytest.approx(Mesh(close.n, close.domain).nodes(kappa) * close.lines)
+    finer = m.remedy(close, Status.CONVERGED, point, error=POOR)
+    assert finer is None or finer == Mesh(2 * close.n, close.domain, close.lines)
+    # a film that is solved, but not its smallest: lines before more nodes than are affordable
+    finest = Mesh(2048, first.domain)
+    assert m.remedy(finest, Status.CONVERGED, point, error=POOR) == close
+
+
+@pytest.mark.parametrize(("M", "L", "kappa"), [(30000, 0, 0.3), (12834, 3.2, 1.0), (200, 10, 0.5)])
+def test_contacts_that_are_not_long_keep_their_lines(M, L, kappa):
+    point = MoesPoint(M, L, kappa)
+    mesh = mesh_for(point, Purpose.FILM)
+    for status, error in ((Status.UNRESOLVED, None), (Status.STAGNATED, None), (Status.CONVERGED, POOR)):
+        follows = m.remedy(mesh, status, point, error=error)
+        assert follows is None or follows.lines == 1
 
 
 def test_impedance_tells_the_grid_it_chose():

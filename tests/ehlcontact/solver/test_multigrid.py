@@ -5,8 +5,9 @@ import pytest
 
 from ehlcontact import Domain, MoesPoint, Status, solve_steady, steady
 from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.buildup import coarsest_intervals
 from ehlcontact.solver.level import Level
-from ehlcontact.solver.mesh import Mesh, coarsest_intervals
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid, initial_approach
 
 LOAD = Balance.of_load()
@@ -196,6 +197,18 @@ def test_lines_far_apart_cost_no_cycles(kappa):
     mg.full_multigrid(LOAD)
     changes = [mg.cycle(LOAD) for _ in range(8)]
     assert (changes[1] / changes[7]) ** (1.0 / 6.0) >= 5.0
+
+
+def test_close_lines_show_side_lobes():
+    """Of a film that comes out negative on lines as far apart as the nodes; cycles fall as fast as elsewhere."""
+    point, domain = MoesPoint(1351.4385, 3.4935, 4.7044), Domain(-1.5, 1.2, 1.25)
+    mg = Multigrid(point, Mesh(512, domain, 4))
+    assert mg.halved().mesh == Mesh(256, domain, 4)
+    mg.full_multigrid(LOAD)
+    for _ in range(10):
+        change = mg.cycle(LOAD)
+    assert change < 1e-4 and mg.finest.H.min() > 1e-4
+    assert {level.M for level in mg.levels} == {point.M}
 
 
 def test_initial_approach_is_bounded():
