@@ -177,7 +177,11 @@ def _show(rows: Sequence[Row], json_to: str | None) -> None:
     from ehlcontact.cli.study.points.page import NARROW, cells
 
     table = Table(
-        title=spelled(rows[0].point.study_title, sys.stdout), title_justify="left", pad_edge=False, box=None
+        title=spelled(rows[0].point.study_title, sys.stdout),
+        title_justify="left",
+        padding=(0, 1, 0, 0),
+        pad_edge=False,
+        box=None,
     )
     for head in (*(head for head, *_ in NARROW), "status"):
         table.add_column(spelled(head, sys.stdout), justify="right")
