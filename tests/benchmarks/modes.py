@@ -84,7 +84,9 @@ def left_to_sweeps(apart: float) -> Iterator[tuple[int, int, NDArray[np.float64]
     long = np.minimum(angles, WAVES - angles) < WAVES // 4
     for ik in range(WAVES // 2 + 1):
         for il in range(WAVES // 2):
-            carried = [long[ik] and (apart >= LINES_APART or long[line]) for line in (il, il + WAVES // 2)]
+            pair = (il, il + WAVES // 2)
+            # lines closer together than nodes are halved alone, as nodes are where lines lie far apart
+            carried = [(long[ik] or apart < 1.0) and (apart >= LINES_APART or long[line]) for line in pair]
             yield ik, il, np.diag(1.0 - np.array(carried))
 
 

@@ -96,10 +96,10 @@ def test_a_finer_grid_that_fails_takes_nothing_away(monkeypatch):
     point, run = MoesPoint(97, 10.56, 1.489), Multigrid.full_multigrid
 
     def failing(by):
-        def full_multigrid(self, balance):
+        def full_multigrid(self, balance, **options):
             if self.finest.nx > 128:
                 by(self)
-            run(self, balance)
+            run(self, balance, **options)
             if self.finest.nx > 128:
                 self.finest.P[...] = float("nan")
 
