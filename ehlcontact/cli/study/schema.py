@@ -25,8 +25,7 @@ from ehlcontact.transient.motion import FASTEST, SLOWEST, FreeVibration, Harmoni
 from reduced_models.bearing.catalogue import catalogue_row
 
 MOST_ECCENTRIC = 0.01  # m of the disc's centre of mass: balanced rotors have some 1e-6, and none runs with more
-# What the library calls some entries.
-ENTRIES = {
+ENTRIES = {  # as the library calls them
     "x_in": "solver.domain.0",
     "x_out": "solver.domain.1",
     "y_max": "solver.domain.2",
