@@ -13,10 +13,12 @@ from ehlcontact.origin import Origin
 from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.si import SteadySI
 from ehlcontact.results.story import Told, contact_text
-from ehlcontact.solver.accuracy import ErrorEstimate
+from ehlcontact.solver.accuracy import ALL, ErrorEstimate
 from ehlcontact.status import Status
 
 Array = NDArray[np.float64]
+
+DOUBTFUL = 0.1  # estimated error of a film, over it, from which a converged result says so in words
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -146,10 +148,23 @@ class SteadyResult(Told, Tabled, Origin):
         """Largest pressure / p_hertz."""
         return float(self.P.max())
 
+    @property
+    def reservation(self) -> str:
+        """What a converged film leaves open, in words: where its mesh does not show a film; else empty."""
+        if self.error is None or not self.status.ok:
+            return ""
+        films = {"central": self.error.h_central, "smallest": self.error.h_min}
+        off = [
+            f"the {name} film may be off by {'anything' if bar >= ALL else f'{100.0 * bar:.0f} %'}"
+            for name, bar in films.items()
+            if bar > DOUBTFUL
+        ]
+        return f"the grid is too coarse: {', '.join(off)}" if off else ""
+
     def _story(self) -> list[str]:
         bars = ["", ""]
         if self.error is not None:
-            bars = [f" (± {100.0 * e:.2g} %)" for e in (self.error.h_central, self.error.h_min)]
+            bars = [f" (± {float(f'{100.0 * e:.2g}'):g} %)" for e in (self.error.h_central, self.error.h_min)]
         s = self.scales
         size, unit = (1.0, "of the dry approach") if s is None else (s.length * 1e6, "µm")
         central, least = size * self.h_central, size * self.h_min
@@ -158,6 +173,7 @@ class SteadyResult(Told, Tabled, Origin):
             f"{self.status} on n = {self.n}, P and H of {len(self.X)} x {len(self.Y)} nodes",
             f"approach {size * self.approach:.5g} {unit}; largest pressure {self.p_max:.4g} of the Hertz pressure",
             f"film {central:.4g}{bars[0]} in the centre, {least:.4g}{bars[1]} at least, {unit}",
+            *filter(None, [self.reservation]),
         ]
 
     def summary(self) -> dict[str, Any]:
@@ -177,6 +193,7 @@ class SteadyResult(Told, Tabled, Origin):
             "error": None if self.error is None else asdict(self.error),
             "status": str(self.status),
             "advice": self.status.advice,
+            "reservation": self.reservation,
             "n": self.n,
             "domain": list(self.domain.as_tuple()),
             "point": self.point.to_dict(),

@@ -1,6 +1,6 @@
 """`solve_steady`: what it promises about its result, and how it fails."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -128,6 +128,19 @@ def test_tol_is_of_the_pressure():
     for tol in (1e-3, 1e-5):
         assert ends[tol].pressure_error <= tol
         assert np.abs(ends[tol].P - ends[1e-10].P).max() < tol
+
+
+def test_a_grid_too_coarse_for_its_film_is_said_in_words():
+    """The equations of a grid may be solved, and its film still be far from that of a finer one."""
+    fine = solve_steady(MoesPoint(200, 10, 1), n=128)
+    assert fine.error.h_min < 0.1 and fine.reservation == ""
+    coarse = solve_steady(MoesPoint(200, 10, 1), n=48)
+    assert coarse.status.ok and abs(coarse.h_min / fine.h_min - 1.0) > 0.1
+    said = coarse.reservation
+    assert f"central film may be off by {100.0 * coarse.error.h_central:.0f} %" in said
+    assert coarse.error.h_min == 1.0 and "smallest film may be off by anything" in said
+    assert said in repr(coarse) and coarse.summary()["reservation"] == said
+    assert replace(coarse, status=Status.MAX_CYCLES).reservation == ""
 
 
 def test_prescribed_approach_is_the_inverse(steady):

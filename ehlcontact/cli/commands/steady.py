@@ -90,6 +90,8 @@ def steady(
     rough = () if result.scales is None else surfaces.rows(result.si.h_min)
     about = contact.about(point) | ({} if result.scales is None else surfaces.about(result.si.h_min))
     files.deliver(result, "steady film", [*contact.rows(point), *_rows(result), *rough], _draw, about)
+    if result.reservation:
+        complain(f"warning: {result.reservation}")
     if not result.status.ok:
         kept = f"; partial result in {files.save}" if files.save else ""
         complain(f"{result.status}: {result.status.advice}{kept}")
