@@ -79,6 +79,6 @@ def shell_lines(page: str) -> list[str]:
 
 def commands(page: str) -> list[str]:
     """Lines of a page's plain blocks that call the program, from its name on, without comments."""
-    fenced = re.findall(r"^```\n(.*?)^```$", (ROOT / page).read_text(encoding="utf-8"), flags=re.M | re.S)
+    fenced = [fence.text for fence in fences(page) if not fence.kind]
     lines = [line.split("#")[0].strip() for block in fenced for line in block.splitlines()]
     return [line[line.index("ehlcontact ") :] for line in lines if re.search(r"(^|&& )ehlcontact ", line)]

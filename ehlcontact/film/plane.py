@@ -6,8 +6,9 @@ Upper-case attributes are dimensionless as in `results`; their lower-case proper
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,12 +18,15 @@ from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from ehlcontact.results import SteadyResult, require_scales
+from ehlcontact.results.contact_map import ContactMap, contact_panels
 from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.story import Told
 from ehlcontact.solver.lowest_film import lowest_film
 from ehlcontact.transient.result import SimulationResult
 
 Array = NDArray[np.float64]
+
+LIGHT = (1e-8, 1e-4)  # m: wavelengths, from ultraviolet to infrared
 
 IN_SI = Layout(
     rows="x y",
@@ -138,6 +142,10 @@ class Film(Told, Tabled):
     def _layout(self) -> Layout:
         return self.LAYOUT if self.scales is None else IN_SI
 
+    def _panels(self) -> Iterator[Any]:
+        central = float(self.H[int(np.argmin(np.abs(self.X))), self.Y.size // 2])
+        yield from contact_panels((self.X, self.Y), (self.P, self.H), central, 1.0, self.scales)
+
     @property
     def x(self) -> Array:
         """Place along rolling [m]."""
@@ -237,16 +245,35 @@ def _mirrored(field: Array) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Interferogram(Told, Tabled):
-    """Fringes, shape (nx + 1, 2 ny + 1): `intensity` in [0, 1]; `order`, the path difference in wavelengths."""
+    """Fringes of a film, where its grid resolves them `resolved`.
+
+    Attributes
+    ----------
+    intensity, order : ndarray, shape (nx + 1, 2 ny + 1)
+        Brightness in [0, 1], and the path difference in wavelengths.
+    x, y : ndarray, shape (nx + 1,), (2 ny + 1,)
+        Places along rolling and across [m].
+    axes : (float, float)
+        Semi-axes of the Hertz ellipse along and across [m].
+    """
 
     intensity: Array
     order: Array
+    x: Array
+    y: Array
+    axes: tuple[float, float]
 
     LAYOUT: ClassVar[Layout] = Layout(
-        rows="node_x node_y",
+        rows="x y",
         panels=("intensity",),
-        quantities={"intensity": ("", "node_x node_y"), "order": ("", "node_x node_y")},
+        quantities={"x": ("m", "x"), "y": ("m", "y"), "intensity": ("", "x y"), "order": ("", "x y")},
     )
+
+    def _panels(self) -> Iterator[Any]:
+        seen = np.where(self.resolved, self.intensity, np.nan)  # finer fringes would be false ones
+        labels = "x along rolling [µm]", "y across [µm]", "intensity; blank where the grid is too coarse for it"
+        a, b = (1e6 * axis for axis in self.axes)
+        yield ContactMap(1e6 * self.x, 1e6 * self.y, seen, labels, (a, b), "gray", (0.0, 1.0))
 
     @property
     def resolved(self) -> NDArray[np.bool_]:
@@ -280,7 +307,11 @@ def interferogram(
         A film without SI scales, wavelength or index not positive, phase not finite.
     """
     wave = require_positive("wavelength", wavelength)
+    if not LIGHT[0] <= wave <= LIGHT[1]:
+        raise InputError("wavelength", wavelength, f"from {LIGHT[0]:g} to {LIGHT[1]:g} m (given in nm or um?)")
     index = require_positive("refractive_index", refractive_index)
     turn = require_finite("phase", phase) / (2.0 * np.pi)
     order = 2.0 * index * film.h / wave + turn
-    return Interferogram(0.5 * (1.0 + np.cos(2.0 * np.pi * order)), order)
+    scales = require_scales(film.scales)
+    intensity = 0.5 * (1.0 + np.cos(2.0 * np.pi * order))
+    return Interferogram(intensity, order, film.x, film.y, (scales.a, scales.b))

@@ -7,6 +7,7 @@ module        responsibility
 ``impedance`` `ImpedanceResult`: stiffness and damping over frequency
 ``si``        what their ``.si`` gives: every quantity in SI
 ``layout``    what their quantities are: as xarray, as pandas, as a figure
+``contact_map`` pressure and film of a contact as a figure
 ``picture``   plain figures; matplotlib is imported where one is drawn
 ``story``     what results and elements say of themselves at the prompt and in a notebook
 ============= =================================================================================

@@ -100,7 +100,9 @@ def draw(title: str, panels: Sequence[Panel | Map], path: str | os.PathLike[str]
 
     wide = min(len(panels), 2)
     high = -(-len(panels) // 2)
-    figure = Figure(figsize=(max(WIDTH * wide, 1.3 * WIDTH), HEIGHT * high + 0.6), layout="constrained")
+    figure = Figure(
+        figsize=(max(WIDTH * wide, 1.3 * WIDTH), HEIGHT * high + 0.6), layout="compressed"
+    )  # room for maps that are to scale
     for k, panel in enumerate(panels):
         panel.draw(figure.add_subplot(high, wide, k + 1))
     figure.suptitle(fill(title, 50 * wide), fontsize=10)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field
 from math import nan, pi
 from typing import Any, ClassVar
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.origin import Origin
+from ehlcontact.results.contact_map import contact_panels
 from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.si import SteadySI
 from ehlcontact.results.story import Told, contact_text
@@ -160,6 +162,13 @@ class SteadyResult(Told, Tabled, Origin):
             if bar > DOUBTFUL
         ]
         return f"the grid is too coarse: {', '.join(off)}" if off else ""
+
+    def _panels(self) -> Iterator[Any]:
+        places, fields = (self.X, self.Y), (self.P, self.H)
+        yield from contact_panels(places, fields, self.h_central, self.point.kappa, self.scales)
+
+    def _drawn(self) -> SteadyResult:
+        return self  # both in SI and without, as a contact is drawn
 
     def _story(self) -> list[str]:
         bars = ["", ""]

@@ -39,7 +39,7 @@ from reduced_models.bearing.kinematics import (
 from reduced_models.bearing.law import dry_law, film_law
 from reduced_models.bearing.linear import BearingCoefficients, impedances
 from reduced_models.bearing.loss import loss_of, require_loss_factor
-from reduced_models.bearing.race import RACES, Race, films_under, race_of
+from reduced_models.bearing.race import RACES, Race, films_under, race_of, require_roughness
 from reduced_models.bearing.state import BearingState
 from reduced_models.bearing.statics import Standing, angle_of, direction_of, radial_load, stand
 from reduced_models.bearing.told import ToldBearing
@@ -122,9 +122,8 @@ class BallBearing(ToldBearing):
         require_integer("balls", self.balls, "a whole number >= 3", 3)
         if self.oil is not None:
             require_instance("oil", self.oil, Lubricant, "a Lubricant, as Lubricant.iso_vg(68, temperature=50.0)")
-        for name in ("rq_ball", "rq_race"):
-            if getattr(self, name) is not None:
-                require_nonnegative(name, getattr(self, name))
+        for name, rq in (("rq_ball", self.rq_ball), ("rq_race", self.rq_race)):
+            require_roughness(name, rq)
         if self.film_limit is not None:
             require_positive("film_limit", self.film_limit)
         require_positive("density", self.density)

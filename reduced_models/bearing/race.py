@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact import Geometry, Lubricant, OperatingPoint
+from ehlcontact.assumptions.judge import ROUGHEST
+from ehlcontact.checks import require_nonnegative
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import hertz_contact, radius_ratio
 from reduced_models.atlas.atlas import Atlas
@@ -32,6 +34,12 @@ SOME_SPEED = 1000.0  # rev/min, at which an oil is tried
 def shared_atlas(path: str | None) -> Atlas:
     """The atlas of a file, or the shipped one, read once."""
     return Atlas(path)
+
+
+def require_roughness(name: str, rq: float | None) -> None:
+    """Raise `InputError` for a roughness [m] below 0 or beyond any rolling surface; None is none given."""
+    if rq is not None and require_nonnegative(name, rq) > ROUGHEST:
+        raise InputError(name, rq, f"from 0 to {ROUGHEST:g} m (given in um?)")
 
 
 @dataclass(frozen=True)

@@ -80,7 +80,7 @@ def _show_points(document: Mapping[str, Any], json_to: str | None) -> None:
     if json_to == STDOUT:
         return
     table = Table(title=spelled(document["title"], sys.stdout), title_justify="left", pad_edge=False, box=None)
-    for column in ("point", "M", "L", "kappa", "p_h [GPa]", "h_c [µm]", "kept", "to do"):
+    for column in ("point", "M", "L", "kappa", "p_h [GPa]", "h_c by formula [µm]", "kept", "to do"):
         table.add_column(spelled(column, sys.stdout), justify="left" if column == "point" else "right")
     for one in document["points"]:
         p, kept = one["operating_point"], sum(stage["kept"] for stage in one["stages"])

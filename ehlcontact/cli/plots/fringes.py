@@ -69,7 +69,8 @@ def snapshots(run: SimulationResult) -> Figure:
         film = refined(film_of(run, float(T)), growth)
         depth = film.H / run.h_central[0]
         order = FRINGES_AT_REST * depth
-        fringes = Interferogram(0.5 * (1.0 + np.cos(2.0 * np.pi * order)), order)
+        intensity = 0.5 * (1.0 + np.cos(2.0 * np.pi * order))
+        fringes = Interferogram(intensity, order, film.X, film.Y, (1.0, 1.0))
         draw_map(axes, film, brightness(fringes, depth / FADING), kappa, cmap="gray", vmin=0.0, vmax=1.0)
         axes.set(title=f"T = {numeral(T)}", xlabel="", ylabel="")
     for axes in panels[count:]:

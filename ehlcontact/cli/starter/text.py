@@ -156,7 +156,7 @@ def _line(name: str, entry: FieldInfo, entries: Mapping[str, Any], shown: Mappin
             f" (default {toml_value(default)}{', too small for this film' if name.startswith('solver.') else ''})"
         )
     written = f"{'' if name in entries else '# '}{key} = {'?' if value is None else toml_value(value)}"
-    line = f"{written.ljust(COMMENT)}# {what}"
+    line = f"{written.ljust(COMMENT - 1)} # {what}"
     if len(line) <= WIDTH:
         return line
     return "\n".join([*_comment(f"{key}: {what}"), written])

@@ -49,7 +49,9 @@ class _Worker:
         self.task = task
         self.last: dict[str, Any] = {}
         path = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))
-        environment = os.environ | dict.fromkeys(THREADS, str(threads)) | {"PYTHONPATH": path}
+        # The code that runs here, not that of a checkout that one is in: it would be compiled once more.
+        ours = {"PYTHONPATH": path, "PYTHONSAFEPATH": "1"}
+        environment = os.environ | dict.fromkeys(THREADS, str(threads)) | ours
         where = str(task.point.study_file), str(task.point.folder)
         command = [sys.executable, "-m", f"{__package__}.worker", *where, task.name]
         self._errors = tempfile.TemporaryFile(mode="w+", encoding="utf-8")

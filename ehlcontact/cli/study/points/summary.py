@@ -109,13 +109,24 @@ def row_of(point: Point, ledger: Mapping[str, Note], root: Path) -> Row:
         point=point,
         status=str(Status.CONVERGED) if closed else _worst(stages, lacking),
         messages=tuple(f"{name}: {stages[name]}: {ledger[name]['message']}" for name in lacking),
-        warnings=(*cautions(point.study), *ledger.get(CLOSING, {}).get("warnings", ()), *broken),
+        warnings=(
+            *cautions(point.study),
+            *_outside(results),
+            *ledger.get(CLOSING, {}).get("warnings", ()),
+            *broken,
+        ),
         numbers=_numbers(point, results),
         files={what: (below / name).as_posix() for what, name in made.items()},
         stages=stages,
         answer=None if results is None else results["answer"],
         faults=broken,
     )
+
+
+def _outside(results: Mapping[str, Any] | None) -> tuple[str, ...]:
+    """What is not as assumed, in one line where there is any."""
+    found = {} if results is None else results.get("assumptions", {})
+    return (found["headline"],) if found.get("out_of_range") else ()
 
 
 def _worst(stages: Mapping[str, str], lacking: Sequence[str]) -> str:

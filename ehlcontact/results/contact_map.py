@@ -1,0 +1,104 @@
+"""Figure of a contact: pressure and film around the Hertz ellipse, and along its middle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ehlcontact.point import Scales
+from ehlcontact.results.picture import Array, Panel
+
+REACH = 1.5  # semi-axes on either side of the centre that are shown
+DEEPEST = 2.5  # central films up to which the colours of a film go: beyond, the inlet would take all of them
+FLATTEST = 4.0  # sides of a contact over each other up to which maps are to scale
+
+
+@dataclass(frozen=True)
+class ContactMap:
+    """A field around the Hertz ellipse.
+
+    Parameters
+    ----------
+    x, y : ndarray, shape (nx + 1,), (ny + 1,)
+        Places along rolling and across; only y >= 0 of an even field, which is mirrored.
+    field : ndarray, shape (nx + 1, ny + 1)
+    labels : (str, str, str)
+        Of x, y and the field.
+    axes : (float, float)
+        Semi-axes of the ellipse, in the units of x and y.
+    colours : str
+        Of matplotlib.
+    limits : (float, float)
+        Of the colours.
+    """
+
+    x: Array
+    y: Array
+    field: Array
+    labels: tuple[str, str, str]
+    axes: tuple[float, float]
+    colours: str
+    limits: tuple[float, float]
+
+    def draw(self, axes: Any) -> None:
+        """Into matplotlib axes."""
+        y, field = self.y, self.field
+        if y[0] == 0.0:
+            y, field = np.concatenate([-y[:0:-1], y]), np.concatenate([field[:, :0:-1], field], axis=1)
+        a, b = self.axes
+        low, high = self.limits
+        mesh = axes.pcolormesh(
+            self.x, y, field.T, cmap=self.colours, vmin=low, vmax=high, shading="nearest", rasterized=True
+        )
+        beyond = "max" if field.max() > high else "neither"
+        axes.figure.colorbar(mesh, ax=axes, label=self.labels[2], extend=beyond)
+        turn = np.linspace(0.0, 2.0 * np.pi, 181)
+        axes.plot(a * np.cos(turn), b * np.sin(turn), "--", color="white", linewidth=0.8)
+        axes.set(xlabel=self.labels[0], ylabel=self.labels[1])
+        axes.set_xlim(max(self.x[0], -REACH * a), min(self.x[-1], REACH * a))
+        axes.set_ylim(max(y[0], -REACH * b), min(y[-1], REACH * b))
+        if max(a, b) <= FLATTEST * min(a, b):
+            axes.set_aspect("equal")
+
+
+def contact_panels(
+    places: tuple[Array, Array], fields: tuple[Array, Array], h_central: float, kappa: float, scales: Scales | None
+) -> list[ContactMap | Panel]:
+    """Maps of pressure and film, and both along rolling through the centre; in SI where there are scales.
+
+    Parameters
+    ----------
+    places : (ndarray, ndarray)
+        X in semi-axes a, Y in b.
+    fields : (ndarray, ndarray)
+        P over the Hertz pressure and H over the dry approach, shape (nx + 1, ny + 1).
+    h_central : float
+        Film in the centre, as H.
+    kappa : float
+        a/b: with no scales both axes are in a.
+    scales : Scales or None
+    """
+    (X, Y), (P, H) = places, fields
+    if scales is None:
+        a, b, pressure, film = 1.0, 1.0 / kappa, 1.0, 1.0
+        labels = "x/a", "y/a", "pressure over Hertz's", "film over the dry approach"
+    else:
+        a, b, pressure, film = 1e6 * scales.a, 1e6 * scales.b, 1e-9 * scales.pressure, 1e6 * scales.length
+        labels = "x along rolling [µm]", "y across [µm]", "pressure [GPa]", "film [µm]"
+    x, y, p, h = a * X, b * Y, pressure * P, film * H
+    near = np.abs(X) <= REACH
+    middle = int(np.argmin(np.abs(Y)))
+    dry = pressure * np.sqrt(np.maximum(0.0, 1.0 - X**2))
+    highest = DEEPEST * film * h_central
+    return [
+        ContactMap(x, y, p, (*labels[:2], labels[2]), (a, b), "inferno", (0.0, float(p.max()))),
+        ContactMap(x, y, h, (*labels[:2], labels[3]), (a, b), "viridis", (float(h.min()), highest)),
+        Panel((x[near], labels[0]), [("film", p[near, middle], None), ("dry", dry[near], None)], labels[2]),
+        Panel(
+            (x[near], labels[0]),
+            [("", np.where(h[near, middle] <= highest, h[near, middle], np.nan), None)],
+            labels[3],
+        ),
+    ]
