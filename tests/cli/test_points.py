@@ -20,6 +20,7 @@ from tiny_study import STUDY
 from ehlcontact import InputError, load, solve_steady
 from ehlcontact.cli.study import runner
 from ehlcontact.cli.study.points import cluster
+from ehlcontact.cli.study.points.alone import alone_in
 from ehlcontact.cli.study.points.lists import MOST, load_points, points_of
 from ehlcontact.cli.study.points.summary import MEANINGS, UNITS
 from ehlcontact.cli.study.schema import load_study
@@ -306,6 +307,15 @@ def test_interrupted_at_random_moments_it_gives_the_same(run, stub):
     assert run(with_lists("[3000.0, 4000]")).code == 0
     assert lasting(run.folder) == expected
     assert set(stub()) == {*of("3000rpm_20N"), *of("4000rpm_20N")}
+
+
+def test_two_runs_do_not_share_a_folder(run, stub):
+    with_two = with_lists("[3000.0, 4000]")
+    assert run(with_two).code == 0
+    with alone_in(run.folder):
+        found = run(with_two)
+    assert found.code == 2 and "one that no other run is at work in" in found.err
+    assert run(with_two).code == 0
 
 
 def test_validate_tells_of_all_points(call, tmp_path):

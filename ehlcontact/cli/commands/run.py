@@ -77,15 +77,17 @@ def run(
 
         require_scheduler(scheduler)
     prepare_folder(folder)
-    write_studies(points, study_file, folder)
 
+    from ehlcontact.cli.study.points.alone import alone_in
     from ehlcontact.cli.study.points.journal import LOG, Journal
     from ehlcontact.cli.study.runner import Share
 
-    journal = Journal(folder / LOG)
-    share = Share(min(jobs, os.cpu_count() or 1), threads, scheduler)
-    board, seconds = _compute(points, folder, share, journal)
-    _tell(points, folder, board, seconds, json_to)
+    with alone_in(folder):
+        write_studies(points, study_file, folder)
+        journal = Journal(folder / LOG)
+        share = Share(min(jobs, os.cpu_count() or 1), threads, scheduler)
+        board, seconds = _compute(points, folder, share, journal)
+        _tell(points, folder, board, seconds, json_to)
 
 
 def _require_room(study: Study, path: Path) -> None:

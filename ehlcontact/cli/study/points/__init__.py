@@ -7,6 +7,7 @@ module        responsibility
 ``ledger``    what is finished: notes by content, and files that are what they were
 ``board``     what is to do for all points, how far it is, and what is noted of it
 ``closing``   what is made of a point's stages: elements, FMUs, rotors, results and report
+``alone``     one run at a time in a folder
 ``cluster``   stages solved by a Dask cluster
 ``journal``   ``run.log``
 ``summary``   ``summary.json`` and ``summary.csv``: every point in numbers, with units and files
