@@ -144,7 +144,7 @@ class Film(Told, Tabled):
 
     def _panels(self) -> Iterator[Any]:
         central = float(self.H[int(np.argmin(np.abs(self.X))), self.Y.size // 2])
-        yield from contact_panels((self.X, self.Y), (self.P, self.H), central, 1.0, self.scales)
+        yield from contact_panels((self.X, self.Y), (self.P, self.H), central, None, self.scales)
 
     @property
     def x(self) -> Array:

@@ -64,7 +64,11 @@ class ContactMap:
 
 
 def contact_panels(
-    places: tuple[Array, Array], fields: tuple[Array, Array], h_central: float, kappa: float, scales: Scales | None
+    places: tuple[Array, Array],
+    fields: tuple[Array, Array],
+    h_central: float,
+    kappa: float | None,
+    scales: Scales | None,
 ) -> list[ContactMap | Panel]:
     """Maps of pressure and film, and both along rolling through the centre; in SI where there are scales.
 
@@ -76,14 +80,14 @@ def contact_panels(
         P over the Hertz pressure and H over the dry approach, shape (nx + 1, ny + 1).
     h_central : float
         Film in the centre, as H.
-    kappa : float
-        a/b: with no scales both axes are in a.
+    kappa : float or None
+        a/b: with no scales both axes are in a, and where it is not known each in its own semi-axis.
     scales : Scales or None
     """
     (X, Y), (P, H) = places, fields
     if scales is None:
-        a, b, pressure, film = 1.0, 1.0 / kappa, 1.0, 1.0
-        labels = "x/a", "y/a", "pressure over Hertz's", "film over the dry approach"
+        a, b, pressure, film = 1.0, 1.0 if kappa is None else 1.0 / kappa, 1.0, 1.0
+        labels = "x/a", "y/b" if kappa is None else "y/a", "pressure over Hertz's", "film over the dry approach"
     else:
         a, b, pressure, film = 1e6 * scales.a, 1e6 * scales.b, 1e-9 * scales.pressure, 1e6 * scales.length
         labels = "x along rolling [µm]", "y across [µm]", "pressure [GPa]", "film [µm]"
