@@ -21,7 +21,6 @@ from ehlcontact.solver.multigrid import Multigrid
 
 REMEMBERED = 2  # cycles before the last: one more gains little, and every one costs two fields
 SLOW_FACTOR = 0.15  # change of P over that of the cycle before, from which combining pays for its residual
-FIRST = 3  # cycles from which on: the first ones end what full multigrid has left
 HARM = 0.7  # the same after a combination, by which it did harm: a boundary moved, and memory is of another film
 
 
@@ -54,7 +53,7 @@ class AcceleratedCycles:
         if self._combined and self._falls_by(HARM):
             del self._memory[:-1]
             self._combined = False
-        elif len(self._changes) >= FIRST and (self._combined or self._slow()):
+        elif len(self._memory) > 1 and (self._combined or self._slow()):
             self._combine()
         return change
 
@@ -69,8 +68,6 @@ class AcceleratedCycles:
     def _combine(self) -> None:
         """The combination of the cycles remembered whose change would be smallest, in the mean."""
         mg, level = self.multigrid, self.multigrid.finest
-        if len(self._memory) < 2:
-            return
         new = self._memory[-1]
         differences = np.array([(b.change - a.change).ravel() for a, b in pairwise(self._memory)])
         shares = np.linalg.lstsq(differences @ differences.T, differences @ new.change.ravel(), rcond=None)[0]
