@@ -9,11 +9,11 @@ residual weighs a node by its flow factor.
 
 from __future__ import annotations
 
-from itertools import pairwise
-from math import isfinite
+from math import inf, isfinite
 from typing import NamedTuple
 
 import numpy as np
+from numpy.linalg import norm
 from numpy.typing import NDArray
 
 from ehlcontact.solver.balance import Balance
@@ -25,11 +25,15 @@ HARM = 0.7  # the same after a combination, by which it did harm: a boundary mov
 
 
 class Cycle(NamedTuple):
-    """What one cycle did."""
+    """What one cycle did, or by how much that differs from what the one before did."""
 
     change: NDArray[np.float64]  # of P
     P: NDArray[np.float64]  # that it led to,
     u: float  # and the approach
+
+    def minus(self, other: Cycle) -> Cycle:
+        """The difference of two."""
+        return Cycle(self.change - other.change, self.P - other.P, self.u - other.u)
 
 
 class AcceleratedCycles:
@@ -37,46 +41,43 @@ class AcceleratedCycles:
 
     def __init__(self, multigrid: Multigrid) -> None:
         self.multigrid = multigrid
-        self._memory: list[Cycle] = []
-        self._changes: list[float] = []  # largest of P, by cycle
+        self._last: Cycle | None = None
+        self._differences: list[Cycle] = []  # from cycle to cycle
+        self._largest = inf  # change of P in the last cycle
         self._combined = False  # the state that the last cycle began with
 
     def step(self, balance: Balance) -> float:
         """One cycle, then the combination; returns the largest change of P by the cycle."""
-        mg, level = self.multigrid, self.multigrid.finest
-        before = level.P.copy()
-        change = mg.cycle(balance)
+        P = self.multigrid.finest.P
+        before = P.copy()
+        change = self.multigrid.cycle(balance)
         if not isfinite(change):
             return change
-        self._changes.append(change)
-        self._memory = [*self._memory[-REMEMBERED:], Cycle(level.P - before, level.P.copy(), mg.u)]
-        if self._combined and self._falls_by(HARM):
-            del self._memory[:-1]
+        last, self._last = self._last, Cycle(P - before, P.copy(), self.multigrid.u)
+        slow = change > SLOW_FACTOR * self._largest
+        self._largest = change
+        if last is None:
+            return change
+        if self._combined and norm(self._last.change) > HARM * norm(last.change):
+            self._differences.clear()
             self._combined = False
-        elif len(self._memory) > 1 and (self._combined or self._slow()):
-            self._combine()
+            return change
+        self._differences = [*self._differences, self._last.minus(last)][-REMEMBERED:]
+        if self._combined or slow:
+            self._combine(self._last)
         return change
 
-    def _slow(self) -> bool:
-        return self._changes[-1] > SLOW_FACTOR * self._changes[-2]
-
-    def _falls_by(self, share: float) -> bool:
-        """Whether the last change is not below that share of the one before, in the mean."""
-        *_, last, new = self._memory
-        return bool(np.linalg.norm(new.change) > share * np.linalg.norm(last.change))
-
-    def _combine(self) -> None:
+    def _combine(self, new: Cycle) -> None:
         """The combination of the cycles remembered whose change would be smallest, in the mean."""
-        mg, level = self.multigrid, self.multigrid.finest
-        new = self._memory[-1]
-        differences = np.array([(b.change - a.change).ravel() for a, b in pairwise(self._memory)])
-        shares = np.linalg.lstsq(differences @ differences.T, differences @ new.change.ravel(), rcond=None)[0]
-        P, u = new.P.copy(), new.u
-        for share, (a, b) in zip(shares, pairwise(self._memory), strict=True):
-            P -= share * (b.P - a.P)
-            u -= float(share) * (b.u - a.u)
-        P[new.P <= 0.0] = 0.0  # where oil cavitates is for the cycles to say
-        level.P[...] = np.maximum(P, 0.0)
-        mg.u = u
-        level.update(u)
+        mg, level, differences = self.multigrid, self.multigrid.finest, self._differences
+        products = [[float(np.vdot(a.change, b.change)) for b in differences] for a in differences]
+        shares = np.linalg.lstsq(
+            products, [float(np.vdot(d.change, new.change)) for d in differences], rcond=None
+        )[0]
+        for share, difference in zip(shares, differences, strict=True):
+            level.P[...] -= share * difference.P
+            mg.u -= float(share) * difference.u
+        level.P[new.P <= 0.0] = 0.0  # where oil cavitates is for the cycles to say
+        np.maximum(level.P, 0.0, out=level.P)
+        level.update(mg.u)
         self._combined = True
