@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import SimulationResult, Status, SteadyResult, load
+from ehlcontact.cli.numerals import numeral
 from reduced_models import load_element
 
 STEADY_KEYS = (
@@ -94,6 +95,15 @@ def test_from_simulation_to_fmu(call, refused, point, tmp_path):
     document = json.loads(result.out)
     assert document["passes"] and document["findings"] == [] and document["force"] < 1e-12
     assert "modelDescription.xml" in zipfile.ZipFile(target).namelist()
+
+
+def test_tolerance_too_coarse_for_the_load_is_told(call, point):
+    run = ["simulate", *point, "--n", "32", "--harmonic", "3", "--amplitude", "0.01", "--until", "0.1"]
+    fitting = call(*run)
+    assert fitting.code == 0 and fitting.err == "" and numeral(3e-4) in fitting.out
+    coarse = call(*run, "--tol", "3e-3", "--json", "-")
+    assert coarse.code == 0 and "warning: tol = 0.003 is coarse" in coarse.err
+    assert json.loads(coarse.out)["reservation"] in coarse.err
 
 
 def test_film_memory_from_a_simulation_alone(call, point, tmp_path):

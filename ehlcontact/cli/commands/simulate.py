@@ -182,14 +182,14 @@ class TimeOptions:
         ),
     ] = None
     tol: Annotated[
-        float,
+        float | None,
         typer.Option(
             "--tol",
-            help="Residual at which a step counts as solved, over the central film at rest; with --error "
-            "at most three times that.",
+            help="Residual at which a step counts as solved, over the central film at rest; by default 0.003, "
+            "less for motions below 0.1, and with --error at most three times that.",
             rich_help_panel=_TIME,
         ),
-    ] = 3e-3
+    ] = None
 
     def chosen(self, point: Point) -> dict[str, float | None]:
         """Check the options and call them as `ehlcontact.simulate` does."""
@@ -268,6 +268,8 @@ def simulate(
         rows += surfaces.rows(result.si.h_min.min())
         about |= surfaces.about(float(result.si.h_min.min()))
     files.deliver(result, "transient film", rows, drawn, about)
+    if result.reservation:
+        complain(f"warning: {result.reservation}")
     if unkept is not None:
         raise unkept
     if not result.status.ok:
@@ -296,6 +298,7 @@ def _rows(result: SimulationResult) -> list[tuple[str, str, str]]:
         *(_dimensionless(result) if result.scales is None else _in_si(result)),
         ("steps", f"{result.steps}", steps),
         ("grid", f"n = {result.n}", f"on {o.domain_text(result.domain)}"),
+        ("tolerance", numeral(result.tol), "residual of a solved step, of the central film at rest"),
         ("computed in", f"{numeral(result.seconds, 3)} s", ""),
         ("status", str(result.status), ""),
     ]
