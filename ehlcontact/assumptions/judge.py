@@ -9,6 +9,7 @@ from ehlcontact.assumptions.contact import Contact, KnownFilm
 from ehlcontact.assumptions.film import fully_flooded, isothermal, newtonian, smooth
 from ehlcontact.assumptions.table import Assumptions
 from ehlcontact.checks import require_instance, require_nonnegative, require_positive
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant.oil import typical_temperature_slope
 from ehlcontact.point import OperatingPoint, Point, Scales
@@ -18,6 +19,7 @@ CONDUCTIVITY = 0.134  # W/(m K), measured of FVA 3 (Schwarz et al. 2023, table A
 ROUGHEST = 1e-4  # m: no rolling surface, but a slip of unit
 
 
+@takes(roughness="m", vibration="m/s", temperature_slope="1/K", conductivity="W/(m K)")
 def assumptions(
     point: Point,
     *,
