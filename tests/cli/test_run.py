@@ -216,7 +216,7 @@ def test_ctrl_c_and_resume(finished, tmp_path):
         time.sleep(0.2)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=30)
-    assert process.returncode == 1 and out == "" and "Traceback" not in err
+    assert process.returncode == 130 and out == "" and "Traceback" not in err
     assert "resumes" in err.splitlines()[-1]
     notes = json.loads(ledger.read_text())
     assert notes["free"]["status"] == "interrupted" and notes["steady"]["status"] == "converged"
@@ -254,7 +254,7 @@ def test_a_run_that_is_told_to_end_leaves_no_workers(tmp_path):
         time.sleep(0.05)
     process.terminate()
     _, err = process.communicate(timeout=40)
-    assert process.returncode == 1 and "resumes" in err.splitlines()[-1] and "Traceback" not in err
+    assert process.returncode == 130 and "resumes" in err.splitlines()[-1] and "Traceback" not in err
     deadline = time.monotonic() + 5.0  # they end by themselves, a moment after it
     while any(is_running(worker) for worker in workers) and time.monotonic() < deadline:
         time.sleep(0.05)

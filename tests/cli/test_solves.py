@@ -148,7 +148,7 @@ def test_interrupted_simulation_is_saved(call, point, tmp_path, monkeypatch):
 
     monkeypatch.setattr(TransientFilm, "advance", stopped)
     result = call("simulate", *point, "--n", "16", "--free", "5", "--save", tmp_path / "p.h5")
-    assert result.code == 1 and "interrupted" in result.err and len(result.err.splitlines()) == 1
+    assert result.code == 130 and "interrupted" in result.err and len(result.err.splitlines()) == 1
     stored = load(tmp_path / "p.h5")
     assert isinstance(stored, SimulationResult) and stored.steps == 5 and stored.status is Status.INTERRUPTED
 
@@ -170,7 +170,7 @@ def test_interrupted_simulation_goes_on_from_its_checkpoint(call, refused, point
     with monkeypatch.context() as patch:
         patch.setattr(TransientFilm, "advance", stopped)
         result = call(*run, "--checkpoint", checkpoint)
-    assert result.code == 1 and len(result.err.splitlines()) == 1
+    assert result.code == 130 and len(result.err.splitlines()) == 1
     assert "interrupted" in result.err and f"go on with --restart {checkpoint}" in result.err
     assert 0 < json.loads(result.out)["steps"] < whole["steps"]
     again = call(*run, "--restart", checkpoint)

@@ -17,6 +17,8 @@ from ehlcontact.cli.output import FAILED, check_file, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import OperatingPoint, Point
+from ehlcontact.process.guard import INTERRUPTED
+from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
@@ -277,7 +279,7 @@ def simulate(
         kept = [f"partial result in {files.save}"] if files.save else []
         kept += [f"go on with --restart {restart.checkpoint}"] if restart.checkpoint else []
         complain("; ".join([message, *kept]))
-        raise typer.Exit(FAILED)
+        raise typer.Exit(INTERRUPTED if result.status is Status.INTERRUPTED else FAILED)
 
 
 def _draw(result: SimulationResult) -> Any:
