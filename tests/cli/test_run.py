@@ -10,14 +10,16 @@ import subprocess
 import sys
 import threading
 import time
+import zipfile
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from tiny_study import STUDY
 
 from ehlcontact import Status, assumptions, load
-from ehlcontact.cli.study import runner
+from ehlcontact.cli.study import reduction, runner
 from ehlcontact.cli.study.points.journal import Journal
 from ehlcontact.cli.study.points.ledger import is_done, read_ledger
 from ehlcontact.cli.study.points.lists import load_points
@@ -85,6 +87,13 @@ def test_what_is_assumed_is_told(finished):
     expected = assumptions(study.point, film=film, roughness=study.roughness).short()
     for name in ("rotor_band_cubic", "rotor_band_cubic_si", "memory_si"):
         assert load_element(folder / "elements" / f"{name}.json").source["assumptions"] == expected
+    said = reduction.contact_said(study)
+    assert study.bearing.name in said and study.oil.label in said and "3000 rpm" in said
+    assert load_element(folder / "elements" / "memory_si.json").source["contact"] == said
+    for name in ("contact", "contact_film"):
+        with zipfile.ZipFile(folder / f"{name}.fmu") as archive:
+            description = ElementTree.fromstring(archive.read("modelDescription.xml")).attrib["description"]
+        assert description.endswith(f"; SI units; {said}")
     page = re.sub(r"\s*(?:<[^>]*>\s*)+", " ", html.unescape((folder / "report.html").read_text()))  # its words
     answer = json.loads((folder / "results.json").read_text())["answer"]
     assert (
