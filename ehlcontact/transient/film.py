@@ -20,12 +20,12 @@ from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.transient.surface import SurfaceStep
+from ehlcontact.transient.tolerance import CHANGE_SHARE
 
 STEP_CYCLES = 25
 SMALLEST_SCALE = 0.01  # of the residuals, in dry approaches
 LARGEST_EXTRAPOLATION = 2.0  # step ratio up to which past pressures predict the next
 NEGLIGIBLE_FORCE = 0.01  # below which it does not matter what the border cuts off, unless a load is to be carried
-CHANGE_SHARE = 1.0 / 30.0  # of the tolerance, for changes of u and force: they are means over the field
 
 
 @dataclass(frozen=True, slots=True)
