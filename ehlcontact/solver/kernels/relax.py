@@ -78,9 +78,7 @@ def solve_band(band, b, m):
     columns on either side, so that the inner loops need no limits.
     """
     for c in range(max(m - BAND_LOWER, 0), m):
-        band[PAD + c, BAND_UPPER + m - c :] = 0.0
-    band[PAD + m : 2 * PAD + m] = 0.0
-    b[PAD + m : 2 * PAD + m] = 0.0
+        band[PAD + c, BAND_UPPER + m - c :] = 0.0  # not read, but what is left there would grow from line to line
     for r in range(m):
         own = band[PAD + r]
         pivot = 1.0 / own[BAND_UPPER]

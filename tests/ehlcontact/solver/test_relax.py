@@ -34,6 +34,7 @@ def test_solve_band(kernel, m):
     band, b = np.full((m + 2 * PAD, relax.BAND), np.nan), np.full(m + 2 * PAD, np.nan)
     b[:PAD], band[:PAD] = 0.0, 3.0  # columns before the first are written, and not read
     b[PAD:-PAD] = rng.normal(size=m)
+    b[-PAD:] = 0.0
     for r in range(m):
         for c in range(r - LOWER, r + UPPER + 1):
             entry = rng.normal() + (8.0 if r == c else 0.0)
@@ -43,6 +44,7 @@ def test_solve_band(kernel, m):
     expected = np.linalg.solve(A, b[PAD:-PAD])
     kernel(band, b, m)
     np.testing.assert_allclose(b[PAD:-PAD], expected, rtol=1e-11, atol=1e-13)
+    assert not b[-PAD:].any()  # nothing grows beyond the last row
 
 
 @jit_and_python(relax.distribution_weights)
