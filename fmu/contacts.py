@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 from typing import Any
 
@@ -28,6 +28,7 @@ Film = FilmMemoryContact | WideRangeContact
 
 SHARE_OF_TRANSIT = 0.05  # of 2a/u_sum, the default step
 FAST_STEP = 0.1  # of the fastest motion, over its angular frequency: what the advice on steps is told for
+LONGEST_NAME = 200  # characters of what an element says of its contact, in the description of an FMU
 ALLOWED_ERROR = 1e-4  # of the force in a step that is cut inside, where the importer gives no tolerance
 
 MEANINGS = Choice(
@@ -75,13 +76,23 @@ def contact_spec(element: Element, model_name: str | None = None) -> ModelSpec:
     system = "SI units" if element.units == "SI" else _DIMENSIONLESS
     return ModelSpec(
         name=name,
-        description=f"{parts.pop('description')}; {system}",
+        description=f"{parts.pop('description')}; {system}{whose([element])}",
         notes=_notes(element),
         choices=(MEANINGS,),
         step=default_step(element),
         time_unit="s" if element.units == "SI" else "1",
         **parts,
     )
+
+
+def whose(elements: Iterable[Element]) -> str:
+    """Bearing, oil, load and speed that elements were made for, in words, where whoever made them said so.
+
+    A description is one line: what is not printable, as of a file that somebody wrote by hand, is left out.
+    """
+    given = (str((element.source or {}).get("contact") or "") for element in elements)
+    said = ("".join(filter(str.isprintable, " ".join(text.split())))[:LONGEST_NAME] for text in given)
+    return "".join(f"; {text}" for text in dict.fromkeys(said) if text)
 
 
 def checked_name(name: object) -> str:

@@ -30,6 +30,7 @@ from ehlcontact import (
 from ehlcontact.results.layout import Tabled
 from ehlcontact.results.story import Told, span
 from fmu import References, Trial
+from fmu.references.check import Interface
 from reduced_models import (
     Atlas,
     BallBearing,
@@ -121,8 +122,22 @@ def told(point):
         SpeedCourse.ramp(0.0, 3000.0, 1.0), bearing, BearingMount(bearing=bearing, x=0, y=1),
         FullContact(point, n=32),
         References(Trial(np.arange(3.0), {"u": np.ones(3)}, {"F": np.arange(3.0)}), None),
-        Trial(np.arange(3.0), {}, {"F": np.arange(3.0)}),
+        Trial(np.arange(3.0), {}, {"F": np.arange(3.0)}), *verifications(),
     ]  # fmt: skip
+
+
+def verifications():
+    """Those that pass, and those that fail in all ways at once."""
+    wrong = ("start 1.0 [m] in the FMU, " * 20, "another")
+    interfaces = tuple(
+        Interface(name, 9, ("force",), 1.0, "force", 0.1) for name in ("co-simulation", "model exchange")
+    )
+    return [
+        fmu.Verification((), 100, 10, 5, *3 * (1e-16,), 0),
+        fmu.Verification(wrong, 100, 10, 5, 1e-3, 0.1, float("inf"), 2, 1e-16, 1e-5),
+        fmu.ReferenceCheck("3.0", (), interfaces, 1e-9),
+        fmu.ReferenceCheck("3.0", wrong, interfaces, 1e-9),
+    ]
 
 
 def films_of(film, run):

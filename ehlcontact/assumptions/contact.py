@@ -6,16 +6,23 @@ from dataclasses import dataclass
 from math import pi
 from typing import Protocol
 
+from ehlcontact.errors import InputError
 from ehlcontact.formulas import hamrock_dowson_minimum
 from ehlcontact.hertz import elliptic_integrals, radius_ratio
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
-from ehlcontact.solver.domain import Domain
 
 NO_SI = "not judged: a dimensionless point has no speed and no size; an OperatingPoint has"
 
 
-class SolvedFilm(Protocol):
-    """What a `SteadyResult` says about the film; dry approaches."""
+BY_FORMULA = "by Hamrock and Dowson's formula"
+UNKNOWN = "as given"  # of a film that does not say where it is from
+
+
+class KnownFilm(Protocol):
+    """What a `SteadyResult`, or an answer of the atlas, says about the film; dry approaches.
+
+    ``film_origin``, where it has one, says how it was found and how sure that is; ``domain`` is its region.
+    """
 
     @property
     def h_central(self) -> float:
@@ -24,10 +31,6 @@ class SolvedFilm(Protocol):
     @property
     def h_min(self) -> float:
         """Smallest film."""
-
-    @property
-    def domain(self) -> Domain:
-        """Computed region."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,14 +41,24 @@ class Contact:
     scales: Scales | None
     central: float  # film in dry approaches
     smallest: float | None  # likewise, None where no formula has it
+    origin: str = BY_FORMULA  # of the smallest film, in words
 
     @classmethod
-    def of(cls, point: Point, film: SolvedFilm | None, scales: Scales | None) -> Contact:
-        """Take the solved film, or the one to be expected."""
+    def of(cls, point: Point, film: KnownFilm | None, scales: Scales | None) -> Contact:
+        """Take the film that is known, or the one to be expected.
+
+        Raises
+        ------
+        InputError
+            A `film` that is none.
+        """
         moes = moes_point(point)
         bare = cls(moes, scales_of(point) or scales, moes.expected_film, None)
         if film is not None:
-            return cls(moes, bare.scales, float(film.h_central), float(film.h_min))
+            if not all(hasattr(film, name) for name in ("h_central", "h_min")):
+                raise InputError("film", type(film).__name__, "a steady film, or an answer of the atlas")
+            origin = getattr(film, "film_origin", UNKNOWN)
+            return cls(moes, bare.scales, float(film.h_central), float(film.h_min), origin)
         return cls(moes, bare.scales, bare.central, bare.expected_smallest() if bare.scales else None)
 
     def expected_smallest(self) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import e
 
-from ehlcontact.assumptions.contact import NO_SI, Contact
+from ehlcontact.assumptions.contact import BY_FORMULA, NO_SI, Contact
 from ehlcontact.assumptions.table import Assumption
 from ehlcontact.formulas import flooding_distance, gupta_heating, starved_film, wilson_heating
 from ehlcontact.hertz import shape_factor
@@ -18,6 +18,11 @@ LARGEST_STRESS = 1.0
 LARGEST_SLIDE_ROLL = 2.0  # one surface stands still; beyond, the surfaces run against each other
 # A full film above the first, asperities carry the load below the other: Tallian, ASLE Trans. 10 (1967) 418-439
 LEAST_LAMBDA, MIXED_LAMBDA = 3.0, 1.0
+SMOOTH_SCATTER = "on the safe side: the contact flattens long waves of a roughness measured outside it"
+FORMULA_SCATTER = (
+    "; Hamrock and Dowson's smallest film is 12 % below to 59 % above that of the atlas in nine of ten contacts, "
+    "and up to three times as high in heavily loaded circles: film= takes a better one"
+)
 
 
 def isothermal(contact: Contact, slope: float, conductivity: float) -> Assumption:
@@ -87,9 +92,11 @@ def smooth(contact: Contact, roughness: float | None) -> Assumption:
         film = contact.smallest * contact.scales.length
         details = {"h_min": film, "largest_roughness": film / LEAST_LAMBDA}
         verdict = f"not judged: no roughness given; holds up to a composite Rq of {_um(film / LEAST_LAMBDA)}"
+        verdict += f" ({contact.origin})"
         if roughness is not None:
             value, details["roughness"] = film / roughness, roughness
-            verdict = f"smallest film {_um(film)} over a roughness of {_um(roughness)}: {_regime(value)}"
+            verdict = f"smallest film {_um(film)} ({contact.origin}) over a roughness of {_um(roughness)}: "
+            verdict += _regime(value)
     return Assumption(
         name="smooth",
         number="lambda ratio, smallest film over composite roughness (Rq1^2 + Rq2^2)^(1/2)",
@@ -98,7 +105,7 @@ def smooth(contact: Contact, roughness: float | None) -> Assumption:
         at_least=True,
         unit="-",
         verdict=verdict,
-        scatter="on the safe side: the contact flattens long waves of a roughness measured outside it",
+        scatter=SMOOTH_SCATTER + (FORMULA_SCATTER if contact.origin == BY_FORMULA else ""),
         source="Tallian 1967",
         details=details,
     )

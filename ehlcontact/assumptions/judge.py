@@ -5,10 +5,11 @@ from __future__ import annotations
 from math import hypot
 
 from ehlcontact.assumptions.bodies import constant_speed, elastic, one_direction
-from ehlcontact.assumptions.contact import Contact, SolvedFilm
+from ehlcontact.assumptions.contact import Contact, KnownFilm
 from ehlcontact.assumptions.film import fully_flooded, isothermal, newtonian, smooth
 from ehlcontact.assumptions.table import Assumptions
 from ehlcontact.checks import require_instance, require_nonnegative, require_positive
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant.oil import typical_temperature_slope
 from ehlcontact.point import OperatingPoint, Point, Scales
@@ -18,10 +19,11 @@ CONDUCTIVITY = 0.134  # W/(m K), measured of FVA 3 (Schwarz et al. 2023, table A
 ROUGHEST = 1e-4  # m: no rolling surface, but a slip of unit
 
 
+@takes(roughness="m", vibration="m/s", temperature_slope="1/K", conductivity="W/(m K)")
 def assumptions(
     point: Point,
     *,
-    film: SolvedFilm | None = None,
+    film: KnownFilm | None = None,
     domain: Domain | None = None,
     roughness: tuple[float, float] | None = None,
     vibration: float | None = None,
@@ -31,14 +33,17 @@ def assumptions(
 ) -> Assumptions:
     """Judge what a solve at this point assumes.
 
-    Without a solved film the central one of Nijenbanning, Venner and Moes and the smallest one of Hamrock and
-    Dowson are taken. A dimensionless point says nothing about heat, roughness or stresses: those are not judged.
+    Without a film the central one of Nijenbanning, Venner and Moes and the smallest one of Hamrock and Dowson are
+    taken; of heavily loaded circles the latter is up to three times too high, and with it the lambda ratio
+    (docs/assumptions.md). A dimensionless point says nothing about heat, roughness or stresses: those are not
+    judged.
 
     Parameters
     ----------
     point : OperatingPoint or MoesPoint
-    film : SteadyResult, optional
-        The solved film; its region counts as the flooded one.
+    film : SteadyResult, ImpedanceResult or AtlasAnswer, optional
+        The film solved at this point, or what the atlas says of it: ``film=Atlas().at(point)``. The region of a
+        solved one counts as the flooded one.
     domain : Domain, optional
         Region computed elsewhere, in place of that of `film`.
     roughness : (float, float), optional
@@ -59,7 +64,7 @@ def assumptions(
     """
     contact = Contact.of(point, film, scales)
     if film is not None and domain is None:
-        domain = film.domain
+        domain = getattr(film, "domain", None)
     if domain is not None:
         require_instance("domain", domain, Domain, "a Domain(x_in, x_out, y_max)")
     if temperature_slope is None and isinstance(point, OperatingPoint):

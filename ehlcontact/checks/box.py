@@ -51,8 +51,9 @@ class Quantity(NamedTuple):
 
 
 # Lengths: from the balls of a watch to the pitch circle of a wind turbine's main bearing. Moduli: from soft rubber
-# to diamond. Viscosities: from hot refrigerant to polybutene; pressure-viscosity coefficients: from water up.
-# m2/s is the kinematic viscosity of data sheets, times the density of an oil.
+# to diamond. Viscosities: from hot refrigerant to oils beyond ISO VG 680 at 20 C (3.4 Pa s): above are mPa s.
+# Pressure-viscosity coefficients: from water up. m2/s is the kinematic viscosity of data sheets, times the density
+# of an oil.
 INPUTS: Mapping[str, Quantity] = {
     "radius_x": Quantity("m", (1e-5, 1.0), (2e-4, 0.1), {"mm": 1e-3, "inches": 0.0254}),
     "radius_y": Quantity("m", (1e-5, 1e3), (2e-4, 10.0), {"mm": 1e-3, "inches": 0.0254}),
@@ -64,7 +65,7 @@ INPUTS: Mapping[str, Quantity] = {
     "e2": Quantity("Pa", (1e6, 2e12), (1e9, 1.3e12), {"GPa": 1e9, "MPa": 1e6}),
     "load": Quantity("N", (1e-6, 1e8), (0.1, 1e6), {"kN": 1e3}),
     "u_sum": Quantity("m/s", (1e-6, 1e3), (1e-2, 200.0), {"mm/s": 1e-3}),
-    "eta0": Quantity("Pa s", (1e-4, 20.0), (1e-3, 2.0), {"mPa s": 1e-3, "m2/s": 870.0}),
+    "eta0": Quantity("Pa s", (1e-4, 5.0), (1e-3, 2.0), {"mPa s": 1e-3, "m2/s": 870.0}),
     "alpha": Quantity("1/Pa", (1e-10, 1e-6), (5e-9, 5e-8), {"1/GPa": 1e-9, "1/MPa": 1e-6}),
 }
 

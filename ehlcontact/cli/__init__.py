@@ -22,8 +22,8 @@ room           responsibility
 ``paper/``     the paper's tables and figures behind ``reproduce``
 =============  =======================================================================================
 
-Exit codes: 0 success; 1 not converged or interrupted, with what was reached saved; 2 bad input, or no room for
-the output.
+Exit codes: 0 success; 1 not converged, with what was reached saved; 2 bad input, or no room for the output; 130
+interrupted, by Ctrl-C or a signal that ends a run, with what was reached saved: the last line says what resumes.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from ehlcontact.process.guard import TOO_EARLY, end_guard
+from ehlcontact.process.guard import INTERRUPTED, TOO_EARLY, end_guard
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
@@ -47,5 +47,5 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
             signal.signal(signal.SIGINT, signal.SIG_IGN)
     except KeyboardInterrupt:  # between one guard and the next
         sys.stderr.write(TOO_EARLY)
-        code = 1
+        code = INTERRUPTED
     raise SystemExit(code)

@@ -32,6 +32,7 @@ from ehlcontact.cli.streams import StdoutError, watched_stdout
 from ehlcontact.cli.usage import by_option, command_of, lower_case_note, usage_line
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.origin import __version__
+from ehlcontact.process.guard import INTERRUPTED
 
 # Root of the usage errors; typer's own or click's, depending on the version of typer.
 UsageFailure: type[Exception] = [base for base in typer.BadParameter.__mro__ if hasattr(base, "format_message")][
@@ -106,7 +107,7 @@ def execute(arguments: Sequence[str] | None = None) -> int:
         return FAILED
     except (KeyboardInterrupt, typer.Abort):
         complain(INTERRUPTED_LINE)
-        return FAILED
+        return INTERRUPTED
     except UsageFailure as error:
         complain(usage_line(error, given, typer.main.get_command(app)))
         return USAGE

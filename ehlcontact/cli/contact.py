@@ -259,6 +259,15 @@ class Contact:
         ]
 
     @property
+    def said(self) -> str:
+        """The same in one line."""
+        if not self.in_si:
+            return ""
+        ball = f"most loaded ball of {numeral(self.load)} N at {numeral(self.rpm)} rpm"
+        oil = f"oil of {numeral(self.eta0)} Pa s" if self.oil is None else self._oil_name()
+        return f"{self._name}, {self.race or 'inner'} race, {ball}, {oil}"
+
+    @property
     def _name(self) -> str:
         return (self.bearing or "").strip().upper()
 

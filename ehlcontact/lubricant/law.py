@@ -83,6 +83,8 @@ class Lubricant:
         for name in ("eta0_scatter", "alpha_scatter", "temperature_slope"):
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, require_nonnegative(name, getattr(self, name)))
+        if self.eta0 > INPUTS["eta0"].limits[1]:
+            INPUTS["eta0"].require("eta0", self.eta0)
         if self.viscosity == "roelands" and math.log(self.eta0) + ROELANDS_LOG <= 0.0:
             guess = INPUTS["eta0"].slip(self.eta0)
             allowed = "> 6.31e-5 Pa s for Roelands' law"

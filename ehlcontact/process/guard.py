@@ -1,4 +1,4 @@
-"""Ctrl-C while the command line is imported: one line and exit code 1.
+"""Ctrl-C while the command line is imported: one line and exit code 130.
 
 Its imports take a second, most of it before any code of the command line runs, and some packages swallow what is
 raised while they are imported. So this is what `ehlcontact` imports first, and it imports next to nothing itself.
@@ -10,6 +10,7 @@ import sys
 from itertools import pairwise
 
 PROGRAM = "ehlcontact"
+INTERRUPTED = 130  # exit code of a program that Ctrl-C ended, as shells have it: 128 + SIGINT
 TOO_EARLY = f"{PROGRAM}: interrupted before anything was computed\n"
 
 
@@ -43,7 +44,7 @@ def _leave(*_: object) -> None:
         os.write(2, TOO_EARLY.encode())
     except OSError:
         pass
-    os._exit(1)
+    os._exit(INTERRUPTED)
 
 
 guard_imports()  # here and not in the package, whose imports are what takes so long

@@ -77,6 +77,11 @@ class ImpedanceResult(Told, Tabled, Origin):
 
         return control.frd(self.impedance, self.Omega, inputs="u", outputs="F", name="contact")
 
+    @property
+    def film_origin(self) -> str:
+        """How the films were found, in words."""
+        return "solved"
+
     def _story(self) -> list[str]:
         at = f"{self.Omega.size} frequencies, Omega {span(self.Omega)}"
         if self.scales is None:

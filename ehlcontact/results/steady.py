@@ -151,6 +151,16 @@ class SteadyResult(Told, Tabled, Origin):
         return float(self.P.max())
 
     @property
+    def film_origin(self) -> str:
+        """How the smallest film was found, and how sure it is, in words."""
+        if not self.status.ok:
+            return f"not solved: {self.status}"
+        if self.error is None:
+            return "solved"
+        bar = self.error.h_min
+        return "solved, off by anything" if bar >= ALL else f"solved, ± {float(f'{100.0 * bar:.2g}'):g} %"
+
+    @property
     def reservation(self) -> str:
         """What a converged film leaves open, in words: where its mesh does not show a film; else empty."""
         if self.error is None or not self.status.ok:

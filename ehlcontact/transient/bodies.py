@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from math import inf
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -70,6 +71,15 @@ class Motion(ABC):
     @abstractmethod
     def largest_load(self) -> float:
         """Largest film force to expect, for the domain."""
+
+    @property
+    def size(self) -> float:
+        """How far it leads away from rest, in static loads or dry approaches: where it is small, `tol` follows it.
+
+        Infinite where the approach is given: the film alone is to be found then, and its error falls with the
+        motion by itself.
+        """
+        return inf
 
     @abstractmethod
     def applied(self, T: float, force: float) -> float:

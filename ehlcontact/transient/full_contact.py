@@ -15,6 +15,7 @@ from ehlcontact.solver.mesh import Purpose, mesh_for, require_room, widened
 from ehlcontact.status import Status
 from ehlcontact.transient.film import FilmState, Step, TransientFilm
 from ehlcontact.transient.si import ContactSI
+from ehlcontact.transient.tolerance import DEFAULT_TOL
 
 
 class FullContact(Told):
@@ -34,7 +35,8 @@ class FullContact(Told):
     largest_load : float
         Largest force to expect, in static loads.
     tol : float
-        Residual at which a step counts as solved; see `simulate`.
+        Residual at which a step counts as solved, relative to the central film at rest. The approach is given, so
+        the error of the force falls with the motion, and there is nothing for it to follow as in `simulate`.
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection, as in `solve_steady`.
     threads : int, optional
@@ -56,7 +58,7 @@ class FullContact(Told):
         n: int | None = None,
         domain: Domain | None = None,
         largest_load: float = 1.0,
-        tol: float = 3e-3,
+        tol: float = DEFAULT_TOL,
         deflection: str = "fft",
         threads: int | None = None,
     ) -> None:

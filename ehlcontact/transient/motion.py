@@ -6,7 +6,7 @@ They are dimensionless by definition; ``at`` makes them for an `OperatingPoint` 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi, sin
+from math import hypot, inf, pi, sin
 from typing import Any, ClassVar
 
 from ehlcontact.checks import require_finite, require_positive
@@ -133,6 +133,11 @@ class FreeVibration(UnderLoad):
         return (1.0 + abs(self.offset) + abs(self.initial_rate) / (SMALL_VIBRATION * self.Omega_n)) ** 1.5
 
     @property
+    def size(self) -> float:
+        """Amplitude of a linear vibration, in dry approaches."""
+        return hypot(self.offset, self.initial_rate / (SMALL_VIBRATION * self.Omega_n))
+
+    @property
     def initial_rate(self) -> float:
         """Rate at T = 0."""
         return self.rate or 0.0
@@ -226,6 +231,11 @@ class HarmonicLoad(UnderLoad):
         """Largest film force to expect."""
         return 1.0 + self.amplitude
 
+    @property
+    def size(self) -> float:
+        """Amplitude of the load."""
+        return self.amplitude
+
     def to_dict(self) -> dict[str, Any]:
         """For storage."""
         return {"kind": self.kind, "Omega": self.Omega, "amplitude": self.amplitude, "Omega_n": self.Omega_n}
@@ -279,6 +289,11 @@ class RampLoad(UnderLoad):
     def largest_load(self) -> float:
         """Largest film force to expect."""
         return max(1.0, self.ratio)
+
+    @property
+    def size(self) -> float:
+        """Change of the load."""
+        return abs(self.ratio - 1.0) or inf  # at a constant load what moves is on the surfaces
 
     def to_dict(self) -> dict[str, Any]:
         """For storage."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from math import inf
 from typing import Any, ClassVar
 
 import numpy as np
@@ -98,6 +99,12 @@ class PrescribedLoad(Tabulated, UnderLoad):
     def largest_load(self) -> float:
         """Largest load of the table."""
         return float(self._table[1].max())
+
+    @property
+    def size(self) -> float:
+        """Largest change of the load since T = 0."""
+        _, values = self._table
+        return float(np.abs(values - values[0]).max()) or inf  # at a constant load what moves is on the surfaces
 
     def to_dict(self) -> dict[str, Any]:
         """For storage."""

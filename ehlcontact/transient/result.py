@@ -5,7 +5,7 @@ Everything is dimensionless, with the SI scales beside.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
@@ -18,6 +18,7 @@ from ehlcontact.results.story import Told, contact_text, span
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.si import SimulationSI
+from ehlcontact.transient.tolerance import coarseness
 
 Array = NDArray[np.float64]
 HISTORY = {
@@ -95,6 +96,9 @@ class SimulationResult(Told, Tabled, Origin):
     static_approach : float
         Of the steady state under load 1, over the dry approach.
     status : Status
+    tol : float or None
+        Residual at which its steps counted as solved, relative to the central film at rest; None of files written
+        before it was kept.
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
@@ -120,6 +124,7 @@ class SimulationResult(Told, Tabled, Origin):
     snapshot_P: Array
     static_approach: float
     status: Status
+    tol: float | None = field(default=None, metadata={"later": True})
 
     LAYOUT: ClassVar[Layout] = Layout(
         rows="T",
@@ -199,6 +204,11 @@ class SimulationResult(Told, Tabled, Origin):
         keep = (self.T >= start) & (self.T <= end)
         return float(np.trapezoid(self.force[keep], self.approach[keep]))
 
+    @property
+    def reservation(self) -> str:
+        """What a converged run leaves open, in words: where its `tol` is coarse for its motion; else empty."""
+        return coarseness(self.motion, self.tol) if self.status.ok and self.tol is not None else ""
+
     def _story(self) -> list[str]:
         told = [
             contact_text(self.point, self.scales),
@@ -216,7 +226,7 @@ class SimulationResult(Told, Tabled, Origin):
                 f"approach {span(self.approach, 1e6 * s.length, 'µm')}, force {span(self.force, s.force, 'N')}"
             ]
             told += [f"film at least {1e6 * s.length * self.h_min.min():.4g} µm"]
-        return told
+        return [*told, *filter(None, [self.reservation])]
 
     def summary(self) -> dict[str, Any]:
         """The JSON form of the command line."""
@@ -229,6 +239,8 @@ class SimulationResult(Told, Tabled, Origin):
             **{name: getattr(self, name).tolist() for name in arrays},
             "residual": float(self.residuals.max()),
             "load_residual": float(np.abs(self.load_residuals).max()),
+            "tol": self.tol,
+            "reservation": self.reservation,
             "n": self.n,
             "domain": list(self.domain.as_tuple()),
             "motion": self.motion.to_dict(),

@@ -13,6 +13,7 @@ from ehlcontact.point import MoesPoint
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.transient.bodies import Motion
+from ehlcontact.transient.tolerance import fitting_tol
 
 LARGEST_ERROR = 0.1
 SMALLEST_ERROR = 1e-8  # the tolerance that goes with it comes near rounding: no step would be small enough
@@ -33,7 +34,7 @@ class TimeSteps:
 
     @classmethod
     def of(
-        cls, motion: Motion, until: float | None, dT: float | None, error: float | None, tol: float
+        cls, motion: Motion, until: float | None, dT: float | None, error: float | None, tol: float | None
     ) -> TimeSteps:
         """Arguments of `simulate`; where they are None, what the motion needs.
 
@@ -43,7 +44,7 @@ class TimeSteps:
             One outside its range.
         """
         until = motion.default_end if until is None else require_positive("until", until)
-        tol = require_positive("tol", tol)
+        tol = fitting_tol(motion) if tol is None else require_positive("tol", tol)
         default = motion.default_step
         if error is not None:
             if not SMALLEST_ERROR <= require_positive("error", error) <= LARGEST_ERROR:

@@ -40,7 +40,7 @@ def simulate(
     until: float | None = None,
     dT: float | None = None,
     error: float | None = None,
-    tol: float = 3e-3,
+    tol: float | None = None,
     snapshots: Sequence[float] = (),
     surface: Surface | None = None,
     deflection: str = "fft",
@@ -70,9 +70,11 @@ def simulate(
         (static loads) and mean film, stays below `error`. Corners of the motion, snapshots and `until` are met.
         Over a run they add up, to about ``error**(2/3)`` where bodies have inertia (docs/solver.md): for approach
         and force within g all the way give ``error = g**1.5``.
-    tol : float
+    tol : float, optional
         Residual at which a step counts as solved, relative to the central film at rest; force and approach then
-        change by less than tol/30 in the last cycle. With `error`, at most ``3 error``.
+        change by less than tol/30 in the last cycle. By default 0.003, and where a load moves less than 0.1 of the
+        static one, or a vibration less than 0.1 dry approaches, in proportion less (1e-6 at least), so that the
+        motion is told to the same share. With `error`, at most ``3 error``.
     snapshots : sequence of float
         Times whose whole fields are kept.
     surface : callable, optional
@@ -219,6 +221,7 @@ def _result(
         snapshot_P=record.snapshot_P,
         static_approach=run.static_approach,
         status=status,
+        tol=settings.steps.tol,
         seconds=seconds,
     )
 

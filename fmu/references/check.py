@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.results.story import Told
 from fmu.comparison import END, each_over, floored
 from fmu.references.files import POINTS, STEPS, changed_files, read_references
 from fmu.references.series import References, Trial
-from fmu.verify import opened, running
+from fmu.verify import findings_text, opened, running
 
 _Floats = NDArray[np.float64]
 
@@ -34,7 +35,7 @@ class Interface:
 
 
 @dataclass(frozen=True, slots=True)
-class ReferenceCheck:
+class ReferenceCheck(Told):
     """What was found; see `verify_references`.
 
     Attributes
@@ -58,6 +59,18 @@ class ReferenceCheck:
     def passes(self) -> bool:
         """No finding, and all differences within the tolerance."""
         return not self.findings and all(one.difference <= self.tolerance for one in self.interfaces)
+
+    def _story(self) -> list[str]:
+        verdict = "passes" if self.passes else "fails"
+        return [
+            f"{verdict}: FMI {self.fmi}, differences up to {self.tolerance:g} are allowed",
+            *(
+                f"{one.name}: largest difference {one.difference:.2g}, of {one.variable}; "
+                f"{len(one.variables)} variables in {one.rows} rows"
+                for one in self.interfaces
+            ),
+            *findings_text(self.findings),
+        ]
 
     def to_dict(self) -> dict[str, Any]:
         """All fields and the verdict, for storage."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from ehlcontact.errors import InputError
 from fmu.c_headers import c_double, c_table
-from fmu.contacts import ALLOWED_ERROR, MEANINGS, Element, checked_name, contact_spec
+from fmu.contacts import ALLOWED_ERROR, MEANINGS, Element, checked_name, contact_spec, whose
 from fmu.rotor.laws import law_tables, numbers_of_laws
 from fmu.rotor.model import RotorModel
 from fmu.spec import ModelSpec, Variable
@@ -48,7 +48,7 @@ def rotor_spec(model: RotorModel, model_name: str | None = None) -> ModelSpec:
     )
     return ModelSpec(
         name=name,
-        description=f"Jeffcott rotor, {words}; SI units",
+        description=f"Jeffcott rotor, {words}; SI units{whose(model.elements)}",
         sources=("core.c", "core_step.c", "model_rotor.c", "rotor_step.c", body),
         headers=("core.h", "model.h", "rotor.h", *(("contact_law.h",) if closed else ())),
         variables=tuple(made.variables),

@@ -64,6 +64,11 @@ class AtlasAnswer(Told, Tabled):
 
     LAYOUT: ClassVar[Layout] = Layout(rows="Omega", panels=("stiffness", "damping"), quantities=_MOES, logs="xy")
 
+    @property
+    def film_origin(self) -> str:
+        """How the smallest film was found, and how sure it is, in words."""
+        return f"from the atlas, ± {100.0 * self.error['h_min'] / self.h_min:.2g} %"
+
     def _story(self) -> list[str]:
         s, bar = self.scales, self.error
         size, unit = (1.0, "of the dry approach") if s is None else (s.length * 1e6, "µm")

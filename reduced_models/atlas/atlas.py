@@ -219,9 +219,10 @@ class Atlas:
 
     def _whence(self, point: Point) -> dict[str, Any]:
         """Origin of an element at a point."""
-        scales, source = scales_of(point), self._source(self.at(point))
+        scales, answer = scales_of(point), self.at(point)
+        source = self._source(answer)
         source["scales"] = None if scales is None else asdict(scales)
-        return source | {"assumptions": assumptions(point).short()}
+        return source | {"assumptions": assumptions(point, film=answer).short()}
 
     @cached_property
     def _basis(self) -> _Floats:

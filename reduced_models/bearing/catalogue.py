@@ -61,11 +61,14 @@ def catalogue_row(name: str) -> tuple[str, Row]:
     Raises
     ------
     InputError
-        No such bearing; it names the nearest.
+        No such bearing; it names the nearest of the same kind of name, and all others.
     """
     wanted = str(name).strip().upper()
     if wanted in ROWS:
         return wanted, ROWS[wanted]
-    near = get_close_matches(wanted, ROWS, NAMES_SHOWN, 0.0)
-    allowed = f"one of {', '.join(near)} (nearest) or of {', '.join(known for known in ROWS if known not in near)}"
+    # the first digit says what kind of bearing it is: a 7206 has the size of a 6206, and contact angles
+    near = get_close_matches(wanted, [known for known in ROWS if known[0] == wanted[:1]], NAMES_SHOWN, 0.0)
+    others = ", ".join(known for known in ROWS if known not in near)
+    nearest = f"{', '.join(near)} (nearest) or of {others}" if near else f"{others}, all of them deep-groove"
+    allowed = f"one of {nearest}"
     raise InputError("name", name, f"{allowed}; any other bearing by its dimensions: BallBearing(balls=, ...)")

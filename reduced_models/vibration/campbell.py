@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
 from math import pi
 from pathlib import Path
@@ -52,6 +53,27 @@ class CriticalSpeed:
     whirl: float
 
 
+class CriticalSpeeds(tuple[CriticalSpeed, ...]):
+    """Those of a diagram: a tuple, which says in words what was looked through where it is empty.
+
+    Attributes
+    ----------
+    searched : str
+        Speeds and modes among which they were looked for.
+    """
+
+    searched: str
+
+    def __new__(cls, found: Iterable[CriticalSpeed] = (), searched: str = "") -> Self:
+        """The speeds `found` among what was `searched`."""
+        speeds = super().__new__(cls, found)
+        speeds.searched = searched
+        return speeds
+
+    def __repr__(self) -> str:
+        return super().__repr__() if self else f"() no critical speed {self.searched}".rstrip()
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Campbell(Told, Tabled):
     """Modes over the speed of the shaft; a column of an array is one mode, followed from speed to speed.
@@ -91,10 +113,11 @@ class Campbell(Told, Tabled):
             f"{span(self.hz, 1.0, 'Hz')}, logarithmic decrements {span(self.decrement)}",
         ]
         if self.speed_rpm.size > 1:
-            speeds = [f"{found.speed_rpm:.5g}" for found in self.critical_speeds()]
-            told.append(
-                f"critical speeds {', '.join(speeds)} rev/min" if speeds else "no critical speed among them"
-            )
+            found = self.critical_speeds()
+            speeds = ", ".join(f"{one.speed_rpm:.5g}" for one in found)
+            above, below = _sides(self.hz - self.speed_rpm[:, None] / 60.0)
+            none = f"no critical speed among them: {above} modes stay above the speed, {below} below"
+            told.append(f"critical speeds {speeds} rev/min" if found else none)
         return told
 
     @property
@@ -115,6 +138,12 @@ class Campbell(Told, Tabled):
         order : float
             1 for unbalance; ``bearing.orders.bpfo`` for the balls that pass.
 
+        Returns
+        -------
+        tuple of CriticalSpeed
+            Where it is empty, its ``searched``, and what it shows at the prompt, say between which speeds there is
+            none, and on which side of it the modes lie: faster ones want higher speeds in the diagram.
+
         Raises
         ------
         InputError
@@ -131,7 +160,18 @@ class Campbell(Told, Tabled):
                 for values in (self.speed_rpm, self.hz[:, mode], self.decrement[:, mode], self.whirl[:, mode])
             )
             found.append(CriticalSpeed(rpm, hz, int(mode), decrement, whirl))
-        return tuple(sorted(found, key=lambda one: one.speed_rpm))
+        return CriticalSpeeds(sorted(found, key=lambda one: one.speed_rpm), self._searched(order, off))
+
+    def _searched(self, order: float, off: _Floats) -> str:
+        """Speeds and modes in words, by how far [Hz] the modes lie above `order` times the speed."""
+        above, below = _sides(off)
+        low, high = (order * float(rpm) / 60.0 for rpm in (self.speed_rpm[0], self.speed_rpm[-1]))
+        multiple = "" if order == 1.0 else f"{order:.5g} times "
+        return (
+            f"between {self.speed_rpm[0]:.5g} and {self.speed_rpm[-1]:.5g} rev/min: of {off.shape[1]} modes at "
+            f"{span(self.hz, 1.0, 'Hz')} {above} stay above {multiple}the speed, {low:.4g} to {high:.4g} Hz, "
+            f"and {below} below"
+        )
 
     def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
         """Matplotlib figure; into a file too where a path is given.
@@ -154,6 +194,11 @@ class Campbell(Told, Tabled):
         """Read what `save` wrote; raises `InputError` for anything else."""
         diagram: Self = hdf5.read(path, {cls.__name__: cls}, "file", "Campbell diagram")
         return diagram
+
+
+def _sides(off: _Floats) -> tuple[int, int]:
+    """How many columns of `off` stay above 0, and how many below."""
+    return int((off > 0.0).all(axis=0).sum()), int((off <= 0.0).all(axis=0).sum())
 
 
 @takes(speeds_rpm="rev/min")

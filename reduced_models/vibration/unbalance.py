@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
@@ -60,9 +60,35 @@ class UnbalanceResponse(Told, Tabled):
         first=0,
     )
 
+    def _layout(self) -> Layout:
+        return replace(self.LAYOUT, labels={"node": tuple(map(self._name, range(len(self.nodes))))})
+
+    def _name(self, node: int) -> str:
+        return next(iter(self.names[node : node + 1]), "") or f"node {node}"
+
+    def to_pandas(self) -> Any:
+        """``pandas.DataFrame`` over the speed: half axis, cosine and sine of x and y of each node, in m.
+
+        Of the other degrees of freedom nothing here says which of them turn: they are in `to_xarray`.
+
+        Raises
+        ------
+        InputError
+            pandas is not installed.
+        """
+        frame = super().to_pandas()
+        table = frame[[head for head in frame.columns if head.startswith("major")]].copy()
+        for node, places in enumerate(self.nodes.tolist()):
+            of = self._name(node).replace(" ", "_")
+            for axis, k in zip("xy", places, strict=True):
+                table[f"cosine_{of}_{axis} [m]"] = self.cosine[:, k]
+                table[f"sine_{of}_{axis} [m]"] = self.sine[:, k]
+        table.attrs.update(frame.attrs)
+        return table
+
     def _story(self) -> list[str]:
         largest = np.unravel_index(int(np.argmax(self.major)), self.major.shape)
-        name = next(iter(self.names[largest[1] : largest[1] + 1]), "") or f"node {largest[1]}"
+        name = self._name(int(largest[1]))
         return [
             f"{len(self.nodes)} nodes at {self.speed_rpm.size} speeds, {span(self.speed_rpm)} rev/min",
             f"largest orbit: {name}, half axis {1e6 * self.major[largest]:.4g} µm "

@@ -92,7 +92,7 @@ CALLS = {
     ),
     "eta0 in mPa s": (
         lambda: solve_steady(MoesPoint(200, 10, 0.5, eta0=40.0)),
-        ("eta0", "between 0.0001 and 20 Pa s (in", "in mPa s? then 0.04 Pa s"),
+        ("eta0", "between 0.0001 and 5 Pa s (in", "in mPa s? then 0.04 Pa s"),
     ),
     "a tuple for a point": (lambda: solve_steady((200, 10, 0.5)), ("point", "a MoesPoint or an OperatingPoint")),
     "a law of others": (
@@ -136,7 +136,7 @@ CALLS = {
     "race": (lambda: bearing(race="both"), ("race", "one of inner, outer")),
     "eta0 in mPa s, SI": (
         lambda: bearing(Lubricant(36.7, 2e-8)),
-        ("eta0", "between 0.0001 and 20 Pa s (in", "in mPa s? then 0.0367 Pa s"),
+        ("eta0", "between 0.0001 and 5 Pa s (in", "in mPa s? then 0.0367 Pa s"),
     ),
     "eta0 kinematic": (
         lambda: Lubricant(4.2e-5, 2e-8),
@@ -274,8 +274,8 @@ CALLS = {
     "atlas light": (lambda: rm.Atlas().element(MoesPoint(0.5, 10, 0.5)), ("M", "between 1 and 30000, the box of")),
     "atlas model": (lambda: rm.Atlas().element(point(), "linear"), ("model", "one of memory, wide, cubic")),
     "atlas oil": (
-        lambda: rm.Atlas().element(MoesPoint(200, 10, 0.5, eta0=40.0)),
-        ("eta0", "between 0.002 and 1 Pa s, the", "in mPa s? then 0.04 Pa s"),
+        lambda: rm.Atlas().element(MoesPoint(200, 10, 0.5, eta0=3.0)),
+        ("eta0", "between 0.002 and 1 Pa s, the", "in mPa s? then 0.003 Pa s"),
     ),
     "atlas law": (
         lambda: rm.Atlas().at(MoesPoint(200, 10, 0.5, viscosity="barus")),

@@ -169,7 +169,7 @@ COMMANDS = [
     (at("element", L="31"), ("--L = 31.0", "between 0 and 30")),
     (at("element", kappa="20"), ("--kappa = 20.0", "between 0.045 and 1")),
     (at("element", alpha="20"), ("--alpha = 20.0", "between 1e-08 and 4e-08 1/Pa", "in 1/GPa? then 2e-08")),
-    (at("element", eta0="36.7"), ("--eta0 = 36.7", "between 0.002 and 1 Pa s", "in mPa s? then 0.0367")),
+    (at("element", eta0="3"), ("--eta0 = 3.0", "between 0.002 and 1 Pa s", "in mPa s? then 0.003")),
     (at("element", viscosity="barus"), ("--viscosity = 'barus'", "roelands, the law of the atlas")),
     (at("element", density="incompressible"), ("--density", "dowson-higginson, the law of the atlas")),
     (at("element", "--model", "cubic"), ("--Omega = None", "given with --model cubic", "one frequency")),

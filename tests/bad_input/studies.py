@@ -47,7 +47,7 @@ STUDIES = [
     (SPEED, "speed_rpm = 'fast'", ("bearing.speed_rpm = 'fast'", "a number")),
     (SPEED, "speed = 3000", ("bearing.speed = 3000", "speed_rpm?")),
     (SPEED, "", ("bearing.speed_rpm", "given")),
-    (OIL, "eta0 = -0.0367\nalpha = 2e-8", ("oil.eta0 = -0.0367", "between 0.0001 and 20 Pa s")),
+    (OIL, "eta0 = -0.0367\nalpha = 2e-8", ("oil.eta0 = -0.0367", "between 0.0001 and 5 Pa s")),
     (OIL, "eta0 = '36.7 mPas'\nalpha = 2e-8", ("oil.eta0 = '36.7 mPas'", "a number")),
     (OIL, "eta = 0.0367\nalpha = 2e-8", ("oil.eta = 0.0367", "eta0?")),
     (OIL, "eta0 = 0.0367\nalpha = 0", ("oil.alpha = 0", "between 1e-10 and 1e-06 1/Pa")),

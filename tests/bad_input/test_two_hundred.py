@@ -33,7 +33,7 @@ SAMPLE = [
     at("simulate", "--free", "314000"),
     at("impedance", "--omega", "x"),
     ("fit", RECORD, RECORD),
-    at("element", eta0="36.7"),
+    at("element", eta0="3"),
     ("export", RECORD, "-o", "new.fmu"),
     ("verify", ELEMENT),
     ("validate", STUDY, "--json", STUDY),

@@ -10,6 +10,7 @@ from ehlcontact.cli.oils import oil_grade
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant.oil import GRADES
+from fmu.contacts import contact_spec
 from reduced_models import Atlas, BallBearing, load_element
 
 GIVEN = {"--bearing": "6205", "--oil": "ISO VG 68", "--temp": "60", "--rpm": "3000", "--load": "100"}
@@ -89,6 +90,8 @@ def test_element_is_in_si_and_its_damper_that_of_the_shaft(call, tmp_path):
     assert call("element", *options(), "--model", "cubic", "--save", target).code == 0
     saved, ours = load_element(target), Atlas().element(ball(), "cubic", rpm=3000)
     assert saved.units == "SI" and saved.C1 == ours.C1
+    said = "6205, inner race, most loaded ball of 100 N at 3000 rpm, ISO VG 68 at 60 °C"
+    assert saved.source["contact"] == said and contact_spec(saved).description.endswith(f"; {said}")
     assert call("element", *options(), "--model", "cubic", "--hz", "5000", "--json", tmp_path / "j").code == 0
     assert (
         json.loads((tmp_path / "j").read_text())["parameters"]["C1"]

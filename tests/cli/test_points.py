@@ -164,6 +164,8 @@ def test_all_points_are_solved_and_summed_up(run, stub):
             assert (run.folder / name).is_file(), name
     rows = list(csv.DictReader((run.folder / "summary.csv").read_text().splitlines()))
     assert [row["point"] for row in rows] == [one["name"] for one in summary["points"]]
+    assert [row["warnings"] for row in rows] == ["; ".join(one["warnings"]) for one in summary["points"]]
+    assert rows[0]["status"] == "converged" and rows[0]["warnings"].endswith("a warning")
     assert float(rows[3]["damping [N s/m]"]) == 25.0 and rows[3]["h_min_error [of h_min]"] == ""
     page = (run.folder / "report.html").read_text()
     assert all(f'href="points/{row["point"]}/report.html"' in page for row in rows) and "data:image/png" in page
@@ -253,7 +255,7 @@ def test_points_that_fail_do_not_stop_the_others(run, stub):
     assert failed["messages"] == ["free: diverged: The residual grows: use a finer grid."]
     assert failed["h_central"] is None and failed["M"] > 1.0 and "report" not in failed["files"]
     row = (run.folder / "summary.csv").read_text().splitlines()[2]
-    assert row.endswith(",diverged") and ",,," in row
+    assert ",diverged," in row and ",,," in row
     page = (run.folder / "report.html").read_text()
     assert "2 of 3 points converged" in page and "use a finer grid" in page
     stub.orders.write_text("")
@@ -300,13 +302,41 @@ def test_interrupted_at_random_moments_it_gives_the_same(run, stub):
             codes.append(found.code)
             if found.code == 0:
                 break
+            assert found.code == 130
             assert "interrupted" in found.err.splitlines()[-1] and "Traceback" not in found.err
     finally:
         signal.signal(signal.SIGINT, before)
-    assert 1 in codes
+    assert 130 in codes
     assert run(with_lists("[3000.0, 4000]")).code == 0
     assert lasting(run.folder) == expected
     assert set(stub()) == {*of("3000rpm_20N"), *of("4000rpm_20N")}
+
+
+def test_a_summary_of_what_the_study_was_does_not_outlive_an_interrupt(run, stub, monkeypatch):
+    def stop(*_):
+        raise KeyboardInterrupt
+
+    def over_all():
+        return {name for name in ("summary.json", "summary.csv", "report.html") if (run.folder / name).exists()}
+
+    two, everything = with_lists("[3000.0, 4000]"), {"summary.json", "summary.csv", "report.html"}
+    assert run(two).code == 0 and over_all() == everything
+    with monkeypatch.context() as patch:
+        patch.setattr(runner, "_side_by_side", stop)
+        assert run(two).code == 130 and over_all() == everything  # nothing is to be done: it is true as it is
+        assert run(with_lists("[3000.0, 5000]")).code == 130 and over_all() == set()
+        assert (run.folder / "points" / "4000rpm_20N" / "steady.h5").is_file()
+    log = (run.folder / "run.log").read_text()
+    assert log.count(" removed ") == 1 and "removed  summary.json, summary.csv" in log.replace("   ", "  ")
+    assert run(two).code == 0 and over_all() == everything
+    with monkeypatch.context() as patch:
+        patch.setattr(runner, "_side_by_side", stop)
+        assert run(with_lists("[3000.0, 3500]")).code == 130 and over_all() == set()
+    assert run(with_lists("[3000.0, 4000]")).code == 0
+    with monkeypatch.context() as patch:  # fewer points, all of them done
+        patch.setattr(runner, "_side_by_side", stop)
+        (run.folder / "summary.json").write_text("{}")
+        assert run(two).code == 130 and not (run.folder / "summary.csv").exists()
 
 
 def test_two_runs_do_not_share_a_folder(run, stub):

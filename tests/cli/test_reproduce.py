@@ -117,7 +117,7 @@ def test_interrupt_keeps_what_is_finished(call, tmp_path, monkeypatch):
 
     monkeypatch.setattr(runs, "simulate", interrupted)
     result = call("reproduce", "--figure", "5", "-o", tmp_path, "--n", "32")
-    assert result.code == 1 and "resumes" in result.err and len(result.err.splitlines()) == 1
+    assert result.code == 130 and "resumes" in result.err and len(result.err.splitlines()) == 1
     assert [path.name for path in tmp_path.iterdir()] == ["case_2_n32.h5"]
     assert load(tmp_path / "case_2_n32.h5").status is Status.CONVERGED
 

@@ -10,14 +10,16 @@ import subprocess
 import sys
 import threading
 import time
+import zipfile
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from tiny_study import STUDY
 
 from ehlcontact import Status, assumptions, load
-from ehlcontact.cli.study import runner
+from ehlcontact.cli.study import reduction, runner
 from ehlcontact.cli.study.points.journal import Journal
 from ehlcontact.cli.study.points.ledger import is_done, read_ledger
 from ehlcontact.cli.study.points.lists import load_points
@@ -85,6 +87,13 @@ def test_what_is_assumed_is_told(finished):
     expected = assumptions(study.point, film=film, roughness=study.roughness).short()
     for name in ("rotor_band_cubic", "rotor_band_cubic_si", "memory_si"):
         assert load_element(folder / "elements" / f"{name}.json").source["assumptions"] == expected
+    said = reduction.contact_said(study)
+    assert study.bearing.name in said and study.oil.label in said and "3000 rpm" in said
+    assert load_element(folder / "elements" / "memory_si.json").source["contact"] == said
+    for name in ("contact", "contact_film"):
+        with zipfile.ZipFile(folder / f"{name}.fmu") as archive:
+            description = ElementTree.fromstring(archive.read("modelDescription.xml")).attrib["description"]
+        assert description.endswith(f"; SI units; {said}")
     page = re.sub(r"\s*(?:<[^>]*>\s*)+", " ", html.unescape((folder / "report.html").read_text()))  # its words
     answer = json.loads((folder / "results.json").read_text())["answer"]
     assert (
@@ -216,7 +225,7 @@ def test_ctrl_c_and_resume(finished, tmp_path):
         time.sleep(0.2)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=30)
-    assert process.returncode == 1 and out == "" and "Traceback" not in err
+    assert process.returncode == 130 and out == "" and "Traceback" not in err
     assert "resumes" in err.splitlines()[-1]
     notes = json.loads(ledger.read_text())
     assert notes["free"]["status"] == "interrupted" and notes["steady"]["status"] == "converged"
@@ -254,7 +263,7 @@ def test_a_run_that_is_told_to_end_leaves_no_workers(tmp_path):
         time.sleep(0.05)
     process.terminate()
     _, err = process.communicate(timeout=40)
-    assert process.returncode == 1 and "resumes" in err.splitlines()[-1] and "Traceback" not in err
+    assert process.returncode == 130 and "resumes" in err.splitlines()[-1] and "Traceback" not in err
     deadline = time.monotonic() + 5.0  # they end by themselves, a moment after it
     while any(is_running(worker) for worker in workers) and time.monotonic() < deadline:
         time.sleep(0.05)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import SimulationResult, Status, SteadyResult, load
+from ehlcontact.cli.numerals import numeral
 from reduced_models import load_element
 
 STEADY_KEYS = (
@@ -96,6 +97,15 @@ def test_from_simulation_to_fmu(call, refused, point, tmp_path):
     assert "modelDescription.xml" in zipfile.ZipFile(target).namelist()
 
 
+def test_tolerance_too_coarse_for_the_load_is_told(call, point):
+    run = ["simulate", *point, "--n", "32", "--harmonic", "3", "--amplitude", "0.01", "--until", "0.1"]
+    fitting = call(*run)
+    assert fitting.code == 0 and fitting.err == "" and numeral(3e-4) in fitting.out
+    coarse = call(*run, "--tol", "3e-3", "--json", "-")
+    assert coarse.code == 0 and "warning: tol = 0.003 is coarse" in coarse.err
+    assert json.loads(coarse.out)["reservation"] in coarse.err
+
+
 def test_film_memory_from_a_simulation_alone(call, point, tmp_path):
     """The impedance is solved on the way, at the record's point, grid and domain."""
     record, element, report = tmp_path / "r.h5", tmp_path / "e.json", tmp_path / "fit.json"
@@ -138,7 +148,7 @@ def test_interrupted_simulation_is_saved(call, point, tmp_path, monkeypatch):
 
     monkeypatch.setattr(TransientFilm, "advance", stopped)
     result = call("simulate", *point, "--n", "16", "--free", "5", "--save", tmp_path / "p.h5")
-    assert result.code == 1 and "interrupted" in result.err and len(result.err.splitlines()) == 1
+    assert result.code == 130 and "interrupted" in result.err and len(result.err.splitlines()) == 1
     stored = load(tmp_path / "p.h5")
     assert isinstance(stored, SimulationResult) and stored.steps == 5 and stored.status is Status.INTERRUPTED
 
@@ -160,7 +170,7 @@ def test_interrupted_simulation_goes_on_from_its_checkpoint(call, refused, point
     with monkeypatch.context() as patch:
         patch.setattr(TransientFilm, "advance", stopped)
         result = call(*run, "--checkpoint", checkpoint)
-    assert result.code == 1 and len(result.err.splitlines()) == 1
+    assert result.code == 130 and len(result.err.splitlines()) == 1
     assert "interrupted" in result.err and f"go on with --restart {checkpoint}" in result.err
     assert 0 < json.loads(result.out)["steps"] < whole["steps"]
     again = call(*run, "--restart", checkpoint)

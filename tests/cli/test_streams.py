@@ -92,7 +92,7 @@ def test_ctrl_c_while_it_is_imported(module, tmp_path):
     )
     (tmp_path / f"{module}.py").write_text(f"{interrupting}except BaseException:\n    pass\n")
     found = program(*ELEMENT, path=(tmp_path,), stdout=subprocess.PIPE)
-    assert (found.returncode, found.stdout) == (1, "")
+    assert (found.returncode, found.stdout) == (130, "")
     assert found.stderr == "ehlcontact: interrupted before anything was computed\n"
 
 
@@ -108,7 +108,7 @@ def test_ctrl_c_in_a_subcommand(call, point, monkeypatch):
 
     monkeypatch.setattr(import_module("ehlcontact.impedance"), "impedance", stop)
     result = call("impedance", *point, "--omega", "1")
-    assert result.code == 1 and result.out == ""
+    assert result.code == 130 and result.out == ""
     assert result.err == "ehlcontact: interrupted: nothing was computed that could be kept\n"
 
 

@@ -48,6 +48,9 @@ def test_every_kind_is_what_its_references_say(fmus, any_kind):
     assert all(0.0 < one.difference <= 1e-14 for one in found.interfaces)  # what 15 digits are good for
     assert {"force", "stiffness", "damping", "outside_force"} <= set(found.interfaces[0].variables)
     assert found.to_dict()["passes"] is True
+    told = repr(found).splitlines()
+    assert told[0] == "ReferenceCheck: passes: FMI 2.0, differences up to 1e-12 are allowed" and len(told) == 3
+    assert [line.split(":")[0].strip() for line in told[1:]] == ["co-simulation", "model exchange"]
 
 
 @pytest.mark.parametrize("kind", ["power_si", "wide"])

@@ -1,5 +1,6 @@
 import dataclasses
 import re
+from xml.etree import ElementTree
 
 import fmpy
 import numpy as np
@@ -10,7 +11,7 @@ from ehlcontact.errors import InputError
 from fmu.c_headers import c_double
 from fmu.contacts import contact_spec, step_advice
 from fmu.spec import ModelSpec, Variable
-from fmu.texts import documentation
+from fmu.texts import documentation, model_description
 
 UNITS_SI = {
     "approach": ("m", {"m": 1}),
@@ -115,6 +116,20 @@ def test_two_variables_of_one_reference_are_refused():
     twins = [Variable(name, 0, "input", "continuous", "", unit="1", start=0.0) for name in "ab"]
     with pytest.raises(InputError, match="unique"):
         ModelSpec("m", "", (), (), tuple(twins))
+
+
+def test_description_says_whose_contact_it_is(elements):
+    said = "6205, inner race, most loaded ball of 100 N at 3000 rpm, ISO VG 68 at 60 °C"
+    element = dataclasses.replace(elements["cubic"], source={"contact": said})
+    known, unknown = contact_spec(element), contact_spec(elements["cubic"])
+    assert known.description == f"{unknown.description}; {said}"
+    xml = ElementTree.fromstring(model_description(known, "{}"))
+    assert xml.attrib["description"] == known.description
+    assert said in documentation(known, "", "")
+    # a source may be of a file that somebody wrote: one line, of what can be printed
+    strange = dataclasses.replace(element, source={"contact": "a\nb\x00" + 500 * "c"})
+    assert contact_spec(strange).description == f"{unknown.description}; a b{'c' * 197}"
+    assert contact_spec(dataclasses.replace(element, source={"contact": 5})).description.endswith("; 5")
 
 
 def test_page_tells_where_the_element_comes_from(elements):

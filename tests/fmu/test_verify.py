@@ -18,6 +18,9 @@ def test_fmu_agrees_with_element(fmus, elements, any_kind):
     assert found.findings == ()
     assert max(found.force, found.tangents, found.derivatives, found.exchange) <= 1e-12
     assert json.loads(json.dumps(found.to_dict()))["passes"] is True
+    told = repr(found).splitlines()
+    assert told[0].startswith(f"Verification: passes: {found.states} states compared, {found.outside} of them")
+    assert f"force {found.force:.2g}, " in told[1] and len(told) == 2
     # The comparison is worth something: states of every kind were met.
     least = 5 if elements[any_kind].state_count else 100
     assert min(found.outside, found.parted, found.states - found.outside) > least
@@ -56,7 +59,7 @@ def test_element_without_damper(elements, tmp_path):
 @pytest.mark.parametrize("change", [{"K1": 0.624 * (1 + 1e-9)}, {"C1": 0.02}, {"high": 1.01}])
 def test_another_element_is_found_out(fmus, elements, change):
     found = verify(fmus["cubic"], dataclasses.replace(elements["cubic"], **change))
-    assert not found.passes
+    assert not found.passes and repr(found).startswith("Verification: fails: ")
     (finding,) = [line for line in found.findings if line.startswith(next(iter(change)))]
     assert "in the FMU" in finding
     assert max(found.force, found.tangents) > 1e-12

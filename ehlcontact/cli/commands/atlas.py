@@ -12,7 +12,6 @@ from ehlcontact.checks import require_integer
 from ehlcontact.cli import options as o
 from ehlcontact.cli.examples import epilog
 from ehlcontact.cli.output import (
-    FAILED,
     check_apart,
     check_file,
     check_json,
@@ -22,6 +21,7 @@ from ehlcontact.cli.output import (
     write_json,
 )
 from ehlcontact.cli.progress import progress
+from ehlcontact.process.guard import INTERRUPTED
 
 NPZ = (".npz",)
 
@@ -78,7 +78,7 @@ def build(
             )
     except KeyboardInterrupt:
         complain(f"interrupted; points that were solved are in {kept}, the same command goes on")
-        raise typer.Exit(FAILED) from None
+        raise typer.Exit(INTERRUPTED) from None
     left_out = sum(table.metadata["left_out"].values())
     rows = [
         ("points", str(table.metadata["points"]), f"{left_out} left out: not converged or too thin a film"),

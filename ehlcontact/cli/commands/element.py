@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -64,6 +65,8 @@ def element(
     table = Atlas(atlas)
     with contact.called():
         answer, made = table.at(point), table.element(point, model, **at)
+    if said := contact.said:
+        made = replace(made, source={**(made.source or {}), "contact": said})
     rough = () if surfaces.rq is None else surfaces.rows(answer.si.h_min)
     about = {} if surfaces.rq is None else surfaces.about(answer.si.h_min)
     shown = partial(

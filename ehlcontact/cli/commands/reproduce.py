@@ -10,6 +10,7 @@ import typer
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import FAILED, check_json, complain, prepare_folder, say, write_json
 from ehlcontact.errors import InputError
+from ehlcontact.process.guard import INTERRUPTED
 from ehlcontact.solver.domain import check_intervals
 
 PAGE, DOCUMENT = "reproduction.html", "reproduction.json"
@@ -54,7 +55,7 @@ def reproduce(
         found = make(tables, figures, output, n)
     except KeyboardInterrupt:
         complain(f"interrupted; finished simulations are in {output}, the same command resumes")
-        raise typer.Exit(FAILED) from None
+        raise typer.Exit(INTERRUPTED) from None
     page = write_reproduction(found, output / PAGE)
     write_json(found.to_dict(), str(output / DOCUMENT), "file")
     write_json(found.to_dict(), json_to)

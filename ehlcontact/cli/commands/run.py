@@ -30,6 +30,7 @@ from ehlcontact.cli.output import (
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import remove_leftovers, write_text
 from ehlcontact.point import moes_point
+from ehlcontact.process.guard import INTERRUPTED
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.points.board import Board
@@ -125,7 +126,7 @@ def _compute(points: Sequence[Point], folder: Path, share: Share, journal: Journ
     except KeyboardInterrupt:
         journal.line("stopped", "interrupted")
         complain(f"interrupted; what was computed is in {folder}, the same command resumes")
-        raise typer.Exit(FAILED) from None
+        raise typer.Exit(INTERRUPTED) from None
     return board, time.perf_counter() - started
 
 

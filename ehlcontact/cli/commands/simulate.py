@@ -17,6 +17,8 @@ from ehlcontact.cli.output import FAILED, check_file, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import OperatingPoint, Point
+from ehlcontact.process.guard import INTERRUPTED
+from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
@@ -182,14 +184,14 @@ class TimeOptions:
         ),
     ] = None
     tol: Annotated[
-        float,
+        float | None,
         typer.Option(
             "--tol",
-            help="Residual at which a step counts as solved, over the central film at rest; with --error "
-            "at most three times that.",
+            help="Residual at which a step counts as solved, over the central film at rest; by default 0.003, "
+            "less for motions below 0.1, and with --error at most three times that.",
             rich_help_panel=_TIME,
         ),
-    ] = 3e-3
+    ] = None
 
     def chosen(self, point: Point) -> dict[str, float | None]:
         """Check the options and call them as `ehlcontact.simulate` does."""
@@ -268,6 +270,8 @@ def simulate(
         rows += surfaces.rows(result.si.h_min.min())
         about |= surfaces.about(float(result.si.h_min.min()))
     files.deliver(result, "transient film", rows, drawn, about)
+    if result.reservation:
+        complain(f"warning: {result.reservation}")
     if unkept is not None:
         raise unkept
     if not result.status.ok:
@@ -275,7 +279,7 @@ def simulate(
         kept = [f"partial result in {files.save}"] if files.save else []
         kept += [f"go on with --restart {restart.checkpoint}"] if restart.checkpoint else []
         complain("; ".join([message, *kept]))
-        raise typer.Exit(FAILED)
+        raise typer.Exit(INTERRUPTED if result.status is Status.INTERRUPTED else FAILED)
 
 
 def _draw(result: SimulationResult) -> Any:
@@ -296,6 +300,7 @@ def _rows(result: SimulationResult) -> list[tuple[str, str, str]]:
         *(_dimensionless(result) if result.scales is None else _in_si(result)),
         ("steps", f"{result.steps}", steps),
         ("grid", f"n = {result.n}", f"on {o.domain_text(result.domain)}"),
+        ("tolerance", numeral(result.tol), "residual of a solved step, of the central film at rest"),
         ("computed in", f"{numeral(result.seconds, 3)} s", ""),
         ("status", str(result.status), ""),
     ]

@@ -9,6 +9,8 @@ from typing import Any, Literal
 
 import numpy as np
 
+from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Scales
 from ehlcontact.results import ImpedanceResult
@@ -94,12 +96,12 @@ def reduce_records(
     simulations: Mapping[str, SimulationResult],
     response: ImpedanceResult,
     scales: Scales,
-    assumed: Mapping[str, Any],
+    known: Mapping[str, Any],
 ) -> Reduction:
     """Fit every model to every record; a fit that makes no contact is kept as the reason why.
 
-    The film memory is fitted to the impedance too. Elements carry `assumed`, which knows the study's oil, film and
-    roughness, as the records do not.
+    The film memory is fitted to the impedance too. Elements carry what is `known` in their ``source``: what is
+    assumed of the study's oil, film and roughness, and whose contact it is, which the records do not know.
     """
     fits: dict[tuple[str, str], FitResult] = {}
     refused: dict[tuple[str, str], str] = {}
@@ -108,12 +110,12 @@ def reduce_records(
         data = records[record]
         for model in MODELS:
             try:
-                fits[record, model] = _assuming(fit(data, model, _window(simulation)), assumed)
+                fits[record, model] = _knowing(fit(data, model, _window(simulation)), known)
             except InputError as error:
                 refused[record, model] = str(error)
     memory: MemoryFit | str
     try:
-        memory = _assuming(fit_memory(_spread(response), list(records.values())), assumed)
+        memory = _knowing(fit_memory(_spread(response), list(records.values())), known)
     except (InputError, ConvergenceError) as error:
         memory = str(error)
     return Reduction(fits, refused, memory, response, scales)
@@ -126,9 +128,19 @@ def _spread(response: ImpedanceResult) -> ImpedanceResult:
     return replace(response, **{name: getattr(response, name)[kept] for name in names})
 
 
-def _assuming(found: Any, assumed: Mapping[str, Any]) -> Any:
-    """The fit with an element that keeps what was assumed."""
-    source = dict(found.element.source or {}) | {"assumptions": dict(assumed)}
+def contact_said(study: Study) -> str:
+    """Whose contact it is, in one line."""
+    bearing, oil = study.bearing, study.oil
+    viscosity = "" if oil.eta0 is None else f" of {numeral(oil.eta0)} Pa s"
+    return (
+        f"{bearing.name}, {bearing.race} race, most loaded ball of {numeral(bearing.radial_load)} N at "
+        f"{numeral(bearing.speed_rpm)} rpm, {oil.label}{viscosity}"
+    )
+
+
+def _knowing(found: Any, known: Mapping[str, Any]) -> Any:
+    """The fit with an element that keeps what is known of it."""
+    source = {**(found.element.source or {}), **known}
     return replace(found, element=replace(found.element, source=source))
 
 

@@ -21,6 +21,7 @@ from ehlcontact.cli.study.reduction import (
     FULL,
     RECORDS,
     Reduction,
+    contact_said,
     export_fmu,
     reduce_records,
     save_elements,
@@ -243,7 +244,8 @@ def evaluate(study: Study, folder: Path, ledger: Mapping[str, Mapping[str, Any]]
     scales = study.point.scales
     assumed = assumptions(study.point, film=steady, roughness=study.roughness).short()
     response = film_response(study)
-    reduction = reduce_records(histories, response, scales, assumed)
+    known = {"assumptions": assumed, "contact": contact_said(study)}
+    reduction = reduce_records(histories, response, scales, known)
     save_elements(reduction, folder)
     exported = export_fmu(reduction.chosen, folder / "contact.fmu")
     film = reduction.memory_si

@@ -25,6 +25,7 @@ from ehlcontact.cli.progress import progressing
 from ehlcontact.cli.study.points.board import Board, StorageError, Task
 from ehlcontact.cli.study.points.journal import Journal
 from ehlcontact.cli.study.points.lists import Point
+from ehlcontact.cli.study.points.summary import withdraw
 from ehlcontact.cli.study.stages import STAGES
 from ehlcontact.errors import InputError
 from ehlcontact.status import Status
@@ -128,6 +129,8 @@ def run_points(
         Workers of the cluster keep dying.
     """
     board = Board(points, STAGES, root, journal, closing=closing)
+    if gone := withdraw(root, [point.name for point in points], bool(board.todo)) if closing else ():
+        journal.line("removed", f"{', '.join(gone)}: of what the study was; made again in the end")
     with progressing() as shown, _ended_like_ctrl_c() as interrupts:
         board.show(shown)
         if share.scheduler is not None:

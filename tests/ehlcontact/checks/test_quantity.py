@@ -6,7 +6,16 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import FreeVibration, Geometry, HarmonicLoad, InputError, Lubricant, MoesPoint, OperatingPoint
+from ehlcontact import (
+    FreeVibration,
+    Geometry,
+    HarmonicLoad,
+    InputError,
+    Lubricant,
+    MoesPoint,
+    OperatingPoint,
+    assumptions,
+)
 from ehlcontact.checks import as_column
 from ehlcontact.checks.frequency import dimensionless, radians_per_second
 from ehlcontact.checks.quantity import in_unit, takes
@@ -97,6 +106,19 @@ def Q():
         .UnitRegistry()
         .Quantity
     )
+
+
+def test_what_is_assumed(Q):
+    oil = Lubricant.iso_vg(68, temperature=50.0)
+    point = OperatingPoint(Geometry(3e-3, 4e-2), oil, load=486.0, u_sum=3.0)
+    given = assumptions(
+        point, roughness=(Q(0.02, "um"), Q(100, "nm")), vibration=Q(50, "mm/s"), conductivity=Q(0.14, "W/m/K")
+    )
+    same = assumptions(point, roughness=(2e-8, 1e-7), vibration=0.05, conductivity=0.14)
+    for name in ("smooth", "constant speed", "isothermal"):
+        assert given[name].value == pytest.approx(same[name].value, rel=1e-12)
+    with pytest.raises(InputError, match=r"^roughness\[1\] = 1 newton: must be a number, or a quantity"):
+        assumptions(point, roughness=(Q(0.02, "um"), Q(1, "N")))
 
 
 def test_an_operating_point(Q):

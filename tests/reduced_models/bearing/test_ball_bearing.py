@@ -80,6 +80,9 @@ def test_an_oil_that_is_none_of_the_atlas():
 
 def test_unknown_names_are_told_the_near_ones():
     refused("name = '6250': must be one of 6206, 6205, 6204 .nearest", lambda: BallBearing.catalogue("6250"))
+    # an angular contact bearing of the size of a 6206 is none
+    said = refused("name = '7206': must be one of 6202, 6203", lambda: BallBearing.catalogue("7206"))
+    assert "nearest" not in said and "ER-16K, all of them deep-groove; any other bearing" in said
 
 
 def test_speeds(film, dry):

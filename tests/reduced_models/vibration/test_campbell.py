@@ -1,5 +1,6 @@
 """Modes and responses over the speed; their files and figures."""
 
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -55,6 +56,23 @@ def test_critical_speeds_lie_where_a_mode_has_the_frequency_of_the_order(film, b
     assert diagram.critical_speeds(0.01) == ()
 
 
+def test_no_critical_speed_says_what_was_searched(diagram):
+    low, high = diagram.hz.min(), diagram.hz.max()
+    none = diagram.critical_speeds(0.01)
+    assert isinstance(none, tuple) and none == ()
+    assert none.searched.startswith(f"between 2000 and 10000 rev/min: of 4 modes at {low:.4g}")
+    assert "4 stay above 0.01 times the speed, 0.3333 to 1.667 Hz, and 0 below" in none.searched
+    assert repr(none) == f"() no critical speed {none.searched}"
+    beyond = diagram.critical_speeds(2.0 * 60.0 * high / SPEEDS[0])
+    assert beyond == () and "0 stay above" in beyond.searched and beyond.searched.endswith("and 4 below")
+    slow = replace(diagram, speed_rpm=diagram.speed_rpm / 1000.0)
+    assert "above the speed, 0.03333 to 0.1667 Hz, and 0 below" in slow.critical_speeds().searched
+    assert "no critical speed among them: 4 modes stay above the speed, 0 below" in repr(slow)
+    some = diagram.critical_speeds(60.0 * np.median(diagram.hz) / SPEEDS[2])
+    assert some and repr(some) == repr(tuple(some))
+    assert pickle.loads(pickle.dumps(none)).searched == none.searched
+
+
 def test_a_run_up_resonates_where_balls_pass_at_the_frequency_of_a_mode(film, beam, diagram):
     """Faster and faster balls: the largest swing comes a little after the crossing."""
     rotor, window = beam(film, unbalances=()), np.ones(400) / 400.0
@@ -66,6 +84,22 @@ def test_a_run_up_resonates_where_balls_pass_at_the_frequency_of_a_mode(film, be
         peak = run.speed_rpm[1000:-1000][np.argmax(swing)]
         assert swing.max() > 6.0 * np.median(swing)
         assert 1.0 < peak / one.speed_rpm < 1.04
+
+
+def test_tables_of_an_unbalance_response_have_names_and_units(dry, block):
+    pytest.importorskip("pandas", reason="pandas is not installed: pip install 'ehlcontact[tables]'")
+    rotor = block(dry, mass=200.0, damping=1e3 * np.eye(2))
+    found = unbalance_response(rotor, [3000.0, 4000.0, 5000.0])
+    named = replace(found, names=("drive end",) * len(found.nodes))
+    x, y = found.nodes[0].tolist()
+    for response, name in ((found, found.names[0] or "node_0"), (named, "drive_end")):
+        table = response.to_pandas()
+        assert table.index.name == "speed_rpm [rev/min]"
+        waves = [f"{wave}_{name}_{axis} [m]" for axis in "xy" for wave in ("cosine", "sine")]
+        assert list(table.columns) == [f"major_{name} [m]", *waves]
+        assert np.array_equal(table[f"sine_{name}_y [m]"], found.sine[:, y])
+        assert np.array_equal(table[f"cosine_{name}_x [m]"], found.cosine[:, x])
+        assert table.attrs["result"] == "UnbalanceResponse"
 
 
 def test_unbalance_peaks_at_the_critical_speed(dry, block):

@@ -21,6 +21,8 @@ from ehlcontact.cli.study.points.journal import LOG, versions
 from ehlcontact.cli.study.points.ledger import CLOSING, Note
 from ehlcontact.cli.study.points.lists import STUDY_FILE, Point
 from ehlcontact.cli.study.stages import STAGES
+from ehlcontact.errors import InputError
+from ehlcontact.files import parse_json, read_text
 from ehlcontact.status import Status
 
 FORMAT = 1  # of the summary
@@ -177,14 +179,46 @@ def summary(rows: Sequence[Row], title: str, run: Mapping[str, Any]) -> dict[str
     }
 
 
+def withdraw(folder: Path, names: Sequence[str], changes: bool) -> tuple[str, ...]:
+    """Remove a summary that a run is about to make untrue, lest it is read if the run does not get to its end.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the study.
+    names : sequence of str
+        Its points, as they are now.
+    changes : bool
+        Whether there is anything to do for them.
+
+    Returns
+    -------
+    tuple of str
+        Files that are gone.
+    """
+    try:
+        found = [point["name"] for point in parse_json(read_text(folder / SUMMARY))["points"]]
+    except (OSError, ValueError, KeyError, TypeError, InputError):  # none, or none of ours: what is there is old
+        found = []
+    if found == list(names) and not changes:
+        return ()
+    over_all = (REPORT,) if len(found) > 1 else ()  # else it is the report of the point itself, which is remade
+    gone = tuple(name for name in (SUMMARY, TABLE, PICTURE, *over_all) if (folder / name).is_file())
+    for name in gone:
+        (folder / name).unlink()
+    return gone
+
+
 def table(rows: Sequence[Row]) -> str:
-    """Content of ``summary.csv``: a row per point, units in the first line; what was not reached is left empty."""
+    """Content of ``summary.csv``: a row per point, units in the first line; what was not reached is left empty.
+
+    The last columns say in words how the point ended, and its warnings, parted by semicolons.
+    """
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["point", *(f"{name} [{unit}]" for name, unit in UNITS.items()), "status"])
+    writer.writerow(["point", *(f"{name} [{unit}]" for name, unit in UNITS.items()), "status", "warnings"])
     for row in rows:
         values = plain(dict(row.numbers))
-        writer.writerow(
-            [row.point.name, *("" if v is None else repr(float(v)) for v in values.values()), row.status]
-        )
+        numbers = ("" if v is None else repr(float(v)) for v in values.values())
+        writer.writerow([row.point.name, *numbers, row.status, "; ".join(row.warnings)])
     return stream.getvalue()
