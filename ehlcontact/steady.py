@@ -15,6 +15,7 @@ from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import MoesPoint, Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import SteadyResult
+from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
@@ -227,7 +228,7 @@ class _Attempt:
         mg.full_multigrid(balance, nested=not self.method.newton)
         if self.method.newton:
             mg.cycle(balance)
-        advance = NewtonKrylov(mg).step if self.method.newton else mg.cycle
+        advance = NewtonKrylov(mg).step if self.method.newton else AcceleratedCycles(mg).step
         status = iterate(mg, balance, advance, goal, self.track, watch)
         if status.ok:
             self.error = estimate_error(mg, balance)

@@ -26,7 +26,7 @@ SMALLEST_DAMPING = 2.0**-6
 CORRECTION_STEPS = 4  # of the coarsest grid in one cycle
 LARGEST_RENEWALS = 2  # of the factors in one cycle
 WORN_OUT = 0.3  # drop of the merit in one step above which factors are renewed
-CORRECTION_DROP = 1e-2  # of its residual, enough for one cycle
+CORRECTION_DROP = 0.1  # of its residual, enough for one cycle
 BALANCE_WEIGHT = 3.0  # of the balance beside the rms residual of the nodes
 
 

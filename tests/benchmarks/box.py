@@ -14,9 +14,11 @@ solves only what is missing.
 from __future__ import annotations
 
 import argparse
+import time
 from collections import Counter
 from math import exp, log
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from conv import circumstances
@@ -25,8 +27,13 @@ from scipy.stats import qmc
 
 from ehlcontact import Domain, MoesPoint, solve_steady
 from ehlcontact.checks.box import MEASURED
-from ehlcontact.errors import InputError
+from ehlcontact.solver.acceleration import AcceleratedCycles
+from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.iterate import Goal, Track, iterate
 from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.multigrid import Multigrid
+from ehlcontact.status import Status
+from ehlcontact.steady import APPROACH_TOLERANCE, LARGEST_RESIDUAL, LOAD_TOLERANCE, MAX_CYCLES
 
 LARGEST_MOVE = 0.1  # of the smallest film on twice the grid
 LARGEST_GRID = 4_000_000  # nodes of the twice finer grid: some gigabytes
@@ -79,22 +86,44 @@ def solve(M: float, L: float, kappa: float) -> Row:
 
 def solve_finer(row: Row) -> Row:
     """The same film on twice the grid, and how far its films and its approach have moved, of the finer ones."""
-    domain, n, point = Domain(*row["domain"]), 2 * row["n"], MoesPoint(row["M"], row["L"], row["kappa"])
-    found: Row = {"of": row["key"], "M": row["M"], "L": row["L"], "kappa": row["kappa"], "n": n}
-    if not Mesh(n, domain).nodes(point.kappa) <= LARGEST_GRID:
+    domain, point = Domain(*row["domain"]), MoesPoint(row["M"], row["L"], row["kappa"])
+    mesh = Mesh(2 * row["n"], domain, max(round(1.0 / row["apart"]), 1) if row["apart"] < CLOSE else 1)
+    found: Row = {"of": row["key"], "M": row["M"], "L": row["L"], "kappa": row["kappa"], "n": mesh.n}
+    found["estimate"] = row["error"]["h_min"]
+    if not mesh.nodes(point.kappa) <= LARGEST_GRID:
         return found | {"status": "not solved: the grid has too many nodes", "move": None}
-    if row.get("apart", 1.0) < CLOSE:
-        return found | {"status": "not solved: a grid with n given has fewer lines", "move": None}
-    try:
-        result = solve_steady(point, n=n, domain=domain, throw=False)
-    except InputError as refused:
-        return found | {"status": f"not solved: {refused}", "move": None}
+    result = (
+        finer_close_lines(point, mesh)
+        if mesh.lines > 1
+        else solve_steady(point, n=mesh.n, domain=domain, throw=False)
+    )
     moves = {
-        "move": abs(row["h_min"] / result.h_min - 1.0) if result.status.ok else None,
-        "move_central": abs(row["h_central"] / result.h_central - 1.0) if result.status.ok else None,
-        "move_approach": abs(row["approach"] / result.approach - 1.0) if result.status.ok else None,
+        name: abs(row[of] / getattr(result, of) - 1.0) if result.status.ok else None
+        for name, of in (("move", "h_min"), ("move_central", "h_central"), ("move_approach", "approach"))
     }
     return found | {"status": str(result.status), "h_min": result.h_min, "seconds": result.seconds} | moves
+
+
+class Finer(NamedTuple):
+    """What of a film is compared."""
+
+    status: Status
+    approach: float
+    h_central: float
+    h_min: float
+    seconds: float
+
+
+def finer_close_lines(point: MoesPoint, mesh: Mesh) -> Finer:
+    """As `solve_steady`, whose grids have no close lines where n is given: cycles to its tolerance."""
+    started = time.perf_counter()
+    film, load = Multigrid(point, mesh), Balance.of_load()
+    scale = film.finest.dry_residual()
+    film.full_multigrid(load)
+    goal = Goal(scale, LARGEST_RESIDUAL, MAX_CYCLES, LOAD_TOLERANCE, APPROACH_TOLERANCE, pressure=1e-5)
+    status = iterate(film, load, AcceleratedCycles(film).step, goal, Track())
+    level = film.finest
+    return Finer(status, film.u, level.central_film(), level.lowest_film(), time.perf_counter() - started)
 
 
 def line(key: str, row: Row) -> str:
@@ -102,7 +131,8 @@ def line(key: str, row: Row) -> str:
     where = f"{key:>4s}  M {row['M']:8.1f}  L {row['L']:5.2f}  kappa {row['kappa']:.3f}" if "M" in row else key
     if "of" in row:
         moved = "-" if row["move"] is None else f"{100 * row['move']:.2g} %"
-        return f"{where}  n {row['n']:4d}  {row['status']}: smallest film moves by {moved}"
+        told = f", estimate {100 * row['estimate']:.2g} %"
+        return f"{where}  n {row['n']:4d}  {row['status']}: smallest film moves by {moved}{told}"
     if "n" not in row:
         return f"{where}  {row['status']}: {row.get('verdict', '')}"
     factor = "   -" if row["factor"] is None else f"{row['factor']:.2f}"
@@ -140,6 +170,7 @@ def summary(rows: list[Row], thin: list[Row]) -> list[str]:
             f"smallest film of the {len(thin)} thinnest on twice the grid: {len(moves)} solved there, of which "
             f"{len(moved)} move by more than {100 * LARGEST_MOVE:.0f} %"
             + (f"; median {100 * np.median(moves):.2g} %, worst {100 * max(moves):.2g} %" if moves else "")
+            + f"; {sum(row['estimate'] <= LARGEST_MOVE for row in moved)} of these had an estimate below that"
         )
         lines += ["  " + line(row["of"], row) for row in thin if row in moved or row["move"] is None]
     return lines

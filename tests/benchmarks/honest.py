@@ -20,6 +20,7 @@ from conv import Bracket, Clock, circumstances
 from numpy.typing import NDArray
 
 from ehlcontact import MoesPoint, solve_steady
+from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.mesh import Mesh, Purpose, allows_newton, mesh_for
 from ehlcontact.solver.multigrid import Multigrid
@@ -112,7 +113,8 @@ def film_on(point: MoesPoint, mesh: Mesh, way: str = "cycles") -> tuple[Multigri
     options = {"effort": 2} if knows_effort and way.startswith("thorough") else {}
     film = Multigrid(point, mesh, **options)
     if not way.endswith("newton"):
-        return film, lambda: film.full_multigrid(LOAD), lambda: film.cycle(LOAD)
+        cycles = AcceleratedCycles(film)
+        return film, lambda: film.full_multigrid(LOAD), lambda: cycles.step(LOAD)
 
     def start() -> None:
         film.full_multigrid(LOAD)

@@ -27,7 +27,7 @@ FRONT_REACH = 2  # nodes on either side of it, as many as the near film of a cha
 # Passes of both colours: a front moves by a node or two between coarse corrections, and what it moves is exchanged
 # along it, which is as many nodes long as the grid has.
 INTERVALS_EACH = 64  # intervals along X per pass,
-LEAST_PASSES, MOST_PASSES = 6, 16  # from so many to so many
+LEAST_PASSES, MOST_PASSES = 3, 16  # from so many to so many
 SOLVED, FELT = 2, 1  # marks: the larger one stands where both fall
 
 

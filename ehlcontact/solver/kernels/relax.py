@@ -24,7 +24,7 @@ from ehlcontact.solver.kernels.reynolds import operator_at
 ALONG = 6  # nodes on either side whose film by a change counts in the equations of its line: with 2, sweeps
 # diverge in stiff oil on lines 4 and more node distances apart, by local mode analysis and indeed
 BAND_LOWER, BAND_UPPER = ALONG + 2, ALONG + 1  # the WW neighbour with all of them upstream, E with them downstream
-BAND = BAND_LOWER + BAND_UPPER + 1  # rows, the diagonal's with them
+BAND = BAND_LOWER + BAND_UPPER + 1  # diagonals, the main one with them
 PAD = max(BAND_LOWER, BAND_UPPER)
 FILM_MARGIN = 3  # zeros on either side of those films, so that no row has to look where they end
 NEAR = 2  # lines and nodes on either side that feel a change in the film of other lines
@@ -73,24 +73,44 @@ def distribution_weights(first, last, P, flow, stencil, c_t, theta):
 def solve_band(band, b, m):
     """Solve the banded system in place; no pivoting, the leading part being upstream-triangular.
 
-    ``band[BAND_LOWER + o, r]`` couples row r to row r + o. Both arrays have `PAD` columns beyond m, so that the
-    inner loops need no limits.
+    ``band[PAD + c, BAND_UPPER + r - c]`` couples row r to row c: column by column, so that what one row does to
+    the next ones lies side by side. The right-hand side ``b[PAD + r]`` becomes the solution. Both have `PAD`
+    columns on either side, so that the inner loops need no limits.
     """
-    band[:, m : m + PAD] = 0.0
-    b[m : m + PAD] = 0.0
+    for c in range(max(m - BAND_LOWER, 0), m):
+        band[PAD + c, BAND_UPPER + m - c :] = 0.0  # not read, but what is left there would grow from line to line
     for r in range(m):
-        pivot = 1.0 / band[BAND_LOWER, r]
-        band[BAND_LOWER, r] = pivot
-        for s in range(1, BAND_LOWER + 1):
-            factor = band[BAND_LOWER - s, r + s] * pivot
-            for c in range(1, BAND_UPPER + 1):
-                band[BAND_LOWER - s + c, r + s] -= factor * band[BAND_LOWER + c, r]
-            b[r + s] -= factor * b[r]
-    for r in range(m - 1, -1, -1):
-        value = b[r]
+        own = band[PAD + r]
+        pivot = 1.0 / own[BAND_UPPER]
+        own[BAND_UPPER] = pivot
+        factors = lower_factors(own, pivot)  # a tuple: read from the array they would be so for every column
+        for s in range(BAND_LOWER):
+            b[PAD + r + 1 + s] -= factors[s] * b[PAD + r]
         for c in range(1, BAND_UPPER + 1):
-            value -= band[BAND_LOWER + c, r] * b[r + c]
-        b[r] = value * band[BAND_LOWER, r]
+            other = band[PAD + r + c]
+            above = other[BAND_UPPER - c]
+            for s in range(BAND_LOWER):
+                other[BAND_UPPER - c + 1 + s] -= factors[s] * above
+    for r in range(m - 1, -1, -1):
+        own = band[PAD + r]
+        value = b[PAD + r] * own[BAND_UPPER]
+        b[PAD + r] = value
+        for c in range(1, BAND_UPPER + 1):
+            b[PAD + r - c] -= own[BAND_UPPER - c] * value
+
+
+@jit_node
+def columns_around(band, r):
+    """Columns of `band` that row r has an entry in."""
+    return band[PAD + r - BAND_LOWER : PAD + r + BAND_UPPER + 1]
+
+
+@jit_node
+def lower_factors(column, pivot):
+    """The `BAND_LOWER` entries of a column below its diagonal, times `pivot`."""
+    a, b, c, d = column[BAND_UPPER + 1], column[BAND_UPPER + 2], column[BAND_UPPER + 3], column[BAND_UPPER + 4]
+    e, f, g, h = column[BAND_UPPER + 5], column[BAND_UPPER + 6], column[BAND_UPPER + 7], column[BAND_UPPER + 8]
+    return a * pivot, b * pivot, c * pivot, d * pivot, e * pivot, f * pivot, g * pivot, h * pivot
 
 
 @jit_node
@@ -119,22 +139,25 @@ def response(line, shift, shares, near):
 def responses(line, j, start, stop, theta, near, reach, films):
     """`response` of nodes `start` to `stop` - 1 of line j, `line` lines further and up to `reach` nodes aside.
 
-    ``films[i, centre + shift]`` written, and 0 for `PAD` nodes beside them.
+    ``films[PAD + i, centre + shift]`` written, and 0 for `PAD` nodes beside them.
     """
     centre = films.shape[1] // 2
-    for i in range(max(start - PAD, 0), start):
-        films[i, :] = 0.0
-    for i in range(stop, min(stop + PAD, films.shape[0])):
-        films[i, :] = 0.0
+    films[start : PAD + start] = 0.0
+    films[PAD + stop : 2 * PAD + stop] = 0.0
+    here, beyond, before = near[abs(line)], near[abs(line + 1)], near[abs(line - 1)]
     for i in range(start, stop):
-        shares = shares_at(j, i, theta)
-        for shift in range(-reach, reach + 1):
-            films[i, centre + shift] = response(line, shift, shares, near)
+        west, east, south, north = shares_at(j, i, theta)
+        film = films[PAD + i]
+        film[centre] = here[0] - (west + east) * here[1] - south * beyond[0] - north * before[0]
+        for shift in range(1, reach + 1):
+            even = here[shift] - south * beyond[shift] - north * before[shift]
+            film[centre + shift] = even - west * here[shift + 1] - east * here[shift - 1]
+            film[centre - shift] = even - west * here[shift - 1] - east * here[shift + 1]
 
 
 @jit_node
 def assemble_at(j, i, P, flow, theta, stencil, c_t, films, near, band, r):
-    """Row of one node in the matrix of the distributed changes of its line; column `r` of `band` written.
+    """Row `r`, of one node, in the matrix of the distributed changes of its line; `band` written for `solve_band`.
 
     A unit change at node k of the line raises P there by 1, lowers its neighbours by their shares and deflects the
     film near it by ``films[k]``. The film of the next lines counts where oil flows there: beside the side lobes of
@@ -144,17 +167,18 @@ def assemble_at(j, i, P, flow, theta, stencil, c_t, films, near, band, r):
     """
     pc, pw, pe, ps, pn, pww, hc, hw, he, hs, hn, hww = linearise_at(j, i, P, flow, stencil, c_t, FLOW_SLOPE)
     last = P.shape[1] - 1
-    centre = ALONG + FILM_MARGIN
+    # Views, whose indices are constants: the columns of the row, and the films by these nodes.
+    around, sources = columns_around(band, r), films[PAD + i - BAND_LOWER : PAD + i + BAND_UPPER + 1]
     for o in range(-BAND_LOWER, BAND_UPPER + 1):
-        k, at = min(max(i + o, 0), last), centre - o
-        film = hc * films[k, at] + hw * films[k, at - 1] + hww * films[k, at - 2] + he * films[k, at + 1]
-        band[BAND_LOWER + o, r] = film
+        by, at = sources[BAND_LOWER + o], ALONG + FILM_MARGIN - o
+        film = hc * by[at] + hw * by[at - 1] + hww * by[at - 2] + he * by[at + 1]
+        around[BAND_LOWER + o, BAND_UPPER - o] = film
     hs, hn = min(hs, 0.0), min(hn, 0.0)
     if -(hs + hn) * near[1, 0] > LEAST_OPENING * abs(pc + hc * near[0, 0]):
         for o in range(max(-NEAR, 1 - i), min(NEAR, last - 1 - i) + 1):
             shares = shares_at(j, i + o, theta)
             film = hs * response(-1, -o, shares, near) + hn * response(1, -o, shares, near)
-            band[BAND_LOWER + o, r] += film
+            around[BAND_LOWER + o, BAND_UPPER - o] += film
     own = theta[j, i]
     far_west = SHARE * min(theta[j, max(i - 3, 0)], theta[j, max(i - 2, 0)])
     west = SHARE * min(theta[j, max(i - 2, 0)], theta[j, i - 1])
@@ -162,14 +186,14 @@ def assemble_at(j, i, P, flow, theta, stencil, c_t, films, near, band, r):
     east = SHARE * min(theta[j, i + 1], theta[j, min(i + 2, last)])
     south = SHARE * min(own, theta[j - 1 if j > 0 else 1, i])
     north = SHARE * min(own, theta[j + 1, i])
-    band[BAND_LOWER - 3, r] -= pww * far_west
-    band[BAND_LOWER - 2, r] += pww - pw * west
-    band[BAND_LOWER - 1, r] += pw - pww * west - pc * near_west
+    around[BAND_LOWER - 3, BAND_UPPER + 3] -= pww * far_west
+    around[BAND_LOWER - 2, BAND_UPPER + 2] += pww - pw * west
+    around[BAND_LOWER - 1, BAND_UPPER + 1] += pw - pww * west - pc * near_west
     # line 1 gives to the symmetry line twice: itself and its image
     across = pn * north + (2.0 * ps if j == 1 else ps) * south
-    band[BAND_LOWER, r] += pc - pw * near_west - pe * near_east - across
-    band[BAND_LOWER + 1, r] += pe - pc * near_east
-    band[BAND_LOWER + 2, r] -= pe * east
+    around[BAND_LOWER, BAND_UPPER] += pc - pw * near_west - pe * near_east - across
+    around[BAND_LOWER + 1, BAND_UPPER - 1] += pe - pc * near_east
+    around[BAND_LOWER + 2, BAND_UPPER - 2] -= pe * east
 
 
 @jit
@@ -184,28 +208,31 @@ def relax_line(j, start, stop, fields, rhs, stencil, c_t, near, work):
     responses(0, j, start, stop, theta, near, ALONG, films)
     for i in range(start, stop):
         r = i - start
-        b[r] = rhs[j, i] - operator_at(j, i, P, flow, stencil, c_t)
-        if P[j, i] > 0.0 or b[r] < 0.0:
+        b[PAD + r] = rhs[j, i] - operator_at(j, i, P, flow, stencil, c_t)
+        if P[j, i] > 0.0 or b[PAD + r] < 0.0:
             assemble_at(j, i, P, flow, theta, stencil, c_t, films, near, band, r)
         else:
-            band[:, r] = 0.0
-            band[BAND_LOWER, r] = 1.0
-            b[r] = 0.0
+            around = columns_around(band, r)
+            for o in range(-BAND_LOWER, BAND_UPPER + 1):
+                around[BAND_LOWER + o, BAND_UPPER - o] = 0.0
+            around[BAND_LOWER, BAND_UPPER] = 1.0
+            b[PAD + r] = 0.0
     m = stop - start
     solve_band(band, b, m)
     largest = LARGEST_CHANGE
     for r in range(m):
         H = fields.H[j, start + r]
         relative = LARGEST_CHANGE / FILM_CHANGE * near[0, 0] / H if H > 0.0 else 0.0
-        largest = max(largest, abs(b[r]) * max(1.0, relative))
+        largest = max(largest, abs(b[PAD + r]) * max(1.0, relative))
     for r in range(m):
-        w[j, start + r] = LARGEST_CHANGE / largest * b[r]
+        w[j, start + r] = LARGEST_CHANGE / largest * b[PAD + r]
 
 
 @jit
 def line_work(nodes):
     """Work arrays of `relax_line` for lines of so many nodes."""
-    return np.zeros((nodes, 2 * (ALONG + FILM_MARGIN) + 1)), np.empty((BAND, nodes + PAD)), np.empty(nodes + PAD)
+    columns = nodes + 2 * PAD
+    return np.zeros((columns, 2 * (ALONG + FILM_MARGIN) + 1)), np.zeros((columns, BAND)), np.zeros(columns)
 
 
 @jit
@@ -241,7 +268,7 @@ def apply_lines(first, last, colour, fields, near):
     """
     P, theta, w = fields.P, fields.theta, fields.w
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
-    films = np.zeros((nx + 1, 2 * NEAR + 1))
+    films = np.zeros((nx + 1 + 2 * PAD, 2 * NEAR + 1))
     for j in range(first, last):
         for i in range(1, nx):
             P[j, i] = max(P[j, i] + change_at(j, i, colour, P, theta, w), 0.0)
@@ -259,5 +286,5 @@ def near_film(H, w, films):
     for i in range(1, nx):
         change = 0.0
         for k in range(max(i - NEAR, 1), min(i + NEAR, nx - 1) + 1):
-            change += w[k] * films[k, NEAR + i - k]
+            change += w[k] * films[PAD + k, NEAR + i - k]
         H[i] += change

@@ -125,7 +125,7 @@ def test_refused_before_anything_is_tried(call, free, monkeypatch):
 
 def test_a_grid_beyond_any_memory():
     """Without a stand-in for the machine."""
-    with pytest.raises(InputError, match=r"^n = 2048: .* 1e\+15 nodes take about 2.96e\+08 GB \(cycles\), and"):
+    with pytest.raises(InputError, match=r"^n = 2048: .* 1e\+15 nodes take about 3.09e\+08 GB \(cycles\), and"):
         require_memory(2048, 1e15)
 
 

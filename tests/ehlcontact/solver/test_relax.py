@@ -9,7 +9,7 @@ from ehlcontact.solver.kernels import relax
 from ehlcontact.solver.kernels.linearise import linearise, neighbour
 from ehlcontact.solver.level import Level
 
-LOWER, UPPER, NEAR = relax.BAND_LOWER, relax.BAND_UPPER, relax.NEAR
+LOWER, UPPER, NEAR, PAD = relax.BAND_LOWER, relax.BAND_UPPER, relax.NEAR, relax.PAD
 
 
 def jit_and_python(kernel):
@@ -31,17 +31,20 @@ def relax_line(level, j, rhs, start=1, stop=None, kernel=relax.relax_line):
 def test_solve_band(kernel, m):
     rng = np.random.default_rng(m)
     A = np.zeros((m, m))
-    band, b = np.full((LOWER + UPPER + 1, m + relax.PAD), np.nan), np.full(m + relax.PAD, np.nan)
-    b[:m] = rng.normal(size=m)
+    band, b = np.full((m + 2 * PAD, relax.BAND), np.nan), np.full(m + 2 * PAD, np.nan)
+    b[:PAD], band[:PAD] = 0.0, 3.0  # columns before the first are written, and not read
+    b[PAD:-PAD] = rng.normal(size=m)
+    b[-PAD:] = 0.0
     for r in range(m):
-        for c in range(max(0, r - LOWER), min(m, r + UPPER + 1)):
-            A[r, c] = rng.normal() + (8.0 if r == c else 0.0)
-            band[LOWER + c - r, r] = A[r, c]
-    for r in range(m):  # entries beyond the last column meet the zeros there; those before the first are not read
-        band[LOWER + m - r :, r] = 7.0
-    expected = np.linalg.solve(A, b[:m])
+        for c in range(r - LOWER, r + UPPER + 1):
+            entry = rng.normal() + (8.0 if r == c else 0.0)
+            band[PAD + c, UPPER + r - c] = entry
+            if 0 <= c < m:
+                A[r, c] = entry
+    expected = np.linalg.solve(A, b[PAD:-PAD])
     kernel(band, b, m)
-    np.testing.assert_allclose(b[:m], expected, rtol=1e-11, atol=1e-13)
+    np.testing.assert_allclose(b[PAD:-PAD], expected, rtol=1e-11, atol=1e-13)
+    assert not b[-PAD:].any()  # nothing grows beyond the last row
 
 
 @jit_and_python(relax.distribution_weights)
