@@ -50,7 +50,7 @@ class Multigrid:
         for level in self.levels:
             level.share(threads)
         self.effort = self.least_effort = effort  # how often the sweeps of a cycle are repeated
-        self.newton = CoarseNewton(self.levels[0])
+        self.newton = CoarseNewton(self.levels[0], point.kappa > LONG)
         self.u = initial_approach(point)
 
     @property
