@@ -26,7 +26,8 @@ SMALLEST_DAMPING = 2.0**-6
 CORRECTION_STEPS = 4  # of the coarsest grid in one cycle
 LARGEST_RENEWALS = 2  # of the factors in one cycle
 WORN_OUT = 0.3  # drop of the merit in one step above which factors are renewed
-CORRECTION_DROP = 0.1  # of its residual, enough for one cycle
+CORRECTION_DROP = 0.1  # of its residual, enough for one cycle,
+LONG_CORRECTION_DROP = 0.01  # and in a contact long along rolling, whose side lobes the coarsest grid hardly sees
 BALANCE_WEIGHT = 3.0  # of the balance beside the rms residual of the nodes
 
 
@@ -76,8 +77,9 @@ def bordered_lu(
 class CoarseNewton:
     """Newton iterations on one level; keeps its work arrays and, between corrections, its last factors."""
 
-    def __init__(self, level: Level) -> None:
+    def __init__(self, level: Level, long: bool = False) -> None:
         self.level = level
+        self._drop = LONG_CORRECTION_DROP if long else CORRECTION_DROP
         self.factors: Factors | None = None
 
     def solve(self, u: float, balance: Balance, max_steps: int, tol: float) -> float:
@@ -108,7 +110,7 @@ class CoarseNewton:
         """
         level = self.level
         merit, free = self._evaluate(u, balance)
-        target = max(CORRECTION_DROP * merit, 1e-14)
+        target = max(self._drop * merit, 1e-14)
         equation = (level.c_t, balance.stiffness, balance.weight)
         renewals = 0
         for _ in range(CORRECTION_STEPS):

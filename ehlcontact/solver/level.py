@@ -15,7 +15,7 @@ from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.kernels import boundary, flanks, relax, reynolds
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS
 from ehlcontact.solver.lowest_film import lowest_film
-from ehlcontact.solver.mesh import LINES_APART, Mesh
+from ehlcontact.solver.mesh import LINES_APART, LONG, Mesh
 
 Array = NDArray[np.float64]
 
@@ -52,6 +52,7 @@ class Level:
         S = shape_factor(point.kappa)
         self.gap = S * self.X**2 + (1.0 - S) * self.Y[:, None] ** 2
         self.team = ALONE
+        self.passes = flanks.passes_of(nx, point.kappa > LONG)
         self.deflection = make_deflection(nx, ny, self.hx, self.hy, point.kappa, deflection)
         self.near = self.deflection.kernel[: relax.NEAR + 2, : relax.ALONG + 2].copy()
         shape = (ny + 1, nx + 1)
@@ -184,7 +185,7 @@ class Level:
         """Passes along the steep flanks from the state of the last `update`; P, H and flow written there."""
         self._weigh()
         f = self.fields
-        flanks.relax_flanks(f, self.rhs, self.law, self.stencil, self.c_t, self.near, self.marks)
+        flanks.relax_flanks(f, self.rhs, self.law, self.stencil, self.c_t, self.near, self.marks, self.passes)
 
     def relax_flanks_first(self) -> None:
         """`relax_flanks`, then `relax`: away from them the film hardly feels their distributed changes."""

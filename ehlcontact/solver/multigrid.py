@@ -29,7 +29,7 @@ PRE_SWEEPS, POST_SWEEPS = 2, 1
 REPEATED_LEVELS = 2  # of a long contact: the finest, which alone repeat their sweeps
 CYCLES_PER_LEVEL = 1  # of full multigrid, before the finest level
 LARGEST_LOADING = 5.0  # factor by which the load of a level rises at once
-CYCLES_AFTER_LOADING = 2  # on a level that carries more load than the one below
+CYCLES_AFTER_LOADING = 3  # on a level that carries more load than the one below
 NESTED_CYCLES = 4  # on a grid of half the intervals, its lines as close: its film is solved, and a start
 
 
@@ -50,7 +50,7 @@ class Multigrid:
         for level in self.levels:
             level.share(threads)
         self.effort = self.least_effort = effort  # how often the sweeps of a cycle are repeated
-        self.newton = CoarseNewton(self.levels[0])
+        self.newton = CoarseNewton(self.levels[0], point.kappa > LONG)
         self.u = initial_approach(point)
 
     @property

@@ -69,7 +69,10 @@ def claim_assumptions(page, again, rotor, results):
     page.claim("smooth | # | >= # | NO", least / rough, 3.0)
     page.claim("(Rq1^2 + Rq2^2)^(1/2)")
     for end in (": mixed, asperities touch.", ": mixed, asperities touch)."):  # in the table, and in the headline
-        page.claim(f"smallest film # um over a roughness of # um{end}", least * 1e6, rough * 1e6)
+        page.claim(
+            f"smallest film # um (solved, ± # %) over a roughness of # um{end}",
+            *(least * 1e6, 100.0 * p.h_min_error, rough * 1e6),
+        )
     page.claim("fully flooded | # | >= # | yes", -again.steady.X[0], flooded)
     page.claim(
         "computed from X = # on; in the bearing oil has to fill the gap from X = # on, # mm ahead",

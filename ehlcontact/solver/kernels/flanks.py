@@ -28,6 +28,7 @@ FRONT_REACH = 2  # nodes on either side of it, as many as the near film of a cha
 # along it, which is as many nodes long as the grid has.
 INTERVALS_EACH = 64  # intervals along X per pass,
 LEAST_PASSES, MOST_PASSES = 3, 16  # from so many to so many
+LEAST_ALONG_ROLLING = 6  # fewest in a long contact: with three, cycles diverge across its side lobes
 SOLVED, FELT = 2, 1  # marks: the larger one stands where both fall
 
 
@@ -139,14 +140,13 @@ def weigh_segments(felt, fields, stencil, c_t):
             fields.theta[j, i] = distribution_weight(j, i, fields.P, fields.flow, stencil, switch)
 
 
-@jit
-def passes_of(nx):
-    """Passes of both colours on a grid of `nx` intervals."""
-    return min(max(nx // INTERVALS_EACH, LEAST_PASSES), MOST_PASSES)
+def passes_of(nx, long):
+    """Passes of both colours on a grid of `nx` intervals, `long` where the contact is long along rolling."""
+    return min(max(nx // INTERVALS_EACH, LEAST_ALONG_ROLLING if long else LEAST_PASSES), MOST_PASSES)
 
 
 @jit
-def relax_flanks(fields, rhs, law, stencil, c_t, near, marks):
+def relax_flanks(fields, rhs, law, stencil, c_t, near, marks, passes):
     """Relax along the fronts of ``fields.theta``; P, and near them H, flow and theta of `fields` written.
 
     By one thread: a pass takes less than another thread needs to wake (shared, n = 1024 took twice as long).
@@ -157,7 +157,7 @@ def relax_flanks(fields, rhs, law, stencil, c_t, near, marks):
         return
     fields.w[:] = 0.0
     work = line_work(fields.P.shape[1])
-    for _ in range(passes_of(fields.P.shape[1] - 1)):
+    for _ in range(passes):
         for colour in range(2):
             solve_segments(solved, colour, fields, rhs, stencil, c_t, near, work)
             spread_segments(solved, felt, colour, fields, law, stencil, near)
