@@ -42,7 +42,7 @@ from ehlcontact.status import Status
 LARGEST_RESIDUAL = 0.1  # relative, of a converged film: what is solved is judged by the pressure
 LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7
-MAX_CYCLES = 80  # of V cycles: films of the box take up to 34
+MAX_CYCLES = 80  # of V cycles: films of the box take up to 18
 LARGEST_APPROACH = 1e9  # beyond all that is solved, and its power still a number
 
 
