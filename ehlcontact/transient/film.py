@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ehlcontact.point import MoesPoint
-from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse import Factors
 from ehlcontact.solver.iterate import Goal, Track, iterate
@@ -150,7 +149,7 @@ class TransientFilm:
         goal = Goal(self.scale, self.tol, most, 0.1 * small * max(1.0, balance.stiffness), small, small)
         track = Track()
         level.update(mg.u)
-        status = iterate(mg, balance, AcceleratedCycles(mg).step, goal, track)
+        status = iterate(mg, balance, mg.cycle, goal, track)
         if status is Status.OUT_OF_DOMAIN and balance.stiffness > 0.0 and level.force() < NEGLIGIBLE_FORCE:
             status = Status.CONVERGED  # bodies that come back after a separation squeeze a film beyond any domain
         return Step(track.residuals[-1] / self.scale, track.balance_residuals[-1], track.iterations, status)

@@ -18,7 +18,6 @@ from conv import Bracket, Clock, circumstances
 from honest import FULL, LARGEST, MOST, Errors, Reference, State, is_full, is_over, settle, unknown, verdict
 
 from ehlcontact import FreeVibration, HarmonicLoad, MoesPoint
-from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for
 from ehlcontact.transient import film as film_module
 from ehlcontact.transient.bodies import Motion
@@ -75,24 +74,23 @@ class Middle:
         with self.cycles(1):
             self.step()
         film = self.film.multigrid
-        cycles = AcceleratedCycles(film)
-        return settle(film, lambda: cycles.step(balance), most)
+        return settle(film, lambda: film.cycle(balance), most)
 
     def errors(self, exact: State, most: int) -> list[Errors]:
         """Of the extrapolated start, and after every cycle."""
         film, found = self.film.multigrid, []
-        step = AcceleratedCycles.step
+        cycle = film.cycle
 
-        def watched(cycles: AcceleratedCycles, balance: Any) -> float:
+        def watched(balance: Any) -> float:
             if not found:
                 found.append(Errors.between(State.of(film), exact))
             if is_over([e.P for e in found]):
                 return 0.0
-            change = step(cycles, balance)
+            change: float = cycle(balance)
             found.append(Errors.between(State.of(film), exact))
             return change
 
-        with mock.patch.object(AcceleratedCycles, "step", watched), self.cycles(most):
+        with mock.patch.object(film, "cycle", watched), self.cycles(most):
             self.step()
         return found
 
