@@ -17,7 +17,7 @@ class Solve(StrEnum):
 
 
 # All fields, their deflections and what a step in time keeps, over the nodes of all levels: a steady film takes
-# 24 numbers per node and a step 30, and five more where cycles fall slowly and the last ones are remembered.
+# 24 numbers per node and a step 30, as measured; the memory of cycles that fall slowly five more, as counted.
 NUMBERS_PER_NODE = 29.0
 QUARTERED = 4.0 / 3.0  # nodes of all levels over those of the finest, each level with a quarter of the one above
 # Bytes of sparse factors and of what makes them, over a power of the nodes; measured up to 130 000 nodes.

@@ -106,7 +106,9 @@ class Multigrid:
         loads = [*(min(resolved_load(self.point, size), M) for size in sizes), M]
         self._set_load(0, loads[0])
         self.levels[0].set_dry_hertz()
-        self.u = self.newton.solve(self.u, balance, max_steps=60, tol=1e-3)
+        self.u = self.newton.solve(
+            self.u, balance, max_steps=60, tol=1e-3
+        )  # a start: finer levels change it by more
         for k in range(1, len(self.levels)):
             coarse, fine = self.levels[k - 1], self.levels[k]
             fine.rhs[...] = 0.0

@@ -27,10 +27,11 @@ from scipy.stats import qmc
 
 from ehlcontact import Domain, MoesPoint, solve_steady
 from ehlcontact.checks.box import MEASURED
+from ehlcontact.errors import InputError
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.iterate import Goal, Track, iterate
-from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh import Mesh, require_room
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.steady import APPROACH_TOLERANCE, LARGEST_RESIDUAL, LOAD_TOLERANCE, MAX_CYCLES
@@ -92,11 +93,14 @@ def solve_finer(row: Row) -> Row:
     found["estimate"] = row["error"]["h_min"]
     if not mesh.nodes(point.kappa) <= LARGEST_GRID:
         return found | {"status": "not solved: the grid has too many nodes", "move": None}
-    result = (
-        finer_close_lines(point, mesh)
-        if mesh.lines > 1
-        else solve_steady(point, n=mesh.n, domain=domain, throw=False)
-    )
+    try:
+        result = (
+            finer_close_lines(point, mesh)
+            if mesh.lines > 1
+            else solve_steady(point, n=mesh.n, domain=domain, throw=False)
+        )
+    except InputError as refused:  # too little memory
+        return found | {"status": f"not solved: {refused}", "move": None}
     moves = {
         name: abs(row[of] / getattr(result, of) - 1.0) if result.status.ok else None
         for name, of in (("move", "h_min"), ("move_central", "h_central"), ("move_approach", "approach"))
@@ -117,6 +121,7 @@ class Finer(NamedTuple):
 def finer_close_lines(point: MoesPoint, mesh: Mesh) -> Finer:
     """As `solve_steady`, whose grids have no close lines where n is given: cycles to its tolerance."""
     started = time.perf_counter()
+    require_room(mesh, point)
     film, load = Multigrid(point, mesh), Balance.of_load()
     scale = film.finest.dry_residual()
     film.full_multigrid(load)
