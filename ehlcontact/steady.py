@@ -51,6 +51,7 @@ class Method(NamedTuple):
 
     newton: bool
     effort: int  # of the cycles, and of those that lead to the start of Newton steps
+    careful: bool = False  # start of the cycles
 
 
 LAST_RESORT = Method(newton=True, effort=2)  # the effort of the attempt before, which made no worse a start
@@ -63,6 +64,7 @@ METHODS = {
 # Where lines lie close, twice the sweeps settle nothing that single ones do not.
 CLOSE_LAST_RESORT = Method(newton=True, effort=1)
 CLOSE_METHODS = (Method(False, 1), CLOSE_LAST_RESORT)
+CAREFUL = Method(newton=False, effort=1, careful=True)  # where all that fails: its start costs thrice
 
 
 @one_blas_thread()
@@ -104,7 +106,8 @@ def solve_steady(
     method : {"automatic", "multigrid", "newton"}
         V cycles, or Newton steps from the same full-multigrid start; both solve the same equations.
         ``"automatic"`` cycles; where that fails it begins again with twice the sweeps in every cycle, and at last,
-        on grids that allow it, turns to Newton.
+        on grids that allow it, turns to Newton. Thin films of long contacts (kappa above 1) for which all that
+        fails are cycled once more, from a more careful start.
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection: fast transforms, exact to rounding; multilevel multi-integration, as in
         the paper; the direct sum, slow. See `ehlcontact.solver.deflection`.
@@ -174,6 +177,10 @@ def solve_steady(
         attempt, ended = work(coarser, _methods(method, coarser)[-1:])
         if ended not in FAILED:  # its smallest film may be far off, and says so; better than none
             solved, status = attempt, ended
+    if status in FAILED and solved.mesh.lines > 1 and LAST_RESORT in METHODS[method]:
+        attempt, ended = work(solved.mesh, (CAREFUL,))
+        if ended not in FAILED:
+            solved, status = attempt, ended
     result = solved.result(status, scales_of(point), time.perf_counter() - started)
     if throw and not status.ok and status is not Status.INTERRUPTED:
         raise ConvergenceError(f"steady solve {status}: {status.advice}", result)
@@ -204,7 +211,9 @@ class _Attempt:
 
     def __init__(self, point: MoesPoint, mesh: Mesh, method: Method, deflection: str, threads: int) -> None:
         self.mesh, self.method = mesh, method
-        self.multigrid = Multigrid(point, mesh, deflection=deflection, effort=method.effort, threads=threads)
+        self.multigrid = Multigrid(
+            point, mesh, deflection=deflection, effort=method.effort, careful=method.careful, threads=threads
+        )
         self.scale = self.multigrid.finest.dry_residual()
         self.track = Track()
         self.error: ErrorEstimate | None = None

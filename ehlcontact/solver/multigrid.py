@@ -28,7 +28,8 @@ from ehlcontact.solver.mesh import LONG, Mesh
 PRE_SWEEPS, POST_SWEEPS = 2, 1
 REPEATED_LEVELS = 2  # of a long contact: the finest, which alone repeat their sweeps
 CYCLES_PER_LEVEL = 1  # of full multigrid, before the finest level
-LARGEST_LOADING = 5.0  # factor by which the load of a level rises at once
+LARGEST_LOADING = 5.0  # factor by which the load of a level rises at once,
+CAREFUL_LOADING = 2.0  # and where larger steps left side lobes negative
 CYCLES_AFTER_LOADING = 3  # on a level that carries more load than the one below
 NESTED_CYCLES = 4  # on a grid of half the intervals, its lines as close: its film is solved, and a start
 
@@ -37,16 +38,31 @@ class Multigrid:
     """A hierarchy of levels and the cycle on it; the state is P on the finest level and the approach u.
 
     Film, flow and residual of the finest level belong to that state after `full_multigrid` and `cycle`; who
-    changes it in other ways calls ``finest.update(u)``. `threads` share the work; results do not depend on them.
+    changes it in other ways calls ``finest.update(u)``. `careful` starts in smaller steps of the
+    load, from a coarsest level of more lines, for side lobes that come out negative otherwise. `threads` share the
+    work; results do not depend on them.
     """
 
     def __init__(
-        self, point: MoesPoint, mesh: Mesh, *, deflection: str = "fft", effort: int = 1, threads: int = 1
+        self,
+        point: MoesPoint,
+        mesh: Mesh,
+        *,
+        deflection: str = "fft",
+        effort: int = 1,
+        careful: bool = False,
+        threads: int = 1,
     ) -> None:
         self.point, self.mesh = point, mesh
-        self._options: dict[str, Any] = {"deflection": deflection, "effort": effort, "threads": threads}
+        self._options: dict[str, Any] = {
+            "deflection": deflection,
+            "effort": effort,
+            "careful": careful,
+            "threads": threads,
+        }
         levels = build_hierarchy(point, mesh, coarsest_intervals(point, mesh.n), deflection)
-        self.levels = [level for level in levels if corrects(point, level.nx, mesh.n)]
+        self.levels = [level for level in levels if corrects(point, level.nx, mesh.n, careful)]
+        self._loading = CAREFUL_LOADING if careful else LARGEST_LOADING
         for level in self.levels:
             level.share(threads)
         self.effort = self.least_effort = effort  # how often the sweeps of a cycle are repeated
@@ -120,7 +136,7 @@ class Multigrid:
 
     def _raise_load(self, k: int, lower: float, higher: float, balance: Balance) -> int:
         """Take level k from one Moes load to another; returns in how many steps, none where they are the same."""
-        steps = ceil(log(higher / lower) / log(LARGEST_LOADING) - 1e-9)
+        steps = ceil(log(higher / lower) / log(self._loading) - 1e-9)
         for step in range(1, steps + 1):
             self._set_load(k, lower * (higher / lower) ** (step / steps))
             self._repeat(k, CYCLES_AFTER_LOADING, balance)
