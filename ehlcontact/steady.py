@@ -61,10 +61,10 @@ METHODS = {
     "multigrid": (Method(False, 1),),
     "newton": (Method(True, 1),),
 }
-# Where lines lie close, twice the sweeps settle nothing that single ones do not.
+# Where lines lie close, twice the sweeps settle nothing that single ones do not; a careful start, which costs
+# thrice, does. Newton steps come last: on grids of this kind they cost more, and fail where it does not.
 CLOSE_LAST_RESORT = Method(newton=True, effort=1)
-CLOSE_METHODS = (Method(False, 1), CLOSE_LAST_RESORT)
-CAREFUL = Method(newton=False, effort=1, careful=True)  # where all that fails: its start costs thrice
+CLOSE_METHODS = (Method(False, 1), Method(newton=False, effort=1, careful=True), CLOSE_LAST_RESORT)
 
 
 @one_blas_thread()
@@ -106,8 +106,8 @@ def solve_steady(
     method : {"automatic", "multigrid", "newton"}
         V cycles, or Newton steps from the same full-multigrid start; both solve the same equations.
         ``"automatic"`` cycles; where that fails it begins again with twice the sweeps in every cycle, and at last,
-        on grids that allow it, turns to Newton. Thin films of long contacts (kappa above 1) for which all that
-        fails are cycled once more, from a more careful start.
+        on grids that allow it, turns to Newton. Where lines lie close (long contacts, kappa above 1) it begins
+        again from a more careful start instead.
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection: fast transforms, exact to rounding; multilevel multi-integration, as in
         the paper; the direct sum, slow. See `ehlcontact.solver.deflection`.
@@ -176,10 +176,6 @@ def solve_steady(
     if n is None and status in FAILED and LAST_RESORT in METHODS[method] and coarser != solved.mesh:
         attempt, ended = work(coarser, _methods(method, coarser)[-1:])
         if ended not in FAILED:  # its smallest film may be far off, and says so; better than none
-            solved, status = attempt, ended
-    if status in FAILED and solved.mesh.lines > 1 and LAST_RESORT in METHODS[method]:
-        attempt, ended = work(solved.mesh, (CAREFUL,))
-        if ended not in FAILED:
             solved, status = attempt, ended
     result = solved.result(status, scales_of(point), time.perf_counter() - started)
     if throw and not status.ok and status is not Status.INTERRUPTED:
