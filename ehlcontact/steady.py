@@ -51,6 +51,7 @@ class Method(NamedTuple):
 
     newton: bool
     effort: int  # of the cycles, and of those that lead to the start of Newton steps
+    careful: bool = False  # start of the cycles
 
 
 LAST_RESORT = Method(newton=True, effort=2)  # the effort of the attempt before, which made no worse a start
@@ -60,9 +61,10 @@ METHODS = {
     "multigrid": (Method(False, 1),),
     "newton": (Method(True, 1),),
 }
-# Where lines lie close, twice the sweeps settle nothing that single ones do not.
+# Where lines lie close, twice the sweeps settle nothing that single ones do not; a careful start, which costs
+# thrice, does. Newton steps come last: on grids of this kind they cost more, and fail where it does not.
 CLOSE_LAST_RESORT = Method(newton=True, effort=1)
-CLOSE_METHODS = (Method(False, 1), CLOSE_LAST_RESORT)
+CLOSE_METHODS = (Method(False, 1), Method(newton=False, effort=1, careful=True), CLOSE_LAST_RESORT)
 
 
 @one_blas_thread()
@@ -104,7 +106,8 @@ def solve_steady(
     method : {"automatic", "multigrid", "newton"}
         V cycles, or Newton steps from the same full-multigrid start; both solve the same equations.
         ``"automatic"`` cycles; where that fails it begins again with twice the sweeps in every cycle, and at last,
-        on grids that allow it, turns to Newton.
+        on grids that allow it, turns to Newton. Where lines lie close (long contacts, kappa above 1) it begins
+        again from a more careful start instead.
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection: fast transforms, exact to rounding; multilevel multi-integration, as in
         the paper; the direct sum, slow. See `ehlcontact.solver.deflection`.
@@ -204,7 +207,9 @@ class _Attempt:
 
     def __init__(self, point: MoesPoint, mesh: Mesh, method: Method, deflection: str, threads: int) -> None:
         self.mesh, self.method = mesh, method
-        self.multigrid = Multigrid(point, mesh, deflection=deflection, effort=method.effort, threads=threads)
+        self.multigrid = Multigrid(
+            point, mesh, deflection=deflection, effort=method.effort, careful=method.careful, threads=threads
+        )
         self.scale = self.multigrid.finest.dry_residual()
         self.track = Track()
         self.error: ErrorEstimate | None = None

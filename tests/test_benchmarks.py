@@ -41,7 +41,7 @@ def tools():
 def row(tools):
     import honest
 
-    return honest.measure(POINT, 64, newton_nodes=10_000, default=True)
+    return honest.measure(POINT, 64, newton_nodes=10_000, default=True, threads=2)
 
 
 def test_no_ratio_where_the_processor_was_shared():
@@ -95,6 +95,14 @@ def test_errors_are_against_the_converged_film(row):
     )
     assert row["start"]["seconds"] < row["honest"]["seconds"] < row["full"]["seconds"]
     assert row["peak_mb"] > 50.0
+
+
+def test_two_threads_are_timed_over_the_same_cycles(row):
+    for name in ("honest", "full"):
+        shared = row[f"{name}_shared"]
+        assert shared["threads"] == 2 and shared["cycles"] == row[name]["cycles"]
+        assert shared["cpu_conv"] / shared["cpu"] == pytest.approx(row[name]["cpu_conv"] / row[name]["cpu"])
+    assert 0.0 < row["honest_shared"]["seconds"] < row["full_shared"]["seconds"]
 
 
 def test_converged_film_is_that_of_newton(row):
@@ -292,6 +300,7 @@ def test_page_holds_a_place_for_every_table(row):
     new, left = page.remade(text, [run])
     assert left == ["steps", "others", "cycles", "box"]
     assert f"| 200, 10, 0.5 | 64 | {page.reached(row['honest'])} |" in new
+    assert f" | {page.shared_ratio(row, 'full')} | " in new
     assert page.remade(new, [run])[0] == new
 
 

@@ -34,9 +34,13 @@ def coarsest_intervals(point: MoesPoint, n: int) -> int:
     return min(fewest, max(32, n // 4))
 
 
-def corrects(point: MoesPoint, nx: int, n: int) -> bool:
-    """Whether a level of `nx` intervals below `n` has the lines to correct anything in a narrow ellipse."""
-    return point.kappa <= NARROW or nx >= min(NARROW_COARSEST, n // 4)
+def corrects(point: MoesPoint, nx: int, n: int, careful: bool = False) -> bool:
+    """Whether a level of `nx` intervals below `n` has the lines to correct anything in a narrow ellipse.
+
+    What six lines across thin side lobes leave of an error grows on every level above: `careful` asks for
+    twice as many.
+    """
+    return point.kappa <= NARROW or nx >= min(NARROW_COARSEST * (1 + careful), n // 4)
 
 
 def resolved_load(point: MoesPoint, mesh: float) -> float:

@@ -125,7 +125,7 @@ def iterate(
         track.pressure_changes.append(advance(balance))
         change_of_u, change_of_force = abs(film.u - u), abs(level.force() - force)
         track.changes.append(change_of_u)
-        if falls_slowly(track.pressure_changes):
+        if falls_slowly(track.pressure_changes) and not film.careful:
             film.effort = min(2 * film.effort, MOST_EFFORT)
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.hertz import shape_factor
 from ehlcontact.point import MoesPoint
-from ehlcontact.process.threads import ALONE, team_of
+from ehlcontact.process.threads import ALONE, Kernel, team_of
 from ehlcontact.solver.deflection import make_deflection
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.kernels import boundary, flanks, relax, reynolds
@@ -22,6 +22,10 @@ Array = NDArray[np.float64]
 FLANK_SQUEEZE = 0.5  # squeeze term over wedge term, above which a step needs no passes along the flanks
 FORCE_FACTOR = 1.5 / np.pi  # eq. 4: force = 3/(2 pi) iint P
 SHARED_FROM = 20000  # nodes: on smaller levels threads wait longer for each other than they work
+LIGHT = 128  # lines of the smallest chunk of a light kernel: with fewer it is done before another thread wakes
+# Lines of a block of local passes: more than they reach beyond it, so that every other one is apart. Side lobes of
+# a long contact lie across all lines, which are one block there: of several, cycles leave a hundred times more.
+BLOCK = 24
 
 
 class Fields(NamedTuple):
@@ -52,6 +56,7 @@ class Level:
         S = shape_factor(point.kappa)
         self.gap = S * self.X**2 + (1.0 - S) * self.Y[:, None] ** 2
         self.team = ALONE
+        self.block = ny if point.kappa > LONG else BLOCK
         self.passes = flanks.passes_of(nx, point.kappa > LONG)
         self.deflection = make_deflection(nx, ny, self.hx, self.hy, point.kappa, deflection)
         self.near = self.deflection.kernel[: relax.NEAR + 2, : relax.ALONG + 2].copy()
@@ -119,13 +124,14 @@ class Level:
         """Flow and residual ``rhs - N(P, H)`` from P and H; returns ``self.r``."""
         f = self.fields
         self._update_flow()
-        self.team.run(reynolds.residual_lines, self.ny, f.P, f.flow, self.stencil, self.c_t, self.rhs, self.r)
+        given = (f.P, f.flow, self.stencil, self.c_t, self.rhs, self.r)
+        self.team.run(reynolds.residual_lines, self.ny, *given, least=LIGHT)
         return self.r
 
     def _update_flow(self) -> None:
         f = self.fields
         self.team.run(reynolds.update_lines, self.ny + 1, f.P, f.H, self.law, self.stencil, f.flow)
-        self.team.run(reynolds.update_between_lines, self.ny, f.flow)
+        self.team.run(reynolds.update_between_lines, self.ny, f.flow, least=LIGHT)
 
     def density(self) -> Array:
         """Density at the present P, over ambient density."""
@@ -172,9 +178,8 @@ class Level:
             self.team.run(relax.relax_lines, coloured, colour, f, self.rhs, numbers, self.c_t, self.near)
             self.team.run(relax.apply_lines, lines, colour, f, self.near)
         own = self.near[0, 0]
-        boundary.relax_boundary(
-            f.P, f.H, f.flow, self.rhs, self.law, numbers, self.c_t, own, self.nodes, self.marks
-        )
+        given = (f.P, f.H, f.flow, self.rhs, self.law, numbers, self.c_t, own, self.nodes, self.marks)
+        self._run_blocks(boundary.relax_boundary_blocks, *given)
 
     @property
     def squeeze_dominates(self) -> bool:
@@ -184,8 +189,14 @@ class Level:
     def relax_flanks(self) -> None:
         """Passes along the steep flanks from the state of the last `update`; P, H and flow written there."""
         self._weigh()
-        f = self.fields
-        flanks.relax_flanks(f, self.rhs, self.law, self.stencil, self.c_t, self.near, self.marks, self.passes)
+        given = (self.fields, self.rhs, self.law, self.stencil, self.c_t, self.near, self.marks, self.passes)
+        self._run_blocks(flanks.relax_flank_blocks, *given)
+
+    def _run_blocks(self, kernel: Kernel, *args: Any) -> None:
+        """Call `kernel` on every other block of lines, which do not feel each other, then on those between."""
+        blocks = -(-self.ny // self.block)
+        for colour in (0, 1)[:blocks]:
+            self.team.run(kernel, (blocks + 1 - colour) // 2, colour, self.block, *args, least=1)
 
     def relax_flanks_first(self) -> None:
         """`relax_flanks`, then `relax`: away from them the film hardly feels their distributed changes."""
@@ -195,7 +206,8 @@ class Level:
     def _weigh(self) -> None:
         """Weights of the distributed changes, from the state of the last `update`."""
         f = self.fields
-        self.team.run(relax.distribution_weights, self.ny, f.P, f.flow, self.stencil, self.c_t, f.theta)
+        given = (f.P, f.flow, self.stencil, self.c_t, f.theta)
+        self.team.run(relax.distribution_weights, self.ny, *given, least=LIGHT)
 
     def set_dry_hertz(self) -> None:
         """Dry Hertz pressure, the start of every solve."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from math import ceil, log
+from math import ceil, log, sqrt
 from typing import Any
 
 import numpy as np
@@ -28,7 +28,10 @@ from ehlcontact.solver.mesh import LONG, Mesh
 PRE_SWEEPS, POST_SWEEPS = 2, 1
 REPEATED_LEVELS = 2  # of a long contact: the finest, which alone repeat their sweeps
 CYCLES_PER_LEVEL = 1  # of full multigrid, before the finest level
-LARGEST_LOADING = 5.0  # factor by which the load of a level rises at once
+LARGEST_LOADING = 5.0  # factor by which the load of a level rises at once,
+CAREFUL_LOADING = 2.0  # and where larger steps left side lobes negative: at most,
+LEAST_LOADING = 1.05  # and at least so much
+SETTLED_CHANGE = 0.05  # of P by the last cycle after a careful step; else it is taken back, and half of it tried
 CYCLES_AFTER_LOADING = 3  # on a level that carries more load than the one below
 NESTED_CYCLES = 4  # on a grid of half the intervals, its lines as close: its film is solved, and a start
 
@@ -37,16 +40,31 @@ class Multigrid:
     """A hierarchy of levels and the cycle on it; the state is P on the finest level and the approach u.
 
     Film, flow and residual of the finest level belong to that state after `full_multigrid` and `cycle`; who
-    changes it in other ways calls ``finest.update(u)``. `threads` share the work; results do not depend on them.
+    changes it in other ways calls ``finest.update(u)``. `careful` starts in smaller steps of the load, from a
+    coarsest level of more lines, for side lobes that come out negative otherwise; repeated sweeps, which let them
+    grow there, are left to nobody. `threads` share the work; results do not depend on them.
     """
 
     def __init__(
-        self, point: MoesPoint, mesh: Mesh, *, deflection: str = "fft", effort: int = 1, threads: int = 1
+        self,
+        point: MoesPoint,
+        mesh: Mesh,
+        *,
+        deflection: str = "fft",
+        effort: int = 1,
+        careful: bool = False,
+        threads: int = 1,
     ) -> None:
         self.point, self.mesh = point, mesh
-        self._options: dict[str, Any] = {"deflection": deflection, "effort": effort, "threads": threads}
+        self._options: dict[str, Any] = {
+            "deflection": deflection,
+            "effort": effort,
+            "careful": careful,
+            "threads": threads,
+        }
         levels = build_hierarchy(point, mesh, coarsest_intervals(point, mesh.n), deflection)
-        self.levels = [level for level in levels if corrects(point, level.nx, mesh.n)]
+        self.levels = [level for level in levels if corrects(point, level.nx, mesh.n, careful)]
+        self.careful = careful
         for level in self.levels:
             level.share(threads)
         self.effort = self.least_effort = effort  # how often the sweeps of a cycle are repeated
@@ -120,10 +138,34 @@ class Multigrid:
 
     def _raise_load(self, k: int, lower: float, higher: float, balance: Balance) -> int:
         """Take level k from one Moes load to another; returns in how many steps, none where they are the same."""
+        if self.careful:
+            return self._raise_carefully(k, lower, higher, balance)
         steps = ceil(log(higher / lower) / log(LARGEST_LOADING) - 1e-9)
         for step in range(1, steps + 1):
             self._set_load(k, lower * (higher / lower) ** (step / steps))
             self._repeat(k, CYCLES_AFTER_LOADING, balance)
+        return steps
+
+    def _raise_carefully(self, k: int, lower: float, higher: float, balance: Balance) -> int:
+        """As `_raise_load`; a step that its cycles do not settle is taken back, and half of it tried.
+
+        Where even small ones do not, the film comes out negative on this mesh: that is for the driver to see.
+        """
+        level, load, loading, steps = self.levels[k], lower, CAREFUL_LOADING, 0
+        while load < higher:
+            P, u = level.P.copy(), self.u
+            raised = min(load * loading, higher)
+            self._set_load(k, raised)
+            self._repeat(k, CYCLES_AFTER_LOADING - 1, balance)
+            before = level.P.copy()
+            self._repeat(k, 1, balance)
+            if np.abs(level.P - before).max() <= SETTLED_CHANGE:
+                load, steps = raised, steps + 1
+            elif loading > LEAST_LOADING:
+                level.P[...], self.u, loading = P, u, sqrt(loading)
+            else:
+                self._set_load(k, higher)
+                break
         return steps
 
     def _set_load(self, k: int, M: float) -> None:

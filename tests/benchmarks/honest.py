@@ -107,10 +107,13 @@ def is_full(errors: Errors) -> bool:
     return errors.P <= FULL
 
 
-def film_on(point: MoesPoint, mesh: Mesh, way: str = "cycles") -> tuple[Multigrid, Callable[[], None], Advance]:
+def film_on(
+    point: MoesPoint, mesh: Mesh, way: str = "cycles", threads: int = 1
+) -> tuple[Multigrid, Callable[[], None], Advance]:
     """Film, its start (full multigrid), and one iteration of `way` on it."""
-    knows_effort = "effort" in inspect.signature(Multigrid).parameters  # earlier versions, measured beside, do not
-    options = {"effort": 2} if knows_effort and way.startswith("thorough") else {}
+    options = {"threads": threads} | ({"effort": 2} if way.startswith("thorough") else {})
+    known = inspect.signature(Multigrid).parameters  # earlier versions, measured beside, know neither
+    options = {name: value for name, value in options.items() if name in known}
     film = Multigrid(point, mesh, **options)
     if not way.endswith("newton"):
         cycles = AcceleratedCycles(film)
@@ -233,11 +236,13 @@ def mean_factor(errors: list[float], cycles: int | None) -> float | None:
     return None if not cycles else float((errors[cycles] / errors[0]) ** (1.0 / cycles))
 
 
-def clocked(point: MoesPoint, mesh: Mesh, way: str, cycles: int) -> tuple[list[float], list[float]]:
+def clocked(
+    point: MoesPoint, mesh: Mesh, way: str, cycles: int, threads: int = 1
+) -> tuple[list[float], list[float]]:
     """Wall and processor seconds of one solve from nothing, after full multigrid and each of `cycles`."""
     wall, cpu, clock = [], [], Clock()
     with clock:
-        _, start, advance = film_on(point, mesh, way)
+        _, start, advance = film_on(point, mesh, way, threads)
         start()
     for k in range(cycles + 1):
         wall.append(clock.wall)
@@ -257,6 +262,7 @@ def measure(
     repeat: int = 1,
     newton_nodes: int = 0,
     default: bool = False,
+    threads: int = 1,
 ) -> dict[str, Any]:
     """Everything about one film on one grid; meant for a fresh process, whose peak memory is told.
 
@@ -275,6 +281,8 @@ def measure(
         Largest grid on which the solution of the cycles is compared with Newton's.
     default : bool
         Measure `solve_steady` with its own tolerance too.
+    threads : int
+        Of a second timing, which stands beside that of one thread; 1 leaves it out.
     """
     mesh = mesh_for(point, Purpose.FILM, n=n)
     _warm_up(point, way)
@@ -284,12 +292,18 @@ def measure(
         found = trace(point, mesh, exact.state, way, most)
         row = _judged(found, exact)
         needed = max((row[name]["cycles"] for name in ("honest", "full") if row[name]), default=0)
-        runs = [(found.wall, found.cpu)] + [clocked(point, mesh, way, needed) for _ in range(repeat - 1)]
+        runs, shared = [(found.wall, found.cpu)], []
+        for k in range(repeat):
+            if k > 0:
+                runs.append(clocked(point, mesh, way, needed))
+            if threads > 1:
+                shared.append(clocked(point, mesh, way, needed, threads))
         for name in ("honest", "full"):
             if row[name] is not None:
-                k = row[name]["cycles"]
-                row[name]["seconds"] = statistics.median(wall[k] for wall, _ in runs)
-                row[name]["cpu"] = statistics.median(cpu[k] for _, cpu in runs)
+                row[name] |= _median(runs, row[name]["cycles"])
+                if shared:
+                    timed = _median(shared, row[name]["cycles"])
+                    row[f"{name}_shared"] = {"cycles": row[name]["cycles"], "threads": threads, **timed}
         row["start"] = {
             "seconds": statistics.median(wall[0] for wall, _ in runs),
             "cpu": statistics.median(cpu[0] for _, cpu in runs),
@@ -301,6 +315,11 @@ def measure(
         row["newton_gap"] = _newton_gap(point, mesh, exact, most)
     described = point.to_dict() | {"n": n, "region": list(mesh.domain.as_tuple()), "way": way, "repeat": repeat}
     return bracket.ratios(described | row | {"peak_mb": memory} | circumstances())
+
+
+def _median(runs: list[tuple[list[float], list[float]]], cycles: int) -> dict[str, float]:
+    """Median of wall and processor seconds of these runs, as `clocked` gives them, after so many cycles."""
+    return {name: statistics.median(run[k][cycles] for run in runs) for k, name in enumerate(("seconds", "cpu"))}
 
 
 def _judged(found: Trace, exact: Reference) -> dict[str, Any]:

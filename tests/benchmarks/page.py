@@ -86,6 +86,14 @@ def ratio(part: Row) -> str:
     return number(part.get("conv"), 3)
 
 
+def shared_ratio(row: Row, name: str) -> str:
+    """Conv with more threads, and how many times faster that is than with one."""
+    shared = row.get(f"{name}_shared")
+    if not shared or shared.get("conv") is None:
+        return "-"
+    return f"{ratio(shared)} ({number(row[name]['seconds'] / shared['seconds'], 3)})"
+
+
 def steady(rows: Rows) -> str | None:
     """Steady films, honestly."""
     mine = [row for key, row in rows.items() if key.startswith("steady ")]
@@ -101,10 +109,21 @@ def steady(rows: Rows) -> str | None:
             fits = {True: "", False: ", not honest", None: ", unknown"}[default["honest"]]
             asked = f"{default['status']}{fits}, {reached(default)}"
         cost = [reached(row["honest"]), reached(row["full"])]
+        shared = [shared_ratio(row, name) for name in ("honest", "full")]
         told = "" if row["verdict"] == "converges" else row["verdict"]
         factor = number(row["factor_v21"]) if row["factor"] else told
-        cells.append([point_name(row), f"{row['n']}", *cost, factor, asked, number(row["peak_mb"], 3)])
-    head = ["M, L, kappa", "n", "honest", "to 1e-8", "factor per V(2,1)", "`solve_steady`, its own tol", "MB"]
+        cells.append([point_name(row), f"{row['n']}", *cost, *shared, factor, asked, number(row["peak_mb"], 3)])
+    two = ["honest, two threads", "to 1e-8, two threads"]
+    head = [
+        "M, L, kappa",
+        "n",
+        "honest",
+        "to 1e-8",
+        *two,
+        "factor per V(2,1)",
+        "`solve_steady`, its own tol",
+        "MB",
+    ]
     return table(head, cells) + "\n\n" + made_by(mine)
 
 

@@ -44,10 +44,10 @@ BEARING_STEPS, BEARING_DT = 1000, 2e-5  # s
 NEWTON_NODES = 40_000  # grids on which cycles are compared with Newton steps: n = 256 of `Domain()`
 
 
-def steady(name: str, n: int, repeat: int | None = None) -> Row:
+def steady(name: str, n: int, repeat: int | None = None, threads: int = 1) -> Row:
     """Full multigrid and cycles from nothing to the honest measure, and to full convergence."""
     repeat = repeat or (5 if n <= 256 else 3)
-    return measure(STEADY[name], n, repeat=repeat, newton_nodes=NEWTON_NODES, default=True)
+    return measure(STEADY[name], n, repeat=repeat, newton_nodes=NEWTON_NODES, default=True, threads=threads)
 
 
 def transient_step(motion: str, n: int, repeat: int | None = None) -> Row:
@@ -105,10 +105,12 @@ def _timed(work: Any, repetitions: int) -> Row:
     return bracket.ratios(row) | circumstances()
 
 
-def tasks(grids: tuple[int, ...], repeat: int | None = None) -> list[Task]:
+def tasks(grids: tuple[int, ...], repeat: int | None = None, threads: int = 1) -> list[Task]:
     """All rows on these grids; weights are seconds, about."""
     found = [
-        Task(f"steady {name} {n}", steady, (name, n, repeat), 4 + n * n * 8e-5) for name in STEADY for n in grids
+        Task(f"steady {name} {n}", steady, (name, n, repeat, threads), 4 + n * n * 8e-5)
+        for name in STEADY
+        for n in grids
     ]
     found += [
         Task(f"step {motion} {n}", transient_step, (motion, n, repeat), 3 + n * n * 1e-4)
@@ -135,7 +137,7 @@ def tasks(grids: tuple[int, ...], repeat: int | None = None) -> list[Task]:
 def line(key: str, row: Row) -> str:
     """A row in words."""
     parts = []
-    for name in ("honest", "full", "solve_steady", "simulate"):
+    for name in ("honest", "honest_shared", "full", "full_shared", "solve_steady", "simulate"):
         if row.get(name):
             part = row[name]
             note = "" if part.get("honest", True) else " (not honest)"
@@ -174,14 +176,14 @@ def main() -> None:
     parser.add_argument("--only", nargs="+", default=[""], help="rows whose names hold one of these texts")
     parser.add_argument("--n", type=int, nargs="+", default=DEFAULT_GRIDS, help="intervals along X")
     parser.add_argument("--repeat", type=int, help="repetitions of which the median is told")
+    parser.add_argument("--threads", type=int, default=1, help="of steady films, timed beside one")
     parser.add_argument("--tries", type=int, default=2, help="of rows refused because the machine was busy")
     parser.add_argument("--json", type=Path, help="file for the rows; gone on with where it exists")
     parser.add_argument("--again", action="store_true", help="forget what the file holds")
     parser.add_argument("--list", action="store_true", help="names of the rows")
     arguments = parser.parse_args()
-    wanted = [
-        task for task in tasks(tuple(arguments.n), arguments.repeat) if any(t in task.key for t in arguments.only)
-    ]
+    found = tasks(tuple(arguments.n), arguments.repeat, arguments.threads)
+    wanted = [task for task in found if any(t in task.key for t in arguments.only)]
     if arguments.list:
         print("\n".join(task.key for task in wanted))
         return

@@ -27,23 +27,23 @@ def reach_of(nx):
 
 
 @jit
-def mark_boundary(P, reach, marks):
+def mark_boundary(first, last, P, reach, marks):
     """Mark the nodes within `reach` of a change between P > 0 and P = 0, by 1 at the farthest, reach + 1 at it.
 
-    `marks` (bytes) written, 0 elsewhere.
+    `marks` (bytes) written on lines `first` to `last` - 1 and on one more on either side: 0 elsewhere.
     """
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
-    marks[:] = 0
-    for j in range(ny):
+    marks[max(first - 1, 0) : last + 1] = 0
+    for j in range(max(first - reach - 1, 0), min(last + reach, ny)):
         for i in range(1, nx):
             wet = P[j, i] > 0.0
             east = i + 1 < nx and (P[j, i + 1] > 0.0) != wet
             north = j + 1 < ny and (P[j + 1, i] > 0.0) != wet
             if east or north:
-                for jj in range(max(j - reach, 1 - ny), min(j + reach + 1, ny - 1) + 1):
-                    for ii in range(max(i - reach, 1), min(i + reach + 1, nx - 1) + 1):
+                for jj in range(max(j - reach, first), min(j + reach + 2, last)):
+                    for ii in range(max(i - reach, 1), min(i + reach + 2, nx)):
                         away = max(abs(jj - j), abs(ii - i))
-                        marks[abs(jj), ii] = max(marks[abs(jj), ii], reach + 1 - min(away, reach))
+                        marks[jj, ii] = max(marks[jj, ii], reach + 1 - min(away, reach))
 
 
 @jit_node
@@ -55,9 +55,9 @@ def total_flow(j, i, flow, stencil):
 
 
 @jit
-def update_marked(P, H, law, stencil, flow, marks):
+def update_marked(first, last, P, H, law, stencil, flow, marks):
     """Flow at marked nodes, their neighbours and the faces between; `marks` of the neighbours become UPDATED."""
-    for j in range(P.shape[0] - 1):
+    for j in range(first, last):
         for i in range(1, P.shape[1] - 1):
             if 0 < marks[j, i] < UPDATED:
                 update_node(j, i, P, H, law, stencil, flow)
@@ -66,7 +66,7 @@ def update_marked(P, H, law, stencil, flow, marks):
                     if iq >= 0 and marks[jq, iq] == 0:
                         update_node(jq, iq, P, H, law, stencil, flow)
                         marks[jq, iq] = UPDATED
-    for j in range(P.shape[0] - 1):
+    for j in range(first, last):
         for i in range(1, P.shape[1] - 1):
             if 0 < marks[j, i] < UPDATED:
                 update_along(j, i - 1, flow)
@@ -76,28 +76,40 @@ def update_marked(P, H, law, stencil, flow, marks):
 
 
 @jit
-def relax_boundary(P, H, flow, rhs, law, stencil, c_t, self_deflection, nodes, marks):
-    """Relax P near the cavitation boundary at frozen film and flow.
+def relax_boundary(first, last, P, H, flow, rhs, law, stencil, c_t, self_deflection, nodes, marks):
+    """Relax P near the cavitation boundary on lines `first` to `last` - 1, at frozen film and flow.
 
-    `P` and, there, `flow` are written; `nodes`, `marks` are work space.
+    `P` and, there and on the next lines, `flow` are written; `nodes`, `marks` are work space.
     """
     width = P.shape[1]
     reach = reach_of(width - 1)
-    mark_boundary(P, reach, marks)
-    update_marked(P, H, law, stencil, flow, marks)
+    mark_boundary(first, last, P, reach, marks)
+    update_marked(first, last, P, H, law, stencil, flow, marks)
     transport = DOMINANCE * stencil.crowding * 1.5 * stencil.inv_hx + SQUEEZE_DOMINANCE * c_t
-    count = 0
-    for j in range(P.shape[0] - 1):
+    begin = end = first * width
+    for j in range(first, last):
         for i in range(1, width - 1):
             away = max(1.0, (reach + 1 - marks[j, i]) / NEAREST)
             least = transport * self_deflection * away * away * away
             if 0 < marks[j, i] < UPDATED and total_flow(j, i, flow, stencil) > least:
-                nodes[count] = j * width + i
-                count += 1
+                nodes[end] = j * width + i
+                end += 1
     for sweep in range(PASSES_EACH * reach):
-        for s in range(count):
-            node = nodes[s] if sweep % 2 == 0 else nodes[count - 1 - s]
+        for s in range(end - begin):
+            node = nodes[begin + s] if sweep % 2 == 0 else nodes[end - 1 - s]
             j, i = node // width, node % width
             own = total_flow(j, i, flow, stencil) + (1.5 * stencil.inv_hx + c_t) * self_deflection
             res = rhs[j, i] - operator_at(j, i, P, flow, stencil, c_t)
             P[j, i] = max(P[j, i] - res / own, 0.0)
+
+
+@jit
+def relax_boundary_blocks(first, last, colour, lines, P, H, flow, rhs, law, stencil, c_t, own, nodes, marks):
+    """`relax_boundary` on the blocks of `lines` lines ``colour + 2 k``, k from `first` to `last` - 1.
+
+    Blocks of one colour do not see each other.
+    """
+    for k in range(first, last):
+        start = (colour + 2 * k) * lines
+        stop = min(start + lines, P.shape[0] - 1)
+        relax_boundary(start, stop, P, H, flow, rhs, law, stencil, c_t, own, nodes, marks)

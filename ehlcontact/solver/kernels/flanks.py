@@ -33,39 +33,45 @@ SOLVED, FELT = 2, 1  # marks: the larger one stands where both fall
 
 
 @jit
-def mark_front(P, eps, marks):
-    """Mark the nodes within FRONT_REACH of a front, and those that feel their film; `marks` (bytes) written."""
+def mark_front(first, last, P, eps, marks):
+    """Mark the nodes of lines `first` to `last` - 1 within FRONT_REACH of a front, and all that feel their film.
+
+    `marks` (bytes) written, on these lines, NEAR more on either side, and the next: 0 elsewhere.
+    """
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
-    marks[:] = 0
-    for j in range(ny):
+    marks[max(first - NEAR, 0) : min(last + NEAR, ny) + 1] = 0
+    for j in range(max(first - FRONT_REACH - 1, 0), min(last + FRONT_REACH, ny)):
+        low, high = max(j - FRONT_REACH, first), min(j + FRONT_REACH + 2, last)
         for i in range(1, nx):
             if P[j, i] > 0.0:
                 e, east, north = eps[j, i], eps[j, i + 1], eps[j + 1, i]
                 steep = P[j, i + 1] > 0.0 and max(e, east) > JUMP * min(e, east)
                 if steep or (P[j + 1, i] > 0.0 and max(e, north) > JUMP * min(e, north)):
-                    _mark(j, i, FRONT_REACH, SOLVED, marks)
-                    _mark(j, i, FRONT_REACH + NEAR, FELT, marks)
+                    _mark(low, high, i, FRONT_REACH, SOLVED, marks)
+                    _mark(max(low - NEAR, 0), min(high + NEAR, ny), i, FRONT_REACH + NEAR, FELT, marks)
 
 
 @jit
-def _mark(j, i, reach, mark, marks):
-    ny, nx = marks.shape[0] - 1, marks.shape[1] - 1
-    for jj in range(max(j - reach, 0), min(j + reach + 1, ny - 1) + 1):
-        for ii in range(max(i - reach, 1), min(i + reach + 1, nx - 1) + 1):
-            marks[jj, ii] = max(marks[jj, ii], mark)
+def _mark(low, high, i, reach, mark, marks):
+    for j in range(low, high):
+        for ii in range(max(i - reach, 1), min(i + reach + 2, marks.shape[1] - 1)):
+            marks[j, ii] = max(marks[j, ii], mark)
 
 
 @jit
-def segments(marks, mark):
-    """Segments of lines of at least this mark: (number, 3) of line, first node, and node after the last."""
+def segments(first, last, marks, mark):
+    """Segments of at least this mark on lines `first` to `last` - 1.
+
+    Returns (number, 3) of line, first node, and node after the last.
+    """
     count = 0
-    for j in range(marks.shape[0]):
+    for j in range(first, last):
         for i in range(1, marks.shape[1]):
             if marks[j, i] >= mark and marks[j, i - 1] < mark:
                 count += 1
     found = np.empty((count, 3), np.int64)
     count = 0
-    for j in range(marks.shape[0]):
+    for j in range(first, last):
         for i in range(1, marks.shape[1]):
             inside, before = marks[j, i] >= mark, marks[j, i - 1] >= mark
             if inside and not before:
@@ -146,20 +152,35 @@ def passes_of(nx, long):
 
 
 @jit
-def relax_flanks(fields, rhs, law, stencil, c_t, near, marks, passes):
-    """Relax along the fronts of ``fields.theta``; P, and near them H, flow and theta of `fields` written.
+def relax_flanks(first, last, fields, rhs, law, stencil, c_t, near, marks, passes, work):
+    """Relax along the fronts of ``fields.theta`` on lines `first` to `last` - 1.
 
-    By one thread: a pass takes less than another thread needs to wake (shared, n = 1024 took twice as long).
+    P, and within NEAR lines H, flow and theta of `fields` written.
     """
-    mark_front(fields.P, fields.flow.eps, marks)
-    solved, felt = segments(marks, SOLVED), segments(marks, FELT)
+    ny = fields.P.shape[0] - 1
+    mark_front(first, last, fields.P, fields.flow.eps, marks)
+    solved = segments(first, last, marks, SOLVED)
     if len(solved) == 0:
         return
-    fields.w[:] = 0.0
-    work = line_work(fields.P.shape[1])
+    felt = segments(max(first - NEAR, 0), min(last + NEAR, ny), marks, FELT)
+    fields.w[max(first - NEAR - 1, 0) : min(last + NEAR, ny) + 1] = 0.0
     for _ in range(passes):
         for colour in range(2):
             solve_segments(solved, colour, fields, rhs, stencil, c_t, near, work)
             spread_segments(solved, felt, colour, fields, law, stencil, near)
             update_between_segments(felt, fields.flow)
         weigh_segments(felt, fields, stencil, c_t)
+
+
+@jit
+def relax_flank_blocks(first, last, colour, lines, fields, rhs, law, stencil, c_t, near, marks, passes):
+    """`relax_flanks` on the blocks of `lines` lines ``colour + 2 k``, k from `first` to `last` - 1.
+
+    Blocks of one colour do not feel each other.
+    """
+    ny = fields.P.shape[0] - 1
+    work = line_work(fields.P.shape[1])
+    for k in range(first, last):
+        start = (colour + 2 * k) * lines
+        stop = min(start + lines, ny)
+        relax_flanks(start, stop, fields, rhs, law, stencil, c_t, near, marks, passes, work)

@@ -19,7 +19,7 @@ def test_marks(kernel):
     P[:5, 11:18] = 0.5
     P[:1, 14] = 0.0  # a hole on the symmetry line
     marks = np.full(P.shape, 7, dtype=np.uint8)
-    kernel(P, reach, marks)
+    kernel(0, 12, P, reach, marks)
     wet = P > 0.0
     changes = [
         (r, c)
@@ -47,7 +47,7 @@ def passes(level, kernel, self_deflection=None):
     f = level.fields
     own = level.near[0, 0] if self_deflection is None else self_deflection
     marks = np.zeros(f.P.shape, dtype=np.int64)  # of bytes, Python's differences would overflow
-    kernel(f.P, f.H, f.flow, level.rhs, level.law, level.stencil, level.c_t, own, level.nodes, marks)
+    kernel(0, level.ny, f.P, f.H, f.flow, level.rhs, level.law, level.stencil, level.c_t, own, level.nodes, marks)
 
 
 @pytest.mark.parametrize("kernel", [boundary.update_marked, boundary.update_marked.py_func], ids=["jit", "python"])
@@ -60,7 +60,7 @@ def test_flow_at_marked_nodes_is_up_to_date(level, kernel):
     marked = [(j, i) for j, i in np.argwhere(marks)]
     around = {neighbour.py_func(q, j, i) for j, i in marked for q in range(1, NEIGHBOURS)} - set(marked)
     f.P[f.P > 0.0] *= 1.3
-    kernel(f.P, f.H, level.law, level.stencil, f.flow, marks)
+    kernel(0, level.ny, f.P, f.H, level.law, level.stencil, f.flow, marks)
     assert {(j, i) for j, i in np.argwhere(marks == boundary.UPDATED)} == {k for k in around if k[1] >= 0}
     got = [operator_at.py_func(j, i, f.P, f.flow, level.stencil, level.c_t) for j, i in marked]
     level.update_residual()
@@ -91,7 +91,7 @@ def test_only_where_flow_dominates(solved, kernel, c_t, monkeypatch):
         monkeypatch.setattr(boundary, "reach_of", lambda nx: boundary.MOST_REACH)
     P, f, before = solved.P.copy(), solved.fields, solved.c_t
     marks = np.zeros(P.shape, dtype=np.uint8)
-    boundary.mark_boundary(P, boundary.reach_of(solved.nx), marks)
+    boundary.mark_boundary(0, solved.ny, P, boundary.reach_of(solved.nx), marks)
     along, across = np.zeros_like(P), np.zeros_like(P)
     along[:, 1:-1] = solved.stencil.cx * (f.flow.along[:, :-2] + f.flow.along[:, 1:-1])
     across[1:-1] = solved.stencil.cy * (f.flow.across[:-2] + f.flow.across[1:-1])
@@ -116,7 +116,7 @@ def test_the_reach_grows_with_the_mesh():
 def test_disturbed_boundary_is_restored(solved):
     P, f = solved.P.copy(), solved.fields
     marks = np.zeros(P.shape, dtype=np.uint8)
-    boundary.mark_boundary(P, boundary.reach_of(solved.nx), marks)
+    boundary.mark_boundary(0, solved.ny, P, boundary.reach_of(solved.nx), marks)
     tiny = (marks > 0) & (P > 0.0) & (P < 1e-2)
     assert tiny.sum() > 3
 

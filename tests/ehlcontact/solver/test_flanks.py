@@ -42,7 +42,7 @@ def test_marks_around_one_jump(kernel, j, i, step, jump):
     eps[j + step[0] :, i + step[1] :] = jump
     eps[j + 1 :, :] = jump if step == (1, 0) else 1.0
     P[:, i + 3 :] = P[:, : i - 1] = 0.0
-    kernel(P, eps, marks)
+    kernel(0, 12, P, eps, marks)
     all_fronts = list(fronts(P, eps))
     for jj in range(12):
         for ii in range(1, 25):
@@ -55,13 +55,33 @@ def test_marks_around_one_jump(kernel, j, i, step, jump):
 @jit_and_python(flanks.mark_front)
 def test_marks_of_a_rough_level(level, kernel):
     eps = level.fields.flow.eps
-    kernel(level.P, eps, level.marks)
+    kernel(0, level.ny, level.P, eps, level.marks)
     all_fronts = list(fronts(level.P, eps))
     assert len(all_fronts) > 5
     for j in range(level.ny):
         for i in range(1, level.nx):
             nearest = min(distance(j, i, front) for front in all_fronts)
             assert level.marks[j, i] == (SOLVED if nearest <= 2 else FELT if nearest <= 2 + NEAR else 0), (j, i)
+
+
+@jit_and_python(flanks.mark_front)
+@pytest.mark.parametrize(("first", "last"), [(0, 4), (3, 5), (6, 12), (10, 16)])
+def test_marks_of_a_block(make_level, point, kernel, first, last):
+    """Nodes of its own lines near a front, whichever line that is on, and all that feel those."""
+    level = make_level(point, nx=24, ny=16)
+    eps, marks = level.fields.flow.eps, np.full(level.P.shape, 9, dtype=np.uint8)
+    kernel(first, last, level.P, eps, marks)
+    all_fronts = list(fronts(level.P, eps))
+    solved = np.zeros(level.P.shape, dtype=bool)
+    for j in range(first, last):
+        for i in range(1, level.nx):
+            solved[j, i] = min(distance(j, i, front) for front in all_fronts) <= 2
+    assert solved.any()
+    for j in range(level.ny):
+        for i in range(1, level.nx):
+            felt = solved[max(j - NEAR, 0) : j + NEAR + 1, max(i - NEAR, 0) : i + NEAR + 1].any()
+            inside = max(first - NEAR, 0) <= j <= min(last + NEAR, level.ny)
+            assert marks[j, i] == ((SOLVED if solved[j, i] else FELT if felt else 0) if inside else 9), (j, i)
 
 
 @jit_and_python(flanks.segments)
@@ -73,7 +93,7 @@ def test_segments(kernel, mark):
     marks[2] = 0
     marks[3, 1:-1] = SOLVED
     expected = []
-    for j in range(9):
+    for j in range(1, 7):
         i = 0
         while i < 40:
             stop = i
@@ -83,7 +103,7 @@ def test_segments(kernel, mark):
                 expected.append([j, i, stop])
             i = stop + 1
     assert [3, 1, 39] in expected
-    assert kernel(marks, mark).tolist() == expected
+    assert kernel(1, 7, marks, mark).tolist() == expected
 
 
 def random_change(level):
@@ -149,7 +169,7 @@ def test_near_film_is_the_deflection_of_the_change(make_level, point, kernel, ta
 def film(solve_by_newton):
     """A converged level with a front, its approach, and its pressure."""
     level, u = solve_by_newton(MoesPoint(20, 8, 0.5))
-    flanks.mark_front(level.P, level.fields.flow.eps, level.marks)
+    flanks.mark_front(0, level.ny, level.P, level.fields.flow.eps, level.marks)
     assert 20 < np.count_nonzero(level.marks == SOLVED) < 0.5 * np.count_nonzero(level.P)
     return level, u, level.P.copy()
 
@@ -166,6 +186,13 @@ def disturbed(film):
     level.update(u)
 
 
+@pytest.fixture(params=[16, 6], ids=["one block", "three blocks"])
+def blocks(request, monkeypatch):
+    """Lines of a block, of the sixteen that there are."""
+    monkeypatch.setattr("ehlcontact.solver.level.BLOCK", request.param)
+
+
+@pytest.mark.usefixtures("blocks")
 def test_solution_is_a_fixed_point(film):
     level, u, P = film
     level.update(u)
@@ -175,12 +202,13 @@ def test_solution_is_a_fixed_point(film):
     assert np.abs(level.P - P).max() < 1e-9
 
 
+@pytest.mark.usefixtures("blocks")
 def test_residual_falls_along_the_front(disturbed):
     """By two thirds at least, and by ten in three times; the state afterwards is one of P and H together."""
     level, u = disturbed
     norms = []
     for _ in range(4):
-        flanks.mark_front(level.P, level.fields.flow.eps, level.marks)
+        flanks.mark_front(0, level.ny, level.P, level.fields.flow.eps, level.marks)
         norms.append(np.abs(level.r[(level.marks == SOLVED) & (level.P > 0.0)]).mean())
         level.relax_flanks()
         level.update(u)
@@ -230,6 +258,43 @@ def test_flow_and_weights_belong_to_the_state_left_behind(disturbed, make_level,
     level._weigh()
     for got, expected in zip(local, (*f.flow, f.theta), strict=True):
         np.testing.assert_allclose(got[:-1, 1:-1], expected[:-1, 1:-1], rtol=1e-12, atol=1e-300)
+
+
+@pytest.mark.usefixtures("blocks")
+def test_blocks_leave_flow_and_weights_of_their_state(disturbed):
+    """As above, on all nodes: what one block left is not stale for the next."""
+    level, _ = disturbed
+    f = level.fields
+    level.relax_flanks()
+    local = [a.copy() for a in f.flow] + [f.theta.copy()]
+    level.update_residual()
+    level._weigh()
+    for got, expected in zip(local, (*f.flow, f.theta), strict=True):
+        np.testing.assert_allclose(got[:-1, 1:-1], expected[:-1, 1:-1], rtol=1e-12, atol=1e-300)
+
+
+@pytest.mark.parametrize("passes", ["relax_flanks", "relax"])
+def test_blocks_of_one_colour_do_not_feel_each_other(make_level, point, passes, monkeypatch):
+    """Every number is the same, bit for bit, whichever of them comes first: so threads may share them."""
+
+    class Backwards:
+        def run(self, kernel, count, *args, least=4):
+            for k in reversed(range(count)):
+                kernel(k, k + 1, *args)
+
+    states = []
+    for team in (None, Backwards()):
+        level = make_level(point, nx=512, ny=100)  # where boundaries reach farthest
+        level.update_residual()
+        if team is not None:
+            monkeypatch.setattr(level, "team", team)
+        before = level.P.copy()
+        getattr(level, passes)()
+        assert np.count_nonzero(level.P != before) > 1000
+        f = level.fields
+        states.append([a.copy() for a in (f.P, f.H, f.theta, *f.flow)])
+    for one, other in zip(*states, strict=True):
+        np.testing.assert_array_equal(one, other)
 
 
 def test_a_level_without_fronts_is_left_alone(make_level, point):

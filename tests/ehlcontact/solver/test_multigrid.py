@@ -6,8 +6,9 @@ import pytest
 from ehlcontact import Domain, MoesPoint, Status, solve_steady, steady
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.buildup import coarsest_intervals
+from ehlcontact.solver.iterate import Goal, Track, iterate
 from ehlcontact.solver.level import Level
-from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh import NEAREST_DOMAIN, Mesh
 from ehlcontact.solver.multigrid import Multigrid, initial_approach
 
 LOAD = Balance.of_load()
@@ -209,6 +210,71 @@ def test_close_lines_show_side_lobes():
         change = mg.cycle(LOAD)
     assert change < 1e-4 and mg.finest.H.min() > 1e-4
     assert {level.M for level in mg.levels} == {point.M}
+
+
+LOBES = MoesPoint(11268.36, 1.25058, 3.411192)  # of the box: side lobes a thirtieth as thick as the centre
+
+
+@pytest.mark.slow
+def test_a_careful_start_finds_side_lobes_that_cycles_lose():
+    """From a coarsest level of six lines across, in steps of the load by four, the first cycles swing for good."""
+    film = steady._Attempt(LOBES, Mesh(1024, NEAREST_DOMAIN, 4), steady.CLOSE_METHODS[1], "fft", 1)
+    assert film.run(LOAD, 1e-5, 20, None) is Status.CONVERGED
+    assert film.multigrid.levels[0].nx == 128
+    assert film.multigrid.finest.lowest_film() == pytest.approx(2.08e-5, rel=0.01)
+
+
+@pytest.mark.parametrize("most", [1.3, 1.0], ids=["small steps settle", "none does"])
+def test_careful_steps_of_the_load_are_taken_back_where_they_do_not_settle(monkeypatch, most):
+    """Halved from a factor of two until one settles, and on with that; pressure and approach as before it."""
+    mg = Multigrid(LOBES, Mesh(64, Domain()), careful=True)
+    level, settled, tried = mg.finest, [100.0], []
+    mg.u = 0.25
+
+    def repeat(self, k, cycles, balance):
+        assert (level.P.max(), self.u) == (0.0, 0.25) or cycles == 1
+        if level.M > most * settled[-1]:
+            level.P[3, 3] += 0.2
+            self.u += 1.0
+        elif cycles == 1:
+            settled.append(level.M)
+        tried.append(level.M)
+
+    monkeypatch.setattr(Multigrid, "_repeat", repeat)
+    last = len(mg.levels) - 1
+    assert mg._raise_load(last, 100.0, 180.0, LOAD) == len(settled) - 1
+    assert level.M == 180.0
+    if most == 1.0:
+        assert len(settled) == 1
+        assert tried[::2] == pytest.approx([180.0, *(100.0 * 2.0 ** (0.5**k) for k in range(1, 5))])
+    else:
+        assert settled == pytest.approx([100.0, 100.0 * 2.0**0.25, 100.0 * 2.0**0.5, 100.0 * 2.0**0.75, 180.0])
+        assert mg.u == 0.25 and not level.P.any()
+
+
+@pytest.mark.parametrize(("careful", "effort"), [(False, 4), (True, 1)])
+def test_sweeps_of_a_careful_film_are_not_repeated(careful, effort):
+    """However slowly its changes fall: repeated, they let side lobes grow."""
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()), careful=careful)
+    mg.full_multigrid(LOAD)
+    iterate(mg, LOAD, lambda balance: 1.0, Goal(1e9, 1e-9, 8, 1e-7, 1e-7), Track())
+    assert mg.effort == effort
+
+
+def test_where_cycles_fail_on_close_lines_a_careful_start_follows(monkeypatch):
+    tried = []
+
+    def run(attempt, **_):
+        tried.append((attempt.method.careful, attempt.mesh.lines))
+        return Status.CONVERGED if attempt.method.careful else Status.DIVERGED
+
+    monkeypatch.setattr(steady._Attempt, "run", run)
+    assert solve_steady(LOBES, throw=False).status is Status.CONVERGED
+    assert tried[-2:] == [(False, 4), (True, 4)]
+    assert set(tried[:-2]) == {(False, 1)}
+    tried.clear()
+    assert solve_steady(LOBES, method="multigrid", throw=False).status is Status.DIVERGED
+    assert not any(careful for careful, _ in tried)
 
 
 def test_initial_approach_is_bounded():
