@@ -61,8 +61,8 @@ METHODS = {
     "multigrid": (Method(False, 1),),
     "newton": (Method(True, 1),),
 }
-# Where lines lie close, twice the sweeps settle nothing that single ones do not; a careful start does, at up to three
-# times the cost. Newton steps come last: on grids of this kind they cost more, and fail where it does not.
+# Where lines lie close, twice the sweeps settle nothing that single ones do not; a careful start does, at up to
+# three times the cost. Newton steps come last: on grids of this kind they cost more, and fail where it does not.
 CLOSE_LAST_RESORT = Method(newton=True, effort=1)
 CLOSE_METHODS = (Method(False, 1), Method(newton=False, effort=1, careful=True), CLOSE_LAST_RESORT)
 
