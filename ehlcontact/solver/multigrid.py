@@ -203,7 +203,8 @@ class Multigrid:
         fine = self.levels[k]
         if k == 0:
             return self.newton.correct(u, balance)
-        for sweep in self._sweeps(fine, PRE_SWEEPS):
+        short = fine.squeeze_dominates
+        for sweep in self._sweeps(fine, PRE_SWEEPS, not short):
             sweep()
             r = fine.update(u)
         coarse = self.levels[k - 1]
@@ -223,14 +224,14 @@ class Multigrid:
         shift = balance.weight * (coarse.force() - fine.force())
         u = self._cycle(k - 1, u, balance.shifted(shift))
         transfer.add_correction(coarse.P, start, fine.P, along, across)
-        for sweep in self._sweeps(fine, POST_SWEEPS):
+        for sweep in self._sweeps(fine, POST_SWEEPS, not short or fine is self.finest):
             fine.update(u)
             sweep()
         return u
 
-    def _sweeps(self, level: Level, count: int) -> Sequence[Callable[[], None]]:
-        """Sweeps on a level before or after its coarse correction, the last of them along its flanks first."""
-        last = level.relax if level.squeeze_dominates else level.relax_flanks_first
+    def _sweeps(self, level: Level, count: int, flanks: bool) -> Sequence[Callable[[], None]]:
+        """Sweeps on a level before or after its coarse correction, the last of them along its `flanks` first."""
+        last = level.relax_flanks_first if flanks else level.relax
         # Coarse levels of a long contact see its side lobes on a line or two: more sweeps lead away from there.
         once = self.point.kappa > LONG and level not in self.levels[-REPEATED_LEVELS:]
         return (*(level.relax,) * (count - 1), last) * (1 if once else self.effort)

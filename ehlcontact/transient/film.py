@@ -6,7 +6,11 @@ rule with beta = 1/4, gamma = 1/2, evaluated inside the multigrid cycle through 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import accumulate
+from math import prod
+from typing import TypeVar
 
 import numpy as np
 
@@ -21,8 +25,12 @@ from ehlcontact.status import Status
 from ehlcontact.transient.surface import SurfaceStep
 from ehlcontact.transient.tolerance import CHANGE_SHARE
 
+Quantity = TypeVar("Quantity", float, Array)
+
 STEP_CYCLES = 25
 SMALLEST_SCALE = 0.01  # of the residuals, in dry approaches
+PAST = 3  # states before the present one, whose polynomial predicts the next step;
+PAST_OF_BODIES = 2  # so many where inertia predicts the approach, which is better than any polynomial
 LARGEST_EXTRAPOLATION = 2.0  # step ratio up to which past pressures predict the next
 NEGLIGIBLE_FORCE = 0.01  # below which it does not matter what the border cuts off, unless a load is to be carried
 
@@ -39,6 +47,8 @@ class FilmState:
     dT: float  # the step that led here
     surface: Array | float
     factors: Factors | None  # of the coarsest grid; immutable, so the reference is enough
+    # approach at the same times as the pressures of `past`
+    past_u: tuple[float, ...] = field(default=(), metadata={"later": True})
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +84,7 @@ class TransientFilm:
         self.tol = tol
         self.scale = 1.0
         self._past: tuple[tuple[float, Array], ...] = ()
+        self._past_u: tuple[float, ...] = ()
         self._mass = self.level.P.copy()
         self._mass_before = self._mass.copy()
         self._dT = 0.0
@@ -107,7 +118,7 @@ class TransientFilm:
 
     def forget_past(self) -> None:
         """Begin anew from here, as after rest: what moves the film is about to change its slope."""
-        self._past = ()
+        self._past, self._past_u = (), ()
         self._dT = 0.0
 
     @property
@@ -126,18 +137,24 @@ class TransientFilm:
         mg.set_time_coefficient((1.0 + 2.0 * ratio) / (1.0 + ratio) / dT)
         level.rhs[...] = _known(dT, ratio, self._mass, self._mass_before)
         level.film_shift = 0.0 if surface is None else surface.height
-        past = self._past
-        P_now = level.P.copy()
-        if past and ratio <= LARGEST_EXTRAPOLATION:
-            level.P[...] = np.maximum(extrapolate(dT, P_now, past), 0.0) * (P_now > 0.0)
+        P_now, u_now = level.P.copy(), mg.u
+        mg.u = u_guess
+        if self._past and ratio <= LARGEST_EXTRAPOLATION:
+            inert = balance.stiffness > 0.0 and balance.weight > 0.0
+            steps, pressures = zip(*self._past[: PAST_OF_BODIES if inert else PAST], strict=True)
+            level.P[...] = np.maximum(extrapolate(dT, P_now, steps, pressures), 0.0)
+            level.P[P_now <= 0.0] = 0.0
+            if balance.stiffness == 0.0 and self._past_u:
+                # A load does not say where it leads. The polynomial of P gives that of the film: it hardly moves.
+                mg.u = extrapolate(dT, u_now, steps, self._past_u)
         if surface is not None:
             # A feature much deeper than the film is carried exactly: the differences would leave a multiple of
             # its fourth derivative as a source, which eats up the film at its rim.
             known = _known(dT, ratio, surface.before, surface.earlier)
             level.rhs -= level.density() * (level.transport(surface.height, known) - surface.rate)
-        mg.u = u_guess
         step = self._solve(balance, STEP_CYCLES)
-        self._past = ((dT, P_now), *past[:1])
+        self._past = ((dT, P_now), *self._past)[:PAST]
+        self._past_u = (u_now, *self._past_u)[:PAST]
         self._mass_before, self._mass = self._mass, level.fields.flow.mass.copy()
         self._dT = dT
         return step
@@ -166,12 +183,14 @@ class TransientFilm:
             dT=self._dT,
             surface=self.level.film_shift,
             factors=self.multigrid.newton.factors,
+            past_u=self._past_u,
         )
 
     def restore_state(self, state: FilmState) -> None:
         """Return to a saved state."""
         self.level.P[...] = state.P
-        self._past, self._mass, self._mass_before = state.past, state.mass, state.mass_before
+        self._past, self._past_u = state.past, state.past_u
+        self._mass, self._mass_before = state.mass, state.mass_before
         self.multigrid.u, self._dT = state.u, state.dT
         self.level.film_shift = state.surface
         self.multigrid.newton.factors = state.factors
@@ -183,12 +202,11 @@ def _known(dT: float, ratio: float, now: Array, before: Array) -> Array:
     return before * (ratio * ratio / (1.0 + ratio) / dT) - now * ((1.0 + ratio) / dT)
 
 
-def extrapolate(dT: float, now: Array, past: tuple[tuple[float, Array], ...]) -> Array:
-    """Pressure `dT` ahead: polynomial through `now` and one or two past pressures with the steps from them."""
-    first, before = past[0]
-    slope = (now - before) / first
-    if len(past) == 1:
-        return now + dT * slope
-    second, earlier = past[1]
-    curvature = (slope - (before - earlier) / second) / (first + second)
-    return now + dT * slope + dT * (dT + first) * curvature
+def extrapolate(dT: float, now: Quantity, steps: Sequence[float], past: Sequence[Quantity]) -> Quantity:
+    """Value `dT` ahead: polynomial through `now` and `past`, latest first, each with the step from it."""
+    times = [0.0, *accumulate(-step for step in steps[: len(past)])]
+    weights = [prod((dT - t) / (time - t) for t in times if t != time) for time in times]
+    ahead = weights[0] * now
+    for weight, value in zip(weights[1:], past, strict=True):
+        ahead = ahead + weight * value
+    return ahead

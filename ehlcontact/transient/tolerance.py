@@ -2,7 +2,7 @@
 
 Where bodies are under a load, film, force and approach are found together by relaxation, until force and approach
 change by less than a share of `tol` in a cycle: with `DEFAULT_TOL` by 1e-4 of the static load. That is much of a
-small motion: of a load that swings by 0.01 of the static one C came out between 10 % too small and 17 % too large
+small motion: in twenty steps a period of a load that swings by 0.01 of the static one C came out 5 % too small
 (docs/solver.md). So the default follows the motion, and what it leaves open is the same share of each.
 """
 

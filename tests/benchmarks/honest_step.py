@@ -67,6 +67,11 @@ class Middle:
             yield
         self.film.tol = tol
 
+    def share(self, threads: int) -> None:
+        """Let so many threads do the work from here on."""
+        for level in self.film.multigrid.levels:
+            level.share(threads)
+
     def converged(self, most: int) -> Reference:
         """The step with cycles until P changes by rounding only."""
         self.run.back()
@@ -96,9 +101,19 @@ class Middle:
 
 
 def measure_step(
-    point: MoesPoint, name: str, n: int, *, steps: int = STEPS_BEFORE, repeat: int = 9, most: int = MOST
+    point: MoesPoint,
+    name: str,
+    n: int,
+    *,
+    steps: int = STEPS_BEFORE,
+    repeat: int = 9,
+    most: int = MOST,
+    threads: int = 1,
 ) -> dict[str, Any]:
-    """One step of the motion `name` in the middle of a run on n intervals; `repeat` timed repetitions."""
+    """One step of the motion `name` in the middle of a run on n intervals; `repeat` timed repetitions.
+
+    With more than one thread a second timing stands beside that of one.
+    """
     mesh = mesh_for(point, Purpose.RUN, n=n, largest_load=MOTIONS[name].largest_load)
     Middle(point, MOTIONS[name], mesh_for(point, Purpose.RUN, n=64), 3)  # compiles
     middle = Middle(point, MOTIONS[name], mesh, steps)
@@ -119,6 +134,11 @@ def measure_step(
             holds = is_full if key == "full" else (lambda errors: errors.honest)
             right = [k for k in range(len(found)) if all(holds(errors) for errors in found[k:])]
             row[key] = {"cycles": right[0], **_timed(middle, right[0], repeat)} if right and known else None
+            if row[key] and threads > 1:
+                middle.share(threads)
+                timed = _timed(middle, right[0], repeat)
+                row[f"{key}_shared"] = {"cycles": right[0], "threads": threads, **timed}
+                middle.share(1)
         row["simulate"] = _as_simulated(middle, exact, repeat)
     return bracket.ratios(row)
 

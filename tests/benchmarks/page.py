@@ -37,6 +37,7 @@ PUBLISHED = {
     (512, 200, "barus"): (7.8, 4.2),
 }
 PUBLISHED_CONV = 4e-3  # s, of the machine of those figures
+TWO = ["honest, two threads", "to 1e-8, two threads"]
 NAMES = {"roelands": "Roelands, compressible", "barus": "Barus, incompressible"}
 
 
@@ -113,13 +114,12 @@ def steady(rows: Rows) -> str | None:
         told = "" if row["verdict"] == "converges" else row["verdict"]
         factor = number(row["factor_v21"]) if row["factor"] else told
         cells.append([point_name(row), f"{row['n']}", *cost, *shared, factor, asked, number(row["peak_mb"], 3)])
-    two = ["honest, two threads", "to 1e-8, two threads"]
     head = [
         "M, L, kappa",
         "n",
         "honest",
         "to 1e-8",
-        *two,
+        *TWO,
         "factor per V(2,1)",
         "`solve_steady`, its own tol",
         "MB",
@@ -142,9 +142,11 @@ def steps(rows: Rows) -> str | None:
         default = row.get("simulate")
         fits = {True: "", False: " (not honest)", None: " (unknown)"}[default["honest"]] if default else ""
         told = "" if row["verdict"] == "converges" else f" ({row['verdict']})"
-        cost = [reached(row["honest"]), reached(row["full"]) + told, reached(default) + fits]
-        cells.append([row["motion"], f"{row['n']}", *cost])
-    return table(["motion", "n", "honest", "to 1e-8", "`simulate`, its own tol"], cells) + "\n\n" + made_by(mine)
+        cost = [reached(row["honest"]), reached(row["full"]) + told]
+        shared = [shared_ratio(row, name) for name in ("honest", "full")]
+        cells.append([row["motion"], f"{row['n']}", *cost, *shared, reached(default) + fits])
+    head = ["motion", "n", "honest", "to 1e-8", *TWO, "`simulate`, its own tol"]
+    return table(head, cells) + "\n\n" + made_by(mine)
 
 
 def others(rows: Rows) -> str | None:

@@ -50,9 +50,9 @@ def steady(name: str, n: int, repeat: int | None = None, threads: int = 1) -> Ro
     return measure(STEADY[name], n, repeat=repeat, newton_nodes=NEWTON_NODES, default=True, threads=threads)
 
 
-def transient_step(motion: str, n: int, repeat: int | None = None) -> Row:
+def transient_step(motion: str, n: int, repeat: int | None = None, threads: int = 1) -> Row:
     """One step in the middle of a run, likewise."""
-    return measure_step(POINT, motion, n, repeat=repeat or (9 if n <= 512 else 5))
+    return measure_step(POINT, motion, n, repeat=repeat or (9 if n <= 512 else 5), threads=threads)
 
 
 def fitted_element() -> Row:
@@ -113,7 +113,7 @@ def tasks(grids: tuple[int, ...], repeat: int | None = None, threads: int = 1) -
         for n in grids
     ]
     found += [
-        Task(f"step {motion} {n}", transient_step, (motion, n, repeat), 3 + n * n * 1e-4)
+        Task(f"step {motion} {n}", transient_step, (motion, n, repeat, threads), 3 + n * n * 1e-4)
         for motion in MOTIONS
         for n in grids
         if n <= LARGEST_STEP_GRID
@@ -176,7 +176,7 @@ def main() -> None:
     parser.add_argument("--only", nargs="+", default=[""], help="rows whose names hold one of these texts")
     parser.add_argument("--n", type=int, nargs="+", default=DEFAULT_GRIDS, help="intervals along X")
     parser.add_argument("--repeat", type=int, help="repetitions of which the median is told")
-    parser.add_argument("--threads", type=int, default=1, help="of steady films, timed beside one")
+    parser.add_argument("--threads", type=int, default=1, help="of films and steps, timed beside one")
     parser.add_argument("--tries", type=int, default=2, help="of rows refused because the machine was busy")
     parser.add_argument("--json", type=Path, help="file for the rows; gone on with where it exists")
     parser.add_argument("--again", action="store_true", help="forget what the file holds")

@@ -68,8 +68,9 @@ def test_damping_of_small_loads_is_as_good_as_that_of_large_ones(amplitude):
     assert damping(found, pi) == pytest.approx(damping(closely, pi), rel=0.01)
     assert found.reservation == ""
     if amplitude == 0.01:
-        coarse = simulate(POINT, motion, n=32, tol=DEFAULT_TOL)
-        assert damping(coarse, pi) != pytest.approx(damping(closely, pi), rel=0.05)
+        # Where steps are short the first cycle ends nearer than any tolerance asks; not so in twenty a period.
+        coarse, closely = (simulate(POINT, motion, n=32, dT=0.1, tol=tol) for tol in (DEFAULT_TOL, 1e-6))
+        assert damping(coarse, pi) != pytest.approx(damping(closely, pi), rel=0.03)
         assert "to 1 % of it" in coarse.reservation
         assert coarse.reservation in repr(coarse)
         assert coarse.summary()["reservation"] == coarse.reservation
