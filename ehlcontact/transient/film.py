@@ -30,7 +30,7 @@ Quantity = TypeVar("Quantity", float, Array)
 STEP_CYCLES = 25
 SMALLEST_SCALE = 0.01  # of the residuals, in dry approaches
 PAST = 3  # states before the present one, whose polynomial predicts the next step;
-PAST_OF_BODIES = 2  # so many where inertia predicts the approach, which is better than any polynomial
+FEWER_PAST = 2  # where inertia predicts the approach better, or features move by a node or so, which is not smooth
 LARGEST_EXTRAPOLATION = 2.0  # step ratio up to which past pressures predict the next
 NEGLIGIBLE_FORCE = 0.01  # below which it does not matter what the border cuts off, unless a load is to be carried
 
@@ -141,12 +141,13 @@ class TransientFilm:
         mg.u = u_guess
         if self._past and ratio <= LARGEST_EXTRAPOLATION:
             inert = balance.stiffness > 0.0 and balance.weight > 0.0
-            steps, pressures = zip(*self._past[: PAST_OF_BODIES if inert else PAST], strict=True)
+            count = FEWER_PAST if inert or surface is not None else PAST
+            steps, pressures = zip(*self._past[:count], strict=True)
             level.P[...] = np.maximum(extrapolate(dT, P_now, steps, pressures), 0.0)
             level.P[P_now <= 0.0] = 0.0
             if balance.stiffness == 0.0 and self._past_u:
                 # A load does not say where it leads. The polynomial of P gives that of the film: it hardly moves.
-                mg.u = extrapolate(dT, u_now, steps, self._past_u)
+                mg.u = extrapolate(dT, u_now, steps, self._past_u[:count])
         if surface is not None:
             # A feature much deeper than the film is carried exactly: the differences would leave a multiple of
             # its fourth derivative as a source, which eats up the film at its rim.

@@ -16,7 +16,7 @@ from __future__ import annotations
 import argparse
 import time
 from collections import Counter
-from math import exp, log
+from math import exp, log, log2
 from pathlib import Path
 from typing import NamedTuple
 
@@ -88,7 +88,8 @@ def solve(M: float, L: float, kappa: float) -> Row:
 def solve_finer(row: Row) -> Row:
     """The same film on twice the grid, and how far its films and its approach have moved, of the finer ones."""
     domain, point = Domain(*row["domain"]), MoesPoint(row["M"], row["L"], row["kappa"])
-    mesh = Mesh(2 * row["n"], domain, max(round(1.0 / row["apart"]), 1) if row["apart"] < CLOSE else 1)
+    lines = 2 ** round(-log2(row["apart"])) if row["apart"] < CLOSE else 1  # the number of lines was rounded up
+    mesh = Mesh(2 * row["n"], domain, lines)
     found: Row = {"of": row["key"], "M": row["M"], "L": row["L"], "kappa": row["kappa"], "n": mesh.n}
     found["estimate"] = row["error"]["h_min"]
     if not mesh.nodes(point.kappa) <= LARGEST_GRID:
@@ -172,15 +173,17 @@ def summary(rows: list[Row], thin: list[Row]) -> list[str]:
         seconds = [row["seconds"] for row in rows if "seconds" in row]
         lines.append(f"seconds: median {np.median(seconds):.2f}, all {duration(sum(seconds))}")
     if thin:
-        moves = [row["move"] for row in thin if row["move"] is not None]
-        moved = [row for row in thin if row["move"] is not None and row["move"] > LARGEST_MOVE]
+        known = [row for row in thin if row.get("move") is not None]  # none of a process that died
+        moves = [row["move"] for row in known]
+        moved = [row for row in known if row["move"] > LARGEST_MOVE]
         lines.append(
             f"smallest film of the {len(thin)} thinnest on twice the grid: {len(moves)} solved there, of which "
             f"{len(moved)} move by more than {100 * LARGEST_MOVE:.0f} %"
             + (f"; median {100 * np.median(moves):.2g} %, worst {100 * max(moves):.2g} %" if moves else "")
             + f"; {sum(row['estimate'] <= LARGEST_MOVE for row in moved)} of these had an estimate below that"
         )
-        lines += ["  " + line(row["of"], row) for row in thin if row in moved or row["move"] is None]
+        told_apart = [row for row in thin if row in moved or row not in known]
+        lines += ["  " + line(row.get("of", row.get("key", "")), row) for row in told_apart]
     return lines
 
 
