@@ -19,7 +19,7 @@ from ehlcontact.solver.mesh import LINES_APART, LONG, Mesh
 
 Array = NDArray[np.float64]
 
-FLANK_SQUEEZE = 0.5  # squeeze term over wedge term, above which a step needs no passes along the flanks
+FLANK_SQUEEZE = 0.5  # squeeze term over wedge term, above which a step needs few passes along the flanks
 FORCE_FACTOR = 1.5 / np.pi  # eq. 4: force = 3/(2 pi) iint P
 SHARED_FROM = 20000  # nodes: on smaller levels threads wait longer for each other than they work
 LIGHT = 128  # lines of the smallest chunk of a light kernel: with fewer it is done before another thread wakes
@@ -183,7 +183,7 @@ class Level:
 
     @property
     def squeeze_dominates(self) -> bool:
-        """Whether a step in time is so short that its squeeze term holds the flanks: sweeps settle them then."""
+        """Whether a step in time is so short that its squeeze term holds the flanks, once they are right."""
         return self.c_t > FLANK_SQUEEZE * 1.5 / self.hx
 
     def relax_flanks(self) -> None:

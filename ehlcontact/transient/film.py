@@ -29,8 +29,8 @@ Quantity = TypeVar("Quantity", float, Array)
 
 STEP_CYCLES = 25
 SMALLEST_SCALE = 0.01  # of the residuals, in dry approaches
-PAST = 3  # states before the present one, whose polynomial predicts the next step;
-FEWER_PAST = 2  # where inertia predicts the approach better, or features move by a node or so, which is not smooth
+PAST = 3  # states before the present one, whose polynomial predicts the next step
+FEWER_PAST = 2  # such states where inertia predicts the approach better, or features move by a node a step
 LARGEST_EXTRAPOLATION = 2.0  # step ratio up to which past pressures predict the next
 NEGLIGIBLE_FORCE = 0.01  # below which it does not matter what the border cuts off, unless a load is to be carried
 
