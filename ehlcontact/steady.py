@@ -30,6 +30,7 @@ from ehlcontact.solver.mesh import (
     Purpose,
     allows_newton,
     default_domain,
+    is_last,
     mesh_for,
     newton_mesh,
     remedy,
@@ -63,8 +64,9 @@ METHODS = {
 }
 # Where lines lie close, twice the sweeps settle nothing that single ones do not; a careful start does, at up to
 # three times the cost. Newton steps come last: on grids of this kind they cost more, and fail where it does not.
+CAREFUL = Method(newton=False, effort=1, careful=True)
 CLOSE_LAST_RESORT = Method(newton=True, effort=1)
-CLOSE_METHODS = (Method(False, 1), Method(newton=False, effort=1, careful=True), CLOSE_LAST_RESORT)
+CLOSE_METHODS = (Method(False, 1), CAREFUL, CLOSE_LAST_RESORT)
 
 
 @one_blas_thread()
@@ -161,20 +163,20 @@ def solve_steady(
         most=max_cycles,
         watch=callback,
     )
-    solved, status = work(mesh, _methods(method, mesh))
+    solved, status = work(mesh, _methods(method, mesh, moes))
     for _ in range(1, LARGEST_ATTEMPTS):
         error = solved.error if refine else None
         other = remedy(solved.mesh, status, moes, n=n, domain=domain, error=error)
         if other is None:
             break
-        attempt, ended = work(other, _methods(method, other)[: 1 if status.ok else None])
+        attempt, ended = work(other, _methods(method, other, moes)[: 1 if status.ok else None])
         if status.ok and not ended.ok:  # a film that is solved stays, whatever becomes of a finer one
             status = ended if ended is Status.INTERRUPTED else status
             break
         solved, status = attempt, ended
     coarser = newton_mesh(solved.mesh, moes)
     if n is None and status in FAILED and LAST_RESORT in METHODS[method] and coarser != solved.mesh:
-        attempt, ended = work(coarser, _methods(method, coarser)[-1:])
+        attempt, ended = work(coarser, _methods(method, coarser, moes)[-1:])
         if ended not in FAILED:  # its smallest film may be far off, and says so; better than none
             solved, status = attempt, ended
     result = solved.result(status, scales_of(point), time.perf_counter() - started)
@@ -183,9 +185,11 @@ def solve_steady(
     return result
 
 
-def _methods(method: str, mesh: Mesh) -> tuple[Method, ...]:
+def _methods(method: str, mesh: Mesh, point: MoesPoint) -> tuple[Method, ...]:
     """What is tried on this mesh, one after the other."""
-    return CLOSE_METHODS if mesh.lines > 1 and LAST_RESORT in METHODS[method] else METHODS[method]
+    if mesh.lines == 1 or LAST_RESORT not in METHODS[method]:
+        return METHODS[method]
+    return (CAREFUL,) if is_last(mesh, point) else CLOSE_METHODS
 
 
 def _solve(

@@ -58,6 +58,8 @@ FINE_SIDES, FINE_THIN_SIDES, AFFORDABLE_GRID = 0.3, 0.17, 500_000
 # The thinnest of them change across rolling within a tenth of the inlet width: where no mesh as fine along as
 # across shows them, lines lie so many times closer together than nodes, in metres. A power of two.
 CLOSE_LINES = 4
+# Where the finest of those grids leaves the film negative or unsettled: nodes of one more, minutes of a core.
+LAST_GRID = 4_000_000
 DOUBLED = (128, 256, 512, 1024, 2048)  # intervals, for multigrid from the coarsest to each
 STEPPED = (80, 96, 128, 160, 192, 256, 320, 384, 512, 640, 768, 1024)  # closer, and all of many halvings
 
@@ -245,6 +247,9 @@ def remedy(
     finer = replace(mesh, n=2 * mesh.n)
     if point.kappa > LONG and mesh.lines == 1 and (status in REFINED or not _affordable(finer, point)):
         finer = _with_close_lines(mesh.domain, point)
+    elif mesh.lines > 1 and status in REFINED:
+        finer = _last(mesh)
+        return finer if finer.nodes(point.kappa) <= LAST_GRID and finer.fits(point.kappa) else None
     return finer if _affordable(finer, point) else None
 
 
@@ -300,6 +305,11 @@ def allows_newton(mesh: Mesh, point: MoesPoint) -> bool:
     return mesh.nodes(point.kappa) <= LARGEST_NEWTON and mesh.fits(point.kappa, Solve.NEWTON)
 
 
+def is_last(mesh: Mesh, point: MoesPoint) -> bool:
+    """Whether it is so large that a film is tried on it only after all others."""
+    return mesh.nodes(point.kappa) > FINENESS[Purpose.FILM].largest
+
+
 def newton_mesh(mesh: Mesh, point: MoesPoint) -> Mesh:
     """Return the mesh, with as many halvings as it takes until Newton steps are affordable."""
     while not allows_newton(mesh, point) and mesh.n > DOUBLED[0]:
@@ -345,6 +355,11 @@ def _with_close_lines(domain: Domain, point: MoesPoint) -> Mesh:
     mesh = Mesh(_first(point, domain, wanted, counts, largest, CLOSE_LINES), domain, CLOSE_LINES)
     finer = Mesh(2 * mesh.n, domain, CLOSE_LINES // 2)  # no fewer lines
     return finer if mesh.size(point.kappa) > wanted and _affordable(finer, point) else mesh
+
+
+def _last(mesh: Mesh) -> Mesh:
+    """The mesh after the finest one with close lines that a film is tried on at first."""
+    return replace(mesh, n=2 * mesh.n) if mesh.lines == CLOSE_LINES else replace(mesh, lines=CLOSE_LINES)
 
 
 def _first(

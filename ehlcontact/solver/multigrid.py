@@ -68,6 +68,7 @@ class Multigrid:
         for level in self.levels:
             level.share(threads)
         self.effort = self.least_effort = effort  # how often the sweeps of a cycle are repeated
+        self.is_start = False  # of a finer grid, which goes on from whatever load is carried here
         self.newton = CoarseNewton(self.levels[0], point.kappa > LONG)
         self.u = initial_approach(point)
 
@@ -77,8 +78,10 @@ class Multigrid:
         return self.levels[-1]
 
     def halved(self) -> Multigrid:
-        """One on half the intervals, made as this one was; it holds no film yet."""
-        return Multigrid(self.point, replace(self.mesh, n=self.mesh.n // 2), **self._options)
+        """One on half the intervals, made as this one was, as a start; it holds no film yet."""
+        half = Multigrid(self.point, replace(self.mesh, n=self.mesh.n // 2), **self._options)
+        half.is_start = True
+        return half
 
     def set_time_coefficient(self, c_t: float) -> None:
         """Coefficient of rho H in the implicit part of the squeeze term, on all levels."""
@@ -114,8 +117,8 @@ class Multigrid:
             half.cycle(balance)
         _interpolate_solution(half.finest, self.finest)
         self.u = half.u
-        self._set_load(last, load)
-        self._raise_load(last, load, M, balance)
+        self._set_load(last, half.finest.M)
+        self._raise_load(last, half.finest.M, M, balance)
 
     def _start_from_coarsest(self, balance: Balance, M: float) -> None:
         """Level by level, under the load M at last."""
@@ -132,7 +135,7 @@ class Multigrid:
             fine.rhs[...] = 0.0
             fine.film_shift = 0.0
             _interpolate_solution(coarse, fine)
-            if not self._raise_load(k, loads[k - 1], loads[k], balance):
+            if not self._raise_load(k, coarse.M, loads[k], balance):
                 self._set_load(k, loads[k])
                 self._repeat(k, CYCLES_PER_LEVEL if fine is not self.finest else 0, balance)
 
@@ -149,24 +152,37 @@ class Multigrid:
     def _raise_carefully(self, k: int, lower: float, higher: float, balance: Balance) -> int:
         """As `_raise_load`; a step that its cycles do not settle is taken back, and half of it tried.
 
-        Where even small ones do not, the film comes out negative on this mesh: that is for the driver to see.
+        Where even small ones do not, the film comes out negative on this mesh: that is for the driver to see. A
+        start of a finer grid ends there, under the last load that left its film positive.
         """
         level, load, loading, steps = self.levels[k], lower, CAREFUL_LOADING, 0
         while load < higher:
             P, u = level.P.copy(), self.u
             raised = min(load * loading, higher)
-            self._set_load(k, raised)
-            self._repeat(k, CYCLES_AFTER_LOADING - 1, balance)
-            before = level.P.copy()
-            self._repeat(k, 1, balance)
-            if np.abs(level.P - before).max() <= SETTLED_CHANGE:
+            if self._settles(k, raised, balance):
                 load, steps = raised, steps + 1
             elif loading > LEAST_LOADING:
                 level.P[...], self.u, loading = P, u, sqrt(loading)
             else:
-                self._set_load(k, higher)
+                if self.is_start:
+                    level.P[...], self.u = P, u
+                self._set_load(k, load if self.is_start else higher)
                 break
         return steps
+
+    def _settles(self, k: int, M: float, balance: Balance) -> bool:
+        """Whether few cycles settle level k under this Moes load; in a start, with a positive film too."""
+        level = self.levels[k]
+        self._set_load(k, M)
+        self._repeat(k, CYCLES_AFTER_LOADING - 1, balance)
+        before = level.P.copy()
+        self._repeat(k, 1, balance)
+        if np.abs(level.P - before).max() > SETTLED_CHANGE:
+            return False
+        if not self.is_start:
+            return True
+        level.update_film(self.u)
+        return bool(level.H.min() > 0.0)
 
     def _set_load(self, k: int, M: float) -> None:
         """Moes load on levels 0 to k."""

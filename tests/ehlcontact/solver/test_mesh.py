@@ -147,6 +147,27 @@ def test_lines_lie_close_where_side_lobes_are_not_resolved(M, L, kappa):
     assert m.remedy(finest, Status.CONVERGED, point, error=POOR) == close
 
 
+@pytest.mark.parametrize(("M", "L", "kappa"), [(9355, 0.72, 3.7), (18419, 2.64, 4.2), (25667, 3.2, 2.3)])
+@pytest.mark.parametrize("status", m.REFINED)
+def test_one_more_grid_is_tried_after_the_finest_that_is_affordable(M, L, kappa, status):
+    """With four lines for a node, beyond what a film is tried on at first; never for one that is solved."""
+    point = MoesPoint(M, L, kappa)
+    mesh = m._with_close_lines(m.NEAREST_DOMAIN, point)
+    assert not m.is_last(mesh, point)
+    assert m.remedy(mesh, Status.CONVERGED, point, error=POOR) is None
+    last = m.remedy(mesh, status, point)
+    assert last is not None and m.is_last(last, point)
+    assert last == Mesh(2048, mesh.domain, m.CLOSE_LINES) and last.nodes(kappa) <= m.LAST_GRID
+    assert m.remedy(last, status, point) is None
+
+
+def test_the_last_grid_has_to_fit_into_memory(monkeypatch):
+    point = MoesPoint(9355, 0.72, 3.7)
+    mesh = m._with_close_lines(m.NEAREST_DOMAIN, point)
+    monkeypatch.setattr(m, "fits", lambda nodes, *_: nodes < m.FINENESS[Purpose.FILM].largest)
+    assert m.remedy(mesh, Status.UNRESOLVED, point) is None
+
+
 @pytest.mark.parametrize(("M", "L", "kappa"), [(30000, 0, 0.3), (12834, 3.2, 1.0), (200, 10, 0.5)])
 def test_contacts_that_are_not_long_keep_their_lines(M, L, kappa):
     point = MoesPoint(M, L, kappa)

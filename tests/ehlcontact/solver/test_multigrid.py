@@ -8,8 +8,8 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.buildup import coarsest_intervals
 from ehlcontact.solver.iterate import Goal, Track, iterate
 from ehlcontact.solver.level import Level
-from ehlcontact.solver.mesh import NEAREST_DOMAIN, Mesh
-from ehlcontact.solver.multigrid import Multigrid, initial_approach
+from ehlcontact.solver.mesh import NEAREST_DOMAIN, Mesh, is_last
+from ehlcontact.solver.multigrid import CAREFUL_LOADING, Multigrid, initial_approach
 
 LOAD = Balance.of_load()
 
@@ -251,6 +251,26 @@ def test_careful_steps_of_the_load_are_taken_back_where_they_do_not_settle(monke
         assert mg.u == 0.25 and not level.P.any()
 
 
+@pytest.mark.parametrize("fault", ["swings", "negative"])
+def test_a_start_of_a_finer_grid_carries_what_leaves_its_film_positive(monkeypatch, fault):
+    """The finer one goes on from there: on half the intervals side lobes may be negative under the whole load."""
+    mg = Multigrid(LOBES, Mesh(128, Domain()), careful=True).halved()
+    level, most = mg.finest, 300.0
+    mg.u = 0.25
+
+    def repeat(self, k, cycles, balance):
+        level.P[3, 3] += 0.2 if fault == "swings" and level.M > most else 0.001
+
+    def update_film(u):
+        level.H[...] = -1e-9 if fault == "negative" and level.M > most else 1.0
+
+    monkeypatch.setattr(Multigrid, "_repeat", repeat)
+    monkeypatch.setattr(level, "update_film", update_film)
+    mg._raise_load(len(mg.levels) - 1, 100.0, LOBES.M, LOAD)
+    assert most / CAREFUL_LOADING**0.125 < level.M <= most
+    assert mg.u == 0.25 and 0.0 < level.P.max() < 0.05  # as the last step that settled left it
+
+
 @pytest.mark.parametrize(("careful", "effort"), [(False, 4), (True, 1)])
 def test_sweeps_of_a_careful_film_are_not_repeated(careful, effort):
     """However slowly its changes fall: repeated, they let side lobes grow."""
@@ -274,6 +294,21 @@ def test_where_cycles_fail_on_close_lines_a_careful_start_follows(monkeypatch):
     tried.clear()
     assert solve_steady(LOBES, method="multigrid", throw=False).status is Status.DIVERGED
     assert not any(careful for careful, _ in tried)
+
+
+def test_after_all_affordable_grids_one_more_is_tried_carefully(monkeypatch):
+    """And Newton steps on a coarser one after it, whose film is the last word."""
+    tried = []
+
+    def run(attempt, **_):
+        tried.append((attempt.mesh, attempt.method))
+        return Status.DIVERGED
+
+    monkeypatch.setattr(steady._Attempt, "run", run)
+    assert solve_steady(LOBES, throw=False).status is Status.DIVERGED
+    last = [(mesh, method) for mesh, method in tried if is_last(mesh, LOBES)]
+    assert last == [(Mesh(2048, NEAREST_DOMAIN, 4), steady.CAREFUL)]
+    assert tried[-2:] == [*last, (Mesh(512, NEAREST_DOMAIN, 4), steady.CLOSE_LAST_RESORT)]
 
 
 def test_initial_approach_is_bounded():
