@@ -34,6 +34,11 @@ def require_scales(scales: Scales | None) -> Scales:
     return scales
 
 
+def error_in_si(error: ErrorEstimate | None, scales: Scales) -> ErrorEstimate | None:
+    """The same with the approach in m."""
+    return error and replace(error, approach=error.approach * scales.length)
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class View(Told, Tabled):
     """Numbers in SI, arrays read-only."""
@@ -115,7 +120,7 @@ class SteadySI(View):
             p_max=result.p_max * s.pressure,
             moment=result.moment * s.moment,
             pressure_error=result.pressure_error * s.pressure,
-            error=result.error and replace(result.error, approach=result.error.approach * s.length),
+            error=error_in_si(result.error, s),
         )
 
     def summary(self) -> dict[str, Any]:

@@ -23,6 +23,25 @@ Array = NDArray[np.float64]
 DOUBTFUL = 0.1  # estimated error of a film, over it, from which a converged result says so in words
 
 
+def grid_doubt(error: ErrorEstimate | None, when: str = "") -> str:
+    """Say in words where a mesh does not show its film, `when` as in "at the start"; else empty."""
+    if error is None:
+        return ""
+    films = {"central": error.h_central, "smallest": error.h_min}
+    off = [
+        f"the {name} film may be off by {'anything' if bar >= ALL else f'{100.0 * bar:.0f} %'}"
+        for name, bar in films.items()
+        if bar > DOUBTFUL
+    ]
+    return f"the grid is too coarse: {when and f'{when} '}{', '.join(off)}" if off else ""
+
+
+def film_bars(error: ErrorEstimate) -> tuple[str, str]:
+    """Errors of the central and the smallest film in words."""
+    central, least = (f"± {float(f'{100.0 * e:.2g}'):g} %" for e in (error.h_central, error.h_min))
+    return central, least
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SteadyResult(Told, Tabled, Origin):
     """Steady film of a contact under constant load, or at a prescribed approach, dimensionless; ``si`` is in SI.
@@ -163,15 +182,7 @@ class SteadyResult(Told, Tabled, Origin):
     @property
     def reservation(self) -> str:
         """What a converged film leaves open, in words: where its mesh does not show a film; else empty."""
-        if self.error is None or not self.status.ok:
-            return ""
-        films = {"central": self.error.h_central, "smallest": self.error.h_min}
-        off = [
-            f"the {name} film may be off by {'anything' if bar >= ALL else f'{100.0 * bar:.0f} %'}"
-            for name, bar in films.items()
-            if bar > DOUBTFUL
-        ]
-        return f"the grid is too coarse: {', '.join(off)}" if off else ""
+        return grid_doubt(self.error) if self.status.ok else ""
 
     def _panels(self) -> Iterator[Any]:
         places, fields = (self.X, self.Y), (self.P, self.H)
@@ -183,7 +194,7 @@ class SteadyResult(Told, Tabled, Origin):
     def _story(self) -> list[str]:
         bars = ["", ""]
         if self.error is not None:
-            bars = [f" (± {float(f'{100.0 * e:.2g}'):g} %)" for e in (self.error.h_central, self.error.h_min)]
+            bars = [f" ({bar})" for bar in film_bars(self.error)]
         s = self.scales
         size, unit = (1.0, "of the dry approach") if s is None else (s.length * 1e6, "µm")
         central, least = size * self.h_central, size * self.h_min

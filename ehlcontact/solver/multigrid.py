@@ -22,7 +22,7 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.buildup import LEAST_NESTED, LOBE_SHARE, coarsest_intervals, corrects, resolved_load
 from ehlcontact.solver.coarse import CoarseNewton
 from ehlcontact.solver.kernels import transfer
-from ehlcontact.solver.level import Level, build_hierarchy
+from ehlcontact.solver.level import Array, Level, build_hierarchy
 from ehlcontact.solver.mesh import LONG, Mesh
 
 PRE_SWEEPS, POST_SWEEPS = 2, 1
@@ -196,11 +196,14 @@ class Multigrid:
             self.levels[k].update(self.u)
             self.u = self._cycle(k, self.u, balance)
 
-    def settle(self, k: int, u: float, balance: Balance, cycles: int) -> float:
-        """Cycles on level k by itself, from the pressure that it holds and approach `u`; returns the approach."""
+    def settle(self, k: int, u: float, balance: Balance, cycles: int, shift: Array | float = 0.0) -> float:
+        """Cycles on level k by itself, from the pressure that it holds and approach `u`; returns the approach.
+
+        `shift` is what lies on its surfaces, shape (ny + 1, nx + 1).
+        """
         level = self.levels[k]
         level.rhs[...] = 0.0
-        level.film_shift = 0.0
+        level.film_shift = shift
         level.update(u)
         for _ in range(cycles):
             u = self._cycle(k, u, balance)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import time
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import inf, isfinite
 from pathlib import Path
 from reprlib import repr as shortened
@@ -21,6 +21,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.files import hdf5
 from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint
+from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.level import Level
 from ehlcontact.transient.film import FilmState
@@ -47,6 +48,7 @@ class Checkpoint:
     static_approach: float  # of the steady state under load 1 / dry approach
     seconds: float  # that it took
     version: str
+    film_error: ErrorEstimate | None = field(default=None, metadata={"later": True})  # of the film at T = 0
 
     @classmethod
     def of(cls, run: Run, settings: RunSettings, seconds: float) -> Checkpoint:
@@ -61,6 +63,7 @@ class Checkpoint:
             static_approach=run.static_approach,
             seconds=seconds,
             version=__version__,
+            film_error=run.film_error,
         )
 
     def check(

@@ -15,8 +15,10 @@ from typing import TypeVar
 import numpy as np
 
 from ehlcontact.point import MoesPoint
+from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse import Factors
+from ehlcontact.solver.estimate import estimate_error
 from ehlcontact.solver.iterate import Goal, Track, iterate
 from ehlcontact.solver.level import Array, Level
 from ehlcontact.solver.mesh import Mesh
@@ -115,6 +117,18 @@ class TransientFilm:
         self._mass_before = self._mass
         self.forget_past()
         return step
+
+    def error_at_rest(self, balance: Balance) -> ErrorEstimate | None:
+        """Error of the film that `start_steady` left under this balance; None where there is no coarser grid.
+
+        The levels below the finest are written, and nothing that steps go on from.
+        """
+        newton = self.multigrid.newton
+        factors = newton.factors  # those of the film: others would change the rounding of the first step
+        with np.errstate(over="ignore", invalid="ignore"):  # of a coarse film that runs away: off by anything
+            error = estimate_error(self.multigrid, balance)
+        newton.factors = factors
+        return error
 
     def forget_past(self) -> None:
         """Begin anew from here, as after rest: what moves the film is about to change its slope."""

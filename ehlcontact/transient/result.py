@@ -5,7 +5,7 @@ Everything is dimensionless, with the SI scales beside.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
@@ -14,7 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin, freeze
 from ehlcontact.results.layout import Layout, Tabled
+from ehlcontact.results.steady import film_bars, grid_doubt
 from ehlcontact.results.story import Told, contact_text, span
+from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.si import SimulationSI
@@ -99,6 +101,9 @@ class SimulationResult(Told, Tabled, Origin):
     tol : float or None
         Residual at which its steps counted as solved, relative to the central film at rest; None of files written
         before it was kept.
+    film_error : ErrorEstimate or None
+        How far approach and films at T = 0 may be from those of an endless fine mesh on the same region; None of a
+        start that is not solved, and of files written before it was kept.
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
@@ -125,6 +130,7 @@ class SimulationResult(Told, Tabled, Origin):
     static_approach: float
     status: Status
     tol: float | None = field(default=None, metadata={"later": True})
+    film_error: ErrorEstimate | None = field(default=None, metadata={"later": True})
 
     LAYOUT: ClassVar[Layout] = Layout(
         rows="T",
@@ -206,8 +212,14 @@ class SimulationResult(Told, Tabled, Origin):
 
     @property
     def reservation(self) -> str:
-        """What a converged run leaves open, in words: where its `tol` is coarse for its motion; else empty."""
-        return coarseness(self.motion, self.tol) if self.status.ok and self.tol is not None else ""
+        """What a converged run leaves open, in words; else empty.
+
+        Where the grid does not show the film at the start, and where `tol` is coarse for the motion.
+        """
+        if not self.status.ok:
+            return ""
+        tol = "" if self.tol is None else coarseness(self.motion, self.tol)
+        return "; ".join(filter(None, [grid_doubt(self.film_error, "at the start"), tol]))
 
     def _story(self) -> list[str]:
         told = [
@@ -226,6 +238,9 @@ class SimulationResult(Told, Tabled, Origin):
                 f"approach {span(self.approach, 1e6 * s.length, 'µm')}, force {span(self.force, s.force, 'N')}"
             ]
             told += [f"film at least {1e6 * s.length * self.h_min.min():.4g} µm"]
+        if self.film_error is not None:
+            central, least = film_bars(self.film_error)
+            told[-1] += f"; at the start {central} in the centre, {least} at least"
         return [*told, *filter(None, [self.reservation])]
 
     def summary(self) -> dict[str, Any]:
@@ -240,6 +255,7 @@ class SimulationResult(Told, Tabled, Origin):
             "residual": float(self.residuals.max()),
             "load_residual": float(np.abs(self.load_residuals).max()),
             "tol": self.tol,
+            "film_error": None if self.film_error is None else asdict(self.film_error),
             "reservation": self.reservation,
             "n": self.n,
             "domain": list(self.domain.as_tuple()),

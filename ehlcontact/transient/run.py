@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.balance import Balance
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion, MotionState
@@ -53,6 +54,7 @@ class Run:
         self.film, self.motion, self.surface = film, motion, surface
         self.history, self.control = history, control
         self.static_approach = film.u
+        self.film_error: ErrorEstimate | None = None  # of the film at T = 0
         self._watch = watch
         self.state: MotionState
         self.kept: SavedRun
@@ -61,19 +63,25 @@ class Run:
         """Static state, then the state the motion starts from, with the acceleration that its force gives."""
         film, motion = self.film, self.motion
         G = surface_height(self.surface, film.level.X, film.level.Y, 0.0)
-        step = film.start_steady(Balance.of_load(), surface=G)
+        balance = Balance.of_load()
+        step = film.start_steady(balance, surface=G)
         self.static_approach = film.u
         held = motion.held(film.u)
         if step.status.ok and held is not None:
+            balance = held.balance
             step = film.start_steady(*held, G)
+        if step.status.ok:
+            self.film_error = film.error_at_rest(balance)
         force = film.level.force()
         self.state = motion.begin(film.u, force)
         self.keep(Entry.of(film, self.state, motion.applied(0.0, force), step))
         return step.status
 
-    def resume(self, state: FilmState, scale: float, static_approach: float) -> None:
+    def resume(
+        self, state: FilmState, scale: float, static_approach: float, film_error: ErrorEstimate | None
+    ) -> None:
         """Go on from the last entry of the history, and the film state that belongs to it."""
-        self.film.scale, self.static_approach = scale, static_approach
+        self.film.scale, self.static_approach, self.film_error = scale, static_approach, film_error
         self.film.restore_state(state)
         self.state = self.history.entries[-1].motion
         self._mark()

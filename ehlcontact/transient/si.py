@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import pi
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.results.layout import Layout
-from ehlcontact.results.si import View, require_scales
+from ehlcontact.results.si import View, error_in_si, require_scales
+from ehlcontact.solver.accuracy import ErrorEstimate
 
 if TYPE_CHECKING:  # they import this module
     from ehlcontact.transient.full_contact import FullContact
@@ -49,6 +50,8 @@ class SimulationSI(View):
         Of the bodies [kg]; None for a motion without inertia.
     omega, hz : float or None
         Frequency of the load [rad/s], [Hz], where it is harmonic.
+    film_error : ErrorEstimate or None
+        That of the result, its approach in m; films relative as there.
     """
 
     t: Array
@@ -71,6 +74,7 @@ class SimulationSI(View):
     mass: float | None
     omega: float | None
     hz: float | None
+    film_error: ErrorEstimate | None
 
     LAYOUT: ClassVar[Layout] = Layout(
         rows="t",
@@ -126,6 +130,7 @@ class SimulationSI(View):
             mass=None if Omega_n is None else s.stiffness * (s.time / Omega_n) ** 2,
             omega=omega,
             hz=None if omega is None else omega / (2.0 * pi),
+            film_error=error_in_si(result.film_error, s),
         )
 
     def summary(self) -> dict[str, Any]:
@@ -133,7 +138,8 @@ class SimulationSI(View):
         arrays = ("t", "approach", "rate", "force", "load", "h_central", "h_min")
         numbers = ("static_approach", "static_load", "mass", "omega", "hz")
         found = {name: getattr(self, name).tolist() for name in arrays}
-        return found | {name: getattr(self, name) for name in numbers}
+        error = None if self.film_error is None else asdict(self.film_error)
+        return found | {name: getattr(self, name) for name in numbers} | {"film_error": error}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

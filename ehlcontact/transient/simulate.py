@@ -164,7 +164,7 @@ def simulate(
         settings = keeper.settings = replace(settings, mesh=mesh)
     else:
         run = Run(film, motion, surface, History.of(earlier.record, settings.snapshots), earlier.control, watch)
-        run.resume(earlier.film, earlier.scale, earlier.static_approach)
+        run.resume(earlier.film, earlier.scale, earlier.static_approach, earlier.film_error)
         end = march(run, steps)
     unkept = None
     if run.history.entries[0].step.status.ok:  # there is a start to go on from
@@ -222,6 +222,7 @@ def _result(
         static_approach=run.static_approach,
         status=status,
         tol=settings.steps.tol,
+        film_error=run.film_error,
         seconds=seconds,
     )
 

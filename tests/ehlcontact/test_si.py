@@ -55,13 +55,18 @@ def steady():
 @pytest.fixture(scope="module")
 def run():
     motion = HarmonicLoad.at(POINT, hz=2000.0, mass=0.05)
-    return simulate(POINT, motion, n=16, until=0.3, dT=0.1, snapshots=(0.1,))
+    return simulate(POINT, motion, n=32, until=0.3, dT=0.1, snapshots=(0.1,))
 
 
 def test_every_field_in_its_unit(steady, run):
     assert steady.si.error.approach == pytest.approx(steady.error.approach * S.length)
     assert (steady.si.error.h_central, steady.si.error.h_min) == (steady.error.h_central, steady.error.h_min)
-    for result, beside in ((steady, {"error"}), (run, {"static_load", "mass", "omega", "hz"})):
+    assert run.si.film_error.approach == pytest.approx(run.film_error.approach * S.length)
+    assert (run.si.film_error.h_central, run.si.summary()["film_error"]["h_min"]) == (
+        run.film_error.h_central,
+        run.film_error.h_min,
+    )
+    for result, beside in ((steady, {"error"}), (run, {"static_load", "mass", "omega", "hz", "film_error"})):
         si = result.si
         for name in {f.name for f in fields(si)} - beside:
             ours, unit = UNITS[name]

@@ -300,10 +300,18 @@ def _rows(result: SimulationResult) -> list[tuple[str, str, str]]:
         *(_dimensionless(result) if result.scales is None else _in_si(result)),
         ("steps", f"{result.steps}", steps),
         ("grid", f"n = {result.n}", f"on {o.domain_text(result.domain)}"),
+        *_grid_error(result),
         ("tolerance", numeral(result.tol), "residual of a solved step, of the central film at rest"),
         ("computed in", f"{numeral(result.seconds, 3)} s", ""),
         ("status", str(result.status), ""),
     ]
+
+
+def _grid_error(result: SimulationResult) -> list[tuple[str, str, str]]:
+    if (error := result.film_error) is None:
+        return []
+    central, smallest = (f"± {numeral(100.0 * e, 2)} %" for e in (error.h_central, error.h_min))
+    return [("error of the grid", central, f"of the central film at the start, {smallest} of the smallest")]
 
 
 def _dimensionless(result: SimulationResult) -> list[tuple[str, str, str]]:

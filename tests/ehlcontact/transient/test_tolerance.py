@@ -66,7 +66,7 @@ def test_damping_of_small_loads_is_as_good_as_that_of_large_ones(amplitude):
     motion = HarmonicLoad(Omega=pi, amplitude=amplitude)
     found, closely = (simulate(POINT, motion, n=32, tol=tol) for tol in (None, 1e-6))
     assert damping(found, pi) == pytest.approx(damping(closely, pi), rel=0.01)
-    assert found.reservation == ""
+    assert "tol" not in found.reservation
     if amplitude == 0.01:
         # Where steps are short the first cycle ends nearer than any tolerance asks; not so in twenty a period.
         coarse, closely = (simulate(POINT, motion, n=32, dT=0.1, tol=tol) for tol in (DEFAULT_TOL, 1e-6))
