@@ -8,6 +8,7 @@ module           responsibility
 ``prescribed``   loads and approaches given by a table
 ``surface``      what travels through: `Dent`, `TransverseRidge`, `Waviness`
 ``roughness``    `Roughness`: likewise, made or measured
+``pace``         how long a step may be: of the motion, the film, and what travels through
 ``tolerance``    how closely a step is solved, as the motion needs it
 ``film``         `TransientFilm`: one implicit step of the film
 ``record``       what is recorded: an entry per step, whole fields at the wanted times

@@ -15,7 +15,7 @@ from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint, Scales
 from ehlcontact.solver.balance import Balance
-from ehlcontact.transient.bodies import Start, UnderLoad
+from ehlcontact.transient.bodies import LONGEST_ABRUPT, Start, UnderLoad
 
 SMALL_VIBRATION = 1.5**0.5  # dry angular frequency over Omega_n
 STEPS_PER_PERIOD = 80
@@ -224,7 +224,12 @@ class HarmonicLoad(UnderLoad):
     @property
     def default_step(self) -> float:
         """A fraction of the period, and at most half a transit through the semi-axis."""
-        return min(self.period / STEPS_PER_PERIOD, 0.5)
+        return min(self.period / STEPS_PER_PERIOD, self.film_step)
+
+    @property
+    def load_period(self) -> float:
+        """That of the load."""
+        return self.period
 
     @property
     def largest_load(self) -> float:
@@ -260,6 +265,7 @@ class RampLoad(UnderLoad):
     duration: float
     Omega_n: float
     kind: ClassVar[str] = "ramp"
+    film_step: ClassVar[float] = LONGEST_ABRUPT
 
     def __post_init__(self) -> None:
         for name in ("ratio", "duration"):

@@ -14,7 +14,7 @@ from ehlcontact.checks import as_column, require_positive
 from ehlcontact.checks.frequency import by_name, fields_by_name
 from ehlcontact.errors import InputError
 from ehlcontact.solver.balance import Balance
-from ehlcontact.transient.bodies import Array, Motion, MotionState, Start, UnderLoad
+from ehlcontact.transient.bodies import LONGEST_ABRUPT, Array, Motion, MotionState, Start, UnderLoad
 
 CORNER = 0.3  # jump of a table's slope, over its steepest, that counts as a corner; 1/20 period of a sine is 0.31
 Table = tuple[Array, Array]  # times and values, shape (k,) each
@@ -32,6 +32,7 @@ class Tabulated(Motion):
     """Time span of a motion given by a table."""
 
     __slots__ = ()
+    film_step: ClassVar[float] = LONGEST_ABRUPT  # whatever lies between its rows is meant
     _table: Table
 
     @property
@@ -41,7 +42,7 @@ class Tabulated(Motion):
 
     @property
     def default_step(self) -> float:
-        """Mean spacing of the table."""
+        """Mean spacing of the table; a fixed step of a run is 0.1 at most."""
         return self.default_end / (len(self._table[0]) - 1)
 
 
@@ -53,11 +54,16 @@ class PrescribedLoad(Tabulated, UnderLoad):
     Parameters
     ----------
     T : array_like, shape (k,)
-        Increasing times, in 2a/u_sum.
+        Increasing times, four or more from 0 on, in 2a/u_sum.
     values : array_like, shape (k,)
         Load over the static one.
     Omega_n : float, optional
         Natural frequency of the bodies, in u_sum/(2a).
+
+    Raises
+    ------
+    InputError
+        Fewer than four times, or times that do not rise from 0; a load that is not positive.
     """
 
     T: ArrayLike
@@ -119,9 +125,14 @@ class PrescribedApproach(Tabulated):
     Parameters
     ----------
     T : array_like, shape (k,)
-        Increasing times, in 2a/u_sum.
+        Increasing times, four or more from 0 on, in 2a/u_sum.
     values : array_like, shape (k,)
         Approach over the dry one.
+
+    Raises
+    ------
+    InputError
+        Fewer than four times, or times that do not rise from 0.
     """
 
     T: ArrayLike

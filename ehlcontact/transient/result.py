@@ -19,6 +19,7 @@ from ehlcontact.results.story import Told, contact_text, span
 from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
+from ehlcontact.transient.pace import overlong
 from ehlcontact.transient.si import SimulationSI
 from ehlcontact.transient.tolerance import coarseness
 
@@ -214,12 +215,14 @@ class SimulationResult(Told, Tabled, Origin):
     def reservation(self) -> str:
         """What a converged run leaves open, in words; else empty.
 
-        Where the grid does not show the film at the start, and where `tol` is coarse for the motion.
+        Where the grid does not show the film at the start, and where step or `tol` are coarse for the motion.
         """
         if not self.status.ok:
             return ""
         tol = "" if self.tol is None else coarseness(self.motion, self.tol)
-        return "; ".join(filter(None, [grid_doubt(self.film_error, "at the start"), tol]))
+        return "; ".join(
+            filter(None, [grid_doubt(self.film_error, "at the start"), overlong(self.motion, self.T), tol])
+        )
 
     def _story(self) -> list[str]:
         told = [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from math import ceil
+from math import ceil, inf
 from typing import Self
 
 from ehlcontact.checks import require_choice, require_nonnegative, require_positive
@@ -34,9 +34,15 @@ class TimeSteps:
 
     @classmethod
     def of(
-        cls, motion: Motion, until: float | None, dT: float | None, error: float | None, tol: float | None
+        cls,
+        motion: Motion,
+        until: float | None,
+        dT: float | None,
+        error: float | None,
+        tol: float | None,
+        longest: float = inf,
     ) -> TimeSteps:
-        """Arguments of `simulate`; where they are None, what the motion needs.
+        """Arguments of `simulate`; where they are None, what the motion needs, in steps of `longest` at most.
 
         Raises
         ------
@@ -45,12 +51,12 @@ class TimeSteps:
         """
         until = motion.default_end if until is None else require_positive("until", until)
         tol = fitting_tol(motion) if tol is None else require_positive("tol", tol)
-        default = motion.default_step
+        default = min(motion.default_step, longest, until)
         if error is not None:
             if not SMALLEST_ERROR <= require_positive("error", error) <= LARGEST_ERROR:
                 raise InputError("error", error, f"between {SMALLEST_ERROR:g} and {LARGEST_ERROR:g}")
             tol = min(tol, TOL_SHARE * error)
-            default = min(FIRST_STEP * default, until)
+            default = min(FIRST_STEP * motion.default_step, until)
         dT = default if dT is None else require_positive("dT", dT)
         if dT > until:
             raise InputError("dT", dT, f"at most until = {until!r}")

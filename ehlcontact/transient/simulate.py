@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
@@ -21,13 +22,16 @@ from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError, Keeper, load_checkpoint, require_replaceable
 from ehlcontact.transient.film import TransientFilm
+from ehlcontact.transient.pace import fixed_step
 from ehlcontact.transient.record import History
 from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.roughness import Roughness
 from ehlcontact.transient.run import Run, RunEnd, march
 from ehlcontact.transient.settings import RunSettings, TimeSteps
 from ehlcontact.transient.step import StepControl
-from ehlcontact.transient.surface import Surface, surface_height
+from ehlcontact.transient.surface import Dent, Surface, require_surface, surface_height
+
+LARGEST_MISMATCH = 0.01  # of the kappa of a feature, over that of the contact
 
 
 @one_blas_thread()
@@ -63,8 +67,10 @@ def simulate(
         Computed region; by default wide enough for the largest load of the motion. Where the film leaves that one,
         the run begins again on a wider one.
     until, dT : float, optional
-        End and (fixed) step of dimensionless time; the motion's own defaults otherwise. The step is shortened
-        to divide `until` evenly. With `error`, `dT` is the step tried first.
+        End and (fixed) step of dimensionless time; the motion's own defaults otherwise. That of the step is at
+        most 0.1 for tables and ramps and 0.5 for other motions; over a feature a fortieth of the time in which its
+        wave passes (a tenth of a dent's radius), over `Roughness` and functions of one's own a node's. The step is
+        shortened to divide `until` evenly. With `error`, `dT` is the step tried first.
     error : float, optional
         Steps are not fixed but controlled: the estimated local error of each, in approach (dry approaches), force
         (static loads) and mean film, stays below `error`. Corners of the motion, snapshots and `until` are met.
@@ -79,7 +85,7 @@ def simulate(
         Times whose whole fields are kept.
     surface : callable, optional
         Feature G(X, Y, T) added to the gap, even in Y: `Dent`, `TransverseRidge`, `Waviness`, `Roughness`, or a
-        function of one's own. At rest for T <= 0.
+        function of one's own. At rest for T <= 0. One made for another `kappa` is warned of.
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection, as in `solve_steady`.
     threads : int, optional
@@ -118,10 +124,11 @@ def simulate(
     moes = require_solvable(point, motion.largest_load)
     mesh = mesh_for(moes, Purpose.RUN, n=n, domain=domain, largest_load=motion.largest_load)
     require_room(mesh, moes)
-    steps = TimeSteps.of(motion, until, dT, error, tol)
+    require_surface(surface)
+    _warn_of_shape(surface, moes.kappa)
+    spacing = (mesh.domain.x_out - mesh.domain.x_in) / mesh.n
+    steps = TimeSteps.of(motion, until, dT, error, tol, fixed_step(motion, surface, spacing))
     settings = RunSettings.of(moes, mesh, motion, steps, snapshots, deflection)
-    if not (surface is None or callable(surface)):
-        raise InputError("surface", surface, "a function of X, Y and T, or None")
     require_nonnegative("checkpoint_every", checkpoint_every)
     if checkpoint is not None:
         require_replaceable(checkpoint, restart)
@@ -181,6 +188,17 @@ def simulate(
     if unkept is not None:
         raise CheckpointError(unkept, result)
     return result
+
+
+def _warn_of_shape(surface: Surface | None, kappa: float) -> None:
+    """Say where a feature that is to be round in metres is made for another contact."""
+    if isinstance(surface, Dent | Roughness) and abs(surface.kappa - kappa) > LARGEST_MISMATCH * kappa:
+        warnings.warn(
+            f"kappa = {surface.kappa:.4g} of the surface is not that of the contact, {kappa:.4g}: what it takes "
+            f"for round is {surface.kappa / kappa:.3g} times as long across as along, in metres",
+            RuntimeWarning,
+            stacklevel=4,
+        )
 
 
 def _first_inside(

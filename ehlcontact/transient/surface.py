@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import pi
+from inspect import signature
+from math import inf, pi
 from typing import NamedTuple
 
 import numpy as np
@@ -36,6 +37,23 @@ class SurfaceStep(NamedTuple):
     before: Array  # at its beginning
     earlier: Array  # at the beginning of the step before
     rate: Array  # (d/dX + d/dT) G at the end: what passing film sees; 0 in pure rolling
+
+
+def require_surface(surface: object) -> None:
+    """Raise `InputError` unless this is None, or can be called with X, Y and T."""
+    if surface is None:
+        return
+    fits = callable(surface) and not isinstance(surface, type)
+    if fits:
+        try:
+            signature(surface).bind(0.0, 0.0, 0.0)  # type: ignore[arg-type]
+        except ValueError:  # one that does not tell, as some written in C
+            pass
+        except TypeError:
+            fits = False
+    if not fits:
+        name = getattr(surface, "__name__", None) or type(surface).__name__
+        raise InputError("surface", name, "a feature such as Dent(...), a function of X, Y and T, or None")
 
 
 def surface_height(surface: Surface | None, X: Array, Y: Array, T: float) -> Array | float:
@@ -140,6 +158,11 @@ class Dent:
         require_positive("kappa", self.kappa)
         require_nonnegative("speed", self.speed)
 
+    @property
+    def passing(self) -> float:
+        """Time in which a wave of it passes, in 2a/u_sum; infinite at rest."""
+        return _passing(4.0 * self.radius, self.speed)  # the cosine of its shape
+
     def __call__(self, X: Array, Y: Array, T: float) -> Array:
         """Height at time T."""
         r = np.hypot(X - self.start - self.speed * T, Y / self.kappa) / self.radius
@@ -172,6 +195,11 @@ class TransverseRidge:
         require_positive("width", self.width)
         require_finite("start", self.start)
         require_nonnegative("speed", self.speed)
+
+    @property
+    def passing(self) -> float:
+        """Time in which a wave of it passes, in 2a/u_sum; infinite at rest."""
+        return _passing(self.width, self.speed)
 
     def __call__(self, X: Array, Y: Array, T: float) -> Array:
         """Height at time T, the same for all Y."""
@@ -208,8 +236,17 @@ class Waviness:
         require_finite("start", self.start)
         require_nonnegative("speed", self.speed)
 
+    @property
+    def passing(self) -> float:
+        """Time in which a wave of it passes, in 2a/u_sum; infinite at rest."""
+        return _passing(self.wavelength, self.speed)
+
     def __call__(self, X: Array, Y: Array, T: float) -> Array:
         """Height at time T, the same for all Y."""
         s = (X - self.start - self.speed * T) / self.wavelength
         front = np.where(s < 0.0, 1.0 - np.exp(-10.0 * np.minimum(s, 0.0) ** 2), 0.0)
         return self.amplitude * front * np.sin(2.0 * pi * s) + 0.0 * Y
+
+
+def _passing(wave: float, speed: float) -> float:
+    return wave / speed if speed > 0.0 else inf

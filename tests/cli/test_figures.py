@@ -113,7 +113,7 @@ def test_steady_command_draws(call, point, tmp_path, suffix):
 
 def test_simulate_command_draws(call, point, tmp_path):
     target = tmp_path / "run.png"
-    options = ["--harmonic", "3", "--dt", "0.2", "--until", "1", "--json", "-"]
+    options = ["--harmonic", "3", "--dt", "0.05", "--until", "0.5", "--json", "-"]
     result = call("simulate", *point, "--n", "32", *options, "--figure", target)
     assert result.code == 0 and result.err == "" and result.out.startswith("{")
     assert target.read_bytes().startswith(b"\x89PNG")

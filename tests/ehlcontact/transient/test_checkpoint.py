@@ -276,7 +276,7 @@ def stopped(tmp_path_factory):
         until=0.4,
         dT=0.05,
         snapshots=(0.1,),
-        surface=Dent(0.05, 0.5, start=-0.5),
+        surface=Dent(0.05, 0.5, start=-0.5, kappa=0.5),
     )
     simulate(**arguments, checkpoint=path, callback=stop_after(0.16))
     return path, arguments
@@ -294,7 +294,7 @@ def stopped(tmp_path_factory):
         (dict(dT=0.04), ("dT", "0.05", "0.04")),
         (dict(error=1e-3), ("error", "None", "0.001")),
         (dict(snapshots=(0.1, 0.15)), ("snapshots", "[0.1]", "0.15")),
-        (dict(surface=Dent(0.06, 0.5, start=-0.5)), ("surface", "0.0464", "0.0557")),
+        (dict(surface=Dent(0.06, 0.5, start=-0.5, kappa=0.5)), ("surface", "0.0464", "0.0557")),
         (dict(surface=None), ("surface", "none")),
     ],
     ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",

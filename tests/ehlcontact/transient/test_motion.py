@@ -54,6 +54,12 @@ def test_prescribed_load():
     assert PrescribedLoad.from_function(lambda t: 1.0 + t, 3.0, steps=30).load(1.5) == pytest.approx(2.5)
 
 
+def test_load_period_is_that_of_a_load_that_swings():
+    assert HarmonicLoad(Omega=pi, Omega_n=5.0).load_period == pytest.approx(2.0)
+    for motion in (FreeVibration(Omega_n=5.0), RampLoad(2.0, 1.0, Omega_n=2.0), PrescribedLoad(T, 1.0 + T)):
+        assert motion.load_period == INF
+
+
 def test_prescribed_approach():
     motion = PrescribedApproach(T, 0.9 + 0.1 * T**2)
     assert motion.approach(0.37) == pytest.approx(0.9 + 0.1 * 0.37**2, rel=1e-12)

@@ -1,0 +1,130 @@
+"""The fixed step that a run takes by itself, and what is said of one that is too long."""
+
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+import pytest
+
+from ehlcontact import (
+    Dent,
+    FreeVibration,
+    HarmonicLoad,
+    InputError,
+    MoesPoint,
+    PrescribedApproach,
+    PrescribedLoad,
+    RampLoad,
+    Roughness,
+    Status,
+    TransverseRidge,
+    Waviness,
+    simulate,
+)
+from ehlcontact.transient.bodies import LONGEST_ABRUPT, LONGEST_SMOOTH
+from ehlcontact.transient.pace import FEWEST_STEPS, STEPS_PER_WAVE, fixed_step, overlong
+from ehlcontact.transient.settings import TimeSteps
+from ehlcontact.transient.surface import require_surface
+
+POINT = MoesPoint(200, 10, 0.5)
+COARSE = [0.0, 1.0, 2.0, 3.0, 4.0]
+BENT = PrescribedLoad(COARSE, [1.0, 1.3, 1.0, 1.3, 1.0])
+REST = PrescribedLoad(np.linspace(0.0, 3.0, 4), np.ones(4))
+MESH = 0.05
+
+
+@pytest.mark.parametrize(
+    ("motion", "step"),
+    [
+        (HarmonicLoad(Omega=pi), 2.0 / 80),
+        (HarmonicLoad(Omega=0.01), LONGEST_SMOOTH),
+        (FreeVibration(Omega_n=0.01), LONGEST_SMOOTH),
+        (BENT, LONGEST_ABRUPT),
+        (PrescribedApproach(COARSE, [0.9, 1.0, 0.9, 1.0, 0.9]), LONGEST_ABRUPT),
+        (RampLoad(2.0, 0.5, Omega_n=0.1), LONGEST_ABRUPT),
+        (PrescribedLoad(np.linspace(0.0, 1.0, 101), np.linspace(1.0, 2.0, 101)), 0.01),  # the table is finer
+    ],
+)
+def test_no_step_is_longer_than_the_film_allows(motion, step):
+    assert fixed_step(motion, None, MESH) == pytest.approx(step)
+
+
+@pytest.mark.parametrize(
+    ("surface", "step"),
+    [
+        (Dent(0.1, 0.3), 0.03),
+        (Dent(0.1, 0.3, speed=2.0), 0.015),
+        (Dent(0.1, 0.3, speed=0.0), LONGEST_ABRUPT),  # at rest: nothing passes
+        (Dent(0.1, 9.0), LONGEST_ABRUPT),
+        (TransverseRidge(0.1, 0.8), 0.8 / STEPS_PER_WAVE),
+        (Waviness(0.01, 0.4, speed=0.5), 0.8 / STEPS_PER_WAVE),
+        (Roughness.synthetic(0.01, 2.0, 1.5, speed=2.0), MESH / 2.0),  # waves of all lengths: a node a step
+        (Roughness.synthetic(0.01, 2.0, 1.5, speed=0.0), LONGEST_ABRUPT),
+        (lambda X, Y, T: 0.0 * X, MESH),
+    ],
+)
+def test_features_shorten_it(surface, step):
+    assert fixed_step(REST, surface, MESH) == pytest.approx(step)
+    assert fixed_step(HarmonicLoad(Omega=30.0), surface, MESH) == pytest.approx(min(step, 2.0 * pi / 30.0 / 80))
+
+
+def test_what_is_given_stays_and_an_early_end_is_met():
+    assert TimeSteps.of(BENT, None, 1.0, None, None, 0.1).dT == 1.0
+    assert TimeSteps.of(BENT, 0.02, None, None, None, 0.1).dT == 0.02
+    # steps under control of the error begin as the table says: a stop is a stop, and the film is looked at
+    assert TimeSteps.of(BENT, None, None, 1e-3, None, 0.1) == TimeSteps.of(BENT, None, None, 1e-3, None)
+
+
+def test_a_coarse_table_is_run_in_steps_that_show_the_film():
+    found, fine, coarse = (simulate(POINT, BENT, n=64, dT=dT) for dT in (None, 0.025, 1.0))
+    assert found.steps == 40 and coarse.steps == 4
+    assert found.h_min.min() == pytest.approx(fine.h_min.min(), rel=5e-3)
+    assert coarse.h_min.min() > 1.1 * fine.h_min.min()
+
+
+def test_a_dent_passes_in_steps_that_show_it():
+    found, fine = (simulate(POINT, REST, n=64, dT=dT, surface=Dent(0.1, 0.5, kappa=0.5)) for dT in (None, 0.0125))
+    assert found.steps == 60
+    assert found.h_central.max() == pytest.approx(fine.h_central.max(), rel=0.02)
+    assert found.h_central.max() > 1.3 * found.h_central[0]
+
+
+def test_few_steps_a_period_are_said_in_words():
+    motion = HarmonicLoad(Omega=pi)
+    few = simulate(POINT, motion, n=64, dT=0.2, until=2.0)
+    assert few.reservation == (
+        "the step is coarse: 10 to a period of the load; before taking damping from it give dT = 0.025"
+    )
+    assert few.reservation in repr(few) and few.summary()["reservation"] == few.reservation
+    assert replace(few, status=Status.STAGNATED).reservation == ""
+    for count in (FEWEST_STEPS - 1, FEWEST_STEPS, 80):
+        assert bool(overlong(motion, np.arange(9) * 2.0 / count)) == (count < FEWEST_STEPS)
+    assert overlong(FreeVibration(Omega_n=5.0), np.arange(9) * 1.0) == ""
+    assert overlong(motion, np.array([0.0, 0.1, 0.3, 0.5])) == ""  # controlled: of the error that was asked for
+    assert overlong(motion, np.array([0.0])) == ""
+
+
+@pytest.mark.parametrize("surface", [Dent(0.01, 0.5), Roughness.synthetic(0.01, 2.0, 1.5)], ids=["dent", "rough"])
+def test_a_feature_made_for_another_contact_is_warned_of(surface):
+    """It would be an ellipse in metres; whoever wants that is not kept from it."""
+    words = "^kappa = 1 of the surface is not that of the contact, 0.5: .* 2 times as long across as along"
+    with pytest.warns(RuntimeWarning, match=words) as told:
+        run = simulate(POINT, REST, n=32, until=0.1, surface=surface)
+    assert run.status.ok and told[0].filename == __file__
+    simulate(POINT, REST, n=32, until=0.1, surface=replace(surface, kappa=0.5003))  # rounded
+
+
+class Moving:
+    def __call__(self, X, Y, T):
+        return 0.0 * X
+
+
+@pytest.mark.parametrize("surface", [None, Dent(0.1, 0.3), Moving(), lambda *places: 0.0, lambda X, Y, T=0.0: 0.0])
+def test_surfaces_that_can_be_called(surface):
+    require_surface(surface)
+
+
+@pytest.mark.parametrize("surface", [lambda X, Y: 0.0 * X, Roughness, Dent, Moving, 1, "dent", np.zeros(3)])
+def test_surfaces_that_cannot_are_one_line(surface):
+    with pytest.raises(InputError, match=r"^surface = .*: must be a feature .*a function of X, Y and T, or None$"):
+        simulate(POINT, REST, n=16, surface=surface)
