@@ -7,6 +7,7 @@ from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
+from ehlcontact.results.steady import grid_doubt
 from ehlcontact.results.story import Told, contact_text
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
@@ -41,6 +42,12 @@ class FullContact(Told):
         Engine of the elastic deflection, as in `solve_steady`.
     threads : int, optional
         As in `solve_steady`.
+
+    Attributes
+    ----------
+    film_error : ErrorEstimate or None
+        How far approach (dry approaches) and films at rest may be from those of an endless fine mesh on the same
+        region; None where no coarser grid tells.
 
     Raises
     ------
@@ -77,6 +84,7 @@ class FullContact(Told):
                 break
             left = left or start
         self._check(start if start.status.ok else left or start)
+        self.film_error = self._film.error_at_rest(Balance.of_load())
         self.static_approach = self._film.u
         self.force = self._film.level.force()
 
@@ -89,7 +97,13 @@ class FullContact(Told):
             f"now: force {load * self.force:.5g}{newton}, film {size * self.h_central:.4g}{unit} in the centre, "
             f"{size * self.h_min:.4g}{unit} at least",
             f"at rest approach {size * self.static_approach:.5g}{unit}",
+            *filter(None, [self.reservation]),
         ]
+
+    @property
+    def reservation(self) -> str:
+        """Where the grid does not show the film at rest, in words; else empty."""
+        return grid_doubt(self.film_error, "at rest")
 
     @one_blas_thread()
     def advance(self, dt: float, approach: float, rate: float = 0.0) -> float:

@@ -33,6 +33,18 @@ def test_starts_at_rest(contact, steady):
     assert 0.0 < contact.h_min < contact.h_central
 
 
+def test_the_error_of_its_grid_is_that_of_the_film_at_rest(contact, steady, monkeypatch):
+    """And nothing that steps go on from is changed by it."""
+    assert contact.film_error.h_central == pytest.approx(steady(200, 10, 0.5, 32).error.h_central, rel=0.02)
+    assert contact.reservation.startswith("the grid is too coarse: at rest the central film may be off by 75 %")
+    assert contact.reservation in repr(contact)
+    assert FullContact(POINT, n=128).reservation == ""
+    monkeypatch.setattr("ehlcontact.transient.film.estimate_error", lambda multigrid, balance: None)
+    silent = FullContact(POINT, n=32)
+    assert silent.film_error is None and silent.reservation == ""
+    assert [c.advance(0.1, 0.9) for c in (contact, contact)] == [silent.advance(0.1, 0.9) for _ in range(2)]
+
+
 def test_rest_lasts(contact):
     for _ in range(3):
         assert contact.advance(0.5, contact.static_approach) == pytest.approx(1.0, abs=2e-4)
