@@ -124,7 +124,7 @@ class TransientFilm:
         The levels below the finest are written, and nothing that steps go on from.
         """
         newton = self.multigrid.newton
-        factors = newton.factors  # those of the film: others would change the rounding of the first step
+        factors = newton.factors  # those of the film, which a state of it keeps
         with np.errstate(over="ignore", invalid="ignore"):  # of a coarse film that runs away: off by anything
             error = estimate_error(self.multigrid, balance)
         newton.factors = factors

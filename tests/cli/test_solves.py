@@ -106,6 +106,17 @@ def test_tolerance_too_coarse_for_the_load_is_told(call, point):
     assert json.loads(coarse.out)["reservation"] in coarse.err
 
 
+def test_grid_too_coarse_for_the_start_of_a_run_is_told(call, point):
+    run = ["--n", "32", "--harmonic", "3", "--until", "0.1"]
+    fine = call("simulate", *point, *run)
+    assert fine.code == 0 and fine.err == "" and "error of the grid" in fine.out
+    coarse = call("simulate", "--M", "200", "--L", "10", "--kappa", "0.5", *run, "--json", "-")
+    found = json.loads(coarse.out)
+    assert coarse.code == 0 and coarse.err == f"ehlcontact: warning: {found['reservation']}\n"
+    assert found["reservation"].startswith("the grid is too coarse: at the start the central film may be off by")
+    assert found["film_error"]["h_central"] > 0.1
+
+
 def test_film_memory_from_a_simulation_alone(call, point, tmp_path):
     """The impedance is solved on the way, at the record's point, grid and domain."""
     record, element, report = tmp_path / "r.h5", tmp_path / "e.json", tmp_path / "fit.json"

@@ -19,6 +19,8 @@ from ehlcontact import (
     solve_steady,
 )
 from ehlcontact.solver.accuracy import ErrorEstimate
+from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.mesh import Purpose, mesh_for
 from ehlcontact.status import Status
 from ehlcontact.transient.film import TransientFilm
 
@@ -44,6 +46,19 @@ def test_nothing_that_a_run_goes_on_from_is_changed(name, monkeypatch):
     assert told.film_error is not None and silent.film_error is None
     for field in (*HISTORY, "snapshot_H", "snapshot_P"):
         np.testing.assert_array_equal(getattr(told, field), getattr(silent, field))
+
+
+def test_the_state_of_the_film_stays():
+    """Of the levels below the finest a state has the factors alone, which are those of the film itself."""
+    film = TransientFilm(POINT, mesh_for(POINT, Purpose.RUN, n=32), 3e-3)
+    film.start_steady(Balance.of_load())
+    before = film.save_state()
+    assert film.error_at_rest(Balance.of_load()) is not None
+    after = film.save_state()
+    assert after.factors is before.factors is not None
+    assert after.u == before.u
+    for name in ("P", "mass", "mass_before"):
+        np.testing.assert_array_equal(getattr(after, name), getattr(before, name))
 
 
 def test_it_is_that_of_the_steady_film():
