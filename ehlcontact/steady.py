@@ -93,7 +93,8 @@ def solve_steady(
     n : int
         Intervals along X, a multiple of 16; by default as many as the film needs, 128 or more, and, until the
         errors estimated are within 0.2 % of the dry approach, 1 % of the central and 3 % of the smallest film,
-        twice as many again: as far as a grid of a million nodes goes. ``result.error`` says what was reached.
+        twice as many again: as far as a grid of a million nodes goes, and of four where the side lobes of a long
+        contact come out negative otherwise. ``result.error`` says what was reached.
     domain : Domain, optional
         Computed region; by default ``Domain()``, wider at light load, and with `n` left out narrower where the
         film is too thin for a grid of that extent.
@@ -109,7 +110,7 @@ def solve_steady(
         V cycles, or Newton steps from the same full-multigrid start; both solve the same equations.
         ``"automatic"`` cycles; where that fails it begins again with twice the sweeps in every cycle, and at last,
         on grids that allow it, turns to Newton. Where lines lie close (long contacts, kappa above 1) it begins
-        again from a more careful start instead.
+        again from a more careful start instead, and on a still finer grid where that fails.
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection: fast transforms, exact to rounding; multilevel multi-integration, as in
         the paper; the direct sum, slow. See `ehlcontact.solver.deflection`.

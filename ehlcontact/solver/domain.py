@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ehlcontact.checks import require_finite, require_integer
 from ehlcontact.errors import InputError
 
-MOST_INTERVALS = 2048  # along X: a grid of two million nodes and more, which no solver here affords
+MOST_INTERVALS = 2048  # along X: beyond, grids of ten million nodes that no solver here affords
 HELD_BY_MARGINS = 0.08  # growth of the Hertz ellipse (of a quarter more load) for which no region has to grow
 
 
