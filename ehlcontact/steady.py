@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ehlcontact.checks import require_choice, require_finite, require_integer, require_positive
+from ehlcontact.checks import require_choice, require_finite, require_instance, require_integer, require_positive
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import MoesPoint, Point, Scales, require_solvable, scales_of
@@ -105,7 +105,8 @@ def solve_steady(
         Largest change of the pressure that further cycles would still make, over the Hertz pressure: the last one
         and its factor from cycle to cycle tell.
     max_cycles : int
-        Limit of V(2,1) cycles, or of Newton steps, on the finest grid.
+        Limit of V(2,1) cycles, or of Newton steps, on the finest grid. Where one below the default is reached,
+        nothing else is tried.
     method : {"automatic", "multigrid", "newton"}
         V cycles, or Newton steps from the same full-multigrid start; both solve the same equations.
         ``"automatic"`` cycles; where that fails it begins again with twice the sweeps in every cycle, and at last,
@@ -141,6 +142,7 @@ def solve_steady(
     moes = require_solvable(point)
     require_integer("max_cycles", max_cycles, "a whole number > 0", 1)
     require_positive("tol", tol)
+    require_instance("refine", refine, bool | np.bool_, "True or False")
     require_choice("method", method, tuple(METHODS))
     require_choice("deflection", deflection, tuple(ENGINES))
     threads = require_threads("threads", threads)
@@ -168,7 +170,7 @@ def solve_steady(
     for _ in range(1, LARGEST_ATTEMPTS):
         error = solved.error if refine else None
         other = remedy(solved.mesh, status, moes, n=n, domain=domain, error=error)
-        if other is None:
+        if other is None or _cut_short(status, max_cycles):
             break
         attempt, ended = work(other, _methods(method, other, moes)[: 1 if status.ok else None])
         if status.ok and not ended.ok:  # a film that is solved stays, whatever becomes of a finer one
@@ -176,13 +178,15 @@ def solve_steady(
             break
         solved, status = attempt, ended
     coarser = newton_mesh(solved.mesh, moes)
-    if n is None and status in FAILED and LAST_RESORT in METHODS[method] and coarser != solved.mesh:
+    hopeless = status in FAILED and not _cut_short(status, max_cycles)
+    if n is None and hopeless and LAST_RESORT in METHODS[method] and coarser != solved.mesh:
         attempt, ended = work(coarser, _methods(method, coarser, moes)[-1:])
         if ended not in FAILED:  # its smallest film may be far off, and says so; better than none
             solved, status = attempt, ended
     result = solved.result(status, scales_of(point), time.perf_counter() - started)
     if throw and not status.ok and status is not Status.INTERRUPTED:
-        raise ConvergenceError(f"steady solve {status}: {status.advice}", result)
+        where = f"after {result.cycles} iterations on n = {result.n}"
+        raise ConvergenceError(f"steady solve {status} {where}: {status.advice}", result)
     return result
 
 
@@ -202,9 +206,14 @@ def _solve(
             break
         attempt = _Attempt(point, mesh, way, deflection, threads)
         status = attempt.run(**run)
-        if status not in FAILED:
+        if status not in FAILED or _cut_short(status, run["most"]):
             break
     return attempt, status
+
+
+def _cut_short(status: Status, most: int) -> bool:
+    """Whether the caller's own limit of cycles ended a solve: nothing else is what was asked for."""
+    return status is Status.MAX_CYCLES and most < MAX_CYCLES
 
 
 class _Attempt:

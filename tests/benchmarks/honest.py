@@ -111,7 +111,7 @@ def is_full(errors: Errors) -> bool:
 def film_on(
     point: MoesPoint, mesh: Mesh, way: str = "cycles", threads: int = 1
 ) -> tuple[Multigrid, Callable[[], None], Advance]:
-    """Film, its start (full multigrid), and one iteration of `way` on it, its sweeps repeated where it falls slowly."""
+    """Film, its start (full multigrid), and one iteration of `way`, its sweeps repeated where it falls slowly."""
     options = {"threads": threads} | ({"effort": 2} if way.startswith("thorough") else {})
     known = inspect.signature(Multigrid).parameters  # earlier versions, measured beside, know neither
     options = {name: value for name, value in options.items() if name in known}

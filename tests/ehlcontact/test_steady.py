@@ -171,7 +171,9 @@ def test_domain_is_reported_and_used(steady):
 
 
 def test_too_few_cycles_raise_with_the_result():
-    with pytest.raises(ConvergenceError, match="max_cycles: The cycles ran out") as caught:
+    with pytest.raises(
+        ConvergenceError, match=r"max_cycles after 1 iterations on n = 64: The cycles ran out"
+    ) as caught:
         solve_steady(POINT, n=64, max_cycles=1)
     result = caught.value.result
     assert result.status is Status.MAX_CYCLES
@@ -290,3 +292,21 @@ def test_a_contact_five_times_as_long_as_wide():
     found = solve_steady(MoesPoint(43.93, 1.475, 4.847))
     assert found.n == 2048 and found.h_min == pytest.approx(0.00547, rel=0.01)
     assert found.error.h_min < 0.03
+
+
+@pytest.mark.parametrize("given", [{}, {"n": 32}, {"method": "newton", "n": 32}, {"refine": False}])
+def test_a_limit_of_cycles_ends_the_solve(monkeypatch, given):
+    """No finer grid, no other method: that is not what whoever limits the work asks for."""
+    runs, run = [], steady_module._Attempt.run
+    monkeypatch.setattr(steady_module._Attempt, "run", lambda *a, **k: runs.append(1) or run(*a, **k))
+    with pytest.raises(
+        ConvergenceError, match=r"max_cycles after 1 iterations on n = \d+: The cycles ran out"
+    ) as caught:
+        solve_steady(MoesPoint(20, 8, 0.5), max_cycles=1, tol=1e-9, **given)
+    assert caught.value.result.cycles == 1 and len(runs) == 1
+
+
+@pytest.mark.parametrize("refine", ["no", None, 1])
+def test_refine_is_a_truth_value(refine):
+    with pytest.raises(InputError, match=r"refine = .*: must be True or False"):
+        solve_steady(MoesPoint(20, 8, 0.5), refine=refine)

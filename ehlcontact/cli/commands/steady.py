@@ -13,6 +13,7 @@ from ehlcontact.cli.contact import Contact, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
+from ehlcontact.solver.domain import Domain
 
 if TYPE_CHECKING:
     from ehlcontact.results import SteadyResult
@@ -127,7 +128,11 @@ def _dimensionless(result: SteadyResult, central: str, smallest: str) -> list[tu
         ("central film", f"{result.h_central:.5f}", f"of the dry Hertz approach{central}"),
         ("minimum film", f"{result.h_min:.5f}", f"of the dry Hertz approach{smallest}"),
         ("maximum pressure", f"{result.p_max:.4f}", "of the Hertz pressure"),
-        ("moment of pressure", f"{result.moment:.5f}", "of load times semi-axis a: the film's rolling resistance"),
+        (
+            "moment of pressure",
+            f"{result.moment:.5f}",
+            f"of load times semi-axis a: the film's rolling resistance{_left_out(result)}",
+        ),
     ]
 
 
@@ -139,5 +144,17 @@ def _in_si(result: SteadyResult, central: str, smallest: str) -> list[tuple[str,
         ("central film", f"{numeral(1e6 * si.h_central)} µm", central.removeprefix(", ")),
         ("minimum film", f"{numeral(1e6 * si.h_min)} µm", smallest.removeprefix(", ")),
         ("maximum pressure", f"{numeral(1e-9 * si.p_max)} GPa", f"{numeral(result.p_max)} of the Hertz pressure"),
-        ("moment of pressure", f"{numeral(1e3 * si.moment)} N mm", "about the centre line: rolling resistance"),
+        (
+            "moment of pressure",
+            f"{numeral(1e3 * si.moment)} N mm",
+            f"about the centre line: rolling resistance{_left_out(result)}",
+        ),
     ]
+
+
+def _left_out(result: SteadyResult) -> str:
+    """Say that a region chosen for a thin film ends near the contact: that costs the moment 7 to 13 %."""
+    if result.domain.x_in <= Domain().x_in:
+        return ""
+    full = " ".join(f"{bound:g}" for bound in Domain().as_tuple())
+    return f", some 10 % low without the oil before X = {result.domain.x_in:g} (all of it: --domain {full})"
