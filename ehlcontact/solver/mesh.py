@@ -51,6 +51,8 @@ NEAREST_DOMAIN = Domain(-1.5, 1.2, 1.25)  # around such a film where it is very 
 
 # How fine? ------------------------------------------------------------------------------------------------------
 LARGEST_MESH = 0.12  # semi-axes: what the pressure itself asks for, however thick the film
+# And its spike where a film moves, in oil of L above that and inlets no wider: else C at Omega 5 is 40 % off.
+STIFF_OIL, SPIKE_INLET, SPIKE_MESH = 20.0, 1.0, 0.05
 # The side lobes of long contacts: mesh over inlet width that keeps their film positive where it is very thin; and
 # those for which it is within some ten per cent, taken as long as the grid has no more nodes than AFFORDABLE_GRID.
 MESH_OF_THIN_SIDES = 0.4
@@ -333,7 +335,8 @@ def _intervals(point: MoesPoint, domain: Domain, purpose: Purpose) -> int:
     """Intervals along X that `domain` needs."""
     width, (share, counts, largest) = point.inlet_width, FINENESS[purpose]
     if purpose is not Purpose.FILM:
-        return _first(point, domain, share * width, counts, largest)
+        spike = SPIKE_MESH if point.L > STIFF_OIL and width < SPIKE_INLET else LARGEST_MESH
+        return _first(point, domain, min(share * width, spike), counts, largest)
     sides = thin_sides(point)
     needed = (MESH_OF_THIN_SIDES if sides else share) * width
     if point.kappa > KAPPA_OF_SIDE_LOBES:  # the smallest film, in the side lobes, needs more than to be positive

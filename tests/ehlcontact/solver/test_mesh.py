@@ -177,6 +177,24 @@ def test_contacts_that_are_not_long_keep_their_lines(M, L, kappa):
         assert follows is None or follows.lines == 1
 
 
+@pytest.mark.parametrize("purpose", [Purpose.DAMPING, Purpose.RUN, Purpose.CONTACT])
+def test_spikes_of_stiff_oil_have_their_mesh_where_the_film_moves(purpose):
+    """Not a thick film, which has none, and not a steady one, which is judged by its own estimate."""
+    stiff, less, thick = (MoesPoint(*at) for at in ((1000, 24, 0.2), (1000, 20, 0.2), (5, 25, 0.08)))
+    assert mesh_for(stiff, purpose).size(stiff.kappa) <= m.SPIKE_MESH < mesh_for(less, purpose, n=96).size(0.2)
+    assert mesh_for(thick, purpose).size(thick.kappa) > m.SPIKE_MESH
+    assert mesh_for(stiff, Purpose.FILM).n == mesh_for(less, Purpose.FILM).n == 128
+
+
+@pytest.mark.slow
+def test_damping_of_stiff_oil_at_the_resonance_of_its_film_within_a_few_per_cent():
+    """On 80 intervals, which its inlet asks for, it is 25 % too large."""
+    point = MoesPoint(1000, 24, 0.2)
+    default, fine, coarse = (impedance(point, Omega=[5.0], n=n).damping[0] for n in (None, 192, 80))
+    assert default == pytest.approx(fine, rel=0.03)
+    assert coarse > 1.15 * fine
+
+
 def test_impedance_tells_the_grid_it_chose():
     assert impedance(MoesPoint(200, 10, 0.5), Omega=[0.0]).n == 80
     assert impedance(MoesPoint(200, 10, 0.5), Omega=[0.0], n=48).n == 48
