@@ -143,7 +143,7 @@ class SteadyResult(Told, Tabled, Origin):
         (`tests/reduced_models/atlas/test_atlas.py`).
 
         It depends on the oil further out, hence on the domain, by about lambda times the logarithm of its extent.
-        Around very thin films `solve_steady` closes the region in (``domain``): there it is 7 to 13 % low.
+        Around very thin films `solve_steady` closes the region in: it is 7 to 13 % low there (five films).
         """
         # Trapezoids; twice the half of Y >= 0, whose line in the middle counts half; P = 0 on the border.
         cell = (self.X[1] - self.X[0]) * (self.Y[1] - self.Y[0])

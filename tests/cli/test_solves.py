@@ -44,7 +44,7 @@ def test_steady_table_and_json_file(call, point, tmp_path):
 def test_a_region_that_ends_near_the_contact_says_what_that_costs(call, point):
     """As one chosen for a very thin film does: the moment of pressure is made of the oil ahead, too."""
     near = call("steady", *point, "--n", "32", "--domain", "-2", "1.35", "1.6")
-    assert "10 % low without the oil before X = -2 (all of it: --domain -4.5 1.5 3)" in " ".join(near.out.split())
+    assert "low for want of the oil before X = -2 (with it: --domain -4.5 1.5 3)" in " ".join(near.out.split())
     assert "without the oil" not in call("steady", *point, "--n", "32").out
 
 

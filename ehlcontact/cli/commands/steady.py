@@ -153,8 +153,8 @@ def _in_si(result: SteadyResult, central: str, smallest: str) -> list[tuple[str,
 
 
 def _left_out(result: SteadyResult) -> str:
-    """Say that a region chosen for a thin film ends near the contact: that costs the moment 7 to 13 %."""
+    """Say that the region ends nearer to the contact than the default one: that costs moment."""
     if result.domain.x_in <= Domain().x_in:
         return ""
     full = " ".join(f"{bound:g}" for bound in Domain().as_tuple())
-    return f", some 10 % low without the oil before X = {result.domain.x_in:g} (all of it: --domain {full})"
+    return f", low for want of the oil before X = {result.domain.x_in:g} (with it: --domain {full})"
