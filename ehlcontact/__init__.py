@@ -21,6 +21,7 @@ room             responsibility
 ``checks/``      checks of inputs, and the box that the solvers are made for
 ``errors``       `InputError`, `ConvergenceError`
 ``status``       how a solve or a run ended, with advice
+``summary``      `Summary`: what results and elements show at the prompt and in notebooks
 ``jit``          the numba decorators of the library
 ``cli/``         the command line; stands above all packages
 ================ ===========================================================================================

@@ -14,7 +14,7 @@ from textwrap import shorten
 from typing import Any
 
 from ehlcontact.errors import InputError
-from ehlcontact.results.story import WIDTH, Told
+from ehlcontact.summary import WIDTH, Summary
 from fmu.comparison import Comparison, compare_film, compare_spring
 from fmu.contacts import Element, Film
 from fmu.driver import Exchange, Slave
@@ -28,7 +28,7 @@ ORBIT = 1e-6  # of a rotor's motion: both balance their contacts to a billionth 
 
 
 @dataclass(frozen=True, slots=True)
-class Verification(Told):
+class Verification(Summary):
     """What was found; differences are relative, see `verify`.
 
     Attributes
@@ -70,18 +70,18 @@ class Verification(Told):
         differences = max(self.force, self.tangents, self.derivatives, self.exchange)
         return not self.findings and self.flags == 0 and differences <= TOLERANCE and self.motion <= ORBIT
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         largest = f"force {self.force:.2g}, tangents {self.tangents:.2g}, derivatives {self.derivatives:.2g}"
-        told = [
+        lines = [
             f"{'passes' if self.passes else 'fails'}: {self.states} states compared, {self.outside} of them "
             f"outside the validity interval, {self.parted} without force",
             f"largest differences: {largest}, model exchange {self.exchange:.2g}; {TOLERANCE:g} is allowed",
         ]
         if self.motion:
-            told.append(f"motion of the rotor {self.motion:.2g}, over its largest; {ORBIT:g} is allowed")
+            lines.append(f"motion of the rotor {self.motion:.2g}, over its largest; {ORBIT:g} is allowed")
         if self.flags:
-            told.append(f"outside_validity is wrong in {self.flags} states")
-        return [*told, *findings_text(self.findings)]
+            lines.append(f"outside_validity is wrong in {self.flags} states")
+        return [*lines, *findings_text(self.findings)]
 
     def to_dict(self) -> dict[str, Any]:
         """All fields and the verdict, for storage."""

@@ -20,8 +20,8 @@ from ehlcontact.point import Scales
 from ehlcontact.results import SteadyResult, require_scales
 from ehlcontact.results.contact_map import ContactMap, contact_panels
 from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.story import Told
 from ehlcontact.solver.lowest_film import lowest_film
+from ehlcontact.summary import Summary
 from ehlcontact.transient.result import SimulationResult
 
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ IN_SI = Layout(
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Profile(Told, Tabled):
+class Profile(Summary, Tabled):
     """Film and pressure along a line through the centre.
 
     Attributes
@@ -114,7 +114,7 @@ class Constriction:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Film(Told, Tabled):
+class Film(Summary, Tabled):
     """Film and pressure at one instant over the whole plane.
 
     Attributes
@@ -244,7 +244,7 @@ def _mirrored(field: Array) -> Array:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Interferogram(Told, Tabled):
+class Interferogram(Summary, Tabled):
     """Fringes of a film, where its grid resolves them `resolved`.
 
     Attributes

@@ -18,7 +18,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from ehlcontact.results import require_scales
 from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 from ehlcontact.transient.result import SimulationResult
 
 Array = NDArray[np.float64]
@@ -30,7 +30,7 @@ SLOWEST = 4.0  # times slower than the surfaces: the slowest wave that is found
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FilmHistory(Told, Tabled):
+class FilmHistory(Summary, Tabled):
     """Central and minimum film over time.
 
     Attributes
@@ -78,7 +78,7 @@ def film_history(run: SimulationResult) -> FilmHistory:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FilmWave(Told, Tabled):
+class FilmWave(Summary, Tabled):
     """Change of the film along Y = 0 over place and time: what the surfaces carry through.
 
     `X` is of shape (nx + 1,), `T` (steps + 1,), and `change` (steps + 1, nx + 1) the film less that at rest.
@@ -96,7 +96,7 @@ class FilmWave(Told, Tabled):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class WaveTrack(Told, Tabled):
+class WaveTrack(Summary, Tabled):
     """Delay of a film wave from place to place.
 
     Attributes

@@ -9,7 +9,6 @@ module        responsibility
 ``layout``    what their quantities are: as xarray, as pandas, as a figure
 ``contact_map`` pressure and film of a contact as a figure
 ``picture``   plain figures; matplotlib is imported where one is drawn
-``story``     what results and elements say of themselves at the prompt and in a notebook
 ============= =================================================================================
 """
 

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from ehlcontact.origin import Origin
 from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.si import ImpedanceSI
-from ehlcontact.results.story import Told, contact_text, span
+from ehlcontact.summary import Summary, contact_text, span
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class ImpedanceResult(Told, Tabled, Origin):
+class ImpedanceResult(Summary, Tabled, Origin):
     """Stiffness and damping of a contact over frequency, dimensionless; ``si`` has it in SI.
 
     Attributes
@@ -82,7 +82,7 @@ class ImpedanceResult(Told, Tabled, Origin):
         """How the films were found, in words."""
         return "solved"
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         at = f"{self.Omega.size} frequencies, Omega {span(self.Omega)}"
         if self.scales is None:
             found = [at, f"stiffness K {span(self.stiffness)}", f"damping C {span(self.damping)}"]

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
 from ehlcontact.results.picture import Map, Panel, draw
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 
 Array = NDArray[Any]
 
@@ -182,9 +182,9 @@ class Tabled:
         return draw(self._title(), list(shown._panels()), path)
 
     def _title(self) -> str:
-        """Name of the class, and the first line of its story where it has one of its own."""
-        own = getattr(type(self), "_story", Told._story) is not Told._story
-        return f"{type(self).__name__}: {self._story()[0]}" if own else type(self).__name__  # type: ignore[attr-defined]
+        """Name of the class, and the first line of its summary where it has one of its own."""
+        own = getattr(type(self), "_summary_lines", Summary._summary_lines) is not Summary._summary_lines
+        return f"{type(self).__name__}: {self._summary_lines()[0]}" if own else type(self).__name__  # type: ignore[attr-defined]
 
     def _quantities(self) -> Iterator[tuple[str, str, Array]]:
         """Name, name of the quantity that it is (another for error bars) and values, of all that are there."""

@@ -16,8 +16,8 @@ from ehlcontact.errors import InputError
 from ehlcontact.origin import freeze
 from ehlcontact.point import Scales
 from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.story import Told
 from ehlcontact.solver.accuracy import ErrorEstimate
+from ehlcontact.summary import Summary
 
 if TYPE_CHECKING:  # they import this module
     from ehlcontact.results.impedance import ImpedanceResult
@@ -40,7 +40,7 @@ def error_in_si(error: ErrorEstimate | None, scales: Scales) -> ErrorEstimate | 
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class View(Told, Tabled):
+class View(Summary, Tabled):
     """Numbers in SI, arrays read-only."""
 
     def __post_init__(self) -> None:

@@ -14,9 +14,9 @@ from ehlcontact.origin import Origin
 from ehlcontact.results.contact_map import contact_panels
 from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.si import SteadySI
-from ehlcontact.results.story import Told, contact_text
 from ehlcontact.solver.accuracy import ALL, ErrorEstimate
 from ehlcontact.status import Status
+from ehlcontact.summary import Summary, contact_text
 
 Array = NDArray[np.float64]
 
@@ -43,7 +43,7 @@ def film_bars(error: ErrorEstimate) -> tuple[str, str]:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class SteadyResult(Told, Tabled, Origin):
+class SteadyResult(Summary, Tabled, Origin):
     """Steady film of a contact under constant load, or at a prescribed approach, dimensionless; ``si`` is in SI.
 
     Attributes
@@ -192,7 +192,7 @@ class SteadyResult(Told, Tabled, Origin):
     def _drawn(self) -> SteadyResult:
         return self  # both in SI and without, as a contact is drawn
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         bars = ["", ""]
         if self.error is not None:
             bars = [f" ({bar})" for bar in film_bars(self.error)]

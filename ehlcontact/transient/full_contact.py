@@ -8,18 +8,18 @@ from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results.steady import grid_doubt
-from ehlcontact.results.story import Told, contact_text
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.mesh import Purpose, mesh_for, require_room, widened
 from ehlcontact.status import Status
+from ehlcontact.summary import Summary, contact_text
 from ehlcontact.transient.film import FilmState, Step, TransientFilm
 from ehlcontact.transient.si import ContactSI
 from ehlcontact.transient.tolerance import DEFAULT_TOL
 
 
-class FullContact(Told):
+class FullContact(Summary):
     """Transient EHL contact driven by its approach, for a rotor or any other time integrator.
 
     It starts at rest, steady under load 1. Everything is dimensionless: approach in dry approaches, force in
@@ -88,7 +88,7 @@ class FullContact(Told):
         self.static_approach = self._film.u
         self.force = self._film.level.force()
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         s = self.scales
         size, unit, load, newton = (1.0, "", 1.0, "") if s is None else (1e6 * s.length, " µm", s.force, " N")
         return [

@@ -15,9 +15,9 @@ from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin, freeze
 from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.results.steady import film_bars, grid_doubt
-from ehlcontact.results.story import Told, contact_text, span
 from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.status import Status
+from ehlcontact.summary import Summary, contact_text, span
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.pace import overlong
 from ehlcontact.transient.si import SimulationSI
@@ -36,7 +36,7 @@ HISTORY = {
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Instants(Told, Tabled):
+class Instants(Summary, Tabled):
     """A simulation between its steps, continuous with continuous slopes, dimensionless.
 
     Attributes
@@ -60,7 +60,7 @@ class Instants(Told, Tabled):
     def __post_init__(self) -> None:
         freeze(self)
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         return [
             f"{self.T.size} times, T {span(self.T)}",
             f"approach {span(self.approach)}, force {span(self.force)}",
@@ -68,7 +68,7 @@ class Instants(Told, Tabled):
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class SimulationResult(Told, Tabled, Origin):
+class SimulationResult(Summary, Tabled, Origin):
     """History of a transient contact, dimensionless; entry 0 is the initial state at T = 0. ``si`` has it in SI.
 
     Attributes
@@ -224,27 +224,27 @@ class SimulationResult(Told, Tabled, Origin):
             filter(None, [grid_doubt(self.film_error, "at the start"), overlong(self.motion, self.T), tol])
         )
 
-    def _story(self) -> list[str]:
-        told = [
+    def _summary_lines(self) -> list[str]:
+        lines = [
             contact_text(self.point, self.scales),
             f"{self.motion.kind}: {self.status} after {self.steps} steps on n = {self.n} to T = {self.T[-1]:.4g}",
         ]
         if self.scales is None:
-            told += [
+            lines += [
                 f"approach {span(self.approach)}, force {span(self.force)}",
                 f"film at least {self.h_min.min():.4g}",
             ]
         else:
             s = self.scales
-            told[1] += f", {1e3 * s.time * self.T[-1]:.4g} ms"
-            told += [
+            lines[1] += f", {1e3 * s.time * self.T[-1]:.4g} ms"
+            lines += [
                 f"approach {span(self.approach, 1e6 * s.length, 'µm')}, force {span(self.force, s.force, 'N')}"
             ]
-            told += [f"film at least {1e6 * s.length * self.h_min.min():.4g} µm"]
+            lines += [f"film at least {1e6 * s.length * self.h_min.min():.4g} µm"]
         if self.film_error is not None:
             central, least = film_bars(self.film_error)
-            told[-1] += f"; at the start {central} in the centre, {least} at least"
-        return [*told, *filter(None, [self.reservation])]
+            lines[-1] += f"; at the start {central} in the centre, {least} at least"
+        return [*lines, *filter(None, [self.reservation])]
 
     def summary(self) -> dict[str, Any]:
         """The JSON form of the command line."""

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 from fmu.comparison import END, each_over, floored
 from fmu.references.files import POINTS, STEPS, changed_files, read_references
 from fmu.references.series import References, Trial
@@ -35,7 +35,7 @@ class Interface:
 
 
 @dataclass(frozen=True, slots=True)
-class ReferenceCheck(Told):
+class ReferenceCheck(Summary):
     """What was found; see `verify_references`.
 
     Attributes
@@ -60,7 +60,7 @@ class ReferenceCheck(Told):
         """No finding, and all differences within the tolerance."""
         return not self.findings and all(one.difference <= self.tolerance for one in self.interfaces)
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         verdict = "passes" if self.passes else "fails"
         return [
             f"{verdict}: FMI {self.fmi}, differences up to {self.tolerance:g} are allowed",

@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from ehlcontact.errors import InputError
 from ehlcontact.results.layout import frame_of
 from ehlcontact.results.picture import Panel, draw
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 from fmu.verify import TOLERANCE
 
 _Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Trial(Told):
+class Trial(Summary):
     """Rows of one experiment.
 
     Attributes
@@ -37,7 +37,7 @@ class Trial(Told):
     knowns: Mapping[str, _Floats]
     unknowns: Mapping[str, _Floats]
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         return [f"{self.time.size} rows", f"set {', '.join(self.knowns)}", f"read {', '.join(self.unknowns)}"]
 
     def to_pandas(self) -> Any:
@@ -63,7 +63,7 @@ class Trial(Told):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class References(Told):
+class References(Summary):
     """Reference inputs and results of a model.
 
     Attributes
@@ -87,10 +87,10 @@ class References(Told):
     tolerance: float = TOLERANCE
     about: str = "Inputs, and what the model makes of them"
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         sizes = {"co-simulation": self.steps, "model exchange": self.points}
-        told = [f"{trial.time.size} rows of {name}" for name, trial in sizes.items() if trial is not None]
-        return [", ".join(told) or "nothing", f"within {self.tolerance:.1g} of the number"]
+        lines = [f"{trial.time.size} rows of {name}" for name, trial in sizes.items() if trial is not None]
+        return [", ".join(lines) or "nothing", f"within {self.tolerance:.1g} of the number"]
 
     def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
         """Matplotlib figure of the steps, or of the points where there are no steps; see `Trial.plot`.

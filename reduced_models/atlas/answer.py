@@ -13,7 +13,7 @@ from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.results import require_scales
 from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.story import Told, contact_text, span
+from ehlcontact.summary import Summary, contact_text, span
 from reduced_models.atlas.frequency import AtlasImpedance, Between
 
 _Floats = NDArray[np.float64]
@@ -27,7 +27,7 @@ _MOES = {
 
 
 @dataclass(frozen=True, eq=False)
-class AtlasAnswer(Told, Tabled):
+class AtlasAnswer(Summary, Tabled):
     """One point, dimensionless; ``si`` has it in SI, ``impedance`` K and C at any frequency.
 
     Attributes
@@ -69,7 +69,7 @@ class AtlasAnswer(Told, Tabled):
         """How the smallest film was found, and how sure it is, in words."""
         return f"from the atlas, ± {100.0 * self.error['h_min'] / self.h_min:.2g} %"
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         s, bar = self.scales, self.error
         size, unit = (1.0, "of the dry approach") if s is None else (s.length * 1e6, "µm")
         rigid, damps = (1.0, 1.0) if s is None else (s.stiffness * 1e-6, s.damping)
@@ -123,7 +123,7 @@ class AtlasAnswer(Told, Tabled):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasSI(Told, Tabled):
+class AtlasSI(Summary, Tabled):
     """An `AtlasAnswer` in SI.
 
     Attributes
@@ -185,7 +185,7 @@ class AtlasSI(Told, Tabled):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasAnswers(Told, Tabled):
+class AtlasAnswers(Summary, Tabled):
     """Many points at once, dimensionless: what `AtlasAnswer` has of one, with a first axis for the points.
 
     Attributes

@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from ehlcontact.point import Scales
 from ehlcontact.results import require_scales
 from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 
 _Floats = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ class Between:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasImpedance(Told, Tabled):
+class AtlasImpedance(Summary, Tabled):
     """Impedance of an `AtlasAnswer` at frequencies of one's own, dimensionless; ``si`` has it in SI.
 
     Attributes
@@ -103,7 +103,7 @@ class AtlasImpedance(Told, Tabled):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasImpedanceSI(Told, Tabled):
+class AtlasImpedanceSI(Summary, Tabled):
     """An `AtlasImpedance` in SI.
 
     Attributes

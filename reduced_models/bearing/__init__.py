@@ -20,6 +20,6 @@
 | state | `BearingState`: a bearing at rest, ball by ball; its file |
 | ross | bearings in rotors of ROSS, and its rotors on bearings: `from_ross`, `RossCallback` |
 | picture | figures |
-| told | what a bearing says of itself at the prompt |
+| summary | summary of a bearing for the prompt |
 | file | JSON of bearings and states |
 """

@@ -42,7 +42,7 @@ from reduced_models.bearing.loss import loss_of, require_loss_factor
 from reduced_models.bearing.race import RACES, Race, films_under, race_of, require_roughness
 from reduced_models.bearing.state import BearingState
 from reduced_models.bearing.statics import Standing, angle_of, direction_of, radial_load, stand
-from reduced_models.bearing.told import ToldBearing
+from reduced_models.bearing.summary import BearingSummary
 from reduced_models.elements.kinds import WideRangeContact
 
 _Floats = NDArray[np.float64]
@@ -57,7 +57,7 @@ POSITIONS = 12  # of the cage over a ball passage for means: those of 6205 are w
     youngs_modulus="Pa", density="kg/m3",
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
-class BallBearing(ToldBearing):
+class BallBearing(BearingSummary):
     """Deep-groove ball bearing under radial load, the outer ring standing still. SI units, y upwards.
 
     Every ball has a contact with either race, each with a film and its memory; both carry the ball in series, the

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_column, require_nonnegative, require_positive
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.story import Told, span
+from ehlcontact.summary import Summary, span
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.rotor import MatrixRotor
 
@@ -23,7 +23,7 @@ SPEED_RATIO = 1.25  # of neighbouring speeds at which laws are made
 
 @fields_take(t="s", speed_rpm="rev/min")
 @dataclass(frozen=True, eq=False)
-class SpeedCourse(Told, Tabled):
+class SpeedCourse(Summary, Tabled):
     """Speed of the shaft over time, straight between given times.
 
     Parameters
@@ -41,7 +41,7 @@ class SpeedCourse(Told, Tabled):
         rows="t", panels=("speed_rpm",), quantities={"t": ("s", "t"), "speed_rpm": ("rev/min", "t")}
     )
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         over = f"{self.t.size} times from {self.t[0]:.4g} to {self.t[-1]:.4g} s"
         return [f"{span(self.speed_rpm, 1.0, 'rev/min')}, {over}"]
 

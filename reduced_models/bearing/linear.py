@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.story import Told, span
+from ehlcontact.summary import Summary, span
 from reduced_models.bearing.balls import Balls, Turn
 from reduced_models.bearing.law import RaceLaw, carried, curve
 from reduced_models.bearing.loss import response
@@ -27,7 +27,7 @@ _Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
-class BearingCoefficients(Told, Tabled):
+class BearingCoefficients(Summary, Tabled):
     """Matrices of a small vibration of the ring, in the order x, y.
 
     Attributes
@@ -74,7 +74,7 @@ class BearingCoefficients(Told, Tabled):
         logs="x",
     )
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         x, y = self.load.tolist()
         K, C = self.stiffness, self.damping
         return [

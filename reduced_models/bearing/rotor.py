@@ -25,7 +25,7 @@ from ehlcontact.checks import (
 )
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.statics import StaticBalls
 
@@ -39,7 +39,7 @@ MOST_STEPS, MOST_HALVINGS = 60, 30  # of that search
 
 @fields_take(cage_angle="rad")
 @dataclass(frozen=True, kw_only=True)
-class BearingMount(Told):
+class BearingMount(Summary):
     """A bearing between two degrees of freedom of the shaft and the ground, or those of a housing.
 
     Parameters
@@ -59,7 +59,7 @@ class BearingMount(Told):
     housing: tuple[int, int] | None = None
     cage_angle: float = -pi / 2.0
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         on = "the ground" if self.housing is None else f"a housing at {self.housing[0]}, {self.housing[1]}"
         return [f"{self.bearing.name or 'ball bearing'} at degrees of freedom {self.x}, {self.y}, on {on}"]
 
@@ -103,7 +103,7 @@ class Unbalance:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class MatrixRotor(Told):
+class MatrixRotor(Summary):
     """A linear rotor on ball bearings, SI units.
 
     Parameters
@@ -134,7 +134,7 @@ class MatrixRotor(Told):
     unbalances: tuple[Unbalance, ...] = ()
     nodes: Mapping[str, tuple[int, int]] = field(default_factory=dict)
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         bearings = ", ".join(mount.bearing.name or "ball bearing" for mount in self.mounts)
         amounts = ", ".join(f"{1e6 * abs(unbalance.amount):.4g}" for unbalance in self.unbalances)
         return [

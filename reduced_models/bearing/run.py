@@ -18,7 +18,7 @@ from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import hdf5
 from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.story import Told, span
+from ehlcontact.summary import Summary, span
 from reduced_models.bearing.ball_bearing import RACES
 from reduced_models.bearing.balls import begin_rest, directions, films_of, press_balls, rest_balls, turning
 from reduced_models.bearing.contact import Films
@@ -39,7 +39,7 @@ FARTHEST = 0.05  # of a ball diameter, that a ring may go from the middle: no cl
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class BearingRun(Told, Tabled):
+class BearingRun(Summary, Tabled):
     """Histories of a rotor on ball bearings, SI; entry 0 is the start.
 
     Attributes
@@ -92,7 +92,7 @@ class BearingRun(Told, Tabled):
         first=0,
     )
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         return [
             f"{self.status} after {len(self.t) - 1} steps to {self.t[-1]:.4g} s, {span(self.speed_rpm)} rev/min",
             f"{self.displacement.shape[1]} degrees of freedom on {self.ring.shape[1]} bearings",

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
 from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 from reduced_models.bearing.file import plain, write
 from reduced_models.bearing.file import read as read_entries
 from reduced_models.bearing.kinematics import RADIANS
@@ -30,7 +30,7 @@ OF_FILMS = "h_central", "h_min", "lambda_ratio", "moment"  # arrays that a dry b
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class BearingState(Told, Tabled):
+class BearingState(Summary, Tabled):
     """A bearing at rest; arrays over the balls have two columns, inner and outer race.
 
     Attributes
@@ -111,21 +111,21 @@ class BearingState(Told, Tabled):
             array.setflags(write=False)
             object.__setattr__(self, name, array)
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         x, y = self.load.tolist()
         k = self.heaviest
-        told = [
+        lines = [
             f"{self.name or 'ball bearing'}, load ({x:.4g}, {y:.4g}) N at {self.speed_rpm:.5g} rev/min",
             f"{self.loaded} of {len(self.angles)} balls carry, the heaviest {self.force[k, 0]:.4g} N",
             "ring displaced by ({:.4g}, {:.4g}) µm".format(*(1e6 * self.displacement)),
         ]
         if self.h_min is not None:
-            told.append(f"smallest film there {1e6 * self.h_min[k].min():.4g} µm")
-            told[-1] += "" if self.lambda_ratio is None else f", lambda {self.lambda_ratio[k].min():.3g}"
+            lines.append(f"smallest film there {1e6 * self.h_min[k].min():.4g} µm")
+            lines[-1] += "" if self.lambda_ratio is None else f", lambda {self.lambda_ratio[k].min():.3g}"
         else:
-            told.append("no film: dry")
+            lines.append("no film: dry")
         torque = self.rolling_torque
-        return told if torque is None else [*told, f"films resist rolling with {1e3 * torque:.4g} N mm"]
+        return lines if torque is None else [*lines, f"films resist rolling with {1e3 * torque:.4g} N mm"]
 
     @property
     def loaded(self) -> int:

@@ -16,7 +16,7 @@
 | film_element | elements with a film memory: state, steps, tangents, impedance |
 | memory | `FilmMemoryContact`: one load |
 | wide | `WideRangeContact`: every load |
-| told | what an element says of itself at the prompt |
+| summary | summary and figure of an element |
 | kinds | the list of all kinds, and `load_element` |
 
 A new element is a frozen dataclass with its coefficients, ``low`` and ``high`` in a file of its own, entered in

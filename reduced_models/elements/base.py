@@ -27,7 +27,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import Point, Scales
 from reduced_models.elements.file import UNITS, naming, numbers, read_document, write_document
 from reduced_models.elements.made_for import MadeFor, known_scale, require_own_scales
-from reduced_models.elements.told import ToldElement
+from reduced_models.elements.summary import ElementSummary
 from reduced_models.elements.validity import Band, OutsideValidityWarning, Validity
 
 UNWATCHED = (-math.inf, math.inf, math.inf, -math.inf, math.inf)  # a reach that nothing leaves
@@ -45,7 +45,7 @@ class _Common:
     source: Mapping[str, Any] | None = field(default=None, repr=False, compare=False)
 
 
-class ContactElement(ToldElement, _Common, ABC):
+class ContactElement(ElementSummary, _Common, ABC):
     """Base of all elements, with or without memory.
 
     A subclass is a frozen dataclass with its coefficients, named in ``parameter_names``, and `low` and `high`.

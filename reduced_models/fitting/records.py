@@ -15,9 +15,9 @@ from ehlcontact.checks.frequency import fields_by_name, renamed_keys
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.story import Told, contact_text, span
+from ehlcontact.summary import Summary, contact_text, span
 from reduced_models.elements.file import UNITS
-from reduced_models.elements.told import HISTORY, HISTORY_SI
+from reduced_models.elements.summary import HISTORY, HISTORY_SI
 
 # Samples below which there is no history to speak of; a fit asks for more than its parameters itself.
 FEWEST_SAMPLES = 4
@@ -30,7 +30,7 @@ _HISTORIES = (*_REQUIRED, "load", "acceleration")
 
 @fields_by_name(6, omega_n="Omega_n, dimensionless")
 @dataclass(frozen=True, eq=False)
-class ContactRecord(Told, Tabled):
+class ContactRecord(Summary, Tabled):
     """One history of a contact, simulated or measured.
 
     Parameters
@@ -82,7 +82,7 @@ class ContactRecord(Told, Tabled):
     def _layout(self) -> Layout:
         return HISTORY_SI if self.units == "SI" else self.LAYOUT
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         kind = "" if self.motion is None else f", {self.motion.get('kind', 'a motion')}"
         return [
             f"{self.units}{kind}, {self.T.size} samples up to T = {self.T[-1]:.4g}",

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.results.layout import frame_of
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.memory import FilmMemoryContact
 from reduced_models.elements.spring import MemorylessContact
@@ -21,7 +21,7 @@ _Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ElementFit(Told):
+class ElementFit(Summary):
     """An element and how well it stands for its data; judge by ``rms``.
 
     Attributes
@@ -53,15 +53,15 @@ class ElementFit(Told):
     valid: Mapping[str, Any]
     condition: float | None
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         numbers = [f"{k} {v:.4g}" for k, v in self.parameters.items() if isinstance(v, int | float)]
         rest = [
             f"{name} {value:.5g}" for name in ("root", "tangent") if (value := getattr(self, name)) is not None
         ]
-        told = [f"{self.model}, {self.element.units}", ", ".join(numbers), ", ".join(rest) or "no root"]
+        lines = [f"{self.model}, {self.element.units}", ", ".join(numbers), ", ".join(rest) or "no root"]
         if self.rms is not None:
-            told.append(f"rms error {100.0 * self.rms:.2g} % of the standard deviation of the force")
-        return told
+            lines.append(f"rms error {100.0 * self.rms:.2g} % of the standard deviation of the force")
+        return lines
 
     def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
         """Figure of the element, as `ContactElement.plot`."""

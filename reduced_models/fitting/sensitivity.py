@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.results.layout import frame_of
 from ehlcontact.results.picture import Panel, draw
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 from reduced_models.elements.polynomial import PolynomialContact
 from reduced_models.fitting.models import COLUMNS, linear_estimate
 from reduced_models.fitting.records import ContactRecord
@@ -55,7 +55,7 @@ class SensitivityRow:
 
 
 @dataclass(frozen=True, slots=True)
-class Sensitivity(Told):
+class Sensitivity(Summary):
     """Table 2 for our records; the first row is the full model.
 
     Attributes
@@ -75,12 +75,12 @@ class Sensitivity(Told):
     independent_samples: float
     lag_one: float
 
-    def _story(self) -> list[str]:
-        told = [
+    def _summary_lines(self) -> list[str]:
+        lines = [
             f"terms by their weight: {', '.join(self.ranking)}",
             f"rms error {self.rows[0].rms:.2g} of the standard deviation of the force with all of them",
         ]
-        return [*told, *([self.warning] if self.warning else [])]
+        return [*lines, *([self.warning] if self.warning else [])]
 
     @property
     def ranking(self) -> tuple[str, ...]:

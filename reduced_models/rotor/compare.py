@@ -15,7 +15,7 @@ from ehlcontact.checks import require_nonnegative
 from ehlcontact.errors import InputError
 from ehlcontact.results.layout import frame_of
 from ehlcontact.results.picture import Panel, draw
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 from reduced_models.rotor.simulate import RotorResult
 
 _Floats = NDArray[np.float64]
@@ -55,7 +55,7 @@ class SignalDifference:
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison(Told):
+class Comparison(Summary):
     """Differences by signal: disc_x, disc_y, journal_x, journal_y, approach_i [m], force_i [N]; i from 1.
 
     Attributes
@@ -92,7 +92,7 @@ class Comparison(Told):
         """Largest `vibration_over_std` of the contact forces."""
         return self._worst(("force",), "vibration_over_std")
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         shares = {"displacements": self.displacement, "contact forces": self.force}
         said = (f"{name} differ by {100.0 * share:.2g} %" for name, share in shares.items() if share is not None)
         return [

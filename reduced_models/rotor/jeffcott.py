@@ -30,7 +30,7 @@ from ehlcontact.checks import (
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, moes_point
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 from reduced_models.rotor.equilibrium import StaticContacts, equilibrium
 
 _Floats = NDArray[np.float64]
@@ -77,7 +77,7 @@ class ContactMount:
 
 
 @dataclass(frozen=True, eq=False)
-class RotorState(Told):
+class RotorState(Summary):
     """Positions [m] and velocities [m/s] of disc and journal, each of shape (2,).
 
     Attributes
@@ -93,7 +93,7 @@ class RotorState(Told):
     disc_velocity: _Floats
     journal_velocity: _Floats
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         disc, journal = (1e6 * q for q in (self.disc, self.journal))
         fast = [1e3 * float(np.hypot(*v)) for v in (self.disc_velocity, self.journal_velocity)]
         return [
@@ -111,7 +111,7 @@ class RotorState(Told):
     unbalance="kg m", speed_rpm="rev/min", gravity="m/s2", load="N",
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
-class JeffcottRotor(Told):
+class JeffcottRotor(Summary):
     """Jeffcott rotor on contacts, after the equations at the head of this module.
 
     On ball bearings, with a disc anywhere, gyroscopic moments or housings: `rotor_on_bearings`.
@@ -158,7 +158,7 @@ class JeffcottRotor(Told):
     bearings: int = 2
     directions: str = "xy"
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         alone = np.sqrt(self.shaft_stiffness / self.disc_mass) / (2.0 * pi)
         x, y = self.static_load.tolist() if self.static_load.size == 2 else (0.0, float(self.static_load[-1]))
         return [

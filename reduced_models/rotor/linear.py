@@ -20,7 +20,7 @@ from scipy.interpolate import PchipInterpolator
 from ehlcontact import ImpedanceResult
 from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
 
@@ -66,7 +66,7 @@ def film_impedance(response: ImpedanceResult) -> Impedance:
 
 
 @dataclass(frozen=True, eq=False)
-class RotorMode(Told):
+class RotorMode(Summary):
     """One damped vibration of the rotor on its contacts.
 
     Attributes
@@ -84,7 +84,7 @@ class RotorMode(Told):
     journal: _Complex
     contact_share: float
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         return [
             f"{self.hz:.5g} Hz, logarithmic decrement {self.decrement:.4g}",
             f"{100.0 * self.contact_share:.3g} % of the strain energy in the contacts",
@@ -113,7 +113,7 @@ class RotorMode(Told):
 
 
 @dataclass(frozen=True, eq=False)
-class LinearRotor(Told):
+class LinearRotor(Summary):
     """A rotor and the impedance of each of its contacts about rest [N/m] over omega [rad/s].
 
     Parameters
@@ -132,8 +132,8 @@ class LinearRotor(Told):
     impedances: Sequence[Impedance]
     _normals: _Floats = field(init=False, repr=False)
 
-    def _story(self) -> list[str]:
-        return [f"about rest, {len(self.impedances)} contacts in each bearing", *self.rotor._story()]
+    def _summary_lines(self) -> list[str]:
+        return [f"about rest, {len(self.impedances)} contacts in each bearing", *self.rotor._summary_lines()]
 
     def __post_init__(self) -> None:
         if len(self.impedances) != len(self.rotor.mounts):

@@ -15,9 +15,9 @@ from ehlcontact.checks import as_column, require_choice, require_finite, require
 from ehlcontact.checks.frequency import Frequency, by_name
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.story import Told, span
+from ehlcontact.summary import Summary, span
 from reduced_models.elements.base import ContactElement
-from reduced_models.elements.told import HISTORY, HISTORY_SI
+from reduced_models.elements.summary import HISTORY, HISTORY_SI
 from reduced_models.elements.validity import frequency_of
 
 _Floats = NDArray[np.float64]
@@ -29,7 +29,7 @@ Load = float | ArrayLike | Callable[[float], float]
 
 
 @dataclass(frozen=True, eq=False)
-class OscillatorResult(Told, Tabled):
+class OscillatorResult(Summary, Tabled):
     """Histories in the units of the element, dimensionless or SI.
 
     Attributes
@@ -61,7 +61,7 @@ class OscillatorResult(Told, Tabled):
     def _layout(self) -> Layout:
         return HISTORY_SI if self.units == "SI" else self.LAYOUT
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         return [
             f"{self.status}, {self.T.size} times up to {self.T[-1]:.4g}, {self.evaluations} evaluations",
             f"approach {span(self.approach)}, force {span(self.force)}",

@@ -15,7 +15,7 @@ from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.story import Told, span
+from ehlcontact.summary import Summary, span
 from reduced_models.elements.validity import frequency_of
 from reduced_models.rotor.contact import Contact
 from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
@@ -26,7 +26,7 @@ RotorStatus = Status  # its public name; a run ends as converged, interrupted or
 
 
 @dataclass(frozen=True, eq=False)
-class RotorResult(Told, Tabled):
+class RotorResult(Summary, Tabled):
     """Histories of a rotor run in SI; entry 0 is the start.
 
     Attributes
@@ -74,7 +74,7 @@ class RotorResult(Told, Tabled):
         labels={"axis": ("x", "y")},
     )
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         swing = 1e6 * np.ptp(self.disc, axis=0)
         return [
             f"{self.status} after {len(self.t) - 1} steps to {self.t[-1]:.4g} s, {self.force.shape[1]} contacts",

@@ -22,7 +22,7 @@ from ehlcontact.checks import (
 )
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
-from ehlcontact.results.story import Told, span
+from ehlcontact.summary import Summary, span
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.rotor import BearingMount, Unbalance
 from reduced_models.shaft.beam import Piece
@@ -44,7 +44,7 @@ def _metres(field: str, value: float, largest: float) -> float:
 
 @fields_take(length="m", diameter="m", bore="m", youngs_modulus="Pa", density="kg/m3", damping_time="s")
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Shaft(Told):
+class Shaft(Summary):
     """A round shaft, of one section or several from left to right, bending and shearing as a Timoshenko beam.
 
     Parameters
@@ -78,7 +78,7 @@ class Shaft(Told):
     damping_time: float = 0.0
     elements: int = 8
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         sections = f"{self.length.size} sections" if self.length.size > 1 else "one section"
         hollow = f", bore {span(self.bore, 1e3, 'mm')}" if self.bore.any() else ""
         beam = "Timoshenko" if self.shear else "Euler and Bernoulli"
@@ -151,7 +151,7 @@ class Shaft(Told):
     damping="N s/m", load="N",
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
-class Disc(Told):
+class Disc(Summary):
     """A rigid disc on the shaft.
 
     Parameters
@@ -179,7 +179,7 @@ class Disc(Told):
     damping: float = 0.0
     load: tuple[float, float] = (0.0, 0.0)
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         turns = f"inertias {self.diametral_inertia:.4g} and {self.polar_inertia:.4g} kg m2"
         body = turns if self.diametral_inertia else "a point"
         return [
@@ -238,7 +238,7 @@ class Disc(Told):
     housing_damping="N s/m",
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Support(Told):
+class Support(Summary):
     """A ball bearing under the shaft, on the ground or in a housing on springs.
 
     Parameters
@@ -264,12 +264,12 @@ class Support(Told):
     housing_stiffness: Any = None
     housing_damping: Any = 0.0
 
-    def _story(self) -> list[str]:
-        told = [f"{self.bearing.name or 'ball bearing'} at {1e3 * self.position:.5g} mm"]
+    def _summary_lines(self) -> list[str]:
+        lines = [f"{self.bearing.name or 'ball bearing'} at {1e3 * self.position:.5g} mm"]
         if self.housing_mass is None:
-            return [f"{told[0]}, on the ground"]
+            return [f"{lines[0]}, on the ground"]
         springs = span(self.housing_stiffness, 1e-6, "N/µm")
-        return [*told, f"in a housing of {self.housing_mass:.4g} kg on springs of {springs}"]
+        return [*lines, f"in a housing of {self.housing_mass:.4g} kg on springs of {springs}"]
 
     def __post_init__(self) -> None:
         require_finite("position", self.position)

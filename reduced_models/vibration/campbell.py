@@ -18,7 +18,7 @@ from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import hdf5
 from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.story import Told, span
+from ehlcontact.summary import Summary, span
 from reduced_models.bearing.rotor import MatrixRotor
 from reduced_models.vibration.linearised import SHOWN, linearise
 from reduced_models.vibration.mode import WhirlMode, unlike
@@ -75,7 +75,7 @@ class CriticalSpeeds(tuple[CriticalSpeed, ...]):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Campbell(Told, Tabled):
+class Campbell(Summary, Tabled):
     """Modes over the speed of the shaft; a column of an array is one mode, followed from speed to speed.
 
     Attributes
@@ -107,8 +107,8 @@ class Campbell(Told, Tabled):
         first=0,
     )
 
-    def _story(self) -> list[str]:
-        told = [
+    def _summary_lines(self) -> list[str]:
+        lines = [
             f"{self.omega.shape[1]} modes at {self.speed_rpm.size} speeds, {span(self.speed_rpm)} rev/min",
             f"{span(self.hz, 1.0, 'Hz')}, logarithmic decrements {span(self.decrement)}",
         ]
@@ -117,8 +117,8 @@ class Campbell(Told, Tabled):
             speeds = ", ".join(f"{one.speed_rpm:.5g}" for one in found)
             above, below = _sides(self.hz - self.speed_rpm[:, None] / 60.0)
             none = f"no critical speed among them: {above} modes stay above the speed, {below} below"
-            told.append(f"critical speeds {speeds} rev/min" if found else none)
-        return told
+            lines.append(f"critical speeds {speeds} rev/min" if found else none)
+        return lines
 
     @property
     def hz(self) -> _Floats:

@@ -14,7 +14,7 @@ from ehlcontact.checks import require_instance, require_integer, require_nonnega
 from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.rotor import MatrixRotor
 from reduced_models.bearing.statics import StaticBalls
@@ -41,7 +41,7 @@ UNLOADED = 1e-9  # of its heaviest ball, the load of a preloaded bearing that is
 
 
 @dataclass(frozen=True, eq=False)
-class LinearisedRotor(Told):
+class LinearisedRotor(Summary):
     """A rotor about rest under its load, `linearise` makes it.
 
     Films are those of the speed and remember. Balls stand still while the rotor vibrates, at the angle of their

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scipy import linalg
 
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -35,7 +35,7 @@ NO_OSCILLATION = 1e-7  # of the fastest mode: below, a frequency is the rounding
 
 
 @dataclass(frozen=True, eq=False)
-class WhirlMode(Told):
+class WhirlMode(Summary):
     """One damped vibration of a rotor.
 
     Attributes
@@ -53,7 +53,7 @@ class WhirlMode(Told):
     shape: _Complex
     whirl: float
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         return [f"{self.hz:.5g} Hz, logarithmic decrement {self.decrement:.4g}, whirl {self.whirl:.3g}"]
 
     @property

@@ -15,7 +15,7 @@ from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.files import hdf5
 from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.story import Told, span
+from ehlcontact.summary import Summary, span
 from reduced_models.bearing.rotor import MatrixRotor
 from reduced_models.vibration.linearised import linearise
 
@@ -24,7 +24,7 @@ _Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class UnbalanceResponse(Told, Tabled):
+class UnbalanceResponse(Summary, Tabled):
     """Amplitudes over the speed, about rest: q(t) = cosine cos(w t) + sine sin(w t), the shaft's angle being w t.
 
     They are linear in the unbalance, however large; what a ring does that moves as far as its balls are pressed in
@@ -86,7 +86,7 @@ class UnbalanceResponse(Told, Tabled):
         table.attrs.update(frame.attrs)
         return table
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         largest = np.unravel_index(int(np.argmax(self.major)), self.major.shape)
         name = self._name(int(largest[1]))
         return [

@@ -1,4 +1,4 @@
-"""What an element says of itself at the prompt: kind, where it holds, how well it fits; arrays left out."""
+"""Summary and figure of an element: kind, validity, quality of the fit."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from ehlcontact.errors import InputError
 from ehlcontact.results.layout import Layout
 from ehlcontact.results.picture import Panel, draw
-from ehlcontact.results.story import Told
+from ehlcontact.summary import Summary
 from reduced_models.elements.validity import frequency_text, text_of
 
 if TYPE_CHECKING:
@@ -33,8 +33,8 @@ def _history(units: tuple[str, ...]) -> Layout:
 HISTORY, HISTORY_SI = _history(_IN_MOES), _history(_IN_SI)  # of one contact, in the units of its element
 
 
-class ToldElement(Told):
-    """Base of the elements, for that."""
+class ElementSummary(Summary):
+    """Base of the elements: summary and figure."""
 
     units: str
     validity: Validity
@@ -92,11 +92,11 @@ class ToldElement(Told):
         found = ("stiffness", Z.real, K), ("damping", Z.imag / w, C)
         return [Panel(x, [("", values, None)], (name, unit), "xy") for name, values, unit in found]
 
-    def _story(self) -> list[str]:
+    def _summary_lines(self) -> list[str]:
         si = self.units == "SI"
         numbers = {k: v for k, v in self.parameters.items() if isinstance(v, int | float)}
         arrays = [k for k in self.parameters if k not in numbers]
-        told = [
+        lines = [
             f"{self.units}, {f'{self.state_count} states' if self.state_count else 'no memory'}",
             ", ".join(
                 [*(f"{name} {value:.4g}" for name, value in numbers.items()), *(f"{k} [..]" for k in arrays)]
@@ -104,10 +104,10 @@ class ToldElement(Told):
             f"approach {text_of(self.validity.approach)}{' m' if si else ''}",
         ]
         if self.load_range is not None:
-            told[-1] += f", load {text_of(self.load_range)}{' N' if si else ''}"
+            lines[-1] += f", load {text_of(self.load_range)}{' N' if si else ''}"
         if self.omega_range is not None:
-            told.append(frequency_text(self.omega_range, self.units))
+            lines.append(frequency_text(self.omega_range, self.units))
         rms = None if self.fit is None else self.fit.get("rms")
         if isinstance(rms, int | float):
-            told.append(f"rms error {100.0 * rms:.2g} % of the standard deviation of the force it was fitted to")
-        return told
+            lines.append(f"rms error {100.0 * rms:.2g} % of the standard deviation of the force it was fitted to")
+        return lines

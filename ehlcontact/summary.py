@@ -1,4 +1,4 @@
-"""What an object says of itself at Python's prompt and in a notebook: a few lines, arrays left out."""
+"""Summary of an object for the prompt and notebooks: a few lines without arrays."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from numpy.typing import ArrayLike
 
 from ehlcontact.point import MoesPoint, Scales
 
-LINES, WIDTH = 5, 90  # of what is said, and characters of a line
+LINES, WIDTH = 5, 90  # most lines of a summary, and characters of a line
 
 
-class Told:
-    """Base of what tells its story: a subclass says it in `_story`, the first line beside its name."""
+class Summary:
+    """Base of classes with a summary: `_summary_lines` returns its lines, the first stands beside the name."""
 
     __slots__ = ()
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        cls.__repr__ = Told.__repr__  # type: ignore[method-assign]  # in the class itself: a dataclass leaves it
+        cls.__repr__ = Summary.__repr__  # type: ignore[method-assign]  # in the class itself: a dataclass leaves it
 
-    def _story(self) -> Sequence[str]:
-        """Five lines at most; where a class has none of its own, its numbers, and the shapes of its arrays."""
+    def _summary_lines(self) -> Sequence[str]:
+        """Lines of the summary, five at most; by default the numbers of the class and the shapes of its arrays."""
         names = [field.name for field in fields(self) if field.name[0] != "_"]  # type: ignore[arg-type]
         values = {name: getattr(self, name) for name in names}
         numbers = (f"{name} {value:.5g}" for name, value in values.items() if isinstance(value, int | float))
@@ -36,17 +36,17 @@ class Told:
         return text.splitlines() or [""]
 
     def __repr__(self) -> str:
-        first, *others = self._story()
+        first, *others = self._summary_lines()
         return "\n".join([f"{type(self).__name__}: {first}", *(f"  {line}" for line in others)])
 
     def _repr_html_(self) -> str:
-        """The same for a notebook."""
-        first, *others = (escape(line) for line in self._story())
+        """The summary as HTML, for a notebook."""
+        first, *others = (escape(line) for line in self._summary_lines())
         return "<br>".join([f"<strong>{type(self).__name__}</strong>: {first}", *others])
 
 
 def contact_text(point: MoesPoint | None, scales: Scales | None) -> str:
-    """Which contact it is; with load and Hertz pressure where it has units."""
+    """Contact in words: Moes numbers and kappa; with scales also load and Hertz pressure."""
     if point is None:
         return "a contact that is not known"
     text = f"M {point.M:.4g}, L {point.L:.4g}, kappa {point.kappa:.4g}"
@@ -54,7 +54,7 @@ def contact_text(point: MoesPoint | None, scales: Scales | None) -> str:
 
 
 def span(values: ArrayLike, factor: float = 1.0, unit: str = "") -> str:
-    """Smallest and largest of some numbers, one where they are alike."""
+    """Range of values as text: smallest and largest, or one number where they are equal."""
     array = np.asarray(values, float)
     array = array[np.isfinite(array)] * factor
     if not array.size:

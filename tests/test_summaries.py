@@ -28,7 +28,7 @@ from ehlcontact import (
     solve_steady,
 )
 from ehlcontact.results.layout import Tabled
-from ehlcontact.results.story import Told, span
+from ehlcontact.summary import Summary, span
 from fmu import References, Trial
 from fmu.references.check import Interface
 from reduced_models import (
@@ -61,7 +61,7 @@ from reduced_models import (
 
 # What a user gives, or a few numbers: shown as they are.
 SHOWN = "PrescribedApproach", "PrescribedLoad", "Roughness"
-INPUT, NUMBERS, KIND = "an input", "a few numbers, which its story has", "no result: it is used by its kind"
+INPUT, NUMBERS, KIND = "an input", "a few numbers, which its summary has", "no result: it is used by its kind"
 # Public classes without `plot`, and why.
 WITHOUT_PLOT = {
     **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Mesh", "Purpose"), INPUT),
@@ -164,9 +164,9 @@ def rotors(element, bearing):
     ]  # fmt: skip
 
 
-def test_stories_are_short(told):
+def test_summaries_are_short(told):
     for thing in told:
-        if not isinstance(thing, Told):
+        if not isinstance(thing, Summary):
             continue
         lines = repr(thing).splitlines()
         assert 1 <= len(lines) <= 5, repr(thing)
@@ -197,7 +197,7 @@ def test_every_public_result_of_arrays_is_told():
             if inspect.isclass(value) and is_dataclass(value) and name not in SHOWN:
                 kinds = [str(field.type) for field in fields(value)]
                 if any("NDArray" in kind or "Array" in kind or "_Floats" in kind for kind in kinds):
-                    left += [] if issubclass(value, Told) else [name]
+                    left += [] if issubclass(value, Summary) else [name]
     assert left == []
 
 
