@@ -32,7 +32,7 @@ from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
 from ehlcontact.solver.memory import Solve
-from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, require_room, widened
+from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, require_room, wider_meshes
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
@@ -121,7 +121,7 @@ def _steady(point: Point, n: int | None, domain: Domain | None, deflection: str,
     mesh = mesh_for(moes, Purpose.DAMPING, n=n, domain=domain)
     require_room(mesh, moes, Solve.IMPEDANCE)
     way: dict[str, Any] = {"deflection": deflection, "threads": threads, "throw": False}
-    for tried in widened(mesh, moes, Purpose.DAMPING, n=n, domain=domain, solve=Solve.IMPEDANCE):
+    for tried in wider_meshes(mesh, moes, Purpose.DAMPING, n=n, domain=domain, solve=Solve.IMPEDANCE):
         steady = solve_steady(point, n=tried.n, domain=tried.domain, **way)
         if steady.status is not Status.OUT_OF_DOMAIN:
             break

@@ -19,7 +19,7 @@ from dataclasses import asdict, dataclass, field, replace
 from math import inf, pi, sqrt
 
 from ehlcontact.checks import require_finite, require_nonnegative, require_positive
-from ehlcontact.checks.box import INPUTS, Given, require_in_box
+from ehlcontact.checks.admissible_range import INPUTS, Given, require_admissible
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.formulas import expected_film, film_to_moes, load_number, moes_pressure
@@ -352,7 +352,7 @@ def require_solvable(point: Point, largest_load: float = 1.0, given: Given | Non
     Raises
     ------
     InputError
-        An input that is no rolling contact's; M, L, kappa or a pressure outside `ehlcontact.checks.box`.
+        An input that is no rolling contact's; M, L, kappa or a pressure outside `checks.admissible_range`.
     """
     moes = moes_point(point)
     if isinstance(point, OperatingPoint):
@@ -361,9 +361,11 @@ def require_solvable(point: Point, largest_load: float = 1.0, given: Given | Non
         inputs = {name: (getattr(moes, name), INPUTS[name]) for name in ("alpha", "eta0")}
         for name, (value, quantity) in inputs.items():
             quantity.require(name, value)
-    require_in_box(_box_numbers(moes), inputs)
+    require_admissible(_range_numbers(moes), inputs)
     if largest_load > 1.0:
-        require_in_box(_box_numbers(replace(moes, M=moes.M * largest_load)), inputs, " under the largest load")
+        require_admissible(
+            _range_numbers(replace(moes, M=moes.M * largest_load)), inputs, " under the largest load"
+        )
     return moes
 
 
@@ -375,8 +377,8 @@ def _si_inputs(point: OperatingPoint) -> Given:
     return {name: (value, INPUTS[name]) for name, value in values.items()}
 
 
-def _box_numbers(moes: MoesPoint) -> dict[str, float]:
-    """What `require_in_box` looks at."""
+def _range_numbers(moes: MoesPoint) -> dict[str, float]:
+    """What `require_admissible` looks at."""
     try:
         exponent = float(log_viscosity.py_func(1.0, moes.law)[0])
     except OverflowError:

@@ -21,7 +21,7 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.estimate import estimate_error
-from ehlcontact.solver.iterate import Goal, Track, iterate
+from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.memory import Solve
 from ehlcontact.solver.mesh import (
     FAILED,
@@ -51,22 +51,22 @@ class Method(NamedTuple):
     """How one mesh is solved."""
 
     newton: bool
-    effort: int  # of the cycles, and of those that lead to the start of Newton steps
-    careful: bool = False  # start of the cycles
+    sweep_factor: int  # of the cycles, and of those that lead to the start of Newton steps
+    load_continuation: bool = False  # during full multigrid
 
 
-LAST_RESORT = Method(newton=True, effort=2)  # the effort of the attempt before, which made no worse a start
+LAST_RESORT = Method(newton=True, sweep_factor=2)  # as the attempt before, whose start was no worse
 # Twice the sweeps settle some films that single ones do not; a second attempt at once costs less than Newton.
 METHODS = {
     "automatic": (Method(False, 1), Method(False, 2), LAST_RESORT),
     "multigrid": (Method(False, 1),),
     "newton": (Method(True, 1),),
 }
-# Where lines lie close, twice the sweeps settle nothing that single ones do not; a careful start does, at up to
+# Where lines lie close, twice the sweeps settle nothing that single ones do not; load continuation does, at up to
 # three times the cost. Newton steps come last: on grids of this kind they cost more, and fail where it does not.
-CAREFUL = Method(newton=False, effort=1, careful=True)
-CLOSE_LAST_RESORT = Method(newton=True, effort=1)
-CLOSE_METHODS = (Method(False, 1), CAREFUL, CLOSE_LAST_RESORT)
+CONTINUATION = Method(newton=False, sweep_factor=1, load_continuation=True)
+CLOSE_LAST_RESORT = Method(newton=True, sweep_factor=1)
+CLOSE_METHODS = (Method(False, 1), CONTINUATION, CLOSE_LAST_RESORT)
 
 
 @one_blas_thread()
@@ -111,7 +111,7 @@ def solve_steady(
         V cycles, or Newton steps from the same full-multigrid start; both solve the same equations.
         ``"automatic"`` cycles; where that fails it begins again with twice the sweeps in every cycle, and at last,
         on grids that allow it, turns to Newton. Where lines lie close (long contacts, kappa above 1) it begins
-        again from a more careful start instead, and on a still finer grid where that fails.
+        again with the load raised in small steps instead, and on a still finer grid where that fails.
     deflection : {"fft", "mlmi", "direct"}
         Engine of the elastic deflection: fast transforms, exact to rounding; multilevel multi-integration, as in
         the paper; the direct sum, slow. See `ehlcontact.solver.deflection`.
@@ -192,9 +192,9 @@ def solve_steady(
 
 def _methods(method: str, mesh: Mesh, point: MoesPoint) -> tuple[Method, ...]:
     """What is tried on this mesh, one after the other."""
-    if mesh.lines == 1 or LAST_RESORT not in METHODS[method]:
+    if mesh.y_refinement == 1 or LAST_RESORT not in METHODS[method]:
         return METHODS[method]
-    return (CAREFUL,) if is_last(mesh, point) else CLOSE_METHODS
+    return (CONTINUATION,) if is_last(mesh, point) else CLOSE_METHODS
 
 
 def _solve(
@@ -222,10 +222,15 @@ class _Attempt:
     def __init__(self, point: MoesPoint, mesh: Mesh, method: Method, deflection: str, threads: int) -> None:
         self.mesh, self.method = mesh, method
         self.multigrid = Multigrid(
-            point, mesh, deflection=deflection, effort=method.effort, careful=method.careful, threads=threads
+            point,
+            mesh,
+            deflection=deflection,
+            sweep_factor=method.sweep_factor,
+            load_continuation=method.load_continuation,
+            threads=threads,
         )
         self.scale = self.multigrid.finest.dry_residual()
-        self.track = Track()
+        self.track = IterationHistory()
         self.error: ErrorEstimate | None = None
 
     def run(self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None) -> Status:
@@ -233,14 +238,16 @@ class _Attempt:
         mg = self.multigrid
         if balance.weight == 0.0:
             mg.u = balance.rhs
-        goal = Goal(self.scale, LARGEST_RESIDUAL, most, LOAD_TOLERANCE, APPROACH_TOLERANCE, pressure=tol)
+        goal = StoppingCriteria(
+            self.scale, LARGEST_RESIDUAL, most, LOAD_TOLERANCE, APPROACH_TOLERANCE, pressure=tol
+        )
         try:
             return self._run(goal, balance, watch)
         except KeyboardInterrupt:
             return Status.INTERRUPTED
 
     @np.errstate(over="ignore", invalid="ignore")  # of a film that runs away: its status says so
-    def _run(self, goal: Goal, balance: Balance, watch: Callable[[int, float], None] | None) -> Status:
+    def _run(self, goal: StoppingCriteria, balance: Balance, watch: Callable[[int, float], None] | None) -> Status:
         mg = self.multigrid
         # With close lines cycles need the better start, which raises the load by cycles on the grid of half the
         # intervals; where those fail, in stiff oil, Newton steps do with the other one.
@@ -271,7 +278,7 @@ class _Attempt:
             h_min=level.lowest_film(),
             residuals=np.array(track.residuals),
             load_residuals=np.array(track.balance_residuals),
-            approach_changes=np.array(track.changes),
+            approach_changes=np.array(track.approach_changes),
             # Ctrl-C may have come within a cycle, before its residual was known
             pressure_changes=np.array(track.pressure_changes[: max(track.iterations, 0)]),
             dry_residual=self.scale,

@@ -1,14 +1,14 @@
-"""Checks of inputs: plain ones, and what the solvers are made for.
+"""Checks of inputs; each raises one line that names the input and its allowed range.
 
-============= =================================================================================================
-room          responsibility
-============= =================================================================================================
-``inputs``    each returns what it was given, in its plain form, or raises one line that names it
-``frequency`` the one rule for frequencies: named with their unit, exactly one given
-``quantity``  numbers with a unit of their own, as pint's, where an input is in SI
-``machine``   threads, within the cores there are
-``box``       what the solvers are made for, and the slip of unit that a number outside betrays
-============= =================================================================================================
+==================== ==========================================================================================
+module               responsibility
+==================== ==========================================================================================
+``inputs``           numbers, arrays, choices: returned as plain Python or numpy objects
+``frequency``        frequencies, named with their unit, exactly one given
+``quantity``         numbers with a unit, such as those of pint, converted to SI
+``machine``          number of threads, at most the cores of the machine
+``admissible_range`` ranges of SI and Moes inputs, and the unit that a value outside was probably given in
+==================== ==========================================================================================
 """
 
 from ehlcontact.checks.inputs import (

@@ -33,7 +33,7 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from ehlcontact.process.guard import INTERRUPTED, TOO_EARLY, end_guard
+from ehlcontact.process.early_interrupt import INTERRUPTED, NOTHING_COMPUTED, restore_interrupt
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
@@ -41,11 +41,11 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     try:
         from ehlcontact.cli.app import execute
 
-        end_guard()
+        restore_interrupt()
         code = execute(arguments)
         if arguments is None:  # all is said and done: what is left, the end of Python, is no longer interrupted
             signal.signal(signal.SIGINT, signal.SIG_IGN)
     except KeyboardInterrupt:  # between one guard and the next
-        sys.stderr.write(TOO_EARLY)
+        sys.stderr.write(NOTHING_COMPUTED)
         code = INTERRUPTED
     raise SystemExit(code)

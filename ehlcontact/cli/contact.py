@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from ehlcontact.checks import require_choice, require_positive
-from ehlcontact.checks.box import INPUTS, Given
+from ehlcontact.checks.admissible_range import INPUTS, Given
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.oils import OIL_HELP, TEMP_HELP, oil_grade
 from ehlcontact.cli.options import called

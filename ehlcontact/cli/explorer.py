@@ -20,7 +20,7 @@ from scipy.interpolate import CubicSpline
 
 from ehlcontact import __version__
 from ehlcontact.assumptions.film import LEAST_LAMBDA, MIXED_LAMBDA
-from ehlcontact.checks.box import INPUTS, Quantity
+from ehlcontact.checks.admissible_range import INPUTS, Quantity
 from ehlcontact.lubricant import MineralOil, oil
 from ehlcontact.lubricant.law import ROELANDS_LOG, ROELANDS_P0
 from ehlcontact.lubricant.oil import GRADES

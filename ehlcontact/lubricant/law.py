@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from ehlcontact.checks import require_choice, require_nonnegative, require_positive
-from ehlcontact.checks.box import INPUTS
+from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_node

@@ -1,14 +1,14 @@
-"""Processes: how they end, and how many threads they use.
+"""Processes and threads: interruption, worker processes, shared loops, memory.
 
-===========  =======================================================================================
-room         responsibility
-===========  =======================================================================================
-``guard``    Ctrl-C while the command line is imported; nothing else is imported before it
-``workers``  processes that end with their parent, and leave Ctrl-C to it
-``threads``  `Team`: threads that share the loops of a solve; how many there are by default
-``blas``     BLAS on one thread while we solve
-``memory``   how much memory may still be taken
-===========  =======================================================================================
+=================== ================================================================================
+module              responsibility
+=================== ================================================================================
+``early_interrupt`` Ctrl-C while the command line is being imported; imported before everything else
+``workers``         worker processes: they end with their parent and ignore Ctrl-C
+``threads``         `Team`: threads that share the loops of a solve; their default number
+``blas``            limit of BLAS to one thread during a solve
+``memory``          memory that is still available to this process
+=================== ================================================================================
 """
 
-from ehlcontact.process import guard as guard
+from ehlcontact.process import early_interrupt as early_interrupt

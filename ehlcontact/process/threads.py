@@ -182,7 +182,7 @@ def team_of(threads: int) -> Team:
     return Team(threads)
 
 
-ALONE = Team()
+CALLING_THREAD = Team()
 
 
 def cores() -> int:

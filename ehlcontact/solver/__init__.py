@@ -4,7 +4,7 @@
 room             responsibility
 ================ ==========================================================================================
 ``mesh``         `mesh_for`, `remedy`: which region and grid a film needs, what to try after a failure
-``buildup``      where coarse grids end, and the load that each carries
+``coarse_levels`` the coarsest grid of a hierarchy, and the load that each level carries
 ``domain``       `Domain`: the computed region
 ``memory``       what a grid takes, told before it is tried
 ``level``        `Level`: the arrays of one mesh and the equations on it; a hierarchy of them

@@ -24,13 +24,13 @@ DIVERGENCE_FACTOR = 1e3  # times the scale: a residual that large does not come 
 SLOW = (
     0.45  # change of the pressure over that of the iteration before, above which, twice, the sweeps are doubled,
 )
-MOST_EFFORT = 4  # up to so many times: what does not fall then is left to the next attempt
+LARGEST_SWEEP_FACTOR = 4  # up to so many times: what does not fall then is left to the next attempt
 LEAST_FACTOR = 0.2  # assumed of what is to come: the first iterations fall faster
 BORDER_SLOPE = 0.1  # of the maximum per semi-axis, at inlet and sides
 BORDER_PRESSURE = 0.02  # of the maximum, beside the outlet; a film that ends outside the grid is not computed
 
 
-class Goal(NamedTuple):
+class StoppingCriteria(NamedTuple):
     """When an iteration ends."""
 
     scale: float  # residual by which residuals are measured; fixed by the problem, not by the start
@@ -43,12 +43,12 @@ class Goal(NamedTuple):
 
 
 @dataclass(slots=True)
-class Track:
+class IterationHistory:
     """What an iteration leaves behind: entry 0 is the start."""
 
     residuals: list[float] = field(default_factory=list)  # mean |residual| over P > 0
     balance_residuals: list[float] = field(default_factory=list)
-    changes: list[float] = field(default_factory=list)  # of u, one per iteration
+    approach_changes: list[float] = field(default_factory=list)  # one per iteration
     pressure_changes: list[float] = field(default_factory=list)  # largest of P, one per iteration
 
     @property
@@ -86,8 +86,8 @@ def iterate(
     film: Multigrid,
     balance: Balance,
     advance: Callable[[Balance], float],
-    goal: Goal,
-    track: Track,
+    goal: StoppingCriteria,
+    track: IterationHistory,
     watch: Callable[[int, float], None] | None = None,
 ) -> Status:
     """Call `advance` until both residuals are below tolerance and approach and force have settled.
@@ -99,20 +99,20 @@ def iterate(
     balance : Balance
     advance : callable
         `Multigrid.cycle`, or a Newton step; returns the largest change of P.
-    goal : Goal
-    track : Track
+    goal : StoppingCriteria
+    track : IterationHistory
         Empty; filled as it goes, so that an interrupted caller still has it.
     watch : callable, optional
         Called with the number of the iteration and the residual after it, over the scale.
     """
     level = film.finest
-    film.effort = film.least_effort
+    film.sweep_factor = film.least_sweep_factor
     change_of_u = change_of_force = inf
     while True:
         force = level.force()
         track.residuals.append(level.residual_norm())
         track.balance_residuals.append(balance.residual(film.u, force))
-        if watch is not None and track.changes:
+        if watch is not None and track.approach_changes:
             watch(track.iterations, track.residuals[-1] / goal.scale)
         settled = change_of_u < goal.approach and change_of_force <= goal.force
         settled = settled and abs(track.balance_residuals[-1]) < goal.balance
@@ -124,13 +124,13 @@ def iterate(
         u = film.u
         track.pressure_changes.append(advance(balance))
         change_of_u, change_of_force = abs(film.u - u), abs(level.force() - force)
-        track.changes.append(change_of_u)
-        if falls_slowly(track.pressure_changes) and not film.careful:
-            film.effort = min(2 * film.effort, MOST_EFFORT)
+        track.approach_changes.append(change_of_u)
+        if falls_slowly(track.pressure_changes) and not film.load_continuation:
+            film.sweep_factor = min(2 * film.sweep_factor, LARGEST_SWEEP_FACTOR)
 
 
 def classify(
-    residuals: Sequence[float], goal: Goal, settled: bool, changes: Sequence[float] = ()
+    residuals: Sequence[float], goal: StoppingCriteria, settled: bool, changes: Sequence[float] = ()
 ) -> Status | None:
     """Status of an iteration with these residuals, or None to go on.
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.hertz import shape_factor
 from ehlcontact.point import MoesPoint
-from ehlcontact.process.threads import ALONE, Kernel, team_of
+from ehlcontact.process.threads import CALLING_THREAD, Kernel, team_of
 from ehlcontact.solver.deflection import make_deflection
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.kernels import boundary, flanks, relax, reynolds
@@ -55,7 +55,7 @@ class Level:
         self.set_point(point)
         S = shape_factor(point.kappa)
         self.gap = S * self.X**2 + (1.0 - S) * self.Y[:, None] ** 2
-        self.team = ALONE
+        self.team = CALLING_THREAD
         self.block = ny if point.kappa > LONG else BLOCK
         self.passes = flanks.passes_of(nx, point.kappa > LONG)
         self.deflection = make_deflection(nx, ny, self.hx, self.hy, point.kappa, deflection)
@@ -223,8 +223,9 @@ def build_hierarchy(point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str
     see them. One with half the nodes on every line does. So these meshes are coarsened along X until lines lie
     less than LINES_APART node distances apart.
 
-    Lines that lie closer together than nodes (`Mesh.lines`) are halved alone first: relaxation along X is that by
-    points across them, which the next grid has to see coarser across only (`tests/benchmarks/modes.py`).
+    Where lines lie closer together than nodes (`Mesh.y_refinement`), only their number is halved at first: sweeps
+    along X then relax pointwise across, and the next grid has to be coarser across only
+    (`tests/benchmarks/modes.py`).
     """
     n, domain = mesh.n, mesh.domain
     halvings = 0
@@ -235,10 +236,10 @@ def build_hierarchy(point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str
     # together than their nodes, relaxation by lines along X fails if both meshes are halved
     hy = hx * max(1.0, point.kappa)
     ny = max(4, round(domain.y_max / hy / 2**halvings)) * 2**halvings
-    sizes, last = [(n, ny * mesh.lines)], (n >> halvings, ny >> halvings)
+    sizes, last = [(n, ny * mesh.y_refinement)], (n >> halvings, ny >> halvings)
     while sizes[-1] != last:
         nx, ny = sizes[-1]
-        if nx == n and ny * mesh.lines > sizes[0][1]:
+        if nx == n and ny * mesh.y_refinement > sizes[0][1]:
             sizes.append((nx, ny // 2))
             continue
         apart = (domain.y_max / ny) / (point.kappa * (domain.x_out - domain.x_in) / nx)

@@ -139,23 +139,24 @@ class Mesh:
     n : int
         Intervals along X.
     domain : Domain
-    lines : int
-        How many times closer together than nodes they lie, in metres: 1, or in long contacts a power of two.
+    y_refinement : int
+        Distance of nodes along X over the distance of lines, both in metres: 1, or a power of two in contacts that
+        are long in the rolling direction (kappa > 1).
     """
 
     n: int
     domain: Domain
-    lines: int = 1
+    y_refinement: int = 1
 
     def nodes(self, kappa: float) -> float:
         """Nodes of the grid, about; infinite beyond `MOST_INTERVALS`."""
         if self.n > MOST_INTERVALS:
             return float("inf")
-        return self.n * self.n * self.lines * self.domain.y_max / (self._length * max(1.0, kappa))
+        return self.n * self.n * self.y_refinement * self.domain.y_max / (self._length * max(1.0, kappa))
 
     def levels(self, kappa: float) -> float:
         """Nodes of all levels over those of this grid, about: the first may be halved in one direction alone."""
-        halvings = max(floor(log2(max(1.0, 1.0 / kappa) / LINES_APART)) + 1, 0) + round(log2(self.lines))
+        halvings = max(floor(log2(max(1.0, 1.0 / kappa) / LINES_APART)) + 1, 0) + round(log2(self.y_refinement))
         return 2.0 - 2.0 / 3.0 * 0.5**halvings
 
     def fits(self, kappa: float, solve: Solve = Solve.CYCLES) -> bool:
@@ -164,7 +165,7 @@ class Mesh:
 
     def size(self, kappa: float) -> float:
         """Mesh size over the longer semi-axis."""
-        return self._length / self.n * max(1.0, kappa / self.lines)
+        return self._length / self.n * max(1.0, kappa / self.y_refinement)
 
     @property
     def near(self) -> bool:
@@ -247,15 +248,15 @@ def remedy(
     if far and not inexact and point.inlet_width < INLET_NEAR:
         return Mesh(mesh.n, NEAR_DOMAIN)
     finer = replace(mesh, n=2 * mesh.n)
-    if point.kappa > LONG and mesh.lines == 1 and (status in REFINED or not _affordable(finer, point)):
+    if point.kappa > LONG and mesh.y_refinement == 1 and (status in REFINED or not _affordable(finer, point)):
         finer = _with_close_lines(mesh.domain, point)
-    elif mesh.lines > 1 and status in REFINED:
+    elif mesh.y_refinement > 1 and status in REFINED:
         finer = _last(mesh)
         return finer if finer.nodes(point.kappa) <= LAST_GRID and finer.fits(point.kappa) else None
     return finer if _affordable(finer, point) else None
 
 
-def widened(
+def wider_meshes(
     mesh: Mesh,
     point: MoesPoint,
     purpose: Purpose,
@@ -362,16 +363,22 @@ def _with_close_lines(domain: Domain, point: MoesPoint) -> Mesh:
 
 def _last(mesh: Mesh) -> Mesh:
     """The mesh after the finest one with close lines that a film is tried on at first."""
-    return replace(mesh, n=2 * mesh.n) if mesh.lines == CLOSE_LINES else replace(mesh, lines=CLOSE_LINES)
+    return (
+        replace(mesh, n=2 * mesh.n)
+        if mesh.y_refinement == CLOSE_LINES
+        else replace(mesh, y_refinement=CLOSE_LINES)
+    )
 
 
 def _first(
-    point: MoesPoint, domain: Domain, wanted: float, counts: Sequence[int], largest: int, lines: int = 1
+    point: MoesPoint, domain: Domain, wanted: float, counts: Sequence[int], largest: int, y_refinement: int = 1
 ) -> int:
     """First of `counts` that meshes as finely as `wanted` and as pressure needs; the last of `largest` nodes."""
     wanted = min(wanted, LARGEST_MESH)
-    affordable = [n for n in counts if Mesh(n, domain, lines).nodes(point.kappa) <= largest] or counts[:1]
-    return next((n for n in affordable if Mesh(n, domain, lines).size(point.kappa) <= wanted), affordable[-1])
+    affordable = [n for n in counts if Mesh(n, domain, y_refinement).nodes(point.kappa) <= largest] or counts[:1]
+    return next(
+        (n for n in affordable if Mesh(n, domain, y_refinement).size(point.kappa) <= wanted), affordable[-1]
+    )
 
 
 def _table_mesh(point: MoesPoint, purpose: Purpose) -> Mesh:

@@ -19,8 +19,14 @@ from scipy.interpolate import RectBivariateSpline
 
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.buildup import LEAST_NESTED, LOBE_SHARE, coarsest_intervals, corrects, resolved_load
 from ehlcontact.solver.coarse import CoarseNewton
+from ehlcontact.solver.coarse_levels import (
+    LEAST_NESTED,
+    LOBE_SHARE,
+    coarsest_intervals,
+    level_is_useful,
+    resolved_load,
+)
 from ehlcontact.solver.kernels import transfer
 from ehlcontact.solver.level import Array, Level, build_hierarchy
 from ehlcontact.solver.mesh import LONG, Mesh
@@ -29,9 +35,9 @@ PRE_SWEEPS, POST_SWEEPS = 2, 1
 REPEATED_LEVELS = 2  # of a long contact: the finest, which alone repeat their sweeps
 CYCLES_PER_LEVEL = 1  # of full multigrid, before the finest level
 LARGEST_LOADING = 5.0  # factor by which the load of a level rises at once,
-CAREFUL_LOADING = 2.0  # and where larger steps left side lobes negative: at most,
+CONTINUATION_LOADING = 2.0  # and in load continuation: at most,
 LEAST_LOADING = 1.05  # and at least so much
-SETTLED_CHANGE = 0.05  # of P by the last cycle after a careful step; else it is taken back, and half of it tried
+SETTLED_CHANGE = 0.05  # of P by the last cycle after a step of load continuation; a larger one halves the step
 CYCLES_AFTER_LOADING = 3  # on a level that carries more load than the one below
 NESTED_CYCLES = 4  # on a grid of half the intervals, its lines as close: its film is solved, and a start
 
@@ -40,9 +46,22 @@ class Multigrid:
     """A hierarchy of levels and the cycle on it; the state is P on the finest level and the approach u.
 
     Film, flow and residual of the finest level belong to that state after `full_multigrid` and `cycle`; who
-    changes it in other ways calls ``finest.update(u)``. `careful` starts in smaller steps of the load, from a
-    coarsest level of more lines, for side lobes that come out negative otherwise; repeated sweeps, which let them
-    grow there, are left to nobody. `threads` share the work; results do not depend on them.
+    changes it in other ways calls ``finest.update(u)``.
+
+    Parameters
+    ----------
+    point : MoesPoint
+    mesh : Mesh
+    deflection : {"fft", "mlmi", "direct"}
+        Engine of the elastic deflection.
+    sweep_factor : int
+        How often the relaxation sweeps of a cycle are repeated.
+    load_continuation : bool
+        Raise the load in small steps during full multigrid, from a coarsest level with more lines: for films whose
+        side lobes come out negative otherwise. Sweeps are not repeated then, because repeated sweeps let those
+        negative films grow.
+    threads : int
+        Threads that share the work; results do not depend on their number.
     """
 
     def __init__(
@@ -51,23 +70,23 @@ class Multigrid:
         mesh: Mesh,
         *,
         deflection: str = "fft",
-        effort: int = 1,
-        careful: bool = False,
+        sweep_factor: int = 1,
+        load_continuation: bool = False,
         threads: int = 1,
     ) -> None:
         self.point, self.mesh = point, mesh
         self._options: dict[str, Any] = {
             "deflection": deflection,
-            "effort": effort,
-            "careful": careful,
+            "sweep_factor": sweep_factor,
+            "load_continuation": load_continuation,
             "threads": threads,
         }
         levels = build_hierarchy(point, mesh, coarsest_intervals(point, mesh.n), deflection)
-        self.levels = [level for level in levels if corrects(point, level.nx, mesh.n, careful)]
-        self.careful = careful
+        self.levels = [level for level in levels if level_is_useful(point, level.nx, mesh.n, load_continuation)]
+        self.load_continuation = load_continuation
         for level in self.levels:
             level.share(threads)
-        self.effort = self.least_effort = effort  # how often the sweeps of a cycle are repeated
+        self.sweep_factor = self.least_sweep_factor = sweep_factor  # how often the sweeps of a cycle are repeated
         self.is_start = False  # of a finer grid, which goes on from whatever load is carried here
         self.newton = CoarseNewton(self.levels[0], point.kappa > LONG)
         self.u = initial_approach(point)
@@ -95,7 +114,7 @@ class Multigrid:
         there, and is no start for anything. In Hertz units the pressure hardly changes with load. Where lines lie
         close, it starts from the grid of half the intervals instead, unless `nested` is False.
         """
-        if nested and self.mesh.lines > 1 and self.mesh.n > LEAST_NESTED:
+        if nested and self.mesh.y_refinement > 1 and self.mesh.n > LEAST_NESTED:
             self._start_from_half(balance, self.point.M)
         else:
             self._start_from_coarsest(balance, self.point.M)
@@ -122,7 +141,7 @@ class Multigrid:
 
     def _start_from_coarsest(self, balance: Balance, M: float) -> None:
         """Level by level, under the load M at last."""
-        share = LOBE_SHARE if self.point.kappa > LONG and self.least_effort > 1 else 1.0
+        share = LOBE_SHARE if self.point.kappa > LONG and self.least_sweep_factor > 1 else 1.0
         sizes = [max(level.hx, level.hy) / share for level in self.levels[:-1]]
         loads = [*(min(resolved_load(self.point, size), M) for size in sizes), M]
         self._set_load(0, loads[0])
@@ -141,21 +160,21 @@ class Multigrid:
 
     def _raise_load(self, k: int, lower: float, higher: float, balance: Balance) -> int:
         """Take level k from one Moes load to another; returns in how many steps, none where they are the same."""
-        if self.careful:
-            return self._raise_carefully(k, lower, higher, balance)
+        if self.load_continuation:
+            return self._continue_load(k, lower, higher, balance)
         steps = ceil(log(higher / lower) / log(LARGEST_LOADING) - 1e-9)
         for step in range(1, steps + 1):
             self._set_load(k, lower * (higher / lower) ** (step / steps))
             self._repeat(k, CYCLES_AFTER_LOADING, balance)
         return steps
 
-    def _raise_carefully(self, k: int, lower: float, higher: float, balance: Balance) -> int:
+    def _continue_load(self, k: int, lower: float, higher: float, balance: Balance) -> int:
         """As `_raise_load`; a step that its cycles do not settle is taken back, and half of it tried.
 
         Where even small ones do not, the film comes out negative on this mesh: that is for the driver to see. A
         start of a finer grid ends there, under the last load that left its film positive.
         """
-        level, load, loading, steps = self.levels[k], lower, CAREFUL_LOADING, 0
+        level, load, loading, steps = self.levels[k], lower, CONTINUATION_LOADING, 0
         while load < higher:
             P, u = level.P.copy(), self.u
             raised = min(load * loading, higher)
@@ -253,7 +272,7 @@ class Multigrid:
         last = level.relax_flanks_first if flanks else level.relax
         # Coarse levels of a long contact see its side lobes on a line or two: more sweeps lead away from there.
         once = self.point.kappa > LONG and level not in self.levels[-REPEATED_LEVELS:]
-        return (*(level.relax,) * (count - 1), last) * (1 if once else self.effort)
+        return (*(level.relax,) * (count - 1), last) * (1 if once else self.sweep_factor)
 
 
 def initial_approach(point: MoesPoint) -> float:

@@ -8,11 +8,9 @@ module           responsibility
 ``prescribed``   loads and approaches given by a table
 ``surface``      what travels through: `Dent`, `TransverseRidge`, `Waviness`
 ``roughness``    `Roughness`: likewise, made or measured
-``pace``         how long a step may be: of the motion, the film, and what travels through
-``tolerance``    how closely a step is solved, as the motion needs it
 ``film``         `TransientFilm`: one implicit step of the film
 ``record``       what is recorded: an entry per step, whole fields at the wanted times
-``step``         error and length of a time step
+``time_step``    length of a time step: default, error control; and how closely a step is solved
 ``settings``     what a run is asked for, checked and with its defaults
 ``run``          film and motion advanced together, in fixed or in controlled steps
 ``checkpoint``   a run's file to go on from

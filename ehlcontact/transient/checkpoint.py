@@ -28,8 +28,8 @@ from ehlcontact.transient.film import FilmState
 from ehlcontact.transient.record import COLUMNS, Array, Record
 from ehlcontact.transient.run import Run
 from ehlcontact.transient.settings import RunSettings, TimeSteps
-from ehlcontact.transient.step import StepControl
 from ehlcontact.transient.surface import Surface, surface_height
+from ehlcontact.transient.time_step import StepControl
 
 SAME = 1e-12  # of a time or a step: they differ by rounding only
 FORMAT = 3  # of the file: 2 called the frequencies of motions omega and omega_n, 1 had all fields side by side

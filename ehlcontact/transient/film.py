@@ -19,17 +19,17 @@ from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse import Factors
 from ehlcontact.solver.estimate import estimate_error
-from ehlcontact.solver.iterate import Goal, Track, iterate
+from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Array, Level
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.transient.surface import SurfaceStep
-from ehlcontact.transient.tolerance import CHANGE_SHARE
 
 Quantity = TypeVar("Quantity", float, Array)
 
 STEP_CYCLES = 25
+CHANGE_SHARE = 1.0 / 30.0  # of the tolerance, for changes of u and force: they are means over the field
 SMALLEST_SCALE = 0.01  # of the residuals, in dry approaches
 PAST = 3  # states before the present one, whose polynomial predicts the next step
 FEWER_PAST = 2  # such states where inertia predicts the approach better, or features move by a node a step
@@ -39,7 +39,7 @@ NEGLIGIBLE_FORCE = 0.01  # below which it does not matter what the border cuts o
 
 @dataclass(frozen=True, slots=True)
 class FilmState:
-    """Everything a film remembers between steps; immutable, so saving it costs one copy of the pressure."""
+    """State of a transient film between steps; immutable, so saving it costs one copy of the pressure."""
 
     P: Array
     past: tuple[tuple[float, Array], ...]  # step that followed, and pressure, latest first
@@ -178,8 +178,10 @@ class TransientFilm:
         """Cycle until the residual, the balance and the last changes of u and force are below tolerance."""
         mg, level = self.multigrid, self.level
         small = CHANGE_SHARE * self.tol
-        goal = Goal(self.scale, self.tol, most, 0.1 * small * max(1.0, balance.stiffness), small, small)
-        track = Track()
+        goal = StoppingCriteria(
+            self.scale, self.tol, most, 0.1 * small * max(1.0, balance.stiffness), small, small
+        )
+        track = IterationHistory()
         level.update(mg.u)
         status = iterate(mg, balance, mg.cycle, goal, track)
         if status is Status.OUT_OF_DOMAIN and balance.stiffness > 0.0 and level.force() < NEGLIGIBLE_FORCE:

@@ -11,12 +11,12 @@ from ehlcontact.results.steady import grid_doubt
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.mesh import Purpose, mesh_for, require_room, widened
+from ehlcontact.solver.mesh import Purpose, mesh_for, require_room, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, contact_text
 from ehlcontact.transient.film import FilmState, Step, TransientFilm
 from ehlcontact.transient.si import ContactSI
-from ehlcontact.transient.tolerance import DEFAULT_TOL
+from ehlcontact.transient.time_step import DEFAULT_TOL
 
 
 class FullContact(Summary):
@@ -76,7 +76,7 @@ class FullContact(Summary):
         require_choice("deflection", deflection, tuple(ENGINES))
         tol, threads = require_positive("tol", tol), require_threads("threads", threads)
         left: Step | None = None
-        for mesh in widened(first, self.point, Purpose.CONTACT, n=n, domain=domain):
+        for mesh in wider_meshes(first, self.point, Purpose.CONTACT, n=n, domain=domain):
             self._film = TransientFilm(self.point, mesh, tol, deflection, threads)
             self.n, self.domain = mesh.n, mesh.domain
             start = self._film.start_steady(Balance.of_load())

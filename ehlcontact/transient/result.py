@@ -19,9 +19,8 @@ from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, contact_text, span
 from ehlcontact.transient.bodies import Motion
-from ehlcontact.transient.pace import overlong
 from ehlcontact.transient.si import SimulationSI
-from ehlcontact.transient.tolerance import coarseness
+from ehlcontact.transient.time_step import coarse_step_note, coarse_tolerance_note
 
 Array = NDArray[np.float64]
 HISTORY = {
@@ -219,9 +218,9 @@ class SimulationResult(Summary, Tabled, Origin):
         """
         if not self.status.ok:
             return ""
-        tol = "" if self.tol is None else coarseness(self.motion, self.tol)
+        tol = "" if self.tol is None else coarse_tolerance_note(self.motion, self.tol)
         return "; ".join(
-            filter(None, [grid_doubt(self.film_error, "at the start"), overlong(self.motion, self.T), tol])
+            filter(None, [grid_doubt(self.film_error, "at the start"), coarse_step_note(self.motion, self.T), tol])
         )
 
     def _summary_lines(self) -> list[str]:

@@ -12,8 +12,15 @@ from ehlcontact.transient.bodies import Motion, MotionState
 from ehlcontact.transient.film import FilmState, TransientFilm
 from ehlcontact.transient.record import Entry, History
 from ehlcontact.transient.settings import TimeSteps
-from ehlcontact.transient.step import StepControl, difference, local_error, longest_step, next_time, shortest_step
 from ehlcontact.transient.surface import Surface, surface_height, surface_step
+from ehlcontact.transient.time_step import (
+    StepControl,
+    difference,
+    local_error,
+    longest_step,
+    next_time,
+    shortest_step,
+)
 
 HOPELESS = (Status.OUT_OF_DOMAIN, Status.UNRESOLVED)  # no shorter step mends these
 RESTART_CUT = 0.25  # of the step, where the motion turns a corner

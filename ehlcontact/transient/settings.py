@@ -13,7 +13,7 @@ from ehlcontact.point import MoesPoint
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.transient.bodies import Motion
-from ehlcontact.transient.tolerance import fitting_tol
+from ehlcontact.transient.time_step import default_tol
 
 LARGEST_ERROR = 0.1
 SMALLEST_ERROR = 1e-8  # the tolerance that goes with it comes near rounding: no step would be small enough
@@ -50,7 +50,7 @@ class TimeSteps:
             One outside its range.
         """
         until = motion.default_end if until is None else require_positive("until", until)
-        tol = fitting_tol(motion) if tol is None else require_positive("tol", tol)
+        tol = default_tol(motion) if tol is None else require_positive("tol", tol)
         default = min(motion.default_step, longest, until)
         if error is not None:
             if not SMALLEST_ERROR <= require_positive("error", error) <= LARGEST_ERROR:

@@ -17,19 +17,18 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, require_room, widened
+from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, require_room, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError, Keeper, load_checkpoint, require_replaceable
 from ehlcontact.transient.film import TransientFilm
-from ehlcontact.transient.pace import fixed_step
 from ehlcontact.transient.record import History
 from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.roughness import Roughness
 from ehlcontact.transient.run import Run, RunEnd, march
 from ehlcontact.transient.settings import RunSettings, TimeSteps
-from ehlcontact.transient.step import StepControl
 from ehlcontact.transient.surface import Dent, Surface, require_surface, surface_height
+from ehlcontact.transient.time_step import StepControl, default_fixed_step
 
 LARGEST_MISMATCH = 0.01  # of the kappa of a feature, over that of the contact
 
@@ -127,13 +126,13 @@ def simulate(
     require_surface(surface)
     _warn_of_shape(surface, moes.kappa)
     spacing = (mesh.domain.x_out - mesh.domain.x_in) / mesh.n
-    steps = TimeSteps.of(motion, until, dT, error, tol, fixed_step(motion, surface, spacing))
+    steps = TimeSteps.of(motion, until, dT, error, tol, default_fixed_step(motion, surface, spacing))
     settings = RunSettings.of(moes, mesh, motion, steps, snapshots, deflection)
     require_nonnegative("checkpoint_every", checkpoint_every)
     if checkpoint is not None:
         require_replaceable(checkpoint, restart)
     threads = require_threads("threads", threads)
-    meshes = widened(mesh, moes, Purpose.RUN, n=n, domain=domain)
+    meshes = wider_meshes(mesh, moes, Purpose.RUN, n=n, domain=domain)
 
     def film_on(mesh: Mesh) -> TransientFilm:
         film = TransientFilm(moes, mesh, steps.tol, deflection, threads)

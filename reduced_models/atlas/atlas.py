@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.assumptions import assumptions
 from ehlcontact.checks import as_column, require_choice, require_positive
-from ehlcontact.checks.box import INPUTS
+from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of

@@ -20,7 +20,7 @@ from ehlcontact.checks import (
     require_nonnegative,
     require_positive,
 )
-from ehlcontact.checks.box import INPUTS
+from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.frequency import by_name, radians_per_second
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError

@@ -3,12 +3,12 @@
     python tests/benchmarks/box.py --seed 7 --count 500 --json box-7.json --jobs 2
     python tests/benchmarks/box.py --seed 7 --count 500 --json box-7.json --jobs 2 --thin 60
 
-Points of a scrambled Sobol sequence over ln M, L and ln kappa within `MEASURED` of `ehlcontact.checks.box`: the
-first `count` of those below its Hertz pressure; grid, region and method are left to `solve_steady`. Every failure
-is printed as it comes, then statuses, convergence factors and the worst ten. With ``--thin`` the converged ones
-with the thinnest films are solved again on twice the grid, on the same region: a smallest film that moves by more
-than `LARGEST_MOVE` was not solved, whatever its status says. A JSON file keeps each row as it comes; a second call
-solves only what is missing.
+Points of a scrambled Sobol sequence over ln M, L and ln kappa within `MEASURED` of
+`ehlcontact.checks.admissible_range`: the first `count` of those below its Hertz pressure; grid, region and
+method are the defaults of `solve_steady`. Every failure is printed as it comes, then statuses, convergence
+factors and the worst ten. With ``--thin`` the converged ones with the thinnest films are solved again on twice
+the grid, on the same region: a smallest film that moves by more than `LARGEST_MOVE` was not solved, whatever its
+status says. A JSON file keeps each row as it comes; a second call solves only what is missing.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ from ledger import Ledger, Row, Task, duration, work_through
 from scipy.stats import qmc
 
 from ehlcontact import Domain, MoesPoint, solve_steady
-from ehlcontact.checks.box import MEASURED
+from ehlcontact.checks.admissible_range import MEASURED
 from ehlcontact.errors import InputError
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.iterate import Goal, Track, iterate
+from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.mesh import Mesh, require_room
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
@@ -97,7 +97,7 @@ def solve_finer(row: Row) -> Row:
     try:
         result = (
             finer_close_lines(point, mesh)
-            if mesh.lines > 1
+            if mesh.y_refinement > 1
             else solve_steady(point, n=mesh.n, domain=domain, throw=False)
         )
     except InputError as refused:  # too little memory
@@ -120,15 +120,17 @@ class Finer(NamedTuple):
 
 
 def finer_close_lines(point: MoesPoint, mesh: Mesh) -> Finer:
-    """As `solve_steady`, whose grids have no close lines where n is given: cycles, careful ones at last."""
+    """As `solve_steady`, which has no close lines where n is given: cycles, then with load continuation."""
     started = time.perf_counter()
     require_room(mesh, point)
-    for careful in (False, True):
-        film, load = Multigrid(point, mesh, careful=careful), Balance.of_load()
+    for load_continuation in (False, True):
+        film, load = Multigrid(point, mesh, load_continuation=load_continuation), Balance.of_load()
         scale = film.finest.dry_residual()
         film.full_multigrid(load)
-        goal = Goal(scale, LARGEST_RESIDUAL, MAX_CYCLES, LOAD_TOLERANCE, APPROACH_TOLERANCE, pressure=1e-5)
-        status = iterate(film, load, AcceleratedCycles(film).step, goal, Track())
+        goal = StoppingCriteria(
+            scale, LARGEST_RESIDUAL, MAX_CYCLES, LOAD_TOLERANCE, APPROACH_TOLERANCE, pressure=1e-5
+        )
+        status = iterate(film, load, AcceleratedCycles(film).step, goal, IterationHistory())
         if status.ok:
             break
     level = film.finest

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ehlcontact import MoesPoint, solve_steady
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.iterate import MOST_EFFORT, falls_slowly
+from ehlcontact.solver.iterate import LARGEST_SWEEP_FACTOR, falls_slowly
 from ehlcontact.solver.mesh import Mesh, Purpose, allows_newton, mesh_for
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
@@ -112,7 +112,7 @@ def film_on(
     point: MoesPoint, mesh: Mesh, way: str = "cycles", threads: int = 1
 ) -> tuple[Multigrid, Callable[[], None], Advance]:
     """Film, its start (full multigrid), and one iteration of `way`, its sweeps repeated where it falls slowly."""
-    options = {"threads": threads} | ({"effort": 2} if way.startswith("thorough") else {})
+    options = {"threads": threads} | ({"sweep_factor": 2} if way.startswith("thorough") else {})
     known = inspect.signature(Multigrid).parameters  # earlier versions, measured beside, know neither
     options = {name: value for name, value in options.items() if name in known}
     film = Multigrid(point, mesh, **options)
@@ -122,7 +122,7 @@ def film_on(
         def cycle() -> None:
             changes.append(cycles.step(LOAD))
             if falls_slowly(changes):  # as `iterate` does for `solve_steady`
-                film.effort = min(2 * film.effort, MOST_EFFORT)
+                film.sweep_factor = min(2 * film.sweep_factor, LARGEST_SWEEP_FACTOR)
 
         return film, lambda: film.full_multigrid(LOAD), cycle
 

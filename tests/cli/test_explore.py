@@ -7,7 +7,7 @@ import pytest
 from browsers import ENGINES
 
 from ehlcontact import Lubricant, MoesPoint
-from ehlcontact.checks.box import INPUTS
+from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.cli.explorer import COMPUTING, UNITS, script
 from ehlcontact.errors import InputError
 from reduced_models import Atlas, BallBearing

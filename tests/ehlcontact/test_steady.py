@@ -19,7 +19,7 @@ from ehlcontact import (
 from ehlcontact import steady as steady_module
 from ehlcontact.hertz import shape_factor
 from ehlcontact.solver import mesh
-from ehlcontact.solver.buildup import coarsest_intervals
+from ehlcontact.solver.coarse_levels import coarsest_intervals
 from ehlcontact.solver.level import build_hierarchy
 from ehlcontact.solver.mesh import Mesh
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ehlcontact import Domain, InputError, MoesPoint, Purpose, Status, mesh_for
-from ehlcontact.solver.buildup import coarsest_intervals, resolved_load
+from ehlcontact.solver.coarse_levels import coarsest_intervals, resolved_load
 from ehlcontact.solver.mesh import Mesh, allows_newton, default_domain, remedy
 
 FILE = Path(__file__).with_name("meshes.json")
@@ -37,7 +37,7 @@ def points():
 
 def plain(mesh):
     """A mesh as JSON; how close its lines lie only where that is closer than its nodes."""
-    close = [] if mesh is None or mesh.lines == 1 else [mesh.lines]
+    close = [] if mesh is None or mesh.y_refinement == 1 else [mesh.y_refinement]
     return None if mesh is None else [mesh.n, *mesh.domain.as_tuple(), *close]
 
 

@@ -21,7 +21,7 @@ from ehlcontact.cli.output import (
     write_json,
 )
 from ehlcontact.cli.progress import progress
-from ehlcontact.process.guard import INTERRUPTED
+from ehlcontact.process.early_interrupt import INTERRUPTED
 
 NPZ = (".npz",)
 

@@ -10,7 +10,7 @@ import typer
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import FAILED, check_json, complain, prepare_folder, say, write_json
 from ehlcontact.errors import InputError
-from ehlcontact.process.guard import INTERRUPTED
+from ehlcontact.process.early_interrupt import INTERRUPTED
 from ehlcontact.solver.domain import check_intervals
 
 PAGE, DOCUMENT = "reproduction.html", "reproduction.json"

@@ -30,7 +30,7 @@ from ehlcontact.cli.output import (
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import remove_leftovers, write_text
 from ehlcontact.point import moes_point
-from ehlcontact.process.guard import INTERRUPTED
+from ehlcontact.process.early_interrupt import INTERRUPTED
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.points.board import Board

@@ -17,7 +17,7 @@ from ehlcontact.cli.output import FAILED, check_file, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import OperatingPoint, Point
-from ehlcontact.process.guard import INTERRUPTED
+from ehlcontact.process.early_interrupt import INTERRUPTED
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError

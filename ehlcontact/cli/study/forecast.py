@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy import fft
 
-from ehlcontact.checks.box import MEASURED
+from ehlcontact.checks.admissible_range import MEASURED
 from ehlcontact.cli.study.points.ledger import is_closed, is_done, read_ledger
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import Study

@@ -43,7 +43,7 @@ TOLERANCE = 1e-6
 EXACT = 1e-9  # likewise on elements, which cost nothing
 # Before a run the film is led along the motion it starts on: so long, in its unit of time, of which it takes 2 to
 # cross the contact; and so many steps at least.
-LED = (8.0, 3)
+LEAD_IN = (8.0, 3)
 
 
 def build_rotor(study: Study, *, unbalance: bool = True) -> JeffcottRotor:
@@ -161,7 +161,7 @@ def _lead(contacts: list[ScaledContact], orbit: RotorResult, film_time: float) -
     From where the orbit passes its place of rest, so that no film is made to jump.
     """
     dt = float(orbit.t[1] - orbit.t[0])
-    steps = max(LED[1], ceil(LED[0] * film_time / dt))
+    steps = max(LEAD_IN[1], ceil(LEAD_IN[0] * film_time / dt))
     for i, contact in enumerate(contacts):
         away = np.abs(orbit.approach[:, i] - contact.contact.static_approach * contact.scales.length)
         first = int(np.argmin(away[: max(1, away.size - steps)]))

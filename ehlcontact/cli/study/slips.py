@@ -8,7 +8,7 @@ from difflib import get_close_matches
 from reprlib import repr as shortened
 from typing import TYPE_CHECKING, Any, get_args
 
-from ehlcontact.checks.box import INPUTS, Given, Quantity
+from ehlcontact.checks.admissible_range import INPUTS, Given, Quantity
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:

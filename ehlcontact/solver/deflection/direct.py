@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ehlcontact.process.threads import ALONE
+from ehlcontact.process.threads import CALLING_THREAD
 from ehlcontact.solver.deflection.coefficients import Array, influence_coefficients
 from ehlcontact.solver.kernels import mlmi as kernels
 
@@ -18,7 +18,7 @@ class DirectSum:
     def __init__(self, nx: int, ny: int, hx: float, hy: float, kappa: float) -> None:
         self.nx, self.ny = nx, ny
         self.kernel = influence_coefficients(nx + 1, 2 * ny + 1, hx, hy, kappa)
-        self.team = ALONE
+        self.team = CALLING_THREAD
         self._row = np.zeros(2 * nx + 1)
 
     def __call__(self, P: Array) -> Array:

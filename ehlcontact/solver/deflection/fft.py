@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 from scipy import fft
 
-from ehlcontact.process.threads import ALONE, Team
+from ehlcontact.process.threads import CALLING_THREAD, Team
 from ehlcontact.solver.deflection.coefficients import Array, influence_coefficients
 
 BLOCK = 2**15  # numbers transformed at a time
@@ -26,7 +26,7 @@ class FastFourier:
         self.kernel = influence_coefficients(nx + 1, 2 * ny + 1, hx, hy, kappa)
         transforms = MatrixTransforms if nx <= MATRICES_UP_TO else FastTransforms
         self._transforms: MatrixTransforms | FastTransforms = transforms(self.kernel)
-        self.team = ALONE
+        self.team = CALLING_THREAD
 
     def __call__(self, P: Array) -> Array:
         """Deflection of the pressure `P`, shape (ny + 1, nx + 1), zero on the outer border nodes."""
@@ -48,7 +48,7 @@ class FastTransforms:
         self._spectrum = np.concatenate([spectrum[::2], spectrum[1::2]])  # even frequencies first
         self._lines, self._columns = (_blocks(*of) for of in (kernel.shape, kernel.shape[::-1]))
 
-    def __call__(self, P: Array, team: Team = ALONE) -> Array:
+    def __call__(self, P: Array, team: Team = CALLING_THREAD) -> Array:
         """As `FastFourier`."""
         rows = np.empty((2 * self._ny + 1, self._nx + 1))
         W = np.empty_like(P)
@@ -99,6 +99,6 @@ class MatrixTransforms:
         self._back_along = np.ascontiguousarray(self._along.T) / (2 * nx)
         self._spectrum = np.concatenate([spectrum * share, spectrum * share], axis=1)
 
-    def __call__(self, P: Array, team: Team = ALONE) -> Array:
+    def __call__(self, P: Array, team: Team = CALLING_THREAD) -> Array:
         """As `FastFourier`; as small as the grid is, nothing is shared with the `team`."""
         return self._back_across @ (((self._across @ P @ self._along) * self._spectrum) @ self._back_along)

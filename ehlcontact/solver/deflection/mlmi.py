@@ -28,7 +28,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.process.threads import ALONE
+from ehlcontact.process.threads import CALLING_THREAD
 from ehlcontact.solver.deflection.coefficients import influence_coefficients, injected_coefficients
 from ehlcontact.solver.kernels import mlmi as kernels
 
@@ -110,7 +110,7 @@ class Mlmi:
             self._coarsenings.append(_Coarsening(grid, axis, correction))
             grid = grid.coarsen(axis)
         rows, columns = grid.shape
-        self.team = ALONE
+        self.team = CALLING_THREAD
         self._P, self._W, self._row = np.zeros(grid.shape), np.zeros(grid.shape), np.zeros(2 * columns - 1)
         lags = grid.step[0] * np.arange(2 * rows - 1), grid.step[1] * np.arange(columns)
         self._K = injected_coefficients(*lags, hx, hy, kappa)

@@ -27,7 +27,7 @@ from ehlcontact import (
 )
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.process import threads as threads_module
-from ehlcontact.process.threads import ALONE, LEAST_CHUNK, Team, cores, team_of, threads_allowed
+from ehlcontact.process.threads import CALLING_THREAD, LEAST_CHUNK, Team, cores, team_of, threads_allowed
 
 POINT = MoesPoint(200, 10, 0.5)
 NUMBERS = [1, 2, 3, 7]
@@ -172,7 +172,7 @@ def test_runs_within_and_beside_a_run():
 
 def test_copies_share_the_team():
     assert copy.deepcopy(team_of(2)) is pickle.loads(pickle.dumps(team_of(2))) is team_of(2)
-    assert ALONE.threads == 1
+    assert CALLING_THREAD.threads == 1
 
 
 def _total(threads):

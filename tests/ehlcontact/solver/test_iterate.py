@@ -5,7 +5,14 @@ import pytest
 
 from ehlcontact import Domain, MoesPoint, Status
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.iterate import MOST_EFFORT, Goal, Track, classify, iterate, pressure_error
+from ehlcontact.solver.iterate import (
+    LARGEST_SWEEP_FACTOR,
+    IterationHistory,
+    StoppingCriteria,
+    classify,
+    iterate,
+    pressure_error,
+)
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 
@@ -15,7 +22,7 @@ LOAD = Balance.of_load()
 
 
 def goal(scale=1.0, tol=1e-4, most=9, balance=1e-7, approach=1e-7, **others):
-    return Goal(scale, tol, most, balance, approach, **others)
+    return StoppingCriteria(scale, tol, most, balance, approach, **others)
 
 
 @pytest.mark.parametrize(
@@ -82,7 +89,7 @@ def test_stagnation_is_judged_by_the_pressure(changes, expected):
 def test_pressure_error(changes, expected):
     """The rest of a geometric series."""
     assert pressure_error(changes) == pytest.approx(expected, rel=1e-12)
-    track = Track()
+    track = IterationHistory()
     track.pressure_changes.extend(changes)
     assert track.pressure_error == pressure_error(changes)
 
@@ -108,19 +115,24 @@ def film():
 
 def test_cycles_until_both_residuals_hold(film):
     multigrid, scale = film
-    track, seen = Track(), []
+    track, seen = IterationHistory(), []
     status = iterate(multigrid, LOAD, multigrid.cycle, goal(scale, most=40), track, lambda *at: seen.append(at))
     assert status is Status.CONVERGED
     assert track.residuals[-1] <= 1e-4 * scale
-    assert abs(track.balance_residuals[-1]) < 1e-7 and track.changes[-1] < 1e-7
-    assert len(track.residuals) == len(track.balance_residuals) == track.iterations + 1 == len(track.changes) + 1
-    assert len(track.pressure_changes) == len(track.changes)
+    assert abs(track.balance_residuals[-1]) < 1e-7 and track.approach_changes[-1] < 1e-7
+    assert (
+        len(track.residuals)
+        == len(track.balance_residuals)
+        == track.iterations + 1
+        == len(track.approach_changes) + 1
+    )
+    assert len(track.pressure_changes) == len(track.approach_changes)
     assert seen == [(k, r / scale) for k, r in enumerate(track.residuals) if k > 0]
 
 
 def test_a_force_that_still_changes_is_not_settled(film):
     multigrid, scale = film
-    loose, tight = Track(), Track()
+    loose, tight = IterationHistory(), IterationHistory()
     iterate(multigrid, LOAD, multigrid.cycle, goal(scale, 1.0, 40, 1.0, 1.0), loose)
     iterate(multigrid, LOAD, multigrid.cycle, goal(scale, 1.0, 40, 1.0, 1.0, force=1e-10), tight)
     assert loose.iterations == 1 and tight.iterations > 1
@@ -129,7 +141,7 @@ def test_a_force_that_still_changes_is_not_settled(film):
 def test_a_pressure_that_still_changes_is_not_settled(film):
     """And is, once what is still to come is small: the distance to the solution, as cycles to the end tell."""
     multigrid, scale = film
-    loose, tight = Track(), Track()
+    loose, tight = IterationHistory(), IterationHistory()
     assert iterate(multigrid, LOAD, multigrid.cycle, goal(scale, 1.0, 40, 1.0, 1.0, pressure=INF), loose).ok
     assert iterate(multigrid, LOAD, multigrid.cycle, goal(scale, 1.0, 40, 1.0, 1.0, pressure=1e-6), tight).ok
     assert loose.iterations == 1 < tight.iterations
@@ -141,18 +153,18 @@ def test_a_pressure_that_still_changes_is_not_settled(film):
 
 
 class Scripted:
-    """Iterations whose changes of the pressure are given; notes the effort of each."""
+    """Iterations whose changes of the pressure are given; notes the sweep factor of each."""
 
     def __init__(self, film, changes):
-        self.film, self.changes, self.efforts = film, changes, []
+        self.film, self.changes, self.sweep_factors = film, changes, []
 
     def __call__(self, balance):
-        self.efforts.append(self.film.effort)
-        return self.changes[len(self.efforts) - 1]
+        self.sweep_factors.append(self.film.sweep_factor)
+        return self.changes[len(self.sweep_factors) - 1]
 
 
 @pytest.mark.parametrize(
-    ("least", "changes", "efforts"),
+    ("least", "changes", "sweep_factors"),
     [
         (1, [1.0, 0.6, 0.2, 0.12, 0.05], [1, 1, 1, 1, 1]),  # never twice in a row
         (1, [1.0, 0.5, 0.3, 0.1, 0.01], [1, 1, 1, 2, 2]),  # it does not go back
@@ -161,16 +173,16 @@ class Scripted:
         (2, [1.0, 0.5, 0.6, 0.3], [2, 2, 2, 4]),
     ],
 )
-def test_slow_iterations_are_given_more_sweeps(film, least, changes, efforts):
+def test_slow_iterations_are_given_more_sweeps(film, least, changes, sweep_factors):
     """Twice as many, up to four times; the next solve begins with the least again."""
     multigrid, scale = film
-    multigrid.least_effort = least
+    multigrid.least_sweep_factor = least
     for _ in range(2):
         advance = Scripted(multigrid, changes)
-        status = iterate(multigrid, LOAD, advance, goal(scale, 0.0, len(changes)), Track())
+        status = iterate(multigrid, LOAD, advance, goal(scale, 0.0, len(changes)), IterationHistory())
         assert status is Status.MAX_CYCLES
-        assert advance.efforts == efforts
-        assert max(efforts) <= MOST_EFFORT
+        assert advance.sweep_factors == sweep_factors
+        assert max(sweep_factors) <= LARGEST_SWEEP_FACTOR
 
 
 def test_nan_ends_it(film):
@@ -181,7 +193,7 @@ def test_nan_ends_it(film):
         multigrid.finest.update(multigrid.u)
         return np.nan
 
-    track = Track()
+    track = IterationHistory()
     assert iterate(multigrid, LOAD, spoil, goal(scale, 1e-12), track) is Status.NONFINITE
     assert track.iterations == 1
 
@@ -193,7 +205,9 @@ def test_a_film_that_is_none_has_not_converged(film):
     def nothing(balance):
         return 0.0
 
-    assert iterate(multigrid, LOAD, nothing, goal(scale, 1e9, 9, 1e9, 1e9), Track()) is Status.UNRESOLVED
+    assert (
+        iterate(multigrid, LOAD, nothing, goal(scale, 1e9, 9, 1e9, 1e9), IterationHistory()) is Status.UNRESOLVED
+    )
 
 
 def test_interrupted_it_keeps_what_it_has(film):
@@ -202,7 +216,7 @@ def test_interrupted_it_keeps_what_it_has(film):
     def stop(balance):
         raise KeyboardInterrupt
 
-    track = Track()
+    track = IterationHistory()
     with pytest.raises(KeyboardInterrupt):
         iterate(multigrid, LOAD, stop, goal(scale, 1e-12), track)
     assert len(track.residuals) == 1

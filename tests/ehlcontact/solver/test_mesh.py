@@ -136,12 +136,12 @@ def test_lines_lie_close_where_side_lobes_are_not_resolved(M, L, kappa):
     point = MoesPoint(M, L, kappa)
     first = mesh_for(point, Purpose.FILM)
     close = m.remedy(first, Status.UNRESOLVED, point)
-    assert first.lines == 1 < close.lines and close.domain == first.domain
-    assert close.n * close.lines >= 2 * first.n or close.n * close.lines == 2 * 1024
+    assert first.y_refinement == 1 < close.y_refinement and close.domain == first.domain
+    assert close.n * close.y_refinement >= 2 * first.n or close.n * close.y_refinement == 2 * 1024
     assert close.nodes(kappa) <= m.FINENESS[Purpose.FILM].largest
-    assert close.nodes(kappa) == pytest.approx(Mesh(close.n, close.domain).nodes(kappa) * close.lines)
+    assert close.nodes(kappa) == pytest.approx(Mesh(close.n, close.domain).nodes(kappa) * close.y_refinement)
     finer = m.remedy(close, Status.CONVERGED, point, error=POOR)
-    assert finer is None or finer == Mesh(2 * close.n, close.domain, close.lines)
+    assert finer is None or finer == Mesh(2 * close.n, close.domain, close.y_refinement)
     # a film that is solved, but not its smallest: lines before more nodes than are affordable
     finest = Mesh(2048, first.domain)
     assert m.remedy(finest, Status.CONVERGED, point, error=POOR) == close
@@ -174,7 +174,7 @@ def test_contacts_that_are_not_long_keep_their_lines(M, L, kappa):
     mesh = mesh_for(point, Purpose.FILM)
     for status, error in ((Status.UNRESOLVED, None), (Status.STAGNATED, None), (Status.CONVERGED, POOR)):
         follows = m.remedy(mesh, status, point, error=error)
-        assert follows is None or follows.lines == 1
+        assert follows is None or follows.y_refinement == 1
 
 
 @pytest.mark.parametrize("purpose", [Purpose.DAMPING, Purpose.RUN, Purpose.CONTACT])
@@ -291,8 +291,8 @@ def test_default_region_holds_the_pressure_of_light_loads(kappa, N):
 def test_widened_ends_with_what_was_given():
     given = Domain(-3.0, 1.4, 2.0)
     first = Mesh(64, given)
-    assert list(m.widened(first, LIGHT, Purpose.RUN, domain=given)) == [first]
-    regions = [mesh.domain for mesh in m.widened(first, LIGHT, Purpose.RUN)]
+    assert list(m.wider_meshes(first, LIGHT, Purpose.RUN, domain=given)) == [first]
+    regions = [mesh.domain for mesh in m.wider_meshes(first, LIGHT, Purpose.RUN)]
     assert regions[1] == given.scaled(m.DOMAIN_GROWTH) and len(regions) == m.LARGEST_ATTEMPTS
 
 

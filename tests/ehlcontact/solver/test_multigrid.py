@@ -5,8 +5,8 @@ import pytest
 
 from ehlcontact import Domain, MoesPoint, Status, solve_steady, steady
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.buildup import coarsest_intervals
-from ehlcontact.solver.iterate import Goal, Track, iterate
+from ehlcontact.solver.coarse_levels import coarsest_intervals
+from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Level
 from ehlcontact.solver.mesh import NEAREST_DOMAIN, Mesh, is_last
 from ehlcontact.solver.multigrid import CAREFUL_LOADING, Multigrid, initial_approach
@@ -117,29 +117,29 @@ def test_each_way_of_a_method_is_tried_in_turn(monkeypatch):
     tried = []
 
     def failing(attempt, *_, **__):
-        tried.append((attempt.method, attempt.multigrid.effort, attempt.multigrid.least_effort))
+        tried.append((attempt.method, attempt.multigrid.sweep_factor, attempt.multigrid.least_sweep_factor))
         return Status.STAGNATED
 
     monkeypatch.setattr(steady._Attempt, "run", failing)
     monkeypatch.setattr(steady, "remedy", lambda *_, **__: None)
-    for name, efforts in (("automatic", [1, 2, 2]), ("multigrid", [1]), ("newton", [1])):
+    for name, sweep_factors in (("automatic", [1, 2, 2]), ("multigrid", [1]), ("newton", [1])):
         tried.clear()
         assert solve_steady(MoesPoint(20, 8, 0.5), n=32, method=name, throw=False).status == "stagnated"
-        assert tried == [(way, e, e) for way, e in zip(steady.METHODS[name], efforts, strict=True)]
+        assert tried == [(way, e, e) for way, e in zip(steady.METHODS[name], sweep_factors, strict=True)]
     assert [way.newton for way in steady.METHODS["automatic"]] == [False, False, True]
 
 
-@pytest.mark.parametrize("effort", [1, 2, 4])
-def test_effort_repeats_the_sweeps_of_a_cycle(monkeypatch, effort):
+@pytest.mark.parametrize("sweep_factor", [1, 2, 4])
+def test_effort_repeats_the_sweeps_of_a_cycle(monkeypatch, sweep_factor):
     """Two sweeps on the way down, one on the way up, flanks before the last of each; all of it so many times."""
-    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()), effort=effort)
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()), sweep_factor=sweep_factor)
     mg.full_multigrid(LOAD)
     moves = []
     for name in ("relax", "relax_flanks"):
         plain = getattr(Level, name)
         monkeypatch.setattr(Level, name, lambda level, n=name, f=plain: (moves.append((n, level.nx)), f(level))[1])
     mg.cycle(LOAD)
-    down, up = ["relax", "relax_flanks", "relax"] * effort, ["relax_flanks", "relax"] * effort
+    down, up = ["relax", "relax_flanks", "relax"] * sweep_factor, ["relax_flanks", "relax"] * sweep_factor
     sizes = [level.nx for level in mg.levels[1:]]
     expected = [(name, nx) for nx in sizes[::-1] for name in down] + [(name, nx) for nx in sizes for name in up]
     assert moves == expected
@@ -149,8 +149,8 @@ def test_effort_repeats_the_sweeps_of_a_cycle(monkeypatch, effort):
 def test_more_effort_makes_a_cycle_converge_faster(M, L, kappa):
     """Where sweeps are what limits it, as in isoviscous oil."""
     ends = []
-    for effort in (1, 2):
-        mg = Multigrid(MoesPoint(M, L, kappa), Mesh(128, Domain()), effort=effort)
+    for sweep_factor in (1, 2):
+        mg = Multigrid(MoesPoint(M, L, kappa), Mesh(128, Domain()), sweep_factor=sweep_factor)
         mg.full_multigrid(LOAD)
         ends.append([mg.cycle(LOAD) for _ in range(4)][-1])
     assert ends[1] < 0.2 * ends[0]
@@ -226,7 +226,7 @@ def test_a_careful_start_finds_side_lobes_that_cycles_lose():
 @pytest.mark.parametrize("most", [1.3, 1.0], ids=["small steps settle", "none does"])
 def test_careful_steps_of_the_load_are_taken_back_where_they_do_not_settle(monkeypatch, most):
     """Halved from a factor of two until one settles, and on with that; pressure and approach as before it."""
-    mg = Multigrid(LOBES, Mesh(64, Domain()), careful=True)
+    mg = Multigrid(LOBES, Mesh(64, Domain()), load_continuation=True)
     level, settled, tried = mg.finest, [100.0], []
     mg.u = 0.25
 
@@ -254,7 +254,7 @@ def test_careful_steps_of_the_load_are_taken_back_where_they_do_not_settle(monke
 @pytest.mark.parametrize("fault", ["swings", "negative"])
 def test_a_start_of_a_finer_grid_carries_what_leaves_its_film_positive(monkeypatch, fault):
     """The finer one goes on from there: on half the intervals side lobes may be negative under the whole load."""
-    mg = Multigrid(LOBES, Mesh(128, Domain()), careful=True).halved()
+    mg = Multigrid(LOBES, Mesh(128, Domain()), load_continuation=True).halved()
     level, most = mg.finest, 300.0
     mg.u = 0.25
 
@@ -271,21 +271,21 @@ def test_a_start_of_a_finer_grid_carries_what_leaves_its_film_positive(monkeypat
     assert mg.u == 0.25 and 0.0 < level.P.max() < 0.05  # as the last step that settled left it
 
 
-@pytest.mark.parametrize(("careful", "effort"), [(False, 4), (True, 1)])
-def test_sweeps_of_a_careful_film_are_not_repeated(careful, effort):
+@pytest.mark.parametrize(("load_continuation", "sweep_factor"), [(False, 4), (True, 1)])
+def test_sweeps_of_a_careful_film_are_not_repeated(load_continuation, sweep_factor):
     """However slowly its changes fall: repeated, they let side lobes grow."""
-    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()), careful=careful)
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()), load_continuation=load_continuation)
     mg.full_multigrid(LOAD)
-    iterate(mg, LOAD, lambda balance: 1.0, Goal(1e9, 1e-9, 8, 1e-7, 1e-7), Track())
-    assert mg.effort == effort
+    iterate(mg, LOAD, lambda balance: 1.0, StoppingCriteria(1e9, 1e-9, 8, 1e-7, 1e-7), IterationHistory())
+    assert mg.sweep_factor == sweep_factor
 
 
 def test_where_cycles_fail_on_close_lines_a_careful_start_follows(monkeypatch):
     tried = []
 
     def run(attempt, **_):
-        tried.append((attempt.method.careful, attempt.mesh.lines))
-        return Status.CONVERGED if attempt.method.careful else Status.DIVERGED
+        tried.append((attempt.method.load_continuation, attempt.mesh.y_refinement))
+        return Status.CONVERGED if attempt.method.load_continuation else Status.DIVERGED
 
     monkeypatch.setattr(steady._Attempt, "run", run)
     assert solve_steady(LOBES, throw=False).status is Status.CONVERGED
@@ -293,7 +293,7 @@ def test_where_cycles_fail_on_close_lines_a_careful_start_follows(monkeypatch):
     assert set(tried[:-2]) == {(False, 1)}
     tried.clear()
     assert solve_steady(LOBES, method="multigrid", throw=False).status is Status.DIVERGED
-    assert not any(careful for careful, _ in tried)
+    assert not any(load_continuation for load_continuation, _ in tried)
 
 
 def test_after_all_affordable_grids_one_more_is_tried_carefully(monkeypatch):

@@ -8,7 +8,7 @@ import pytest
 from ehlcontact import MoesPoint
 from ehlcontact.solver import newton as newton_module
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.iterate import Goal, Track, iterate
+from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.kernels import linearise as lin
 from ehlcontact.solver.linear import (
     NEIGHBOUR_OFFSETS,
@@ -45,8 +45,8 @@ def started(M, L, kappa, n, balance=LOAD):
 
 def newton(multigrid, scale, tol, balance=LOAD, most=20, settle=1e-7):
     """Newton steps to `tol`: how they ended, and their track."""
-    track = Track()
-    goal = Goal(scale, tol, most, settle, settle)
+    track = IterationHistory()
+    goal = StoppingCriteria(scale, tol, most, settle, settle)
     return iterate(multigrid, balance, NewtonKrylov(multigrid).step, goal, track), track
 
 

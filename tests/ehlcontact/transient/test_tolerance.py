@@ -17,7 +17,7 @@ from ehlcontact import (
     save,
     simulate,
 )
-from ehlcontact.transient.tolerance import DEFAULT_TOL, SMALLEST_TOL, coarseness, fitting_tol
+from ehlcontact.transient.time_step import DEFAULT_TOL, SMALLEST_TOL, coarse_tolerance_note, default_tol
 
 POINT = MoesPoint(200, 10, 0.5)
 T = np.linspace(0.0, 4.0, 81)
@@ -43,14 +43,14 @@ T = np.linspace(0.0, 4.0, 81)
 def test_size_of_a_motion_and_the_tolerance_it_gets(motion, size):
     assert motion.size == pytest.approx(size)
     expected = DEFAULT_TOL if size >= 0.1 else DEFAULT_TOL * size / 0.1
-    assert fitting_tol(motion) == (expected if size >= 0.1 else pytest.approx(expected))
-    assert coarseness(motion, fitting_tol(motion)) == ""
+    assert default_tol(motion) == (expected if size >= 0.1 else pytest.approx(expected))
+    assert coarse_tolerance_note(motion, default_tol(motion)) == ""
 
 
 def test_tolerance_stays_above_rounding():
     faint = HarmonicLoad(Omega=pi, amplitude=1e-6)
-    assert fitting_tol(faint) == SMALLEST_TOL
-    assert "give tol = 3e-08" in coarseness(faint, SMALLEST_TOL)  # and what that leaves open is said
+    assert default_tol(faint) == SMALLEST_TOL
+    assert "give tol = 3e-08" in coarse_tolerance_note(faint, SMALLEST_TOL)  # and what that leaves open is said
 
 
 def damping(record, Omega):

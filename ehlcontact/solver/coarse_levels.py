@@ -1,4 +1,4 @@
-"""How a film is built up from coarse grids: where they end, and the load that each carries."""
+"""Coarse levels of full multigrid: the coarsest grid of a hierarchy, and the load that each level carries."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ def coarsest_intervals(point: MoesPoint, n: int) -> int:
     return min(fewest, max(32, n // 4))
 
 
-def corrects(point: MoesPoint, nx: int, n: int, careful: bool = False) -> bool:
-    """Whether a level of `nx` intervals below `n` has the lines to correct anything in a narrow ellipse.
+def level_is_useful(point: MoesPoint, nx: int, n: int, load_continuation: bool = False) -> bool:
+    """Whether a level of `nx` intervals below `n` has enough lines to correct errors in a narrow ellipse.
 
-    What six lines across thin side lobes leave of an error grows on every level above: `careful` asks for
-    twice as many.
+    With six lines across thin side lobes an error is left that grows on every level above; load continuation
+    therefore needs twice as many.
     """
-    return point.kappa <= NARROW or nx >= min(NARROW_COARSEST * (1 + careful), n // 4)
+    return point.kappa <= NARROW or nx >= min(NARROW_COARSEST * (1 + load_continuation), n // 4)
 
 
 def resolved_load(point: MoesPoint, mesh: float) -> float:

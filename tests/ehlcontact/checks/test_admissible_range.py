@@ -21,7 +21,7 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.checks.box import INPUTS, LIMITS, MEASURED
+from ehlcontact.checks.admissible_range import INPUTS, LIMITS, MEASURED
 from ehlcontact.point import require_solvable
 
 AT_ONCE = 2.0  # seconds; a thousandth of it is usual

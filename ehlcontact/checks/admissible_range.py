@@ -89,7 +89,7 @@ LIMITS = Limits((0.1, 60000.0), (0.0, 40.0), (0.04, 8.0), 5e9, 120.0)
 Given = Mapping[str, tuple[float, Quantity]]  # a user's inputs, by the user's name for each
 
 
-def require_in_box(numbers: Mapping[str, float], given: Given, when: str = "") -> None:
+def require_admissible(numbers: Mapping[str, float], given: Given, when: str = "") -> None:
     """Raise `InputError` for the first number outside `LIMITS`, with the slips that the inputs betray.
 
     Parameters

@@ -22,9 +22,9 @@ from ehlcontact import (
     simulate,
 )
 from ehlcontact.transient.bodies import LONGEST_ABRUPT, LONGEST_SMOOTH
-from ehlcontact.transient.pace import FEWEST_STEPS, STEPS_PER_WAVE, fixed_step, overlong
 from ehlcontact.transient.settings import TimeSteps
 from ehlcontact.transient.surface import require_surface
+from ehlcontact.transient.time_step import FEWEST_STEPS, STEPS_PER_WAVE, coarse_step_note, default_fixed_step
 
 POINT = MoesPoint(200, 10, 0.5)
 COARSE = [0.0, 1.0, 2.0, 3.0, 4.0]
@@ -46,7 +46,7 @@ MESH = 0.05
     ],
 )
 def test_no_step_is_longer_than_the_film_allows(motion, step):
-    assert fixed_step(motion, None, MESH) == pytest.approx(step)
+    assert default_fixed_step(motion, None, MESH) == pytest.approx(step)
 
 
 @pytest.mark.parametrize(
@@ -64,8 +64,10 @@ def test_no_step_is_longer_than_the_film_allows(motion, step):
     ],
 )
 def test_features_shorten_it(surface, step):
-    assert fixed_step(REST, surface, MESH) == pytest.approx(step)
-    assert fixed_step(HarmonicLoad(Omega=30.0), surface, MESH) == pytest.approx(min(step, 2.0 * pi / 30.0 / 80))
+    assert default_fixed_step(REST, surface, MESH) == pytest.approx(step)
+    assert default_fixed_step(HarmonicLoad(Omega=30.0), surface, MESH) == pytest.approx(
+        min(step, 2.0 * pi / 30.0 / 80)
+    )
 
 
 def test_what_is_given_stays_and_an_early_end_is_met():
@@ -98,10 +100,12 @@ def test_few_steps_a_period_are_said_in_words():
     assert few.reservation in repr(few) and few.summary()["reservation"] == few.reservation
     assert replace(few, status=Status.STAGNATED).reservation == ""
     for count in (FEWEST_STEPS - 1, FEWEST_STEPS, 80):
-        assert bool(overlong(motion, np.arange(9) * 2.0 / count)) == (count < FEWEST_STEPS)
-    assert overlong(FreeVibration(Omega_n=5.0), np.arange(9) * 1.0) == ""
-    assert overlong(motion, np.array([0.0, 0.1, 0.3, 0.5])) == ""  # controlled: of the error that was asked for
-    assert overlong(motion, np.array([0.0])) == ""
+        assert bool(coarse_step_note(motion, np.arange(9) * 2.0 / count)) == (count < FEWEST_STEPS)
+    assert coarse_step_note(FreeVibration(Omega_n=5.0), np.arange(9) * 1.0) == ""
+    assert (
+        coarse_step_note(motion, np.array([0.0, 0.1, 0.3, 0.5])) == ""
+    )  # controlled: of the error that was asked for
+    assert coarse_step_note(motion, np.array([0.0])) == ""
 
 
 @pytest.mark.parametrize("surface", [Dent(0.01, 0.5), Roughness.synthetic(0.01, 2.0, 1.5)], ids=["dent", "rough"])

@@ -11,11 +11,11 @@ from itertools import pairwise
 
 PROGRAM = "ehlcontact"
 INTERRUPTED = 130  # exit code of a program that Ctrl-C ended, as shells have it: 128 + SIGINT
-TOO_EARLY = f"{PROGRAM}: interrupted before anything was computed\n"
+NOTHING_COMPUTED = f"{PROGRAM}: interrupted before anything was computed\n"
 
 
-def guard_imports() -> None:
-    """Until `end_guard`, Ctrl-C ends this process if it is the command line.
+def exit_on_interrupt() -> None:
+    """Until `restore_interrupt`, Ctrl-C ends this process if it is the command line.
 
     Programs of others that import the library keep their own ways.
     """
@@ -26,7 +26,7 @@ def guard_imports() -> None:
             pass
 
 
-def end_guard() -> None:
+def restore_interrupt() -> None:
     """Ctrl-C raises `KeyboardInterrupt` again."""
     if _signal.getsignal(_signal.SIGINT) is _leave:
         _signal.signal(_signal.SIGINT, _signal.default_int_handler)
@@ -41,10 +41,10 @@ def _is_program() -> bool:
 
 def _leave(*_: object) -> None:
     try:
-        os.write(2, TOO_EARLY.encode())
+        os.write(2, NOTHING_COMPUTED.encode())
     except OSError:
         pass
     os._exit(INTERRUPTED)
 
 
-guard_imports()  # here and not in the package, whose imports are what takes so long
+exit_on_interrupt()  # here and not in the package, whose imports are what takes so long
