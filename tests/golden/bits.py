@@ -2,6 +2,7 @@
 
     python tests/golden/bits.py before.json            # in the old checkout
     python tests/golden/bits.py after.json before.json # in the new one: prints what differs, exit code 1 if any
+    python tests/golden/bits.py after.json before.json --only bearings fmus
 
 Scalars are kept as hexadecimal floats, arrays as the digest of their bytes beside their sum, so that a small
 difference can be told from a wild one. Only public names are used: the layout of the library may change under it.
@@ -12,17 +13,19 @@ transient films differently from those that find them compiled. For other machin
 
 from __future__ import annotations
 
+import argparse
 import hashlib
 import json
-import sys
 import tempfile
 import warnings
+import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from fmpy import simulate_fmu
 from threadpoolctl import threadpool_limits
 
 from ehlcontact import (
@@ -46,22 +49,37 @@ from ehlcontact import (
     solve_steady,
     track_wave,
 )
+from fmu import export_contact, export_rotor, export_system
 from reduced_models import (
     Atlas,
+    BallBearing,
     ContactRecord,
     CubicContact,
+    Disc,
     JeffcottRotor,
     LinearContact,
+    LinearRotor,
     PolynomialContact,
     PowerLawContact,
     ScaledContact,
+    Shaft,
+    SpeedCourse,
+    Support,
+    campbell,
     compare,
+    film_impedance,
     fit,
     fit_memory,
+    impedance_about,
+    linearise,
     load_element,
+    log_decrement,
+    rotor_on_bearings,
     sensitivity,
+    simulate_on_bearings,
     simulate_oscillator,
     simulate_rotor,
+    unbalance_response,
     wide_range_from_solves,
 )
 
@@ -75,6 +93,10 @@ BEARING = OperatingPoint.ball_bearing(
     speed_rpm=3000.0,
     load=300.0,
 )
+SIZES = {"disc_mass": 3.0, "journal_mass": 0.2, "shaft_stiffness": 2e6, "unbalance": 2e-5, "speed_rpm": 3000.0}
+UPRIGHT = JeffcottRotor.vertical(load=(0.0, -268.0), **SIZES)
+VEE = JeffcottRotor.vee(half_angle=0.35, bearings=1, load=(0.0, -500.0), **SIZES)
+OIL = Lubricant.iso_vg(68, temperature=50.0)
 T = np.linspace(0.0, 1.0, 21)
 LEFT_OUT = {"seconds", "version", "law", "rotor", "element"}
 Leaves = Iterator[tuple[str, Any]]
@@ -99,6 +121,12 @@ def leaves(name: str, value: Any) -> Leaves:
     elif isinstance(value, list | tuple):
         for i, entry in enumerate(value):
             yield from leaves(f"{name}[{i}]", entry)
+
+
+def named(name: str, value: Any, names: str) -> Leaves:
+    """Attributes of `value` under names that stay where classes change."""
+    for one in names.split():
+        yield from leaves(f"{name}.{one}", getattr(value, one))
 
 
 def plain(value: Any) -> Any:
@@ -137,6 +165,7 @@ def steady_films() -> Leaves:
         result = solve_steady(point, **options)
         yield from leaves(name, result)
         yield from leaves(name, {k: v for k, v in result.summary().items() if k not in ("seconds", "version")})
+    yield from named("si", solve_steady(BEARING).si, "x y p h approach force h_central h_min p_max moment")
     yield from leaves("film", film_of(solve_steady(BEARING, n=64)).constriction)
 
 
@@ -167,6 +196,13 @@ def records() -> Leaves:
         yield from leaves(name, result)
         if result.steps > 2:
             yield from leaves(f"{name} between", result.at([0.25 * result.T[-1], 0.7 * result.T[-1]]))
+        if name == "SI":
+            yield from named(
+                "si",
+                result.si,
+                "t approach rate acceleration force load h_central h_min x y h_midplane p_midplane static_approach"
+                " static_load mass",
+            )
     wave = film_wave(simulate(PAPER, HarmonicLoad(Omega=np.pi), n=32, until=4.0))
     yield from leaves("wave", track_wave(wave))
     with tempfile.TemporaryDirectory() as folder:
@@ -184,7 +220,9 @@ def responses() -> Leaves:
     yield from leaves("chosen", impedance(PAPER, Omega=omega))
     yield from leaves("narrow", impedance(NARROW, Omega=omega))
     yield from leaves("light", impedance(MoesPoint(5, 12, 0.12), Omega=omega))
-    yield from leaves("SI", impedance(BEARING, Omega=omega))
+    at_bearing = impedance(BEARING, Omega=omega)
+    yield from leaves("SI", at_bearing)
+    yield from named("si", at_bearing.si, "omega hz stiffness damping")
 
 
 def full_contact() -> Leaves:
@@ -291,6 +329,13 @@ def elements() -> Leaves:
         "bearing": BEARING,
     }.items():
         yield from leaves(f"atlas {name}", atlas.at(point))
+        between = atlas.at(point).impedance(Omega=[0.0, 0.02, 0.7, 5.0, 20.0])
+        yield from named(f"atlas {name} between", between, "Omega stiffness damping")
+        if name == "bearing":
+            yield from named(
+                "atlas si", atlas.at(point).si, "approach h_central h_min moment omega stiffness damping"
+            )
+            yield from named("atlas between si", between.si, "omega stiffness damping")
         for model in ("wide", "memory", "cubic"):
             if not (model == "cubic" and name == "light"):
                 yield from element(f"{model} {name}", atlas.element(point, model, **at(model)))
@@ -302,19 +347,16 @@ def at(model: str) -> dict[str, float]:
 
 
 def motions() -> Leaves:
-    """Rotors and oscillators on elements, and on the full film."""
+    """Jeffcott rotors and oscillators on elements, and on the full film."""
     atlas = Atlas()
-    body = {"disc_mass": 3.0, "journal_mass": 0.2, "shaft_stiffness": 2e6, "unbalance": 2e-5, "speed_rpm": 3000.0}
-    upright = JeffcottRotor.vertical(load=(0.0, -268.0), **body)
-    vee = JeffcottRotor.vee(half_angle=0.35, bearings=1, load=(0.0, -500.0), **body)
     runs = {}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         for model in ("wide", "memory", "cubic"):
             first, second = (atlas.element(BEARING, model, **at(model)) for _ in range(2))
-            runs[model] = simulate_rotor(upright, [first], dt=2e-4, until=0.02)
+            runs[model] = simulate_rotor(UPRIGHT, [first], dt=2e-4, until=0.02)
             yield from leaves(f"rotor {model}", runs[model])
-            yield from leaves(f"vee {model}", simulate_rotor(vee, [first, second], dt=2e-4, until=0.02))
+            yield from leaves(f"vee {model}", simulate_rotor(VEE, [first, second], dt=2e-4, until=0.02))
             dimensionless = atlas.element(PAPER, model, **at(model))
             for omega_n in (5.13, None):
                 swing = simulate_oscillator(
@@ -322,37 +364,199 @@ def motions() -> Leaves:
                 )
                 yield from leaves(f"oscillator {model} {omega_n}", swing)
         full = FullContact(BEARING, n=64)
-        start = upright.state_at([full.static_approach * BEARING.scales.length])
+        start = UPRIGHT.state_at([full.static_approach * BEARING.scales.length])
         run = simulate_rotor(
-            upright, [ScaledContact(full, BEARING.scales)], dt=2e-4, until=0.004, start=start, tolerance=1e-4
+            UPRIGHT, [ScaledContact(full, BEARING.scales)], dt=2e-4, until=0.004, start=start, tolerance=1e-4
         )
     yield from leaves("rotor full", run)
     yield from leaves("compared", compare(run, runs["memory"]).to_dict())
+    t = np.linspace(0.0, 0.1, 2001)
+    yield from leaves("decay", log_decrement(t, np.exp(-30.0 * t) * np.cos(600.0 * t) + 1e-3, omega=600.0))
+    wide = atlas.element(BEARING, "wide")
+    film = film_impedance(impedance(BEARING, Omega=[0.0, 0.05, 0.25, 3.0, 12.0, 30.0]))
+    for name, rotor, films in (
+        ("elements", VEE, [impedance_about(wide, rest) for rest in VEE.static_forces()]),
+        ("full films", UPRIGHT, [film]),
+    ):
+        linear = LinearRotor(rotor, films)
+        modes = [[mode.omega, mode.decrement, mode.contact_share] for mode in linear.modes()]
+        yield f"linear on {name}.modes", np.array(modes)
+        yield f"linear on {name}.unbalance", linear.unbalance_response(rpm=[500.0, 3000.0, 9000.0])
+    # twice until it differs from the run before by rounding at most
+    yield "equilibrium", VEE.static_equilibrium([wide, wide.copy()]).journal
+
+
+def bearings() -> Leaves:
+    """States and coefficients of ball bearings: with films, dry, tight, loose, with losses and inertia."""
+    rough = {"rq_ball": 3e-8, "rq_race": 1e-7}
+    cases = {
+        "film": BallBearing.catalogue("6205", oil=OIL, **rough),
+        "dry": BallBearing.catalogue("6205"),
+        "loose": BallBearing.catalogue("6204", oil=OIL, clearance=8e-6),
+        "tight": BallBearing.catalogue("6205", oil=OIL, clearance=-4e-6),
+        "losses": BallBearing.catalogue("6205", oil=OIL, loss_factor=0.02),
+        "inertia": BallBearing.catalogue("6205", oil=OIL, ball_inertia=True),
+    }
+    state = "displacement stiffness angles force approach h_central h_min lambda_ratio moment rolling_torque"
+    for name, bearing in cases.items():
+        yield from leaves(f"{name}.frequencies", bearing.frequencies(3000.0))
+        for load, speed in (((0.0, -1000.0), 3000.0), ((300.0, -150.0), 9000.0)):
+            yield from named(f"{name} {load} {speed:g}", bearing.equilibrium(load, speed_rpm=speed), state)
+        for angle in (None, 0.1):
+            found = bearing.coefficients(
+                (200.0, -800.0), speed_rpm=3000.0, cage_angle=angle, hz=[0.0, 5.0, 90.0, 1e3, 2e4]
+            )
+            yield from named(f"{name} small {angle}", found, "omega stiffness damping displacement swing")
+
+
+def bearing_rotors() -> Leaves:
+    """Shafts on ball bearings: runs at one speed and over speeds, modes, unbalance."""
+    film = BallBearing.catalogue("6205", oil=OIL)
+    loose = BallBearing.catalogue("6204", oil=OIL, clearance=4e-6, loss_factor=0.01)
+    housing = {"housing_mass": 2.0, "housing_stiffness": (8e7, 2e8), "housing_damping": 300.0}
+    disc = {"diameter": 0.2, "width": 0.03, "bore": 0.025, "unbalance": 1e-5}
+    overhung = rotor_on_bearings(
+        Shaft(length=0.3, diameter=0.025, density=0.0),
+        discs=[Disc.cylinder(position=0.3, **disc)],
+        supports=[
+            Support(position=0.02, bearing=film, journal_mass=0.5),
+            Support(position=0.17, bearing=loose, journal_mass=0.5, **housing),
+        ],
+    )
+    heavy, dry = BallBearing.catalogue("6205", oil=OIL, ball_inertia=True), BallBearing.catalogue("6205")
+    beam = rotor_on_bearings(
+        Shaft(length=0.3, diameter=0.03),
+        discs=[Disc.cylinder(position=0.15, **disc)],
+        supports=[Support(position=0.0, bearing=heavy), Support(position=0.3, bearing=dry)],
+    )
+    speeds = SpeedCourse(np.array([0.0, 0.01, 0.02]), np.array([3000.0, 8000.0, 6000.0]))
+    history = "t speed_rpm displacement velocity ring force iterations largest_load"
+    for name, rotor in {"overhung": overhung, "beam": beam}.items():
+        yield from named(name, rotor, "mass stiffness load")
+        yield f"{name}.equilibrium", rotor.equilibrium(3000.0)
+        for course, at_speed in {"constant": 3000.0, "run-up": speeds}.items():
+            run = simulate_on_bearings(rotor, speed_rpm=at_speed, dt=1e-5, until=0.02)
+            yield from named(f"{name} {course}", run, history)
+        moved = rotor.equilibrium(3000.0) + 1e-7, np.zeros(rotor.size)
+        run = simulate_on_bearings(rotor, speed_rpm=3000.0, dt=1e-5, until=0.01, start=moved)
+        yield from named(f"{name} pushed", run, history)
+        for passage in (True, False):
+            small = linearise(rotor, 3000.0, passage=passage)
+            modes = [[m.omega, m.eigenvalue.real, m.whirl] for m in small.modes(6)]
+            yield f"{name} modes {passage}", np.array(modes)
+            yield f"{name} receptance {passage}", small.receptance(hz=[10.0, 200.0, 3000.0])
+        system = small.to_control()
+        for matrix in "ABCD":
+            yield f"{name} control {matrix}", np.asarray(getattr(system, matrix))
+        lines = campbell(rotor, [1000.0, 3000.0, 6000.0], count=4)
+        yield from named(f"{name} campbell", lines, "speed_rpm omega growth whirl")
+        response = unbalance_response(rotor, [1000.0, 3000.0, 6000.0])
+        yield from named(f"{name} unbalance", response, "speed_rpm cosine sine nodes")
+
+
+def fmus() -> Leaves:
+    """Steps of FMUs in co-simulation and model exchange, and all texts inside, generated sources included."""
+    atlas = Atlas()
+    made = {
+        "linear": LinearContact(1.14, 0.013, low=0.75, high=1.0, rate=0.6),
+        "polynomial": PolynomialContact(0.62, 0.02, 0.75, 0.004, -0.17, 0.002, 0.01, low=0.75, high=1.0, rate=0.6),
+        "power": PowerLawContact(0.9, 1.6, 0.12, 0.03, 0.014, low=0.75, high=1.0, rate=0.6),
+        **{model: atlas.element(PAPER, model, **at(model)) for model in ("wide", "memory", "cubic")},
+        "wide in SI": atlas.element(BEARING, "wide"),
+    }
+    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for fmi in (2, 3):
+            for name, contact in made.items():
+                path = export_contact(contact, Path(folder) / f"{name}{fmi}.fmu", fmi=fmi)
+                yield from texts(f"{name} {fmi}", path)
+                scale = (contact.high - contact.low) * (1.0 if contact.units == "dimensionless" else 2e4)
+                yield from fmu_steps(f"{name} {fmi}", path, contact, scale)
+            closed = [made["wide in SI"], made["wide in SI"].copy()]
+            for name, contacts in (("rotor alone", None), ("rotor", closed)):
+                path = export_rotor(VEE, Path(folder) / f"{name}{fmi}.fmu", contacts, fmi=fmi)
+                yield from texts(f"{name} {fmi}", path)
+                for kind, dt in (("CoSimulation", 1e-5), ("ModelExchange", 1e-7)):
+                    options = {"solver": "Euler", "stop_time": 200 * dt, "step_size": dt, "output_interval": dt}
+                    found = simulate_fmu(str(path), fmi_type=kind, **options)
+                    for column in found.dtype.names:
+                        yield f"{name} {fmi} {kind}.{column}", np.asarray(found[column])
+            path = export_system(VEE, closed, Path(folder) / f"system{fmi}.ssp", fmi=fmi)
+            yield from texts(f"system {fmi}", path)
+
+
+def fmu_steps(name: str, path: Path, contact: Any, scale: float) -> Leaves:
+    """Force of a contact that is pressed and let go."""
+    dt = 0.05 if contact.units == "dimensionless" else 1e-6
+    t = dt * np.arange(101)
+    swing = 0.7 * (contact.high - contact.low)
+    motion = np.zeros(t.size, [("time", float), ("approach", float), ("rate", float)])
+    motion["time"] = t
+    motion["approach"] = 0.5 * (contact.low + contact.high) + swing * np.sin(0.3 * t / dt)
+    motion["rate"] = 0.3 * swing / dt * np.cos(0.3 * t / dt)
+    for kind in ("CoSimulation", "ModelExchange"):
+        found = simulate_fmu(
+            str(path),
+            fmi_type=kind,
+            solver="Euler",
+            stop_time=float(t[-1]),
+            step_size=dt,
+            output_interval=dt,
+            input=motion,
+            output=["force", "stiffness", "damping"],
+        )
+        for column in found.dtype.names:
+            yield f"{name} {kind}.{column}", np.asarray(found[column])
+
+
+def texts(name: str, path: Path) -> Leaves:
+    """Digests of all files of an archive but libraries and pictures."""
+    with zipfile.ZipFile(path) as archive:
+        for entry in sorted(archive.namelist()):
+            if entry.endswith((".c", ".h", ".xml", ".ssd", ".csv", ".txt", ".json")):
+                yield f"{name}/{entry}", hashlib.sha256(archive.read(entry)).hexdigest()[:16]
 
 
 GROUPS: dict[str, Callable[[], Leaves]] = {
-    f.__name__: f for f in (steady_films, records, responses, full_contact, fits, elements, motions)
+    f.__name__: f
+    for f in (
+        steady_films,
+        records,
+        responses,
+        full_contact,
+        fits,
+        elements,
+        motions,
+        bearings,
+        bearing_rotors,
+        fmus,
+    )
 }
 
 
 def main() -> None:
-    """Write the bits, and hold them against those of another checkout."""
-    target, *others = map(Path, sys.argv[1:])
+    """Write the bits, and compare them with those of another checkout."""
+    parser = argparse.ArgumentParser(description=main.__doc__)
+    parser.add_argument("target", type=Path, help="JSON file to write")
+    parser.add_argument("other", type=Path, nargs="?", help="JSON file of another checkout")
+    parser.add_argument("--only", nargs="+", choices=GROUPS, default=list(GROUPS), help="groups; all by default")
+    given = parser.parse_args()
     found: dict[str, Any] = {}
     with threadpool_limits(1, user_api="blas"):
-        for name, group in GROUPS.items():
-            found |= {f"{name}: {leaf}": plain(value) for leaf, value in group()}
+        for name in given.only:
+            found |= {f"{name}: {leaf}": plain(value) for leaf, value in GROUPS[name]()}
             print(f"{name}: {len(found)} in all", flush=True)
-    target.write_text(json.dumps(found, indent=0) + "\n")
-    for other in others:
-        known = json.loads(other.read_text())
-        differing = [k for k in known if known[k] != found.get(k, "absent")]
-        for key in differing:
-            print(f"{key}\n    {known.get(key, 'absent')}\n    {found.get(key, 'absent')}")
-        new = len(found.keys() - known.keys())
-        print(f"{len(known) - len(differing)} alike, {len(differing)} differ from {other}; {new} new")
-        if differing:
-            raise SystemExit(1)
+    given.target.write_text(json.dumps(found, indent=0) + "\n")
+    if given.other is None:
+        return
+    known = {k: v for k, v in json.loads(given.other.read_text()).items() if k.split(": ")[0] in given.only}
+    differing = [k for k in known if known[k] != found.get(k, "absent")]
+    for key in differing:
+        print(f"{key}\n    {known[key]}\n    {found.get(key, 'absent')}")
+    new = len(found.keys() - known.keys())
+    print(f"{len(known) - len(differing)} alike, {len(differing)} differ from {given.other}; {new} new")
+    if differing:
+        raise SystemExit(1)
 
 
 if __name__ == "__main__":
