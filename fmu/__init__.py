@@ -1,29 +1,29 @@
 """Contact elements and rotors as Functional Mock-up Units: FMI 2.0 and 3.0, co-simulation and model exchange.
 
-==============  ====================================================================================
-module          responsibility
-==============  ====================================================================================
-``spec``        `ModelSpec`, the only place where a variable's name, reference, unit and start are said
-``contacts``    `contact_spec`: what all contact elements have in common
-``spring``      variables and C text of the elements without memory
-``film``        those of the elements with a film memory
-``c_headers``   `ModelSpec` to the generated C headers
-``glue``        C files of an FMI version, whatever the model
-``texts``       `ModelSpec` to ``modelDescription.xml`` of FMI 2.0 and ``documentation/index.html``
-``texts3``      `ModelSpec` to ``modelDescription.xml`` and ``terminalsAndIcons.xml`` of FMI 3.0
-``icon``        the picture of an FMU
-``binaries``    for which platforms, by which compiler, and what came out
-``build``       C sources, reproducible zip
-``export``      `export_contact`: element in, FMU file out
-``gate``        nothing unverified is written
-``verify``      `verify`: the FMU against fmpy's rules and, state by state, against the Python element
-``comparison``  forces, tangents and derivatives of both, side by side
-``references``  reference results inside an FMU, and `verify_references`: the FMU against them alone
-``driver``      an instance of an FMU, by hand, through fmpy
-``rotor/``      a Jeffcott rotor, alone or closed with its contacts
-``system/``     `export_system`: a rotor and its contacts as one system archive (SSP)
-``csrc/``       the C sources: common core, glue of each FMI version, models; equations in its README
-==============  ====================================================================================
+=====================  =============================================================================
+module                 responsibility
+=====================  =============================================================================
+``spec``               `ModelSpec`: name, value reference, unit and start value of every variable
+``contact_variables``  variables that the FMUs of all contact elements have
+``spring``             variables and C text of the elements without film memory
+``film``               variables, C text and tables of the elements with a film memory
+``contacts``           `contact_spec`: specification of the FMU of a contact element; advice on steps
+``c_headers``          `ModelSpec` to the generated C headers
+``sources``            C files of an FMU, and its zip archive
+``texts``              `ModelSpec` to ``modelDescription.xml`` of FMI 2.0; ``documentation/index.html``
+``texts3``             `ModelSpec` to ``modelDescription.xml``, ``terminalsAndIcons.xml`` of FMI 3.0
+``icon``               icon of an FMU
+``binaries/``          shared libraries for every platform
+``export``             `export_contact`: element to FMU file
+``verify``             `verify`: an FMU against fmpy's rules and the Python element, state by state
+``verify_before_write``  verification of an FMU before it is written
+``comparison``         forces, tangents and derivatives of FMU and Python element
+``references/``        reference results inside an FMU; `verify_references`
+``driver``             one instance of an FMU, driven through fmpy
+``rotor/``             FMU of a Jeffcott rotor, alone or with its contacts
+``system/``            `export_system`: a rotor and its contacts as a system archive (SSP)
+``csrc/``              C sources: core, interface of each FMI version, models; equations in its README
+=====================  =============================================================================
 
 The import name ``fmu`` is also that of the geoscience distribution fmu-tools (a namespace package there):
 the two cannot be installed into one environment.
@@ -33,7 +33,6 @@ from inspect import ismodule as _ismodule
 
 from fmu.binaries import BuildError as BuildError
 from fmu.export import export_contact as export_contact
-from fmu.gate import VerificationError as VerificationError
 from fmu.references.check import ReferenceCheck as ReferenceCheck
 from fmu.references.check import verify_references as verify_references
 from fmu.references.files import reference_files as reference_files
@@ -44,6 +43,7 @@ from fmu.rotor.model import RotorModel as RotorModel
 from fmu.system.export import export_system as export_system
 from fmu.verify import Verification as Verification
 from fmu.verify import verify as verify
+from fmu.verify_before_write import VerificationError as VerificationError
 
 
 def __dir__() -> list[str]:

@@ -1,47 +1,24 @@
-"""Specification of the FMU of a contact element, whatever its kind."""
+"""Specification of the FMU of a contact element: name, variables, notes and advice on steps."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
-from fmu.c_headers import c_double
-from fmu.spec import Choice, ModelSpec, Variable
-from reduced_models import (
-    CubicContact,
-    FilmMemoryContact,
-    LinearContact,
-    PolynomialContact,
-    PowerLawContact,
-    WideRangeContact,
-)
-from reduced_models.elements.validity import MARGIN, frequency_text, text_of
-
-Element = LinearContact | CubicContact | PolynomialContact | PowerLawContact | FilmMemoryContact | WideRangeContact
-Film = FilmMemoryContact | WideRangeContact
+from fmu.contact_variables import MEANINGS, ContactVariables, Element, Film
+from fmu.film import film_parts
+from fmu.spec import ModelSpec
+from fmu.spring import spring_parts
+from reduced_models.elements.validity import frequency_text, text_of
 
 SHARE_OF_TRANSIT = 0.05  # of 2a/u_sum, the default step
 FAST_STEP = 0.1  # of the fastest motion, over its angular frequency: what the advice on steps is told for
 LONGEST_NAME = 200  # characters of what an element says of its contact, in the description of an FMU
-ALLOWED_ERROR = 1e-4  # of the force in a step that is cut inside, where the importer gives no tolerance
-
-MEANINGS = Choice(
-    "InputMeaning",
-    (
-        (
-            "extrapolated",
-            "inputs are those of the step's start: approach goes on by its rate, rate by its last change",
-        ),
-        ("end", "inputs are those of the step's end, for masters that iterate"),
-        ("held", "inputs are those of the step's start and stay so: the force got is that of the start"),
-    ),
-)
 
 _DIMENSIONLESS = "dimensionless: force in static loads, approach in dry Hertz approaches, time in 2a/u_sum"
 
@@ -68,10 +45,7 @@ def contact_spec(element: Element, model_name: str | None = None) -> ModelSpec:
     if not isinstance(element, Element):
         raise InputError("element", type(element).__name__, "a contact element (linear, cubic, ..., wide)")
     name = checked_name(type(element).__name__ if model_name is None else model_name)
-    from fmu.film import film_parts
-    from fmu.spring import spring_parts
-
-    common = Common(element)
+    common = ContactVariables(element)
     parts = film_parts(element, common) if isinstance(element, Film) else spring_parts(element, common)
     system = "SI units" if element.units == "SI" else _DIMENSIONLESS
     return ModelSpec(
@@ -108,98 +82,6 @@ def checked_name(name: object) -> str:
     return name
 
 
-class Common:
-    """The variables of every contact, numbered as they are made."""
-
-    def __init__(self, element: Element) -> None:
-        self.element = element
-        self.variables: list[Variable] = []
-
-    def unit(self, si: str) -> str:
-        """The unit of a quantity of the element."""
-        return si if self.element.units == "SI" else "1"
-
-    def add(self, name: str, causality: str, variability: str, text: str, **more: Any) -> None:
-        """Append a variable."""
-        self.variables.append(Variable(name, len(self.variables), causality, variability, text, **more))
-
-    def input(self, name: str, si: str, start: float, nominal: float, text: str) -> None:
-        """Append an input."""
-        rate = "rate" if name == "approach" else None
-        self.add(
-            name, "input", "continuous", text,
-            unit=self.unit(si), start=start, nominal=_nominal(nominal), rate=rate,
-        )  # fmt: skip
-
-    def output(self, name: str, si: str, nominal: float, depends: tuple[str, ...], text: str) -> None:
-        """Append a real output that is never negative."""
-        self.add(
-            name, "output", "continuous", text,
-            unit=self.unit(si), minimum=0.0 if name == "force" else None,
-            nominal=_nominal(nominal), depends=depends,
-        )  # fmt: skip
-
-    def constant(self, name: str, si: str, value: float, text: str) -> None:
-        """Append a number that says something about the element."""
-        self.add(name, "local", "constant", text, unit=self.unit(si), start=float(value))
-
-    def meaning(self) -> None:
-        """Append the parameter `input_meaning`."""
-        self.add(
-            "input_meaning", "parameter", "fixed",
-            "What the inputs of a co-simulation step mean: 1 extrapolated, 2 end, 3 held",
-            type="Enumeration", start=1, minimum=1, maximum=len(MEANINGS.items),
-        )  # fmt: skip
-
-    def flags(self, depends: tuple[str, ...], *, first: bool) -> None:
-        """Append outside_validity (`first`), or the flags of its bounds."""
-        texts = {
-            "outside_validity": f"True where approach, rate or force leave their bounds by more than {MARGIN:.0%}",
-            "outside_approach": "True where the approach is outside [low, high] by more than the margin",
-            "outside_rate": "True where the rate is larger than rate_max by more than the margin",
-            "outside_force": "True where the force is outside [force_min, force_max] by more than the margin",
-        }
-        for name in list(texts)[:1] if first else list(texts)[1:]:
-            self.add(name, "output", "discrete", texts[name], type="Boolean", depends=depends)
-
-    def box(self, *, low_high: bool, rate: bool = True) -> None:
-        """Append what is known of the validity box; low and high, or the rate, may be there already."""
-        element = self.element
-        if low_high:
-            self.constant(
-                "low", "m", element.validity.approach[0], "Lower end of the validity interval of the approach"
-            )
-            self.constant(
-                "high", "m", element.validity.approach[1], "Upper end of the validity interval of the approach"
-            )
-        if rate and element.rate is not None:
-            self.constant("rate_max", "m/s", element.rate, "Largest rate, in magnitude, of the data")
-        if element.load_range is not None:
-            self.constant("force_min", "N", element.load_range[0], "Smallest force of the data")
-            self.constant("force_max", "N", element.load_range[1], "Largest force of the data")
-        if element.omega_range is not None:
-            words = "angular frequency of the data"
-            self.constant("omega_min", "rad/s", element.omega_range[0], f"Lowest {words}")
-            self.constant("omega_max", "rad/s", element.omega_range[1], f"Highest {words}")
-
-    def macros(self) -> dict[str, str]:
-        """What config.h says of the box: a bound that is not known is infinite."""
-        _, _, _, least, most = self.element.validity.reach
-        known = any(variable.name == "rate_max" for variable in self.variables)
-        return {
-            "BOX_MARGIN": c_double(MARGIN),
-            "BOX_RATE": "m->value[VR_rate_max]" if known else "HUGE_VAL",
-            "BOX_LEAST_FORCE": c_double(least),
-            "BOX_MOST_FORCE": c_double(most),
-            "DEFAULT_TOLERANCE": c_double(ALLOWED_ERROR),
-        }
-
-
-def _nominal(value: float) -> float | None:
-    size = abs(value)
-    return size if math.isfinite(size) and size > 0.0 else None
-
-
 def default_step(element: Element) -> float:
     """A step that resolves the contact, 1, 2 or 5 times a power of ten.
 
@@ -222,12 +104,6 @@ def round_down(value: float) -> float:
     power = math.floor(math.log10(value))
     digit = max(d for d in (1, 2, 5) if d <= value / 10.0**power * (1.0 + 1e-12))
     return float(f"{digit}e{power}")
-
-
-def band_text(element: Element) -> str:
-    """What a damper without memory is for, in words."""
-    band = element.omega_range
-    return "" if band is None else f", for motion of {frequency_text(band, element.units)}"
 
 
 def _notes(element: Element) -> tuple[tuple[str, str], ...]:

@@ -10,14 +10,11 @@ from pathlib import Path
 
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_bytes
-from fmu import build
+from fmu import sources
 from fmu.binaries import Platform, build_binaries, choose, this_machine
 from fmu.binaries.libraries import Progress
 from fmu.binaries.recipe import build_description
-from fmu.c_headers import c_headers
-from fmu.contacts import Element
-from fmu.gate import require_finite, require_verified
-from fmu.glue import GLUE, compiled
+from fmu.contact_variables import Element
 from fmu.icon import icon
 from fmu.references.contacts import contact_references
 from fmu.references.files import reference_files
@@ -25,10 +22,12 @@ from fmu.references.series import References
 from fmu.rotor.model import RotorModel
 from fmu.rotor.references import rotor_references
 from fmu.rotor.variables import spec_of
+from fmu.sources import FMI_FILES, compiled, source_files
 from fmu.spec import ModelSpec
 from fmu.texts import documentation, model_description
 from fmu.texts3 import model_description_3, terminals
 from fmu.verify import Verification
+from fmu.verify_before_write import require_finite, require_verified
 
 _NAMESPACE = uuid.uuid5(uuid.NAMESPACE_URL, "https://pypi.org/project/ehlcontact/fmu")
 
@@ -117,7 +116,7 @@ def export_verified(
     progress: Progress | None = None,
 ) -> tuple[Path, Verification | None]:
     """As `export_contact` or `export_rotor`, with what was found: None where this machine can run no such FMU."""
-    if isinstance(fmi, bool) or fmi not in GLUE:
+    if isinstance(fmi, bool) or fmi not in FMI_FILES:
         raise InputError("fmi", fmi, "2 or 3")
     spec = spec_of(element, model_name)
     require_finite(element)
@@ -130,9 +129,9 @@ def export_verified(
     if own is not None and own.folder(fmi) is not None:
         # An FMU for other machines is verified by this one's binary of the same sources.
         runnable = files if own in wanted else fmu_files(spec, (own,), fmi, references=references)
-        found = require_verified(build.pack(runnable), element)
+        found = require_verified(sources.pack(runnable), element)
     free_target(path, overwrite)  # still
-    return write_bytes(target, build.pack(files)), found
+    return write_bytes(target, sources.pack(files)), found
 
 
 def references_of(element: Element | RotorModel, spec: ModelSpec) -> References:
@@ -173,35 +172,26 @@ def fmu_files(
 ) -> dict[str, bytes]:
     """Everything in the FMU by its path, the compiled binaries included."""
     guid = content_guid(spec, fmi)
-    sources = source_files(spec, guid, fmi)
-    units, glue = compiled(spec, fmi), GLUE[fmi]
-    files, labels = build_binaries(sources, units, spec.identifier, platforms, fmi, progress)
-    readme = (build.CSRC / "README.md").read_text(encoding="ascii")
+    code = source_files(spec, guid, fmi)
+    units, interface = compiled(spec, fmi), FMI_FILES[fmi]
+    files, labels = build_binaries(code, units, spec.identifier, platforms, fmi, progress)
+    readme = (sources.CSRC / "README.md").read_text(encoding="ascii")
     about = "" if references is None else references.about
     files["modelDescription.xml"] = _description(spec, guid, fmi)
     files["documentation/index.html"] = documentation(spec, readme, "; ".join(labels), fmi, about).encode()
-    brought = () if fmi == 2 else glue.standard
-    files |= {f"sources/{name}": content for name, content in sources.items() if name not in brought}
+    brought = () if fmi == 2 else interface.standard
+    files |= {f"sources/{name}": content for name, content in code.items() if name not in brought}
     if fmi == 3:
         files["sources/buildDescription.xml"] = build_description(spec.identifier, units)
         files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(spec)
     files["model.png" if fmi == 2 else "terminalsAndIcons/icon.png"] = icon()
-    for name in filter(None, ("license.txt", glue.licence)):
-        files[f"documentation/licenses/{name}"] = (build.CSRC / "licenses" / name).read_bytes()
+    for name in filter(None, ("license.txt", interface.licence)):
+        files[f"documentation/licenses/{name}"] = (sources.CSRC / "licenses" / name).read_bytes()
     return files | ({} if references is None else reference_files(references, spec))
 
 
 def _description(spec: ModelSpec, guid: str, fmi: int) -> bytes:
     return model_description(spec, guid) if fmi == 2 else model_description_3(spec, guid)
-
-
-def source_files(spec: ModelSpec, guid: str, fmi: int = 2) -> dict[str, bytes]:
-    """All that a compiler needs: content of ``sources/``, and the headers of FMI."""
-    glue = GLUE[fmi]
-    names = (*glue.sources, *spec.sources, *glue.headers, *spec.headers, "README.md")
-    found = {path.name: path for path in build.CSRC.rglob("*") if path.is_file()}
-    files = {name: found[name].read_bytes() for name in (*names, *glue.standard)}
-    return files | {name: text.encode("ascii") for name, text in c_headers(spec, guid).items()}
 
 
 def content_guid(spec: ModelSpec, fmi: int = 2) -> str:

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu.c_headers import c_double, c_table
-from fmu.contacts import Common, Film
+from fmu.contact_variables import ContactVariables, Film
 
 
-def film_parts(element: Film, common: Common) -> dict[str, Any]:
+def film_parts(element: Film, common: ContactVariables) -> dict[str, Any]:
     """Fields of the `ModelSpec` of an element with a film memory."""
     lags = element.lags
     states = ("s", "y", *(f"q[{k}]" for k in range(1, lags + 1)))
@@ -56,7 +56,7 @@ def film_parts(element: Film, common: Common) -> dict[str, Any]:
     }
 
 
-def _states(common: Common, states: tuple[str, ...], nominal: float) -> None:
+def _states(common: ContactVariables, states: tuple[str, ...], nominal: float) -> None:
     texts = ("Rate that the inlet remembers", "Rate that the fast part remembers")
     for k, name in enumerate(states):
         text = texts[k] if k < len(texts) else f"Film made, as lag {k - 1} of the chain passes it on"

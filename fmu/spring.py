@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from fmu.contacts import Common, band_text
+from fmu.contact_variables import ContactVariables, band_text
 from reduced_models import CubicContact, LinearContact, PolynomialContact, PowerLawContact
 
 # Unit and description of every coefficient.
@@ -34,7 +34,7 @@ _VISCOUS = ("C1", "C")
 Spring = LinearContact | CubicContact | PolynomialContact | PowerLawContact
 
 
-def spring_parts(element: Spring, common: Common) -> dict[str, Any]:
+def spring_parts(element: Spring, common: ContactVariables) -> dict[str, Any]:
     """Fields of the `ModelSpec` of an element without memory."""
     coefficients = dict(_POWER if isinstance(element, PowerLawContact) else _POLYNOMIAL)
     seven = isinstance(element, PolynomialContact)
@@ -55,7 +55,7 @@ def spring_parts(element: Spring, common: Common) -> dict[str, Any]:
 
 
 def _variables(
-    element: Spring, common: Common, coefficients: dict[str, Any], law: tuple[str, ...], levels_off: bool
+    element: Spring, common: ContactVariables, coefficients: dict[str, Any], law: tuple[str, ...], levels_off: bool
 ) -> None:
     values = {"K2": 0.0, "K3": 0.0} | element.parameters | {"low": element.low, "high": element.high}
     force, stiffness, damping = element.step_tangents(1.0, float(element.high), 0.0)

@@ -9,7 +9,7 @@ from html import escape
 from xml.etree import ElementTree
 
 from ehlcontact import __version__
-from fmu.glue import compiled
+from fmu.sources import compiled
 from fmu.spec import DISPLAY_UNITS, UNITS, ModelSpec, Variable
 
 DEFAULT_STEPS = 1000  # of the default experiment

@@ -16,7 +16,7 @@ from typing import Any
 from ehlcontact.errors import InputError
 from ehlcontact.summary import WIDTH, Summary
 from fmu.comparison import Comparison, compare_film, compare_spring
-from fmu.contacts import Element, Film
+from fmu.contact_variables import Element, Film
 from fmu.driver import Exchange, Slave
 from fmu.rotor.comparison import compare_rotor
 from fmu.rotor.model import RotorModel

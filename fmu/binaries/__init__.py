@@ -8,10 +8,7 @@ room           responsibility
 ``process``    a compiler is run, and ended where it hangs
 ``cache``      what was compiled before, by its sources, flags and compiler; safe with several processes
 ``libraries``  sources in, a library for each platform out, as it should be
-``headers``    `read_library`: what the headers of an ELF, PE or Mach-O file say
-``elf``        ELF: Linux
-``pe``         PE: Windows
-``macho``      Mach-O: macOS; and several of them in one file
+``headers``    `read_library`: headers of an ELF, PE or Mach-O file; universal Mach-O files
 ``recipe``     ``sources/buildDescription.xml`` of FMI 3, how to compile what is there
 ============== ================================================================================================
 """

@@ -13,9 +13,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from threading import Event
 
-from fmu.binaries import cache, macho
+from fmu.binaries import cache
 from fmu.binaries.compiler import Compiler, compilers
-from fmu.binaries.headers import Library, read_library
+from fmu.binaries.headers import Library, read_library, universal
 from fmu.binaries.platforms import Platform
 from fmu.binaries.process import BuildError, run
 
@@ -83,7 +83,7 @@ def build_binaries(
         path = f"binaries/{one.folder(fmi)}/{identifier}{one.suffix}"
         made.setdefault(path, []).append(library)
         labels.append(f"{one.name}: {compiler.label} {' '.join(one.all_flags(identifier))}")
-    return {path: macho.universal(found) for path, found in made.items()}, tuple(labels)
+    return {path: universal(found) for path, found in made.items()}, tuple(labels)
 
 
 def _libraries(

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu.comparison import END, STEPS, bounds, film_rates_at, film_walk, tangents
-from fmu.contacts import SHARE_OF_TRANSIT, Element, Film, round_down
+from fmu.contact_variables import Element, Film
+from fmu.contacts import SHARE_OF_TRANSIT, round_down
 from fmu.references.series import References, Trial
 from fmu.spec import ModelSpec
 from reduced_models.elements.film_law import DIRECT

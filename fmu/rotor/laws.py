@@ -10,9 +10,10 @@ import re
 
 import numpy as np
 
-from fmu import build
+from fmu import sources as fmu_sources
 from fmu.c_headers import c_headers, c_table
-from fmu.contacts import Element, Film, contact_spec
+from fmu.contact_variables import Element, Film
+from fmu.contacts import contact_spec
 from fmu.spec import ModelSpec
 
 _CORE = ("core.c", "core_step.c")  # which the rotor has once
@@ -45,7 +46,7 @@ def law_source(element: Element, name: str) -> str:
     spec = contact_spec(element)
     tangents = ("step_stiffness", "step_damping") if isinstance(element, Film) else ("stiffness", "damping")
     starts = np.array([0.0 if v.start is None else float(v.start) for v in spec.variables])
-    files = {path.name: path.read_text(encoding="ascii") for path in build.CSRC.rglob("*.[ch]")}
+    files = {path.name: path.read_text(encoding="ascii") for path in fmu_sources.CSRC.rglob("*.[ch]")}
     files |= c_headers(spec, "") | {"law_values.h": c_table("law_values", starts) + "\n"}
     sources = [source for source in spec.sources if source not in _CORE]
     functions = sorted({found for source in sources for found in _FUNCTION.findall(files[source])})

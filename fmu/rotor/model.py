@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.errors import ConvergenceError, InputError
-from fmu.contacts import Element, default_step, round_down
+from fmu.contact_variables import Element
+from fmu.contacts import default_step, round_down
 from fmu.rotor.twin import Run, shaken_run
 from reduced_models import JeffcottRotor, OutsideValidityWarning, RotorState, ScaledContact
 

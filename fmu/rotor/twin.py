@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu.comparison import bounds, film_rates_at, tangents
-from fmu.contacts import Element, Film
+from fmu.contact_variables import Element, Film
 from reduced_models import JeffcottRotor, OutsideValidityWarning, RotorState, simulate_rotor
 from reduced_models.rotor.step import CondensedRotor, Motion
 

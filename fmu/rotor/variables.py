@@ -9,7 +9,8 @@ import numpy as np
 
 from ehlcontact.errors import InputError
 from fmu.c_headers import c_double, c_table
-from fmu.contacts import ALLOWED_ERROR, MEANINGS, Element, checked_name, contact_spec, whose
+from fmu.contact_variables import ALLOWED_ERROR, MEANINGS, Element
+from fmu.contacts import checked_name, contact_spec, whose
 from fmu.rotor.laws import law_tables, numbers_of_laws
 from fmu.rotor.model import RotorModel
 from fmu.spec import ModelSpec, Variable

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.errors import ConvergenceError
-from fmu.gate import VerificationError
 from fmu.rotor.model import RotorModel
 from fmu.system.master import DESCRIPTION, SystemRun
+from fmu.verify_before_write import VerificationError
 from reduced_models.rotor.jeffcott import JeffcottRotor
 from reduced_models.rotor.simulate import simulate_rotor
 

@@ -18,15 +18,14 @@ from ehlcontact.errors import InputError
 from ehlcontact.files import write_bytes
 from fmu.binaries import Platform, choose, this_machine
 from fmu.binaries.libraries import Progress
-from fmu.build import pack
 from fmu.contacts import checked_name, damping_at, round_down
 from fmu.export import export_contact, free_target
-from fmu.gate import VerificationError
-from fmu.glue import GLUE
 from fmu.rotor.export import export_rotor
 from fmu.rotor.model import RotorModel
+from fmu.sources import FMI_FILES, pack
 from fmu.system.check import ALLOWED, SystemVerification, verify_system
 from fmu.system.structure import Component, Connector, Wire, system_structure
+from fmu.verify_before_write import VerificationError
 from reduced_models.rotor.jeffcott import JeffcottRotor
 
 NAME = "rotor on contacts"
@@ -116,7 +115,7 @@ def export_verified_system(
 
     None was found where this machine can run no such FMU.
     """
-    if isinstance(fmi, bool) or fmi not in GLUE:
+    if isinstance(fmi, bool) or fmi not in FMI_FILES:
         raise InputError("fmi", fmi, "2 or 3")
     if not made.elements:
         raise InputError("contacts", None, f"one per mount, {len(made.rotor.mounts)}")

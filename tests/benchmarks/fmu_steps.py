@@ -15,9 +15,10 @@ from ledger import Row
 from ehlcontact import MoesPoint
 from fmu.binaries import this_machine
 from fmu.binaries.compiler import compilers
-from fmu.build import CSRC
-from fmu.contacts import MEANINGS, Element, contact_spec
+from fmu.contact_variables import MEANINGS, Element
+from fmu.contacts import contact_spec
 from fmu.export import content_guid, fmu_files
+from fmu.sources import CSRC
 from reduced_models import Atlas, CubicContact
 
 # Motion about the place of the static load, over 2a/u_sum: u = 0.87 + 0.2 sin 2.5 T in steps of 0.02.

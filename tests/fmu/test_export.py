@@ -9,11 +9,11 @@ import pytest
 
 import fmu.spec
 from ehlcontact.errors import InputError
-from fmu import BuildError, VerificationError, binaries, build, export_contact, verify
+from fmu import BuildError, VerificationError, binaries, export_contact, sources, verify
 from fmu.binaries.compiler import compilers
-from fmu.build import CSRC
 from fmu.contacts import contact_spec
 from fmu.export import export_verified
+from fmu.sources import CSRC
 
 
 def test_bytes_are_reproducible(fmus, elements, kind, tmp_path, monkeypatch):
@@ -24,16 +24,16 @@ def test_bytes_are_reproducible(fmus, elements, kind, tmp_path, monkeypatch):
 
 def spoiled(name, old, new):
     """`pack` with a library compiled from a source in which `old` is `new`."""
-    pack = build.pack
+    pack = sources.pack
 
     def packed(files):
-        sources = {path[8:]: content for path, content in files.items() if path.startswith("sources/")}
-        assert old.encode() in sources[name]
-        sources[name] = sources[name].replace(old.encode(), new.encode())
-        units = [path for path in sources if path.endswith(".c")]
+        code = {path[8:]: content for path, content in files.items() if path.startswith("sources/")}
+        assert old.encode() in code[name]
+        code[name] = code[name].replace(old.encode(), new.encode())
+        units = [path for path in code if path.endswith(".c")]
         own = binaries.this_machine()
         (path,) = [path for path in files if path.startswith("binaries/")]
-        library = binaries.build_binaries(sources, units, "x", [own], fmi=2)[0].popitem()[1]
+        library = binaries.build_binaries(code, units, "x", [own], fmi=2)[0].popitem()[1]
         return pack(files | {path: library})
 
     return packed
@@ -141,11 +141,11 @@ def test_nothing_is_written_that_is_not_right(elements, tmp_path, monkeypatch, f
         spec = contact_spec(wrong)
         monkeypatch.setattr("fmu.export.spec_of", lambda *_: spec)
     elif fault == "computes otherwise":  # and says nothing wrong of itself
-        monkeypatch.setattr(build, "pack", spoiled("model_contact.c", "times(3.0, K3)", "times(3.001, K3)"))
+        monkeypatch.setattr(sources, "pack", spoiled("model_contact.c", "times(3.0, K3)", "times(3.001, K3)"))
     elif fault == "does not run":
-        monkeypatch.setattr(build, "pack", spoiled("core_step.c", "fault.severity != FINE", "1"))
+        monkeypatch.setattr(sources, "pack", spoiled("core_step.c", "fault.severity != FINE", "1"))
     else:
-        monkeypatch.setattr(build, "pack", lambda files: b"no zip")
+        monkeypatch.setattr(sources, "pack", lambda files: b"no zip")
     for name in ("new.fmu", "old.fmu"):
         with pytest.raises(VerificationError) as error:
             export_contact(elements["cubic"], tmp_path / name, overwrite=True)

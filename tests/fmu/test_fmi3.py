@@ -14,8 +14,8 @@ from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 
 from fmu import export_contact, verify
-from fmu.build import CSRC
 from fmu.driver import Exchange, Slave
+from fmu.sources import CSRC
 
 EXTRAPOLATED, END, HELD = 1, 2, 3
 STRICT = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Werror"]

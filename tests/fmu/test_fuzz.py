@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from fmu.contacts import contact_spec
-from fmu.export import content_guid, source_files
+from fmu.export import content_guid
+from fmu.sources import source_files
 
 SANITIZE = ["-g", "-O1", "-fsanitize=address,undefined,float-divide-by-zero", "-fno-sanitize-recover=all"]
 KINDS = ["cubic", "polynomial", "power_si", "wide_si", "memory"]

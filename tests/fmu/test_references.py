@@ -11,7 +11,7 @@ import pytest
 from fmpy.util import read_csv, read_ref_opt_file
 
 from ehlcontact.errors import InputError
-from fmu import VerificationError, build, export_contact, verify, verify_references
+from fmu import VerificationError, export_contact, sources, verify, verify_references
 from fmu.binaries import build_binaries, this_machine
 from fmu.comparison import difference
 from fmu.contacts import contact_spec
@@ -132,12 +132,12 @@ def test_any_importer_finds_them_again(fmus, kind, tmp_path):
 )
 def test_a_coefficient_altered_in_the_source_is_found(fmus, tmp_path, kind, source, old, new, wrong):
     def change(files):
-        sources = {path[8:]: text for path, text in files.items() if path.startswith("sources/")}
-        assert old.encode() in sources[source]
-        sources[source] = sources[source].replace(old.encode(), new.encode())
-        units = [path for path in sources if path.endswith(".c")]
+        code = {path[8:]: text for path, text in files.items() if path.startswith("sources/")}
+        assert old.encode() in code[source]
+        code[source] = code[source].replace(old.encode(), new.encode())
+        units = [path for path in code if path.endswith(".c")]
         (path,) = [path for path in files if path.startswith("binaries/")]
-        library = build_binaries(sources, units, "x", [this_machine()], fmi=2)[0].popitem()[1]
+        library = build_binaries(code, units, "x", [this_machine()], fmi=2)[0].popitem()[1]
         return files | {path: library}
 
     found = verify_references(altered(fmus[kind], tmp_path / "x.fmu", change))
@@ -265,7 +265,7 @@ def test_references_of_other_models(elements, tmp_path):
     path = export_contact(elements["cubic"], tmp_path / "x.fmu")
     with zipfile.ZipFile(path) as archive:
         old = {n: archive.read(n) for n in archive.namelist() if not n.startswith("extra")}
-    (tmp_path / "y.fmu").write_bytes(build.pack(old | files))
+    (tmp_path / "y.fmu").write_bytes(sources.pack(old | files))
     found = verify_references(tmp_path / "y.fmu")
     assert found.tolerance == 1e-9 and found.findings == ("model exchange: no reference results",)
     assert found.interfaces[0].rows == 3 and found.interfaces[0].difference > 0.1

@@ -12,8 +12,8 @@ import pytest
 from fmpy.build import build_platform_binary
 
 from fmu import verify
-from fmu.build import CSRC
 from fmu.comparison import film_motion, state_grid
+from fmu.sources import CSRC
 
 STRICT = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Werror"]
 SANITIZE = ["-g", "-O1", "-fsanitize=address,undefined,float-divide-by-zero", "-fno-sanitize-recover=all"]

@@ -6,8 +6,8 @@ import pytest
 
 from fmu.binaries import PLATFORMS, build_binaries
 from fmu.contacts import contact_spec
-from fmu.export import content_guid, source_files
-from fmu.glue import compiled
+from fmu.export import content_guid
+from fmu.sources import compiled, source_files
 from reduced_models import CubicContact
 
 

@@ -8,8 +8,8 @@ import subprocess
 import pytest
 
 from fmu.binaries import build_binaries, read_library, this_machine
-from fmu.binaries.macho import universal
-from fmu.glue import compiled
+from fmu.binaries.headers import universal
+from fmu.sources import compiled
 
 
 @pytest.fixture(scope="module")

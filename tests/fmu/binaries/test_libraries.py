@@ -16,10 +16,9 @@ from ehlcontact import InputError
 from fmu import export_contact
 from fmu.binaries import PLATFORMS, BuildError, build_binaries, choose, libraries, read_library, this_machine
 from fmu.binaries.compiler import Compiler, compilers
-from fmu.build import CSRC
 from fmu.contacts import contact_spec
-from fmu.export import content_guid, source_files
-from fmu.glue import GLUE, compiled
+from fmu.export import content_guid
+from fmu.sources import CSRC, FMI_FILES, compiled, source_files
 from reduced_models import CubicContact
 
 OWN = this_machine()
@@ -264,7 +263,7 @@ def assert_no_warning(element, fmi, folder, compiler):
     (folder / "standard").mkdir()
     for name, content in source_files(spec, content_guid(spec, fmi), fmi).items():
         # those of FMI apart: a type of function without a prototype in FMI 3.0 is not for us to change
-        (folder / ("standard" if name in GLUE[fmi].standard else ".") / name).write_bytes(content)
+        (folder / ("standard" if name in FMI_FILES[fmi].standard else ".") / name).write_bytes(content)
     for unit in compiled(spec, fmi):
         line = [*command, *STRICT, "-isystem", "standard", unit]
         done = subprocess.run(line, cwd=folder, capture_output=True, text=True, check=False, timeout=600)

@@ -9,11 +9,10 @@ import pytest
 
 from fmu.binaries import PLATFORMS, build_binaries, this_machine
 from fmu.binaries.compiler import compilers
-from fmu.build import CSRC
 from fmu.comparison import film_motion
 from fmu.contacts import contact_spec
-from fmu.export import content_guid, source_files
-from fmu.glue import compiled
+from fmu.export import content_guid
+from fmu.sources import CSRC, compiled, source_files
 
 OWN = this_machine()
 LOADER = Path(__file__).parent / "loader.c"

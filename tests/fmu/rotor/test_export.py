@@ -10,7 +10,7 @@ import pytest
 
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from fmu import RotorModel, VerificationError, build, export_rotor, verify
+from fmu import RotorModel, VerificationError, export_rotor, sources, verify
 from fmu.rotor.variables import rotor_spec
 from reduced_models import OutsideValidityWarning, RotorState, ScaledContact, simulate_rotor
 
@@ -71,12 +71,12 @@ def altered(monkeypatch, tmp_path, file, old, new):
     import shutil
 
     folder = tmp_path / "csrc"
-    shutil.copytree(build.CSRC, folder)
+    shutil.copytree(sources.CSRC, folder)
     path = next(folder.rglob(file))
     text = path.read_text()
     assert text.count(old) == 1
     path.write_text(text.replace(old, new))
-    monkeypatch.setattr(build, "CSRC", folder)
+    monkeypatch.setattr(sources, "CSRC", folder)
 
 
 @SAYS_NOTHING

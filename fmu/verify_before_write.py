@@ -1,4 +1,4 @@
-"""What stands between a finished FMU and its place: nothing unverified passes."""
+"""Verification of an FMU before it is written: nothing unverified is."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ehlcontact.errors import InputError
-from fmu.contacts import Element
+from fmu.contact_variables import Element
 from fmu.references.check import check_references
 from fmu.rotor.model import RotorModel
 from fmu.verify import Verification, opened, verify_opened
