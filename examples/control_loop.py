@@ -14,7 +14,7 @@ import control
 import numpy as np
 
 from ehlcontact import Lubricant
-from reduced_models import BallBearing, BearingMount, MatrixRotor, linearise, rotor_to_control
+from reduced_models import BallBearing, BearingMount, Rotor, linearise, rotor_to_control
 
 RPM, SHAFT = 3000.0, 4e8  # rev/min; N/m between journal and disc
 JOURNAL, DISC = 1.0, 20.0  # kg
@@ -23,11 +23,11 @@ DAMPER, SLOW = 4e3, 2.0 * np.pi * 3e3  # N s/m of the controller; rad/s, up to w
 BLOW, SHORT = 20.0, 5e-4  # N, s
 
 
-def rotor() -> MatrixRotor:
+def rotor() -> Rotor:
     """Degrees of freedom x, y of the journal, then of the disc."""
     held = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
     masses, spring = np.array([JOURNAL, DISC]), SHAFT * np.array([[1.0, -1.0], [-1.0, 1.0]])
-    return MatrixRotor(
+    return Rotor(
         mass=np.kron(np.diag(masses), np.eye(2)),
         stiffness=np.kron(spring, np.eye(2)),
         load=np.kron(masses, [0.0, -9.81]),
@@ -35,12 +35,12 @@ def rotor() -> MatrixRotor:
     )
 
 
-def linear(line: MatrixRotor) -> Any:
+def linear(line: Rotor) -> Any:
     """About rest, balls standing still: an exact ``StateSpace``, from forces on the disc to both places."""
     return linearise(line, RPM, passage=False).to_control(PUSH, PROBE, name="rotor")
 
 
-def nonlinear(line: MatrixRotor) -> Any:
+def nonlinear(line: Rotor) -> Any:
     """The same with all that is not linear in it."""
     return rotor_to_control(line, RPM, inputs=PUSH, outputs=PROBE, cage_turns=False)
 

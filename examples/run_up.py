@@ -16,8 +16,8 @@ from reduced_models import (
     BallBearing,
     BearingMount,
     BearingRun,
-    MatrixRotor,
-    SpeedCourse,
+    Rotor,
+    SpeedProfile,
     Unbalance,
     campbell,
     simulate_on_bearings,
@@ -29,10 +29,10 @@ UNBALANCE = 2e-5  # kg m: half a micrometre on the disc, balance quality G 0.4
 RANGE = 4000.0, 9000.0  # rev/min
 
 
-def rotor() -> MatrixRotor:
+def rotor() -> Rotor:
     """Places x, y of the left journal, of the disc and of the right one."""
     held = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
-    return MatrixRotor(
+    return Rotor(
         mass=np.kron(np.diag(MASSES), np.eye(2)),
         stiffness=np.kron(SHAFT, np.eye(2)),
         load=np.kron(MASSES, [0.0, -9.81]),
@@ -41,14 +41,14 @@ def rotor() -> MatrixRotor:
     )
 
 
-def critical_speeds(line: MatrixRotor) -> list[float]:
+def critical_speeds(line: Rotor) -> list[float]:
     """Speeds [rev/min] at which the unbalance meets a mode."""
     return [found.speed_rpm for found in campbell(line, np.linspace(*RANGE, 6), count=2).critical_speeds()]
 
 
-def runs(line: MatrixRotor, seconds: float) -> dict[str, BearingRun]:
+def runs(line: Rotor, seconds: float) -> dict[str, BearingRun]:
     """Speeding up and slowing down, in so many seconds each."""
-    courses = {"up": SpeedCourse.ramp(*RANGE, seconds), "down": SpeedCourse.ramp(*RANGE[::-1], seconds)}
+    courses = {"up": SpeedProfile.ramp(*RANGE, seconds), "down": SpeedProfile.ramp(*RANGE[::-1], seconds)}
     return {
         way: simulate_on_bearings(line, speed_rpm=course, dt=5e-5, until=seconds)
         for way, course in courses.items()

@@ -5,10 +5,8 @@
 | elements | the elements: law, validity, units, file; `load_element` |
 | fitting | elements from data: `ContactRecord`, `fit`, `fit_memory`, `sensitivity` |
 | atlas | elements without a solve: `Atlas`, from contacts solved beforehand, with error bars |
-| bearing | ball bearings of such contacts: `BallBearing`; rotors on them over time |
-| shaft | such rotors by shaft, discs and supports: `rotor_on_bearings` |
-| vibration | linear answers of rotors on such bearings: `linearise`, `campbell`, `unbalance_response` |
-| rotor | what runs on elements and full films: `simulate_rotor`, `LinearRotor`, `log_decrement`, `compare` |
+| bearing | ball bearings of such contacts: `BallBearing` |
+| rotor | rotors on contacts, full films and ball bearings: equilibrium, motion over time, responses |
 
 To come: adapters (to other programs' rotors and controllers).
 Symbols and units: `ehlcontact.point`.
@@ -22,17 +20,9 @@ from reduced_models.atlas.answer import AtlasSI as AtlasSI
 from reduced_models.atlas.atlas import Atlas as Atlas
 from reduced_models.atlas.frequency import AtlasImpedance as AtlasImpedance
 from reduced_models.bearing.ball_bearing import BallBearing as BallBearing
-from reduced_models.bearing.course import SpeedCourse as SpeedCourse
+from reduced_models.bearing.coefficients import BearingCoefficients as BearingCoefficients
 from reduced_models.bearing.kinematics import DefectFrequencies as DefectFrequencies
-from reduced_models.bearing.linear import BearingCoefficients as BearingCoefficients
 from reduced_models.bearing.motion import BearingMotion as BearingMotion
-from reduced_models.bearing.ross import RossCallback as RossCallback
-from reduced_models.bearing.ross import from_ross as from_ross
-from reduced_models.bearing.rotor import BearingMount as BearingMount
-from reduced_models.bearing.rotor import MatrixRotor as MatrixRotor
-from reduced_models.bearing.rotor import Unbalance as Unbalance
-from reduced_models.bearing.run import BearingRun as BearingRun
-from reduced_models.bearing.run import simulate_on_bearings as simulate_on_bearings
 from reduced_models.bearing.state import BearingState as BearingState
 from reduced_models.elements.kinds import ContactElement as ContactElement
 from reduced_models.elements.kinds import CubicContact as CubicContact
@@ -54,9 +44,13 @@ from reduced_models.fitting.sensitivity import SensitivityRow as SensitivityRow
 from reduced_models.fitting.sensitivity import sensitivity as sensitivity
 from reduced_models.fitting.wide import wide_range_contact as wide_range_contact
 from reduced_models.fitting.wide import wide_range_from_solves as wide_range_from_solves
+from reduced_models.rotor.assembly import rotor_on_bearings as rotor_on_bearings
 from reduced_models.rotor.baselines import dry_contact as dry_contact
 from reduced_models.rotor.baselines import local_contact as local_contact
 from reduced_models.rotor.baselines import without_damper as without_damper
+from reduced_models.rotor.campbell import Campbell as Campbell
+from reduced_models.rotor.campbell import CriticalSpeed as CriticalSpeed
+from reduced_models.rotor.campbell import campbell as campbell
 from reduced_models.rotor.compare import Comparison as Comparison
 from reduced_models.rotor.compare import SignalDifference as SignalDifference
 from reduced_models.rotor.compare import compare as compare
@@ -64,6 +58,7 @@ from reduced_models.rotor.contact import Contact as Contact
 from reduced_models.rotor.contact import ScaledContact as ScaledContact
 from reduced_models.rotor.contact import TangentContact as TangentContact
 from reduced_models.rotor.contact import has_tangents as has_tangents
+from reduced_models.rotor.control import rotor_to_control as rotor_to_control
 from reduced_models.rotor.decay import Decrement as Decrement
 from reduced_models.rotor.decay import log_decrement as log_decrement
 from reduced_models.rotor.events import ContactEvents as ContactEvents
@@ -75,27 +70,30 @@ from reduced_models.rotor.linear import LinearRotor as LinearRotor
 from reduced_models.rotor.linear import RotorMode as RotorMode
 from reduced_models.rotor.linear import film_impedance as film_impedance
 from reduced_models.rotor.linear import impedance_about as impedance_about
+from reduced_models.rotor.linearise import LinearisedRotor as LinearisedRotor
+from reduced_models.rotor.linearise import linearise as linearise
+from reduced_models.rotor.modes import WhirlMode as WhirlMode
 from reduced_models.rotor.oscillator import OscillatorResult as OscillatorResult
 from reduced_models.rotor.oscillator import simulate_oscillator as simulate_oscillator
+from reduced_models.rotor.parts import Disc as Disc
+from reduced_models.rotor.parts import Shaft as Shaft
+from reduced_models.rotor.parts import Support as Support
+from reduced_models.rotor.ross import RossCallback as RossCallback
+from reduced_models.rotor.ross import from_ross as from_ross
+from reduced_models.rotor.rotor import BearingMount as BearingMount
+from reduced_models.rotor.rotor import Rotor as Rotor
+from reduced_models.rotor.rotor import Unbalance as Unbalance
+from reduced_models.rotor.run import BearingRun as BearingRun
+from reduced_models.rotor.run import simulate_on_bearings as simulate_on_bearings
 from reduced_models.rotor.settled import Settling as Settling
 from reduced_models.rotor.settled import run_until_settled as run_until_settled
 from reduced_models.rotor.settled import settling as settling
 from reduced_models.rotor.simulate import RotorResult as RotorResult
 from reduced_models.rotor.simulate import RotorStatus as RotorStatus
 from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor
-from reduced_models.shaft.assembly import rotor_on_bearings as rotor_on_bearings
-from reduced_models.shaft.parts import Disc as Disc
-from reduced_models.shaft.parts import Shaft as Shaft
-from reduced_models.shaft.parts import Support as Support
-from reduced_models.vibration.block import rotor_to_control as rotor_to_control
-from reduced_models.vibration.campbell import Campbell as Campbell
-from reduced_models.vibration.campbell import CriticalSpeed as CriticalSpeed
-from reduced_models.vibration.campbell import campbell as campbell
-from reduced_models.vibration.linearised import LinearisedRotor as LinearisedRotor
-from reduced_models.vibration.linearised import linearise as linearise
-from reduced_models.vibration.mode import WhirlMode as WhirlMode
-from reduced_models.vibration.unbalance import UnbalanceResponse as UnbalanceResponse
-from reduced_models.vibration.unbalance import unbalance_response as unbalance_response
+from reduced_models.rotor.speed_profile import SpeedProfile as SpeedProfile
+from reduced_models.rotor.unbalance import UnbalanceResponse as UnbalanceResponse
+from reduced_models.rotor.unbalance import unbalance_response as unbalance_response
 
 
 def __dir__() -> list[str]:

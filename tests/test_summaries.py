@@ -40,10 +40,10 @@ from reduced_models import (
     Disc,
     JeffcottRotor,
     LinearRotor,
-    MatrixRotor,
+    Rotor,
     Settling,
     Shaft,
-    SpeedCourse,
+    SpeedProfile,
     Support,
     Unbalance,
     campbell,
@@ -67,7 +67,7 @@ WITHOUT_PLOT = {
     **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Mesh", "Purpose"), INPUT),
     **dict.fromkeys(("MoesPoint", "OperatingPoint", "Geometry", "Lubricant", "Scales"), INPUT),
     **dict.fromkeys(("FreeVibration", "HarmonicLoad", "RampLoad", "PrescribedApproach", "PrescribedLoad"), INPUT),
-    **dict.fromkeys(("BallBearing", "BearingMount", "Unbalance", "ContactMount", "MatrixRotor"), INPUT),
+    **dict.fromkeys(("BallBearing", "BearingMount", "Unbalance", "ContactMount", "Rotor"), INPUT),
     **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support", "RotorModel"), INPUT),
     **dict.fromkeys(("Assumption", "Assumptions"), "words and one number each: print it"),
     **dict.fromkeys(("ContactSI", "CriticalSpeed", "DefectFrequencies", "RotorState", "SensitivityRow"), NUMBERS),
@@ -100,7 +100,7 @@ def told(point):
     oil = point.lubricant
     bearing = BallBearing.catalogue("6205", oil=oil, rq_race=1e-7)
     down, element = (0.0, -500.0), atlas.element(MoesPoint(200, 10, 0.5), "memory")
-    rotor = MatrixRotor(
+    rotor = Rotor(
         mass=5.0 * np.eye(2),
         stiffness=np.zeros((2, 2)),
         load=np.array([0.0, -500.0]),
@@ -119,7 +119,7 @@ def told(point):
         simulate_oscillator(element, np.linspace(0.0, 1.0, 5), Omega_n=3.0, u0=0.87),
         fit(record, model="linear"), linearise(rotor, 3000.0), linearise(rotor, 3000.0).modes(1)[0],
         *films_of(film, run), *rotors(atlas.element(point, "cubic", rpm=3000), bearing), sensitivity(record),
-        SpeedCourse.ramp(0.0, 3000.0, 1.0), bearing, BearingMount(bearing=bearing, x=0, y=1),
+        SpeedProfile.ramp(0.0, 3000.0, 1.0), bearing, BearingMount(bearing=bearing, x=0, y=1),
         FullContact(point, n=32),
         References(Trial(np.arange(3.0), {"u": np.ones(3)}, {"F": np.arange(3.0)}), None),
         Trial(np.arange(3.0), {}, {"F": np.arange(3.0)}), *verifications(),

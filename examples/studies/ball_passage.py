@@ -25,9 +25,9 @@ from reduced_models import (
     Campbell,
     CriticalSpeed,
     Disc,
-    MatrixRotor,
+    Rotor,
     Shaft,
-    SpeedCourse,
+    SpeedProfile,
     Support,
     campbell,
     linearise,
@@ -62,7 +62,7 @@ def bearing() -> BallBearing:
     return BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
 
 
-def rotor(held: BallBearing) -> MatrixRotor:
+def rotor(held: BallBearing) -> Rotor:
     """Shaft of 300 x 40 mm, a disc of 280 x 70 mm in its middle, bearings 50 mm from its ends."""
     disc = Disc.cylinder(
         position=0.15, diameter=0.28, width=0.07, bore=0.04, density=7810.0, unbalance=UNBALANCE,
@@ -74,12 +74,12 @@ def rotor(held: BallBearing) -> MatrixRotor:
     return rotor_on_bearings(shaft, discs=[disc], supports=supports, gravity=(0.0, 0.0))
 
 
-def courses() -> tuple[SpeedCourse, SpeedCourse]:
+def courses() -> tuple[SpeedProfile, SpeedProfile]:
     """Up and down."""
-    return SpeedCourse.ramp(*RANGE, SECONDS), SpeedCourse.ramp(*RANGE[::-1], SECONDS)
+    return SpeedProfile.ramp(*RANGE, SECONDS), SpeedProfile.ramp(*RANGE[::-1], SECONDS)
 
 
-def run(held: BallBearing, course: SpeedCourse, dt: float = DT) -> BearingRun:
+def run(held: BallBearing, course: SpeedProfile, dt: float = DT) -> BearingRun:
     """The rotor along a course."""
     return simulate_on_bearings(rotor(held), speed_rpm=course, dt=dt, until=SECONDS)
 
@@ -128,7 +128,7 @@ def peaks(held: BallBearing, diagram: Campbell, runs: tuple[BearingRun, BearingR
     return found
 
 
-def shape_of(line: MatrixRotor, crossing: CriticalSpeed) -> np.ndarray:
+def shape_of(line: Rotor, crossing: CriticalSpeed) -> np.ndarray:
     """Real shape, shape (N,), of the mode at a crossing, by which its motion is told from that of others."""
     modes = linearise(line, crossing.speed_rpm).modes(MODES + 4)
     nearest = min(modes, key=lambda mode: abs(mode.hz - crossing.hz))

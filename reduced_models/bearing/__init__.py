@@ -10,15 +10,14 @@
 | contact | compiled: one contact over a step, its filters once, its force as often as asked |
 | balls | compiled: all balls, two contacts in series on each, as one force with tangents |
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
-| statics | where the ring stands under a load |
-| linear | stiffness and damping over frequency |
+| equilibrium | springs under a load; the ring of a bearing on its balls: `ring_equilibrium` |
+| coefficients | stiffness and damping over frequency |
+| impedance | impedance of all balls at complex frequencies |
+| state_space | balls and films about rest as matrices of first order |
+| rates | compiled: balls and films in continuous time |
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
-| rotor | `MatrixRotor`: any linear rotor on bearings, at rest |
-| course | `SpeedCourse`: the speed of a shaft over time, and the forces that turn with it |
-| loop | compiled: generalised-alpha steps of rotor, bearings and balls |
-| run | `simulate_on_bearings`: such a rotor over time, speed constant or not |
 | state | `BearingState`: a bearing at rest, ball by ball; its file |
-| ross | bearings in rotors of ROSS, and its rotors on bearings: `from_ross`, `RossCallback` |
+| ross | bearings as elements of ROSS |
 | picture | figures |
 | summary | summary of a bearing for the prompt |
 | file | JSON of bearings and states |

@@ -24,8 +24,16 @@ from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.frequency import by_name, radians_per_second
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
-from reduced_models.bearing.balls import Balls, Turn, turning
+from reduced_models.bearing.balls import Balls, SpeedState, speed_state
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
+from reduced_models.bearing.coefficients import BearingCoefficients, impedances
+from reduced_models.bearing.equilibrium import (
+    RingEquilibrium,
+    angle_of,
+    direction_of,
+    radial_load,
+    ring_equilibrium,
+)
 from reduced_models.bearing.file import oil_of, plain, read, write
 from reduced_models.bearing.kinematics import (
     HERTZ,
@@ -37,11 +45,9 @@ from reduced_models.bearing.kinematics import (
     rolling_radius,
 )
 from reduced_models.bearing.law import dry_law, film_law
-from reduced_models.bearing.linear import BearingCoefficients, impedances
 from reduced_models.bearing.loss import loss_of, require_loss_factor
 from reduced_models.bearing.race import RACES, Race, films_under, race_of, require_roughness
 from reduced_models.bearing.state import BearingState
-from reduced_models.bearing.statics import Standing, angle_of, direction_of, radial_load, stand
 from reduced_models.bearing.summary import BearingSummary
 from reduced_models.elements.kinds import WideRangeContact
 
@@ -299,7 +305,9 @@ class BallBearing(BearingSummary):
         mean = np.mean([impedances(kernel, self.turn(speed), standing, w) for standing in standings], axis=0)
         return BearingCoefficients.of(force, speed, cage_angle, w, mean, standings)
 
-    def standings(self, load: ArrayLike, speed_rpm: float, cage_angle: float | None = None) -> list[Standing]:
+    def standings(
+        self, load: ArrayLike, speed_rpm: float, cage_angle: float | None = None
+    ) -> list[RingEquilibrium]:
         """The ring at rest under a load [N], at positions of the cage over a ball passage or at one [rad]."""
         force, speed = radial_load(load), self.speed(speed_rpm)
         first = direction_of(force) if cage_angle is None else angle_of(cage_angle)
@@ -345,8 +353,8 @@ class BallBearing(BearingSummary):
         frequency = {"omega": omega, "hz": hz, "rpm": rpm}
         return bearing_element(self, node, speeds_rpm, load, frequency, **options)
 
-    def _stand(self, load: _Floats, speed: float, angle: float) -> Standing:
-        standing = stand(self.kernel(speed), self.turn(speed), load, angle)
+    def _stand(self, load: _Floats, speed: float, angle: float) -> RingEquilibrium:
+        standing = ring_equilibrium(self.kernel(speed), self.turn(speed), load, angle)
         if self.oil is not None:
             for name, most in zip(RACES, standing.force.max(axis=0).tolist(), strict=True):
                 highest = self.race(name).loads(speed)[1]
@@ -358,10 +366,10 @@ class BallBearing(BearingSummary):
                     )
         return standing
 
-    def turn(self, speed_rpm: float) -> Turn:
+    def turn(self, speed_rpm: float) -> SpeedState:
         """Films, cage and centrifugal force at a speed, as the kernels have them."""
         speed = self.speed(speed_rpm)
-        return turning(self.kernel(speed), speed * RADIANS)
+        return speed_state(self.kernel(speed), speed * RADIANS)
 
     def _law(self, race: str, speeds: _Floats) -> Any:
         if self.oil is None:

@@ -50,7 +50,7 @@ class Balls(NamedTuple):
     inertia: float  # of a ball along n [kg]; 0: it has none
 
 
-class Turn(NamedTuple):
+class SpeedState(NamedTuple):
     """One speed of the shaft."""
 
     spin: tuple[int, float]  # row of the laws, and weight of the next
@@ -67,7 +67,7 @@ def films_of(balls: Balls) -> Films:
 
 
 @jit_exact_loop
-def turning(balls, omega):
+def speed_state(balls, omega):
     """Laws, cage and centrifugal force at the shaft speed `omega`, which lies within those of the laws."""
     row, weight = 0, 0.0
     if balls.speeds.size > 1:
@@ -79,7 +79,7 @@ def turning(balls, omega):
     u_sum = balls.rolling * omega
     inner = balls.inner.reach / u_sum if u_sum > 0.0 else 0.0
     outer = balls.outer.reach / u_sum if u_sum > 0.0 else 0.0
-    return Turn((row, weight), inner, outer, cage, balls.swing * cage * cage)
+    return SpeedState((row, weight), inner, outer, cage, balls.swing * cage * cage)
 
 
 @jit_exact_loop

@@ -12,7 +12,7 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.jit import jit_exact_loop
 from reduced_models.bearing.balls import (
     Balls,
-    Turn,
+    SpeedState,
     accept_balls,
     begin_rest,
     begin_step,
@@ -20,7 +20,7 @@ from reduced_models.bearing.balls import (
     films_of,
     press_balls,
     rest_balls,
-    turning,
+    speed_state,
 )
 from reduced_models.bearing.kinematics import RADIANS
 
@@ -51,7 +51,7 @@ class BearingMotion:
         if balls.inner.x.size and not balls.speeds[0] <= omega <= balls.speeds[-1]:
             low, high = balls.speeds[0] / RADIANS, balls.speeds[-1] / RADIANS
             raise InputError("speed_rpm", speed_rpm, f"between {low:.6g} and {high:.6g}, the speeds of these laws")
-        self.turn = turning(balls, omega)
+        self.turn = speed_state(balls, omega)
         self.films = films_of(balls)
         self._start, self._step = float(cage_angle), 0
         self._normals = np.zeros((balls.number, 2))
@@ -127,7 +127,7 @@ class BearingMotion:
         directions(self.balls, angle, self._normals)
         self._gain = begin_step(self.balls, self.turn, self.dt, self.films)
 
-    def _press(self, turn: Turn, q: _Floats, v: _Floats, gain: float) -> tuple[_Floats, _Floats, _Floats]:
+    def _press(self, turn: SpeedState, q: _Floats, v: _Floats, gain: float) -> tuple[_Floats, _Floats, _Floats]:
         force, stiffness, damping = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
         press_balls(self.balls, turn, self.films, self._normals, q, v, gain, (force, stiffness, damping))
         if not np.isfinite(force).all():

@@ -31,7 +31,8 @@ from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, moes_point
 from ehlcontact.summary import Summary
-from reduced_models.rotor.equilibrium import StaticContacts, equilibrium
+from reduced_models.bearing.equilibrium import equilibrium
+from reduced_models.rotor.equilibrium import StaticContacts
 
 _Floats = NDArray[np.float64]
 

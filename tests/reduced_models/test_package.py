@@ -11,7 +11,7 @@ def test_public_names_are_there():
         "load_element", "ContactElement", "OutsideValidityWarning",
         "JeffcottRotor", "ContactMount", "RotorState", "RotorResult", "RotorStatus", "simulate_rotor", "compare",
         "simulate_oscillator", "ScaledContact", "BallBearing", "BearingState", "BearingCoefficients",
-        "BearingMotion", "DefectFrequencies", "MatrixRotor", "BearingMount", "Unbalance", "SpeedCourse",
+        "BearingMotion", "DefectFrequencies", "Rotor", "BearingMount", "Unbalance", "SpeedProfile",
         "rotor_on_bearings", "Shaft", "Disc", "Support",
         "from_ross", "RossCallback",
         "simulate_on_bearings", "BearingRun", "linearise", "LinearisedRotor", "WhirlMode", "campbell", "Campbell",

@@ -22,8 +22,8 @@ from reduced_models import (
     BearingState,
     Campbell,
     Disc,
-    MatrixRotor,
     OutsideValidityWarning,
+    Rotor,
     Shaft,
     Support,
     campbell,
@@ -31,7 +31,7 @@ from reduced_models import (
     rotor_on_bearings,
     simulate_on_bearings,
 )
-from reduced_models.vibration.mode import eigenvectors
+from reduced_models.rotor.modes import eigenvectors
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
@@ -201,7 +201,7 @@ class WholeFindings:
         return {"amplitude": float(size.max()), "hz": float(self.response_hz[np.argmax(size)])}
 
 
-def whole_rotor(study: Study, bearing: BallBearing) -> MatrixRotor:
+def whole_rotor(study: Study, bearing: BallBearing) -> Rotor:
     """Rotor of the study on two such bearings, pressed down so that each carries the study's load."""
     r = study.rotor
     needed = 2.0 * study.bearing.radial_load - (r.disc_mass + r.journal_mass) * 9.81
@@ -259,7 +259,7 @@ def _times(study: Study) -> tuple[float, float, float]:
     return turn / settings.steps_per_revolution, turn * settings.revolutions, turn * (settings.revolutions // 2)
 
 
-def _run(study: Study, rotor: MatrixRotor, path: Path) -> Ran:
+def _run(study: Study, rotor: Rotor, path: Path) -> Ran:
     """Time steps from the orbit of the linearised rotor on, so that little has to settle."""
     dt, until, begin = _times(study)
     rpm = study.bearing.speed_rpm
@@ -283,7 +283,7 @@ def _run(study: Study, rotor: MatrixRotor, path: Path) -> Ran:
     )
 
 
-def _linear(study: Study, rotor: MatrixRotor, K: _Floats, C: _Floats) -> Ran:
+def _linear(study: Study, rotor: Rotor, K: _Floats, C: _Floats) -> Ran:
     """The settled rotor on springs and dampers that stay what they are."""
     dt, until, begin = _times(study)
     omega, rings = study.bearing.speed_rpm * pi / 30.0, rotor.rings
@@ -310,7 +310,7 @@ def _linear(study: Study, rotor: MatrixRotor, K: _Floats, C: _Floats) -> Ran:
     return Ran(t, (q @ rings.T)[:, :2], q[:, list(rotor.nodes["disc"])], vertical, horizontal, response)
 
 
-def _slowest(rotor: MatrixRotor, modes: list[tuple[complex, Any]]) -> tuple[Mode | None, Mode | None]:
+def _slowest(rotor: Rotor, modes: list[tuple[complex, Any]]) -> tuple[Mode | None, Mode | None]:
     """Of modes from the slowest on, the first that is vertical and the first that is not."""
     found: dict[str, Mode | None] = {"vertical": None, "horizontal": None}
     up = [pair[1] for pair in rotor.nodes.values()]
@@ -343,7 +343,7 @@ def _over_speed(bearing: BallBearing, weight: tuple[float, float], rpm: float, h
     return tuple(found)
 
 
-def _diagram(study: Study, rotor: MatrixRotor) -> Campbell | str:
+def _diagram(study: Study, rotor: Rotor) -> Campbell | str:
     """Modes over the speed, as far as the bearing has films."""
     rpm = study.bearing.speed_rpm
     high = min(SWEEP[1] * rpm, rotor.mounts[0].bearing.highest_speed)

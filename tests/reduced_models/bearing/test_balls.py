@@ -7,9 +7,9 @@ import pytest
 from bearing_twins import SlowBearing, SlowContact, SlowElement
 
 from reduced_models import BallBearing
-from reduced_models.bearing.balls import turning
+from reduced_models.bearing.balls import speed_state
+from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.motion import BearingMotion
-from reduced_models.bearing.statics import StaticBalls
 
 RPM = 3000.0
 PLACE = np.array([1e-6, -12e-6])
@@ -123,7 +123,7 @@ def test_tangents_at_rest_are_those_of_differences(oil, changes, speeds):
     """Of all balls standing still, by which equilibria are found."""
     bearing = BallBearing.catalogue("6205", **({"oil": oil} | changes))
     kernel = bearing.kernel(speeds)
-    held = StaticBalls(kernel, turning(kernel, RPM * pi / 30.0), 0.2)
+    held = StaticBalls(kernel, speed_state(kernel, RPM * pi / 30.0), 0.2)
     for place in (PLACE, np.array([9e-6, 4e-6])):
         tangent, size = held.tangent(place), 1e-9
         for k in range(2):

@@ -7,10 +7,10 @@ import pytest
 
 from reduced_models import BallBearing
 from reduced_models.bearing.balls import Balls
+from reduced_models.bearing.coefficients import impedances
+from reduced_models.bearing.equilibrium import ring_equilibrium
 from reduced_models.bearing.law import film_law
-from reduced_models.bearing.linear import impedances
 from reduced_models.bearing.race import shared_atlas
-from reduced_models.bearing.statics import stand
 
 DOWN = np.array([0.0, -1000.0])
 SPEEDS = (1000.0, 3000.0, 6000.0)
@@ -27,7 +27,7 @@ def as_the_prototype(bearing, rpm, load, omega):
     ]
     kernel = Balls(*(film_law([element]) for element in elements), *bearing.kernel(rpm)[2:])
     turn = bearing.turn(rpm)
-    at = [stand(kernel, turn, load, ON + 2.0 * pi / 9.0 * k / 4.0) for k in range(4)]
+    at = [ring_equilibrium(kernel, turn, load, ON + 2.0 * pi / 9.0 * k / 4.0) for k in range(4)]
     return np.mean([impedances(kernel, turn, s, np.array([omega]))[0] for s in at], axis=0)
 
 

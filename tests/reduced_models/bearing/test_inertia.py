@@ -11,22 +11,22 @@ from reduced_models import (
     BallBearing,
     BearingMotion,
     BearingMount,
-    MatrixRotor,
+    Rotor,
     linearise,
     rotor_to_control,
     simulate_on_bearings,
 )
-from reduced_models.bearing.balls import turning
+from reduced_models.bearing.balls import speed_state
+from reduced_models.bearing.coefficients import impedances
+from reduced_models.bearing.equilibrium import ring_equilibrium
 from reduced_models.bearing.kinematics import RADIANS
-from reduced_models.bearing.linear import impedances
-from reduced_models.bearing.statics import stand
 
 RPM = 3000.0
 
 
 def block(bearing, **changes):
     given = {"mass": 2.0 * np.eye(2), "stiffness": np.zeros((2, 2)), "load": np.array([0.0, -300.0])}
-    return MatrixRotor(**(given | {"mounts": (BearingMount(bearing=bearing, x=0, y=1),)} | changes))
+    return Rotor(**(given | {"mounts": (BearingMount(bearing=bearing, x=0, y=1),)} | changes))
 
 
 def test_against_scipy():
@@ -66,8 +66,8 @@ def test_small_motions_in_time_have_the_impedance(oil, oiled):
     """At half the frequency of the balls on their contacts, where their inertia counts."""
     bearing = BallBearing.catalogue("6205", oil=oil if oiled else None, ball_inertia=True, loss_factor=0.1)
     kernel = bearing.kernel(RPM)._replace(cage=0.0, swing=0.0)
-    turn = turning(kernel, RPM * RADIANS)
-    at = stand(kernel, turn, np.array([0.0, -1000.0]), -pi / 2.0)
+    turn = speed_state(kernel, RPM * RADIANS)
+    at = ring_equilibrium(kernel, turn, np.array([0.0, -1000.0]), -pi / 2.0)
     hz, size, periods, per_period = 15e3, 1e-11, 40, 400
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
     t = dt * np.arange(1, periods * per_period + 1)

@@ -12,7 +12,7 @@ from ehlcontact.errors import InputError
 from reduced_models.bearing import balls as balls_room
 from reduced_models.bearing import contact as contact_room
 from reduced_models.bearing import law as law_room
-from reduced_models.bearing.balls import films_of, turning
+from reduced_models.bearing.balls import films_of, speed_state
 from reduced_models.bearing.contact import APPROACH, begin, press
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.law import carried, curve, film_law
@@ -76,7 +76,7 @@ def test_at_its_own_speeds_a_law_of_many_is_that_of_one(film):
     many = film.kernel(SPEEDS)
     u = np.array([-5e-6, 0.0, 3e-6, 8e-6])
     for row, speed in enumerate(SPEEDS):
-        turn = turning(many, speed * RADIANS)
+        turn = speed_state(many, speed * RADIANS)
         assert sum(turn.spin) == row
         one = film.kernel(speed)
         for approach in u:
@@ -87,12 +87,12 @@ def test_at_its_own_speeds_a_law_of_many_is_that_of_one(film):
 def test_between_speeds_films_grow_as_they_should(film):
     """Half way between two speeds of a law it is within 1 % of the law of that speed, and nowhere does it jump."""
     coarse = film.kernel((2500.0, 3500.0))
-    turn, own = turning(coarse, 3000.0 * RADIANS), film.kernel(3000.0)
+    turn, own = speed_state(coarse, 3000.0 * RADIANS), film.kernel(3000.0)
     for u in (2e-6, 5e-6, 8e-6):
         film_there = curve(u, *turn.spin, coarse.inner, 0)[0] - u
         assert film_there == pytest.approx(curve(u, 0, 0.0, own.inner, 0)[0] - u, rel=0.01)
     many = film.kernel(SPEEDS)
-    below, above = (turning(many, 3000.0 * RADIANS * (1.0 + s)) for s in (-1e-9, 1e-9))
+    below, above = (speed_state(many, 3000.0 * RADIANS * (1.0 + s)) for s in (-1e-9, 1e-9))
     assert below.spin[0] == 0 and above.spin[0] == 1
     pressed = []
     for turn in (below, above):
@@ -124,7 +124,7 @@ def test_fading():
 def test_compiled_and_plain_are_twins(film, monkeypatch):
     """A ball over two steps, all its kernels as plain Python."""
     kernel = film.kernel(3000.0)
-    turn = turning(kernel, 3000.0 * RADIANS)
+    turn = speed_state(kernel, 3000.0 * RADIANS)
     names = {
         law_room: ("_at", "curve", "carried"),
         contact_room: ("_lag", "_weigh", "_add", "begin", "press", "accept", "curve", "carried", "_shares"),

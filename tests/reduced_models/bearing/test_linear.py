@@ -7,10 +7,10 @@ import pytest
 
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingMotion
-from reduced_models.bearing.balls import turning
+from reduced_models.bearing.balls import speed_state
+from reduced_models.bearing.coefficients import contact_impedance, impedances
+from reduced_models.bearing.equilibrium import ring_equilibrium
 from reduced_models.bearing.kinematics import RADIANS
-from reduced_models.bearing.linear import contact_impedance, impedances
-from reduced_models.bearing.statics import stand
 
 RPM = 3000.0
 
@@ -19,7 +19,7 @@ RPM = 3000.0
 @pytest.mark.parametrize("load", [2.0, 60.0, 900.0])
 def test_a_contact_has_the_impedance_of_its_element(film, race, load):
     element, kernel = film.element(race, RPM), film.kernel(RPM)
-    turn, omega = turning(kernel, RPM * RADIANS), np.array([10.0, 1e3, 1e5])
+    turn, omega = speed_state(kernel, RPM * RADIANS), np.array([10.0, 1e3, 1e5])
     law, transit = getattr(kernel, race), getattr(turn, race)
     found = contact_impedance(law, transit, turn.spin, element.approach_at(load), omega)
     expected = element.impedance(load=load, omega=omega)
@@ -31,8 +31,8 @@ def test_small_motions_in_time(oil, film_limit):
     """A ring that swings a little, its balls standing still: amplitude and phase of the force."""
     bearing = BallBearing.catalogue("6205", oil=oil, film_limit=film_limit)
     kernel = bearing.kernel(RPM)._replace(cage=0.0, swing=0.0)
-    turn = turning(kernel, RPM * RADIANS)
-    at = stand(kernel, turn, np.array([200.0, -1000.0]), 0.4)
+    turn = speed_state(kernel, RPM * RADIANS)
+    at = ring_equilibrium(kernel, turn, np.array([200.0, -1000.0]), 0.4)
     hz, dt, size = 2000.0, 1e-6, 1e-10
     omega, periods = 2.0 * pi * hz, 4
     steps = round(periods / (hz * dt))

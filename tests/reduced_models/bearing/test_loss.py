@@ -12,25 +12,25 @@ from reduced_models import (
     BallBearing,
     BearingMotion,
     BearingMount,
-    MatrixRotor,
+    Rotor,
     linearise,
     log_decrement,
     rotor_to_control,
     simulate_on_bearings,
 )
 from reduced_models.bearing import loss as loss_room
-from reduced_models.bearing.balls import turning
+from reduced_models.bearing.balls import speed_state
+from reduced_models.bearing.coefficients import impedances
+from reduced_models.bearing.equilibrium import ring_equilibrium
 from reduced_models.bearing.kinematics import RADIANS
-from reduced_models.bearing.linear import impedances
 from reduced_models.bearing.loss import BAND, loss_of, response, seat_of
-from reduced_models.bearing.statics import stand
 
 RPM = 3000.0
 
 
 def block(bearing, mass=2.0, **changes):
     given = {"mass": mass * np.eye(2), "stiffness": np.zeros((2, 2)), "load": np.array([0.0, -300.0])}
-    return MatrixRotor(**(given | {"mounts": (BearingMount(bearing=bearing, x=0, y=1),)} | changes))
+    return Rotor(**(given | {"mounts": (BearingMount(bearing=bearing, x=0, y=1),)} | changes))
 
 
 @pytest.mark.parametrize("factor", [1e-3, 0.02, 0.1, 0.2])
@@ -68,8 +68,8 @@ def test_a_step_is_the_filters_over_a_straight_force():
 def test_small_motions_in_time_have_the_impedance(oil, oiled):
     bearing = BallBearing.catalogue("6205", oil=oil if oiled else None, loss_factor=0.05)
     kernel = bearing.kernel(RPM)._replace(cage=0.0, swing=0.0)
-    turn = turning(kernel, RPM * RADIANS)
-    at = stand(kernel, turn, np.array([200.0, -1000.0]), 0.4)
+    turn = speed_state(kernel, RPM * RADIANS)
+    at = ring_equilibrium(kernel, turn, np.array([200.0, -1000.0]), 0.4)
     hz, size, periods, per_period = 400.0, 1e-10, 200, 200
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
     t = dt * np.arange(1, periods * per_period + 1)

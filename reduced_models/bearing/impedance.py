@@ -17,10 +17,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from reduced_models.bearing.balls import Balls, Turn
-from reduced_models.bearing.linear import SmallContact, small_contact
+from reduced_models.bearing.balls import Balls, SpeedState
+from reduced_models.bearing.coefficients import SmallContact, small_contact
+from reduced_models.bearing.equilibrium import RingEquilibrium
 from reduced_models.bearing.loss import Loss, response
-from reduced_models.bearing.statics import Standing
 from reduced_models.elements.film_response import FilterRates
 
 _Floats = NDArray[np.float64]
@@ -61,7 +61,7 @@ class SmallBalls(NamedTuple):
     inertia: float  # of a ball along its normal [kg]
 
     @classmethod
-    def of(cls, balls: Balls, turn: Turn, standings: Sequence[Standing]) -> SmallBalls:
+    def of(cls, balls: Balls, turn: SpeedState, standings: Sequence[RingEquilibrium]) -> SmallBalls:
         """From where the ring stands at each position."""
         approach = np.concatenate([standing.approach for standing in standings])
         inner, outer = (

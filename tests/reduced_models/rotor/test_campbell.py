@@ -9,7 +9,7 @@ import pytest
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import (
     Campbell,
-    SpeedCourse,
+    SpeedProfile,
     UnbalanceResponse,
     campbell,
     linearise,
@@ -76,7 +76,7 @@ def test_no_critical_speed_says_what_was_searched(diagram):
 def test_a_run_up_resonates_where_balls_pass_at_the_frequency_of_a_mode(film, beam, diagram):
     """Faster and faster balls: the largest swing comes a little after the crossing."""
     rotor, window = beam(film, unbalances=()), np.ones(400) / 400.0
-    course = SpeedCourse(np.array([0.0, 2.0]), np.array([3000.0, 5000.0]))
+    course = SpeedProfile(np.array([0.0, 2.0]), np.array([3000.0, 5000.0]))
     run = simulate_on_bearings(rotor, speed_rpm=course, dt=5e-5, until=2.0)
     for direction, one in enumerate(diagram.critical_speeds(film.orders.bpfo)[:2]):
         swing = run.displacement[:, 12 + direction]
@@ -143,7 +143,7 @@ def test_files(film, block, diagram, tmp_path):
 def test_figures(film, block, diagram, tmp_path):
     diagram.plot(tmp_path / "c.png")
     unbalance_response(block(film), [2000.0, 3000.0, 4000.0]).plot(tmp_path / "u.png")
-    course = SpeedCourse(np.array([0.0, 0.05]), np.array([2000.0, 4000.0]))
+    course = SpeedProfile(np.array([0.0, 0.05]), np.array([2000.0, 4000.0]))
     for speed in (3000.0, course):
         run = simulate_on_bearings(block(film), speed_rpm=speed, dt=5e-5, until=0.05)
         for kind in ("orbit", "spectrum", "waterfall"):
@@ -182,7 +182,7 @@ def test_lines_of_a_spectrum_are_the_amplitudes(film, block):
 
 def test_a_line_that_follows_the_speed_is_sharp_in_a_waterfall(film, block):
     """Unit amplitude once per turn: it stands at the speed of its row, most of it in four lines."""
-    course = SpeedCourse.ramp(2000.0, 5000.0, 1.0)
+    course = SpeedProfile.ramp(2000.0, 5000.0, 1.0)
     run = simulate_on_bearings(block(film), speed_rpm=course, dt=1e-4, until=1.0)
     swing = np.zeros_like(run.ring)
     swing[:, 0, 1] = 1e-6 * np.sin(course.at(run.t)[1])

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.summary import Summary, span
-from reduced_models.bearing.balls import Balls, Turn
+from reduced_models.bearing.balls import Balls, SpeedState
+from reduced_models.bearing.equilibrium import RingEquilibrium
 from reduced_models.bearing.law import RaceLaw, carried, curve
 from reduced_models.bearing.loss import response
-from reduced_models.bearing.statics import Standing
 from reduced_models.elements.film_law import DIRECT
 from reduced_models.elements.film_response import FilterRates
 
@@ -97,7 +97,7 @@ class BearingCoefficients(Summary, Tabled):
         cage_angle: float | None,
         omega: _Floats,
         impedance: _Complex,
-        standings: Sequence[Standing],
+        standings: Sequence[RingEquilibrium],
     ) -> BearingCoefficients:
         """From the mean impedance, shape (k, 2, 2), and the positions that it is the mean of.
 
@@ -112,7 +112,7 @@ class BearingCoefficients(Summary, Tabled):
         return asdict(self)
 
 
-def impedances(balls: Balls, turn: Turn, standing: Standing, omega: _Floats) -> _Complex:
+def impedances(balls: Balls, turn: SpeedState, standing: RingEquilibrium, omega: _Floats) -> _Complex:
     """K + i C of the ring, shape (k, 2, 2), at angular frequencies [rad/s]."""
     w = np.maximum(omega, TINY_OMEGA)
     total = np.zeros((w.size, 2, 2), complex)

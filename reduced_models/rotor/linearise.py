@@ -15,11 +15,10 @@ from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.summary import Summary
+from reduced_models.bearing.equilibrium import StaticBalls
+from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS
-from reduced_models.bearing.rotor import MatrixRotor
-from reduced_models.bearing.statics import StaticBalls
-from reduced_models.vibration.balls import SmallBalls
-from reduced_models.vibration.mode import (
+from reduced_models.rotor.modes import (
     CANDIDATES,
     Matrices,
     WhirlMode,
@@ -29,6 +28,7 @@ from reduced_models.vibration.mode import (
     shaped,
     unlike,
 )
+from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -52,7 +52,7 @@ class LinearisedRotor(Summary):
 
     Attributes
     ----------
-    rotor : MatrixRotor
+    rotor : Rotor
     speed_rpm : float
         Of the shaft.
     passage : bool
@@ -65,7 +65,7 @@ class LinearisedRotor(Summary):
         What a small vibration finds in each bearing.
     """
 
-    rotor: MatrixRotor
+    rotor: Rotor
     speed_rpm: float
     passage: bool
     rest: _Floats
@@ -170,7 +170,7 @@ class LinearisedRotor(Summary):
         InputError
             A degree of freedom that is not there.
         """
-        from reduced_models.vibration.block import linear_block
+        from reduced_models.rotor.control import linear_block
 
         return linear_block(self, inputs, outputs, name)
 
@@ -202,12 +202,12 @@ class LinearisedRotor(Summary):
 
 
 @takes(speed_rpm="rev/min")
-def linearise(rotor: MatrixRotor, speed_rpm: float, *, passage: bool = True) -> LinearisedRotor:
+def linearise(rotor: Rotor, speed_rpm: float, *, passage: bool = True) -> LinearisedRotor:
     """Linearise a rotor on ball bearings about rest under its load.
 
     Parameters
     ----------
-    rotor : MatrixRotor
+    rotor : Rotor
     speed_rpm : float
         Of the shaft, for films, centrifugal and gyroscopic forces.
     passage : bool
@@ -221,7 +221,7 @@ def linearise(rotor: MatrixRotor, speed_rpm: float, *, passage: bool = True) -> 
     ConvergenceError
         The bearings do not hold the rotor.
     """
-    require_instance("rotor", rotor, MatrixRotor, "a MatrixRotor")
+    require_instance("rotor", rotor, Rotor, "a Rotor")
     speed = require_nonnegative("speed_rpm", speed_rpm)
     rest = rotor.equilibrium(speed)
     rings, loads, balls = rotor.rings @ rest, [], []

@@ -24,8 +24,8 @@ from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary, span
 from reduced_models.bearing.ball_bearing import BallBearing
-from reduced_models.bearing.rotor import BearingMount, Unbalance
-from reduced_models.shaft.beam import Piece
+from reduced_models.rotor.beam import Piece
+from reduced_models.rotor.rotor import BearingMount, Unbalance
 
 _Floats = NDArray[np.float64]
 

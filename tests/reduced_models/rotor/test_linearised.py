@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, BearingMount, MatrixRotor, linearise, log_decrement, simulate_on_bearings
-from reduced_models.vibration.mode import is_new
+from reduced_models import BallBearing, BearingMount, Rotor, linearise, log_decrement, simulate_on_bearings
+from reduced_models.rotor.modes import is_new
 
 RPM = 3000.0
 DISC = 12
@@ -172,7 +172,7 @@ def test_a_housing_moves_against_the_ring(film, block):
     mount = (BearingMount(bearing=film, x=0, y=1, housing=(2, 3)),)
     soft = np.diag([0.0, 0.0, 1.0, 1.0])
     load = np.array([0.0, -300.0, 0.0, 300.0])
-    both = MatrixRotor(mass=np.eye(4), stiffness=soft, mounts=mount, load=load)
+    both = Rotor(mass=np.eye(4), stiffness=soft, mounts=mount, load=load)
     half = linearise(block(film, mass=0.5), RPM).modes()
     found = [mode for mode in linearise(both, RPM).modes(None) if mode.hz > 10.0]
     np.testing.assert_allclose([mode.omega for mode in found], [mode.omega for mode in half], rtol=1e-4)
@@ -181,7 +181,7 @@ def test_a_housing_moves_against_the_ring(film, block):
 @pytest.mark.parametrize(
     ("call", "match"),
     [
-        (lambda rotor: linearise("rotor", RPM), r"rotor = 'str': must be a MatrixRotor"),
+        (lambda rotor: linearise("rotor", RPM), r"rotor = 'str': must be a Rotor"),
         (lambda rotor: linearise(rotor, 0.0), r"speed_rpm = 0.0: must be > 0"),
         (lambda rotor: linearise(rotor, 3e4), r"speed_rpm = 30000.0: must be at most"),
         (lambda rotor: linearise(rotor, RPM).modes(0), r"count = 0: must be a whole number >= 1"),

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.jit import jit_exact_loop
-from reduced_models.bearing.balls import accept_balls, begin_step, directions, press_balls, turning
+from reduced_models.bearing.balls import accept_balls, begin_step, directions, press_balls, speed_state
 
 _Floats = NDArray[np.float64]
 
@@ -71,7 +71,7 @@ def steps_of(
     )  # fmt: skip
 
 
-class Journals(NamedTuple):
+class RingState(NamedTuple):
     """State and work of a run at its bearings, n = 2 per bearing in the order x, y."""
 
     r: _Floats  # (3, n) at the last three ends of steps, the newest first
@@ -86,18 +86,18 @@ class Journals(NamedTuple):
 R, RATE, FORCE, IMBALANCE, FREE, HISTORY = range(6)  # rows of `tried`: r, r', F, imbalance, r_free, B v_history
 
 
-def journals_at(r: _Floats, force: _Floats, turned: _Floats, balls: int) -> Journals:
+def ring_state_at(r: _Floats, force: _Floats, turned: _Floats, balls: int) -> RingState:
     """Start of a run with the rings at rest at `r`."""
     n = r.size
     pushed = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
-    return Journals(
+    return RingState(
         np.tile(r, (3, 1)), force.copy(), np.zeros((6, n)), np.zeros((n, n + 1)), turned.copy(),
         np.zeros((n // 2, balls, 2)), pushed,
     )  # fmt: skip
 
 
 @jit_exact_loop
-def run_block(steps, balls, films, journals, state, course, limits, out):
+def run_block(steps, balls, films, rings, state, course, limits, out):
     """Steps along `course`; returns how many were made and how it ended.
 
     Parameters
@@ -105,7 +105,7 @@ def run_block(steps, balls, films, journals, state, course, limits, out):
     steps : Steps
     balls, films : tuple
         `Balls` and `Films` of every bearing.
-    journals : Journals
+    rings : RingState
     state : ndarray, shape (4, N)
         Displacement, velocity and acceleration; room.
     course : tuple of ndarray
@@ -118,24 +118,24 @@ def run_block(steps, balls, films, journals, state, course, limits, out):
     """
     speed, angles, forces = course
     for i in range(speed.size):
-        _foresee(steps, journals, state, forces[i])
+        _foresee(steps, rings, state, forces[i])
         for b in range(len(balls)):
-            directions(balls[b], angles[i, b], journals.normals[b])
-            begin_step(balls[b], turning(balls[b], speed[i]), steps.dt, films[b])
-        count = _balance(steps, balls, films, journals, speed[i], limits[0])
+            directions(balls[b], angles[i, b], rings.normals[b])
+            begin_step(balls[b], speed_state(balls[b], speed[i]), steps.dt, films[b])
+        count = _balance(steps, balls, films, rings, speed[i], limits[0])
         if count == 0:
             return i, NO_BALANCE
-        _finish(steps, journals, state, forces[i])
+        _finish(steps, rings, state, forces[i])
         farthest = 0.0
         for b in range(len(balls)):
-            q, v = journals.tried[R, 2 * b : 2 * b + 2], journals.tried[RATE, 2 * b : 2 * b + 2]
-            turn = turning(balls[b], speed[i])
-            accept_balls(balls[b], turn, films[b], journals.normals[b], q, v, 1.5 / steps.dt)
+            q, v = rings.tried[R, 2 * b : 2 * b + 2], rings.tried[RATE, 2 * b : 2 * b + 2]
+            turn = speed_state(balls[b], speed[i])
+            accept_balls(balls[b], turn, films[b], rings.normals[b], q, v, 1.5 / steps.dt)
         for k in range(state.shape[1]):
             out[0][i, k], out[1][i, k] = state[0, k], state[1, k]
-        for k in range(journals.force.size):
-            out[2][i, k], out[3][i, k] = journals.r[0, k], journals.force[k]
-            farthest = max(farthest, abs(journals.r[0, k]))
+        for k in range(rings.force.size):
+            out[2][i, k], out[3][i, k] = rings.r[0, k], rings.force[k]
+            farthest = max(farthest, abs(rings.r[0, k]))
         out[4][i] = count
         if farthest > limits[1]:
             return i + 1, LOST
@@ -143,7 +143,7 @@ def run_block(steps, balls, films, journals, state, course, limits, out):
 
 
 @jit_exact_loop
-def _foresee(steps, journals, state, forces):
+def _foresee(steps, rings, state, forces):
     """Where the step would end without forces of the bearings at its end, and where it is expected to."""
     size, share = state.shape[1], 1.0 - steps.weight
     for k in range(size):
@@ -154,16 +154,16 @@ def _foresee(steps, journals, state, forces):
             for k in range(size):
                 state[3, k] += steps.past[i, j, k] * moved
     for j in range(forces.size):
-        pushed = steps.weight * forces[j] + share * journals.turned[j]
+        pushed = steps.weight * forces[j] + share * rings.turned[j]
         for k in range(size):
             state[3, k] += steps.turning[j, k] * pushed
-    for j in range(journals.force.size):
-        pushed = share * journals.force[j]
+    for j in range(rings.force.size):
+        pushed = share * rings.force[j]
         for k in range(size):
             state[3, k] -= steps.columns[j, k] * pushed
-    tried, r = journals.tried, journals.r
+    tried, r = rings.tried, rings.r
     _, by_d, by_v, by_a = steps.velocity
-    for j in range(journals.force.size):
+    for j in range(rings.force.size):
         free, history = 0.0, 0.0
         for k in range(size):
             free += steps.B[j, k] * state[3, k]
@@ -173,10 +173,10 @@ def _foresee(steps, journals, state, forces):
 
 
 @jit_exact_loop
-def _balance(steps, balls, films, journals, speed, allowed):
+def _balance(steps, balls, films, rings, speed, allowed):
     """Newton's method for D (r - r_free) + weight F = 0; returns how often it asked, 0 where it does not end."""
-    tried, system, n = journals.tried, journals.system, journals.force.size
-    force, stiffness, damping = journals.pushed
+    tried, system, n = rings.tried, rings.system, rings.force.size
+    force, stiffness, damping = rings.pushed
     previous = inf
     for count in range(1, MOST_ITERATIONS + 1):
         error = 0.0
@@ -186,8 +186,8 @@ def _balance(steps, balls, films, journals, speed, allowed):
                 system[j, k] = steps.D[j, k]
         for b in range(len(balls)):
             q, v = tried[R, 2 * b : 2 * b + 2], tried[RATE, 2 * b : 2 * b + 2]
-            turn = turning(balls[b], speed)
-            press_balls(balls[b], turn, films[b], journals.normals[b], q, v, 1.5 / steps.dt, journals.pushed)
+            turn = speed_state(balls[b], speed)
+            press_balls(balls[b], turn, films[b], rings.normals[b], q, v, 1.5 / steps.dt, rings.pushed)
             for j in range(2):
                 tried[FORCE, 2 * b + j] = force[j]
                 for k in range(2):
@@ -241,12 +241,12 @@ def _solve(system):
 
 
 @jit_exact_loop
-def _finish(steps, journals, state, forces):
+def _finish(steps, rings, state, forces):
     """Move rotor and rings to the end of the step."""
-    tried, r = journals.tried, journals.r
+    tried, r = rings.tried, rings.r
     v0, v1, v2, v3 = steps.velocity
     a0, a1, a2, a3 = steps.acceleration
-    for j in range(journals.force.size):
+    for j in range(rings.force.size):
         pushed = steps.weight * tried[FORCE, j]
         for k in range(state.shape[1]):
             state[3, k] -= steps.columns[j, k] * pushed
@@ -255,8 +255,8 @@ def _finish(steps, journals, state, forces):
         state[0, k] = new
         state[1, k] = v0 * new + v1 * d + v2 * v + v3 * a
         state[2, k] = a0 * new + a1 * d + a2 * v + a3 * a
-    for j in range(journals.force.size):
+    for j in range(rings.force.size):
         r[2, j], r[1, j], r[0, j] = r[1, j], r[0, j], tried[R, j]
-        journals.force[j] = tried[FORCE, j]
+        rings.force[j] = tried[FORCE, j]
     for j in range(forces.size):
-        journals.turned[j] = forces[j]
+        rings.turned[j] = forces[j]

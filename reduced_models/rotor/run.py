@@ -20,13 +20,13 @@ from ehlcontact.files import hdf5
 from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.summary import Summary, span
 from reduced_models.bearing.ball_bearing import RACES
-from reduced_models.bearing.balls import begin_rest, directions, films_of, press_balls, rest_balls, turning
+from reduced_models.bearing.balls import begin_rest, directions, films_of, press_balls, rest_balls, speed_state
 from reduced_models.bearing.contact import Films
-from reduced_models.bearing.course import SpeedCourse, law_speeds, turning_forces
 from reduced_models.bearing.kinematics import RADIANS
-from reduced_models.bearing.loop import LOST, NO_BALANCE, Journals, Steps, journals_at, run_block, steps_of
-from reduced_models.bearing.rotor import MatrixRotor
 from reduced_models.elements.validity import OutsideValidityWarning
+from reduced_models.rotor.integrate import LOST, NO_BALANCE, RingState, Steps, ring_state_at, run_block, steps_of
+from reduced_models.rotor.rotor import Rotor
+from reduced_models.rotor.speed_profile import SpeedProfile, law_speeds, turning_forces
 
 _Floats = NDArray[np.float64]
 
@@ -166,9 +166,9 @@ class BearingRun(Summary, Tabled):
 
 @takes(speed_rpm="rev/min", dt="s", until="s")
 def simulate_on_bearings(
-    rotor: MatrixRotor,
+    rotor: Rotor,
     *,
-    speed_rpm: float | SpeedCourse,
+    speed_rpm: float | SpeedProfile,
     dt: float,
     until: float,
     start: Any = "static",
@@ -184,8 +184,8 @@ def simulate_on_bearings(
 
     Parameters
     ----------
-    rotor : MatrixRotor
-    speed_rpm : float or SpeedCourse
+    rotor : Rotor
+    speed_rpm : float or SpeedProfile
         Of the shaft, constant or over time.
     dt, until : float
         Step and end [s]; the last step may pass `until` by less than dt.
@@ -213,7 +213,7 @@ def simulate_on_bearings(
     steps = max(1, ceil(require_positive("until", until) / dt - 1e-9))
     if not 0.0 <= rho_inf <= 1.0:
         raise InputError("rho_inf", rho_inf, "between 0 and 1")
-    course = speed_rpm if isinstance(speed_rpm, SpeedCourse) else SpeedCourse.constant(speed_rpm)
+    course = speed_rpm if isinstance(speed_rpm, SpeedProfile) else SpeedProfile.constant(speed_rpm)
     return _Run(rotor, course, (dt, steps), start, require_positive("tolerance", tolerance), rho_inf).go()
 
 
@@ -221,7 +221,7 @@ class _Run:
     """One simulation; the arguments are checked."""
 
     histories: tuple[_Floats, _Floats, _Floats, _Floats, NDArray[np.int64]]
-    journals: Journals
+    rings: RingState
     films: tuple[Films, ...]
     state: _Floats  # (4, N), see `run_block`
     _steps: Steps | None = None
@@ -229,8 +229,8 @@ class _Run:
 
     def __init__(
         self,
-        rotor: MatrixRotor,
-        course: SpeedCourse,
+        rotor: Rotor,
+        course: SpeedProfile,
         times: tuple[float, int],
         start: Any,
         tolerance: float,
@@ -291,7 +291,7 @@ class _Run:
         course = self.omega[here], self.angles[here], self.turned[here]
         out = tuple(history[here] for history in self.histories)
         made, how = run_block(
-            self._steps, self.balls, self.films, self.journals, self.state, course, self.limits, out
+            self._steps, self.balls, self.films, self.rings, self.state, course, self.limits, out
         )
         return int(made), int(how)
 
@@ -308,17 +308,17 @@ class _Run:
         r, force = rotor.rings @ d, np.zeros(n)
         self.films = tuple(films_of(balls) for balls in self.balls)
         most = max(balls.number for balls in self.balls)
-        self.journals = journals_at(r, force, self.turned[0], most)
+        self.rings = ring_state_at(r, force, self.turned[0], most)
         for b, (balls, films) in enumerate(zip(self.balls, self.films, strict=True)):
-            normals, at = self.journals.normals[b], slice(2 * b, 2 * b + 2)
+            normals, at = self.rings.normals[b], slice(2 * b, 2 * b + 2)
             directions(balls, self.angles[0, b], normals)
             begin_rest(films)
-            turn = turning(balls, self.omega[0])._replace(cage=0.0)
-            press_balls(balls, turn, films, normals, r[at], np.zeros(2), 0.0, self.journals.pushed)
+            turn = speed_state(balls, self.omega[0])._replace(cage=0.0)
+            press_balls(balls, turn, films, normals, r[at], np.zeros(2), 0.0, self.rings.pushed)
             rest_balls(balls, films, normals, r[at])
-            self.journals.force[at] = self.journals.pushed[0]
+            self.rings.force[at] = self.rings.pushed[0]
         damping = rotor.damping + self.omega[0] * rotor.gyroscopic
-        net = rotor.load + self.at @ self.turned[0] - rotor.rings.T @ self.journals.force
+        net = rotor.load + self.at @ self.turned[0] - rotor.rings.T @ self.rings.force
         a = np.linalg.solve(rotor.mass, net - damping @ v - rotor.stiffness @ d)
         self.state = np.array([d, v, a, np.zeros(size)])
         rows = self.steps + 1
@@ -326,7 +326,7 @@ class _Run:
             np.zeros((rows, size)), np.zeros((rows, size)), np.zeros((rows, n)), np.zeros((rows, n)),
             np.zeros(rows, np.int64),
         )  # fmt: skip
-        for history, first in zip(self.histories, (d, v, r, self.journals.force), strict=False):
+        for history, first in zip(self.histories, (d, v, r, self.rings.force), strict=False):
             history[0] = first
 
     def _start(self, start: Any) -> tuple[_Floats, _Floats]:

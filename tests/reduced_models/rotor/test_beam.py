@@ -9,7 +9,7 @@ from beam_rotor import shaft as twin
 from scipy import linalg
 
 from reduced_models import BallBearing, Disc, Shaft, Support, rotor_on_bearings
-from reduced_models.shaft.beam import shear_coefficient
+from reduced_models.rotor.beam import shear_coefficient
 
 STEEL = {"youngs_modulus": 211e9, "poisson_ratio": 0.5 * 211e9 / 81.2e9 - 1.0, "density": 7810.0}
 LENGTH, DIAMETER = 0.8, 0.03
@@ -103,7 +103,7 @@ def cowper(nu, bore):
 @pytest.mark.parametrize("sections", [1, 3])
 def test_against_ross(dry, sections, monkeypatch):
     """A stepped hollow shaft with a disc, with the shear coefficient that ROSS takes: Cowper's (1966)."""
-    monkeypatch.setattr("reduced_models.shaft.beam.shear_coefficient", cowper)
+    monkeypatch.setattr("reduced_models.rotor.beam.shear_coefficient", cowper)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         rs = pytest.importorskip("ross", reason="ROSS is not installed: pip install 'ehlcontact[ross]'")

@@ -14,7 +14,7 @@ from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.summary import Summary, span
 from reduced_models.bearing.kinematics import RADIANS
-from reduced_models.bearing.rotor import MatrixRotor
+from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ SPEED_RATIO = 1.25  # of neighbouring speeds at which laws are made
 
 @fields_take(t="s", speed_rpm="rev/min")
 @dataclass(frozen=True, eq=False)
-class SpeedCourse(Summary, Tabled):
+class SpeedProfile(Summary, Tabled):
     """Speed of the shaft over time, straight between given times.
 
     Parameters
@@ -54,13 +54,13 @@ class SpeedCourse(Summary, Tabled):
 
     @classmethod
     @takes(speed_rpm="rev/min")
-    def constant(cls, speed_rpm: float) -> SpeedCourse:
+    def constant(cls, speed_rpm: float) -> SpeedProfile:
         """One speed all the time."""
         return cls(np.array([0.0, 1.0]), np.full(2, require_nonnegative("speed_rpm", speed_rpm)))
 
     @classmethod
     @takes(first_rpm="rev/min", last_rpm="rev/min", seconds="s")
-    def ramp(cls, first_rpm: float, last_rpm: float, seconds: float) -> SpeedCourse:
+    def ramp(cls, first_rpm: float, last_rpm: float, seconds: float) -> SpeedProfile:
         """From one speed to another at a constant rate: a run-up, or a coast-down."""
         ends = require_nonnegative("first_rpm", first_rpm), require_nonnegative("last_rpm", last_rpm)
         return cls(np.array([0.0, require_positive("seconds", seconds)]), np.array(ends))
@@ -87,7 +87,7 @@ def law_speeds(rpm: _Floats) -> _Floats:
     return np.geomspace(low, high, count + 1)
 
 
-def turning_forces(rotor: MatrixRotor, omega: _Floats, angle: _Floats, rise: _Floats) -> tuple[_Floats, _Floats]:
+def turning_forces(rotor: Rotor, omega: _Floats, angle: _Floats, rise: _Floats) -> tuple[_Floats, _Floats]:
     """Forces of all unbalances over time, shape (k, 2 unbalances), and where they act, shape (N, 2 unbalances)."""
     forces = np.zeros((omega.size, 2 * len(rotor.unbalances)))
     at = np.zeros((rotor.size, 2 * len(rotor.unbalances)))

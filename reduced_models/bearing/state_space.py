@@ -1,4 +1,4 @@
-"""A rotor on ball bearings as matrices of first order, the films' memory as states: x' = A x + B u.
+"""Balls of a bearing about rest as matrices of first order, the films' memory as states: x' = A x + B u.
 
 A ball between two films has its place w at the outer race as a state, for both films damp: with the forces
 
@@ -19,10 +19,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from reduced_models.bearing.impedance import Contacts, SmallBalls
 from reduced_models.bearing.loss import Loss
 from reduced_models.elements.film_law import DIRECT
-from reduced_models.vibration.balls import Contacts, SmallBalls
-from reduced_models.vibration.mode import Matrices
 
 _Floats = NDArray[np.float64]
 
@@ -114,27 +113,3 @@ def seated(bare: System, loss: Loss) -> System:
     lift = 1.0 + loss.gains.sum()
     C[:, :states], C[:, states:] = lift * bare.C, -PER_METRE * np.kron(loss.gains, np.eye(2))
     return System(A, driven, C, lift * bare.D)
-
-
-def rotor_system(matrices: Matrices, to_rings: _Floats, bearings: list[System]) -> tuple[_Floats, _Floats]:
-    """A, and B of forces on all degrees of freedom, for the states q, q' and those of the bearings."""
-    M, damping, K = matrices
-    size = len(M)
-    total = 2 * size + sum(len(bearing.A) for bearing in bearings)
-    A, driven = np.zeros((total, total)), np.zeros((total, size))
-    A[:size, size : 2 * size] = np.eye(size)
-    pull = np.zeros((size, total))  # forces that act on the masses
-    pull[:, :size], pull[:, size : 2 * size] = -K, -damping
-    at = 2 * size
-    for b, bearing in enumerate(bearings):
-        ring, here = to_rings[2 * b : 2 * b + 2], slice(at, at + len(bearing.A))
-        both = np.zeros((4, total))
-        both[:2, :size], both[2:, size : 2 * size] = ring, ring
-        A[here] += bearing.B @ both
-        A[here, here] += bearing.A
-        pull -= ring.T @ bearing.D @ both
-        pull[:, here] -= ring.T @ bearing.C
-        at = here.stop
-    A[size : 2 * size] = np.linalg.solve(M, pull)
-    driven[size : 2 * size] = np.linalg.inv(M)
-    return A, driven

@@ -27,7 +27,7 @@ from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
-from reduced_models.bearing.statics import StaticBalls
+from reduced_models.bearing.equilibrium import StaticBalls
 
 _Floats = NDArray[np.float64]
 
@@ -103,7 +103,7 @@ class Unbalance:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class MatrixRotor(Summary):
+class Rotor(Summary):
     """A linear rotor on ball bearings, SI units.
 
     Parameters

@@ -15,13 +15,14 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_instance, require_integer, require_nonnegative
 from ehlcontact.errors import InputError
-from reduced_models.bearing.balls import Balls, Turn, begin_rest, directions, films_of, press_balls
-from reduced_models.bearing.rotor import BearingMount, MatrixRotor
-from reduced_models.bearing.statics import StaticBalls
+from reduced_models.bearing.balls import Balls, SpeedState, begin_rest, directions, films_of, press_balls
+from reduced_models.bearing.equilibrium import StaticBalls
+from reduced_models.bearing.rates import bearing_rates
+from reduced_models.bearing.state_space import FILTERS, PER_METRE, System, bearing_system
 from reduced_models.elements.film_law import DIRECT
-from reduced_models.vibration.linearised import LinearisedRotor, Signals
-from reduced_models.vibration.rates import bearing_rates
-from reduced_models.vibration.states import FILTERS, PER_METRE, bearing_system, rotor_system
+from reduced_models.rotor.linearise import LinearisedRotor, Signals
+from reduced_models.rotor.modes import Matrices
+from reduced_models.rotor.rotor import BearingMount, Rotor
 
 _Floats = NDArray[np.float64]
 
@@ -53,8 +54,32 @@ def linear_block(at: LinearisedRotor, inputs: Signals, outputs: Signals, name: s
     )
 
 
+def rotor_system(matrices: Matrices, to_rings: _Floats, bearings: Sequence[System]) -> tuple[_Floats, _Floats]:
+    """A, and B of forces on all degrees of freedom, for the states q, q' and those of the bearings."""
+    M, damping, K = matrices
+    size = len(M)
+    total = 2 * size + sum(len(bearing.A) for bearing in bearings)
+    A, driven = np.zeros((total, total)), np.zeros((total, size))
+    A[:size, size : 2 * size] = np.eye(size)
+    pull = np.zeros((size, total))  # forces that act on the masses
+    pull[:, :size], pull[:, size : 2 * size] = -K, -damping
+    at = 2 * size
+    for b, bearing in enumerate(bearings):
+        ring, here = to_rings[2 * b : 2 * b + 2], slice(at, at + len(bearing.A))
+        both = np.zeros((4, total))
+        both[:2, :size], both[2:, size : 2 * size] = ring, ring
+        A[here] += bearing.B @ both
+        A[here, here] += bearing.A
+        pull -= ring.T @ bearing.D @ both
+        pull[:, here] -= ring.T @ bearing.C
+        at = here.stop
+    A[size : 2 * size] = np.linalg.solve(M, pull)
+    driven[size : 2 * size] = np.linalg.inv(M)
+    return A, driven
+
+
 def rotor_to_control(
-    rotor: MatrixRotor,
+    rotor: Rotor,
     speed_rpm: float,
     *,
     inputs: Signals = None,
@@ -65,11 +90,11 @@ def rotor_to_control(
     """Rotor on ball bearings as one nonlinear python-control system, in continuous time.
 
     Forces in and displacements out are differences from rest under the rotor's own load: with no input and the
-    cage held, it stays at 0. States: see `reduced_models.vibration.block`.
+    cage held, it stays at 0. States: see `reduced_models.rotor.control`.
 
     Parameters
     ----------
-    rotor : MatrixRotor
+    rotor : Rotor
         Its unbalances are not in it: they are forces, to be put in.
     speed_rpm : float
         Of the shaft.
@@ -87,7 +112,7 @@ def rotor_to_control(
     """
     import control
 
-    require_instance("rotor", rotor, MatrixRotor, "a MatrixRotor")
+    require_instance("rotor", rotor, Rotor, "a Rotor")
     ins, outs = _signals("inputs", inputs, "F", rotor.size), _signals("outputs", outputs, "q", rotor.size)
     motion = _Motion(rotor, require_nonnegative("speed_rpm", speed_rpm), cage_turns)
     pushed, seen = list(ins.values()), list(outs.values())
@@ -155,7 +180,7 @@ class _Ring:
     def __init__(self, mount: BearingMount, speed: float, r: _Floats, cage_turns: bool) -> None:
         bearing = mount.bearing
         self.balls: Balls = bearing.kernel(bearing.speed(speed))
-        self._laws: Turn = bearing.turn(speed)
+        self._laws: SpeedState = bearing.turn(speed)
         self._turn = self._laws if cage_turns else self._laws._replace(cage=0.0)
         self._angle, self._normals = mount.cage_angle, np.zeros((self.balls.number, 2))
         held = StaticBalls(self.balls, self._laws, mount.cage_angle)
@@ -188,7 +213,7 @@ class _Ring:
 class _Motion:
     """Rates of all states, which are differences from rest [m]."""
 
-    def __init__(self, rotor: MatrixRotor, speed: float, cage_turns: bool) -> None:
+    def __init__(self, rotor: Rotor, speed: float, cage_turns: bool) -> None:
         self._rest, self._to_rings = rotor.equilibrium(speed), rotor.rings
         self._r = self._to_rings @ self._rest
         self._size = rotor.size

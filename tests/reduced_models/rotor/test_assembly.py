@@ -15,7 +15,7 @@ from reduced_models import (
     JeffcottRotor,
     PowerLawContact,
     Shaft,
-    SpeedCourse,
+    SpeedProfile,
     Support,
     campbell,
     linearise,
@@ -252,7 +252,7 @@ def test_run_up_and_coast_down_of_an_overhung_rotor(film):
     assert min(abs(peak / one.speed_rpm - 1.0) for one in forward) < 0.015
     swings = []
     for ends in ((2500.0, 6500.0), (6500.0, 2500.0)):
-        run = simulate_on_bearings(rotor, speed_rpm=SpeedCourse.ramp(*ends, 1.5), dt=5e-5, until=1.5)
+        run = simulate_on_bearings(rotor, speed_rpm=SpeedProfile.ramp(*ends, 1.5), dt=5e-5, until=1.5)
         x = run.displacement[:, rotor.nodes["disc"][0]]
         swings.append(run.speed_rpm[np.argmax(np.abs(x - x.mean()))])
     assert swings[1] < peak < swings[0]
@@ -297,7 +297,7 @@ def test_run_up_and_coast_down_of_an_overhung_rotor(film):
         (r"supports\[0\].journal_mass = 0.0: must be > 0 on a shaft", lambda b: jeffcott(b, supports=pair(b, b))),
         (r"discs\[0\] = 'float': must be a Disc", lambda b: jeffcott(b, discs=[2.0])),
         (r"length of gravity = 3", lambda b: jeffcott(b, gravity=(0.0, 0.0, -9.81))),
-        (r"seconds = 0.0: must be", lambda b: SpeedCourse.ramp(500.0, 9000.0, 0.0)),
+        (r"seconds = 0.0: must be", lambda b: SpeedProfile.ramp(500.0, 9000.0, 0.0)),
     ],
 )  # fmt: skip
 def test_bad_input(dry, match, make):

@@ -19,9 +19,9 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import hdf5
 from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.summary import Summary, span
-from reduced_models.bearing.rotor import MatrixRotor
-from reduced_models.vibration.linearised import SHOWN, linearise
-from reduced_models.vibration.mode import WhirlMode, unlike
+from reduced_models.rotor.linearise import SHOWN, linearise
+from reduced_models.rotor.modes import WhirlMode, unlike
+from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
 
@@ -202,12 +202,12 @@ def _sides(off: _Floats) -> tuple[int, int]:
 
 
 @takes(speeds_rpm="rev/min")
-def campbell(rotor: MatrixRotor, speeds_rpm: ArrayLike, *, count: int = SHOWN, passage: bool = True) -> Campbell:
+def campbell(rotor: Rotor, speeds_rpm: ArrayLike, *, count: int = SHOWN, passage: bool = True) -> Campbell:
     """Modes of a rotor on ball bearings at increasing speeds.
 
     Parameters
     ----------
-    rotor : MatrixRotor
+    rotor : Rotor
     speeds_rpm : array_like, shape (k,)
         In rev/min.
     count : int

@@ -16,8 +16,8 @@ from ehlcontact.errors import InputError
 from ehlcontact.files import hdf5
 from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.summary import Summary, span
-from reduced_models.bearing.rotor import MatrixRotor
-from reduced_models.vibration.linearised import linearise
+from reduced_models.rotor.linearise import linearise
+from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -138,7 +138,7 @@ class UnbalanceResponse(Summary, Tabled):
 
 
 @takes(speeds_rpm="rev/min")
-def unbalance_response(rotor: MatrixRotor, speeds_rpm: ArrayLike, *, passage: bool = True) -> UnbalanceResponse:
+def unbalance_response(rotor: Rotor, speeds_rpm: ArrayLike, *, passage: bool = True) -> UnbalanceResponse:
     """Steady response of a rotor on ball bearings to its unbalances, at increasing speeds, films those of each.
 
     Nothing is known between the speeds: a peak is as wide as decrement/pi of its speed, for films and steel often
@@ -146,7 +146,7 @@ def unbalance_response(rotor: MatrixRotor, speeds_rpm: ArrayLike, *, passage: bo
 
     Parameters
     ----------
-    rotor : MatrixRotor
+    rotor : Rotor
     speeds_rpm : array_like, shape (k,)
         In rev/min, > 0.
     passage : bool

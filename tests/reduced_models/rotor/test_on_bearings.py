@@ -13,14 +13,14 @@ from reduced_models import (
     BallBearing,
     BearingMount,
     BearingRun,
-    MatrixRotor,
     OutsideValidityWarning,
-    SpeedCourse,
+    Rotor,
+    SpeedProfile,
     Unbalance,
     log_decrement,
     simulate_on_bearings,
 )
-from reduced_models.bearing.course import turning_forces
+from reduced_models.rotor.speed_profile import turning_forces
 
 RPM, DT = 3000.0, 2e-5
 M, K, G = shaft([0.05] * 6, 0.04, [(3, 0.28, 0.07)])
@@ -34,13 +34,13 @@ def beam(bearing, unbalance=0.0, **changes):
     mounts = tuple(BearingMount(bearing=bearing, x=4 * n, y=4 * n + 1) for n in NODES)
     heavy = (Unbalance(x=DISC, y=DISC + 1, amount=unbalance),) if unbalance else ()
     given = {"mass": M, "stiffness": K, "gyroscopic": G, "load": load, "mounts": mounts, "unbalances": heavy}
-    return MatrixRotor(**(given | changes))
+    return Rotor(**(given | changes))
 
 
 def block(bearing, mass=2.0, load=(0.0, -300.0), **changes):
     """A rigid mass on one bearing."""
     given = {"mass": mass * np.eye(2), "stiffness": np.zeros((2, 2)), "load": np.array(load)}
-    return MatrixRotor(**({"mounts": (BearingMount(bearing=bearing, x=0, y=1),)} | given | changes))
+    return Rotor(**({"mounts": (BearingMount(bearing=bearing, x=0, y=1),)} | given | changes))
 
 
 def test_at_rest_all_forces_balance(film):
@@ -168,13 +168,13 @@ def test_files_of_runs(film, tmp_path):
 def test_a_course_of_one_speed_is_that_speed(film):
     rotor = beam(film, unbalance=1e-4)
     one = simulate_on_bearings(rotor, speed_rpm=RPM, dt=DT, until=0.01)
-    course = SpeedCourse(np.array([0.0, 0.002, 0.02]), np.full(3, RPM))
+    course = SpeedProfile(np.array([0.0, 0.002, 0.02]), np.full(3, RPM))
     same = simulate_on_bearings(rotor, speed_rpm=course, dt=DT, until=0.01)
     np.testing.assert_allclose(same.displacement, one.displacement, rtol=1e-9, atol=1e-15)
 
 
 def test_speed_and_angle_of_a_course():
-    course = SpeedCourse(np.array([0.1, 0.3, 0.4]), np.array([600.0, 1200.0, 1200.0]))
+    course = SpeedProfile(np.array([0.1, 0.3, 0.4]), np.array([600.0, 1200.0, 1200.0]))
     t = np.linspace(0.0, 0.6, 6001)
     omega, angle, rise = course.at(t)
     np.testing.assert_allclose(omega, np.interp(t, course.t, course.speed_rpm) * pi / 30.0)
@@ -186,7 +186,7 @@ def test_unbalance_of_a_shaft_that_gains_speed():
     """Mass times the acceleration of its circle."""
     rotor = block(BallBearing.catalogue("6205"), unbalances=(Unbalance(x=0, y=1, amount=2e-4, phase=0.3),))
     t = np.linspace(0.0, 0.1, 20001)
-    omega, angle, rise = SpeedCourse(np.array([0.0, 0.1]), np.array([1000.0, 9000.0])).at(t)
+    omega, angle, rise = SpeedProfile(np.array([0.0, 0.1]), np.array([1000.0, 9000.0])).at(t)
     forces, at = turning_forces(rotor, omega, angle, rise)
     circle = 2e-4 * np.column_stack([np.cos(angle + 0.3), np.sin(angle + 0.3)])
     thrown = -(circle[2:] - 2.0 * circle[1:-1] + circle[:-2]) / (t[1] - t[0]) ** 2
@@ -197,7 +197,7 @@ def test_unbalance_of_a_shaft_that_gains_speed():
 def test_run_up(film):
     """Through laws of several speeds: forces do not jump where they change, steps twice as fine agree."""
     rotor = beam(film, unbalance=2e-5)
-    course = SpeedCourse(np.array([0.0, 0.1]), np.array([2000.0, 5000.0]))
+    course = SpeedProfile(np.array([0.0, 0.1]), np.array([2000.0, 5000.0]))
     coarse, fine = (simulate_on_bearings(rotor, speed_rpm=course, dt=dt, until=0.1) for dt in (DT, DT / 2.0))
     assert coarse.speed_rpm[-1] == pytest.approx(5000.0)
     error = np.abs(coarse.displacement[:, DISC : DISC + 2] - fine.displacement[::2, DISC : DISC + 2])
@@ -205,7 +205,7 @@ def test_run_up(film):
     jumps = np.abs(np.diff(coarse.force[:, 0, 1], n=3))
     assert jumps.max() < 12.0 * np.median(jumps) + 1.0
     back = simulate_on_bearings(
-        rotor, speed_rpm=SpeedCourse(np.array([0.0, 0.1]), np.array([5000.0, 2000.0])), dt=DT, until=0.1
+        rotor, speed_rpm=SpeedProfile(np.array([0.0, 0.1]), np.array([5000.0, 2000.0])), dt=DT, until=0.1
     )
     assert back.speed_rpm[-1] == pytest.approx(2000.0)
 
@@ -214,13 +214,13 @@ def test_a_heavy_housing_is_the_ground(film):
     mass, stiffness = np.diag([2.0, 2.0, 1e6, 1e6]), np.diag([0.0, 0.0, 1e12, 1e12])
     mount = (BearingMount(bearing=film, x=0, y=1, housing=(2, 3)),)
     load = np.array([0.0, -300.0, 0.0, 0.0])
-    housed = MatrixRotor(mass=mass, stiffness=stiffness, mounts=mount, load=load)
+    housed = Rotor(mass=mass, stiffness=stiffness, mounts=mount, load=load)
     runs = [
         simulate_on_bearings(rotor, speed_rpm=RPM, dt=DT, until=0.01, start=(place, np.zeros(rotor.size)))
         for rotor, place in ((housed, np.array([0.0, -8e-6, 0.0, 0.0])), (block(film), np.array([0.0, -8e-6])))
     ]
     np.testing.assert_allclose(runs[0].ring, runs[1].ring, atol=2e-9)
-    soft = MatrixRotor(mass=mass, stiffness=np.diag([0.0, 0.0, 1e7, 1e7]), mounts=mount, load=load)
+    soft = Rotor(mass=mass, stiffness=np.diag([0.0, 0.0, 1e7, 1e7]), mounts=mount, load=load)
     q = soft.equilibrium(RPM)
     assert q[3] == pytest.approx(-300.0 / 1e7, rel=1e-6)
 

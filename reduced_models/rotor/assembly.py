@@ -1,4 +1,4 @@
-"""A shaft with its discs and supports as a `MatrixRotor`."""
+"""A shaft with its discs and supports as a `Rotor`."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_column, require_instance
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
-from reduced_models.bearing.rotor import BearingMount, MatrixRotor, Unbalance
-from reduced_models.shaft.beam import matrices
-from reduced_models.shaft.parts import Disc, Shaft, Support
+from reduced_models.rotor.beam import matrices
+from reduced_models.rotor.parts import Disc, Shaft, Support
+from reduced_models.rotor.rotor import BearingMount, Rotor, Unbalance
 
 _Floats = NDArray[np.float64]
 
@@ -28,10 +28,10 @@ def rotor_on_bearings(
     supports: Sequence[Support],
     discs: Sequence[Disc] = (),
     gravity: tuple[float, float] = (0.0, -9.81),
-) -> MatrixRotor:
+) -> Rotor:
     """Jeffcott's rotor and its relatives on ball bearings, which may differ: discs anywhere, beyond a bearing too.
 
-    For `simulate_on_bearings`, at one speed or along a `SpeedCourse`, and for `linearise`, `campbell` and
+    For `simulate_on_bearings`, at one speed or along a `SpeedProfile`, and for `linearise`, `campbell` and
     `unbalance_response`. Where discs and bearings are among the degrees of freedom, ``nodes`` of the rotor says:
     "disc" (or "disc 0", "disc 1", ...), "bearing 0", ..., "housing 0", ...
 
@@ -48,7 +48,7 @@ def rotor_on_bearings(
 
     Returns
     -------
-    MatrixRotor
+    Rotor
 
     Raises
     ------
@@ -96,7 +96,7 @@ class _Assembly:
         for axis in (0, 1):
             self.load += self.M @ self._uniform(axis) * gravity[axis]
 
-    def rotor(self) -> MatrixRotor:
+    def rotor(self) -> Rotor:
         """Without the degrees of freedom that have no mass."""
         kept = np.flatnonzero(np.diag(self.M) > 0.0)
         new = {int(old): k for k, old in enumerate(kept)}
@@ -109,7 +109,7 @@ class _Assembly:
         whole[kept], whole[left] = np.eye(kept.size), follow
         M, C, K, G = (np.asarray(whole.T @ matrix @ whole) for matrix in (self.M, self.C, self.K, self.G))
         pairs = {name: (new[at], new[at + 1]) for name, at in self._places().items()}
-        return MatrixRotor(
+        return Rotor(
             mass=M,
             stiffness=0.5 * (K + K.T),
             damping=C,

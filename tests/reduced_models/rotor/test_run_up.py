@@ -11,16 +11,16 @@ from reduced_models import (
     BearingRun,
     Disc,
     Shaft,
-    SpeedCourse,
+    SpeedProfile,
     Support,
     campbell,
     rotor_on_bearings,
     simulate_on_bearings,
 )
-from reduced_models.bearing.balls import turning
-from reduced_models.bearing.course import law_speeds, turning_forces
+from reduced_models.bearing.balls import speed_state
+from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.kinematics import RADIANS
-from reduced_models.bearing.statics import StaticBalls
+from reduced_models.rotor.speed_profile import law_speeds, turning_forces
 
 RANGE = np.array([500.0, 9000.0])
 EXAMPLE = Path(__file__).parents[3] / "examples" / "studies" / "ball_passage.py"
@@ -33,7 +33,7 @@ def test_forces_at_rest_do_not_jump_where_laws_change(film):
 
     def force(rpm, own=None):
         held = kernel if own is None else own
-        return StaticBalls(held, turning(held, rpm * RADIANS), -1.4).force(place)[1]
+        return StaticBalls(held, speed_state(held, rpm * RADIANS), -1.4).force(place)[1]
 
     assert knots.size == 14
     for speed in knots[1:-1]:
@@ -62,7 +62,7 @@ def overhung(film, oil):
     )
 
 
-COURSE = SpeedCourse(np.array([0.0, 0.02, 0.04]), np.array([3000.0, 8000.0, 6000.0]))
+COURSE = SpeedProfile(np.array([0.0, 0.02, 0.04]), np.array([3000.0, 8000.0, 6000.0]))
 
 
 def test_run_ups_are_of_second_order(overhung):

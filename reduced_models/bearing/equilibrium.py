@@ -1,0 +1,184 @@
+"""Static equilibrium: of springs under a load, and of the ring of a bearing on its balls."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import atan2, pi
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+
+from ehlcontact.checks import as_column, require_finite
+from ehlcontact.errors import ConvergenceError, InputError
+from reduced_models.bearing.balls import Balls, SpeedState, begin_rest, directions, films_of, press_balls
+
+_Floats = NDArray[np.float64]
+
+BALANCED = 1e-12  # imbalance over the load that ends the iteration
+BALANCED_BY_ROUNDING = 1e-9  # imbalance over the load that is accepted where steps no longer help
+# Stiffness given to directions that have none, over that of the others: contacts on one side only leave one.
+REGULARISATION = 1e-6
+MOST_STEPS = 100  # of which Newton needs a handful where contacts neither open nor close
+FIRST_STEP = 1e-9  # [m], along the load, from where all contacts may be open; the search doubles it
+LONGEST_STEP = 1.0  # no journal travels this far [m]; beyond it the contacts do not stand in the way
+STILL = np.zeros(2)  # velocity of a ring at rest
+SEATED = 1e-9  # least product of the two stiffnesses of a ring over the square of their sum: below is rounding
+
+
+class Springs(Protocol):
+    """Springs on one body, as a force over its displacement."""
+
+    def force(self, q: _Floats) -> _Floats:
+        """What they carry with the body at `q`, shape (directions,) [N]."""
+
+    def tangent(self, q: _Floats) -> _Floats:
+        """Its derivative, shape (directions, directions) [N/m]."""
+
+
+def equilibrium(springs: Springs, load: _Floats) -> _Floats:
+    """Find the displacement, shape (directions,) [m], at which springs carry `load` [N].
+
+    Newton's method with the analytic tangents. Springs that only stiffen have a convex potential, so a step
+    that does not bring the balance closer is replaced by the minimum along it.
+
+    Raises
+    ------
+    InputError
+        No load.
+    ConvergenceError
+        The contacts do not stand against the load; ``result`` is the last position.
+    """
+    size = float(np.linalg.norm(load))
+    if size == 0.0:
+        raise InputError("static load", 0.0, "different from zero to press the contacts")
+
+    def balance(q: _Floats) -> _Floats:
+        return springs.force(q) - load
+
+    q = np.zeros(load.size)
+    residual = balance(q)
+    # Where all contacts are open there is no tangent to follow: first go along the load until they carry it.
+    q = _line_search(balance, q, -math.copysign(FIRST_STEP / size, float(load @ residual)) * load)
+    for _ in range(MOST_STEPS):
+        residual = balance(q)
+        error = float(np.linalg.norm(residual))
+        if error <= BALANCED * size:
+            return q
+        stiffness = springs.tangent(q)
+        stiffness += REGULARISATION * max(float(np.trace(stiffness)), size) * np.eye(load.size)
+        step = -np.asarray(np.linalg.solve(stiffness, residual), dtype=np.float64)
+        if np.linalg.norm(balance(q + step)) < 0.5 * error:
+            q = q + step
+        elif error <= BALANCED_BY_ROUNDING * size:
+            return q
+        else:
+            q = _line_search(balance, q, step)
+    raise ConvergenceError("static equilibrium not found: the iteration stalled", q)
+
+
+def _line_search(balance: Callable[[_Floats], _Floats], q: _Floats, step: _Floats) -> _Floats:
+    """Point on the line at which the forces balance along it; springs that only stiffen have just one."""
+
+    def along(t: float) -> float:
+        return float(step @ balance(q + t * step))
+
+    far = 1.0
+    while along(far) < 0.0:
+        far *= 2.0
+        if far * float(np.linalg.norm(step)) > LONGEST_STEP:
+            raise ConvergenceError("static equilibrium not found: the contacts do not hold the load", q)
+    return q + float(brentq(along, 0.0, far, xtol=1e-300, rtol=1e-12)) * step
+
+
+class StaticBalls:
+    """All balls at rest at one angle of the cage, as `equilibrium` wants contacts.
+
+    Parameters
+    ----------
+    balls : Balls
+    turn : SpeedState
+        Speed of the shaft: its films and its centrifugal force. That the cage turns, squeezes no film here.
+    angle : float
+        Of the first ball [rad].
+    """
+
+    def __init__(self, balls: Balls, turn: SpeedState, angle: float) -> None:
+        self.balls, self._turn = balls, turn._replace(cage=0.0)
+        self.normals = np.zeros((balls.number, 2))
+        directions(balls, angle, self.normals)
+        self.films = films_of(balls)
+        begin_rest(self.films)
+        self._force, self._stiffness, self._damping = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
+
+    def force(self, q: _Floats) -> _Floats:
+        """What they carry with the ring at `q`, shape (2,) [N]."""
+        self._press(q)
+        return self._force.copy()
+
+    def tangent(self, q: _Floats) -> _Floats:
+        """Its derivative, shape (2, 2) [N/m]."""
+        self._press(q)
+        return self._stiffness.copy()
+
+    def _press(self, q: _Floats) -> None:
+        arrays = self._force, self._stiffness, self._damping
+        press_balls(self.balls, self._turn, self.films, self.normals, np.asarray(q, float), STILL, 0.0, arrays)
+        if not np.isfinite(self._force).all():
+            raise ConvergenceError(f"a ball finds no balance with the ring at {q.tolist()} m", q)
+
+
+@dataclass(frozen=True, eq=False)
+class RingEquilibrium:
+    """A ring at rest, and its balls."""
+
+    displacement: _Floats  # (2,) [m]
+    normals: _Floats  # (balls, 2)
+    approach: _Floats  # (balls, 2) at the inner and at the outer race [m]
+    force: _Floats  # (balls, 2) [N]
+    stiffness: _Floats  # (2, 2) [N/m]
+
+
+def ring_equilibrium(balls: Balls, turn: SpeedState, load: _Floats, angle: float) -> RingEquilibrium:
+    """Ring under `load` [N], the first ball at `angle`.
+
+    Raises
+    ------
+    InputError
+        A load that does not seat it.
+    ConvergenceError
+        No balance was found.
+    """
+    still = StaticBalls(balls, turn, angle)
+    q = np.zeros(2) if not load.any() else equilibrium(still, load)  # type: ignore[arg-type]
+    stiffness = still.tangent(q)
+    if not np.linalg.det(stiffness) > SEATED * np.trace(stiffness) ** 2:
+        allowed = "one that presses balls on both sides of its direction; or preload the bearing (clearance < 0)"
+        raise InputError("load", load.tolist(), allowed)
+    w = still.films.w[:, 0]
+    inner = still.normals @ q - balls.half_clearance - w
+    return RingEquilibrium(q, still.normals, np.column_stack([inner, w]), still.films.force.copy(), stiffness)
+
+
+def direction_of(load: _Floats) -> float:
+    """Angle of a load [rad]; that of gravity where there is none."""
+    return atan2(load[1], load[0]) if load.any() else atan2(-1.0, 0.0)
+
+
+def radial_load(load: ArrayLike) -> _Floats:
+    """The load; whoever gives a third component wants another bearing."""
+    size = np.size(load) if isinstance(load, tuple | list | np.ndarray) else 0
+    if size != 2:
+        allowed = "a pair (Fx, Fy) [N]: this bearing is planar and takes no axial load, moment or tilt"
+        raise InputError("load", load, allowed)
+    return as_column("load", load, size=2)
+
+
+def angle_of(angle: float) -> float:
+    """An angle of the cage [rad]; raises `InputError` for one in degrees."""
+    if abs(require_finite("cage_angle", angle)) > 2.0 * pi:
+        raise InputError("cage_angle", angle, "between -2 pi and 2 pi; angles are in radians")
+    return float(angle)
