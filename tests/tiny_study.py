@@ -35,6 +35,8 @@ decay_periods = 4
 decay_steps_per_period = 20
 fit_steps_per_period = 20
 fit_amplitude = 0.1
+[check]
+half_step = true
 [whole_bearing]
 clearance_um = -1.0
 revolutions = 10

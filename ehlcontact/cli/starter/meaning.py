@@ -14,6 +14,7 @@ SECTIONS = {
     "free": "Free vibration of a mass on the contact, which a cubic element is fitted to.",
     "harmonic": "Harmonic load in the band of the contact's own vibrations, which another is fitted to.",
     "rotor": "Jeffcott rotor in two such bearings: it turns with its unbalance, and is kicked.",
+    "check": "Checks of the study's own numbers: the error of its steps in time.",
     "whole_bearing": "The same rotor on two whole bearings, a film with its memory under every ball. Without this "
     "section it is not run on them.",
 }
@@ -62,10 +63,10 @@ MEANINGS = {
     "rotor.disc_damping": "N s/m, of the air about the disc",
     "rotor.unbalance": "kg m, mass times eccentricity",
     "rotor.revolutions": "that are computed on full films, from near the settled motion on",
-    "rotor.steps_per_revolution": "how finely; all of it again with half the step",
+    "rotor.steps_per_revolution": "how finely",
     "rotor.kick": "swing of the contacts' load after the kick, over their load at rest",
     "rotor.decay_periods": "of the vibration after the kick",
-    "rotor.decay_steps_per_period": "how finely; all of it again with half the step",
+    "rotor.decay_steps_per_period": "how finely",
     "rotor.fit_amplitude": "of the load at the rotor's speed that its element is fitted to, over the static load",
     "rotor.fit_periods": "how long that is",
     "rotor.fit_steps_per_period": "how finely",
@@ -73,4 +74,5 @@ MEANINGS = {
     "whole_bearing.clearance_um": "um, radial internal clearance; below 0 the bearing is preloaded",
     "whole_bearing.revolutions": "that are computed; the second half of them is shown",
     "whole_bearing.steps_per_revolution": "how finely",
+    "check.half_step": "the rotor on full films again with half the step: the study takes about twice as long",
 }

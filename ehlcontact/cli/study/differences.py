@@ -35,19 +35,26 @@ Events = Mapping[str, tuple[ContactEvents, ...]]
 
 
 @dataclass(frozen=True)
+class HalfStep:
+    """The rotor under its unbalance once more with half the step: what [check] half_step finds."""
+
+    full: RotorResult
+    half: Comparison  # full against the chosen element, both with half the step
+    step_full: Comparison  # full with the step against full with half of it, the whole run
+    step_reduced: Comparison  # the same for the chosen element: what the rotor's integrator contributes
+
+
+@dataclass(frozen=True)
 class Unbalance:
     """The settled rotor under its unbalance."""
 
     full: RotorResult
-    full_half: RotorResult  # half the step, as long
     reduced: Mapping[str, RotorResult]  # by element and baseline; the chosen one is among them
     settling: Mapping[str, Settling]  # also of the full one
     events: Events
     whole: Mapping[str, Comparison]  # full against each reduced run, from the start
     settled: Mapping[str, Comparison]  # likewise, where the full one has settled; empty where it has not
-    half: Comparison  # full against the chosen element, both with half the step
-    step_full: Comparison  # full with the step against full with half of it, the whole run
-    step_reduced: Comparison  # the same for the chosen element: what the rotor's integrator contributes
+    check: HalfStep | None
 
     @property
     def best(self) -> Mapping[str, Comparison]:
@@ -55,24 +62,29 @@ class Unbalance:
         return self.settled or self.whole
 
     @property
-    def step_share(self) -> float:
+    def step_share(self) -> float | None:
         """Change of the full run by half the step, over the standard deviation of a signal, the largest."""
-        return max(self.step_full.displacement or 0.0, self.step_full.force or 0.0)
+        if self.check is None:
+            return None
+        return max(self.check.step_full.displacement or 0.0, self.check.step_full.force or 0.0)
 
     def to_dict(self) -> dict[str, Any]:
         """All numbers."""
         pairs = {"whole": self.whole, "settled": self.settled}
+        solves, check = {"full": float(self.full.iterations[1:].mean())}, {}
+        if self.check is not None:
+            solves["full_half_step"] = float(self.check.full.iterations[1:].mean())
+            check = {
+                "half_step": self.check.half.to_dict(),
+                "step_full": self.check.step_full.to_dict(),
+                "step_reduced": self.check.step_reduced.to_dict(),
+            }
         return {
             **{name: {key: c.to_dict() for key, c in group.items()} for name, group in pairs.items()},
-            "half_step": self.half.to_dict(),
-            "step_full": self.step_full.to_dict(),
-            "step_reduced": self.step_reduced.to_dict(),
+            **check,
             "settling": {name: s.to_dict() for name, s in self.settling.items()},
             "events": events_dict(self.events),
-            "evaluations_per_step": {
-                "full": float(self.full.iterations[1:].mean()),
-                "full_half_step": float(self.full_half.iterations[1:].mean()),
-            },
+            "evaluations_per_step": solves,
         }
 
 
@@ -83,7 +95,7 @@ class Decay:
     mode: RotorMode  # on the film, linearised: the one that is kicked
     runs: Mapping[str, RotorResult]
     decrements: Mapping[str, Decrement]
-    half_step: Mapping[str, Decrement]  # of the full film and of the chosen element
+    half_step: Mapping[str, Decrement]  # of the full film and of the chosen element; empty without [check]
     events: Events
 
     def off(self, name: str) -> float:
@@ -102,8 +114,10 @@ class Decay:
         return self.nearest_without is not None and self.nearest_without > DECIDES
 
     @property
-    def step_share(self) -> float:
+    def step_share(self) -> float | None:
         """Change of the full film's decrement by half the step, as a share of it."""
+        if not self.half_step:
+            return None
         return abs(self.half_step[FULL].decrement / self.decrements[FULL].decrement - 1.0)
 
     def to_dict(self) -> dict[str, Any]:
@@ -111,7 +125,7 @@ class Decay:
         return {
             "decrements": {name: d.to_dict() for name, d in self.decrements.items()},
             "off_full": {name: self.off(name) for name in self.decrements if name != FULL},
-            "half_step": {name: d.to_dict() for name, d in self.half_step.items()},
+            **({"half_step": {name: d.to_dict() for name, d in self.half_step.items()}} if self.half_step else {}),
             "film_decides": self.film_decides,
             "events": events_dict(self.events),
         }
@@ -156,11 +170,10 @@ def compare_rotors(
             if name == CHOSEN[0]:
                 raise
             failed[name] = str(error)
-    chosen = ran[CHOSEN[0]].element
     linear = linear_rotors(study, build_rotor(study), response, {name: one.element for name, one in ran.items()})
     return RotorFindings(
-        unbalance=_unbalance(study, ran, run_reduced(study, chosen, 1), folder),
-        decay=_decay(study, mode, ran, run_decay_reduced(study, chosen, mode, response, 1), folder),
+        unbalance=_unbalance(study, ran, folder),
+        decay=_decay(study, mode, ran, response, folder),
         linear=linear,
         kicked={name: _nearest(one, mode) for name, one in linear.items()},
         bode=bode(linear),
@@ -181,9 +194,9 @@ def events_dict(events: Events) -> dict[str, list[dict[str, Any]]]:
     return {name: [contact.to_dict() for contact in contacts] for name, contacts in events.items()}
 
 
-def _unbalance(study: Study, ran: Mapping[str, _Ran], chosen_half: RotorResult, folder: Path) -> Unbalance:
+def _unbalance(study: Study, ran: Mapping[str, _Ran], folder: Path) -> Unbalance:
     rotor, load = build_rotor(study), study.ball_load
-    full, full_half = (load_rotor(folder / f"{name}.h5", rotor) for name in ("rotor_full", "rotor_half_step"))
+    full = load_rotor(folder / "rotor_full.h5", rotor)
     reduced = {name: one.turning for name, one in ran.items()}
     settled = settling(full)
     after: dict[str, Comparison] = {}
@@ -192,26 +205,37 @@ def _unbalance(study: Study, ran: Mapping[str, _Ran], chosen_half: RotorResult, 
         after = {name: compare(full, run, discard=begin) for name, run in reduced.items()}
     return Unbalance(
         full=full,
-        full_half=full_half,
         reduced=reduced,
         settling={FULL: settled} | {name: settling(run) for name, run in reduced.items()},
         events={FULL: contact_events(full, load)}
         | {name: _events(one, one.turning, load) for name, one in ran.items()},
         whole={name: compare(full, run) for name, run in reduced.items()},
         settled=after,
-        half=compare(full_half, chosen_half),
+        check=_half_step(study, full, ran[CHOSEN[0]], folder) if study.check.half_step else None,
+    )
+
+
+def _half_step(study: Study, full: RotorResult, chosen: _Ran, folder: Path) -> HalfStep:
+    full_half = load_rotor(folder / "rotor_half_step.h5", full.rotor)
+    reduced_half = run_reduced(study, chosen.element, 1)
+    return HalfStep(
+        full=full_half,
+        half=compare(full_half, reduced_half),
         step_full=compare(full, full_half),
-        step_reduced=compare(reduced[CHOSEN[0]], chosen_half),
+        step_reduced=compare(chosen.turning, reduced_half),
     )
 
 
 def _decay(
-    study: Study, mode: RotorMode, ran: Mapping[str, _Ran], chosen_half: RotorResult, folder: Path
+    study: Study, mode: RotorMode, ran: Mapping[str, _Ran], response: ImpedanceResult, folder: Path
 ) -> Decay:
     rotor, load = build_rotor(study, unbalance=False), study.ball_load
-    full, full_half = (load_rotor(folder / f"{name}.h5", rotor) for name in ("decay", "decay_half_step"))
+    full = load_rotor(folder / "decay.h5", rotor)
     runs = {FULL: full} | {name: one.decaying for name, one in ran.items()}
-    half = {FULL: full_half, CHOSEN[0]: chosen_half}
+    half: dict[str, RotorResult] = {}
+    if study.check.half_step:
+        half[FULL] = load_rotor(folder / "decay_half_step.h5", rotor)
+        half[CHOSEN[0]] = run_decay_reduced(study, ran[CHOSEN[0]].element, mode, response, 1)
     return Decay(
         mode=mode,
         runs=runs,

@@ -15,7 +15,7 @@ from ehlcontact.checks.admissible_range import MEASURED
 from ehlcontact.cli.study.points.ledger import is_closed, is_done, read_ledger
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import Study
-from ehlcontact.cli.study.stages import STAGES, Stage
+from ehlcontact.cli.study.stages import Stage, stages_of
 from ehlcontact.solver.mesh import FINENESS, LARGEST_MESH, Mesh, Purpose, default_domain, mesh_for
 
 # Cost of a stage: convolutions ("conv", docs/solver.md) per thousand nodes and step of one contact, the geometric
@@ -147,7 +147,7 @@ def forecast(study: Study, folder: Path, jobs: int) -> Forecast:
     """
     conv, ledger = convolution_seconds(), read_ledger(folder)
     plans = []
-    for stage in STAGES:
+    for stage in stages_of(study):
         mesh, contacts, steps, step = _work(stage.name, study)
         estimate = conv * stage_cost(stage.name, study)
         plans.append(Plan(stage, mesh, contacts, steps, step, estimate, is_done(stage, study, folder, ledger)))

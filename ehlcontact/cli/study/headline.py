@@ -147,12 +147,12 @@ def unsettled(found: Findings) -> str:
 
 def step_check(found: Findings) -> str:
     """Where half the step changes more than a hundredth."""
-    u, d = found.rotors.unbalance, found.rotors.decay
+    u, d = found.rotors.unbalance.step_share, found.rotors.decay.step_share
     said = []
-    if u.step_share > STEP_TOLD:
-        said.append(f"the run with unbalance by {percent(u.step_share, 2)} of the standard deviation of a signal")
-    if d.step_share > STEP_TOLD:
-        said.append(f"the decrement by {percent(d.step_share, 2)} of it")
+    if u is not None and u > STEP_TOLD:
+        said.append(f"the run with unbalance by {percent(u, 2)} of the standard deviation of a signal")
+    if d is not None and d > STEP_TOLD:
+        said.append(f"the decrement by {percent(d, 2)} of it")
     return f"THE STEP IS LONG: half of it changes {' and '.join(said)}, on the full film." if said else ""
 
 

@@ -28,6 +28,7 @@ from ehlcontact.cli.study.reduction import (
 )
 from ehlcontact.cli.study.response import at_rotor_speed, film_response
 from ehlcontact.cli.study.schema import Study
+from ehlcontact.cli.study.stages import stages_of
 from ehlcontact.cli.study.whole import WholeFindings, run_whole
 from ehlcontact.errors import InputError
 from ehlcontact.results import SteadyResult
@@ -251,7 +252,8 @@ def evaluate(study: Study, folder: Path, ledger: Mapping[str, Mapping[str, Any]]
     film = reduction.memory_si
     exported_film = None if film is None else export_fmu(film, folder / "contact_film.fmu")
     rotors = compare_rotors(study, response, reduction.rotor_elements, folder)
-    seconds = {name: float(note["seconds"]) for name, note in ledger.items()}
+    computed = {stage.name for stage in stages_of(study)}
+    seconds = {name: float(note["seconds"]) for name, note in ledger.items() if name in computed}
     seconds["elements, FMUs, reduced rotors"] = time.perf_counter() - started
     started = time.perf_counter()
     whole = run_whole(study, folder)

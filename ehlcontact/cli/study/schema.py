@@ -162,10 +162,10 @@ class Rotor(Section):
     disc_damping: NotNegative = 1.0  # N s/m
     unbalance: Positive = 4e-5  # kg m
     revolutions: Annotated[int, Field(ge=2, le=100, strict=True)] = 3  # from near the settled motion on
-    steps_per_revolution: Steps = 60  # and all of it again with half the step
+    steps_per_revolution: Steps = 60
     kick: Amplitude = 0.05  # swing of the contacts' load after it, in their load at rest
     decay_periods: Annotated[float, Field(ge=4.0, le=100.0, allow_inf_nan=False)] = 8.0
-    decay_steps_per_period: Steps = 40  # and all of it again with half the step
+    decay_steps_per_period: Steps = 40
     fit_amplitude: Amplitude = 0.25
     fit_periods: Periods = 2.0
     fit_steps_per_period: Steps = 40
@@ -180,6 +180,12 @@ class WholeBearing(Section):
     steps_per_revolution: Annotated[int, Field(ge=200, le=10000, strict=True)] = 500
 
 
+class Check(Section):
+    """Checks of the study's own numbers, which cost as much again and more; none unless they are switched on."""
+
+    half_step: bool = False
+
+
 class Study(Section):
     """Everything that a study file says."""
 
@@ -192,6 +198,7 @@ class Study(Section):
     harmonic: Harmonic = Harmonic()
     rotor: Rotor = Rotor()
     whole_bearing: WholeBearing = WholeBearing()
+    check: Check = Check()
 
     @property
     def ball_load(self) -> float:

@@ -34,6 +34,11 @@ class Stage:
     compute: Callable[[Study, Update], Any]
     store: Callable[[Any, Path], None]
     load: Callable[[Study, Path], Any]  # raises `InputError` for a file that `store` did not write
+    checks: bool = False  # only for [check] half_step
+
+    def wanted(self, study: Study) -> bool:
+        """Whether the study includes this computation."""
+        return study.check.half_step or not self.checks
 
     def file(self, folder: Path) -> Path:
         """Where the converged result stands."""
@@ -179,8 +184,8 @@ _STEADY, _RUN = (_store, _load("SteadyResult")), (_store, _load("SimulationResul
 _ROTOR = (_store_rotor, _load_rotor)
 
 STAGES = (  # the longest first
-    Stage("rotor_half_step", "rotor again, half the step", ("solver", "rotor"), _rotor_half_step, *_ROTOR),
-    Stage("decay_half_step", "decay again, half the step", ("solver", "rotor"), _decay_half_step, *_ROTOR),
+    Stage("rotor_half_step", "rotor again, half the step", ("solver", "rotor"), _rotor_half_step, *_ROTOR, True),
+    Stage("decay_half_step", "decay again, half the step", ("solver", "rotor"), _decay_half_step, *_ROTOR, True),
     Stage("rotor_full", "rotor on full contacts", ("solver", "rotor"), _rotor_full, *_ROTOR),
     Stage("decay", "decay after a kick", ("solver", "rotor"), _decay, *_ROTOR),
     Stage("steady", "steady film", ("solver",), _steady, *_STEADY),
@@ -188,6 +193,11 @@ STAGES = (  # the longest first
     Stage("harmonic", "harmonic load, contact band", ("solver", "harmonic"), _harmonic, *_RUN),
     Stage("rotor_band", "harmonic load, rotor band", ("solver", "rotor"), _rotor_band, *_RUN),
 )
+
+
+def stages_of(study: Study) -> tuple[Stage, ...]:
+    """Computations of a study, the longest first."""
+    return tuple(stage for stage in STAGES if stage.wanted(study))
 
 
 def stage_named(name: str) -> Stage:

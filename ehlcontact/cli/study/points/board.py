@@ -99,7 +99,7 @@ class Board:
     def _look(self, point: Point, stages: Sequence[Stage], others: Iterable[Path], closing: bool) -> None:
         """Enter what a point lacks; what it has is told to the journal."""
         ledger, lacking = self.ledgers[point.name], []
-        for stage in stages:
+        for stage in (stage for stage in stages if stage.wanted(point.study)):
             if self._keeps(point, stage, others):
                 self._keep(Task(point, stage))
             else:

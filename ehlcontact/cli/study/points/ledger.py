@@ -14,7 +14,7 @@ from typing import Any
 
 from ehlcontact.cli.output import write_json
 from ehlcontact.cli.study.schema import Study
-from ehlcontact.cli.study.stages import STAGES, Stage
+from ehlcontact.cli.study.stages import STAGES, Stage, stages_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json, read_text, replacing
 from ehlcontact.status import Status
@@ -106,7 +106,7 @@ def adopted(stage: Stage, study: Study, folder: Path, others: Iterable[Path]) ->
 
 def closing_fingerprint(study: Study, ledger: Mapping[str, Note]) -> str:
     """Hash of what results and report are made of: the whole study, names and all, and the files of its stages."""
-    files = {stage.name: ledger.get(stage.name, {}).get("sha256") for stage in STAGES}
+    files = {stage.name: ledger.get(stage.name, {}).get("sha256") for stage in stages_of(study)}
     text = f"{study.model_dump_json(exclude_none=True)} {study.fingerprint()} {sorted(files.items())}"
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 

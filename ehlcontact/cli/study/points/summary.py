@@ -20,7 +20,7 @@ from ehlcontact.cli.study.points.closing import REPORT, faults, products, read_r
 from ehlcontact.cli.study.points.journal import LOG, versions
 from ehlcontact.cli.study.points.ledger import CLOSING, Note
 from ehlcontact.cli.study.points.lists import STUDY_FILE, Point
-from ehlcontact.cli.study.stages import STAGES
+from ehlcontact.cli.study.stages import stages_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json, read_text
 from ehlcontact.status import Status
@@ -91,18 +91,19 @@ class Row:
 
 def row_of(point: Point, ledger: Mapping[str, Note], root: Path) -> Row:
     """What the folder of a point holds."""
-    names = [*(stage.name for stage in STAGES), CLOSING]
+    computed = stages_of(point.study)
+    names = [*(stage.name for stage in computed), CLOSING]
     stages = {name: ledger[name]["status"] for name in names if name in ledger}
     lacking = [name for name, status in stages.items() if status != Status.CONVERGED]
     closed = stages.get(CLOSING) == Status.CONVERGED
     results = read_results(point.folder) if closed else None
     made = {"study": STUDY_FILE} | ({} if results is None else products(results))
     made |= {
-        stage.title: stage.file(Path()).name for stage in STAGES if stages.get(stage.name) == Status.CONVERGED
+        stage.title: stage.file(Path()).name for stage in computed if stages.get(stage.name) == Status.CONVERGED
     }
     made |= {
         f"{stage.title}, as far as it went": stage.partial(Path()).name
-        for stage in STAGES
+        for stage in computed
         if stage.name in lacking and stage.partial(point.folder).is_file()
     }
     below = point.folder.relative_to(root)

@@ -1,0 +1,56 @@
+"""The section [check] of a study: without it nothing is solved twice, and nothing is said of it."""
+
+import json
+import shutil
+
+import pytest
+
+from ehlcontact.cli.study.forecast import forecast
+from ehlcontact.cli.study.schema import load_study
+from ehlcontact.cli.study.stages import STAGES, stages_of
+
+HALF_STEP = ("rotor_half_step", "decay_half_step")
+
+
+@pytest.fixture
+def unchecked(finished, tmp_path):
+    """The tiny study without its [check], and the folder of its run, which finds all its stages in a copy."""
+    file, folder = tmp_path / "tiny.toml", tmp_path / "out"
+    file.write_text(finished[0].read_text().replace("[check]\nhalf_step = true\n", ""))
+    shutil.copytree(finished[1], folder)
+    for name in HALF_STEP:
+        (folder / f"{name}.h5").unlink()
+    return file, folder
+
+
+def test_stages_of_the_check_are_opt_in(finished, unchecked):
+    names = [stage.name for stage in STAGES]
+    assert [stage.name for stage in stages_of(load_study(finished[0]))] == names
+    study = load_study(unchecked[0])
+    assert [stage.name for stage in stages_of(study)] == [name for name in names if name not in HALF_STEP]
+    plans = {plan.stage.name for plan in forecast(study, unchecked[1], 2).plans}
+    assert plans == set(names) - set(HALF_STEP)
+
+
+def test_a_study_without_a_check_says_nothing_of_it(call, finished, unchecked):
+    """Its numbers are those of the study with the check, whose stages it keeps."""
+    file, folder = unchecked
+    result = call("run", file, "-o", folder)
+    assert result.code == 0, result.err
+    assert not any((folder / f"{name}.h5").exists() for name in HALF_STEP)
+    own, checked = (json.loads((path / "results.json").read_text()) for path in (folder, finished[1]))
+    for name in ("half_step", "step_full", "step_reduced"):
+        assert name in checked["rotor"] and name not in own["rotor"]
+    assert "half_step" in checked["rotor"]["decay"] and "half_step" not in own["rotor"]["decay"]
+    assert own["rotor"]["whole"] == checked["rotor"]["whole"] and own["fits"] == checked["fits"]
+    texts = [(folder / name).read_text() for name in ("report.html", "results.json", "summary.json")]
+    texts = [texts[0].partition("<script")[0], *texts[1:]]
+    assert not any(word in text.lower() for text in texts for word in ("half the step", "half_step", "half step"))
+    assert "half the step" in (finished[1] / "report.html").read_text()
+
+
+def test_a_check_that_is_switched_on_later_is_all_that_is_solved(call, finished, unchecked):
+    file, folder = unchecked
+    assert call("run", file, "-o", folder).code == 0
+    plans = forecast(load_study(finished[0]), folder, 2).plans
+    assert {plan.stage.name for plan in plans if not plan.kept} == set(HALF_STEP)
