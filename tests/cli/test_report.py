@@ -1,18 +1,16 @@
-"""Every number of a report and of its results, computed a second time from the study and the stored histories."""
+"""The report shows the numbers of `results.json`, and that holds the numbers of the stored films and histories."""
 
 import json
+import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from report import contact_claims, rotor_claims, whole_claims
-from report.contact import MODELS, RECORDS, Recomputed
-from report.page import PageNumbers
-from report.rotor import RecomputedRotor
-from report.whole import RecomputedWhole
+from page_numbers import blocks_of, is_shown, numbers_of, unknown_numbers
 from tiny_study import STUDY
 
-from ehlcontact.cli.study.forecast import cautions
-from ehlcontact.cli.study.schema import load_study
+from ehlcontact import Lubricant, load
+from reduced_models import BallBearing, BearingRun, ContactRecord, fit, load_element
 
 # Two balls, another grid for the steady film, and a swing so wild that the run has not settled.
 WILD = {
@@ -22,6 +20,23 @@ WILD = {
     "shaft_damping = 10.0": "shaft_damping = 60.0",
     "unbalance = 8e-6": "unbalance = 4e-5",
 }
+# What a row of a table begins with, after the run it is of, and the key that its numbers stand under.
+LABELS = {
+    "full film": "full",
+    "cubic of the rotor's band": "rotor_band",
+    "film memory": "memory",
+    "cubic of the contact's band": "harmonic",
+    "cubic without damper": "undamped",
+    "dry Hertz contact": "dry",
+    "film memory under every ball": "memory",
+    "dry Hertz contacts": "dry",
+    "constant K and C, of the film at the speed": "constant",
+    "constant K, dry, and C": "usual",
+    "free vibration": "free",
+    "harmonic, contact band": "harmonic",
+    "harmonic, rotor band": "rotor_band",
+}
+RECORDS = ("free", "harmonic", "rotor_band")
 
 
 @pytest.fixture(scope="module", params=["tiny", pytest.param("wild", marks=pytest.mark.slow)])
@@ -44,155 +59,191 @@ def made(request, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def again(made):
-    return Recomputed(*made)
-
-
-@pytest.fixture(scope="module")
-def rotor(made, results):
-    return RecomputedRotor(*made, results)
-
-
-@pytest.fixture(scope="module")
-def whole(made):
-    return RecomputedWhole(*made)
-
-
-@pytest.fixture(scope="module")
 def results(made):
     return json.loads((made[1] / "results.json").read_text())
 
 
 @pytest.fixture(scope="module")
-def refused(results):
-    """Why a record and a model have no element, by both; the damper of such a fit is negative."""
-    return {(row["record"], row["model"]): row["refused"] for row in results["fits"] if "refused" in row}
+def films(made):
+    """Stored results by the name of their stage."""
+    return {name: load(made[1] / f"{name}.h5") for name in ("steady", *RECORDS)}
 
 
-def test_operating_point_in_the_results(again, results):
-    for name, value in results["operating_point"].items():
-        assert value == pytest.approx(getattr(again.point, name), rel=1e-9), name
+def derived(folder, results):
+    """Numbers of the page that are quotients of numbers in the results."""
+    point, fits = results["operating_point"], [row for row in results["fits"] if "tangent" in row]
+    stiffness = point["load"] / point["dry_approach"]
+    peaks = list(results["rotor"]["resonance"].values())
+    steps = [float(np.diff(load_times(folder / f"{name}.h5"))[0]) for name in ("rotor_full", "decay")]
+    yield from (row["tangent"] * stiffness for row in fits)
+    yield from (peak["amplitude"] / way["full"]["amplitude"] - 1.0 for way in peaks for peak in way.values())
+    yield from (*steps, *(step / point["time_unit"] for step in steps))
+    yield 1993.0  # year of a source
 
 
-@pytest.mark.parametrize("record", RECORDS)
-@pytest.mark.parametrize("model", MODELS)
-def test_fits_in_the_results(again, results, refused, record, model):
-    ours = again.fit(record, model)
-    if (record, model) in refused:
-        assert ours.parameters["C1"] < 0.0
-        return
-    (row,) = (row for row in results["fits"] if (row["record"], row["model"]) == (record, model))
-    for name, value in ours.parameters.items():
-        assert row["parameters"][name] == pytest.approx(value, rel=1e-6)
-        assert row["si"][name] == pytest.approx(value * again.units.of[name], rel=1e-6)
-        assert row["std_errors"][name] == pytest.approx(ours.errors[name], rel=1e-4)
-        assert row["intervals"][name] == pytest.approx(ours.intervals[name], rel=1e-4)
-    for name in ("rms", "root", "tangent"):
-        assert row[name] == pytest.approx(getattr(ours, name), rel=1e-6)
-    assert row["e_f"] == pytest.approx(ours.e_f, abs=1e-9)
-    assert row["independent_samples"] == pytest.approx(ours.independent, rel=1e-4)
-    valid = row["valid"]
-    assert (valid["low"], valid["high"], valid["rate"]) == (ours.low, ours.high, ours.rate)
-    assert tuple(valid["load"]) == ours.load
+def load_times(path):
+    import h5py
+
+    with h5py.File(path) as file:
+        return file["t"][:2]
 
 
-def test_work_of_a_cycle_in_the_results(again, results):
-    assert results["cycle_work"] == pytest.approx(again.work, rel=1e-6)
-
-
-def test_memory_in_the_results(again, results):
-    found, data = results["memory"], results["memory"]["impedance"]
-    K, C = again.memory_impedance(data["Omega"])
-    assert found["stiffness_error_max"] == pytest.approx(np.abs(K / data["stiffness"] - 1.0).max(), rel=1e-4)
-    assert found["damping_error_max"] == pytest.approx(np.abs(C / data["damping"] - 1.0).max(), rel=1e-4)
-    assert found["record_rms"] == pytest.approx([again.memory_rms(name) for name in RECORDS], rel=1e-6)
-
-
-def test_rotor_in_the_results(rotor, results):
-    """Differences, settling, decays and events, to all their digits."""
-    found, runs = results["rotor"], rotor.runs
-    names = ("displacement", "displacement_vibration", "force", "force_vibration")
-    for name in list(runs.turning)[1:]:
-        whole = rotor.differences(runs.turning["full"], runs.turning[name])
-        assert [found["whole"][name][key] for key in names] == pytest.approx(whole, rel=1e-6)
-        assert found["settling"][name]["changes"] == pytest.approx(rotor.changes(name), rel=1e-6)
-    for name, run in runs.decaying.items():
-        ours, theirs = rotor.decrement(run), found["decay"]["decrements"][name]
-        for key in ("decrement", "hz", "misfit", "periods"):
-            assert theirs[key] == pytest.approx(getattr(ours, key), rel=1e-4)
-        assert sum(rotor.interval(name)) == pytest.approx(2.0 * ours.decrement, rel=1e-4)
-        modes = [mode["decrement"] for mode in found["modes"][name] if mode["vertical_share"] > 0.5]
-        assert modes[0] == pytest.approx(rotor.mode(name).decrement, rel=1e-4)
-    for part, kind in ((found, runs.turning), (found["decay"], runs.decaying)):
-        for name, run in kind.items():
-            for theirs, ours in zip(part["events"][name], rotor.events(name, run), strict=True):
-                assert theirs["load_range"] == pytest.approx(ours[:2], rel=1e-9)
-                assert [theirs[key] for key in ("lift_offs", "impacts", "lost_share")] == ours[2:5]
-
-
-def test_whole_bearings_in_the_results(whole, results):
-    """Runs, modes, films and critical speeds."""
-    found = results["whole_bearing"]
-    assert found["ball_passage_hz"] == pytest.approx(whole.passage, rel=1e-9)
-    assert found["failed"] == {} and found["no_diagram"] is None
-    speeds = [60.0 * whole.mode("memory", way)[0] for way in ("vertical", "horizontal")]
-    met = sorted(speed for speed in speeds if 0.25 * whole.rpm < speed < 3.0 * whole.rpm)
-    assert found["critical_speeds_rpm"] == pytest.approx(met, rel=0.05)  # films of those speeds are not these
-    for name, theirs in found["runs"].items():
-        ours = whole.row(name)
-        for key, other in (("ring_swing", "ring"), ("disc_swing", "disc"), ("at_speed", "once")):
-            assert theirs[key] == pytest.approx(ours[other], rel=1e-6)
-        assert theirs["largest_load"] == ours["load"]
-        if ours["passing"] is None:
-            assert theirs["at_ball_passage"] is None and theirs["deflection"] is None
+def under(value, key, inside=False):
+    """What stands under a key of a JSON value, or is of the record of that name."""
+    if isinstance(value, dict):
+        if inside or value.get("record") == key:
+            yield value
         else:
-            assert theirs["at_ball_passage"] == pytest.approx(ours["passing"], rel=1e-5)
-            assert theirs["deflection"] == pytest.approx(-whole.shown(name)[1][:, 1].mean(), rel=1e-9)
-        for way in ("vertical", "horizontal"):
-            hz, decrement = ours[way]
-            assert theirs[way]["hz"] == pytest.approx(hz, rel=1e-6)
-            assert theirs[way]["decrement"] == pytest.approx(decrement, rel=1e-4)
-    for k, ball in enumerate(found["balls"]):
-        assert ball["degrees"] == pytest.approx(k * 40.0)
-        assert ball["force"] == pytest.approx(whole.state.force[k], rel=1e-9)
-        assert ball["h_min"] == pytest.approx(whole.state.h_min[k], rel=1e-9)
-    carried = sum(ball["force"][0] * np.cos(np.radians(ball["degrees"])) for ball in found["balls"])
-    assert carried == pytest.approx(whole.study["bearing"]["radial_load"])
-    for name, pair in found["constants"].items():
-        assert (pair["stiffness"], pair["damping"]) == pytest.approx([c[1] for c in whole.constants[name]])
+            for name, entry in value.items():
+                yield from under(entry, key, name == key)
+    elif isinstance(value, list):
+        if inside:
+            yield value
+        else:
+            for entry in value:
+                yield from under(entry, key)
+    elif inside:
+        yield value
 
 
-def test_films_and_records_in_the_results(again, results):
-    film, found = again.steady, results["steady"]
+def test_every_number_of_the_page_is_one_of_the_results(made, results):
+    """Rows of a contact, a bearing or a record show numbers of that one."""
+    more = [*derived(made[1], results)]
+    everything = [*numbers_of(results), *numbers_of(tomllib.loads(made[0].read_text())), *more]
+    met, wrong = set(), []
+    for block in blocks_of((made[1] / "report.html").read_text()):
+        label = block.split(" | ")[0].removeprefix("unbalance: ").removeprefix("kick: ").split(" = ")[0]
+        known = everything
+        if " | " in block and label.removesuffix(" against full film") in LABELS:
+            key = LABELS[label.removesuffix(" against full film")]
+            met.add(key)
+            known = [*numbers_of([*under(results, key)]), *more, 1.0, 2.0, 1.25e-5]
+        wrong += [f"{text} in {block}" for text in unknown_numbers(block, known)]
+    assert wrong == []
+    assert met == set(LABELS.values())
+
+
+def test_numbers_of_one_row_are_not_taken_for_those_of_another(results):
+    """The check above sees a row with the numbers of another contact."""
+    full, dry = (results["rotor"]["decay"]["decrements"][name] for name in ("full", "dry"))
+    row = f"dry Hertz contact | {full['hz']:.5g} | {full['decrement']:.3g}"
+    assert unknown_numbers(row, [*numbers_of(dry)]) and not unknown_numbers(row, [*numbers_of(full)])
+
+
+@pytest.mark.parametrize(
+    ("shown", "value", "same"),
+    [
+        *(("0.19", value, True) for value in (0.1897, 0.18951)),
+        *(("10", 9.745, True), ("25", 24.99, True), ("1e+03", 1026.8, True), ("0", 0.0, True)),
+        *(("-1.975", -1.97481, True), ("8.3e-05", 8.298e-05, True), ("150", 146.0, True)),
+        *(("0.19", 0.1965, False), ("0.5", 0.52, False), ("8.3e-05", 8.464e-05, False), ("3", 0.0, False)),
+        *(("48.7", 4.87, False), ("144", 145.0, False), ("1.975", -1.975, False), ("0", 0.3, False)),
+    ],
+)
+def test_rounded_numbers_are_recognised(shown, value, same):
+    assert is_shown(shown, value) is same
+
+
+# ---- results.json against what the stages stored
+
+
+def test_films_and_records(films, results):
+    film, found, point = films["steady"], results["steady"], results["operating_point"]
     assert found["p_max"] == film.P.max() and found["cycles"] == film.residuals.size - 1
     assert found["h_min"] <= film.H.min() and film.H.min() < 1.02 * found["h_min"]
-    assert found["residual"] == film.residuals[-1] / film.dry_residual
     before, last = film.pressure_changes[-2:]
-    assert found["pressure_error"] <= 1e-5 and found["pressure_error"] >= last * (last / before)
-    for name, run in again.records.items():
-        row = results["simulations"][name]
+    assert last * (last / before) <= found["pressure_error"] <= 1e-5
+    for name in ("approach", "h_central", "h_min"):
+        unit = "" if name == "approach" else "_um"
+        size = 1.0 if name == "approach" else 1e6 * point["dry_approach"]
+        assert point[name + unit] == pytest.approx(getattr(film, name) * size)
+        assert point[f"{name}_error"] == getattr(film.error, name)
+    for name in RECORDS:
+        row, run = results["simulations"][name], films[name]
         assert row["static_approach"] == run.static_approach and row["steps"] == run.T.size - 1
         assert row["force_range"] == [run.force.min(), run.force.max()]
         assert row["largest_load_residual"] == np.abs(run.load_residuals).max()
 
 
-def test_every_number_of_the_page(made, again, rotor, whole, results, refused):
-    """Whoever adds a number to the page says in one of the `claims` how it is computed."""
-    page = PageNumbers((made[1] / "report.html").read_text())
-    contact_claims.claim_operating_point(page, again)
-    contact_claims.claim_assumptions(page, again, rotor, results)
-    contact_claims.claim_captions(page, again, rotor)
-    contact_claims.claim_fits(page, again, refused)
-    contact_claims.claim_memory_and_work(page, again, results)
-    contact_claims.claim_fmus(page, made[1])
-    contact_claims.claim_origin(page, results)
-    rotor_claims.claim_headline(page, rotor)
-    whole_claims.claim_headline(page, whole)
-    for told in cautions(load_study(made[1] / "study.toml")):  # `validate` has tests of its own
-        page.claim(told)
-    rotor_claims.claim_rotor(page, rotor)
-    rotor_claims.claim_decay(page, rotor)
-    rotor_claims.claim_unbalance(page, rotor)
-    rotor_claims.claim_events(page, rotor)
-    whole_claims.claim_table(page, whole, results)
-    assert page.left == [], "\n".join(page.left)
+def test_fits(films, results):
+    """Each row is the fit of its record; coefficients in SI follow from load, approach and time unit."""
+    point = results["operating_point"]
+    for row in results["fits"]:
+        if "refused" in row:
+            continue
+        again = fit(ContactRecord.from_result(films[row["record"]]), row["model"])
+        for name in ("rms", "root", "tangent", "e_f"):
+            assert row[name] == pytest.approx(getattr(again, name), rel=1e-9)
+        assert row["parameters"] == pytest.approx(again.parameters)
+        for name, value in row["parameters"].items():
+            length = point["dry_approach"] ** (int(name[1]) if name[0] == "K" else 1)
+            unit = point["load"] / length * (1.0 if name[0] == "K" else point["time_unit"])
+            assert row["si"][name] == pytest.approx(value * unit, rel=1e-9)
+
+
+def test_film_memory_and_work_of_a_cycle(made, films, results):
+    """Errors of the element against impedance and records; loop areas of the last cycle in the rotor's band."""
+    found, data, point = results["memory"], results["memory"]["impedance"], results["operating_point"]
+    element = load_element(made[1] / "elements" / "memory.json")
+    Z, Omega = element.impedance(Omega=data["Omega"]), np.array(data["Omega"])
+    assert found["stiffness_error_max"] == pytest.approx(np.abs(Z.real / data["stiffness"] - 1.0).max(), rel=1e-4)
+    damping = (Z.imag[1:] / Omega[1:]) / data["damping"][1:] - 1.0
+    assert found["damping_error_max"] >= np.abs(damping).max() * (1.0 - 1e-4)
+    forces = {name: element.drive(run.T, run.approach, run.rate) for name, run in films.items() if name in RECORDS}
+    misses = [np.sqrt(np.mean((forces[n] - films[n].force) ** 2)) / films[n].force.std() for n in RECORDS]
+    assert found["record_rms"] == pytest.approx(misses, rel=1e-6)
+
+    run = films["rotor_band"]
+    last = run.T >= run.T[-1] - 2.0 * np.pi / run.motion.Omega * (1.0 + 1e-9)
+    moved = {"full": run.force[last], "memory": forces["rotor_band"][last]}
+    for name in set(results["cycle_work"]) - set(moved):
+        cubic = load_element(made[1] / "elements" / f"{name}_cubic.json")
+        moved[name] = cubic.force(run.approach[last], run.rate[last])
+    for name, force in moved.items():
+        work = float(0.5 * (force[1:] + force[:-1]) @ np.diff(run.approach[last]))
+        assert results["cycle_work"][name] == pytest.approx(work * point["load"] * point["dry_approach"], rel=1e-6)
+
+
+def test_whole_bearings(made, results):
+    """Swings and lines of the stored runs' second half, loads and films at rest, ball passage."""
+    found, study = results["whole_bearing"], tomllib.loads(made[0].read_text())
+    bearing, asked = study["bearing"], study["whole_bearing"]
+    hz = bearing["speed_rpm"] / 60.0
+    ratio = bearing["ball_diameter_mm"] / bearing["pitch_diameter_mm"]
+    passage = 0.5 * bearing["balls"] * hz * (1.0 - ratio)
+    assert found["ball_passage_hz"] == pytest.approx(passage, rel=1e-9) and found["failed"] == {}
+    for name in ("memory", "dry"):
+        run, row = BearingRun.read(made[1] / f"on_bearings_{name}.h5"), found["runs"][name]
+        first = asked["revolutions"] // 2 * asked["steps_per_revolution"]
+        t, ring, disc = run.t[first:], run.ring[first:, 0], run.displacement[first:, 2:4]
+        waves = np.exp(2j * np.pi * t[:, None] * np.array([hz, 2.0 * hz, passage, 2.0 * passage]))
+        terms = np.hstack([np.ones((t.size, 1)), waves.real, waves.imag])
+        parts = np.linalg.lstsq(terms, disc[:, 1], rcond=None)[0][1:]
+        size = np.hypot(parts[:4], parts[4:])
+        assert row["ring_swing"] == pytest.approx(np.ptp(ring, axis=0), rel=1e-9)
+        assert row["disc_swing"] == pytest.approx(np.ptp(disc, axis=0), rel=1e-9)
+        assert (row["at_speed"], row["at_ball_passage"]) == pytest.approx((size[0], size[2]), rel=1e-5)
+        assert row["deflection"] == pytest.approx(-ring[:, 1].mean(), rel=1e-9)
+        assert row["largest_load"] == run.largest_load.max()
+    angles = np.radians([ball["degrees"] for ball in found["balls"]])
+    carried = np.cos(angles) @ [ball["force"][0] for ball in found["balls"]]
+    assert carried == pytest.approx(bearing["radial_load"])
+
+    sizes = {
+        "ball_diameter": 1e-3 * bearing["ball_diameter_mm"],
+        "pitch_diameter": 1e-3 * bearing["pitch_diameter_mm"],
+    }
+    grooves = dict.fromkeys(("conformity_inner", "conformity_outer"), bearing["conformity"])
+    dry = BallBearing(balls=bearing["balls"], **sizes, **grooves, clearance=1e-6 * asked["clearance_um"])
+    wet = replace(dry, oil=Lubricant(study["oil"]["eta0"], study["oil"]["alpha"]))
+    load, speed = (0.0, -bearing["radial_load"]), bearing["speed_rpm"]
+    state = wet.equilibrium(load, speed_rpm=speed)
+    for name in ("force", "h_min"):
+        np.testing.assert_allclose([ball[name] for ball in found["balls"]], getattr(state, name), rtol=1e-9)
+    K, C = (
+        getattr(wet.coefficients(load, speed_rpm=speed, rpm=speed), name)[0, 1, 1]
+        for name in ("stiffness", "damping")
+    )
+    usual = dry.coefficients(load, speed_rpm=speed, rpm=speed).stiffness[0, 1, 1]
+    for name, pair in {"constant": (K, C), "usual": (usual, 1.25e-5 * usual)}.items():
+        assert tuple(found["constants"][name].values()) == pytest.approx(pair)
