@@ -10,8 +10,8 @@ module                 responsibility
 ``contacts``           `contact_spec`: specification of the FMU of a contact element; advice on steps
 ``c_headers``          `ModelSpec` to the generated C headers
 ``sources``            C files of an FMU, and its zip archive
-``texts``              `ModelSpec` to ``modelDescription.xml`` of FMI 2.0; ``documentation/index.html``
-``texts3``             `ModelSpec` to ``modelDescription.xml``, ``terminalsAndIcons.xml`` of FMI 3.0
+``model_description``  `ModelSpec` to ``modelDescription.xml`` of FMI 2.0 and 3.0, and FMI 3.0's other XML
+``documentation``      `ModelSpec` to ``documentation/index.html``
 ``icon``               icon of an FMU
 ``binaries/``          shared libraries for every platform
 ``export``             `export_contact`: element to FMU file
@@ -47,5 +47,5 @@ from fmu.verify_before_write import VerificationError as VerificationError
 
 
 def __dir__() -> list[str]:
-    """Public names, without the rooms that they are in."""
+    """Public names."""
     return sorted(name for name, value in globals().items() if name[0] != "_" and not _ismodule(value))

@@ -1,4 +1,4 @@
-"""Forces, tangents, derivatives and flags of an FMU beside those of its Python element."""
+"""Comparison of an FMU with its Python element: forces, tangents, derivatives and flags."""
 
 from __future__ import annotations
 
@@ -112,12 +112,12 @@ def state_grid(element: Any) -> tuple[_Floats, _Floats]:
 
 
 def outside(element: Any, approach: _Floats, rate: _Floats, force: _Floats) -> NDArray[np.bool_]:
-    """Where an element would tell that it is outside its validity box."""
+    """Whether motion or force is outside the validity box of an element."""
     return bounds(element, approach, rate, force)["outside_validity"]
 
 
 def bounds(element: Any, approach: _Floats, rate: _Floats, force: _Floats) -> dict[str, NDArray[np.bool_]]:
-    """The flags of an FMU by name: where the box is left, and over which of its bounds."""
+    """Validity flags of an FMU by name: any bound, approach, rate, force."""
     low, high, fastest, least, most = element.validity.reach
     found = {
         "outside_approach": ~((low <= approach) & (approach <= high)),
@@ -158,14 +158,14 @@ def film_walk(
 
 
 def film_rates_at(element: Any, states: _Floats, approach: float, rate: float) -> tuple[float, _Floats]:
-    """Force and derivatives of the states in continuous time, the clock bounded as the FMU has it."""
+    """Force and derivatives of the states in continuous time, the time scale bounded as in the FMU."""
     force, rates = element.continuous(states, approach, rate)
     theta = static(approach / element._units[1], element.law)[1] ** 0.5
     return force, rates * min(1.0, theta / LEAST_THETA)
 
 
 def _terms(element: Any, states: _Floats, approach: float, rate: float) -> _Floats:
-    """What cancels in each derivative: the filter's rate times the sizes of what it is fed and what it holds."""
+    """Size of the terms that cancel in each derivative: rate of the filter times its input and its state."""
     _, length, time = element._units
     law = element.law
     theta = static(approach / length, law)[1] ** 0.5
@@ -220,7 +220,7 @@ def compare_film(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> Co
 
 
 def tangents(element: Any, states: _Floats, approach: float, rate: float) -> tuple[float, float]:
-    """dF/du and dF/du' of an element with a memory at an instant, its states as they are."""
+    """dF/du and dF/du' of an element with film memory at fixed states."""
     f, length, time = element._units
     law, v = element.law, rate / length * time
     x, g, g_u = static(approach / length, law)
@@ -239,21 +239,21 @@ def tangents(element: Any, states: _Floats, approach: float, rate: float) -> tup
 
 
 def difference(ours: _Floats, expected: _Floats, scale: float | _Floats) -> float:
-    """Largest difference, relative to what is expected and at least to 1e-3 of `scale`."""
+    """Largest difference, relative to the expected value or 1e-3 of `scale`, whichever is larger."""
     return over(np.abs(ours - expected), floored(expected, scale))
 
 
 def floored(expected: _Floats, scale: float | _Floats) -> _Floats:
-    """Size of what is expected, at least 1e-3 of `scale`."""
+    """Magnitude of the expected values, at least 1e-3 of `scale`."""
     return np.asarray(np.maximum(np.abs(expected), 1e-3 * np.abs(scale)))
 
 
 def over(error: _Floats, size: _Floats) -> float:
-    """Largest error, relative to its size; where that is nothing, any error is infinite."""
+    """Largest error relative to `size`; infinite for an error where `size` is 0."""
     return float(np.max(each_over(error, size)))
 
 
 def each_over(error: _Floats, size: _Floats) -> _Floats:
-    """The same of each; infinite where an error is no number."""
+    """Error relative to `size` of each entry; infinite where it is not a number."""
     found = np.divide(error, size, out=np.where(error > 0.0, np.inf, 0.0), where=size > 0.0)
     return np.where(np.isfinite(error), found, np.inf)

@@ -67,7 +67,7 @@ class ContactVariables:
         )  # fmt: skip
 
     def constant(self, name: str, si: str, value: float, text: str) -> None:
-        """Append a number that says something about the element."""
+        """Append a constant of the element."""
         self.add(name, "local", "constant", text, unit=self.unit(si), start=float(value))
 
     def meaning(self) -> None:
@@ -90,7 +90,7 @@ class ContactVariables:
             self.add(name, "output", "discrete", texts[name], type="Boolean", depends=depends)
 
     def box(self, *, low_high: bool, rate: bool = True) -> None:
-        """Append what is known of the validity box; low and high, or the rate, may be there already."""
+        """Append the known bounds of the validity box, except those that are variables already."""
         element = self.element
         if low_high:
             self.constant(
@@ -110,7 +110,7 @@ class ContactVariables:
             self.constant("omega_max", "rad/s", element.omega_range[1], f"Highest {words}")
 
     def macros(self) -> dict[str, str]:
-        """What config.h says of the box: a bound that is not known is infinite."""
+        """Macros of the validity box for config.h; an unknown bound is infinite."""
         _, _, _, least, most = self.element.validity.reach
         known = any(variable.name == "rate_max" for variable in self.variables)
         return {
@@ -128,6 +128,6 @@ def _nominal(value: float) -> float | None:
 
 
 def band_text(element: Element) -> str:
-    """What a damper without memory is for, in words."""
+    """Frequency band of a damper without memory, as text."""
     band = element.omega_range
     return "" if band is None else f", for motion of {frequency_text(band, element.units)}"

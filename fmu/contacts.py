@@ -60,7 +60,7 @@ def contact_spec(element: Element, model_name: str | None = None) -> ModelSpec:
 
 
 def whose(elements: Iterable[Element]) -> str:
-    """Bearing, oil, load and speed that elements were made for, in words, where whoever made them said so.
+    """Bearing, oil, load and speed of elements in words, where their source names them.
 
     A description is one line: what is not printable, as of a file that somebody wrote by hand, is left out.
     """
@@ -70,7 +70,7 @@ def whose(elements: Iterable[Element]) -> str:
 
 
 def checked_name(name: object) -> str:
-    """A model name as it is.
+    """Check of a model name; returns it.
 
     Raises
     ------
@@ -123,7 +123,7 @@ def _notes(element: Element) -> tuple[tuple[str, str], ...]:
 
 
 def step_advice(element: Element) -> list[tuple[str, str, str]]:
-    """Steps of a co-simulation, by the way of coupling, at the static load: which, how long, why."""
+    """Advice on co-simulation steps at the static load: (name, largest step, reason) per way of coupling."""
     unit = " s" if element.units == "SI" else ""
     low, high = element.validity.approach
     lines = [("default step", f"{default_step(element):g}{unit}", "resolves the contact")]
@@ -172,7 +172,7 @@ def _flat(details: Mapping[str, object]) -> str:
 
 
 def _plain(value: object) -> str:
-    """A value in words and short numbers, what it holds in brackets."""
+    """A value as text: short numbers, entries of a container in brackets."""
     if isinstance(value, Mapping):
         return f"({', '.join(f'{key} {_plain(one)}' for key, one in value.items() if one is not None)})"
     if isinstance(value, list | tuple):

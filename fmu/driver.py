@@ -1,4 +1,4 @@
-"""FMUs by hand, through fmpy: one instance of FMI 2.0 or 3.0, variables by name."""
+"""One instance of an FMU (FMI 2.0 or 3.0), driven through fmpy with variables by name."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _Floats = NDArray[np.float64]
 
 
 class _Instance:
-    """What both kinds of instance have in common."""
+    """Base of both kinds of instance."""
 
     section: ClassVar[str]  # of the model description
     maker: ClassVar[str]  # class of fmpy, behind the version
@@ -40,7 +40,7 @@ class _Instance:
             self.raw.instantiate(logMessage=_collecting_logger(messages), **options)
 
     def _named(self, name2: str, name3: str) -> Any:
-        """What has two names, one of each version."""
+        """Method of fmpy that has another name in each FMI version."""
         return getattr(self.raw, name2 if self.fmi == 2 else name3)
 
     def _initialize(self, **values: float) -> None:
@@ -163,7 +163,7 @@ def collecting_callbacks(messages: list[str]) -> Any:
 
 
 def _collecting_logger(messages: list[str]) -> Any:
-    """The same for FMI 3."""
+    """FMI 3 logger that appends messages to a list."""
 
     def log(environment: object, status: int, category: bytes, message: bytes) -> None:
         messages.append(message.decode("utf-8", "replace"))

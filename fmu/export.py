@@ -1,4 +1,4 @@
-"""Element in, FMU file out."""
+"""Export of a contact element as an FMU file."""
 
 from __future__ import annotations
 
@@ -13,9 +13,10 @@ from ehlcontact.files import write_bytes
 from fmu import sources
 from fmu.binaries import Platform, build_binaries, choose, this_machine
 from fmu.binaries.libraries import Progress
-from fmu.binaries.recipe import build_description
 from fmu.contact_variables import Element
+from fmu.documentation import documentation
 from fmu.icon import icon
+from fmu.model_description import build_description, model_description, terminals
 from fmu.references.contacts import contact_references
 from fmu.references.files import reference_files
 from fmu.references.series import References
@@ -24,8 +25,6 @@ from fmu.rotor.references import rotor_references
 from fmu.rotor.variables import spec_of
 from fmu.sources import FMI_FILES, compiled, source_files
 from fmu.spec import ModelSpec
-from fmu.texts import documentation, model_description
-from fmu.texts3 import model_description_3, terminals
 from fmu.verify import Verification
 from fmu.verify_before_write import require_finite, require_verified
 
@@ -115,7 +114,7 @@ def export_verified(
     overwrite: bool = False,
     progress: Progress | None = None,
 ) -> tuple[Path, Verification | None]:
-    """As `export_contact` or `export_rotor`, with what was found: None where this machine can run no such FMU."""
+    """Export an element or rotor; returns file and verification (None if this machine cannot run the FMU)."""
     if isinstance(fmi, bool) or fmi not in FMI_FILES:
         raise InputError("fmi", fmi, "2 or 3")
     spec = spec_of(element, model_name)
@@ -135,14 +134,14 @@ def export_verified(
 
 
 def references_of(element: Element | RotorModel, spec: ModelSpec) -> References:
-    """Reference inputs and results of whatever can be exported."""
+    """Reference inputs and results of an element or rotor."""
     if isinstance(element, RotorModel):
         return rotor_references(element, spec)
     return contact_references(element, spec)
 
 
 def free_target(path: str | os.PathLike[str], overwrite: bool, suffix: str = ".fmu") -> Path:
-    """Place for a file, which nothing stands in the way of."""
+    """Path of a file to write; raises `InputError` if it cannot be written or exists."""
     target = Path(path)
     if target.suffix.lower() != suffix:
         raise InputError("path", str(path), f"a file name ending in {suffix}")
@@ -170,14 +169,14 @@ def fmu_files(
     progress: Progress | None = None,
     references: References | None = None,
 ) -> dict[str, bytes]:
-    """Everything in the FMU by its path, the compiled binaries included."""
+    """All files of the FMU by path, compiled libraries included."""
     guid = content_guid(spec, fmi)
     code = source_files(spec, guid, fmi)
     units, interface = compiled(spec, fmi), FMI_FILES[fmi]
     files, labels = build_binaries(code, units, spec.identifier, platforms, fmi, progress)
     readme = (sources.CSRC / "README.md").read_text(encoding="ascii")
     about = "" if references is None else references.about
-    files["modelDescription.xml"] = _description(spec, guid, fmi)
+    files["modelDescription.xml"] = model_description(spec, guid, fmi)
     files["documentation/index.html"] = documentation(spec, readme, "; ".join(labels), fmi, about).encode()
     brought = () if fmi == 2 else interface.standard
     files |= {f"sources/{name}": content for name, content in code.items() if name not in brought}
@@ -190,11 +189,7 @@ def fmu_files(
     return files | ({} if references is None else reference_files(references, spec))
 
 
-def _description(spec: ModelSpec, guid: str, fmi: int) -> bytes:
-    return model_description(spec, guid) if fmi == 2 else model_description_3(spec, guid)
-
-
 def content_guid(spec: ModelSpec, fmi: int = 2) -> str:
-    """GUID or token that follows from model description and sources, so that equal FMUs have equal ones."""
-    content = [_description(spec, "", fmi), *source_files(spec, "", fmi).values()]
+    """GUID or token: a hash of model description and sources, equal for equal FMUs."""
+    content = [model_description(spec, "", fmi), *source_files(spec, "", fmi).values()]
     return "{" + str(uuid.uuid5(_NAMESPACE, "\n".join(part.decode() for part in content))) + "}"

@@ -1,4 +1,4 @@
-"""The picture of an FMU: a ball on a raceway, flat on its film. PNG without times or texts, always the same."""
+"""Icon of an FMU: a ball on its film above a raceway. PNG without time stamps, equal bytes at every export."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an FMU is, said once: the XML, the C headers, the documentation and the tests all read it from here."""
+"""Specification of an FMU: variables and sources, the origin of XML, C headers and documentation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An FMU against fmpy's rules and, state by state, against the Python element it was exported from."""
+"""Verification of an FMU against fmpy's rules and, state by state, against its Python element."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ ORBIT = 1e-6  # of a rotor's motion: both balance their contacts to a billionth 
 
 @dataclass(frozen=True, slots=True)
 class Verification(Summary):
-    """What was found; differences are relative, see `verify`.
+    """Result of `verify`; differences are relative.
 
     Attributes
     ----------
@@ -132,7 +132,7 @@ def verify(path: str | os.PathLike[str], element: Element | RotorModel) -> Verif
 
 
 def verify_opened(file: Path, folder: str, description: Any, element: Element | RotorModel) -> Verification:
-    """The same of an FMU that is unpacked."""
+    """`verify` of an unpacked FMU."""
     from fmpy.validation import validate_fmu
 
     spec = spec_of(element)
@@ -154,7 +154,7 @@ def _verdict(findings: tuple[str, ...], found: Comparison) -> Verification:
 
 @contextmanager
 def running(file: Path, folder: str, description: Any) -> Iterator[tuple[Any, Any]]:
-    """One instance of either kind, None where the FMU has no such interface, freed at the end."""
+    """Instances for co-simulation and model exchange (None without the interface), freed at the end."""
     made: list[Any] = []
     messages: list[str] = []
     try:
@@ -215,7 +215,7 @@ def opened(file: Path) -> Iterator[tuple[str, Any]]:
 
 
 def _known_variables(description: Any, spec: ModelSpec, file: Path) -> dict[str, Any]:
-    """Variables of the FMU by name, once those of the element are sure to be among them."""
+    """Variables of the FMU by name; raises `InputError` if one of the element's is missing."""
     known = {variable.name: variable for variable in description.modelVariables}
     for variable in spec.variables:
         if variable.name not in known or known[variable.name].valueReference != variable.value_reference:
@@ -228,7 +228,7 @@ def _known_variables(description: Any, spec: ModelSpec, file: Path) -> dict[str,
 
 
 def _declarations(spec: ModelSpec, known: dict[str, Any]) -> tuple[str, ...]:
-    """Unit and start value of each variable where the FMU says another than the element."""
+    """Findings: variables whose unit or start value differs from the element's."""
     found = []
     for variable in spec.variables:
         declared = known[variable.name]

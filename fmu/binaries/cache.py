@@ -1,7 +1,7 @@
-"""What was compiled before, in the user's cache folder; where there can be none, everything is compiled anew.
+"""Cache of compiled libraries in the user's cache folder; without such a folder everything is compiled anew.
 
-An entry is written beside its place and moved there, so several processes may do so at once, and it begins with
-its checksum, so a damaged one is not believed. The least recently used go when there is too much.
+An entry is written to a temporary file and moved into place, so that several processes may write at once. It
+begins with its checksum; a damaged entry is ignored. The least recently used entries are removed beyond a size.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ DIGEST = hashlib.sha256().digest_size  # bytes at the start of an entry
 
 
 def cache_folder() -> Path | None:
-    """Our folder in the user's cache, made where it is missing; None where that cannot be.
+    """The library's folder in the user's cache, created if missing; None if that is not possible.
 
     ``EHLCONTACT_CACHE`` if set, else the place that the system has for caches.
     """
@@ -35,7 +35,7 @@ def cache_folder() -> Path | None:
 
 
 def key_of(parts: Iterable[bytes]) -> str:
-    """Name of an entry: of these parts, and of no others."""
+    """Key of an entry: a hash of all parts and their lengths."""
     found = hashlib.sha256()
     for part in parts:
         found.update(len(part).to_bytes(8, "big") + part)  # where one ends and the next begins
@@ -43,7 +43,7 @@ def key_of(parts: Iterable[bytes]) -> str:
 
 
 def recall(key: str) -> bytes | None:
-    """Entry of that name; None where there is none, or a damaged one."""
+    """Content of the entry with this key; None if missing or damaged."""
     folder = cache_folder()
     if folder is None:
         return None
@@ -60,7 +60,7 @@ def recall(key: str) -> bytes | None:
 
 
 def remember(key: str, content: bytes) -> None:
-    """Keep an entry, if that can be done."""
+    """Store an entry, where the folder can be written."""
     folder = cache_folder()
     if folder is None:
         return
@@ -75,7 +75,7 @@ def remember(key: str, content: bytes) -> None:
 
 
 def _shrink(folder: Path) -> None:
-    """Remove what was not used for longest, until all is below `LARGEST`."""
+    """Remove the least recently used entries until their total is below `LARGEST`."""
     entries = []
     for path in folder.glob(f"*{SUFFIX}"):
         with suppress(OSError):  # another process may do the same
@@ -90,7 +90,7 @@ def _shrink(folder: Path) -> None:
 
 
 def zig_folder() -> Path | None:
-    """Where zig keeps the C libraries it has built, its own default; None where that cannot be written to."""
+    """Folder of zig's global cache (its own default); None if it cannot be written."""
     chosen = os.environ.get(ZIG_VARIABLE, "").strip()
     try:
         folder = Path(chosen).absolute() if chosen else _caches() / "zig"
@@ -108,7 +108,7 @@ def _usable(folder: Path) -> Path | None:
 
 
 def _caches() -> Path:
-    """Folder of the user's caches, as the system has it."""
+    """Folder of the user's caches on this system."""
     if sys.platform == "win32":
         base = os.environ.get("LOCALAPPDATA", "").strip()
         return Path(base) if base else Path.home() / "AppData" / "Local"

@@ -1,4 +1,4 @@
-"""Which compiler makes which binary: the system's for this machine, zig for all the others."""
+"""Compilers of each platform: the system's for this machine, zig for all others."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SYSTEM = ("cc", "gcc", "clang")  # in the order they are looked for
 
 @dataclass(frozen=True, slots=True)
 class Compiler:
-    """A command, what to call it in an FMU, and what tells it from another version of itself."""
+    """A compiler: command line, label in the FMU, and identity of program and version for the cache."""
 
     command: tuple[str, ...]
     label: str  # without the paths of this machine
@@ -30,7 +30,7 @@ class Compiler:
 
 
 def compilers(target: Platform) -> list[Compiler]:
-    """Compilers for a platform, the first to be tried first.
+    """Compilers for a platform, in the order of preference.
 
     For this machine's binary: ``EHLCONTACT_CC`` (a command line) and no other where it is set, else the system's
     ``cc``, ``gcc`` or ``clang``, then zig. For any other: zig.
@@ -80,7 +80,7 @@ def _compiler(command: tuple[str, ...]) -> Compiler:
 
 
 def _identity(command: tuple[str, ...]) -> str:
-    """Which program that is: another version of it has another size or date."""
+    """Path, size and date of the program, which differ between its versions."""
     program = shutil.which(command[0])
     if program is None:
         return "none"
@@ -89,7 +89,7 @@ def _identity(command: tuple[str, ...]) -> str:
 
 
 def _zig() -> tuple[str, ...] | None:
-    """Command of the zig of the package ``ziglang``; not by Python, which takes as long as the compiler."""
+    """Command of the zig in package ``ziglang``, without its Python wrapper, which is slow to start."""
     package = find_spec("ziglang")
     if package is None or package.origin is None:
         return None

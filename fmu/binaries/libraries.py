@@ -1,4 +1,4 @@
-"""Sources in, a library for each platform out."""
+"""Compilation of the C sources of an FMU for each platform."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True, slots=True)
 class Work:
-    """What is compiled: files by name, those of them that are compiled, and the name of the library."""
+    """Input of a compilation: files by name, the files to compile, and the name of the library."""
 
     sources: Mapping[str, bytes]
     units: Sequence[str]
@@ -89,7 +89,7 @@ def build_binaries(
 def _libraries(
     work: Work, platforms: Sequence[Platform], progress: Progress | None
 ) -> list[tuple[bytes, Compiler]]:
-    """Library of each platform and its compiler, as many at a time as there are processors."""
+    """Library and compiler of each platform, compiled in as many threads as there are processors."""
     tell = progress or (lambda done, of: None)
     tell(0, len(platforms))
     with ThreadPoolExecutor(min(len(platforms), os.cpu_count() or 1)) as pool:
@@ -106,7 +106,7 @@ def _libraries(
 
 
 def _library(work: Work, target: Platform) -> tuple[bytes, Compiler]:
-    """Library by the first compiler that makes a good one."""
+    """Library by the first compiler whose result runs on glibc 2.17."""
     tried = compilers(target)
     for compiler in tried[:-1]:
         too_new = _key_of_too_new(work, compiler)
@@ -123,7 +123,7 @@ def _library(work: Work, target: Platform) -> tuple[bytes, Compiler]:
 
 
 def _key_of_too_new(work: Work, compiler: Compiler) -> str:
-    """Key of what is kept where a compiler's library needs a newer system: another element's would as well.
+    """Cache key of the mark that a compiler's library needs a newer glibc, shared by elements with equal sources.
 
     Which functions of the C library a code calls is decided by its files and by which macros its headers define,
     not by their values: a power law calls pow, a cubic none, from the same file.
@@ -134,7 +134,7 @@ def _key_of_too_new(work: Work, compiler: Compiler) -> str:
 
 
 def _made(work: Work, target: Platform, compiler: Compiler) -> tuple[bytes, Library]:
-    """Library by one compiler, or as it was made before."""
+    """Library by one compiler, from the cache if it is there."""
     key = _key(work, target, compiler)
     library = cache.recall(key)
     if library is None:
@@ -176,13 +176,13 @@ def _compile(work: Work, target: Platform, compiler: Compiler) -> bytes:
 
 
 def _environment(folder: Path) -> dict[str, str]:
-    """Where zig keeps things: C libraries where they are found again, all else where it goes with the folder."""
+    """Cache folders of zig: a lasting one for C libraries, a temporary one for the rest."""
     shared = cache.zig_folder() or folder / "zig"
     return {cache.ZIG_VARIABLE: str(shared), "ZIG_LOCAL_CACHE_DIR": str(folder / "zig-local")}
 
 
 def _checked(library: bytes, target: Platform, compiler: Compiler) -> Library:
-    """Headers of a library, once it is sure to be one for this platform."""
+    """Headers of a library; raises `BuildError` if it is not one for this platform."""
     try:
         (found,) = read_library(library)
     except ValueError as error:
@@ -193,7 +193,7 @@ def _checked(library: bytes, target: Platform, compiler: Compiler) -> Library:
 
 
 def _warn_of_first_build(platforms: Sequence[Platform], work: Work) -> None:
-    """Say that a minute or two will pass, before they do."""
+    """Warn that the first compilation for Windows takes minutes."""
     for one in platforms:
         if one.system != "windows":
             continue
@@ -209,7 +209,7 @@ def _warn_of_first_build(platforms: Sequence[Platform], work: Work) -> None:
 
 
 def _mark(target: Platform, compiler: Compiler) -> Path | None:
-    """File that says that zig has the C library of a platform; None where nothing can be kept."""
+    """File marking that zig has built the C library of a platform; None without a cache folder."""
     folder = cache.zig_folder()
     if folder is None or not compiler.is_zig:
         return None

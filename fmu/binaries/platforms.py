@@ -1,4 +1,4 @@
-"""The platforms that FMUs have binaries for, as FMI 2, FMI 3 and the compiler call them."""
+"""Platforms of FMU binaries: names in FMI 2, FMI 3 and for the compiler."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ PLATFORMS = {
 
 
 def this_machine() -> Platform | None:
-    """Platform that this process runs on; None for one that FMUs are not built for."""
+    """Platform of this process; None if FMUs are not built for it."""
     architecture = ARCHITECTURES.get(platform.machine().lower())
     name = f"{architecture}-{platform.system().lower()}"
     return PLATFORMS.get(name) if sys.maxsize > 2**32 else None

@@ -1,4 +1,4 @@
-"""A compiler is run: what it says is kept, and it ends with us, or when its time is over."""
+"""Running a compiler: its output is kept; it ends with this process or after a time limit."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SHOWN = 3  # lines of a compiler's complaints in a message; all of them are in `
 
 
 class BuildError(RuntimeError):
-    """No compiler, or one that failed: one line; ``output`` is all that the compiler said."""
+    """No C compiler, or a failed compilation: message of one line; ``output`` is the compiler's."""
 
     def __init__(self, message: str, output: str = "") -> None:
         self.output = output
@@ -62,7 +62,7 @@ def run(line: Sequence[str], folder: Path, more: Mapping[str, str], stop: Event 
 
 
 def _wait(process: subprocess.Popen[bytes], stop: Event | None, shown: str) -> int:
-    """Exit code of a command, once it has ended by itself."""
+    """Exit code of a command that has ended by itself."""
     until = time.monotonic() + LONGEST_RUN
     while True:
         try:
@@ -93,7 +93,7 @@ def _signal(number: int) -> str:
 
 
 def _gist(output: str) -> str:
-    """The lines that say what is wrong, or else the last ones."""
+    """First lines with an error, else the last lines."""
     lines = [line.strip() for line in output.splitlines() if line.strip()]
     telling = [line for line in lines if "error" in line.lower()]
     return "; ".join(telling[:SHOWN] or lines[-SHOWN:])

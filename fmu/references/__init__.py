@@ -1,17 +1,17 @@
-"""Reference inputs and results inside an FMU, and a check of the FMU against them that needs nothing else.
+"""Reference inputs and results inside an FMU, and verification of the FMU against them.
 
 =============  =======================================================================================
 module         responsibility
 =============  =======================================================================================
-``series``     `References`: what goes in and what comes out, row by row, for each FMI interface
-``contacts``   those of a contact element, computed by the element in Python
-``files``      to and from ``extra/org.fmi-standard.fmi-ls-ref/`` of an FMU
-``check``      `verify_references`: an FMU against its own references
+``series``     `References`: inputs and results, row by row, for each FMI interface
+``contacts``   references of a contact element, computed by the element in Python
+``files``      files in ``extra/org.fmi-standard.fmi-ls-ref/`` of an FMU
+``check``      `verify_references`: an FMU against the references inside it
 =============  =======================================================================================
 
 The files are those that the FMI cross-check has (``x_in.csv``, ``x_ref.csv``, ``x_ref.opt``), in the folder and
-with the manifest of the layered standard FMI-LS-REF 1.0.0-beta.1 (https://github.com/modelica/fmi-ls-ref), told of
-as experiments (https://github.com/modelica/ma-hs-experiments).
+with the manifest of the layered standard FMI-LS-REF 1.0.0-beta.1 (https://github.com/modelica/fmi-ls-ref),
+described as experiments (https://github.com/modelica/ma-hs-experiments).
 """
 
 from inspect import ismodule as _ismodule
@@ -25,5 +25,5 @@ from fmu.references.series import Trial as Trial
 
 
 def __dir__() -> list[str]:
-    """Public names, without the rooms that they are in."""
+    """Public names."""
     return sorted(name for name, value in globals().items() if name[0] != "_" and not _ismodule(value))

@@ -1,4 +1,4 @@
-"""An FMU against the references inside it: nothing else is needed, no element and no rotor."""
+"""Verification of an FMU against the references inside it, without element or rotor."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Interface:
-    """One FMI interface of an FMU beside the references."""
+    """Comparison of one FMI interface of an FMU with its references."""
 
     name: str  # co-simulation, model exchange
     rows: int  # compared
@@ -36,7 +36,7 @@ class Interface:
 
 @dataclass(frozen=True, slots=True)
 class ReferenceCheck(Summary):
-    """What was found; see `verify_references`.
+    """Result of `verify_references`.
 
     Attributes
     ----------
@@ -108,7 +108,7 @@ def verify_references(path: str | os.PathLike[str]) -> ReferenceCheck:
 
 
 def check_references(file: Path, folder: str, description: Any, findings: tuple[str, ...] = ()) -> ReferenceCheck:
-    """The same of an FMU that is unpacked; with findings made before."""
+    """`verify_references` of an unpacked FMU; adds to `findings`."""
     references = read_references(folder, description, file)
     broken, interfaces = _interfaces(file, folder, description, references)
     found = (*findings, *changed_files(folder), *broken)
@@ -118,7 +118,7 @@ def check_references(file: Path, folder: str, description: Any, findings: tuple[
 def _interfaces(
     file: Path, folder: str, description: Any, references: References
 ) -> tuple[tuple[str, ...], tuple[Interface, ...]]:
-    """Findings of interfaces that do not run or have no references, and the others beside theirs."""
+    """Findings of interfaces that do not run or have no references; comparison of the others."""
     findings, interfaces = [], []
     with running(file, folder, description) as (slave, exchange):
         cases: tuple[tuple[str, Trial | None, Any, Callable[[Any, References], _Floats]], ...] = (
@@ -141,7 +141,7 @@ def _interfaces(
 
 
 def _walk(slave: Any, references: References) -> _Floats:
-    """What co-simulation makes of the inputs, shape (rows, variables)."""
+    """Results of co-simulation for the inputs, shape (rows, variables)."""
     trial = references.steps
     assert trial is not None
     names = tuple(trial.unknowns)

@@ -1,4 +1,4 @@
-"""References of a contact element: a vibration with a pulse of load and a lift-off, computed by the element."""
+"""References of a contact element: its force in a vibration with a load pulse and a lift-off."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def _film_steps(element: Film, time: _Floats, approach: _Floats, rate: _Floats) 
 
 
 def _film_points(element: Film, names: list[str]) -> Trial:
-    """States of which each has another sign than what it follows: no derivative is a small difference."""
+    """States with signs opposite to those of their inputs, so that no derivative is a small difference."""
     f, length, unit = element._units
     number = np.arange(POINTS)
     middle = element.approach_at(f)

@@ -1,4 +1,4 @@
-"""References to and from ``extra/org.fmi-standard.fmi-ls-ref/`` of an FMU."""
+"""Files of references in ``extra/org.fmi-standard.fmi-ls-ref/`` of an FMU: writing and reading."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
+from fmu.model_description import default_experiment
 from fmu.references.series import References, Trial
 from fmu.spec import ModelSpec
-from fmu.texts import default_experiment
 
 _Floats = NDArray[np.float64]
 
@@ -48,7 +48,7 @@ _ROLES = {
 
 
 def reference_files(references: References, spec: ModelSpec) -> dict[str, bytes]:
-    """All files by their path in the FMU; equal references give equal bytes."""
+    """All files by path in the FMU; equal references give equal bytes."""
     name = spec.identifier
     files: dict[str, bytes] = {}
     root = ElementTree.Element("Experiments", name=f"Reference results of {spec.name}")
@@ -114,7 +114,7 @@ def _parameters(values: Mapping[str, float], spec: ModelSpec) -> bytes:
 
 
 def _manifest(files: Mapping[str, bytes]) -> bytes:
-    """Which files there are, what each is for, and its checksum."""
+    """Manifest: name, purpose and checksum of every file."""
     ElementTree.register_namespace("fmi-ls", LAYER)
     root = ElementTree.Element(
         "fmiReferences", {f"{{{LAYER}}}{key}": text for key, text in _MANIFEST_ATTRIBUTES.items()}
@@ -251,7 +251,7 @@ def _read_parameters(path: Path, known: Mapping[str, Any]) -> dict[str, float]:
 
 
 def changed_files(unpacked: str | Path) -> tuple[str, ...]:
-    """Findings: files of the manifest that are missing, or are not those that it has the checksums of."""
+    """Findings: files of the manifest that are missing or have another checksum."""
     folder, found = Path(unpacked, FOLDER), []
     try:
         root = ElementTree.parse(folder / MANIFEST).getroot()

@@ -1,4 +1,4 @@
-"""What goes into a model and what comes out of it, row by row."""
+"""Reference inputs and results of a model as time series."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rotor in, FMU file out."""
+"""Export of a Jeffcott rotor as an FMU file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What stands between a finished system and its place: its schema, and a load step as `simulate_rotor` has it."""
+"""Verification of a system archive before it is written: schema, and a load step against `simulate_rotor`."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ ALLOWED = 0.01  # deviation of the journal, over how far the load step moves it
 
 @dataclass(frozen=True, slots=True)
 class SystemVerification:
-    """What was found of a system archive."""
+    """Result of `verify_system`."""
 
     findings: tuple[str, ...]  # of the schema of the standard
     deviation: float  # of the journal from `simulate_rotor` after a load step, over how far it moves
@@ -95,7 +95,7 @@ def _push(rotor: JeffcottRotor) -> np.ndarray:
 
 
 def schema_findings(content: bytes) -> tuple[str, ...]:
-    """What the schema of SSP 1.0, as fmpy ships it, says against the description in an archive."""
+    """Violations of the schema of SSP 1.0 (shipped with fmpy) in the description of an archive."""
     import fmpy.ssp
     from lxml import etree
 

@@ -1,4 +1,4 @@
-"""Rotor and contacts in, system archive out."""
+"""Export of a rotor and its contacts as a system archive (SSP)."""
 
 from __future__ import annotations
 

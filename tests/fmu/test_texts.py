@@ -10,8 +10,9 @@ from fmpy.validation import validate_fmu
 from ehlcontact.errors import InputError
 from fmu.c_headers import c_double
 from fmu.contacts import contact_spec, step_advice
+from fmu.documentation import documentation
+from fmu.model_description import model_description
 from fmu.spec import ModelSpec, Variable
-from fmu.texts import documentation, model_description
 
 UNITS_SI = {
     "approach": ("m", {"m": 1}),
@@ -123,7 +124,7 @@ def test_description_says_whose_contact_it_is(elements):
     element = dataclasses.replace(elements["cubic"], source={"contact": said})
     known, unknown = contact_spec(element), contact_spec(elements["cubic"])
     assert known.description == f"{unknown.description}; {said}"
-    xml = ElementTree.fromstring(model_description(known, "{}"))
+    xml = ElementTree.fromstring(model_description(known, "{}", 2))
     assert xml.attrib["description"] == known.description
     assert said in documentation(known, "", "")
     # a source may be of a file that somebody wrote: one line, of what can be printed

@@ -5,7 +5,7 @@ from pathlib import Path
 import fmpy
 from lxml import etree
 
-from fmu.binaries import build_description
+from fmu.model_description import build_description
 
 
 def test_it_is_valid_and_names_every_file(spec):

@@ -1,0 +1,325 @@
+"""`ModelSpec` to the XML of an FMU: model description of FMI 2.0 and 3.0, terminals, build description.
+
+The texts depend on nothing but their arguments and the library's version. FMI 3.0 requires the time and every
+event indicator as variables; they follow those of the specification.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from xml.etree import ElementTree
+
+from ehlcontact import __version__
+from fmu.sources import compiled
+from fmu.spec import DISPLAY_UNITS, UNITS, ModelSpec, Variable
+
+Element = ElementTree.Element
+
+DEFAULT_STEPS = 1000  # of the default experiment
+LOG_CATEGORIES = {
+    "logStatusError": "Calls that failed, always logged",
+    "logStatusDiscard": "Values that do not exist for the present inputs",
+    "logStatusWarning": "Motion leaving the validity box",
+}
+TIME = "time"  # name of the independent variable of FMI 3.0
+FLANGE = "Modelica.Mechanics.Translational.Interfaces.Flange_a"
+MEMBERS = (("s", "signal"), ("v", "signal"), ("f", "inflow"))  # of a flange: approach, rate, force
+TYPES_3 = {"Real": "Float64", "Boolean": "Boolean", "Enumeration": "Enumeration"}
+CAPABILITIES_3 = {
+    "canGetAndSetFMUState": "true",
+    "canSerializeFMUState": "true",
+    "providesDirectionalDerivatives": "true",
+    "providesAdjointDerivatives": "true",
+}
+C_OPTIONS = "-ffp-contract=off"  # results depend on it; visibility of symbols is chosen by the importer
+
+
+def model_description(spec: ModelSpec, token: str, fmi: int) -> bytes:
+    """``modelDescription.xml`` of FMI 2.0 or 3.0; `token` is the GUID or the instantiation token."""
+    root = Element(
+        "fmiModelDescription",
+        {
+            "fmiVersion": f"{fmi}.0",
+            "modelName": spec.name,
+            "guid" if fmi == 2 else "instantiationToken": token,
+            "description": spec.description,
+            "author": "ehlcontact",
+            "version": __version__,
+            "copyright": "Copyright (c) 2026, the ehlcontact developers",
+            "license": "BSD-3-Clause",
+            "generationTool": f"ehlcontact {__version__}",
+            "variableNamingConvention": "structured",
+        },
+    )
+    if fmi == 2:
+        root.set("numberOfEventIndicators", str(len(spec.indicators)))
+    (_interfaces_2 if fmi == 2 else _interfaces_3)(root, spec)
+    _units(root, spec)
+    _types(root, spec, fmi)
+    categories = _child(root, "LogCategories")
+    for name, text in LOG_CATEGORIES.items():
+        _child(categories, "Category", name=name, description=text)
+    ElementTree.SubElement(root, "DefaultExperiment", default_experiment(spec))
+    variables = _child(root, "ModelVariables")
+    for variable in spec.variables:
+        (_variable_2 if fmi == 2 else _variable_3)(variables, variable, spec)
+    if fmi == 3:
+        _time_and_indicators(variables, spec)
+    (_structure_2 if fmi == 2 else _structure_3)(root, spec)
+    return _text(root)
+
+
+def default_experiment(spec: ModelSpec) -> dict[str, str]:
+    """Start, stop, tolerance and a step that resolves the contact."""
+    stop = float(f"{DEFAULT_STEPS * spec.step:.6g}")
+    numbers = {"startTime": 0.0, "stopTime": stop, "tolerance": spec.tolerance, "stepSize": spec.step}
+    return {name: repr(value) for name, value in numbers.items()}
+
+
+def _child(parent: Element, tag: str, **attributes: str) -> Element:
+    return ElementTree.SubElement(parent, tag, attributes)
+
+
+def _text(root: Element) -> bytes:
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)
+
+
+# ---- interfaces, units, types
+
+
+def _interfaces_2(root: Element, spec: ModelSpec) -> None:
+    both = {
+        "modelIdentifier": spec.identifier,
+        "canGetAndSetFMUstate": "true",
+        "canSerializeFMUstate": "true",
+        "providesDirectionalDerivative": "true",
+    }
+    exchange = _child(root, "ModelExchange", **both, completedIntegratorStepNotNeeded="true")
+    simulation = _child(
+        root,
+        "CoSimulation",
+        **both,
+        canHandleVariableCommunicationStepSize="true",
+        canInterpolateInputs="true",
+        maxOutputDerivativeOrder="1",
+    )
+    for interface in (exchange, simulation):
+        files = _child(interface, "SourceFiles")
+        for name in compiled(spec, 2):
+            _child(files, "File", name=name)
+
+
+def _interfaces_3(root: Element, spec: ModelSpec) -> None:
+    _child(root, "ModelExchange", **CAPABILITIES_3, modelIdentifier=spec.identifier)
+    _child(
+        root,
+        "CoSimulation",
+        **CAPABILITIES_3,
+        modelIdentifier=spec.identifier,
+        canHandleVariableCommunicationStepSize="true",
+        maxOutputDerivativeOrder="1",
+        providesIntermediateUpdate="true",
+        mightReturnEarlyFromDoStep="true",
+        hasEventMode="true",
+    )
+
+
+def _units(root: Element, spec: ModelSpec) -> None:
+    definitions = _child(root, "UnitDefinitions")
+    used = {variable.unit for variable in spec.variables}
+    for name, exponents in UNITS.items():
+        if name not in used:
+            continue
+        unit = _child(definitions, "Unit", name=name)
+        ElementTree.SubElement(unit, "BaseUnit", {base: str(power) for base, power in exponents.items()})
+        if name in DISPLAY_UNITS:
+            display, factor = DISPLAY_UNITS[name]
+            _child(unit, "DisplayUnit", name=display, factor=repr(factor))
+
+
+def _types(root: Element, spec: ModelSpec, fmi: int) -> None:
+    definitions = _child(root, "TypeDefinitions")
+    for choice in spec.choices:
+        if fmi == 2:
+            parent = _child(_child(definitions, "SimpleType", name=choice.name), "Enumeration")
+        else:
+            parent = _child(definitions, "EnumerationType", name=choice.name)
+        for value, (name, text) in enumerate(choice.items, start=1):
+            _child(parent, "Item", name=name, value=str(value), description=text)
+
+
+# ---- variables
+
+
+def _variable_2(parent: Element, variable: Variable, spec: ModelSpec) -> None:
+    scalar = _child(
+        parent,
+        "ScalarVariable",
+        name=variable.name,
+        valueReference=str(variable.value_reference),
+        causality=variable.causality,
+        variability=variable.variability,
+        initial="calculated" if variable.start is None else "exact",
+        description=variable.description,
+    )
+    if variable.causality == "input":
+        del scalar.attrib["initial"]  # FMI 2.0 forbids it there
+    value = _child(scalar, variable.type)
+    _set_value(value, variable, spec)
+    if variable.derivative_of is not None:
+        value.set("derivative", str(spec.index(variable.derivative_of)))
+
+
+def _variable_3(parent: Element, variable: Variable, spec: ModelSpec) -> None:
+    entry = _child(
+        parent,
+        TYPES_3[variable.type],
+        name=variable.name,
+        valueReference=str(variable.value_reference),
+        causality=variable.causality,
+        variability=variable.variability,
+        description=variable.description,
+    )
+    if variable.causality != "input":
+        entry.set("initial", "calculated" if variable.start is None else "exact")
+    _set_value(entry, variable, spec)
+    if variable.derivative_of is not None:
+        entry.set("derivative", str(spec[variable.derivative_of].value_reference))
+
+
+def _set_value(entry: Element, variable: Variable, spec: ModelSpec) -> None:
+    """Set declared type, unit, bounds, nominal value and start value."""
+    number = str if variable.type == "Enumeration" else repr
+    if variable.type == "Enumeration":
+        entry.set("declaredType", spec.choices[0].name)
+    numbers = {
+        "min": variable.minimum,
+        "max": variable.maximum,
+        "nominal": variable.nominal,
+        "start": variable.start,
+    }
+    if variable.unit is not None:
+        entry.set("unit", variable.unit)
+        if variable.unit in DISPLAY_UNITS:
+            entry.set("displayUnit", DISPLAY_UNITS[variable.unit][0])
+    for name, value in numbers.items():
+        if value is not None:
+            entry.set(name, number(value))
+
+
+def _time_and_indicators(parent: Element, spec: ModelSpec) -> None:
+    """Append the variables that FMI 3.0 requires beyond those of the specification."""
+    text = "Above zero while the surfaces push: force, or a film's power 2/3 of it, before it is clipped"
+    behind = len(spec.variables)
+    _child(
+        parent,
+        "Float64",
+        name=TIME,
+        valueReference=str(behind),
+        causality="independent",
+        variability="continuous",
+        description="Time" if spec.time_unit == "s" else "Time in 2a/u_sum",
+    )
+    for k, (name, _) in enumerate(spec.indicators, start=1):
+        _child(
+            parent,
+            "Float64",
+            name=name,
+            valueReference=str(behind + k),
+            causality="local",
+            variability="continuous",
+            initial="calculated",
+            description=text,
+        )
+
+
+# ---- structure
+
+
+def _sections(spec: ModelSpec) -> tuple[tuple[tuple[Variable, ...], bool], ...]:
+    """Outputs, derivatives and initial unknowns; whether parameters are knowns of these, as at initialization."""
+    computed = [variable for variable in (*spec.outputs, *spec.derivatives) if variable.start is None]
+    initial = tuple(sorted(computed, key=lambda variable: variable.value_reference))
+    return (spec.outputs, False), (spec.derivatives, False), (initial, True)
+
+
+def _moving(spec: ModelSpec) -> set[str]:
+    return {variable.name for variable in (*spec.inputs, *spec.states)}
+
+
+def _dependencies(knowns: list[int]) -> dict[str, str]:
+    return {
+        "dependencies": " ".join(map(str, sorted(knowns))),
+        "dependenciesKind": " ".join(["dependent"] * len(knowns)),
+    }
+
+
+def _structure_2(root: Element, spec: ModelSpec) -> None:
+    structure, moving = _child(root, "ModelStructure"), _moving(spec)
+    names = "Outputs", "Derivatives", "InitialUnknowns"
+    for section, (variables, initial) in zip(names, _sections(spec), strict=True):
+        if not variables:
+            continue
+        unknowns = _child(structure, section)
+        for variable in variables:
+            knowns = [spec.index(name) for name in variable.depends if initial or name in moving]
+            _child(unknowns, "Unknown", index=str(spec.index(variable.name)), **_dependencies(knowns))
+
+
+def _structure_3(root: Element, spec: ModelSpec) -> None:
+    structure, moving = _child(root, "ModelStructure"), _moving(spec)
+    names = "Output", "ContinuousStateDerivative", "InitialUnknown"
+    for section, (variables, initial) in zip(names, _sections(spec), strict=True):
+        for variable in variables:
+            knowns = [spec[name].value_reference for name in variable.depends if initial or name in moving]
+            _child(structure, section, valueReference=str(variable.value_reference), **_dependencies(knowns))
+    for k, (_, output) in enumerate(spec.indicators, start=1):
+        knowns = [spec[name].value_reference for name in spec[output].depends if name in moving]
+        reference = str(len(spec.variables) + k)
+        _child(structure, "EventIndicator", valueReference=reference, **_dependencies(knowns))
+
+
+# ---- further files of FMI 3.0
+
+
+def terminals(spec: ModelSpec) -> bytes:
+    """``terminalsAndIcons.xml``: place of the icon; approach, rate and force of each contact as a flange."""
+    root = Element("fmiTerminalsAndIcons", fmiVersion="3.0")
+    ends = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
+    shown = ElementTree.SubElement(root, "GraphicalRepresentation")
+    ElementTree.SubElement(shown, "CoordinateSystem", ends, suggestedScalingFactorTo_mm="0.1")
+    ElementTree.SubElement(shown, "Icon", ends)
+    parent = ElementTree.SubElement(root, "Terminals") if spec.flanges else root  # never an empty list
+    for name, text, variables in spec.flanges:
+        flange = ElementTree.SubElement(
+            parent, "Terminal", name=name, matchingRule="bus", terminalKind=FLANGE, description=text
+        )
+        for variable, (member, kind) in zip(variables, MEMBERS, strict=True):
+            ElementTree.SubElement(
+                flange, "TerminalMemberVariable", variableName=variable, memberName=member, variableKind=kind
+            )
+    return _text(root)
+
+
+def build_description(identifier: str, units: Sequence[str]) -> bytes:
+    """``buildDescription.xml`` of FMI 3.0, section 2.5.1.4.
+
+    Parameters
+    ----------
+    identifier : str
+        As ``modelIdentifier`` in the model description.
+    units : sequence of str
+        Files of ``sources/`` to compile; headers are found beside them, those of FMI the importer has.
+    """
+    root = Element("fmiBuildDescription", fmiVersion="3.0")
+    configuration = ElementTree.SubElement(root, "BuildConfiguration", modelIdentifier=identifier)
+    files = ElementTree.SubElement(
+        configuration, "SourceFileSet", language="C99", compiler="gcc", compilerOptions=C_OPTIONS
+    )
+    for name in units:
+        ElementTree.SubElement(files, "SourceFile", name=name)
+    ElementTree.SubElement(
+        configuration, "Library", name="m", external="true", description="Maths library, where C has it apart"
+    )
+    return _text(root)
