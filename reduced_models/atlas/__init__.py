@@ -1,4 +1,4 @@
-"""The atlas: answers at once for any point of its box, from contacts solved beforehand.
+"""The atlas: interpolation of contacts solved beforehand, for any point (M, L, kappa) of its box.
 
 | module | is responsible for |
 |---|---|

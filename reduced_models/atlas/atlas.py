@@ -1,4 +1,4 @@
-"""The atlas: answers for any point of its box at once, from contacts solved beforehand."""
+"""`Atlas`: films, impedance and elements of any point of its box, interpolated from solved contacts."""
 
 from __future__ import annotations
 
@@ -67,12 +67,12 @@ class Atlas:
 
     @property
     def box(self) -> Box:
-        """Where it answers."""
+        """Ranges of M, L, kappa and Hertz pressure."""
         return self._table.box
 
     @property
     def metadata(self) -> dict[str, Any]:
-        """Command, version, sample and meshes that made it."""
+        """Command, version, sample and meshes of the build."""
         return dict(self._table.metadata)
 
     def at(self, point: Point) -> AtlasAnswer:
@@ -195,7 +195,7 @@ class Atlas:
         return cubic if scales is None else cubic.to_si(scales)
 
     def _remembering(self, point: Point, given: _Floats | None) -> FilmMemoryContact | WideRangeContact:
-        """Wide element of the loads that are given, or the memory about the point's own."""
+        """Wide-range element over the given loads, or film memory about the point's own load."""
         moes, scales, k = self._inside(point), scales_of(point), self._table.omega.size
         loads = np.ones(1) if given is None else given
         values, shapes = self._surface.at(_rows(moes, loads))
@@ -218,7 +218,7 @@ class Atlas:
             return make(replace(made_of, gains=passive_gains(made_of.rates, gains)), scales)
 
     def _whence(self, point: Point) -> dict[str, Any]:
-        """Origin of an element at a point."""
+        """Origin of an element: point and atlas."""
         scales, answer = scales_of(point), self.at(point)
         source = self._source(answer)
         source["scales"] = None if scales is None else asdict(scales)
@@ -231,12 +231,12 @@ class Atlas:
         return self._table.rates.basis(omega[omega <= self._table.metadata["highest_omega"]]).real * DRY
 
     def _fit(self, gains: _Floats, damping: _Floats) -> dict[str, Any]:
-        """How well the filters follow the damping of the atlas, over that at low frequency."""
+        """Misfit between the damping of the filters and of the atlas, over that at low frequency."""
         C = damping[:, : len(self._basis)]
         return {"rms": None, "damping_error_max": float(np.max(np.abs(gains @ self._basis.T - C) / C[:, :1]))}
 
     def _frequency(self, model: str, scales: Scales | None, **given: Unpack[Frequency]) -> float | None:
-        """Omega of the cubic; None for the other models, which are made for all frequencies."""
+        """Omega of the cubic element; None for the other models, which are valid at all frequencies."""
         if model == "cubic":
             time = None if scales is None else scales.time
             return one("frequency", dimensionless(time, **given, most=float(self._table.omega[-1])))

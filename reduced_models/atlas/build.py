@@ -1,4 +1,4 @@
-"""Building the atlas: sample points solved once, kept in a work file that survives a kill, and made a table.
+"""Building the atlas: sample points are solved once, stored in a work file, and assembled into a table.
 
 The numbers by which that is done stand here and, those of the interpolation and of other oils, in `table`; they go
 into the file of the atlas and are read from there.
@@ -75,7 +75,7 @@ def build_atlas(
     progress: Progress | None = None,
     solve: Solve = solve_point,
 ) -> AtlasTable:
-    """Solve what is missing, put the table together and write it.
+    """Solve the missing points, assemble the table and write it.
 
     Killed at any moment and called again it goes on, also with more draws. The file does not depend on who solved
     the points, nor on how often the build was interrupted.
@@ -132,7 +132,7 @@ def build_atlas(
 
 
 def settings(seed: int) -> dict[str, Any]:
-    """What the entries of a work file have in common, in the form JSON gives back."""
+    """Settings common to all entries of a work file, in JSON types."""
     found = {"seed": seed, "box": SAMPLED.to_dict(), "omega": list(OMEGAS), "version": __version__}
     return dict(json.loads(json.dumps(found)))
 
@@ -143,7 +143,7 @@ def _solve_missing(
     run: Callable[[Sequence[Job]], Solved],
     progress: Progress | None,
 ) -> None:
-    """Let `run` solve the points that the work file does not hold yet, and keep them there as they come."""
+    """Solve the points that are missing in the work file with `run`, storing each when it is done."""
     # Thin films take longest and are begun first, so that no process ends up with them alone.
     jobs = [(name, point) for name, point in points.items() if name not in file.entries]
     jobs.sort(key=lambda job: job[1].inlet_width)
@@ -199,13 +199,13 @@ def assemble(entries: Sequence[Entry], made_by: Mapping[str, Any]) -> AtlasTable
 
 
 def judged(table: AtlasTable) -> AtlasTable:
-    """The table with what its error bars are made of: how well it gives each point from the others."""
+    """Table with leave-one-out errors, from which its error bars follow."""
     left_out, factor = surface.judge(table.points, table.answers, table.interpolation)
     return replace(table, left_out=left_out, factor=factor)
 
 
 def _metadata(entries: Sequence[Entry], good: Sequence[Entry]) -> dict[str, Any]:
-    """All numbers by which the table was made, and of what."""
+    """Settings and sources of the table."""
     law = MoesPoint(good[0]["M"], good[0]["L"], good[0]["kappa"])
     meshes = Counter((_mesh(e).n, "the near domain" if _mesh(e).near else "the default domain") for e in good)
     near = next((list(e["domain"]) for e in good if _mesh(e).near), None)
@@ -234,7 +234,7 @@ def smooth_gains(omega: _Floats, K: _Floats, C: _Floats, rates: FilterRates = RA
 
 
 def gain_equations(omega: _Floats, K: _Floats, C: _Floats, rates: FilterRates) -> tuple[_Floats, _Floats]:
-    """Rows and right-hand side of that: errors of C, then of K, then the gains themselves."""
+    """Matrix and right-hand side of `smooth_gains`: rows for C, for K, and for the size of the gains."""
     used, low = omega <= HIGHEST, C[INTERPOLATION.reference]
     basis = rates.basis(omega[used]) * DRY
     size = np.maximum(np.abs(C[used]), FLOOR * low) * WEIGHT_C
@@ -268,7 +268,7 @@ class _FarOil:
         return np.column_stack([np.ones_like(L), np.log(kappa), np.log(kappa) ** 2, L])
 
     def adds(self, name: str, points: _Floats) -> _Floats:
-        """To that answer, at every point; 0 where it was learnt from too few."""
+        """Correction of an answer at every point; 0 if too few points determine it."""
         if name not in self._adds:
             return np.zeros(1)
         return np.asarray(((self._basis(points) @ self._adds[name]).T * _lambda(points)).T)

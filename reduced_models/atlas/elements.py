@@ -1,4 +1,4 @@
-"""Contact elements from what the atlas says about a point and about the loads beside it."""
+"""Contact elements from answers of the atlas at one or several loads."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PASSIVE_MARGIN = 1.001
 
 @dataclass(frozen=True)
 class Loads:
-    """What an element is made of: answers under one or several loads, each in the units of its own."""
+    """Data of an element: answers at one or several loads, each in the units of its own load."""
 
     loads: _Floats  # (n,) in units of the reference load
     approach: _Floats  # (n,)
@@ -49,7 +49,7 @@ def passive_gains(rates: FilterRates, gains: _Floats) -> _Floats:
 
 
 def memory_element(at: Loads, scales: Scales | None) -> FilmMemoryContact:
-    """Film memory about one load: its film and how that thins with the load follow from approach and tangent."""
+    """Film-memory element about one load; film and its slope over the load follow from approach and tangent."""
     film, exponent = film_and_exponent(float(at.approach[0]), float(at.tangent[0]))
     low, high = (load ** (2.0 / 3.0) - film * load**-exponent for load in LOAD_BAND)
     force, length, time = _units(scales)
@@ -73,7 +73,7 @@ def memory_element(at: Loads, scales: Scales | None) -> FilmMemoryContact:
 
 
 def wide_element(at: Loads, scales: Scales | None) -> WideRangeContact:
-    """Every load at the same speed."""
+    """Wide-range element for all loads at one speed."""
     return WideRangeContact(
         loads=at.loads,  # type: ignore[arg-type]
         approach=at.approach * at.loads ** (2.0 / 3.0),  # type: ignore[arg-type]

@@ -1,4 +1,4 @@
-"""Where the atlas is sampled: its box with a margin, and the points in it.
+"""Sample points of the atlas: quasi-random sequences in its box with a margin.
 
 Three sets of scrambled Sobol points: over the whole box; over its light loads, where answers change more; and over
 those among them where the film turns from one that lifts rigid bodies to one between flattened ones, where they

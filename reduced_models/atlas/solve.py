@@ -1,4 +1,4 @@
-"""One point of the atlas solved: steady film and impedance, on the mesh its film needs."""
+"""Solution of one sample point: steady film and impedance on a mesh that resolves the film."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ FILM = ("approach", "h_central", "h_min", "moment")  # of the steady state
 
 
 def solve_point(point: MoesPoint) -> dict[str, Any]:
-    """Everything that the atlas keeps of a point, ready for JSON; ``status`` says whether it converged.
+    """Entry of a point in the work file, in JSON types; ``status`` is that of the solve.
 
     ``film`` is the steady film on a finer mesh and ``close`` the answers on the near region, where there are such.
     """

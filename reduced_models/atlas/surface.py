@@ -89,7 +89,7 @@ def judge(points: _Floats, answers: _Floats, by: Interpolation) -> tuple[_Floats
 
 
 def error_factor(x: _Floats, errors: _Floats, by: Interpolation) -> _Floats:
-    """Factor on the local error with which a share of the nodes lies within, judged by their neighbours alone."""
+    """Factor on the local error that covers a given share of the nodes, each judged by its neighbours."""
     distance = cdist(x, x)
     np.fill_diagonal(distance, np.inf)
     nearest = np.argpartition(distance, by.nearest, axis=1)[:, : by.nearest]
@@ -106,7 +106,7 @@ class _Radial:
         self.coefficients = np.linalg.solve(_system(x), np.vstack([values, plane]))
 
     def at(self, x: _Floats, distance: _Floats, columns: slice = slice(None)) -> _Floats:
-        """Some columns at places `x` that lie so far from the nodes."""
+        """Some columns at places `x`, given their distances from the nodes."""
         n, c = len(self.x), self.coefficients[:, columns]
         return np.asarray((distance * distance * distance) @ c[:n] + c[n] + x @ c[n + 1 :])
 
@@ -127,7 +127,7 @@ class AtlasSurface:
 
     @property
     def coefficients(self) -> tuple[_Floats, _Floats]:
-        """Of the radial functions, for those who evaluate them elsewhere: the page of ``ehlcontact explore``.
+        """Coefficients of the radial functions, for evaluation elsewhere (page of ``ehlcontact explore``).
 
         Shape (n + 6, 5 + 2 k + gains), and of ln(Hm/Hc), in coordinates of its own, (n + 5,): a row for every
         point, then the constant and the slopes of the plane.

@@ -1,4 +1,4 @@
-"""What the atlas holds: solved points, their answers, the numbers by which it answers elsewhere; and its file."""
+"""Table of the atlas: solved points, their answers, settings of the interpolation; its file."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Box:
             raise InputError("Hertz pressure", f"{point.p_hertz:.4g} Pa", allowed)
 
     def require_all_inside(self, points: _Floats, alpha: float) -> None:
-        """The same for the first of many, rows (M, L, kappa), that lies outside."""
+        """Raise `InputError` for the first of many rows (M, L, kappa) that lies outside."""
         low, high = np.transpose([self.M, self.L, self.kappa])
         inside = np.all((low <= points) & (points <= high), axis=1)
         inside[inside] = [moes_pressure(*row) <= self.p_hertz * alpha for row in points[inside].tolist()]
@@ -66,14 +66,14 @@ class Box:
 
     @classmethod
     def from_dict(cls, entries: Mapping[str, Any]) -> Self:
-        """The box of such fields."""
+        """Box of the fields of `to_dict`."""
         M, L, kappa = ((float(low), float(high)) for low, high in (entries[name] for name in ("M", "L", "kappa")))
         return cls(M, L, kappa, float(entries["p_hertz"]))
 
 
 @dataclass(frozen=True)
 class Interpolation:
-    """How answers follow from the points: the error bars of an atlas hold for the numbers it was made with only.
+    """Settings of the interpolation; error bars of an atlas are valid for the settings of its build only.
 
     Raises
     ------
@@ -103,7 +103,7 @@ class Interpolation:
 
 @dataclass(frozen=True)
 class OtherOil:
-    """What is accepted of another oil, and what it may change.
+    """Accepted deviation of alpha and eta0 from those of the atlas, and its effect on the error bars.
 
     Beside M, L and kappa, alpha and eta0 enter through the Hertz pressure alone. The error bars widen by what ln
     of films, K, C and moment change at most per unit of ln alpha and of ln eta0.
@@ -140,7 +140,7 @@ class AtlasTable:
 
     @property
     def box(self) -> Box:
-        """Where the atlas answers."""
+        """Ranges of M, L, kappa and Hertz pressure."""
         return Box.from_dict(self.metadata["box"])
 
     @property
@@ -150,23 +150,23 @@ class AtlasTable:
 
     @property
     def interpolation(self) -> Interpolation:
-        """Numbers by which it was made, and has to be read."""
+        """Settings of the interpolation."""
         return Interpolation(**self.metadata["interpolation"])
 
     @property
     def oil(self) -> OtherOil:
-        """Which other oils it answers for."""
+        """Accepted other oils."""
         return OtherOil(**self.metadata["oil"])
 
     @property
     def answers(self) -> _Floats:
-        """What is interpolated, shape (n, 5 + 2 k)."""
+        """Interpolated quantities, shape (n, 5 + 2 k)."""
         low = self.damping[:, self.interpolation.reference]
         head = self.approach, self.h_central, self.h_min, low, self.moment
         return np.column_stack([*head, self.stiffness, self.damping])
 
     def require_complete(self) -> None:
-        """Raise `ValueError`, or what else damaged metadata lead to, unless everything is there and fits.
+        """Raise `ValueError` or another error of damaged metadata unless all arrays are there and fit.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""How the numbers of a build were found, and how good they are today.
+"""Search for the settings of a build: weights of the coordinates, rates of the filters, slopes for other oils.
 
     python -m reduced_models.atlas.tune --weights --lobes --rates --oil [--atlas FILE]
 
@@ -39,7 +39,7 @@ OIL_SHIFTS = (0.5, 2.0)  # factors on alpha, and on eta0
 
 
 class Found(NamedTuple):
-    """Numbers of the atlas and their error, and the best ones with theirs."""
+    """Settings of the atlas and the best ones found, each with its error."""
 
     used: tuple[float, ...]
     error: float

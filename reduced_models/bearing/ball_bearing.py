@@ -213,7 +213,7 @@ class BallBearing(BearingSummary):
         return self._known[race, speed]
 
     def kernel(self, speeds_rpm: ArrayLike) -> Balls:
-        """What the compiled kernels know of it, over increasing speeds [rev/min]: `reduced_models.bearing.balls`.
+        """Parameters of the compiled kernels (`reduced_models.bearing.balls`) over increasing speeds [rev/min].
 
         Between two speeds films grow as with the speed to the power of 0.67; outside them the kernels do not ask.
         """

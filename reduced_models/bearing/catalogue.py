@@ -1,4 +1,4 @@
-"""Deep-groove ball bearings by name: dimensions that makers do not print, each row with where it is from.
+"""Catalogue of deep-groove ball bearings: internal dimensions by name, each row with its source.
 
 Makers print bore, outside diameter and width; balls and pitch circle are measured, or handed down. Only rows with
 a source that could be read say so. Conformities are hardly ever known: where a row has none, 0.52 is assumed;

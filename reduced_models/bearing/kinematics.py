@@ -1,4 +1,4 @@
-"""How fast cage and balls go round, and at which frequencies a spot on one of them is met."""
+"""Kinematics of a ball bearing: speeds of cage and balls, defect frequencies."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class DefectFrequencies:
 
     @classmethod
     def of(cls, balls: int, gamma: float, turns: float = 1.0) -> DefectFrequencies:
-        """Of `balls` with ball over pitch diameter `gamma`, the shaft making so many `turns` per unit of time."""
+        """Frequencies for `balls` balls of diameter ratio `gamma`, at `turns` shaft turns per unit of time."""
         return cls(
             ftf=cage_ratio(gamma) * turns,
             bpfo=balls * cage_ratio(gamma) * turns,

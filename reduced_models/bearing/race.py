@@ -1,4 +1,4 @@
-"""One race: its contact with a ball, and the law of that contact at a speed. The one place that asks the atlas."""
+"""`Race`: contact of a ball with one race, its films and element from the atlas at a speed."""
 
 from __future__ import annotations
 
@@ -88,13 +88,13 @@ class Race:
         return float((shared_atlas(self.atlas).box.L[1] / L) ** POWER_OF_SPEED * (1.0 - INSIDE))
 
     def loads(self, speed_rpm: float) -> tuple[float, float]:
-        """Range of loads [N] that the atlas knows at this speed."""
+        """Range of loads [N] of the atlas at this speed."""
         box, unit = shared_atlas(self.atlas).box, self.point(1.0, speed_rpm).moes
         highest = min(box.M[1] / unit.M, (box.p_hertz / unit.p_hertz) ** 3)
         return box.M[0] / unit.M * (1.0 + INSIDE), highest * (1.0 - INSIDE)
 
     def element(self, speed_rpm: float) -> WideRangeContact:
-        """Contact element of all loads that the atlas knows at this speed, in SI.
+        """Contact element for all loads of the atlas at this speed, in SI.
 
         It goes through the same loads in N at every speed, but for its ends: so K and C change smoothly with it.
         """
@@ -133,7 +133,7 @@ class Race:
 
 
 def race_of(bearing: Any, name: str) -> Race:
-    """Contact of a `BallBearing` with one race; what is wrong with its conformity is said of that race's."""
+    """Contact of a `BallBearing` with one race; errors name that race's conformity."""
     conformity = getattr(bearing, f"conformity_{name}")
     material = {"e1": bearing.youngs_modulus, "e2": bearing.youngs_modulus}
     material |= {"nu1": bearing.poisson_ratio, "nu2": bearing.poisson_ratio}

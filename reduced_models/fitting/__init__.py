@@ -1,4 +1,4 @@
-"""Elements from data: records and impedances in, coefficients with their uncertainty out.
+"""Elements fitted to records and impedances: coefficients with their uncertainty.
 
 | module | is responsible for |
 |---|---|

@@ -1,4 +1,4 @@
-"""Records to element; least squares after Nonato and Cavalca (2010), eqs. 9-13."""
+"""Least-squares fit of an element to records, after Nonato and Cavalca (2010), eqs. 9-13."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def _least_squares(records: Records, model: str, window: Window | None) -> FitRe
 
 
 def _element(samples: Samples, estimate: Estimate) -> MemorylessContact:
-    """Element of the estimate, valid over the samples, that knows where they came from."""
+    """Element of the estimate, with validity box and origin of the samples."""
     first = samples.records[0]
     frequencies = [cut.frequency for cut in samples.cuts]
     return estimate.build(

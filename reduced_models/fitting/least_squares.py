@@ -1,4 +1,4 @@
-"""Linear least squares by QR on scaled columns, which says what it cannot tell apart."""
+"""Linear least squares by QR on scaled columns, with the columns that the data do not determine."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ LOAD_RANGE_OF_IMPEDANCE = 0.1  # share of the load about 1 that an impedance alo
 
 
 class Response(Protocol):
-    """What is asked of an impedance; `ehlcontact.impedance` returns one."""
+    """Impedance that `fit_memory` takes; `ehlcontact.impedance` returns one."""
 
     @property
     def Omega(self) -> _Floats:
@@ -66,7 +66,7 @@ class Response(Protocol):
 
 @dataclass(frozen=True)
 class Target:
-    """Everything that one fit sees, as plain arrays in the order of frequency."""
+    """Data of one fit as arrays in the order of frequency."""
 
     Omega: _Floats
     stiffness: _Floats
@@ -116,7 +116,7 @@ class Target:
 
     @property
     def motion(self) -> tuple[_Floats, _Floats | None, _Floats]:
-        """Approach, rate and force that were seen; of an impedance alone, the ends of a small static motion."""
+        """Approach, rate and force of the data; of an impedance alone, the ends of a small static motion."""
         if self.records:
             u, v, f = (
                 np.concatenate([getattr(record, name) for record in self.records])
@@ -281,6 +281,6 @@ def _force(element: FilmMemoryContact, record: ContactRecord) -> _Floats:
 
 
 def _source(response: Response, motions: list[Any]) -> dict[str, Any]:
-    """Of a response that may be anyone's: what it does not say is None."""
+    """Source of a response; None for what it does not have."""
     point, scales, n, domain = (getattr(response, name, None) for name in ("point", "scales", "n", "domain"))
     return source_of(point, scales, n, None if domain is None else domain.as_tuple(), motions)

@@ -1,4 +1,4 @@
-"""The models that `fit` knows: from samples to coefficients, the fitted force and its uncertainty."""
+"""Models of `fit`: coefficients, fitted force and uncertainty from samples."""
 
 from __future__ import annotations
 

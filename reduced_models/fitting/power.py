@@ -1,4 +1,4 @@
-"""Variable projection for the power law: K, F0 and C are linear, only n and u0 are searched for."""
+"""Variable projection for the power law: K, F0 and C are linear unknowns, n and u0 are searched."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def fit_power_law(u: _Floats, v: _Floats, f: _Floats) -> tuple[dict[str, float],
 
 @dataclass(frozen=True, eq=False)
 class _Projected:
-    """A record as the search sees it: in n and q alone, with K, F0 and C projected out."""
+    """Residuals of a record as a function of n and q, with K, F0 and C projected out."""
 
     w: _Floats  # approach from its centre, in its spread
     v: _Floats  # rate over the fastest
@@ -89,7 +89,7 @@ class _Projected:
         return SMALLEST_CURVATURE * highest, highest
 
     def columns(self, x: _Floats) -> _Floats:
-        """What K, F0 and C, up to factors, are the coefficients of at (n, q)."""
+        """Columns of K, F0 and C, up to factors, at (n, q)."""
         n, q = x
         return np.column_stack([((1.0 + q * self.w) ** n - 1.0) / (n * q), np.ones_like(self.w), self.v])
 

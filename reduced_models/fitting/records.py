@@ -1,4 +1,4 @@
-"""Histories of approach, rate and force: what every reduced model is fitted to."""
+"""`ContactRecord`: histories of approach, rate and force, the data of every fit."""
 
 from __future__ import annotations
 
@@ -155,7 +155,7 @@ class ContactRecord(Summary, Tabled):
 
     @property
     def default_window(self) -> tuple[float, float]:
-        """What a fit uses unless told otherwise: the last two thirds.
+        """Default window of a fit: the last two thirds.
 
         A record starts on the film of a steady contact, and until the first film made by the motion has
         crossed, the force is not the one that belongs to the motion; it spoils a viscous fit. Of harmonic
@@ -258,7 +258,7 @@ def as_records(records: object) -> tuple[ContactRecord, ...]:
 
 
 def repeated(records: Sequence[ContactRecord]) -> tuple[int, int] | None:
-    """Numbers of the first record that is there twice: with the same times, approach, rate and force."""
+    """Indices of the first two records with equal times, approach, rate and force."""
     for second, record in enumerate(records):
         for first, earlier in enumerate(records[:second]):
             if all(np.array_equal(getattr(record, name), getattr(earlier, name)) for name in _REQUIRED):

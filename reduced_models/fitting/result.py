@@ -1,4 +1,4 @@
-"""What a fit gives, and the figures by which it is judged."""
+"""Results of fits, and the errors by which they are judged."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ElementFit(Summary):
-    """An element and how well it stands for its data; judge by ``rms``.
+    """Fitted element and its errors; judge by ``rms``.
 
     Attributes
     ----------
@@ -99,7 +99,7 @@ class ElementFit(Summary):
         }
 
     def quality(self) -> dict[str, Any]:
-        """What the element keeps of `to_dict`: its coefficients and its box stand elsewhere in its file."""
+        """Part of `to_dict` that the element stores; coefficients and validity box have their own entries."""
         return {key: value for key, value in self.to_dict().items() if key not in ("parameters", "valid")}
 
 
@@ -158,7 +158,7 @@ class FitResult(ElementFit):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MemoryFit(ElementFit):
-    """A film-memory element and how well it stands for the data; ``rms`` is of all samples together.
+    """Fitted film-memory element and its errors; ``rms`` is of all samples together.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a fit sees: records of one contact, each cut to its window, as one set of samples."""
+"""Samples of a fit: records of one contact, each cut to its window."""
 
 from __future__ import annotations
 

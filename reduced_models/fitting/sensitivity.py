@@ -90,7 +90,7 @@ class Sensitivity(Summary):
 
     @property
     def warning(self) -> str | None:
-        """What to keep in mind of aic and bic, if anything."""
+        """Warning about aic and bic, or None."""
         if self.lag_one <= CORRELATED_FROM:
             return None
         return (

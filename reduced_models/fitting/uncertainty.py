@@ -1,4 +1,4 @@
-"""How well coefficients are known when the residuals of a fit are not independent of each other.
+"""Standard errors and intervals of coefficients with autocorrelated residuals.
 
 What a model misses of a simulated contact is smooth in time, so neighbouring residuals say the same thing. The
 covariance of independent residuals is therefore enlarged by N/N_eff, with the number of independent samples
@@ -22,7 +22,7 @@ CONFIDENCE = 0.95  # of the intervals, as usual
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Uncertainty:
-    """How well the coefficients of a fit are known; arrays in their order."""
+    """Uncertainty of the coefficients of a fit; arrays in their order."""
 
     covariance: NDArray[np.float64]  # enlarged for residuals that hang together
     std_errors: dict[str, float]

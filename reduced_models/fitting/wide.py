@@ -1,4 +1,4 @@
-"""A wide-range element from solves: steady films over the load, impedances at some of the loads."""
+"""Wide-range element from solves: steady films over the load, impedances at some loads."""
 
 from __future__ import annotations
 
