@@ -16,9 +16,9 @@ from reduced_models.elements.film_law import (
     INLET,
     RATE,
     THETA,
+    film_entering,
     film_rest,
     film_step,
-    squeezed,
     static,
 )
 
@@ -170,7 +170,7 @@ def _terms(element: Any, states: _Floats, approach: float, rate: float) -> _Floa
     law = element.law
     theta = static(approach / length, law)[1] ** 0.5
     moved = theta * rate / length * time
-    fed = np.array([moved, moved, squeezed(states[0], law.squeeze)[0], *states[DIRECT - 1 : -1]])
+    fed = np.array([moved, moved, film_entering(states[0], law.inlet_saturation)[0], *states[DIRECT - 1 : -1]])
     clock = np.full(states.size, law.lag_rate)
     clock[: DIRECT - 1] = law.inlet_rate, law.fast_rate
     return np.asarray(clock * (np.abs(fed) + np.abs(states)) / max(theta, LEAST_THETA) / time)

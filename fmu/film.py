@@ -79,7 +79,7 @@ def _macros(element: Film) -> dict[str, str]:
         "LAG_RATE": law.lag_rate,
         "INLET_RATE": law.inlet_rate,
         "FAST_RATE": law.fast_rate,
-        "SQUEEZE": law.squeeze,
+        "INLET_SATURATION": law.inlet_saturation,
         **dict(zip(("SCALE_FORCE", "SCALE_LENGTH", "SCALE_TIME"), element._units, strict=True)),
     }
     counts = {"N_CACHE": 5, "LAGS": element.lags, "CURVE_NODES": law.x.size, "GAIN_ROWS": law.gain_x.size}

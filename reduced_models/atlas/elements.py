@@ -56,7 +56,7 @@ def memory_element(at: Loads, scales: Scales | None) -> FilmMemoryContact:
     return FilmMemoryContact(
         film=film,
         exponent=exponent,
-        squeeze=0.0,
+        inlet_saturation=0.0,
         lag_rate=at.rates.lag_rate,
         inlet_rate=at.rates.inlet_rate,
         fast_rate=at.rates.fast_rate,
@@ -79,7 +79,7 @@ def wide_element(at: Loads, scales: Scales | None) -> WideRangeContact:
         approach=at.approach * at.loads ** (2.0 / 3.0),  # type: ignore[arg-type]
         gain_loads=at.loads,  # type: ignore[arg-type]
         gains=at.gains,  # type: ignore[arg-type]
-        squeeze=0.0,
+        inlet_saturation=0.0,
         lag_rate=at.rates.lag_rate,
         inlet_rate=at.rates.inlet_rate,
         fast_rate=at.rates.fast_rate,

@@ -1,8 +1,8 @@
 """One contact over a step: what its filters make of any motion, once; then the force of the motion that is tried.
 
-The equations are those of `reduced_models.elements.film_law` with squeeze 0. Its filters are then linear in what a
-step brings, the own rate e at its end and the travel t of the approach. `begin` therefore works them out once per
-step, down to three numbers for each of two rows of gains,
+The equations are those of `reduced_models.elements.film_law` without saturation of the inlet. Its filters are then
+linear in what a step brings, the own rate e at its end and the travel t of the approach. `begin` therefore works
+them out once per step, down to three numbers for each of two rows of gains,
 
     m = m_0 + m_e e + m_t t,
 

@@ -67,10 +67,9 @@ def dry_law(kn: float) -> RaceLaw:
 def film_law(elements: Sequence[FilmContact], fade: float = inf) -> RaceLaw:
     """Law of elements in SI that stand for one contact at one speed each, their units of any load."""
     for element in elements:
-        if element.squeeze != 0.0:
-            raise InputError(
-                "squeeze", element.squeeze, "0 in a bearing, whose filters are worked out once per step"
-            )
+        if element.inlet_saturation != 0.0:
+            allowed = "0 in a bearing, whose filters are worked out once per step"
+            raise InputError("inlet_saturation", element.inlet_saturation, allowed)
     nodes = np.unique(np.concatenate([element.law.x + log(scales_of(element).force) for element in elements]))
     x = _lengthened(nodes[np.append(True, np.diff(nodes) > ALIKE)], elements)
     rows = [_rows(element, x) for element in elements]

@@ -49,7 +49,7 @@ class FilmContact(ContactElement):
     lag_rate: float
     inlet_rate: float
     fast_rate: float
-    squeeze: float
+    inlet_saturation: float
     scales: Scales | None  # a field of the subclass
     law: FilmLaw
     _state: _Floats
@@ -64,7 +64,7 @@ class FilmContact(ContactElement):
             lag_rate=self.lag_rate,
             inlet_rate=self.inlet_rate,
             fast_rate=self.fast_rate,
-            squeeze=self.squeeze,
+            inlet_saturation=self.inlet_saturation,
         )
         require_rising(law)
         object.__setattr__(self, "law", law)
@@ -79,7 +79,8 @@ class FilmContact(ContactElement):
     def _check_coefficients(self) -> None:
         for name in ("lag_rate", "inlet_rate", "fast_rate"):
             object.__setattr__(self, name, require_positive(name, getattr(self, name)))
-        object.__setattr__(self, "squeeze", require_nonnegative("squeeze", self.squeeze))
+        saturation = require_nonnegative("inlet_saturation", self.inlet_saturation)
+        object.__setattr__(self, "inlet_saturation", saturation)
 
     @property
     def parameters(self) -> dict[str, Any]:

@@ -48,7 +48,7 @@ class FilmLaw(NamedTuple):
     lag_rate: float
     inlet_rate: float
     fast_rate: float
-    squeeze: float  # beta
+    inlet_saturation: float  # beta
 
 
 @jit_exact
@@ -155,8 +155,8 @@ def _one_lag(old, start, end, bump, rate, span, poisson, share):
 
 
 @jit_exact
-def squeezed(s, beta):
-    """phi(s) and its derivative."""
+def film_entering(s, beta):
+    """phi(s), the film that enters the chain, and its derivative."""
     b = beta * s
     d = 1.0 + abs(b)
     return s + b * s / d, 1.0 + b * (1.0 + d) / (d * d)
@@ -165,7 +165,7 @@ def squeezed(s, beta):
 @jit_exact
 def _made(s, beta):
     """Phi of a jet."""
-    x, slope = squeezed(s.x, beta)
+    x, slope = film_entering(s.x, beta)
     return through(x, slope, s)
 
 
@@ -223,9 +223,9 @@ def film_step(law, old, new, dt, u, v):
     # the film made: its ends, and a bump that keeps its mean, which the balance of the inlet lag gives
     mean = (travel.x - (s.x - old[INLET]) / p) / span.x
     entered = Jet(mean, (travel.u - s.u / p - mean * span.u) / span.x, -s.v / (p * span.x))
-    f0 = squeezed(old[INLET], law.squeeze)[0]
-    f, f_s = squeezed(s.x, law.squeeze)
-    hump = minus(_made(entered, law.squeeze), _made(half(old[INLET], s), law.squeeze))
+    f0 = film_entering(old[INLET], law.inlet_saturation)[0]
+    f, f_s = film_entering(s.x, law.inlet_saturation)
+    hump = minus(_made(entered, law.inlet_saturation), _made(half(old[INLET], s), law.inlet_saturation))
 
     between, x_u = _between(x, law), 1.5 * g.u / g.x
     m = _weighed(0, end, law, between, x_u)
@@ -295,7 +295,7 @@ def film_rates(law, states, u, v, rates):
     i = theta * v
     rates[0] = law.inlet_rate * (i - states[0]) / theta
     rates[1] = law.fast_rate * (i - states[1]) / theta
-    fed = squeezed(states[0], law.squeeze)[0]
+    fed = film_entering(states[0], law.inlet_saturation)[0]
     for k in range(DIRECT - 1, states.size):
         rates[k] = law.lag_rate * (fed - states[k]) / theta
         fed = states[k]

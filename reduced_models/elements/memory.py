@@ -48,7 +48,7 @@ class FilmMemoryContact(FilmContact):
         Static film at the reference load, 1 minus the static approach; > 0.
     exponent : float
         How it thins with the load; at least `film_curve.LEAST_EXPONENT`.
-    squeeze : float
+    inlet_saturation : float
         beta of phi, >= 0: film that a vibrating inlet makes on average.
     lag_rate, inlet_rate, fast_rate : float
         Rates nu, p_i and p_f of the filters, > 0.
@@ -67,7 +67,7 @@ class FilmMemoryContact(FilmContact):
 
     film: float
     exponent: float
-    squeeze: float
+    inlet_saturation: float
     lag_rate: float
     inlet_rate: float
     fast_rate: float
@@ -77,7 +77,7 @@ class FilmMemoryContact(FilmContact):
     scales: Scales | None = field(default=None, kw_only=True)
 
     kind = "memory"
-    parameter_names = ("film", "exponent", "squeeze", "lag_rate", "inlet_rate", "fast_rate", "gains")
+    parameter_names = ("film", "exponent", "inlet_saturation", "lag_rate", "inlet_rate", "fast_rate", "gains")
     tables = ("gains",)
     beyond: ClassVar[Mapping[str, str]] = {
         "motion": "it is for motion about one load: a WideRangeContact (model 'wide') is made for every load"

@@ -35,7 +35,7 @@ class WideRangeContact(FilmContact):
     gains : sequence of k rows
         Viscous, inlet and fast gain, then one for every lag, in the units of that row's load
         (`reduced_models.elements.film_response.fit_gains`).
-    squeeze, lag_rate, inlet_rate, fast_rate
+    inlet_saturation, lag_rate, inlet_rate, fast_rate
         As for `FilmMemoryContact`, the same at every load in that load's own units.
     low, high, rate, load_range, omega_range, units, scales, fit, source
         As for `FilmMemoryContact`; `low` and `high` are the ends of `approach` by default.
@@ -50,7 +50,7 @@ class WideRangeContact(FilmContact):
     approach: tuple[float, ...]
     gain_loads: tuple[float, ...]
     gains: tuple[tuple[float, ...], ...]
-    squeeze: float
+    inlet_saturation: float
     lag_rate: float
     inlet_rate: float
     fast_rate: float
@@ -60,7 +60,7 @@ class WideRangeContact(FilmContact):
 
     kind = "wide"
     parameter_names = (
-        "loads", "approach", "gain_loads", "gains", "squeeze", "lag_rate", "inlet_rate", "fast_rate"
+        "loads", "approach", "gain_loads", "gains", "inlet_saturation", "lag_rate", "inlet_rate", "fast_rate"
     )  # fmt: skip
     tables = ("loads", "approach", "gain_loads", "gains")
 

@@ -33,11 +33,11 @@ FOLDS = 3  # parts of the data, each of which cross-validation leaves out once
 FORCE_WEIGHT = 0.01  # RMS error of a record over its spread that counts like 5 % of C
 WEIGHTS = {"damping": WEIGHT_C, "stiffness": WEIGHT_K, "force": FORCE_WEIGHT}  # errors that count alike
 
-# Search for rates (per time of the contact) and squeeze term.
+# Search for rates (per time of the contact) and saturation of the inlet.
 TRANSIT_TIME = 1.6  # start: time in which the chain carries the film through
 RATE_STARTS = ((30.0, 60.0), (200.0, 80.0))  # of inlet and fast rate; the better of two minima is taken
-SQUEEZE_START = 0.25
-SEARCH_LIMITS = ((0.5, 200.0), (2.0, 300.0), (5.0, 1000.0), (0.0, 20.0))  # of lag, inlet and fast rate, squeeze
+SATURATION_START = 0.25
+SEARCH_LIMITS = ((0.5, 200.0), (2.0, 300.0), (5.0, 1000.0), (0.0, 20.0))  # of lag, inlet, fast rate, saturation
 SEARCH: dict[str, Any] = {"diff_step": 1e-3, "max_nfev": 30}  # steps of differences on logs of rates; rounds
 SEARCH_TOLERANCE = 1e-4  # of the cost and of the logs, relative: a hundredth of a per cent of a rate
 
@@ -147,7 +147,7 @@ def fit_memory(
     """Fit one element to the impedance of a contact and to records of its motion, whole and from rest.
 
     The static curve follows from approach and static tangent; the gains from linear least squares in every step
-    (variable projection); the rates and the squeeze term from what is left. Relative errors of 5 % in C, 1 % in
+    (variable projection); rates and inlet saturation from what is left. Relative errors of 5 % in C, 1 % in
     K (each RMS over the frequencies) and 1 % of the spread of the force of each record count alike.
 
     Parameters
@@ -233,13 +233,13 @@ def cross_validate(target: Target, lags: int) -> float:
 
 
 def _solve(target: Target, lags: int) -> tuple[FilmMemoryContact, GainFit]:
-    """Nonlinear least squares over logs of the rates and the squeeze term, gains projected out."""
+    """Nonlinear least squares over logs of the rates and the inlet saturation, gains projected out."""
 
     def parts(p: _Floats) -> tuple[FilmMemoryContact, GainFit]:
         rates = FilterRates(lags, *(float(value) for value in np.exp(p[:3])))
         gains = fit_gains(rates, target.Omega, target.stiffness, target.damping, target.static)
-        squeeze = float(p[3]) if target.records else 0.0
-        return _element(target, rates, gains, squeeze), gains
+        inlet_saturation = float(p[3]) if target.records else 0.0
+        return _element(target, rates, gains, inlet_saturation), gains
 
     def residuals(p: _Floats) -> _Floats:
         element, gains = parts(p)
@@ -254,17 +254,17 @@ def _solve(target: Target, lags: int) -> tuple[FilmMemoryContact, GainFit]:
     tolerances = {"xtol": SEARCH_TOLERANCE, "ftol": SEARCH_TOLERANCE}
     solutions = []
     for inlet, fast in RATE_STARTS:
-        start = np.array([np.log(lags / TRANSIT_TIME), np.log(inlet), np.log(fast), SQUEEZE_START])
+        start = np.array([np.log(lags / TRANSIT_TIME), np.log(inlet), np.log(fast), SATURATION_START])
         solutions.append(least_squares(residuals, start, bounds=(lower, upper), **tolerances, **SEARCH))
     return parts(min(solutions, key=lambda solution: solution.cost).x)
 
 
-def _element(target: Target, rates: FilterRates, gains: GainFit, squeeze: float) -> FilmMemoryContact:
+def _element(target: Target, rates: FilterRates, gains: GainFit, inlet_saturation: float) -> FilmMemoryContact:
     film, exponent = target.film
     return FilmMemoryContact(
         film=film,
         exponent=exponent,
-        squeeze=squeeze,
+        inlet_saturation=inlet_saturation,
         lag_rate=rates.lag_rate,
         inlet_rate=rates.inlet_rate,
         fast_rate=rates.fast_rate,

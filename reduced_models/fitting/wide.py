@@ -54,8 +54,8 @@ def wide_range_contact(
     lags : int
         Length of the chain, where `memory` does not set it.
     memory : FilmMemoryContact, optional
-        Element fitted at the reference load, whose rates and squeeze term are taken. Without it the rates are
-        fitted to all impedances together and there is no squeeze term.
+        Element fitted at the reference load, whose rates and inlet saturation are taken. Without it the rates are
+        fitted to all impedances together and the inlet does not saturate.
     source : dict, optional
         Kept in the file.
 
@@ -72,9 +72,9 @@ def wide_range_contact(
         raise InputError("number of responses", len(responses), f"one per load of gain_loads, {places.size}")
     u = np.asarray(approach, float) * at ** (2.0 / 3.0)
     if memory is not None:
-        rates, squeeze = memory.rates, memory.squeeze
+        rates, inlet_saturation = memory.rates, memory.inlet_saturation
     else:
-        rates, squeeze = _common_rates(responses, lags), 0.0
+        rates, inlet_saturation = _common_rates(responses, lags), 0.0
     gains = [fit_gains(rates, r.Omega, r.stiffness, r.damping, _static(r)).gains.tolist() for r in responses]
     bands = [(float(np.min(r.Omega)), float(np.max(r.Omega))) for r in responses]
     return WideRangeContact(
@@ -82,7 +82,7 @@ def wide_range_contact(
         approach=u,  # type: ignore[arg-type]
         gain_loads=places,  # type: ignore[arg-type]
         gains=gains,  # type: ignore[arg-type]
-        squeeze=squeeze,
+        inlet_saturation=inlet_saturation,
         lag_rate=rates.lag_rate,
         inlet_rate=rates.inlet_rate,
         fast_rate=rates.fast_rate,

@@ -30,7 +30,7 @@ BOX = {"low": 0.75, "high": 1.0, "rate": 1.2, "load_range": (0.8, 1.2), "omega_r
 POLYNOMIAL = PolynomialContact(0.806, 0.004, 0.346, 0.002, 0.054, -0.001, 0.010, **BOX)
 POWER = PowerLawContact(0.95, 1.7, 0.15, -0.05, 0.013, **BOX)
 # As they come out of the atlas at M = 200, L = 10, kappa = 0.5, in round numbers.
-FILTERS = {"squeeze": 0.25, "lag_rate": 5.4, "inlet_rate": 33.0, "fast_rate": 60.0}
+FILTERS = {"inlet_saturation": 0.25, "lag_rate": 5.4, "inlet_rate": 33.0, "fast_rate": 60.0}
 GAINS = (0.001, 0.002, 0.005, 0.013, 0.0, 0.009, 0.011, 0.0, 0.0, 0.0, 0.021)
 LOADS = np.array([0.005, 0.02, 0.1, 0.3, 1.0, 3.0])
 CURVE = LOADS ** (2.0 / 3.0) - [0.0649, 0.0659, 0.0626, 0.0574, 0.0499, 0.0400]

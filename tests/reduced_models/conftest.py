@@ -31,7 +31,7 @@ def memory():
     return FilmMemoryContact(
         film=0.129,
         exponent=0.13,
-        squeeze=0.25,
+        inlet_saturation=0.25,
         lag_rate=5.4,
         inlet_rate=33.0,
         fast_rate=60.0,

@@ -130,7 +130,7 @@ def _memory(fitted: ElementFit) -> list[tuple[str, str, str]]:
             numeral(p["film"], 5),
             f"of the dry Hertz approach, at rest; thins like load^-{numeral(p['exponent'], 3)}",
         ),
-        ("squeeze", numeral(p["squeeze"]), "film that a vibrating inlet makes on average"),
+        ("inlet saturation", numeral(p["inlet_saturation"]), "film that a vibrating inlet makes on average"),
         (
             "rates",
             ", ".join(numeral(p[key]) for key in ("lag_rate", "inlet_rate", "fast_rate")),

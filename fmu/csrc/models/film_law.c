@@ -66,9 +66,9 @@ static Jet one_lag(double old, double start, Jet end, Jet bump, double rate, Jet
     return through3(value, slope * rate, span, r[0] - r[1], end, 6.0 * (r[1] - r[2]), bump);
 }
 
-double film_squeezed(double s, double *slope)
+double film_entering(double s, double *slope)
 {
-    const double b = SQUEEZE * s, d = 1.0 + fabs(b);
+    const double b = INLET_SATURATION * s, d = 1.0 + fabs(b);
     *slope = 1.0 + b * (1.0 + d) / (d * d);
     return s + b * s / d;
 }
@@ -77,7 +77,7 @@ double film_squeezed(double s, double *slope)
 static Jet made(Jet s)
 {
     double slope;
-    const double x = film_squeezed(s.x, &slope);
+    const double x = film_entering(s.x, &slope);
     return through(x, slope, s);
 }
 
@@ -206,8 +206,8 @@ void film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double d
     double f0, f, f_s, ignored, by_gain;
     Chain chain;
     Jet hump, m, w;
-    f0 = film_squeezed(before[INLET], &ignored);
-    f = film_squeezed(s.x, &f_s);
+    f0 = film_entering(before[INLET], &ignored);
+    f = film_entering(s.x, &f_s);
     hump = minus(made(entered), made(half(before[INLET], s)));
     chain = advance_chain(before, after, LAG_RATE * span.x, f0, f, hump.x, &b);
     m = weighed(VISCOUS, end, &b, x_u);
@@ -311,7 +311,7 @@ void film_rates(const double states[FILM_RATES], const Rest *rest, double v, dou
     int k;
     rates[0] = INLET_RATE * (i - states[0]) / unit;
     rates[1] = FAST_RATE * (i - states[1]) / unit;
-    fed = film_squeezed(states[0], &ignored);
+    fed = film_entering(states[0], &ignored);
     for (k = 2; k < FILM_RATES; k++) {
         rates[k] = LAG_RATE * (fed - states[k]) / unit;
         fed = states[k];
@@ -328,7 +328,7 @@ void film_rates_along(const double states[FILM_RATES], const Rest *rest, double 
     int k;
     change[0] = INLET_RATE * ((di - along[0]) - (i - states[0]) * dunit) / unit;
     change[1] = FAST_RATE * ((di - along[1]) - (i - states[1]) * dunit) / unit;
-    fed = film_squeezed(states[0], &slope);
+    fed = film_entering(states[0], &slope);
     dfed = slope * along[0];
     for (k = 2; k < FILM_RATES; k++) {
         change[k] = LAG_RATE * ((dfed - along[k]) - (fed - states[k]) * dunit) / unit;

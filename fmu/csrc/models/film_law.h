@@ -54,6 +54,6 @@ void film_rates_along(const double states[FILM_RATES], const Rest *rest, double 
                       const double along[FILM_RATES], double change[FILM_RATES]);
 
 /* phi(s) and its slope. */
-double film_squeezed(double s, double *slope);
+double film_entering(double s, double *slope);
 
 #endif

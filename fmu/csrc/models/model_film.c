@@ -182,8 +182,8 @@ static int walk(const Motion *motion, double h, int parts, double first[FILM_SIZ
 static double unevenness(const double before[FILM_SIZE], const double after[FILM_SIZE])
 {
     const double ratio = fabs(after[THETA] / before[THETA] - 1.0);
-    const double squeeze = SQUEEZE * fabs(after[INLET] - before[INLET]);
-    return ratio > squeeze ? ratio : squeeze;
+    const double bend = INLET_SATURATION * fabs(after[INLET] - before[INLET]);
+    return ratio > bend ? ratio : bend;
 }
 
 Fault model_step(Model *m, const Motion *motion, double h, double tolerance)

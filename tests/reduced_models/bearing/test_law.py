@@ -104,8 +104,8 @@ def test_between_speeds_films_grow_as_they_should(film):
 
 
 def test_films_that_squeeze_are_refused(film):
-    with pytest.raises(InputError, match=r"squeeze = 0.2: must be 0"):
-        film_law([replace(film.element("inner", 3000.0), squeeze=0.2)])
+    with pytest.raises(InputError, match=r"inlet_saturation = 0.2: must be 0"):
+        film_law([replace(film.element("inner", 3000.0), inlet_saturation=0.2)])
 
 
 def test_fading():

@@ -27,7 +27,7 @@ from reduced_models.elements.spring import MemorylessContact
 
 BOX = {"low": 0.75, "high": 1.0, "rate": 1.2, "load_range": (0.8, 1.2), "omega_range": (3.0, 6.0)}
 BOX |= {"fit": {"rms": 0.01}, "source": {"n": 64}}
-FILTERS = {"squeeze": 0.25, "lag_rate": 5.4, "inlet_rate": 33.0, "fast_rate": 60.0}
+FILTERS = {"inlet_saturation": 0.25, "lag_rate": 5.4, "inlet_rate": 33.0, "fast_rate": 60.0}
 GAINS = (0.001, 0.002, 0.005, 0.013, 0.0, 0.009, 0.011, 0.0, 0.0, 0.0, 0.021)
 LOADS = np.array([0.005, 0.02, 0.1, 0.3, 1.0, 3.0])
 CURVE = LOADS ** (2.0 / 3.0) - [0.0649, 0.0659, 0.0626, 0.0574, 0.0499, 0.0400]

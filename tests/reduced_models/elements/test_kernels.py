@@ -15,7 +15,7 @@ VISCOUS = PolynomialContact(0.806, 0.004, 0.346, 0.0, 0.054, 0.0, 0.0, **BOX).la
 POWER = PowerLawContact(0.95, 1.7, 0.15, -0.05, 0.013, **BOX).law
 FILM = WideRangeContact(
     (0.1, 1.0, 3.0), (0.15, 0.95, 2.04), (0.3, 2.0), ((0.02, 0.01, 0.05, 0.2, 0.1), (0.01, 0.0, 0.03, 0.1, 0.05)),
-    squeeze=0.2, lag_rate=2.5, inlet_rate=20.0, fast_rate=60.0,
+    inlet_saturation=0.2, lag_rate=2.5, inlet_rate=20.0, fast_rate=60.0,
 ).law  # fmt: skip
 A, B, C = jet.Jet(2.0, 0.3, -0.7), jet.Jet(1.5, -0.2, 0.4), jet.Jet(0.8, 0.1, 0.9)
 POINTS = np.array([-0.3, 0.4, 0.74, 0.8, 0.99, 1.3])
@@ -53,7 +53,7 @@ CASES = {
         "_residence": [(mu, 4, np.zeros(5), np.zeros(5)) for mu in (0.1, 2.0, 9.0)],
         "_moments": [(j, 0.4, POISSON, SHARE) for j in (1, 3)],
         "_one_lag": [(0.1, 0.2, A, B, 3.0, C, np.zeros(6), np.zeros(6))],
-        "squeezed": [(0.3, 0.2), (-0.3, 0.2)],
+        "film_entering": [(0.3, 0.2), (-0.3, 0.2)],
         "_made": [(A, 0.2)],
         "_passed_on": [(j, STATE, POISSON) for j in (1, 2)],
         "_between": [(x, FILM) for x in (-9.0, 0.3, 4.0)],

@@ -53,7 +53,7 @@ def test_wrong_files_name_the_entry(memory, tmp_path, section, key, value, messa
     [
         ({"film": 0.0}, "film"),
         ({"exponent": 0.0}, "exponent"),
-        ({"squeeze": -0.1}, "squeeze"),
+        ({"inlet_saturation": -0.1}, "inlet_saturation"),
         ({"inlet_rate": math.inf}, "inlet_rate"),
         ({"gains": (0.1, 0.1, 0.1)}, "gains"),
         ({"gains": (0.1, math.nan, 0.1, 0.1)}, "gains"),

@@ -26,7 +26,7 @@ TABLES = {
     "gains": tuple(
         tuple(scale * g for g in (0.02, 0.01, 0.05, 0.2, 0.1, 0.1, 0.2)) for scale in (0.4, 0.11, 0.03)
     ),
-    "squeeze": 0.2,
+    "inlet_saturation": 0.2,
     "lag_rate": 2.5,
     "inlet_rate": 20.0,
     "fast_rate": 60.0,
@@ -130,7 +130,7 @@ def test_box_is_that_of_its_tables_in_si_too(wide, scales, tmp_path):
         ({"gains": ((0.1, 0.1, 0.1, 0.1), (0.1, 0.1, 0.1), (0.1, 0.1, 0.1))}, "gains"),
         ({"gains": ((0.0, 0.0, 0.0, -0.1),) * 3}, "passive"),
         ({"fast_rate": -1.0}, "fast_rate"),
-        ({"squeeze": inf}, "squeeze"),
+        ({"inlet_saturation": inf}, "inlet_saturation"),
         ({"units": "SI"}, "scales"),
     ],
 )

@@ -51,7 +51,7 @@ def test_cross_validation_chooses_the_order_and_the_impedance_alone_will_do(coar
     monkeypatch.setattr("reduced_models.fitting.memory.CHAIN_LENGTHS", (2, 8))
     result = fit_memory(coarse[0])
     assert result.validation[2] > 1.5 * result.validation[8] and result.element.lags == 8
-    assert result.rms is None and result.element.squeeze == 0.0
+    assert result.rms is None and result.element.inlet_saturation == 0.0
     assert result.element.load_range == (0.9, 1.1)
 
 
