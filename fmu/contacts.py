@@ -114,7 +114,7 @@ def _notes(element: Element) -> tuple[tuple[str, str], ...]:
         lines.append(("Frequencies of the data", frequency_text(element.omega_range, element.units)))
     if element.load_range is not None:
         lines.append(("Forces of the data", text_of(element.load_range)))
-    made = {name: value for name, value in asdict(element.made_for).items() if value is not None}
+    made = {name: value for name, value in asdict(element.design_point).items() if value is not None}
     for label, details in (("Made for", made), ("Fit", element.fit), ("Source", element.source)):
         if details:
             lines.append((label, _flat(details)))

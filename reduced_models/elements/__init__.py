@@ -4,7 +4,7 @@
 |---|---|
 | base | what every element carries: validity box, quality, source, units, file |
 | validity | what the data covered, and the warning for leaving it |
-| made_for | the speed, the oil and the shape of the contact it was made for |
+| design_point | the speed, the oil and the shape of the contact it was made for |
 | file | the JSON file of an element |
 | spring | elements without memory: spring, Hertz ends, damper and clipping in one law |
 | polynomial | `LinearContact`, `CubicContact`, `PolynomialContact` |

@@ -25,8 +25,8 @@ from ehlcontact.checks.frequency import (
 )
 from ehlcontact.errors import InputError
 from ehlcontact.point import Point, Scales
+from reduced_models.elements.design_point import DesignPoint, known_scale, require_own_scales
 from reduced_models.elements.file import UNITS, naming, numbers, read_document, write_document
-from reduced_models.elements.made_for import MadeFor, known_scale, require_own_scales
 from reduced_models.elements.summary import ElementSummary
 from reduced_models.elements.validity import Band, OutsideValidityWarning, Validity
 
@@ -52,7 +52,7 @@ class ContactElement(ElementSummary, _Common, ABC):
     Approach in units of the dry Hertz approach or m, rate in its time derivative, force in units of the static
     load or N: see ``units``.
 
-    ``validity`` holds what the data covered, ``made_for`` the speed and the oil. Whoever moves the element outside
+    ``validity`` holds what the data covered, ``design_point`` the speed and the oil. Whoever moves the element outside
     the box (`advance`, `state_rates`, ``force`` of single values, `simulate_oscillator`, `simulate_rotor`), at a
     frequency outside its band, or for another contact (`check`), is told, once per element and reason. Tangents,
     the spring and arrays are questions, which may be asked anywhere.
@@ -262,19 +262,19 @@ class ContactElement(ElementSummary, _Common, ABC):
         Parameters
         ----------
         point : MoesPoint or OperatingPoint, optional
-            Contact that it shall stand for: another speed, oil or shape than those of ``made_for`` (by more than a
+            Contact that it shall stand for: another speed, oil or shape than those of ``design_point`` (by more than a
             twentieth) is told, and a static load outside ``load_range``.
         **frequency
             Of the motion, as of a rotor's speed; named as for `impedance`.
         """
         force: list[float] = []
         if point is not None:
-            said = self.made_for.differences(point)
+            said = self.design_point.differences(point)
             if said and "point" not in self._told:
                 self._tell({"point"})
                 message = f"{type(self).__name__} used for another contact than it was made for: {', '.join(said)}"
                 warnings.warn(message, OutsideValidityWarning, stacklevel=stacklevel)
-            load, unit = self.made_for.load_of(point), self._known("force") if self.units == "SI" else 1.0
+            load, unit = self.design_point.load_of(point), self._known("force") if self.units == "SI" else 1.0
             if load is not None and unit is not None and not said:
                 force = [load * unit]
         self.warn_outside(force=force, stacklevel=stacklevel, **frequency)
@@ -292,9 +292,9 @@ class ContactElement(ElementSummary, _Common, ABC):
             object.__setattr__(self, "_reach", UNWATCHED)
 
     @property
-    def made_for(self) -> MadeFor:
+    def design_point(self) -> DesignPoint:
         """Speed, oil and shape of the contact that it was made for, as far as its source tells."""
-        return MadeFor.of(self.source, self.units == "SI")
+        return DesignPoint.of(self.source, self.units == "SI")
 
     def _frequencies(self, **frequency: Unpack[Frequency]) -> NDArray[np.float64]:
         """Angular frequencies in the units of the element, shape (k,)."""

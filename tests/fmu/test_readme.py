@@ -32,7 +32,7 @@ def test_it_runs_and_has_the_damping_of_its_speed(snippet, capsys):
     answer = Atlas().at(point)
     assert pytest.approx(answer.impedance(rpm=3000).si.damping, rel=1e-6) == si.C1
     assert si.is_valid(si.approach_at(486.0), rpm=3000) and not si.is_valid(si.approach_at(486.0), hz=25e3)
-    assert si.made_for.u_sum == pytest.approx(point.u_sum)
+    assert si.design_point.u_sum == pytest.approx(point.u_sum)
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     said = float(re.search(r"that of the rotor's speed, (\d+) N s/m", text)[1])
     assert said == pytest.approx(si.C1, abs=0.5)

@@ -32,7 +32,7 @@ def require_own_scales(scales: Scales, source: Mapping[str, Any] | None) -> None
 
 
 @dataclass(frozen=True)
-class MadeFor:
+class DesignPoint:
     """Speed, oil and shape of the contact that an element was made for; None where its source does not say.
 
     Attributes

@@ -19,7 +19,7 @@ from reduced_models import (
 )
 from reduced_models.atlas.elements import damper_band
 from reduced_models.atlas.frequency import Between
-from reduced_models.elements.made_for import MadeFor
+from reduced_models.elements.design_point import DesignPoint
 
 RACE = {"ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3, "conformity": 0.52}
 OIL = Lubricant(0.037, 2e-8)
@@ -45,13 +45,13 @@ def element(atlas, request):
 
 
 def test_speed_and_oil_are_known_in_si_without_dimensions_and_from_the_file(element, atlas, tmp_path):
-    made = element.made_for
+    made = element.design_point
     assert made.u_sum == pytest.approx(POINT.u_sum) and (made.eta0, made.alpha) == (0.037, 2e-8)
-    assert load_element(element.save(tmp_path / "e.json")).made_for == made
+    assert load_element(element.save(tmp_path / "e.json")).design_point == made
     plain = atlas.element(POINT.moes, "memory")
-    assert plain.made_for == replace(made, u_sum=None)
-    assert plain.to_si(POINT.scales).made_for.u_sum == pytest.approx(POINT.u_sum)
-    assert replace(element, source=None, units=element.units).made_for == MadeFor()
+    assert plain.design_point == replace(made, u_sum=None)
+    assert plain.to_si(POINT.scales).design_point.u_sum == pytest.approx(POINT.u_sum)
+    assert replace(element, source=None, units=element.units).design_point == DesignPoint()
 
 
 @pytest.mark.parametrize(
