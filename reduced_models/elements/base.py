@@ -52,10 +52,10 @@ class ContactElement(ElementSummary, _Common, ABC):
     Approach in units of the dry Hertz approach or m, rate in its time derivative, force in units of the static
     load or N: see ``units``.
 
-    ``validity`` holds what the data covered, ``design_point`` the speed and the oil. Whoever moves the element outside
-    the box (`advance`, `state_rates`, ``force`` of single values, `simulate_oscillator`, `simulate_rotor`), at a
-    frequency outside its band, or for another contact (`check`), is told, once per element and reason. Tangents,
-    the spring and arrays are questions, which may be asked anywhere.
+    ``validity`` holds what the data covered, ``design_point`` the speed and the oil. Motion outside the box
+    (`advance`, `state_rates`, ``force`` of single values, `simulate_oscillator`, `simulate_rotor`), at a frequency
+    outside the band, or use for another contact (`check`) is warned of once per element and reason. Tangents, the
+    spring and arrays are evaluated anywhere without a warning.
 
     Parameters
     ----------
@@ -262,8 +262,8 @@ class ContactElement(ElementSummary, _Common, ABC):
         Parameters
         ----------
         point : MoesPoint or OperatingPoint, optional
-            Contact that it shall stand for: another speed, oil or shape than those of ``design_point`` (by more than a
-            twentieth) is told, and a static load outside ``load_range``.
+            Contact that it shall stand for: a speed, oil or shape that differs by more than a twentieth from
+            ``design_point`` is warned of, and a static load outside ``load_range``.
         **frequency
             Of the motion, as of a rotor's speed; named as for `impedance`.
         """
