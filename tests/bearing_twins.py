@@ -28,8 +28,8 @@ def lags_after(held, rate, start, mean, end, span):
 class SlowContact:
     """One contact with memory in SI, from the element alone; `law` only lends the fade of unloaded films."""
 
-    def __init__(self, element, fade=np.inf):
-        self.law, self.scales, self.fade = element.law, element.scales, fade
+    def __init__(self, element, cutoff_gap=np.inf):
+        self.law, self.scales, self.cutoff_gap = element.law, element.scales, cutoff_gap
         self.u = self.v = self.own = self.s = self.y = 0.0
         self.q = np.zeros(element.lags)
 
@@ -48,7 +48,7 @@ class SlowContact:
         return self._force(self.g(u)[1], u)
 
     def _force(self, w, u):
-        t = min(max(-2.0 * u / self.fade - 1.0, 0.0), 1.0)
+        t = min(max(-2.0 * u / self.cutoff_gap - 1.0, 0.0), 1.0)
         force = self.scales.force * (w / self.scales.length) ** 1.5 if w > 0.0 else 0.0
         return force * (1.0 - t * t * (3.0 - 2.0 * t))
 

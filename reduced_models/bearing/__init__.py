@@ -6,8 +6,8 @@
 | catalogue | dimensions by name, with their sources |
 | kinematics | cage, balls and defect frequencies |
 | race | one contact and its law at a speed; the one place that asks the atlas |
-| law | compiled: static curve of a race, tabulated over approach and speed, and its gains |
-| contact | compiled: one contact over a step, its filters once, its force as often as asked |
+| race_table | compiled: static force and memory gains of a race, tabulated over approach and speed |
+| contact | compiled: one contact over a step: filters once per step, force and tangents per iteration |
 | balls | compiled: all balls, two contacts in series on each, as one force with tangents |
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
 | equilibrium | springs under a load; the ring of a bearing on its balls: `ring_equilibrium` |

@@ -44,9 +44,9 @@ from reduced_models.bearing.kinematics import (
     cage_ratio,
     rolling_radius,
 )
-from reduced_models.bearing.law import dry_law, film_law
 from reduced_models.bearing.loss import loss_of, require_loss_factor
 from reduced_models.bearing.race import RACES, Race, films_under, race_of, require_roughness
+from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
 from reduced_models.bearing.state import BearingState
 from reduced_models.bearing.summary import BearingSummary
 from reduced_models.elements.kinds import WideRangeContact
@@ -302,7 +302,9 @@ class BallBearing(BearingSummary):
         force, speed = radial_load(load), self.speed(speed_rpm)
         w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
         standings, kernel = self.standings(force, speed, cage_angle), self.kernel(speed)
-        mean = np.mean([impedances(kernel, self.turn(speed), standing, w) for standing in standings], axis=0)
+        mean = np.mean(
+            [impedances(kernel, self.speed_state(speed), standing, w) for standing in standings], axis=0
+        )
         return BearingCoefficients.of(force, speed, cage_angle, w, mean, standings)
 
     def standings(
@@ -354,7 +356,7 @@ class BallBearing(BearingSummary):
         return bearing_element(self, node, speeds_rpm, load, frequency, **options)
 
     def _stand(self, load: _Floats, speed: float, angle: float) -> RingEquilibrium:
-        standing = ring_equilibrium(self.kernel(speed), self.turn(speed), load, angle)
+        standing = ring_equilibrium(self.kernel(speed), self.speed_state(speed), load, angle)
         if self.oil is not None:
             for name, most in zip(RACES, standing.force.max(axis=0).tolist(), strict=True):
                 highest = self.race(name).loads(speed)[1]
@@ -366,16 +368,16 @@ class BallBearing(BearingSummary):
                     )
         return standing
 
-    def turn(self, speed_rpm: float) -> SpeedState:
+    def speed_state(self, speed_rpm: float) -> SpeedState:
         """Films, cage and centrifugal force at a speed, as the kernels have them."""
         speed = self.speed(speed_rpm)
         return speed_state(self.kernel(speed), speed * RADIANS)
 
     def _law(self, race: str, speeds: _Floats) -> Any:
         if self.oil is None:
-            return dry_law(self.race(race).kn)
+            return tabulate_dry_race(self.race(race).kn)
         limit = inf if self.film_limit is None else self.film_limit
-        return film_law([self.element(race, speed) for speed in speeds.tolist()], limit)
+        return tabulate_race([self.element(race, speed) for speed in speeds.tolist()], limit)
 
     def speed(self, speed_rpm: float) -> float:
         """The speed [rev/min] where the bearing can run at it; raises `InputError` where not."""

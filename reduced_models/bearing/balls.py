@@ -20,9 +20,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.jit import jit_exact_loop, jit_exact_node
-from reduced_models.bearing.contact import Films, accept, begin, new_films, press, still
-from reduced_models.bearing.law import RaceLaw
+from reduced_models.bearing.contact import (
+    APPROACH,
+    BY_DELTA,
+    BY_RATE,
+    PLACE,
+    PLACE_BEFORE,
+    PLACE_HISTORY,
+    PLACE_NOW,
+    RATE_BEFORE,
+    RATE_HISTORY,
+    RATE_NOW,
+    TRIED_DELTA,
+    TRIED_RATE,
+    Films,
+    accept,
+    begin,
+    new_films,
+    press,
+    still,
+)  # fmt: skip
 from reduced_models.bearing.loss import Loss, accept_seat, begin_seat, hold_still, press_seat, rest_seat
+from reduced_models.bearing.race_table import RaceForceTable
 from reduced_models.elements.film_law import DIRECT
 
 _Floats = NDArray[np.float64]
@@ -38,8 +57,8 @@ FILM_GROWTH = 0.67  # of the film with speed (Hamrock and Dowson 1977): between 
 class Balls(NamedTuple):
     """What the kernels know of a bearing. Angular speeds in rad/s."""
 
-    inner: RaceLaw
-    outer: RaceLaw
+    inner: RaceForceTable
+    outer: RaceForceTable
     number: int
     half_clearance: float  # m
     cage: float  # speed of the cage over that of the shaft
@@ -53,7 +72,7 @@ class Balls(NamedTuple):
 class SpeedState(NamedTuple):
     """One speed of the shaft."""
 
-    spin: tuple[int, float]  # row of the laws, and weight of the next
+    speed_row: tuple[int, float]  # row of the laws, and weight of the next
     inner: float  # 2a/u_sum over sqrt(g) [s/m^0.5]
     outer: float
     cage: float  # rad/s
@@ -91,14 +110,14 @@ def directions(balls, angle, normals):
 
 
 @jit_exact_loop
-def begin_step(balls, turn, dt, films):
+def begin_step(balls, at_speed, dt, films):
     """Begin a step of length `dt`, as long as the one before; returns the gain from w to its rate (BDF 2)."""
     for k in range(balls.number):
-        now, before = films.w[k, 2], films.w[k, 3]
-        films.w[k, 1] = (4.0 * now - before) / 3.0
-        films.w[k, 8] = (4.0 * films.w[k, 9] - films.w[k, 10]) / 3.0
-        begin(balls.inner, turn.inner, turn.spin, dt, films, 2 * k)
-        begin(balls.outer, turn.outer, turn.spin, dt, films, 2 * k + 1)
+        ball = films.balls[k]
+        ball[PLACE_HISTORY] = (4.0 * ball[PLACE_NOW] - ball[PLACE_BEFORE]) / 3.0
+        ball[RATE_HISTORY] = (4.0 * ball[RATE_NOW] - ball[RATE_BEFORE]) / 3.0
+        begin(balls.inner, at_speed.inner, at_speed.speed_row, dt, films, 2 * k)
+        begin(balls.outer, at_speed.outer, at_speed.speed_row, dt, films, 2 * k + 1)
     begin_seat(balls.loss, dt, films.seat)
     return 1.5 / dt
 
@@ -112,25 +131,27 @@ def begin_rest(films):
 
 
 @jit_exact_node
-def _ball(balls, turn, films, k, delta, rate, gain):
+def _ball(balls, at_speed, films, k, delta, rate, gain):
     """Balance ball `k`; returns the force on the ring and its derivatives by delta and by the rate of delta."""
-    history, last, heavy = films.w[k, 1], films.w[k], balls.inertia * gain
-    w = last[0] + last[6] * (delta - last[4]) + last[7] * (rate - last[5])
+    ball, heavy = films.balls[k], balls.inertia * gain
+    history = ball[PLACE_HISTORY]
+    w = ball[PLACE] + ball[BY_DELTA] * (delta - ball[TRIED_DELTA]) + ball[BY_RATE] * (rate - ball[TRIED_RATE])
     low, high, reach = -inf, inf, FIRST_STEP
     for _ in range(MOST_STEPS):
         v = gain * (w - history)
-        fi, ki, di = press(balls.inner, turn.inner, turn.spin, films, 2 * k, delta - w, rate - v)
-        fo, ko, do = press(balls.outer, turn.outer, turn.spin, films, 2 * k + 1, w, v)
+        fi, ki, di = press(balls.inner, at_speed.inner, at_speed.speed_row, films, 2 * k, delta - w, rate - v)
+        fo, ko, do = press(balls.outer, at_speed.outer, at_speed.speed_row, films, 2 * k + 1, w, v)
         inner, held = ki + gain * di, ko + gain * do
         outer = held + heavy * gain
-        balance, tangent = fo + heavy * (v - last[8]) - fi - turn.centrifugal, inner + outer
-        if abs(balance) <= NEARLY * (1.0 + fo + fi + turn.centrifugal):
+        balance, tangent = fo + heavy * (v - ball[RATE_HISTORY]) - fi - at_speed.centrifugal, inner + outer
+        if abs(balance) <= NEARLY * (1.0 + fo + fi + at_speed.centrifugal):
             if tangent > 0.0:
                 step = -balance / tangent
                 w, fi, fo = w + step, fi - inner * step, fo + held * step
-                last[6], last[7] = ki / tangent, di / tangent
+                ball[BY_DELTA], ball[BY_RATE] = ki / tangent, di / tangent
                 ki, di = ki * outer / tangent, di * outer / tangent
-            last[0], last[4], last[5], films.force[k, 0], films.force[k, 1] = w, delta, rate, fi, fo
+            ball[PLACE], ball[TRIED_DELTA], ball[TRIED_RATE] = w, delta, rate
+            films.force[k, 0], films.force[k, 1] = fi, fo
             return fi, ki, di
         if balance > 0.0:
             high = w
@@ -147,7 +168,7 @@ def _ball(balls, turn, films, k, delta, rate, gain):
 
 
 @jit_exact_loop
-def press_balls(balls, turn, films, normals, q, v, gain, out):
+def press_balls(balls, at_speed, films, normals, q, v, gain, out):
     """Force that the ring at `q`, moving at `v`, exerts on the balls, and its derivatives by both.
 
     They are written into `out`, arrays of shape (2,), (2, 2) and (2, 2). The step is that begun last, with its
@@ -158,11 +179,11 @@ def press_balls(balls, turn, films, normals, q, v, gain, out):
     for k in range(balls.number):
         x, y = normals[k]
         delta = x * q[0] + y * q[1] - balls.half_clearance
-        rate = x * v[0] + y * v[1] + turn.cage * (x * q[1] - y * q[0])
-        f, by_delta, by_rate = _ball(balls, turn, films, k, delta, rate, gain)
+        rate = x * v[0] + y * v[1] + at_speed.cage * (x * q[1] - y * q[0])
+        f, by_delta, by_rate = _ball(balls, at_speed, films, k, delta, rate, gain)
         force[0] += f * x
         force[1] += f * y
-        by_x, by_y = by_delta * x - by_rate * turn.cage * y, by_delta * y + by_rate * turn.cage * x
+        by_x, by_y = by_delta * x - by_rate * at_speed.cage * y, by_delta * y + by_rate * at_speed.cage * x
         stiffness[0, 0] += x * by_x
         stiffness[0, 1] += x * by_y
         stiffness[1, 0] += y * by_x
@@ -175,18 +196,19 @@ def press_balls(balls, turn, films, normals, q, v, gain, out):
 
 
 @jit_exact_loop
-def accept_balls(balls, turn, films, normals, q, v, gain):
+def accept_balls(balls, at_speed, films, normals, q, v, gain):
     """Move all films and balls to the end of the step, at the ring's place that `press_balls` was asked last."""
     for k in range(balls.number):
         x, y = normals[k]
         delta = x * q[0] + y * q[1] - balls.half_clearance
-        rate = x * v[0] + y * v[1] + turn.cage * (x * q[1] - y * q[0])
-        w = films.w[k, 0]
-        own = gain * (w - films.w[k, 1])
-        accept(balls.inner, turn.inner, turn.spin, films, 2 * k, delta - w, rate - own)
-        accept(balls.outer, turn.outer, turn.spin, films, 2 * k + 1, w, own)
-        films.w[k, 3], films.w[k, 2] = films.w[k, 2], w
-        films.w[k, 10], films.w[k, 9] = films.w[k, 9], own
+        rate = x * v[0] + y * v[1] + at_speed.cage * (x * q[1] - y * q[0])
+        ball = films.balls[k]
+        w = ball[PLACE]
+        own = gain * (w - ball[PLACE_HISTORY])
+        accept(balls.inner, at_speed.inner, at_speed.speed_row, films, 2 * k, delta - w, rate - own)
+        accept(balls.outer, at_speed.outer, at_speed.speed_row, films, 2 * k + 1, w, own)
+        ball[PLACE_BEFORE], ball[PLACE_NOW] = ball[PLACE_NOW], w
+        ball[RATE_BEFORE], ball[RATE_NOW] = ball[RATE_NOW], own
         films.largest[0] = max(films.largest[0], films.force[k, 0])
         films.largest[1] = max(films.largest[1], films.force[k, 1])
     accept_seat(films.seat)
@@ -197,8 +219,8 @@ def rest_balls(balls, films, normals, q):
     """Put all films at rest where `press_balls` was asked last, the ring at `q`."""
     films.state[:] = 0.0
     for k in range(balls.number):
-        w = films.w[k, 0]
-        films.state[2 * k, 0] = normals[k, 0] * q[0] + normals[k, 1] * q[1] - balls.half_clearance - w
-        films.state[2 * k + 1, 0] = w
-        films.w[k, 2:8], films.w[k, 8:] = w, 0.0
+        w = films.balls[k, PLACE]
+        films.state[2 * k, APPROACH] = normals[k, 0] * q[0] + normals[k, 1] * q[1] - balls.half_clearance - w
+        films.state[2 * k + 1, APPROACH] = w
+        films.balls[k, PLACE_NOW:RATE_HISTORY], films.balls[k, RATE_HISTORY:] = w, 0.0
     rest_seat(films.seat)

@@ -17,8 +17,8 @@ from ehlcontact.results.layout import Layout, Tabled
 from ehlcontact.summary import Summary, span
 from reduced_models.bearing.balls import Balls, SpeedState
 from reduced_models.bearing.equilibrium import RingEquilibrium
-from reduced_models.bearing.law import RaceLaw, carried, curve
 from reduced_models.bearing.loss import response
+from reduced_models.bearing.race_table import RaceForceTable, curve, film_cutoff
 from reduced_models.elements.film_law import DIRECT
 from reduced_models.elements.film_response import FilterRates
 
@@ -112,14 +112,14 @@ class BearingCoefficients(Summary, Tabled):
         return asdict(self)
 
 
-def impedances(balls: Balls, turn: SpeedState, standing: RingEquilibrium, omega: _Floats) -> _Complex:
+def impedances(balls: Balls, at_speed: SpeedState, standing: RingEquilibrium, omega: _Floats) -> _Complex:
     """K + i C of the ring, shape (k, 2, 2), at angular frequencies [rad/s]."""
     w = np.maximum(omega, TINY_OMEGA)
     total = np.zeros((w.size, 2, 2), complex)
     for k, n in enumerate(standing.normals):
         u_inner, u_outer = standing.approach[k].tolist()
-        inner = contact_impedance(balls.inner, turn.inner, turn.spin, u_inner, w)
-        outer = contact_impedance(balls.outer, turn.outer, turn.spin, u_outer, w)
+        inner = contact_impedance(balls.inner, at_speed.inner, at_speed.speed_row, u_inner, w)
+        outer = contact_impedance(balls.outer, at_speed.outer, at_speed.speed_row, u_outer, w)
         outer = outer - balls.inertia * w * w
         both = inner + outer
         series = np.divide(inner * outer, both, out=np.zeros_like(both), where=both != 0.0)
@@ -141,26 +141,28 @@ class SmallContact(NamedTuple):
     rates: FilterRates | None  # in own time; None in a dry contact
 
 
-def small_contact(law: RaceLaw, transit: float, spin: tuple[int, float], u: float) -> SmallContact:
+def small_contact(law: RaceForceTable, transit: float, speed_row: tuple[int, float], u: float) -> SmallContact:
     """What a contact at rest at approach `u` does with a small motion."""
-    g, by_u, _ = curve(u, spin[0], spin[1], law, 0)
+    g, by_u, _ = curve(u, speed_row[0], speed_row[1], law, 0)
     root = np.sqrt(g)
     if law.x.size == 0:
         return SmallContact(1.5 * law.kn * root * by_u, 0.0, 0.0, np.zeros(0), None)
-    rows = law.gains[spin[0]]
-    if spin[1] > 0.0:
-        rows = rows + spin[1] * (law.gains[spin[0] + 1] - rows)
+    rows = law.gains[speed_row[0]]
+    if speed_row[1] > 0.0:
+        rows = rows + speed_row[1] * (law.gains[speed_row[0] + 1] - rows)
     x = law.log_kn + 1.5 * np.log(g)
     gains = np.array([np.interp(x, law.x, column) for column in rows.T])
     rates = FilterRates(gains.size - DIRECT, law.lag_rate, law.inlet_rate, law.fast_rate)
-    share, share_u = carried(u, law.fade)
+    share, share_u = film_cutoff(u, law.cutoff_gap)
     slope = share * 1.5 * law.kn * root
     return SmallContact(slope * by_u + share_u * law.kn * g * root, slope, transit * root, gains, rates)
 
 
-def contact_impedance(law: RaceLaw, transit: float, spin: tuple[int, float], u: float, omega: _Floats) -> _Complex:
+def contact_impedance(
+    law: RaceForceTable, transit: float, speed_row: tuple[int, float], u: float, omega: _Floats
+) -> _Complex:
     """K + i w C of one contact at rest at approach `u`, shape (k,)."""
-    small = small_contact(law, transit, spin, u)
+    small = small_contact(law, transit, speed_row, u)
     if small.rates is None:
         return np.full(omega.size, small.stiffness, complex)
     own = omega * small.tau

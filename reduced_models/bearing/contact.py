@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.jit import jit_exact_loop, jit_exact_node
-from reduced_models.bearing.law import carried, curve
 from reduced_models.bearing.loss import Loss, Seat, seat_of
+from reduced_models.bearing.race_table import curve, film_cutoff
 from reduced_models.elements.film_law import DIRECT
 
 _Floats = NDArray[np.float64]
@@ -30,20 +30,26 @@ APPROACH, RATE, OWN, INLET, FAST, CHAIN = range(6)  # entries of a state; the ch
 # Entries of the work of a step: inlet, fast and hump as sums of 1, e and t; the sums of two rows of gains; then,
 # of all lags, what they hold, what they make of the film at the end, and of the hump.
 S, Y, HUMP, ROW, NEXT, HELD = 0, 3, 6, 9, 12, 15
+# Entries of a ball: its place w as tried last, what its rate follows from, w at the last two ends of steps; delta
+# and its rate where that was tried, and the slopes of w by both; what its acceleration follows from, and its rates
+# at the last two ends of steps.
+PLACE, PLACE_HISTORY, PLACE_NOW, PLACE_BEFORE = range(4)
+TRIED_DELTA, TRIED_RATE, BY_DELTA, BY_RATE = range(4, 8)
+RATE_HISTORY, RATE_NOW, RATE_BEFORE, BALL_ENTRIES = range(8, 12)
 FEW, TERMS = 0.5, 16  # mean of Poisson's law below which its shares are summed, and how many then are enough
 
 
 @jit_exact_node
-def begin(law, transit, spin, dt, films, c):
+def begin(law, transit, speed_row, dt, films, c):
     """Work out a step of length `dt` for contact `c`.
 
-    `transit` is 2a/u_sum over sqrt(g), `spin` the row of speeds and the weight of the next.
+    `transit` is 2a/u_sum over sqrt(g), `speed_row` the row of speeds and the weight of the next.
     """
     state, work, poisson, share = films.state, films.work, films.poisson, films.share
     if law.x.size == 0:
         return
     ahead = state[c, APPROACH] + 0.5 * dt * state[c, RATE]
-    middle, _, films.place[c, 0] = curve(ahead, spin[0], spin[1], law, films.place[c, 0])
+    middle, _, films.place[c, 0] = curve(ahead, speed_row[0], speed_row[1], law, films.place[c, 0])
     span = dt / (transit * sqrt(middle))
     p, start, inlet = law.inlet_rate, state[c, OWN], state[c, INLET]
     s_a, s_e, s_t = _lag(inlet, start, p, span)
@@ -112,9 +118,9 @@ def _shares(mu, n, poisson, share):
 
 
 @jit_exact_node
-def _weigh(law, spin, row, work, c):
+def _weigh(law, speed_row, row, work, c):
     """Sums of the gains of `row` and of the next over all filters."""
-    gains, speed, weight = law.gains, spin[0], spin[1]
+    gains, speed, weight = law.gains, speed_row[0], speed_row[1]
     other = speed + 1 if weight > 0.0 else speed
     held, ends, humps, lags = 0.0, 0.0, 0.0, gains.shape[2] - DIRECT
     next_held, next_ends, next_humps = 0.0, 0.0, 0.0
@@ -146,10 +152,10 @@ def _add(gains, of, work, c, at, chain):
 
 
 @jit_exact_node
-def press(law, transit, spin, films, c, u, v):
+def press(law, transit, speed_row, films, c, u, v):
     """Force [N] at approach `u` [m] and rate `v` [m/s] of the end of the step, dF/du and dF/dv."""
     work = films.work
-    g, g_u, k = curve(u, spin[0], spin[1], law, films.place[c, 0])
+    g, g_u, k = curve(u, speed_row[0], speed_row[1], law, films.place[c, 0])
     films.place[c, 0] = k
     root = sqrt(g)
     if law.x.size == 0:
@@ -160,7 +166,7 @@ def press(law, transit, spin, films, c, u, v):
     while k < law.x.size - 2 and x > law.x[k + 1]:
         k += 1
     if k != films.place[c, 1]:
-        _weigh(law, spin, k, work, c)
+        _weigh(law, speed_row, k, work, c)
         films.place[c, 1] = k
     per_x = 1.0 / (law.x[k + 1] - law.x[k])
     weight = (x - law.x[k]) * per_x
@@ -176,19 +182,19 @@ def press(law, transit, spin, films, c, u, v):
     w_u = g_u + mt + (0.5 * me * e + 1.5 * per_x * step) * g_u / g
     root = sqrt(w)
     force, slope = law.kn * w * root, 1.5 * law.kn * root
-    share, share_u = carried(u, law.fade)
+    share, share_u = film_cutoff(u, law.cutoff_gap)
     return share * force, share * slope * w_u + share_u * force, share * slope * me * tau
 
 
 @jit_exact_node
-def accept(law, transit, spin, films, c, u, v):
+def accept(law, transit, speed_row, films, c, u, v):
     """Move contact `c` to the end of the step that `begin` has worked out."""
     state, work = films.state, films.work
     t = u - state[c, APPROACH]
     state[c, APPROACH], state[c, RATE] = u, v
     if law.x.size == 0:
         return
-    g, _, films.place[c, 0] = curve(u, spin[0], spin[1], law, films.place[c, 0])
+    g, _, films.place[c, 0] = curve(u, speed_row[0], speed_row[1], law, films.place[c, 0])
     e = transit * sqrt(g) * v
     s = work[c, S] + work[c, S + 1] * e + work[c, S + 2] * t
     hump = work[c, HUMP] + work[c, HUMP + 1] * e + work[c, HUMP + 2] * t
@@ -214,10 +220,7 @@ class Films(NamedTuple):
     place: NDArray[np.int64]  # (contacts, 2): interval of the curve used last, rows of gains that `work` has
     poisson: _Floats  # room for `begin`
     share: _Floats
-    # (balls, 11) approaches at the outer race: as tried; what the rate is reckoned from; at the last two ends of
-    # steps; then delta and its rate where that was tried, and the slopes by both; what the acceleration is
-    # reckoned from, and the rates at the last two ends
-    w: _Floats
+    balls: _Floats  # (balls, BALL_ENTRIES) place of each ball, the approach w at its outer race; entries above
     force: _Floats  # (balls, 2) at the inner and at the outer race [N]
     largest: _Floats  # (2,) force that any ball has had at either race [N]
     seat: Seat
@@ -232,7 +235,7 @@ def new_films(balls: int, lags: int, loss: Loss) -> Films:
         place=np.zeros((contacts, 2), np.int64),
         poisson=np.zeros(lags + 3),
         share=np.zeros(lags + 3),
-        w=np.zeros((balls, 11)),
+        balls=np.zeros((balls, BALL_ENTRIES)),
         force=np.zeros((balls, 2)),
         largest=np.zeros(2),
         seat=seat_of(loss),

@@ -15,6 +15,7 @@ from scipy.optimize import brentq
 from ehlcontact.checks import as_column, require_finite
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.bearing.balls import Balls, SpeedState, begin_rest, directions, films_of, press_balls
+from reduced_models.bearing.contact import PLACE
 
 _Floats = NDArray[np.float64]
 
@@ -100,14 +101,14 @@ class StaticBalls:
     Parameters
     ----------
     balls : Balls
-    turn : SpeedState
+    at_speed : SpeedState
         Speed of the shaft: its films and its centrifugal force. That the cage turns, squeezes no film here.
     angle : float
         Of the first ball [rad].
     """
 
-    def __init__(self, balls: Balls, turn: SpeedState, angle: float) -> None:
-        self.balls, self._turn = balls, turn._replace(cage=0.0)
+    def __init__(self, balls: Balls, at_speed: SpeedState, angle: float) -> None:
+        self.balls, self._at_speed = balls, at_speed._replace(cage=0.0)
         self.normals = np.zeros((balls.number, 2))
         directions(balls, angle, self.normals)
         self.films = films_of(balls)
@@ -126,7 +127,7 @@ class StaticBalls:
 
     def _press(self, q: _Floats) -> None:
         arrays = self._force, self._stiffness, self._damping
-        press_balls(self.balls, self._turn, self.films, self.normals, np.asarray(q, float), STILL, 0.0, arrays)
+        press_balls(self.balls, self._at_speed, self.films, self.normals, np.asarray(q, float), STILL, 0.0, arrays)
         if not np.isfinite(self._force).all():
             raise ConvergenceError(f"a ball finds no balance with the ring at {q.tolist()} m", q)
 
@@ -142,7 +143,7 @@ class RingEquilibrium:
     stiffness: _Floats  # (2, 2) [N/m]
 
 
-def ring_equilibrium(balls: Balls, turn: SpeedState, load: _Floats, angle: float) -> RingEquilibrium:
+def ring_equilibrium(balls: Balls, at_speed: SpeedState, load: _Floats, angle: float) -> RingEquilibrium:
     """Ring under `load` [N], the first ball at `angle`.
 
     Raises
@@ -152,13 +153,13 @@ def ring_equilibrium(balls: Balls, turn: SpeedState, load: _Floats, angle: float
     ConvergenceError
         No balance was found.
     """
-    still = StaticBalls(balls, turn, angle)
+    still = StaticBalls(balls, at_speed, angle)
     q = np.zeros(2) if not load.any() else equilibrium(still, load)  # type: ignore[arg-type]
     stiffness = still.tangent(q)
     if not np.linalg.det(stiffness) > SEATED * np.trace(stiffness) ** 2:
         allowed = "one that presses balls on both sides of its direction; or preload the bearing (clearance < 0)"
         raise InputError("load", load.tolist(), allowed)
-    w = still.films.w[:, 0]
+    w = still.films.balls[:, PLACE]
     inner = still.normals @ q - balls.half_clearance - w
     return RingEquilibrium(q, still.normals, np.column_stack([inner, w]), still.films.force.copy(), stiffness)
 

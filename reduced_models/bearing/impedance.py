@@ -61,13 +61,13 @@ class SmallBalls(NamedTuple):
     inertia: float  # of a ball along its normal [kg]
 
     @classmethod
-    def of(cls, balls: Balls, turn: SpeedState, standings: Sequence[RingEquilibrium]) -> SmallBalls:
+    def of(cls, balls: Balls, at_speed: SpeedState, standings: Sequence[RingEquilibrium]) -> SmallBalls:
         """From where the ring stands at each position."""
         approach = np.concatenate([standing.approach for standing in standings])
         inner, outer = (
-            Contacts.of([small_contact(law, transit, turn.spin, u) for u in column.tolist()])
+            Contacts.of([small_contact(law, transit, at_speed.speed_row, u) for u in column.tolist()])
             for law, transit, column in zip(
-                (balls.inner, balls.outer), (turn.inner, turn.outer), approach.T, strict=True
+                (balls.inner, balls.outer), (at_speed.inner, at_speed.outer), approach.T, strict=True
             )
         )
         normals = np.concatenate([at.normals for at in standings])

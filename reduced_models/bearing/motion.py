@@ -51,7 +51,7 @@ class BearingMotion:
         if balls.inner.x.size and not balls.speeds[0] <= omega <= balls.speeds[-1]:
             low, high = balls.speeds[0] / RADIANS, balls.speeds[-1] / RADIANS
             raise InputError("speed_rpm", speed_rpm, f"between {low:.6g} and {high:.6g}, the speeds of these laws")
-        self.turn = speed_state(balls, omega)
+        self.at_speed = speed_state(balls, omega)
         self.films = films_of(balls)
         self._start, self._step = float(cage_angle), 0
         self._normals = np.zeros((balls.number, 2))
@@ -61,14 +61,14 @@ class BearingMotion:
     @property
     def cage_angle(self) -> float:
         """Of the first ball, at the end of the last step accepted [rad]."""
-        return self._start + self.turn.cage * self.dt * self._step
+        return self._start + self.at_speed.cage * self.dt * self._step
 
     def rest(self, q: ArrayLike) -> _Floats:
         """Put ring, balls and films at rest with the ring at `q` [m]; returns the force on the balls [N]."""
         place = as_column("q", q, size=2)
         directions(self.balls, self.cage_angle, self._normals)
         begin_rest(self.films)
-        force, *_ = self._press(self.turn._replace(cage=0.0), place, np.zeros(2), 0.0)
+        force, *_ = self._press(self.at_speed._replace(cage=0.0), place, np.zeros(2), 0.0)
         rest_balls(self.balls, self.films, self._normals, place)
         self._begin()
         return force
@@ -89,11 +89,11 @@ class BearingMotion:
             A ball finds no balance.
         """
         self._tried = np.array(q, float), np.array(v, float)
-        return self._press(self.turn, *self._tried, self._gain)
+        return self._press(self.at_speed, *self._tried, self._gain)
 
     def accept(self) -> None:
         """Move on to the end of the step, as `forces` was asked last."""
-        accept_balls(self.balls, self.turn, self.films, self._normals, *self._tried, self._gain)
+        accept_balls(self.balls, self.at_speed, self.films, self._normals, *self._tried, self._gain)
         self._step += 1
         self._begin()
 
@@ -115,36 +115,40 @@ class BearingMotion:
         places = as_rows("q", q, np.shape(q)[0], 2)
         rates = as_rows("v", v, places.shape[0], 2)
         force, loads = np.zeros((len(places), 2)), np.zeros((len(places), self.balls.number, 2))
-        angles = self._start + self.turn.cage * self.dt * np.arange(self._step + 1, self._step + 1 + len(places))
+        angles = self._start + self.at_speed.cage * self.dt * np.arange(
+            self._step + 1, self._step + 1 + len(places)
+        )
         arrays = self._normals, np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
-        _drive(self.balls, self.turn, self.films, (self.dt, angles, places, rates), arrays, (force, loads))
+        _drive(self.balls, self.at_speed, self.films, (self.dt, angles, places, rates), arrays, (force, loads))
         self._step += len(places)
         self._begin()
         return force, loads
 
     def _begin(self) -> None:
-        angle = self._start + self.turn.cage * self.dt * (self._step + 1)
+        angle = self._start + self.at_speed.cage * self.dt * (self._step + 1)
         directions(self.balls, angle, self._normals)
-        self._gain = begin_step(self.balls, self.turn, self.dt, self.films)
+        self._gain = begin_step(self.balls, self.at_speed, self.dt, self.films)
 
-    def _press(self, turn: SpeedState, q: _Floats, v: _Floats, gain: float) -> tuple[_Floats, _Floats, _Floats]:
+    def _press(
+        self, at_speed: SpeedState, q: _Floats, v: _Floats, gain: float
+    ) -> tuple[_Floats, _Floats, _Floats]:
         force, stiffness, damping = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
-        press_balls(self.balls, turn, self.films, self._normals, q, v, gain, (force, stiffness, damping))
+        press_balls(self.balls, at_speed, self.films, self._normals, q, v, gain, (force, stiffness, damping))
         if not np.isfinite(force).all():
             raise ConvergenceError(f"a ball finds no balance with the ring at {q.tolist()} m", None)
         return force, stiffness, damping
 
 
 @jit_exact_loop
-def _drive(balls, turn, films, motion, arrays, out):
+def _drive(balls, at_speed, films, motion, arrays, out):
     """Steps along a motion; the first has not begun."""
     dt, angles, q, v = motion
     normals, force = arrays[0], arrays[1]
     for i in range(angles.size):
         directions(balls, angles[i], normals)
-        gain = begin_step(balls, turn, dt, films)
-        press_balls(balls, turn, films, normals, q[i], v[i], gain, arrays[1:])
-        accept_balls(balls, turn, films, normals, q[i], v[i], gain)
+        gain = begin_step(balls, at_speed, dt, films)
+        press_balls(balls, at_speed, films, normals, q[i], v[i], gain, arrays[1:])
+        accept_balls(balls, at_speed, films, normals, q[i], v[i], gain)
         out[0][i, 0], out[0][i, 1] = force[0], force[1]
         for k in range(balls.number):
             out[1][i, k, 0], out[1][i, k, 1] = films.force[k, 0], films.force[k, 1]

@@ -17,7 +17,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.hertz import hertz_contact, radius_ratio
 from reduced_models.atlas.atlas import Atlas
 from reduced_models.bearing.kinematics import RADIANS, rolling_radius, rolling_torque
-from reduced_models.bearing.law import carried
+from reduced_models.bearing.race_table import film_cutoff
 from reduced_models.elements.kinds import WideRangeContact
 
 _Floats = NDArray[np.float64]
@@ -157,7 +157,7 @@ def films_under(bearing: Any, speed_rpm: float, force: _Floats, approach: _Float
         films.append(race.films(speed_rpm, load, (load / race.kn) ** (2.0 / 3.0) - approach[:, column]))
     h_central, h_min, moment = (np.column_stack(parts) for parts in zip(*films, strict=True))
     if bearing.film_limit is not None:
-        moment *= np.array([[carried(u, bearing.film_limit)[0] for u in row] for row in approach.tolist()])
+        moment *= np.array([[film_cutoff(u, bearing.film_limit)[0] for u in row] for row in approach.tolist()])
     torque = rolling_torque(moment[:, 0], moment[:, 1], bearing.ball_diameter, bearing.pitch_diameter)
     found = {"h_central": h_central, "h_min": h_min, "moment": moment, "rolling_torque": torque}
     return found | ({} if not bearing.roughness else {"lambda_ratio": h_min / bearing.roughness})

@@ -14,7 +14,7 @@ from math import log, nan, sqrt
 import numpy as np
 
 from ehlcontact.jit import jit_exact
-from reduced_models.bearing.law import carried, curve
+from reduced_models.bearing.race_table import curve, film_cutoff
 from reduced_models.elements.film_law import DIRECT
 
 SMALL_STEP = 1e-14  # of the rates, that ends the search for w': rounding
@@ -22,9 +22,9 @@ MOST_STEPS = 60  # of it: a handful
 
 
 @jit_exact
-def _held(law, transit, spin, u, states, first):
+def _held(law, transit, speed_row, u, states, first):
     """Film without its dashpot [m], dashpot c tau [s], k_n that the film carries, own time [s]."""
-    g, _, _ = curve(u, spin[0], spin[1], law, 0)
+    g, _, _ = curve(u, speed_row[0], speed_row[1], law, 0)
     if law.x.size == 0:
         return g, 0.0, law.kn, 0.0
     tau, x, last = transit * sqrt(g), law.log_kn + 1.5 * log(g), law.x.size - 2
@@ -32,15 +32,17 @@ def _held(law, transit, spin, u, states, first):
     weight = min(max((x - law.x[row]) / (law.x[row + 1] - law.x[row]), 0.0), 1.0)
     film, dashpot = g, 0.0
     for j in range(law.gains.shape[2]):
-        gain = law.gains[spin[0], row, j] + weight * (law.gains[spin[0], row + 1, j] - law.gains[spin[0], row, j])
-        if spin[1] > 0.0:
-            low, high = law.gains[spin[0] + 1, row, j], law.gains[spin[0] + 1, row + 1, j]
-            gain += spin[1] * (low + weight * (high - low) - gain)
+        gain = law.gains[speed_row[0], row, j] + weight * (
+            law.gains[speed_row[0], row + 1, j] - law.gains[speed_row[0], row, j]
+        )
+        if speed_row[1] > 0.0:
+            low, high = law.gains[speed_row[0] + 1, row, j], law.gains[speed_row[0] + 1, row + 1, j]
+            gain += speed_row[1] * (low + weight * (high - low) - gain)
         if j == 0:
             dashpot = gain * tau
         else:
             film += gain * states[first + j - 1]
-    return film, dashpot, law.kn * carried(u, law.fade)[0], tau
+    return film, dashpot, law.kn * film_cutoff(u, law.cutoff_gap)[0], tau
 
 
 @jit_exact
@@ -94,7 +96,7 @@ def _filter(law, tau, v, states, first, rates):
 
 
 @jit_exact
-def bearing_rates(balls, turn, normals, states, r, v, rates, force):
+def bearing_rates(balls, at_speed, normals, states, r, v, rates, force):
     """Fill the rates of all balls' states [m/s] and the force of the ring at `r`, moving at `v`, on the balls."""
     wet, first = balls.inner.x.size > 0, 2 if balls.inertia > 0.0 else 1
     size_i = balls.inner.gains.shape[2] - 1 if wet else 0
@@ -103,17 +105,17 @@ def bearing_rates(balls, turn, normals, states, r, v, rates, force):
     for k in range(balls.number):
         x, y, at = normals[k, 0], normals[k, 1], k * (first + size_i + size_o)
         delta = x * r[0] + y * r[1] - balls.half_clearance
-        rate = x * v[0] + y * v[1] + turn.cage * (x * r[1] - y * r[0])
+        rate = x * v[0] + y * v[1] + at_speed.cage * (x * r[1] - y * r[0])
         w, second = states[at], at + first + size_i
-        inner = _held(balls.inner, turn.inner, turn.spin, delta - w, states, at + first)
-        outer = _held(balls.outer, turn.outer, turn.spin, w, states, second)
+        inner = _held(balls.inner, at_speed.inner, at_speed.speed_row, delta - w, states, at + first)
+        outer = _held(balls.outer, at_speed.outer, at_speed.speed_row, w, states, second)
         if first == 2:
             own = states[at + 1]
             pushed = _pushed(inner[2], inner[0] + inner[1] * (rate - own))[0]
             held = _pushed(outer[2], outer[0] + outer[1] * own)[0]
-            rates[at + 1] = (pushed + turn.centrifugal - held) / balls.inertia
+            rates[at + 1] = (pushed + at_speed.centrifugal - held) / balls.inertia
         else:
-            pushed, own = _balance(inner, outer, rate, turn.centrifugal)
+            pushed, own = _balance(inner, outer, rate, at_speed.centrifugal)
         rates[at] = own
         if wet:
             _filter(balls.inner, inner[3], rate - own, states, at + first, rates)

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ehlcontact.checks import require_instance, require_integer, require_nonnegative
 from ehlcontact.errors import InputError
 from reduced_models.bearing.balls import Balls, SpeedState, begin_rest, directions, films_of, press_balls
+from reduced_models.bearing.contact import PLACE
 from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.rates import bearing_rates
 from reduced_models.bearing.state_space import FILTERS, PER_METRE, System, bearing_system
@@ -180,8 +181,8 @@ class _Ring:
     def __init__(self, mount: BearingMount, speed: float, r: _Floats, cage_turns: bool) -> None:
         bearing = mount.bearing
         self.balls: Balls = bearing.kernel(bearing.speed(speed))
-        self._laws: SpeedState = bearing.turn(speed)
-        self._turn = self._laws if cage_turns else self._laws._replace(cage=0.0)
+        self._laws: SpeedState = bearing.speed_state(speed)
+        self._at_speed = self._laws if cage_turns else self._laws._replace(cage=0.0)
         self._angle, self._normals = mount.cage_angle, np.zeros((self.balls.number, 2))
         held = StaticBalls(self.balls, self._laws, mount.cage_angle)
         self.force = held.force(r)
@@ -191,19 +192,19 @@ class _Ring:
         self.films = self.shape.of_balls
         self.rest = np.concatenate([np.zeros(self.films), np.tile(self.force / PER_METRE, self.shape.seat)])
         if self.films:
-            self.rest[: self.films : self.films // self.balls.number] = held.films.w[:, 0]
+            self.rest[: self.films : self.films // self.balls.number] = held.films.balls[:, PLACE]
         self._films, self._force = films_of(self.balls), np.zeros(2)
         begin_rest(self._films)
 
     def rates(self, t: float, x: _Floats, r: _Floats, v: _Floats) -> tuple[_Floats, _Floats]:
         """Rates of the states `x`, which are differences from rest; force of the ring on the balls."""
-        directions(self.balls, self._angle + self._turn.cage * t, self._normals)
+        directions(self.balls, self._angle + self._at_speed.cage * t, self._normals)
         states, rates = self.rest + x, np.zeros(x.size)
         if self.films:
-            bearing_rates(self.balls, self._turn, self._normals, states, r, v, rates, self._force)
+            bearing_rates(self.balls, self._at_speed, self._normals, states, r, v, rates, self._force)
         else:
             out = self._force, np.zeros((2, 2)), np.zeros((2, 2))
-            press_balls(self.balls, self._turn, self._films, self._normals, r, v, 0.0, out)
+            press_balls(self.balls, self._at_speed, self._films, self._normals, r, v, 0.0, out)
         gains, poles = self.balls.loss
         lost = self._force - PER_METRE * states[self.films :].reshape(-1, 2)
         rates[self.films :] = (poles[:, None] * lost).ravel() / PER_METRE

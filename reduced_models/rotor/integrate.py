@@ -129,8 +129,8 @@ def run_block(steps, balls, films, rings, state, course, limits, out):
         farthest = 0.0
         for b in range(len(balls)):
             q, v = rings.tried[R, 2 * b : 2 * b + 2], rings.tried[RATE, 2 * b : 2 * b + 2]
-            turn = speed_state(balls[b], speed[i])
-            accept_balls(balls[b], turn, films[b], rings.normals[b], q, v, 1.5 / steps.dt)
+            at_speed = speed_state(balls[b], speed[i])
+            accept_balls(balls[b], at_speed, films[b], rings.normals[b], q, v, 1.5 / steps.dt)
         for k in range(state.shape[1]):
             out[0][i, k], out[1][i, k] = state[0, k], state[1, k]
         for k in range(rings.force.size):
@@ -186,8 +186,8 @@ def _balance(steps, balls, films, rings, speed, allowed):
                 system[j, k] = steps.D[j, k]
         for b in range(len(balls)):
             q, v = tried[R, 2 * b : 2 * b + 2], tried[RATE, 2 * b : 2 * b + 2]
-            turn = speed_state(balls[b], speed)
-            press_balls(balls[b], turn, films[b], rings.normals[b], q, v, 1.5 / steps.dt, rings.pushed)
+            at_speed = speed_state(balls[b], speed)
+            press_balls(balls[b], at_speed, films[b], rings.normals[b], q, v, 1.5 / steps.dt, rings.pushed)
             for j in range(2):
                 tried[FORCE, 2 * b + j] = force[j]
                 for k in range(2):

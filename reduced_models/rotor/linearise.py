@@ -227,12 +227,12 @@ def linearise(rotor: Rotor, speed_rpm: float, *, passage: bool = True) -> Linear
     rings, loads, balls = rotor.rings @ rest, [], []
     for b, mount in enumerate(rotor.mounts):
         bearing, ring = mount.bearing, rings[2 * b : 2 * b + 2]
-        kernel, turn = bearing.kernel(bearing.speed(speed)), bearing.turn(speed)
-        held = StaticBalls(kernel, turn, mount.cage_angle)
+        kernel, at_speed = bearing.kernel(bearing.speed(speed)), bearing.speed_state(speed)
+        held = StaticBalls(kernel, at_speed, mount.cage_angle)
         force = held.force(ring)
         if np.linalg.norm(force) < UNLOADED * held.films.force.max():
             force = np.zeros(2)
         found = bearing.standings(force, speed, None if passage else mount.cage_angle)
         loads.append(force)
-        balls.append(SmallBalls.of(kernel, turn, found))
+        balls.append(SmallBalls.of(kernel, at_speed, found))
     return LinearisedRotor(rotor, speed, passage, rest, np.array(loads), tuple(balls))

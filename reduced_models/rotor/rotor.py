@@ -214,7 +214,9 @@ class Rotor(Summary):
         """
         to_rings, load = self.rings, self.load
         held = [
-            StaticBalls(m.bearing.kernel(m.bearing.speed(speed_rpm)), m.bearing.turn(speed_rpm), m.cage_angle)
+            StaticBalls(
+                m.bearing.kernel(m.bearing.speed(speed_rpm)), m.bearing.speed_state(speed_rpm), m.cage_angle
+            )
             for m in self.mounts
         ]
 

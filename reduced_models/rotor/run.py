@@ -313,8 +313,8 @@ class _Run:
             normals, at = self.rings.normals[b], slice(2 * b, 2 * b + 2)
             directions(balls, self.angles[0, b], normals)
             begin_rest(films)
-            turn = speed_state(balls, self.omega[0])._replace(cage=0.0)
-            press_balls(balls, turn, films, normals, r[at], np.zeros(2), 0.0, self.rings.pushed)
+            at_speed = speed_state(balls, self.omega[0])._replace(cage=0.0)
+            press_balls(balls, at_speed, films, normals, r[at], np.zeros(2), 0.0, self.rings.pushed)
             rest_balls(balls, films, normals, r[at])
             self.rings.force[at] = self.rings.pushed[0]
         damping = rotor.damping + self.omega[0] * rotor.gyroscopic

@@ -9,8 +9,8 @@ from reduced_models import BallBearing
 from reduced_models.bearing.balls import Balls
 from reduced_models.bearing.coefficients import impedances
 from reduced_models.bearing.equilibrium import ring_equilibrium
-from reduced_models.bearing.law import film_law
 from reduced_models.bearing.race import shared_atlas
+from reduced_models.bearing.race_table import tabulate_race
 
 DOWN = np.array([0.0, -1000.0])
 SPEEDS = (1000.0, 3000.0, 6000.0)
@@ -25,10 +25,10 @@ def as_the_prototype(bearing, rpm, load, omega):
     elements = [
         shared_atlas(None).element(bearing.race(race).point(487.0, rpm), "wide") for race in ("inner", "outer")
     ]
-    kernel = Balls(*(film_law([element]) for element in elements), *bearing.kernel(rpm)[2:])
-    turn = bearing.turn(rpm)
-    at = [ring_equilibrium(kernel, turn, load, ON + 2.0 * pi / 9.0 * k / 4.0) for k in range(4)]
-    return np.mean([impedances(kernel, turn, s, np.array([omega]))[0] for s in at], axis=0)
+    kernel = Balls(*(tabulate_race([element]) for element in elements), *bearing.kernel(rpm)[2:])
+    at_speed = bearing.speed_state(rpm)
+    at = [ring_equilibrium(kernel, at_speed, load, ON + 2.0 * pi / 9.0 * k / 4.0) for k in range(4)]
+    return np.mean([impedances(kernel, at_speed, s, np.array([omega]))[0] for s in at], axis=0)
 
 
 @pytest.mark.parametrize(("rpm", "expected"), list(zip(SPEEDS, (285.0, 188.0, 140.0), strict=True)))

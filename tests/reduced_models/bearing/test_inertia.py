@@ -18,6 +18,7 @@ from reduced_models import (
 )
 from reduced_models.bearing.balls import speed_state
 from reduced_models.bearing.coefficients import impedances
+from reduced_models.bearing.contact import PLACE
 from reduced_models.bearing.equilibrium import ring_equilibrium
 from reduced_models.bearing.kinematics import RADIANS
 
@@ -50,7 +51,7 @@ def test_against_scipy():
     start = np.array([2e-6, -8e-6]), np.array([0.0, 1e-3])
     it = BearingMotion(bearing.kernel(RPM), RPM, 1e-6)
     it.rest(start[0])
-    first = np.concatenate([*start, it.films.w[:, 0], np.zeros(9)])
+    first = np.concatenate([*start, it.films.balls[:, PLACE], np.zeros(9)])
     exact = solve_ivp(rates, (0.0, 1e-3), first, method="DOP853", rtol=1e-9, atol=1e-15, t_eval=[5e-4, 1e-3])
     errors = []
     for dt in (1e-6, 5e-7):
@@ -66,12 +67,14 @@ def test_small_motions_in_time_have_the_impedance(oil, oiled):
     """At half the frequency of the balls on their contacts, where their inertia counts."""
     bearing = BallBearing.catalogue("6205", oil=oil if oiled else None, ball_inertia=True, loss_factor=0.1)
     kernel = bearing.kernel(RPM)._replace(cage=0.0, swing=0.0)
-    turn = speed_state(kernel, RPM * RADIANS)
-    at = ring_equilibrium(kernel, turn, np.array([0.0, -1000.0]), -pi / 2.0)
+    at_speed = speed_state(kernel, RPM * RADIANS)
+    at = ring_equilibrium(kernel, at_speed, np.array([0.0, -1000.0]), -pi / 2.0)
     hz, size, periods, per_period = 15e3, 1e-11, 40, 400
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
     t = dt * np.arange(1, periods * per_period + 1)
-    Z, massless = (impedances(k, turn, at, np.array([omega]))[0] for k in (kernel, kernel._replace(inertia=0.0)))
+    Z, massless = (
+        impedances(k, at_speed, at, np.array([omega]))[0] for k in (kernel, kernel._replace(inertia=0.0))
+    )
     Z = Z.real + 1j * omega * Z.imag
     run = BearingMotion(kernel, RPM, dt)
     start = run.rest(at.displacement)

@@ -19,9 +19,9 @@ RPM = 3000.0
 @pytest.mark.parametrize("load", [2.0, 60.0, 900.0])
 def test_a_contact_has_the_impedance_of_its_element(film, race, load):
     element, kernel = film.element(race, RPM), film.kernel(RPM)
-    turn, omega = speed_state(kernel, RPM * RADIANS), np.array([10.0, 1e3, 1e5])
-    law, transit = getattr(kernel, race), getattr(turn, race)
-    found = contact_impedance(law, transit, turn.spin, element.approach_at(load), omega)
+    at_speed, omega = speed_state(kernel, RPM * RADIANS), np.array([10.0, 1e3, 1e5])
+    law, transit = getattr(kernel, race), getattr(at_speed, race)
+    found = contact_impedance(law, transit, at_speed.speed_row, element.approach_at(load), omega)
     expected = element.impedance(load=load, omega=omega)
     np.testing.assert_allclose(found, expected, rtol=1e-6)
 
@@ -31,13 +31,13 @@ def test_small_motions_in_time(oil, film_limit):
     """A ring that swings a little, its balls standing still: amplitude and phase of the force."""
     bearing = BallBearing.catalogue("6205", oil=oil, film_limit=film_limit)
     kernel = bearing.kernel(RPM)._replace(cage=0.0, swing=0.0)
-    turn = speed_state(kernel, RPM * RADIANS)
-    at = ring_equilibrium(kernel, turn, np.array([200.0, -1000.0]), 0.4)
+    at_speed = speed_state(kernel, RPM * RADIANS)
+    at = ring_equilibrium(kernel, at_speed, np.array([200.0, -1000.0]), 0.4)
     hz, dt, size = 2000.0, 1e-6, 1e-10
     omega, periods = 2.0 * pi * hz, 4
     steps = round(periods / (hz * dt))
     t = dt * np.arange(1, steps + 1)
-    Z = impedances(kernel, turn, at, np.array([omega]))[0]
+    Z = impedances(kernel, at_speed, at, np.array([omega]))[0]
     Z = Z.real + 1j * omega * Z.imag
     for k in range(2):
         direction = np.eye(2)[k]

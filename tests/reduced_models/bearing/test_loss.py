@@ -68,12 +68,12 @@ def test_a_step_is_the_filters_over_a_straight_force():
 def test_small_motions_in_time_have_the_impedance(oil, oiled):
     bearing = BallBearing.catalogue("6205", oil=oil if oiled else None, loss_factor=0.05)
     kernel = bearing.kernel(RPM)._replace(cage=0.0, swing=0.0)
-    turn = speed_state(kernel, RPM * RADIANS)
-    at = ring_equilibrium(kernel, turn, np.array([200.0, -1000.0]), 0.4)
+    at_speed = speed_state(kernel, RPM * RADIANS)
+    at = ring_equilibrium(kernel, at_speed, np.array([200.0, -1000.0]), 0.4)
     hz, size, periods, per_period = 400.0, 1e-10, 200, 200
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
     t = dt * np.arange(1, periods * per_period + 1)
-    Z = impedances(kernel, turn, at, np.array([omega]))[0]
+    Z = impedances(kernel, at_speed, at, np.array([omega]))[0]
     Z = Z.real + 1j * omega * Z.imag
     run = BearingMotion(kernel, RPM, dt, 0.4)
     start = run.rest(at.displacement)

@@ -111,9 +111,9 @@ def test_unbalance_response_in_time(film, block):
     rotor = block(StillBearing.catalogue("6205", oil=film.oil), damping=2e3 * np.eye(2))
     at = linearise(rotor, RPM, passage=False)
     run = simulate_on_bearings(rotor, speed_rpm=RPM, dt=1e-5, until=0.1)
-    turn = run.t >= 0.06  # two turns
-    t = run.t[turn][:-1]
-    swing = run.displacement[turn][:-1]
+    at_speed = run.t >= 0.06  # two turns
+    t = run.t[at_speed][:-1]
+    swing = run.displacement[at_speed][:-1]
     seen = 2.0 * np.mean((swing - swing.mean(axis=0)) * np.exp(-1j * RPM * pi / 30.0 * t)[:, None], axis=0)
     expected = at.unbalance_response(rpm=RPM)[0]
     np.testing.assert_allclose(seen, expected, rtol=0.0, atol=2e-3 * np.abs(expected).max())
@@ -159,9 +159,9 @@ def test_stability(dry, film, block):
     assert linearise(block(film), RPM).growth < 0.0
     undamped = linearise(block(dry), RPM)
     assert abs(undamped.growth) < 1e-6
-    spin = np.array([[0.0, 5e7], [-5e7, 0.0]])  # as internal damping does above a critical speed
-    assert not linearise(block(film, stiffness=spin), RPM).stable
-    assert linearise(block(film, stiffness=spin), RPM).growth > 100.0
+    speed_row = np.array([[0.0, 5e7], [-5e7, 0.0]])  # as internal damping does above a critical speed
+    assert not linearise(block(film, stiffness=speed_row), RPM).stable
+    assert linearise(block(film, stiffness=speed_row), RPM).growth > 100.0
     at = linearise(block(film), RPM)
     pulled = block(film, stiffness=np.diag([-2.0 * at.bearing_impedance(1e-3).real[0, 0], 0.0]))
     assert not linearise(pulled, RPM).stable  # no vibration grows, it just falls to the side

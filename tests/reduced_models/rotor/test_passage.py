@@ -18,10 +18,10 @@ def floquet(at, mode):
     Bearings at a position of the cage have Z(s) of that position; its harmonics over the passage couple all q_n.
     """
     bearing, size = at.rotor.mounts[0].bearing, at.rotor.size
-    kernel, turn, first = bearing.kernel(RPM), bearing.turn(RPM), at.rotor.mounts[0].cage_angle
+    kernel, at_speed, first = bearing.kernel(RPM), bearing.speed_state(RPM), at.rotor.mounts[0].cage_angle
     angles = first + 2.0 * pi / bearing.balls * np.arange(POSITIONS) / POSITIONS
-    places = [SmallBalls.of(kernel, turn, bearing.standings(at.loads[0], RPM, a)) for a in angles.tolist()]
-    passing, rings, (M, C, K) = bearing.balls * turn.cage, at.rotor.rings, at.matrices
+    places = [SmallBalls.of(kernel, at_speed, bearing.standings(at.loads[0], RPM, a)) for a in angles.tolist()]
+    passing, rings, (M, C, K) = bearing.balls * at_speed.cage, at.rotor.rings, at.matrices
     count = 2 * HARMONICS + 1
 
     def matrix(s):

@@ -1,17 +1,15 @@
-"""The film law of a race in SI, compiled: one for all balls, at one speed of the shaft or over several.
+"""Force table of a race in SI: static force over approach and gains of the film memory, at one speed or several.
 
-It is `reduced_models.elements.film_law` with the reference load taken out: F = (g + m)^(3/2) in the units of any
-one load is
+The law is that of `reduced_models.elements.film_law` without its reference load, in N and m:
 
     F = k_n (g(u) + m)_+^(3/2),    g = (F_s/k_n)^(2/3) = u + h_s
 
-in N and m, with the dry stiffness k_n of Hertz; the contact's own time runs at 1/tau, tau = 2a/u_sum, and its
-half-axis a = reach/2 sqrt(g) grows with the load it carries. g(u), which the elements find by Newton's method, is
-tabulated: cubics between equidistant approaches from node to node of the static curve, so that its kinks stay
-where they are.
+with the stiffness k_n of the dry Hertz contact. The contact's own time runs at 1/tau, tau = 2a/u_sum, and the
+half-axis a = reach/2 sqrt(g) grows with the load. Elements find g(u) by Newton's method; here it is tabulated as
+cubics between equidistant approaches from node to node of the static curve, so that its kinks stay where they are.
 
-Where a film is left to fade as if the inlet were flooded for ever, a ball is never free: F falls like h^-1/2 only.
-With a `fade` of h, a film carries all of F up to a gap of h/2, and nothing beyond h.
+In a flooded inlet the film force of an unloaded ball falls as slowly as h^-1/2. A `cutoff_gap` h ends it: the film
+carries all of F up to a gap of h/2, and nothing beyond h.
 """
 
 from __future__ import annotations
@@ -40,8 +38,8 @@ OVERLOAD = 64.0  # times the load of the last node, to which the table goes
 ALIKE = 1e-6  # of ln F: nodes of two speeds closer than this are one
 
 
-class RaceLaw(NamedTuple):
-    """Static curve, and gains of the film's memory, over approach and speed. Speeds are rows; one is enough."""
+class RaceForceTable(NamedTuple):
+    """Static curve over the approach and gains of the film memory over the load, one row for each speed."""
 
     kn: float  # N/m^1.5, dry
     log_kn: float
@@ -53,19 +51,25 @@ class RaceLaw(NamedTuple):
     lag_rate: float
     inlet_rate: float
     fast_rate: float
-    fade: float  # gap [m] beyond which a film carries nothing; inf: it is never let go
+    cutoff_gap: float  # gap [m] beyond which a film carries nothing; inf: no such gap
 
 
-def dry_law(kn: float) -> RaceLaw:
-    """Hertz' law, without a film."""
+def tabulate_dry_race(kn: float) -> RaceForceTable:
+    """Table of a dry Hertz contact: no nodes, no gains."""
     none = np.zeros((1, 0))
-    return RaceLaw(
+    return RaceForceTable(
         kn, log(kn), 0.0, none[0], none, np.zeros((1, 0, CELLS, 4)), np.zeros((1, 0, DIRECT)), 1.0, 1.0, 1.0, inf
     )
 
 
-def film_law(elements: Sequence[FilmContact], fade: float = inf) -> RaceLaw:
-    """Law of elements in SI that stand for one contact at one speed each, their units of any load."""
+def tabulate_race(elements: Sequence[FilmContact], cutoff_gap: float = inf) -> RaceForceTable:
+    """Table of one contact from its elements in SI, one for each speed; their reference loads may differ.
+
+    Raises
+    ------
+    InputError
+        An element whose inlet saturates.
+    """
     for element in elements:
         if element.inlet_saturation != 0.0:
             allowed = "0 in a bearing, whose filters are worked out once per step"
@@ -75,7 +79,7 @@ def film_law(elements: Sequence[FilmContact], fade: float = inf) -> RaceLaw:
     rows = [_rows(element, x) for element in elements]
     scales, law = scales_of(elements[0]), elements[0].law
     kn = scales.force / scales.length**1.5
-    return RaceLaw(
+    return RaceForceTable(
         kn=kn,
         log_kn=log(kn),
         reach=2.0 * scales.a / sqrt(scales.length),
@@ -86,7 +90,7 @@ def film_law(elements: Sequence[FilmContact], fade: float = inf) -> RaceLaw:
         lag_rate=law.lag_rate,
         inlet_rate=law.inlet_rate,
         fast_rate=law.fast_rate,
-        fade=fade,
+        cutoff_gap=cutoff_gap,
     )
 
 
@@ -178,12 +182,12 @@ def _at(u, law, row, k):
 
 
 @jit_exact_node
-def carried(u, fade):
+def film_cutoff(u, cutoff_gap):
     """Share of its force that a film carries at approach `u`, and its slope."""
-    gap = -u / fade
+    gap = -u / cutoff_gap
     if gap <= 0.5:
         return 1.0, 0.0
     if gap >= 1.0:
         return 0.0, 0.0
     t = 2.0 * gap - 1.0
-    return 1.0 - t * t * (3.0 - 2.0 * t), 12.0 * t * (1.0 - t) / fade
+    return 1.0 - t * t * (3.0 - 2.0 * t), 12.0 * t * (1.0 - t) / cutoff_gap

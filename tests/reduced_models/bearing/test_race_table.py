@@ -11,12 +11,12 @@ import pytest
 from ehlcontact.errors import InputError
 from reduced_models.bearing import balls as balls_room
 from reduced_models.bearing import contact as contact_room
-from reduced_models.bearing import law as law_room
+from reduced_models.bearing import race_table as table_room
 from reduced_models.bearing.balls import films_of, speed_state
 from reduced_models.bearing.contact import APPROACH, begin, press
 from reduced_models.bearing.kinematics import RADIANS
-from reduced_models.bearing.law import carried, curve, film_law
 from reduced_models.bearing.race import shared_atlas
+from reduced_models.bearing.race_table import curve, film_cutoff, tabulate_race
 from reduced_models.elements.film_law import static
 
 SPEEDS = (1000.0, 3000.0, 9000.0)
@@ -32,7 +32,7 @@ def exact(element, u):
 def test_the_table_is_the_curve(film, race):
     """From a gap of 3 mm to eight times the heaviest load of the atlas."""
     element = film.element(race, 3000.0)
-    law, last = film_law([element]), 0
+    law, last = tabulate_race([element]), 0
     highest = element.approach_at(8.0 * element.load_range[1])
     for u in np.concatenate([-np.geomspace(3e-3, 1e-9, 3000), np.linspace(0.0, highest, 3000)]):
         g, slope, last = curve(u, 0, 0.0, law, last)
@@ -43,7 +43,7 @@ def test_the_table_is_the_curve(film, race):
 
 
 def test_beyond_the_table_it_goes_on(film):
-    law = film_law([film.element("inner", 3000.0)])
+    law = tabulate_race([film.element("inner", 3000.0)])
     for end, step in ((law.u[0, 0], -1e-12), (law.u[0, -1], 1e-12)):
         inside, outside = (curve(end + s, 0, 0.0, law, 0) for s in (-step, step))
         assert outside[0] == pytest.approx(inside[0], rel=1e-6)
@@ -76,47 +76,47 @@ def test_at_its_own_speeds_a_law_of_many_is_that_of_one(film):
     many = film.kernel(SPEEDS)
     u = np.array([-5e-6, 0.0, 3e-6, 8e-6])
     for row, speed in enumerate(SPEEDS):
-        turn = speed_state(many, speed * RADIANS)
-        assert sum(turn.spin) == row
+        at_speed = speed_state(many, speed * RADIANS)
+        assert sum(at_speed.speed_row) == row
         one = film.kernel(speed)
         for approach in u:
-            ours = curve(approach, *turn.spin, many.inner, 0)[0]
+            ours = curve(approach, *at_speed.speed_row, many.inner, 0)[0]
             assert ours == pytest.approx(curve(approach, 0, 0.0, one.inner, 0)[0], rel=1e-9)
 
 
 def test_between_speeds_films_grow_as_they_should(film):
     """Half way between two speeds of a law it is within 1 % of the law of that speed, and nowhere does it jump."""
     coarse = film.kernel((2500.0, 3500.0))
-    turn, own = speed_state(coarse, 3000.0 * RADIANS), film.kernel(3000.0)
+    at_speed, own = speed_state(coarse, 3000.0 * RADIANS), film.kernel(3000.0)
     for u in (2e-6, 5e-6, 8e-6):
-        film_there = curve(u, *turn.spin, coarse.inner, 0)[0] - u
+        film_there = curve(u, *at_speed.speed_row, coarse.inner, 0)[0] - u
         assert film_there == pytest.approx(curve(u, 0, 0.0, own.inner, 0)[0] - u, rel=0.01)
     many = film.kernel(SPEEDS)
     below, above = (speed_state(many, 3000.0 * RADIANS * (1.0 + s)) for s in (-1e-9, 1e-9))
-    assert below.spin[0] == 0 and above.spin[0] == 1
+    assert below.speed_row[0] == 0 and above.speed_row[0] == 1
     pressed = []
-    for turn in (below, above):
+    for at_speed in (below, above):
         films = films_of(many)
         films.state[0, APPROACH] = 5e-6
-        begin(many.inner, turn.inner, turn.spin, 2e-5, films, 0)
-        pressed.append(press(many.inner, turn.inner, turn.spin, films, 0, 5.1e-6, 3e-3))
+        begin(many.inner, at_speed.inner, at_speed.speed_row, 2e-5, films, 0)
+        pressed.append(press(many.inner, at_speed.inner, at_speed.speed_row, films, 0, 5.1e-6, 3e-3))
     np.testing.assert_allclose(pressed[0], pressed[1], rtol=1e-6)
 
 
 def test_films_that_squeeze_are_refused(film):
     with pytest.raises(InputError, match=r"inlet_saturation = 0.2: must be 0"):
-        film_law([replace(film.element("inner", 3000.0), inlet_saturation=0.2)])
+        tabulate_race([replace(film.element("inner", 3000.0), inlet_saturation=0.2)])
 
 
 def test_fading():
-    assert carried(-1.0, inf) == (1.0, 0.0)
-    assert carried(-0.4e-6, 1e-6) == (1.0, 0.0)
-    assert carried(-1.1e-6, 1e-6) == (0.0, 0.0)
+    assert film_cutoff(-1.0, inf) == (1.0, 0.0)
+    assert film_cutoff(-0.4e-6, 1e-6) == (1.0, 0.0)
+    assert film_cutoff(-1.1e-6, 1e-6) == (0.0, 0.0)
     for u in (-0.6e-6, -0.9e-6):
-        share, slope = carried(u, 1e-6)
+        share, slope = film_cutoff(u, 1e-6)
         assert 0.0 < share < 1.0
         assert slope == pytest.approx(
-            (carried(u + 1e-12, 1e-6)[0] - carried(u - 1e-12, 1e-6)[0]) / 2e-12, rel=1e-5
+            (film_cutoff(u + 1e-12, 1e-6)[0] - film_cutoff(u - 1e-12, 1e-6)[0]) / 2e-12, rel=1e-5
         )
 
 
@@ -124,10 +124,10 @@ def test_fading():
 def test_compiled_and_plain_are_twins(film, monkeypatch):
     """A ball over two steps, all its kernels as plain Python."""
     kernel = film.kernel(3000.0)
-    turn = speed_state(kernel, 3000.0 * RADIANS)
+    at_speed = speed_state(kernel, 3000.0 * RADIANS)
     names = {
-        law_room: ("_at", "curve", "carried"),
-        contact_room: ("_lag", "_weigh", "_add", "begin", "press", "accept", "curve", "carried", "_shares"),
+        table_room: ("_at", "curve", "film_cutoff"),
+        contact_room: ("_lag", "_weigh", "_add", "begin", "press", "accept", "curve", "film_cutoff", "_shares"),
         balls_room: ("_ball", "begin_step", "press_balls", "accept_balls", "begin", "press", "accept"),
     }
     normals = np.array([[0.0, -1.0]] * 9)
@@ -136,9 +136,9 @@ def test_compiled_and_plain_are_twins(film, monkeypatch):
     def run():
         films, out = films_of(kernel), (np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2)))
         for _ in range(2):
-            gain = balls_room.begin_step(kernel, turn, 2e-5, films)
-            balls_room.press_balls(kernel, turn, films, normals, q, v, gain, out)
-            balls_room.accept_balls(kernel, turn, films, normals, q, v, gain)
+            gain = balls_room.begin_step(kernel, at_speed, 2e-5, films)
+            balls_room.press_balls(kernel, at_speed, films, normals, q, v, gain, out)
+            balls_room.accept_balls(kernel, at_speed, films, normals, q, v, gain)
         return copy.deepcopy((*out, films.state))
 
     compiled = run()
