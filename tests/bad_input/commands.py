@@ -22,6 +22,16 @@ def free(*more, **changes):
     return at("simulate", "--free", "5", *more, **changes)
 
 
+def harmonic(*more, **changes):
+    return at("simulate", "--harmonic", "3", *more, **changes)
+
+
+def ball(command, *left_out, **changes):
+    """A command at the contact of a bearing, with some of its options left out or changed."""
+    options = dict(zip(BALL[::2], BALL[1::2], strict=True)) | {f"--{k}": v for k, v in changes.items()}
+    return (command, *(part for name, value in options.items() if name not in left_out for part in (name, value)))
+
+
 def bearing(name, *more, **changes):
     """A bearing by its name, dry at 1000 N and 1000 rpm but for the changes."""
     options = {"load": "1000", "speed": "1000"} | changes
@@ -44,12 +54,73 @@ COMMANDS = [
     (("init", "new.toml", "--rpm", "nan"), ("--rpm = nan", "finite")),
     (("init", "new.toml", "--load", "1e-3"), ("M", "between 0.1 and 60000")),
     # a bearing's contact
-    (("steady", *BALL[2:]), ("--bearing = None", "given", "6205")),
     (("steady", *BALL[:-2]), ("--load = None", "given", "N")),
     (("steady", *BALL, "--M", "200"), ("--M = 200.0", "left out", "--bearing")),
-    (("impedance", *BALL, "--hz", "50", "--Omega", "1"), ("--hz", "left out", "--Omega")),
     (("element", *BALL, "--contact", "cage"), ("--contact = 'cage'", "inner, outer")),
-    # steady
+    (ball("steady", "--bearing"), ("--bearing = None", "given", "6205")),
+    (ball("steady", "--oil"), ("--oil = None", "--oil and --temp, or --eta0 and --alpha")),
+    (ball("steady", "--temp"), ("--temp = None", "--oil and --temp")),
+    (ball("steady", "--rpm"), ("--rpm = None", "given", "rev/min")),
+    (ball("steady", bearing="6999"), ("--bearing = '6999'", "6205", "ehlcontact init")),
+    (ball("steady", oil="olive"), ("--oil = 'olive'", "ISO VG 10, 15", "680")),
+    (ball("steady", temp="300"), ("--temp = 300.0", "between 20 and 120")),
+    (ball("steady", rpm="-1"), ("--rpm = -1.0", "> 0")),
+    (ball("steady", rpm="1e9"), ("--rpm = 1000000000.0", "rev/min")),
+    (ball("steady", load="0"), ("--load = 0.0", "> 0")),
+    (ball("steady", load="1e-5"), ("M of this contact", "between 0.1")),
+    (ball("steady", load="1e6"), ("M of this contact", "20.1 GPa")),
+    (ball("steady", contact="both"), ("--contact = 'both'", "inner, outer")),
+    (ball("steady", eta0="0.04"), ("--eta0 = 0.04", "left out", "--oil")),
+    (ball("steady", "--oil", "--temp", eta0="0.04"), ("--alpha = None", "--eta0 and --alpha")),
+    (ball("steady", "--oil", "--temp", eta0="40", alpha="2e-8"), ("--eta0 = 40.0", "mPa s")),
+    (ball("steady", M="20"), ("--M = 20.0", "left out", "--bearing")),
+    (steady("--load", "7"), ("--load = 7.0", "left out where --M")),
+    (at("simulate", "--free-hz", "50"), ("--free-hz", "no unit of time")),
+    (free("--until-ms", "1"), ("--until-ms", "--until")),
+    (ball("simulate", free="5", until="2", **{"until-ms": "1"}), ("--until-ms", "one end")),
+    (ball("simulate", free="5", **{"free-hz": "50"}), ("exactly one",)),
+    (ball("simulate", amplitude="0.2", **{"free-hz": "5e3"}), ("--amplitude", "--harmonic")),
+    (ball("simulate", **{"free-hz": "1e12"}), ("--free-hz", "between")),
+    (ball("impedance", hz="50", Omega="1"), ("--hz", "one name", "left out", "--Omega")),
+    (ball("impedance", hz="-50"), ("--hz", "-50")),
+    (at("impedance"), ("--Omega = None", "2a/u_sum")),
+    (ball("element", temp="20", oil="680", rpm="20000"), ("L of this contact", "between 0 and 30")),
+    *(
+        (at(*command, option, "50"), (option, "--Omega", "2a/u_sum", "no unit of time"))
+        for command in (("impedance",), ("element", "--model", "cubic"))
+        for option in ("--hz", "--rpm", "--frequency")
+    ),
+    # steady, and what all solvers have in common
+    *(
+        (at(*command, **{option: value}), words)
+        for command in (("steady",), ("simulate", "--free", "5.13"), ("impedance", "--omega", "1"))
+        for option, value, *words in (
+            ("M", "1e9", "M = 1000000000.0", "between 0.1 and"),
+            ("M", "1e-3", "M = 0.001", "between 0.1 and"),
+            ("M", "1e300", "M = 1e+300"),
+            ("L", "1e9", "L = 1000000000.0", "between 0 and"),
+            ("L", "106", "L = 106.0"),
+            ("kappa", "20", "kappa = 20.0"),
+            ("kappa", "0.011", "kappa = 0.011"),
+            ("alpha", "20", "alpha = 20.0", "in 1/GPa? then 2e-08 1/Pa"),
+            ("alpha", "0.02", "alpha = 0.02", "in 1/MPa? then 2e-08 1/Pa"),
+            ("alpha", "1e-300", "alpha = 1e-300"),
+            ("eta0", "36.7", "eta0 = 36.7", "in mPa s? then 0.0367 Pa s"),
+            ("eta0", "1e-4", "ln(eta/eta0)", "at most"),
+        )
+    ),
+    *((steady(M=text), (f"--M = {float(text)}", "> 0")) for text in ("0", "-20", "nan", "inf")),
+    *((steady(L=text), (f"--L = {float(text)}", ">= 0")) for text in ("-1", "nan")),
+    *((steady(kappa=text), (f"--kappa = {float(text)}", "between 0.01 and 100")) for text in ("0", "1e-3")),
+    *((steady(alpha=text), (f"--alpha = {float(text)}", "> 0")) for text in ("0", "-1e-8")),
+    (steady(eta0="0"), ("--eta0 = 0.0",)),
+    (steady(eta0="1e-6"), ("--eta0 = 1e-06", "6.31e-5")),
+    (steady(viscosity="honey"), ("--viscosity = 'honey'", "roelands")),
+    (steady(density="lead"), ("--density = 'lead'", "dowson-higginson")),
+    *((steady(n=text), (f"--n = {text}", "multiple of 16")) for text in ("100", "0", "4096")),
+    (steady(M="30000", L="25", kappa="0.9"), ("Hertz pressure in GPa", "at most 5")),
+    (steady("--domain", "-1", "1.5", "3"), ("--domain XA", "-1.0", "-1.2")),
+    (steady("--domain", "-4", "1.5", "nan"), ("--domain YMAX", "nan", "finite")),
     (("steady",), ("--M = None", "given", "> 0")),
     (("steady", *POINT[:4]), ("--kappa", "given", "0.01 to 100")),
     (("steady", "--m", "200", *POINT[2:]), ("--m", "--M, --L, --kappa")),
@@ -98,6 +169,12 @@ COMMANDS = [
     (steady("--save", "r.txt"), ("--save = 'r.txt'", ".h5 or .hdf5")),
     (steady("--save", ""), ("--save", "file name")),
     (steady("--save", "none/r.h5"), ("--save = 'none/r.h5'", "folder that exists")),
+    (steady("--save", f"{STUDY}/r.h5"), ("--save", "exists")),
+    (steady("--save", "."), ("--save", "ending")),
+    (steady("--save", "/proc/r.h5"), ("--save", "/proc/")),
+    (steady("--json", "none/r.json"), ("--json", "none", "exists")),
+    (steady("--json", f"{STUDY}/r.json"), ("--json", "exists")),
+    (steady("--json", "/proc/r.json"), ("--json", "/proc/")),
     (steady("--figure", "f.gif"), ("--figure = 'f.gif'", ".png or .svg or .pdf")),
     (steady("--figure", "none/f.png"), ("--figure", "folder that exists")),
     (steady("--json", "."), ("--json = '.'", "a file, not a folder")),
@@ -123,6 +200,21 @@ COMMANDS = [
         at("simulate", "--ramp", "1e5", "1", "--omega-n", "2"),
         ("M under the largest load", "between 0.1 and 60000"),
     ),
+    (free("--harmonic", "3"), ("motion", "exactly one")),
+    (at("simulate", "--ramp", "3", "1"), ("--omega-n", "--ramp")),
+    (at("simulate", "--ramp", "1e4", "1", "--omega-n", "2.4"), ("M under the largest load",)),
+    *((at("simulate", "--free", text), (f"--free = {float(text)}", "> 0")) for text in ("0", "nan")),
+    (free("--amplitude", "0.2"), ("--amplitude", "0.2", "--harmonic")),
+    (free("--omega-n", "2"), ("--omega-n", "2.0", "--harmonic or --ramp")),
+    (harmonic("--rate", "0.1"), ("--rate", "0.1", "--free")),
+    (harmonic("--amplitude", "1.5"), ("amplitude", "1.5", "below 1")),
+    (harmonic("--until", "-1"), ("until", "-1.0", "> 0")),
+    (harmonic("--dt", "nan"), ("dt", "nan", "> 0")),
+    (harmonic("--until", "1", "--dt", "2"), ("--dt", "2.0", "until")),
+    (harmonic("--error", "0"), ("error", "0.0", "> 0")),
+    (harmonic("--error", "0.5"), ("error", "0.5", "0.1")),
+    (harmonic("--checkpoint", "none/c.h5"), ("--checkpoint", "none/c.h5", "exists")),
+    (harmonic("--restart", "none.h5"), ("restart", "none.h5", "checkpoint")),
     (free("--offset", "50"), ("--offset = 50.0", "between -2 and 2")),
     (free("--rate", "1e6"), ("--rate = 1000000.0", "within +-2 dry approaches")),
     (free("--until", "0"), ("--until = 0.0", "> 0")),
@@ -155,6 +247,8 @@ COMMANDS = [
     (("fit", RECORD, RECORD), ("file = 'record.h5'", "given once")),
     (("fit", RECORD, f"./{RECORD}"), ("given once", "record.h5")),
     (("fit", RECORD, OTHER), ("other.h5", "as in record.h5", "M=20")),
+    (("fit", "r.h5", "--model", "quartic"), ("--model", "quartic", "linear")),
+    (("fit", "r.h5", "--model", "memory", "--window", "1", "2"), ("--window", "memory")),
     (("fit", RECORD, "--model", "Cubic"), ("--model = 'Cubic'", "linear, cubic")),
     (("fit", RECORD, "--window", "1"), ("--window", "2 values", "START END")),
     (("fit", RECORD, "--window", "3", "1"), ("--window START = 3.0", "below end = 1.0")),
@@ -192,6 +286,8 @@ COMMANDS = [
     (("export", ELEMENT, "-o", "x.zip"), ("--output = 'x.zip'", ".fmu")),
     (("export", ELEMENT, "-o", "none/x.fmu"), ("--output", "folder that exists")),
     (("export", ELEMENT, "-o", "new.fmu", "--fmi", "two"), ("--fmi = 'two'", "whole number")),
+    (("export", ELEMENT, "-o", "new.fmu", "--fmi", "7"), ("--fmi", "7", "2 or 3")),
+    (("export", "bearing.toml", "-o", "new.fmu"), ("bearing.toml", "readable TOML")),
     (("export", ELEMENT, "-o", "new.fmu", "--fmi", "1"), ("--fmi = 1", "must be 2 or 3")),
     (("export", ELEMENT, "-o", "new.fmu", "--name", ""), ("--name = ''", "1 to 100 printable characters")),
     (("export", ELEMENT, "-o", "new.fmu", "--json", ELEMENT), ("--json = 'element.json'", "which is read")),

@@ -112,47 +112,6 @@ def test_simulation_in_hz_and_its_element_in_si(call, refused, tmp_path):
     assert load_element(element).units == "SI"
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (options("--bearing"), ("--bearing = None", "given", "6205")),
-        (options("--oil"), ("--oil = None", "--oil and --temp, or --eta0 and --alpha")),
-        (options("--temp"), ("--temp = None", "--oil and --temp")),
-        (options("--rpm"), ("--rpm = None", "given", "rev/min")),
-        (options("--load"), ("--load = None", "given", "N")),
-        (options(bearing="6999"), ("--bearing = '6999'", "6205", "ehlcontact init")),
-        (options(oil="olive"), ("--oil = 'olive'", "ISO VG 10, 15", "680")),
-        (options(temp="300"), ("--temp = 300.0", "between 20 and 120")),
-        (options(rpm="-1"), ("--rpm = -1.0", "> 0")),
-        (options(rpm="1e9"), ("--rpm = 1000000000.0", "rev/min")),
-        (options(load="0"), ("--load = 0.0", "> 0")),
-        (options(load="1e-5"), ("M of this contact", "between 0.1")),
-        (options(load="1e6"), ("M of this contact", "20.1 GPa")),
-        ([*options(), "--contact", "both"], ("--contact = 'both'", "inner, outer")),
-        ([*options(), "--eta0", "0.04"], ("--eta0 = 0.04", "left out", "--oil")),
-        ([*options("--oil", "--temp"), "--eta0", "0.04"], ("--alpha = None", "--eta0 and --alpha")),
-        ([*options("--oil", "--temp"), "--eta0", "40", "--alpha", "2e-8"], ("--eta0 = 40.0", "mPa s")),
-        ([*options(), "--M", "20"], ("--M = 20.0", "left out where --bearing")),
-        (["--M", "20", "--L", "5", "--kappa", "0.5", "--load", "7"], ("--load = 7.0", "left out where --M")),
-    ],
-)  # fmt: skip
-def test_slips_are_one_line(refused, arguments, words):
-    refused(words, "steady", *arguments)
-
-
-def test_slips_of_frequencies(refused, point):
-    refused(("--free-hz", "no unit of time"), "simulate", *point, "--free-hz", "50")
-    refused(("--until-ms", "--until"), "simulate", *point, "--free", "5", "--until-ms", "1")
-    refused(("--until-ms", "one end"), "simulate", *options(), "--free", "5", "--until-ms", "1", "--until", "2")
-    refused(("exactly one",), "simulate", *options(), "--free", "5", "--free-hz", "50")
-    refused(("--amplitude", "--harmonic"), "simulate", *options(), "--free-hz", "5e3", "--amplitude", "0.2")
-    refused(("--free-hz", "between"), "simulate", *options(), "--free-hz", "1e12")
-    refused(("--hz", "one name"), "impedance", *options(), "--hz", "50", "--Omega", "1")
-    refused(("--hz", "-50"), "impedance", *options(), "--hz", "-50")
-    refused(("--Omega = None", "2a/u_sum"), "impedance", *point)
-    refused(("L of this contact", "between 0 and 30"), "element", *options(temp="20", oil="680", rpm="20000"))
-
-
 def test_si_of_a_fit_needs_a_record_in_si(call, refused, point, tmp_path):
     record = tmp_path / "r.h5"
     short = ("--harmonic", "3", "--until", "2", "--dt", "0.2")

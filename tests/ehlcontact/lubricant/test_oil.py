@@ -208,10 +208,3 @@ def test_bad_oil_is_named(field, changes, allowed):
         Lubricant.iso_vg(**({"grade": 68, "temperature": 50.0} | changes))
     assert caught.value.field == field and allowed in caught.value.allowed
     assert "\n" not in str(caught.value)
-
-
-@pytest.mark.parametrize("name", ["eta0_scatter", "alpha_scatter", "temperature_slope"])
-@pytest.mark.parametrize("value", [-0.1, float("nan"), True, "0.1"])
-def test_bad_scatter_is_named(name, value):
-    with pytest.raises(InputError, match=rf"^{name} = "):
-        Lubricant(0.04, 2e-8, **{name: value})

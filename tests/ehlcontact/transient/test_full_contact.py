@@ -172,19 +172,3 @@ def test_bad_step_is_named(contact, value):
 def test_bad_approach_is_named(contact, value):
     with pytest.raises(InputError, match=r"^approach = "):
         contact.advance(0.1, value)
-
-
-@pytest.mark.parametrize(
-    ("field", "arguments"),
-    [
-        ("n", dict(n=33)),
-        ("largest_load", dict(largest_load=0.0)),
-        ("largest_load", dict(largest_load=NAN)),
-        ("tol", dict(tol=-1.0)),
-        ("point", dict(point=3)),
-    ],
-)
-def test_bad_input_is_named(field, arguments):
-    arguments = {"point": POINT, **arguments}
-    with pytest.raises(InputError, match=rf"^{field} = "):
-        FullContact(arguments.pop("point"), **arguments)

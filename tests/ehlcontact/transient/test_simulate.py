@@ -12,7 +12,6 @@ from ehlcontact import (
     Domain,
     FreeVibration,
     HarmonicLoad,
-    InputError,
     MoesPoint,
     PrescribedApproach,
     PrescribedLoad,
@@ -258,32 +257,6 @@ def test_time_out_of_the_domain_is_reported():
     )
     assert record.status is Status.OUT_OF_DOMAIN
     assert record.T[-1] < 4.0
-
-
-NAN, INF = float("nan"), float("inf")
-
-
-@pytest.mark.parametrize(
-    ("field", "arguments"),
-    [
-        ("n", dict(n=40)),
-        ("until", dict(until=0.0)),
-        ("until", dict(until=NAN)),
-        ("until", dict(until=True)),
-        ("dT", dict(dT=-0.1)),
-        ("dT", dict(dT=INF)),
-        ("dT", dict(dT=2.0, until=1.0)),
-        ("tol", dict(tol=0.0)),
-        ("tol", dict(tol=NAN)),
-        ("snapshots", dict(snapshots=(-1.0,))),
-        ("snapshots", dict(snapshots=(0.5, NAN))),
-        ("point", dict(point="M200")),
-    ],
-)
-def test_bad_input_is_named(field, arguments):
-    arguments = {"point": POINT, "n": N, **arguments}
-    with pytest.raises(InputError, match=rf"^{field} = .*: must be "):
-        simulate(arguments.pop("point"), HarmonicLoad(Omega=pi), **arguments)
 
 
 def test_fast_squeezing_of_a_narrow_ellipse():

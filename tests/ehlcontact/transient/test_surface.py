@@ -143,14 +143,3 @@ def test_surface_that_closes_the_gap_is_named():
     ridge = TransverseRidge(3.0, 0.4, start=0.0)
     with pytest.raises(ConvergenceError, match="surface stands out by 3"):
         simulate(MoesPoint(200, 10, 0.5), HarmonicLoad(Omega=3.0), n=32, until=0.1, surface=ridge)
-
-
-def test_endless_fixed_steps_are_refused():
-    with pytest.raises(InputError, match=r"^dT = 1e-09: must be at least"):
-        simulate(MoesPoint(200, 10, 0.5), HarmonicLoad(Omega=3.0), n=16, until=10.0, dT=1e-9)
-
-
-@pytest.mark.parametrize(("arguments", "named"), [({"surface": 3}, "surface"), ({"snapshots": 0.5}, "snapshots")])
-def test_what_is_no_surface_and_no_list(arguments, named):
-    with pytest.raises(InputError, match=rf"^{named} = "):
-        simulate(MoesPoint(200, 10, 0.5), HarmonicLoad(Omega=3.0), n=16, until=0.1, **arguments)
