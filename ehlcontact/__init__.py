@@ -12,7 +12,8 @@ room             responsibility
 ``impedance``    `impedance`: K and C over frequency from the linearised steady state
 ``transient/``   one film through time: motions, surfaces, `simulate`, `FullContact`
 ``assumptions/`` what every solve assumes, and the numbers that tell when it matters
-``results/``     frozen results of one instant (those of a run are in ``transient/``); all of them in SI
+``quantities``   units, scales and dimensions of quantities, declared once in the annotations of results
+``results/``     results of a steady solve and of an impedance; tables, SI values and figures of all results
 ``origin``       where numbers come from: what all results have in common; the version
 ``film/``        the film to look at: maps, mid-planes, fringes, what the surfaces carry through
 ``storage``      `save` and `load`
@@ -46,7 +47,7 @@ from ehlcontact.impedance import impedance
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.origin import __version__
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint, Scales
-from ehlcontact.results import ImpedanceResult, ImpedanceSI, SteadyResult, SteadySI
+from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for
 from ehlcontact.status import Status
@@ -57,14 +58,12 @@ from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 from ehlcontact.transient.prescribed import PrescribedApproach, PrescribedLoad
 from ehlcontact.transient.result import Instants, SimulationResult
 from ehlcontact.transient.roughness import Roughness
-from ehlcontact.transient.si import ContactSI, SimulationSI
 from ehlcontact.transient.simulate import simulate
 from ehlcontact.transient.surface import Dent, TransverseRidge, Waviness
 
 __all__ = [
     "Assumption",
     "Assumptions",
-    "ContactSI",
     "ConvergenceError",
     "Dent",
     "Domain",
@@ -76,7 +75,6 @@ __all__ = [
     "Geometry",
     "HarmonicLoad",
     "ImpedanceResult",
-    "ImpedanceSI",
     "InputError",
     "Instants",
     "Interferogram",
@@ -91,10 +89,8 @@ __all__ = [
     "Roughness",
     "Scales",
     "SimulationResult",
-    "SimulationSI",
     "Status",
     "SteadyResult",
-    "SteadySI",
     "TransverseRidge",
     "WaveTrack",
     "Waviness",

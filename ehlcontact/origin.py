@@ -49,6 +49,16 @@ class Origin:
     def __post_init__(self) -> None:
         freeze(self)
 
+    def origin_dict(self) -> dict[str, Any]:
+        """Contact, mesh, library and time taken, ready for JSON."""
+        return {
+            "seconds": self.seconds,
+            "n": self.n,
+            "domain": list(self.domain.as_tuple()),
+            "point": self.point.to_dict(),
+            "version": self.version,
+        }
+
     def source(self, motion: Any = None) -> dict[str, Any]:
         """What an element made from this result keeps as its ``source``."""
         return source_of(self.point, self.scales, self.n, self.domain.as_tuple(), motion)

@@ -35,14 +35,18 @@ class Summary:
         text = fill(", ".join([*numbers, *arrays]), WIDTH, max_lines=LINES, placeholder=" ...")
         return text.splitlines() or [""]
 
+    def _summary_name(self) -> str:
+        """What the summary opens with."""
+        return type(self).__name__
+
     def __repr__(self) -> str:
         first, *others = self._summary_lines()
-        return "\n".join([f"{type(self).__name__}: {first}", *(f"  {line}" for line in others)])
+        return "\n".join([f"{self._summary_name()}: {first}", *(f"  {line}" for line in others)])
 
     def _repr_html_(self) -> str:
         """The summary as HTML, for a notebook."""
         first, *others = (escape(line) for line in self._summary_lines())
-        return "<br>".join([f"<strong>{type(self).__name__}</strong>: {first}", *others])
+        return "<br>".join([f"<strong>{self._summary_name()}</strong>: {first}", *others])
 
 
 def contact_text(point: MoesPoint | None, scales: Scales | None) -> str:

@@ -16,7 +16,6 @@ from inspect import ismodule as _ismodule
 
 from reduced_models.atlas.answer import AtlasAnswer as AtlasAnswer
 from reduced_models.atlas.answer import AtlasAnswers as AtlasAnswers
-from reduced_models.atlas.answer import AtlasSI as AtlasSI
 from reduced_models.atlas.atlas import Atlas as Atlas
 from reduced_models.atlas.frequency import AtlasImpedance as AtlasImpedance
 from reduced_models.bearing.ball_bearing import BallBearing as BallBearing

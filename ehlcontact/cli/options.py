@@ -183,7 +183,7 @@ class Files:
         deliver(
             lambda: write_to("--save", self.save, save),
             lambda: write_to("--figure", self.figure, figure),
-            lambda: write_json({**result.summary(), **about}, self.json_to),
+            lambda: write_json({**result.to_dict(), **about}, self.json_to),
             lambda: show_table(title, rows, self.json_to),
         )
 

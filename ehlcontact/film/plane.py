@@ -1,14 +1,10 @@
-"""The film at one instant: whole plane, mid-planes, horseshoe, fringes.
-
-Upper-case attributes are dimensionless as in `results`; their lower-case properties are SI and need an
-`OperatingPoint`'s scales.
-"""
+"""The film at one instant: whole plane, mid-planes, horseshoe, fringes."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,69 +13,43 @@ from ehlcontact.checks import require_finite, require_instance, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from ehlcontact.results import SteadyResult, require_scales
+from ehlcontact.quantities import ACROSS, ALONG, LENGTH, NUMBER, PRESSURE, Quantity, quantities_of, require_scales
+from ehlcontact.results import SteadyResult
 from ehlcontact.results.contact_map import ContactMap, contact_panels
-from ehlcontact.results.layout import Layout, Tabled
+from ehlcontact.results.table import Display, QuantityTable, ScaledTable
 from ehlcontact.solver.lowest_film import lowest_film
-from ehlcontact.summary import Summary
 from ehlcontact.transient.result import SimulationResult
 
 Array = NDArray[np.float64]
 
 LIGHT = (1e-8, 1e-4)  # m: wavelengths, from ultraviolet to infrared
 
-IN_SI = Layout(
-    rows="x y",
-    panels=("p", "h"),
-    quantities={"x": ("m", "x"), "y": ("m", "y"), "p": ("Pa", "x y"), "h": ("m", "x y")},
-)
-
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Profile(Summary, Tabled):
-    """Film and pressure along a line through the centre.
+class Profile(ScaledTable):
+    """Film and pressure along a line through the centre; ``si`` has them in SI.
 
     Attributes
     ----------
     X, H, P : ndarray, shape (k,)
-        x/a or y/b, film over the dry approach, pressure over the Hertz pressure.
+        x/a or y/b, film over the dry approach, pressure over the Hertz pressure. In SI ``x`` [m] (across too),
+        ``h`` [m], ``p`` [Pa].
     scales : Scales or None
     across : bool
         Along Y at X = 0, otherwise along X at Y = 0.
     """
 
-    X: Array
-    H: Array
-    P: Array
+    X: Annotated[Array, ALONG.over("X")]
+    H: Annotated[Array, LENGTH.over("X")]
+    P: Annotated[Array, PRESSURE.over("X")]
     scales: Scales | None
     across: bool
 
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="X",
-        panels=("H", "P"),
-        quantities={"X": ("semi-axes", "X"), "H": ("delta_H", "X"), "P": ("p_h", "X")},
-    )
+    DISPLAY: ClassVar[Display] = Display(rows="X", panels=("H", "P"))
 
-    def _layout(self) -> Layout:
-        if self.scales is None:
-            return self.LAYOUT
-        return Layout(rows="x", panels=("h", "p"), quantities={"x": ("m", "x"), "h": ("m", "x"), "p": ("Pa", "x")})
-
-    @property
-    def x(self) -> Array:
-        """Place [m]."""
-        scales = require_scales(self.scales)
-        return self.X * (scales.b if self.across else scales.a)
-
-    @property
-    def h(self) -> Array:
-        """Film [m]."""
-        return self.H * require_scales(self.scales).length
-
-    @property
-    def p(self) -> Array:
-        """Pressure [Pa]."""
-        return self.P * require_scales(self.scales).pressure
+    def _quantities(self) -> Mapping[str, Quantity]:
+        declared = quantities_of(Profile)
+        return {**declared, "X": ACROSS.over("X")} if self.across else declared
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -114,57 +84,33 @@ class Constriction:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Film(Summary, Tabled):
-    """Film and pressure at one instant over the whole plane.
+class Film(ScaledTable):
+    """Film and pressure at one instant over the whole plane; ``si`` has them in SI.
 
     Attributes
     ----------
     X, Y : ndarray, shape (nx + 1,), (2 ny + 1,)
-        x/a and y/b, both signs.
+        x/a and y/b, both signs; in SI ``x``, ``y`` [m].
     H, P : ndarray, shape (nx + 1, 2 ny + 1)
-        Film over the dry approach, pressure over the Hertz pressure.
+        Film over the dry approach, pressure over the Hertz pressure; in SI ``h`` [m], ``p`` [Pa].
     scales : Scales or None
         Units in SI.
     """
 
-    X: Array
-    Y: Array
-    H: Array
-    P: Array
+    X: Annotated[Array, ALONG.over("X")]
+    Y: Annotated[Array, ACROSS.over("Y")]
+    H: Annotated[Array, LENGTH.over("X Y")]
+    P: Annotated[Array, PRESSURE.over("X Y")]
     scales: Scales | None
 
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="X Y",
-        panels=("P", "H"),
-        quantities={"X": ("a", "X"), "Y": ("b", "Y"), "P": ("p_h", "X Y"), "H": ("delta_H", "X Y")},
-    )
+    DISPLAY: ClassVar[Display] = Display(rows="X Y", panels=("P", "H"))
 
-    def _layout(self) -> Layout:
-        return self.LAYOUT if self.scales is None else IN_SI
+    def _drawn(self) -> Film:
+        return self  # in SI and without, as a contact is drawn
 
     def _panels(self) -> Iterator[Any]:
         central = float(self.H[int(np.argmin(np.abs(self.X))), self.Y.size // 2])
         yield from contact_panels((self.X, self.Y), (self.P, self.H), central, None, self.scales)
-
-    @property
-    def x(self) -> Array:
-        """Place along rolling [m]."""
-        return self.X * require_scales(self.scales).a
-
-    @property
-    def y(self) -> Array:
-        """Place across [m]."""
-        return self.Y * require_scales(self.scales).b
-
-    @property
-    def h(self) -> Array:
-        """Film [m]."""
-        return self.H * require_scales(self.scales).length
-
-    @property
-    def p(self) -> Array:
-        """Pressure [Pa]."""
-        return self.P * require_scales(self.scales).pressure
 
     @property
     def along(self) -> Profile:
@@ -244,7 +190,7 @@ def _mirrored(field: Array) -> Array:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Interferogram(Summary, Tabled):
+class Interferogram(QuantityTable):
     """Fringes of a film, where its grid resolves them `resolved`.
 
     Attributes
@@ -257,17 +203,13 @@ class Interferogram(Summary, Tabled):
         Semi-axes of the Hertz ellipse along and across [m].
     """
 
-    intensity: Array
-    order: Array
-    x: Array
-    y: Array
+    intensity: Annotated[Array, NUMBER.over("x y")]
+    order: Annotated[Array, NUMBER.over("x y")]
+    x: Annotated[Array, ALONG.over("x")]
+    y: Annotated[Array, ACROSS.over("y")]
     axes: tuple[float, float]
 
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="x y",
-        panels=("intensity",),
-        quantities={"x": ("m", "x"), "y": ("m", "y"), "intensity": ("", "x y"), "order": ("", "x y")},
-    )
+    DISPLAY: ClassVar[Display] = Display(rows="x y", panels=("intensity",))
 
     def _panels(self) -> Iterator[Any]:
         seen = np.where(self.resolved, self.intensity, np.nan)  # finer fringes would be false ones
@@ -311,7 +253,7 @@ def interferogram(
         raise InputError("wavelength", wavelength, f"from {LIGHT[0]:g} to {LIGHT[1]:g} m (given in nm or um?)")
     index = require_positive("refractive_index", refractive_index)
     turn = require_finite("phase", phase) / (2.0 * np.pi)
-    order = 2.0 * index * film.h / wave + turn
-    scales = require_scales(film.scales)
+    si, scales = film.si, require_scales(film.scales)
+    order = 2.0 * index * si.h / wave + turn
     intensity = 0.5 * (1.0 + np.cos(2.0 * np.pi * order))
-    return Interferogram(intensity, order, film.x, film.y, (scales.a, scales.b))
+    return Interferogram(intensity, order, si.x, si.y, (scales.a, scales.b))

@@ -8,7 +8,7 @@ the measured speed, by 1 % at Omega = pi and more in slower motion.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,8 @@ from numpy.typing import NDArray
 from ehlcontact.checks import require_finite, require_instance
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from ehlcontact.results import require_scales
-from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.summary import Summary
+from ehlcontact.quantities import ALONG, LENGTH, SURFACE_SPEED, TIME
+from ehlcontact.results.table import Display, QuantityTable, ScaledTable
 from ehlcontact.transient.result import SimulationResult
 
 Array = NDArray[np.float64]
@@ -30,73 +29,48 @@ SLOWEST = 4.0  # times slower than the surfaces: the slowest wave that is found
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FilmHistory(Summary, Tabled):
-    """Central and minimum film over time.
+class FilmHistory(ScaledTable):
+    """Central and smallest film over time; ``si`` has them in SI.
 
     Attributes
     ----------
-    T, central, minimum : ndarray, shape (steps + 1,)
-        Times in 2a/u_sum, films over the dry approach; units in SI are `scales`.
+    T : ndarray, shape (steps + 1,)
+        Times in 2a/u_sum; in SI ``t`` [s].
+    h_central, h_min : ndarray, shape (steps + 1,)
+        Films over the dry approach; in SI [m].
+    scales : Scales or None
     """
 
-    T: Array
-    central: Array
-    minimum: Array
+    T: Annotated[Array, TIME.over("T")]
+    h_central: Annotated[Array, LENGTH.over("T")]
+    h_min: Annotated[Array, LENGTH.over("T")]
     scales: Scales | None
 
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="T",
-        panels=("central minimum",),
-        quantities={"T": ("2a/u_sum", "T"), "central": ("delta_H", "T"), "minimum": ("delta_H", "T")},
-    )
-
-    def _layout(self) -> Layout:
-        if self.scales is None:
-            return self.LAYOUT
-        quantities = {"t": ("s", "t"), "h_central": ("m", "t"), "h_min": ("m", "t")}
-        return Layout(rows="t", panels=("h_central h_min",), quantities=quantities)
-
-    @property
-    def t(self) -> Array:
-        """Time [s]."""
-        return self.T * require_scales(self.scales).time
-
-    @property
-    def h_central(self) -> Array:
-        """Central film [m]."""
-        return self.central * require_scales(self.scales).length
-
-    @property
-    def h_min(self) -> Array:
-        """Minimum film [m]."""
-        return self.minimum * require_scales(self.scales).length
+    DISPLAY: ClassVar[Display] = Display(rows="T", panels=("h_central h_min",))
 
 
 def film_history(run: SimulationResult) -> FilmHistory:
-    """Central and minimum film of a simulation over time."""
+    """Central and smallest film of a simulation over time."""
     return FilmHistory(run.T, run.h_central, run.h_min, run.scales)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FilmWave(Summary, Tabled):
+class FilmWave(QuantityTable):
     """Change of the film along Y = 0 over place and time: what the surfaces carry through.
 
     `X` is of shape (nx + 1,), `T` (steps + 1,), and `change` (steps + 1, nx + 1) the film less that at rest.
     """
 
-    X: Array
-    T: Array
-    change: Array
+    X: Annotated[Array, ALONG.over("X")]
+    T: Annotated[Array, TIME.over("T")]
+    change: Annotated[Array, LENGTH.over("T X")]
 
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="T X",
-        panels=("change",),
-        quantities={"T": ("2a/u_sum", "T"), "X": ("a", "X"), "change": ("delta_H", "T X")},
-    )
+    DISPLAY: ClassVar[Display] = Display(rows="T X", panels=("change",))
+    UNITS = "dimensionless"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class WaveTrack(Summary, Tabled):
+class WaveTrack(QuantityTable):
     """Delay of a film wave from place to place.
 
     Attributes
@@ -109,21 +83,13 @@ class WaveTrack(Summary, Tabled):
         RMS departure of the delays from that line.
     """
 
-    X: Array
-    delay: Array
-    speed: float
-    spread: float
+    X: Annotated[Array, ALONG.over("X")]
+    delay: Annotated[Array, TIME.over("X")]
+    speed: Annotated[float, SURFACE_SPEED]
+    spread: Annotated[float, TIME]
 
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="X",
-        panels=("delay",),
-        quantities={
-            "X": ("a", "X"),
-            "delay": ("2a/u_sum", "X"),
-            "speed": ("u_sum/2", ""),
-            "spread": ("2a/u_sum", ""),
-        },
-    )
+    DISPLAY: ClassVar[Display] = Display(rows="X", panels=("delay",))
+    UNITS = "dimensionless"
 
 
 def film_wave(run: SimulationResult) -> FilmWave:

@@ -1,11 +1,12 @@
-"""Frozen results of one instant, and every result in SI; arrays are read-only. Those of a run are in `transient`.
+"""Results of a steady solve and of an impedance, and what all results share: tables, SI values, figures.
 
 ============= =================================================================================
 module        responsibility
 ============= =================================================================================
 ``steady``    `SteadyResult`: the film at rest
 ``impedance`` `ImpedanceResult`: stiffness and damping over frequency
-``si``        what their ``.si`` gives: every quantity in SI
+``frequency`` `FrequencyResponse`: impedance and python-control system of K and C
+``table``     `QuantityTable`: values in SI, dictionary, xarray, pandas and figure of declared quantities
 ``layout``    what their quantities are: as xarray, as pandas, as a figure
 ``contact_map`` pressure and film of a contact as a figure
 ``picture``   plain figures; matplotlib is imported where one is drawn
@@ -13,15 +14,11 @@ module        responsibility
 """
 
 from ehlcontact.results.impedance import ImpedanceResult
-from ehlcontact.results.si import ImpedanceSI, SteadySI, require_scales
 from ehlcontact.results.steady import SteadyResult
 
 __all__ = [
     "ImpedanceResult",
-    "ImpedanceSI",
     "SteadyResult",
-    "SteadySI",
-    "require_scales",
 ]
 
 

@@ -3,79 +3,55 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.origin import Origin
-from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.si import ImpedanceSI
-from ehlcontact.summary import Summary, contact_text, span
+from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, LENGTH, MOMENT, NUMBER, STIFFNESS
+from ehlcontact.results.frequency import ScaledResponse
+from ehlcontact.summary import contact_text, span
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class ImpedanceResult(Summary, Tabled, Origin):
+class ImpedanceResult(ScaledResponse, Origin):
     """Stiffness and damping of a contact over frequency, dimensionless; ``si`` has it in SI.
 
     Attributes
     ----------
     Omega : ndarray, shape (k,)
-        Angular frequency, per unit 2a/u_sum of time.
+        Angular frequency, per unit 2a/u_sum of time; in SI ``omega`` [rad/s] and ``hz``.
     stiffness, damping : ndarray, shape (k,)
-        K(Omega) = Re Z in f0/delta_H, and C(Omega) = Im Z/Omega, its limit at Omega = 0, in that times 2a/u_sum.
+        K(Omega) = Re Z in f0/delta_H, and C(Omega) = Im Z/Omega, its limit at Omega = 0, in that times 2a/u_sum;
+        in SI [N/m] and [N s/m].
     residual : ndarray, shape (k,)
         Relative residual of the linear system.
     approach, h_central, h_min : float
-        Of the steady state, over the dry approach: mutual approach, film at X = Y = 0, smallest film.
+        Of the steady state, over the dry approach: mutual approach, film at X = Y = 0, smallest film; in SI [m].
     moment : float
-        Of the steady pressure about the centre line, over load times a: `SteadyResult.moment`.
+        Of the steady pressure about the centre line, over load times a: `SteadyResult.moment`; in SI [N m].
+    force : float
+        Static load: 1; in SI [N].
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
 
-    Omega: Array
-    stiffness: Array
-    damping: Array
-    residual: Array
-    approach: float
-    h_central: float
-    h_min: float
-    moment: float
-
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="Omega",
-        panels=("stiffness", "damping"),
-        quantities={
-            "Omega": ("u_sum/(2a)", "Omega"),
-            "stiffness": ("f0/delta_H", "Omega"),
-            "damping": ("f0/delta_H 2a/u_sum", "Omega"),
-            "residual": ("", "Omega"),
-            "approach": ("delta_H", ""),
-            "h_central": ("delta_H", ""),
-            "h_min": ("delta_H", ""),
-            "moment": ("f0 a", ""),
-        },
-        logs="xy",
-    )
+    Omega: Annotated[Array, FREQUENCY.over("Omega")]
+    stiffness: Annotated[Array, STIFFNESS.over("Omega")]
+    damping: Annotated[Array, DAMPING.over("Omega")]
+    residual: Annotated[Array, NUMBER.over("Omega")]
+    approach: Annotated[float, LENGTH]
+    h_central: Annotated[float, LENGTH]
+    h_min: Annotated[float, LENGTH]
+    moment: Annotated[float, MOMENT]
 
     @property
-    def impedance(self) -> NDArray[np.complex128]:
-        """Z(Omega) = K + i Omega C, shape (k,)."""
-        return self.stiffness + 1j * self.Omega * self.damping
-
-    @property
-    def si(self) -> ImpedanceSI:
-        """All of it in SI; raises `InputError` for a dimensionless point, which has no units."""
-        return ImpedanceSI.of(self)
-
-    def to_control(self) -> Any:
-        """``control.FrequencyResponseData`` from approach to force, over Omega; of `si` over rad/s."""
-        import control
-
-        return control.frd(self.impedance, self.Omega, inputs="u", outputs="F", name="contact")
+    def force(self) -> Annotated[float, FORCE.in_si_only()]:
+        """Static load: 1."""
+        return 1.0
 
     @property
     def film_origin(self) -> str:
@@ -92,23 +68,6 @@ class ImpedanceResult(Summary, Tabled, Origin):
             found.append(f"damping C {span(si.damping, 1.0, 'N s/m')}")
         return [contact_text(self.point, self.scales), *found, f"linearised on n = {self.n}"]
 
-    def summary(self) -> dict[str, Any]:
-        """The JSON form of the command line; ``omega`` is ``Omega``, dimensionless, under its name of old.
-
-        Of an SI point ``si`` has frequencies [rad/s] and [Hz], stiffness [N/m] and damping [N s/m].
-        """
-        return {
-            "omega": self.Omega.tolist(),
-            "Omega": self.Omega.tolist(),
-            "stiffness": self.stiffness.tolist(),
-            "damping": self.damping.tolist(),
-            "approach": self.approach,
-            "moment": self.moment,
-            "residual": self.residual.tolist(),
-            "seconds": self.seconds,
-            "n": self.n,
-            "domain": list(self.domain.as_tuple()),
-            "point": self.point.to_dict(),
-            "version": self.version,
-            **({} if self.scales is None else {"si": self.si.summary()}),
-        }
+    def to_dict(self) -> dict[str, Any]:
+        """Quantities and origin, ready for JSON; of an SI point with ``si``."""
+        return ScaledResponse.to_dict(self) | self.origin_dict()

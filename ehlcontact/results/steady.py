@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from math import nan, pi
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.origin import Origin
+from ehlcontact.quantities import ACROSS, ALONG, FORCE, LENGTH, MOMENT, NUMBER, PRESSURE
 from ehlcontact.results.contact_map import contact_panels
-from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.results.si import SteadySI
+from ehlcontact.results.table import Display, ScaledTable
 from ehlcontact.solver.accuracy import ALL, ErrorEstimate
 from ehlcontact.status import Status
-from ehlcontact.summary import Summary, contact_text
+from ehlcontact.summary import contact_text
 
 Array = NDArray[np.float64]
 
@@ -43,21 +43,25 @@ def film_bars(error: ErrorEstimate) -> tuple[str, str]:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class SteadyResult(Summary, Tabled, Origin):
+class SteadyResult(ScaledTable, Origin):
     """Steady film of a contact under constant load, or at a prescribed approach, dimensionless; ``si`` is in SI.
 
     Attributes
     ----------
     X, Y : ndarray, shape (nx + 1,), (ny + 1,)
-        x/a and y/b >= 0; fields are even in Y.
+        x/a and y/b >= 0; fields are even in Y. In SI ``x``, ``y`` [m].
     P, H : ndarray, shape (nx + 1, ny + 1)
-        Pressure over the Hertz pressure, and film over the dry approach.
+        Pressure over the Hertz pressure, and film over the dry approach. In SI ``p`` [Pa], ``h`` [m].
     approach : float
-        Mutual approach over the dry approach.
+        Mutual approach over the dry approach; in SI [m].
     force : float
-        Film force over the static load.
+        Film force over the static load; in SI [N].
     h_central, h_min : float
-        Film at X = Y = 0 and the smallest, between the nodes too, over the dry approach.
+        Film at X = Y = 0 and the smallest, between the nodes too, over the dry approach; in SI [m].
+    p_max, pressure_error : float
+        Largest pressure, and its largest change in further cycles, over the Hertz pressure; in SI [Pa].
+    moment : float
+        Moment of the pressure about the centre line, over load times a; in SI [N m].
     residuals : ndarray, shape (cycles + 1,)
         Mean absolute residual over P > 0: at the start after full multigrid, then after each cycle. It weighs a
         node by its flow factor, so it is most where pressure matters least: what is solved is judged by
@@ -73,19 +77,19 @@ class SteadyResult(Summary, Tabled, Origin):
     status : Status
     error : ErrorEstimate or None
         How far approach and films may be from those of an endless fine mesh on the same region; None of a film
-        that is not converged, and of files written before there were estimates.
+        that is not converged, and of files written before there were estimates. In SI its approach is in m.
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
 
-    X: Array
-    Y: Array
-    P: Array
-    H: Array
-    approach: float
-    force: float
-    h_central: float
-    h_min: float
+    X: Annotated[Array, ALONG.over("X", listed=False)]
+    Y: Annotated[Array, ACROSS.over("Y", listed=False)]
+    P: Annotated[Array, PRESSURE.over("X Y", listed=False)]
+    H: Annotated[Array, LENGTH.over("X Y", listed=False)]
+    approach: Annotated[float, LENGTH]
+    force: Annotated[float, FORCE]
+    h_central: Annotated[float, LENGTH]
+    h_min: Annotated[float, LENGTH]
     residuals: Array
     load_residuals: Array
     approach_changes: Array
@@ -95,28 +99,10 @@ class SteadyResult(Summary, Tabled, Origin):
     pressure_changes: Array = field(default_factory=lambda: np.empty(0), metadata={"later": True})
     error: ErrorEstimate | None = field(default=None, metadata={"later": True})
 
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="X Y",
-        panels=("P", "H"),
-        quantities={
-            "X": ("a", "X"),
-            "Y": ("b", "Y"),
-            "P": ("p_h", "X Y"),
-            "H": ("delta_H", "X Y"),
-            "approach": ("delta_H", ""),
-            "force": ("f0", ""),
-            "h_central": ("delta_H", ""),
-            "h_min": ("delta_H", ""),
-        },
-    )
+    DISPLAY: ClassVar[Display] = Display(rows="X Y", panels=("P", "H"))
 
     @property
-    def si(self) -> SteadySI:
-        """All of it in SI; raises `InputError` for a dimensionless point, which has no units."""
-        return SteadySI.of(self)
-
-    @property
-    def pressure_error(self) -> float:
+    def pressure_error(self) -> Annotated[float, PRESSURE]:
         """Largest change of P that further cycles would still make: what `tol` of `solve_steady` is held against.
 
         Infinite where the changes do not fall, NaN where `pressure_changes` is empty.
@@ -127,7 +113,7 @@ class SteadyResult(Summary, Tabled, Origin):
         return pressure_error(changes) if changes else nan
 
     @property
-    def moment(self) -> float:
+    def moment(self) -> Annotated[float, MOMENT]:
         """Moment of the pressure about the centre line, ``-3/(2 pi) iint P X dX dY``, over load times a.
 
         Positive where it resists rolling: pressure builds up before the contact. The film's rolling resistance is
@@ -151,22 +137,22 @@ class SteadyResult(Summary, Tabled, Origin):
         return float(-1.5 / pi * 2.0 * cell * (self.X @ lines))
 
     @property
-    def residual(self) -> float:
+    def residual(self) -> Annotated[float, NUMBER]:
         """Last residual relative to that of the dry Hertz start."""
         return float(self.residuals[-1] / self.dry_residual)
 
     @property
-    def load_residual(self) -> float:
+    def load_residual(self) -> Annotated[float, NUMBER]:
         """Last residual of the load equation."""
         return float(self.load_residuals[-1])
 
     @property
-    def cycles(self) -> int:
+    def cycles(self) -> Annotated[int, NUMBER]:
         """Number of V cycles on the finest grid."""
         return len(self.residuals) - 1
 
     @property
-    def p_max(self) -> float:
+    def p_max(self) -> Annotated[float, PRESSURE]:
         """Largest pressure / p_hertz."""
         return float(self.P.max())
 
@@ -207,27 +193,7 @@ class SteadyResult(Summary, Tabled, Origin):
             *filter(None, [self.reservation]),
         ]
 
-    def summary(self) -> dict[str, Any]:
-        """The JSON form of the command line."""
-        return {
-            "approach": self.approach,
-            "force": self.force,
-            "h_central": self.h_central,
-            "h_min": self.h_min,
-            "p_max": self.p_max,
-            "moment": self.moment,
-            "pressure_error": self.pressure_error,
-            "residual": self.residual,
-            "load_residual": self.load_residual,
-            "cycles": self.cycles,
-            "seconds": self.seconds,
-            "error": None if self.error is None else asdict(self.error),
-            "status": str(self.status),
-            "advice": self.status.advice,
-            "reservation": self.reservation,
-            "n": self.n,
-            "domain": list(self.domain.as_tuple()),
-            "point": self.point.to_dict(),
-            "version": self.version,
-            **({} if self.scales is None else {"si": self.si.summary()}),
-        }
+    def to_dict(self) -> dict[str, Any]:
+        """Numbers without the fields, status and origin, ready for JSON; of an SI point with ``si``."""
+        said = {"status": str(self.status), "advice": self.status.advice, "reservation": self.reservation}
+        return ScaledTable.to_dict(self) | said | self.origin_dict()

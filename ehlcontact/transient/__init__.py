@@ -14,7 +14,6 @@ module           responsibility
 ``settings``     what a run is asked for, checked and with its defaults
 ``run``          film and motion advanced together, in fixed or in controlled steps
 ``checkpoint``   a run's file to go on from
-``si``           a run and a full contact in SI
 ``result``       `SimulationResult` and its `Instants`
 ``simulate``     `simulate`: all of these, from a motion to a result
 ``full_contact`` `FullContact`: the whole film as a force element

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 from ehlcontact.checks import require_choice, require_finite, require_positive
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
+from ehlcontact.quantities import FORCE, LENGTH
 from ehlcontact.results.steady import grid_doubt
+from ehlcontact.results.table import SIView
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
@@ -15,7 +19,6 @@ from ehlcontact.solver.mesh import Purpose, mesh_for, require_room, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, contact_text
 from ehlcontact.transient.film import FilmState, Step, TransientFilm
-from ehlcontact.transient.si import ContactSI
 from ehlcontact.transient.time_step import DEFAULT_TOL
 
 
@@ -45,6 +48,12 @@ class FullContact(Summary):
 
     Attributes
     ----------
+    force : float
+        Of the film, over the static load; in SI (``si``) [N].
+    static_approach : float
+        At rest under load 1, over the dry approach; in SI [m].
+    h_central, h_min : float
+        Film in the centre, and the smallest, over the dry approach; in SI [m].
     film_error : ErrorEstimate or None
         How far approach (dry approaches) and films at rest may be from those of an endless fine mesh on the same
         region; None where no coarser grid tells.
@@ -56,6 +65,9 @@ class FullContact(Summary):
     ConvergenceError
         The steady state at the start did not converge.
     """
+
+    force: Annotated[float, FORCE]
+    static_approach: Annotated[float, LENGTH]
 
     @one_blas_thread()
     def __init__(
@@ -131,19 +143,19 @@ class FullContact(Summary):
         return self.force
 
     @property
-    def h_central(self) -> float:
+    def h_central(self) -> Annotated[float, LENGTH]:
         """Film at the centre of the contact."""
         return self._film.level.central_film()
 
     @property
-    def h_min(self) -> float:
+    def h_min(self) -> Annotated[float, LENGTH]:
         """Smallest film."""
         return self._film.level.lowest_film()
 
     @property
-    def si(self) -> ContactSI:
-        """Force, film and approach at rest in SI; raises `InputError` for a dimensionless point."""
-        return ContactSI.of(self)
+    def si(self) -> SIView:
+        """Force, film and approach at rest in SI, of now; raises `InputError` for a dimensionless point."""
+        return SIView(self)
 
     def save_state(self) -> FilmState:
         """Everything needed to come back to the present."""

@@ -5,37 +5,40 @@ Everything is dimensionless, with the SI scales beside.
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
-from typing import Any, ClassVar
+from dataclasses import dataclass, field
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin, freeze
-from ehlcontact.results.layout import Layout, Tabled
+from ehlcontact.quantities import (
+    ACCELERATION,
+    ACROSS,
+    ALONG,
+    FORCE,
+    FREQUENCY,
+    LENGTH,
+    MASS,
+    NUMBER,
+    PRESSURE,
+    RATE,
+    TIME,
+)
 from ehlcontact.results.steady import film_bars, grid_doubt
+from ehlcontact.results.table import Display, QuantityTable, ScaledTable
 from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.status import Status
-from ehlcontact.summary import Summary, contact_text, span
+from ehlcontact.summary import contact_text, span
 from ehlcontact.transient.bodies import Motion
-from ehlcontact.transient.si import SimulationSI
 from ehlcontact.transient.time_step import coarse_step_note, coarse_tolerance_note
 
 Array = NDArray[np.float64]
-HISTORY = {
-    "T": ("2a/u_sum", "T"),
-    "approach": ("delta_H", "T"),
-    "rate": ("delta_H u_sum/(2a)", "T"),
-    "force": ("f0", "T"),
-    "load": ("f0", "T"),
-    "h_central": ("delta_H", "T"),
-    "h_min": ("delta_H", "T"),
-}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Instants(Summary, Tabled):
+class Instants(QuantityTable):
     """A simulation between its steps, continuous with continuous slopes, dimensionless.
 
     Attributes
@@ -44,17 +47,16 @@ class Instants(Summary, Tabled):
         As in `SimulationResult`; the load of a motion that prescribes the approach is the film force.
     """
 
-    T: Array
-    approach: Array
-    rate: Array
-    force: Array
-    load: Array
-    h_central: Array
-    h_min: Array
+    T: Annotated[Array, TIME.over("T")]
+    approach: Annotated[Array, LENGTH.over("T")]
+    rate: Annotated[Array, RATE.over("T")]
+    force: Annotated[Array, FORCE.over("T")]
+    load: Annotated[Array, FORCE.over("T")]
+    h_central: Annotated[Array, LENGTH.over("T")]
+    h_min: Annotated[Array, LENGTH.over("T")]
 
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="T", panels=("force load", "approach", "h_central h_min"), quantities=HISTORY
-    )
+    DISPLAY: ClassVar[Display] = Display(rows="T", panels=("force load", "approach", "h_central h_min"))
+    UNITS = "dimensionless"
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -67,24 +69,24 @@ class Instants(Summary, Tabled):
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class SimulationResult(Summary, Tabled, Origin):
+class SimulationResult(ScaledTable, Origin):
     """History of a transient contact, dimensionless; entry 0 is the initial state at T = 0. ``si`` has it in SI.
 
     Attributes
     ----------
     motion : Motion
     X, Y : ndarray, shape (nx + 1,), (ny + 1,)
-        x/a and y/b >= 0; fields are even in Y.
+        x/a and y/b >= 0; fields are even in Y. In SI ``x``, ``y`` [m].
     T : ndarray, shape (steps + 1,)
-        Times, in 2a/u_sum.
+        Times, in 2a/u_sum; in SI ``t`` [s].
     approach, rate, acceleration : ndarray, shape (steps + 1,)
-        Mutual approach over the dry approach, and its derivatives to T.
+        Mutual approach over the dry approach, and its derivatives to T; in SI [m], [m/s], [m/s2].
     force, load : ndarray, shape (steps + 1,)
-        Film force, and applied load f_ext(T), over the static load.
+        Film force, and applied load f_ext(T), over the static load; in SI [N].
     h_central, h_min : ndarray, shape (steps + 1,)
-        Film at X = Y = 0, and the smallest, between the nodes too, over the dry approach.
+        Film at X = Y = 0, and the smallest, between the nodes too, over the dry approach; in SI [m].
     h_midplane, p_midplane : ndarray, shape (steps + 1, nx + 1)
-        Film over the dry approach and pressure over the Hertz pressure, along Y = 0.
+        Film over the dry approach and pressure over the Hertz pressure, along Y = 0; in SI [m], [Pa].
     residuals : ndarray, shape (steps + 1,)
         Of each step's last cycle, relative to the central film at rest.
     load_residuals : ndarray, shape (steps + 1,)
@@ -92,69 +94,70 @@ class SimulationResult(Summary, Tabled, Origin):
     cycles : ndarray, shape (steps + 1,)
         Cycles of each step.
     snapshot_T : ndarray, shape (k,)
-        Times of the whole fields kept.
+        Times of the whole fields kept; in SI ``snapshot_t`` [s].
     snapshot_H, snapshot_P : ndarray, shape (k, nx + 1, ny + 1)
-        Film over the dry approach and pressure over the Hertz pressure.
+        Film over the dry approach and pressure over the Hertz pressure; in SI ``snapshot_h`` [m], ``snapshot_p``
+        [Pa].
     static_approach : float
-        Of the steady state under load 1, over the dry approach.
+        Of the steady state under load 1, over the dry approach; in SI [m].
+    static_load : float
+        1; in SI [N].
+    Omega, Omega_n : float or None
+        Of a harmonic load, and of bodies with inertia (eq. 5). In SI ``omega`` [rad/s] and ``hz``, and their
+        ``mass`` [kg].
     status : Status
     tol : float or None
         Residual at which its steps counted as solved, relative to the central film at rest; None of files written
         before it was kept.
     film_error : ErrorEstimate or None
         How far approach and films at T = 0 may be from those of an endless fine mesh on the same region; None of a
-        start that is not solved, and of files written before it was kept.
+        start that is not solved, and of files written before it was kept. In SI its approach is in m.
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
 
     motion: Motion
-    X: Array
-    Y: Array
-    T: Array
-    approach: Array
-    rate: Array
-    acceleration: Array
-    force: Array
-    load: Array
-    h_central: Array
-    h_min: Array
-    h_midplane: Array
-    p_midplane: Array
-    residuals: Array
+    X: Annotated[Array, ALONG.over("X", listed=False)]
+    Y: Annotated[Array, ACROSS.over("Y", listed=False)]
+    T: Annotated[Array, TIME.over("T")]
+    approach: Annotated[Array, LENGTH.over("T")]
+    rate: Annotated[Array, RATE.over("T")]
+    acceleration: Annotated[Array, ACCELERATION.over("T", listed=False)]
+    force: Annotated[Array, FORCE.over("T")]
+    load: Annotated[Array, FORCE.over("T")]
+    h_central: Annotated[Array, LENGTH.over("T")]
+    h_min: Annotated[Array, LENGTH.over("T")]
+    h_midplane: Annotated[Array, LENGTH.over("T X", listed=False)]
+    p_midplane: Annotated[Array, PRESSURE.over("T X", listed=False)]
+    residuals: Annotated[Array, NUMBER.over("T", listed=False)]
     load_residuals: Array
-    cycles: Array
-    snapshot_T: Array
-    snapshot_H: Array
-    snapshot_P: Array
-    static_approach: float
+    cycles: Annotated[Array, NUMBER.over("T", listed=False)]
+    snapshot_T: Annotated[Array, TIME.over("snapshot_T", listed=False)]
+    snapshot_H: Annotated[Array, LENGTH.over("snapshot_T X Y", listed=False)]
+    snapshot_P: Annotated[Array, PRESSURE.over("snapshot_T X Y", listed=False)]
+    static_approach: Annotated[float, LENGTH]
     status: Status
     tol: float | None = field(default=None, metadata={"later": True})
     film_error: ErrorEstimate | None = field(default=None, metadata={"later": True})
 
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="T",
-        panels=("force load", "approach", "h_central h_min", "h_midplane"),
-        quantities={
-            **HISTORY,
-            "acceleration": ("delta_H (u_sum/(2a))^2", "T"),
-            "residuals": ("", "T"),
-            "cycles": ("", "T"),
-            "X": ("a", "X"),
-            "Y": ("b", "Y"),
-            "h_midplane": ("delta_H", "T X"),
-            "p_midplane": ("p_h", "T X"),
-            "snapshot_T": ("2a/u_sum", "snapshot_T"),
-            "snapshot_H": ("delta_H", "snapshot_T X Y"),
-            "snapshot_P": ("p_h", "snapshot_T X Y"),
-            "static_approach": ("delta_H", ""),
-        },
+    DISPLAY: ClassVar[Display] = Display(
+        rows="T", panels=("force load", "approach", "h_central h_min", "h_midplane")
     )
 
     @property
-    def si(self) -> SimulationSI:
-        """All of it in SI; raises `InputError` for a dimensionless point, which has no units."""
-        return SimulationSI.of(self)
+    def static_load(self) -> Annotated[float, FORCE.in_si_only()]:
+        """Static load: 1."""
+        return 1.0
+
+    @property
+    def Omega(self) -> Annotated[float | None, FREQUENCY.in_si_only()]:
+        """Angular frequency of the load, None where it is not harmonic."""
+        return getattr(self.motion, "Omega", None)
+
+    @property
+    def Omega_n(self) -> Annotated[float | None, MASS.in_si_only("mass")]:
+        """Natural frequency of the motion (eq. 5), None without inertia; in SI the mass."""
+        return getattr(self.motion, "Omega_n", None)
 
     @property
     def steps(self) -> int:
@@ -245,24 +248,19 @@ class SimulationResult(Summary, Tabled, Origin):
             lines[-1] += f"; at the start {central} in the centre, {least} at least"
         return [*lines, *filter(None, [self.reservation])]
 
-    def summary(self) -> dict[str, Any]:
-        """The JSON form of the command line."""
-        arrays = ("T", "approach", "rate", "force", "load", "h_central", "h_min")
-        return {
-            "status": str(self.status),
-            "advice": self.status.advice,
-            "steps": self.steps,
-            "seconds": self.seconds,
-            **{name: getattr(self, name).tolist() for name in arrays},
-            "residual": float(self.residuals.max()),
-            "load_residual": float(np.abs(self.load_residuals).max()),
-            "tol": self.tol,
-            "film_error": None if self.film_error is None else asdict(self.film_error),
-            "reservation": self.reservation,
-            "n": self.n,
-            "domain": list(self.domain.as_tuple()),
-            "motion": self.motion.to_dict(),
-            "point": self.point.to_dict(),
-            "version": self.version,
-            **({} if self.scales is None else {"si": self.si.summary()}),
-        }
+    def to_dict(self) -> dict[str, Any]:
+        """Histories, status and origin, ready for JSON; of an SI point with ``si``."""
+        return (
+            ScaledTable.to_dict(self)
+            | {
+                "status": str(self.status),
+                "advice": self.status.advice,
+                "steps": self.steps,
+                "residual": float(self.residuals.max()),
+                "load_residual": float(np.abs(self.load_residuals).max()),
+                "tol": self.tol,
+                "reservation": self.reservation,
+                "motion": self.motion.to_dict(),
+            }
+            | self.origin_dict()
+        )

@@ -104,7 +104,7 @@ def show_progress(T: float, end: float) -> None:
 
 def gaps(run: SimulationResult) -> list[Curve]:
     """Gap [nm] along the centre line over x [um] at the snapshots."""
-    films = [film_of(run, T).along for T in run.snapshot_T]
+    films = [film_of(run, T).along.si for T in run.snapshot_T]
     return [(film.x * 1e6, film.h * 1e9) for film in films]
 
 
@@ -147,9 +147,10 @@ def draw(shallow: SimulationResult, deep: SimulationResult, rimless: SimulationR
     )
     for k, panel in enumerate(panels[0]):
         film = film_of(rimless, float(rimless.snapshot_T[k]))
+        si = film.si
         fringes = interferogram(film, WAVELENGTH)
         shown = np.where(fringes.resolved, fringes.intensity, 0.5)
-        panel.pcolormesh(film.x * 1e6, film.y * 1e6, shown.T, cmap="gray", shading="gouraud", rasterized=True)
+        panel.pcolormesh(si.x * 1e6, si.y * 1e6, shown.T, cmap="gray", shading="gouraud", rasterized=True)
         panel.set(title=f"instant {k + 1}", ylim=(-185, 185), aspect="equal")
     panels[0, 0].set_ylabel("fringes at 600 nm, 7 µm deep\ny across [µm]")
     for row, kind, run, without in (

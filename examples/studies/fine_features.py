@@ -87,9 +87,9 @@ def report_dent(name: str, speed: float, start: float, run: SimulationResult) ->
     crest = int(np.argmax(np.where(ahead, along.H, 0.0)))
     smooth = 1e9 * BALL_ON_DISC.scales.length * run.h_central[0]
     print(f"{name.replace('$', '')}: {told(run)}; {smooth:.0f} nm smooth")
-    here = 1e9 * along.h[np.abs(along.X - place) < 0.2].max()
+    here = 1e9 * along.si.h[np.abs(along.X - place) < 0.2].max()
     print(f"  dimple at X = {place:+.2f}: {here:.0f} nm in it,", end=" ")
-    print(f"at most {1e9 * along.h[crest]:.0f} nm ahead of it, at X = {along.X[crest]:+.2f}")
+    print(f"at most {1e9 * along.si.h[crest]:.0f} nm ahead of it, at X = {along.X[crest]:+.2f}")
 
 
 def draw_dents(runs: dict[str, SimulationResult], path: Path) -> None:
@@ -105,7 +105,8 @@ def draw_dents(runs: dict[str, SimulationResult], path: Path) -> None:
     for row, (name, run) in zip(panels[:2], runs.items(), strict=True):
         speed, start = SPEEDS[name]
         for panel, profile, T in zip(row, panels[2], run.snapshot_T, strict=True):
-            film, place = film_of(run, float(T)), (start + speed * T) * a
+            whole, place = film_of(run, float(T)), (start + speed * T) * a
+            film, along = whole.si, whole.along.si
             image = panel.pcolormesh(
                 film.x * 1e6, film.y * 1e6, film.h.T * 1e9, vmin=120, vmax=320, cmap="viridis", rasterized=True
             )
@@ -113,7 +114,7 @@ def draw_dents(runs: dict[str, SimulationResult], path: Path) -> None:
             panel.set(aspect="equal", ylim=(-1.15 * a, 1.15 * a))
             panel.plot(place, -1.05 * a, "^", color="white", markersize=5, clip_on=False)
             colour = COLOURS["blue" if speed == 1.0 else "red"]
-            profile.plot(film.along.x * 1e6, film.along.h * 1e9, color=colour, linewidth=1.4, label=name)
+            profile.plot(along.x * 1e6, along.h * 1e9, color=colour, linewidth=1.4, label=name)
             if speed == 1.0:
                 panel.set_title(f"dimple at {place:+.0f} µm", fontsize=9)
         row[0].set_ylabel(f"{name}\ny across [µm]")

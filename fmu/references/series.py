@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
-from ehlcontact.results.layout import frame_of
 from ehlcontact.results.picture import Panel, draw
+from ehlcontact.results.table import frame_of
 from ehlcontact.summary import Summary
 from fmu.verify import TOLERANCE
 

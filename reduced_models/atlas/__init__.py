@@ -3,7 +3,7 @@
 | module | is responsible for |
 |---|---|
 | atlas | `Atlas`: answers with error bars, and elements, at a point |
-| answer | `AtlasAnswer`: what it says about a point, with error bars; the same in SI; about many at once |
+| answer | `AtlasAnswer`: one contact with error bars; `AtlasAnswers`: many at once |
 | frequency | K and C between the frequencies of the table |
 | table | what it holds: box, points, answers, the numbers of its interpolation; the file |
 | surface | interpolation of the table, and its error bars |

@@ -1,49 +1,45 @@
-"""What the atlas says about one point, with its error bars; the same in SI; and about many points at once."""
+"""Answers of the atlas, with error bars: of one contact, and of many at once."""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from math import pi
-from typing import Any, ClassVar, Self
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.point import MoesPoint, Scales
-from ehlcontact.results import require_scales
-from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.summary import Summary, contact_text, span
+from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, LENGTH, MOMENT, NUMBER, STIFFNESS
+from ehlcontact.results.frequency import FrequencyResponse
+from ehlcontact.results.table import Display, QuantityTable, ScaledTable, plain
+from ehlcontact.summary import contact_text, span
 from reduced_models.atlas.frequency import AtlasImpedance, Between
 
 _Floats = NDArray[np.float64]
-_MOES = {
-    **dict.fromkeys(("approach", "h_central", "h_min", "film_share"), ("delta_H", "")),
-    "moment": ("f0 a", ""),
-    "Omega": ("u_sum/(2a)", "Omega"),
-    "stiffness": ("f0/delta_H", "Omega"),
-    "damping": ("f0/delta_H 2a/u_sum", "Omega"),
-}
 
 
 @dataclass(frozen=True, eq=False)
-class AtlasAnswer(Summary, Tabled):
+class AtlasAnswer(ScaledTable):
     """One point, dimensionless; ``si`` has it in SI, ``impedance`` K and C at any frequency.
 
     Attributes
     ----------
     point : MoesPoint
     approach, h_central, h_min : float
-        Mutual approach, film in the centre and the smallest, over the dry approach.
+        Mutual approach, film in the centre and the smallest, over the dry approach; in SI (``si``) [m].
     film_share : float
-        1 - approach: what the film takes from a dry approach.
+        1 - approach: what the film takes from a dry approach; in SI [m].
     moment : float
         Of the pressure about the centre line, over load times a, > 0 where it resists rolling:
-        `ehlcontact.SteadyResult.moment`.
+        `ehlcontact.SteadyResult.moment`; in SI [N m].
+    force : float
+        Static load: 1; in SI [N].
     Omega : ndarray, shape (k,)
-        Angular frequencies, per unit 2a/u_sum of time.
+        Angular frequencies, per unit 2a/u_sum of time; in SI ``omega`` [rad/s] and ``hz``.
     stiffness, damping : ndarray, shape (k,)
-        K(Omega) in f0/delta_H, the static tangent at Omega = 0, and C(Omega) in that times 2a/u_sum.
+        K(Omega) in f0/delta_H, the static tangent at Omega = 0, and C(Omega) in that times 2a/u_sum; in SI [N/m]
+        and [N s/m].
     error : dict
         Half widths of the error bars of all these, under these names and in the same units and shapes.
     scales : Scales or None
@@ -51,18 +47,23 @@ class AtlasAnswer(Summary, Tabled):
     """
 
     point: MoesPoint
-    approach: float
-    h_central: float
-    h_min: float
-    film_share: float
-    moment: float
-    Omega: _Floats
-    stiffness: _Floats
-    damping: _Floats
+    approach: Annotated[float, LENGTH]
+    h_central: Annotated[float, LENGTH]
+    h_min: Annotated[float, LENGTH]
+    film_share: Annotated[float, LENGTH]
+    moment: Annotated[float, MOMENT]
+    Omega: Annotated[_Floats, FREQUENCY.over("Omega")]
+    stiffness: Annotated[_Floats, STIFFNESS.over("Omega")]
+    damping: Annotated[_Floats, DAMPING.over("Omega")]
     error: dict[str, Any]
     scales: Scales | None = None
 
-    LAYOUT: ClassVar[Layout] = Layout(rows="Omega", panels=("stiffness", "damping"), quantities=_MOES, logs="xy")
+    DISPLAY: ClassVar[Display] = FrequencyResponse.DISPLAY
+
+    @property
+    def force(self) -> Annotated[float, FORCE.in_si_only()]:
+        """Static load: 1."""
+        return 1.0
 
     @property
     def film_origin(self) -> str:
@@ -112,80 +113,13 @@ class AtlasAnswer(Summary, Tabled):
         error = {"stiffness": K.bars(w), "damping": C.bars(w)}
         return AtlasImpedance(Omega=w, stiffness=K.at(w), damping=C.at(w), error=error, scales=self.scales)
 
-    @property
-    def si(self) -> AtlasSI:
-        """All of it in SI, error bars too; raises `InputError` for a dimensionless point, which has no units."""
-        return AtlasSI.of(self)
-
     def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON but for the arrays; of an SI point with ``si``."""
-        return asdict(self) | ({} if self.scales is None else {"si": asdict(self.si)})
+        """Everything, ready for JSON; of an SI point with ``si``."""
+        return super().to_dict() | {"point": self.point.to_dict(), "scales": plain(self.scales)}
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasSI(Summary, Tabled):
-    """An `AtlasAnswer` in SI.
-
-    Attributes
-    ----------
-    approach, h_central, h_min : float
-        Mutual approach, film in the centre and the smallest [m].
-    film_share : float
-        What the film takes from a dry approach [m].
-    moment : float
-        Rolling resistance of the film: moment of the pressure about the centre line [N m].
-    force : float
-        Static load [N].
-    omega, hz : ndarray, shape (k,)
-        The frequencies, in rad/s and in Hz.
-    stiffness, damping : ndarray, shape (k,)
-        K [N/m] and C [N s/m] of a small vibration.
-    error : dict
-        Half widths of the error bars of approach, h_central, h_min, film_share [m], moment [N m], stiffness [N/m]
-        and damping [N s/m].
-    """
-
-    approach: float
-    h_central: float
-    h_min: float
-    film_share: float
-    moment: float
-    force: float
-    omega: _Floats
-    hz: _Floats
-    stiffness: _Floats
-    damping: _Floats
-    error: dict[str, Any]
-
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="hz",
-        panels=("stiffness", "damping"),
-        quantities={
-            **dict.fromkeys(("approach", "h_central", "h_min", "film_share"), ("m", "")),
-            "moment": ("N m", ""),
-            "force": ("N", ""),
-            "omega": ("rad/s", "hz"),
-            "hz": ("Hz", "hz"),
-            "stiffness": ("N/m", "hz"),
-            "damping": ("N s/m", "hz"),
-        },
-        logs="xy",
-    )
-
-    @classmethod
-    def of(cls, answer: AtlasAnswer) -> Self:
-        """View of an answer; raises `InputError` if its point is dimensionless."""
-        s = require_scales(answer.scales)
-        units = dict.fromkeys(("approach", "h_central", "h_min", "film_share"), s.length)
-        units |= {"moment": s.moment, "stiffness": s.stiffness, "damping": s.damping}
-        values: dict[str, Any] = {name: getattr(answer, name) * unit for name, unit in units.items()}
-        omega = answer.Omega / s.time
-        error = {name: answer.error[name] * unit for name, unit in units.items()}
-        return cls(**values, force=s.force, omega=omega, hz=omega / (2.0 * pi), error=error)
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasAnswers(Summary, Tabled):
+class AtlasAnswers(QuantityTable):
     """Many points at once, dimensionless: what `AtlasAnswer` has of one, with a first axis for the points.
 
     Attributes
@@ -198,26 +132,20 @@ class AtlasAnswers(Summary, Tabled):
         Half widths of the error bars, in the same units and shapes.
     """
 
-    M: _Floats
-    L: _Floats
-    kappa: _Floats
-    approach: _Floats
-    h_central: _Floats
-    h_min: _Floats
-    film_share: _Floats
-    moment: _Floats
-    Omega: _Floats
-    stiffness: _Floats
-    damping: _Floats
+    M: Annotated[_Floats, NUMBER.over("point")]
+    L: Annotated[_Floats, NUMBER.over("point")]
+    kappa: Annotated[_Floats, NUMBER.over("point")]
+    approach: Annotated[_Floats, LENGTH.over("point")]
+    h_central: Annotated[_Floats, LENGTH.over("point")]
+    h_min: Annotated[_Floats, LENGTH.over("point")]
+    film_share: Annotated[_Floats, LENGTH.over("point")]
+    moment: Annotated[_Floats, MOMENT.over("point")]
+    Omega: Annotated[_Floats, FREQUENCY.over("Omega")]
+    stiffness: Annotated[_Floats, STIFFNESS.over("point Omega")]
+    damping: Annotated[_Floats, DAMPING.over("point Omega")]
     error: dict[str, _Floats]
 
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="point",
-        panels=("h_central", "h_min", "approach", "damping"),
-        quantities={
-            **{name: ("", "point") for name in ("M", "L", "kappa")},
-            **{name: (unit, f"point {dims}".strip()) for name, (unit, dims) in _MOES.items() if name != "Omega"},
-            "Omega": ("u_sum/(2a)", "Omega"),
-        },
-        first=0,
+    DISPLAY: ClassVar[Display] = Display(
+        rows="point", panels=("h_central", "h_min", "approach", "damping"), first=0
     )
+    UNITS = "dimensionless"

@@ -1,20 +1,18 @@
-"""The impedance that the atlas gives at any frequency, between those that its contacts were solved at."""
+"""Impedance of the atlas between the frequencies that its contacts were solved at."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import pi
-from typing import ClassVar
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from ehlcontact.point import Scales
-from ehlcontact.results import require_scales
-from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.summary import Summary
+from ehlcontact.quantities import DAMPING, FREQUENCY, STIFFNESS
+from ehlcontact.results.frequency import ScaledResponse
 
 _Floats = NDArray[np.float64]
 
@@ -55,86 +53,24 @@ class Between:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasImpedance(Summary, Tabled):
-    """Impedance of an `AtlasAnswer` at frequencies of one's own, dimensionless; ``si`` has it in SI.
+class AtlasImpedance(ScaledResponse):
+    """Impedance of an `AtlasAnswer` at given frequencies, dimensionless; ``si`` has it in SI.
 
     Attributes
     ----------
     Omega : ndarray, shape (k,)
-        Angular frequencies, per unit 2a/u_sum of time.
+        Angular frequencies, per unit 2a/u_sum of time; in SI ``omega`` [rad/s] and ``hz``.
     stiffness, damping : ndarray, shape (k,)
-        K(Omega) in f0/delta_H, the static tangent at Omega = 0, and C(Omega) in that times 2a/u_sum.
+        K(Omega) in f0/delta_H, the static tangent at Omega = 0, and C(Omega) in that times 2a/u_sum; in SI [N/m]
+        and [N s/m].
     error : dict
         Half widths of the error bars of stiffness and damping, in the same units and shapes.
     scales : Scales or None
         Its units in SI; None for a dimensionless point.
     """
 
-    Omega: _Floats
-    stiffness: _Floats
-    damping: _Floats
+    Omega: Annotated[_Floats, FREQUENCY.over("Omega")]
+    stiffness: Annotated[_Floats, STIFFNESS.over("Omega")]
+    damping: Annotated[_Floats, DAMPING.over("Omega")]
     error: dict[str, _Floats]
     scales: Scales | None = None
-
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="Omega",
-        panels=("stiffness", "damping"),
-        quantities={
-            "Omega": ("u_sum/(2a)", "Omega"),
-            "stiffness": ("f0/delta_H", "Omega"),
-            "damping": ("f0/delta_H 2a/u_sum", "Omega"),
-        },
-        logs="xy",
-    )
-
-    @property
-    def impedance(self) -> NDArray[np.complex128]:
-        """Z(Omega) = K + i Omega C, shape (k,)."""
-        return self.stiffness + 1j * self.Omega * self.damping
-
-    @property
-    def si(self) -> AtlasImpedanceSI:
-        """All of it in SI; raises `InputError` for a dimensionless point, which has no units."""
-        s = require_scales(self.scales)
-        units, omega = {"stiffness": s.stiffness, "damping": s.damping}, self.Omega / s.time
-        values = {name: getattr(self, name) * unit for name, unit in units.items()}
-        error = {name: self.error[name] * unit for name, unit in units.items()}
-        return AtlasImpedanceSI(omega=omega, hz=omega / (2.0 * pi), **values, error=error)
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasImpedanceSI(Summary, Tabled):
-    """An `AtlasImpedance` in SI.
-
-    Attributes
-    ----------
-    omega, hz : ndarray, shape (k,)
-        The frequencies, in rad/s and in Hz.
-    stiffness, damping : ndarray, shape (k,)
-        K [N/m] and C [N s/m].
-    error : dict
-        Half widths of the error bars of stiffness [N/m] and damping [N s/m].
-    """
-
-    omega: _Floats
-    hz: _Floats
-    stiffness: _Floats
-    damping: _Floats
-    error: dict[str, _Floats]
-
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="hz",
-        panels=("stiffness", "damping"),
-        quantities={
-            "omega": ("rad/s", "hz"),
-            "hz": ("Hz", "hz"),
-            "stiffness": ("N/m", "hz"),
-            "damping": ("N s/m", "hz"),
-        },
-        logs="xy",
-    )
-
-    @property
-    def impedance(self) -> NDArray[np.complex128]:
-        """Z = K + i omega C [N/m], shape (k,)."""
-        return self.stiffness + 1j * self.omega * self.damping

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlcontact.errors import InputError
-from ehlcontact.results.layout import Layout
+from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, LENGTH, STIFFNESS, Quantity
 from ehlcontact.results.picture import Panel, draw
 from ehlcontact.summary import Summary
 from reduced_models.elements.validity import frequency_text, text_of
@@ -20,17 +20,6 @@ if TYPE_CHECKING:
 
 BAND = 0.01, 30.0  # Omega of figures, of an element that knows no band
 BEYOND = 0.25  # of the interval of approach, that figures show on either side of it
-_NAMES = "T", "approach", "rate", "force", "load"
-_IN_MOES = "2a/u_sum", "delta_H", "delta_H u_sum/(2a)", "f0", "f0"
-_IN_SI = "s", "m", "m/s", "N", "N"
-
-
-def _history(units: tuple[str, ...]) -> Layout:
-    quantities = {name: (unit, "T") for name, unit in zip(_NAMES, units, strict=True)}
-    return Layout(rows="T", panels=("force load", "approach", "rate"), quantities=quantities)
-
-
-HISTORY, HISTORY_SI = _history(_IN_MOES), _history(_IN_SI)  # of one contact, in the units of its element
 
 
 class ElementSummary(Summary):
@@ -67,12 +56,11 @@ class ElementSummary(Summary):
         reach = BEYOND * (self.high - self.low)
         u = np.linspace(self.low - reach, self.high + reach, 301)
         force, inside = np.asarray(self.spring(u)), (u >= self.low) & (u <= self.high)
-        units = _IN_SI if self.units == "SI" else _IN_MOES
         lines = [
             ("within its validity box", np.where(inside, force, np.nan), None),
             ("beyond", np.where(inside, np.nan, force), None),
         ]
-        panels = [Panel((u, ("mutual approach", units[1])), lines, ("static force", units[3]))]
+        panels = [Panel((u, ("mutual approach", self._unit(LENGTH))), lines, ("static force", self._unit(FORCE)))]
         return draw(f"{type(self).__name__}, {self.units}", [*panels, *self._over_frequency()], path)
 
     def _over_frequency(self) -> list[Panel]:
@@ -87,20 +75,21 @@ class ElementSummary(Summary):
             Z = self.impedance(**frequency)
         except InputError:  # a load that is not known
             Z = self.impedance(load=float(self.spring(0.5 * (self.low + self.high))), **frequency)
-        x = (w / (2.0 * np.pi), ("frequency", "Hz")) if si else (w, ("angular frequency", "u_sum/(2a)"))
-        K, C = ("N/m", "N s/m") if si else ("f0/delta_H", "f0/delta_H 2a/u_sum")
-        found = ("stiffness", Z.real, K), ("damping", Z.imag / w, C)
-        return [Panel(x, [("", values, None)], (name, unit), "xy") for name, values, unit in found]
+        x = (w / (2.0 * np.pi), ("frequency", "Hz")) if si else (w, ("angular frequency", FREQUENCY.moes))
+        found = ("stiffness", Z.real, STIFFNESS), ("damping", Z.imag / w, DAMPING)
+        return [Panel(x, [("", values, None)], (name, self._unit(one)), "xy") for name, values, one in found]
+
+    def _unit(self, quantity: Quantity) -> str:
+        return quantity.unit if self.units == "SI" else quantity.moes
 
     def _summary_lines(self) -> list[str]:
         si = self.units == "SI"
         numbers = {k: v for k, v in self.parameters.items() if isinstance(v, int | float)}
-        arrays = [k for k in self.parameters if k not in numbers]
+        arrays = ", ".join(name for name in self.parameters if name not in numbers)
         lines = [
             f"{self.units}, {f'{self.state_count} states' if self.state_count else 'no memory'}",
-            ", ".join(
-                [*(f"{name} {value:.4g}" for name, value in numbers.items()), *(f"{k} [..]" for k in arrays)]
-            ),
+            ", ".join(f"{name} {value:.4g}" for name, value in numbers.items())
+            + f"; arrays {arrays}" * bool(arrays),
             f"approach {text_of(self.validity.approach)}{' m' if si else ''}",
         ]
         if self.load_range is not None:

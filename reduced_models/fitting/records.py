@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +14,12 @@ from ehlcontact.checks import as_column, require_choice, require_finite, require
 from ehlcontact.checks.frequency import fields_by_name, renamed_keys
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Scales
-from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.summary import Summary, contact_text, span
+from ehlcontact.quantities import ACCELERATION, FORCE, LENGTH, RATE, TIME
+from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.summary import contact_text, span
 from reduced_models.elements.file import UNITS
-from reduced_models.elements.summary import HISTORY, HISTORY_SI
+
+_Floats = NDArray[np.float64]
 
 # Samples below which there is no history to speak of; a fit asks for more than its parameters itself.
 FEWEST_SAMPLES = 4
@@ -30,7 +32,7 @@ _HISTORIES = (*_REQUIRED, "load", "acceleration")
 
 @fields_by_name(6, omega_n="Omega_n, dimensionless")
 @dataclass(frozen=True, eq=False)
-class ContactRecord(Summary, Tabled):
+class ContactRecord(QuantityTable):
     """One history of a contact, simulated or measured.
 
     Parameters
@@ -62,12 +64,12 @@ class ContactRecord(Summary, Tabled):
         strictly increasing; Omega_n with SI units. The message names the field.
     """
 
-    T: NDArray[np.float64]
-    approach: NDArray[np.float64]
-    rate: NDArray[np.float64]
-    force: NDArray[np.float64]
-    load: NDArray[np.float64] | None = None
-    acceleration: NDArray[np.float64] | None = None
+    T: Annotated[_Floats, TIME.over("T")]
+    approach: Annotated[_Floats, LENGTH.over("T")]
+    rate: Annotated[_Floats, RATE.over("T")]
+    force: Annotated[_Floats, FORCE.over("T")]
+    load: Annotated[_Floats | None, FORCE.over("T")] = None
+    acceleration: Annotated[_Floats | None, ACCELERATION.over("T")] = None
     point: MoesPoint | None = None
     scales: Scales | None = None
     n: int | None = None
@@ -77,10 +79,10 @@ class ContactRecord(Summary, Tabled):
     static_load: float | None = None
     units: str = "dimensionless"
 
-    LAYOUT: ClassVar[Layout] = HISTORY
+    DISPLAY: ClassVar[Display] = Display(rows="T", panels=("force load", "approach", "rate"))
 
-    def _layout(self) -> Layout:
-        return HISTORY_SI if self.units == "SI" else self.LAYOUT
+    def _in_si(self) -> bool:
+        return self.units == "SI"
 
     def _summary_lines(self) -> list[str]:
         kind = "" if self.motion is None else f", {self.motion.get('kind', 'a motion')}"

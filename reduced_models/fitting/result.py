@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.results.layout import frame_of
+from ehlcontact.results.table import frame_of
 from ehlcontact.summary import Summary
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.memory import FilmMemoryContact

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.results.layout import frame_of
 from ehlcontact.results.picture import Panel, draw
+from ehlcontact.results.table import frame_of
 from ehlcontact.summary import Summary
 from reduced_models.elements.polynomial import PolynomialContact
 from reduced_models.fitting.models import COLUMNS, linear_estimate

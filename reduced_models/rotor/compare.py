@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_nonnegative
 from ehlcontact.errors import InputError
-from ehlcontact.results.layout import frame_of
 from ehlcontact.results.picture import Panel, draw
+from ehlcontact.results.table import frame_of
 from ehlcontact.summary import Summary
 from reduced_models.rotor.simulate import RotorResult
 

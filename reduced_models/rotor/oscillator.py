@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,10 +14,10 @@ from ehlcontact import Status
 from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
 from ehlcontact.checks.frequency import Frequency, by_name
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.summary import Summary, span
+from ehlcontact.quantities import FORCE, LENGTH, RATE, TIME
+from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.summary import span
 from reduced_models.elements.base import ContactElement
-from reduced_models.elements.summary import HISTORY, HISTORY_SI
 from reduced_models.elements.validity import frequency_of
 
 _Floats = NDArray[np.float64]
@@ -29,7 +29,7 @@ Load = float | ArrayLike | Callable[[float], float]
 
 
 @dataclass(frozen=True, eq=False)
-class OscillatorResult(Summary, Tabled):
+class OscillatorResult(QuantityTable):
     """Histories in the units of the element, dimensionless or SI.
 
     Attributes
@@ -47,19 +47,19 @@ class OscillatorResult(Summary, Tabled):
         Of the element, and so of the histories.
     """
 
-    T: _Floats
-    approach: _Floats
-    rate: _Floats
-    force: _Floats
-    load: _Floats
+    T: Annotated[_Floats, TIME.over("T")]
+    approach: Annotated[_Floats, LENGTH.over("T")]
+    rate: Annotated[_Floats, RATE.over("T")]
+    force: Annotated[_Floats, FORCE.over("T")]
+    load: Annotated[_Floats, FORCE.over("T")]
     evaluations: int
     status: Status
     units: str = "dimensionless"
 
-    LAYOUT: ClassVar[Layout] = HISTORY
+    DISPLAY: ClassVar[Display] = Display(rows="T", panels=("force load", "approach", "rate"))
 
-    def _layout(self) -> Layout:
-        return HISTORY_SI if self.units == "SI" else self.LAYOUT
+    def _in_si(self) -> bool:
+        return self.units == "SI"
 
     def _summary_lines(self) -> list[str]:
         return [

@@ -80,7 +80,7 @@ def solve(M: float, L: float, kappa: float) -> Row:
         "h_central": result.h_central,
         "h_min": result.h_min,
         "residual": result.residual,
-        "error": result.summary()["error"],
+        "error": result.to_dict()["error"],
         "seconds": result.seconds,
     }
 

@@ -56,13 +56,13 @@ def test_film_fills_the_plane(steady, film):
 
 def test_si_values(film):
     scales = STEEL_ON_GLASS.scales
-    load = film.p.sum() * (film.x[1] - film.x[0]) * (film.y[1] - film.y[0])
+    si, across, along = film.si, film.across.si, film.along.si
+    load = si.p.sum() * (si.x[1] - si.x[0]) * (si.y[1] - si.y[0])
     assert load == pytest.approx(STEEL_ON_GLASS.load, rel=1e-6)
-    assert film.h.min() == pytest.approx(film.H.min() * scales.length)
-    across, along = film.across, film.along
+    assert si.h.min() == pytest.approx(film.H.min() * scales.length)
     assert across.x[-1] == pytest.approx(3.0 * scales.b) and along.x[0] == pytest.approx(-4.5 * scales.a)
-    np.testing.assert_allclose(along.h, film.h[:, film.Y.size // 2])
-    np.testing.assert_allclose(along.p, film.p[:, film.Y.size // 2])
+    np.testing.assert_allclose(along.h, si.h[:, film.Y.size // 2])
+    np.testing.assert_allclose(along.p, si.p[:, film.Y.size // 2])
 
 
 def test_midplanes_cross_in_the_centre(steady, film):
@@ -100,7 +100,7 @@ def test_fringes_of_a_contact(film):
     fringes = interferogram(film, 550e-9)
     assert fringes.intensity.shape == film.H.shape
     assert 0.0 <= fringes.intensity.min() and fringes.intensity.max() <= 1.0
-    np.testing.assert_allclose(fringes.order, 3.0 * film.h / 550e-9)
+    np.testing.assert_allclose(fringes.order, 3.0 * film.si.h / 550e-9)
 
 
 def test_snapshots_of_a_simulation():
@@ -114,7 +114,7 @@ def test_snapshots_of_a_simulation():
     )
     np.testing.assert_array_equal(film_of(run).along.H, run.h_midplane[-1])
     np.testing.assert_array_equal(film_of(run, 0.2).along.P, run.p_midplane[2])
-    history = film_history(run)
+    history = film_history(run).si
     np.testing.assert_allclose(history.t, run.T * run.scales.time)
     np.testing.assert_allclose(history.h_min, run.h_min * run.scales.length)
     np.testing.assert_allclose(history.h_central, run.h_central * run.scales.length)
@@ -130,11 +130,11 @@ def test_film_bad_input(steady, harmonic):
     with pytest.raises(InputError, match="SteadyResult"):
         film_of(steady.H)
     plain = film_of(solve_steady(MoesPoint(20.0, 5.0, 1.0), n=32))
-    for ask in (lambda: plain.h, lambda: plain.along.x, lambda: interferogram(plain, 6e-7)):
+    for ask in (lambda: plain.si, lambda: plain.along.si, lambda: interferogram(plain, 6e-7)):
         with pytest.raises(InputError, match="OperatingPoint"):
             ask()
     with pytest.raises(InputError, match="OperatingPoint"):
-        film_history(harmonic).h_min  # noqa: B018
+        film_history(harmonic).si  # noqa: B018
     film = film_of(steady)
     for arguments in ((0.0,), (-6e-7,), (6e-7, 0.0), (6e-7, 1.5, np.nan)):
         with pytest.raises(InputError):

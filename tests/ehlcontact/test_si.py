@@ -1,6 +1,7 @@
-"""``.si`` of every result: each field in its unit, none forgotten, and described with unit and shape."""
+"""``.si`` of results: each quantity in its unit, and described with unit and shape."""
 
-from dataclasses import fields
+import copy
+from dataclasses import fields, is_dataclass
 from inspect import getdoc
 from math import pi
 
@@ -8,22 +9,21 @@ import numpy as np
 import pytest
 
 from ehlcontact import (
+    Film,
+    FilmHistory,
     FreeVibration,
     FullContact,
     HarmonicLoad,
     ImpedanceResult,
-    ImpedanceSI,
     InputError,
     SimulationResult,
-    SimulationSI,
     SteadyResult,
-    SteadySI,
     simulate,
     solve_steady,
 )
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import Geometry, OperatingPoint
-from ehlcontact.transient.result import Instants
+from ehlcontact.quantities import quantities_of, si_quantities
 
 POINT = OperatingPoint(Geometry(0.004, 0.01), Lubricant(0.08, 1.9e-8), 3.0, 1.3)
 S = POINT.scales
@@ -62,17 +62,32 @@ def test_every_field_in_its_unit(steady, run):
     assert steady.si.error.approach == pytest.approx(steady.error.approach * S.length)
     assert (steady.si.error.h_central, steady.si.error.h_min) == (steady.error.h_central, steady.error.h_min)
     assert run.si.film_error.approach == pytest.approx(run.film_error.approach * S.length)
-    assert (run.si.film_error.h_central, run.si.summary()["film_error"]["h_min"]) == (
+    assert (run.si.film_error.h_central, run.si.to_dict()["film_error"]["h_min"]) == (
         run.film_error.h_central,
         run.film_error.h_min,
     )
     for result, beside in ((steady, {"error"}), (run, {"static_load", "mass", "omega", "hz", "film_error"})):
         si = result.si
-        for name in {f.name for f in fields(si)} - beside:
+        assert {name for name in UNITS if hasattr(result, UNITS[name][0])} | beside == names_of(si)
+        for name in names_of(si) - beside:
             ours, unit = UNITS[name]
-            np.testing.assert_allclose(getattr(si, name), np.asarray(getattr(result, ours)) * unit, rtol=1e-14)
-        assert all(not v.flags.writeable for f in fields(si) if isinstance(v := getattr(si, f.name), np.ndarray))
-        assert set(result.summary()["si"]) <= {f.name for f in fields(si)}
+            value = getattr(si, name)
+            np.testing.assert_allclose(value, np.asarray(getattr(result, ours)) * unit, rtol=1e-14)
+            assert not isinstance(value, np.ndarray) or not value.flags.writeable
+        assert set(result.to_dict()["si"]) <= names_of(si)
+
+
+def names_of(si):
+    """Attributes that `dir` of a view lists beside its methods."""
+    return {name for name in dir(si) if name[0] != "_" and not hasattr(type(si), name)}
+
+
+def test_view_in_si(steady):
+    """Names that are not there, and copies."""
+    with pytest.raises(AttributeError, match="SteadyResult in SI has no H"):
+        _ = steady.si.H
+    assert copy.copy(steady.si).h_min == steady.si.h_min and "1e-06" not in repr(steady.si)
+    assert repr(steady.si).startswith("SteadyResult in SI: approach ") and " N, h_central" in repr(steady.si)
 
 
 def test_motion_in_si(run):
@@ -102,15 +117,15 @@ def test_dimensionless_points_have_none():
     ):
         with pytest.raises(InputError, match=r"^scales = None: must be those of a result made from an Op"):
             _ = result.si
-        assert "si" not in result.summary()
+        assert "si" not in result.to_dict()
 
 
-@pytest.mark.parametrize(
-    "cls", [SteadyResult, SteadySI, ImpedanceResult, ImpedanceSI, SimulationResult, SimulationSI, Instants]
-)
-def test_every_field_is_described(cls):
-    """Name, unit and shape in the docstring: under Attributes, as numpydoc has it."""
-    lines = getdoc(cls).split("Attributes\n", 1)[1].splitlines()
-    heads = [line.partition(" : ")[0] for line in lines if line and line[0] != " "]
+@pytest.mark.parametrize("cls", [SteadyResult, ImpedanceResult, SimulationResult, FullContact, Film, FilmHistory])
+def test_every_quantity_is_described(cls):
+    """Name and SI name in the docstring: under Attributes, as numpydoc has it."""
+    text = getdoc(cls).split("Attributes\n", 1)[1]
+    heads = [line.partition(" : ")[0] for line in text.splitlines() if line and line[0] != " "]
     named = {name.strip() for head in heads for name in head.split(",")}
-    assert {f.name for f in fields(cls)} <= named
+    wanted = {f.name for f in fields(cls)} if is_dataclass(cls) else set(quantities_of(cls))
+    assert wanted <= named
+    assert all(name in named or f"``{name}``" in text for name in si_quantities(quantities_of(cls)))

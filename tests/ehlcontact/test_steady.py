@@ -86,7 +86,7 @@ def test_result_is_frozen(steady):
 def test_summary_is_plain(steady):
     import json
 
-    summary = steady(200, 10, 0.5, 64).summary()
+    summary = steady(200, 10, 0.5, 64).to_dict()
     assert json.loads(json.dumps(summary)) == summary
     wanted = (
         "approach force h_central h_min p_max moment pressure_error residual load_residual cycles seconds status "
@@ -139,7 +139,7 @@ def test_a_grid_too_coarse_for_its_film_is_said_in_words():
     said = coarse.reservation
     assert f"central film may be off by {100.0 * coarse.error.h_central:.0f} %" in said
     assert coarse.error.h_min == 1.0 and "smallest film may be off by anything" in said
-    assert said in repr(coarse) and coarse.summary()["reservation"] == said
+    assert said in repr(coarse) and coarse.to_dict()["reservation"] == said
     assert replace(coarse, status=Status.MAX_CYCLES).reservation == ""
 
 

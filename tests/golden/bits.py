@@ -164,7 +164,8 @@ def steady_films() -> Leaves:
     for name, (point, options) in cases.items():
         result = solve_steady(point, **options)
         yield from leaves(name, result)
-        yield from leaves(name, {k: v for k, v in result.summary().items() if k not in ("seconds", "version")})
+        numbers = result.to_dict() if hasattr(result, "to_dict") else result.summary()  # older checkouts
+        yield from leaves(name, {k: v for k, v in numbers.items() if k not in ("seconds", "version")})
     yield from named("si", solve_steady(BEARING).si, "x y p h approach force h_central h_min p_max moment")
     yield from leaves("film", film_of(solve_steady(BEARING, n=64)).constriction)
 

@@ -54,7 +54,7 @@ def impedance(
     check_json(json_to)
     with progress("linearised contact"):
         result = solve(point, **at, **chosen)
-    write_json({**result.summary(), **contact.about(point)}, json_to)
+    write_json({**result.to_dict(), **contact.about(point)}, json_to)
     static = "static load 1, dry approach 1, time unit 2a/u_sum"
     show_table(
         f"impedance: force over approach, {static if result.scales is None else 'small vibrations about rest'}",

@@ -45,7 +45,7 @@ def three_lights(result: SteadyResult) -> Figure:
     """Fringes of red, green and blue light on top of one another; zero film is dark."""
     film = refined(film_of(result))
     channels = [
-        brightness(interferogram(film, light, REFRACTIVE_INDEX, np.pi), film.h / COHERENCE) for light in LIGHTS
+        brightness(interferogram(film, light, REFRACTIVE_INDEX, np.pi), film.si.h / COHERENCE) for light in LIGHTS
     ]
     kappa = moes_point(result.point).kappa
     figure = new_figure(3.5)

@@ -134,8 +134,8 @@ class Findings:
         """The film-memory element and the impedance it was fitted to, or why there is none."""
         found, response = self.reduction.memory, self.reduction.impedance
         if isinstance(found, str):
-            return {"refused": found, "impedance": response.summary()}
-        return found.to_dict() | {"impedance": response.summary()}
+            return {"refused": found, "impedance": response.to_dict()}
+        return found.to_dict() | {"impedance": response.to_dict()}
 
     @property
     def at_rotor_speed(self) -> dict[str, float]:
@@ -204,7 +204,7 @@ class Findings:
             "answer": self.answer,
             "operating_point": self.operating_point,
             "assumptions": self.assumptions.to_dict(),
-            "steady": self.steady.summary(),
+            "steady": self.steady.to_dict(),
             "simulations": {
                 name: {key: getattr(run, key) for key in keys}
                 | {

@@ -133,7 +133,7 @@ def test_impedance_at_a_frequency_in_hertz_is_that_at_its_Omega():
     np.testing.assert_allclose(si.damping, by_hz.damping * scales.force / scales.length * scales.time)
     np.testing.assert_allclose(si.impedance.real, by_hz.stiffness * scales.force / scales.length)
     np.testing.assert_allclose(si.impedance.imag, si.omega * si.damping)
-    assert by_hz.summary()["si"]["hz"] == si.hz.tolist() and by_hz.summary()["omega"] == by_hz.Omega.tolist()
-    assert "si" not in plain.summary()
+    assert by_hz.to_dict()["si"]["hz"] == si.hz.tolist() and by_hz.to_dict()["Omega"] == by_hz.Omega.tolist()
+    assert "si" not in plain.to_dict()
     with pytest.raises(InputError, match=r"^scales = None: must be those of a result made from an OperatingPoint"):
         _ = plain.si

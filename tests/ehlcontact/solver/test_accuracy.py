@@ -151,7 +151,7 @@ def test_prescribed_approach_is_exact():
 def test_errors_are_kept_and_told(tmp_path):
     film = solve_steady(PAPER, n=64)
     assert load(save(film, tmp_path / "film.h5")).error == film.error
-    assert json.loads(json.dumps(film.summary()))["error"] == dict(zip(NUMBERS, astuple(film.error), strict=True))
+    assert json.loads(json.dumps(film.to_dict()))["error"] == dict(zip(NUMBERS, astuple(film.error), strict=True))
     failed = solve_steady(PAPER, n=64, max_cycles=1, throw=False)
-    assert failed.error is None and failed.summary()["error"] is None
+    assert failed.error is None and failed.to_dict()["error"] is None
     assert load(save(failed, tmp_path / "film.h5")).error is None

@@ -85,8 +85,8 @@ def test_a_grid_too_coarse_is_said_in_the_words_of_the_steady_film():
     run = simulate(POINT, HarmonicLoad(Omega=3.0), n=32, until=0.02, dT=0.02)
     said = solve_steady(POINT, n=32).reservation
     assert said and run.reservation == said.replace("coarse: the", "coarse: at the start the")
-    assert run.reservation in repr(run) and run.summary()["reservation"] == run.reservation
-    assert run.summary()["film_error"]["h_central"] == run.film_error.h_central
+    assert run.reservation in repr(run) and run.to_dict()["reservation"] == run.reservation
+    assert run.to_dict()["film_error"]["h_central"] == run.film_error.h_central
     assert f"at the start ± {100.0 * run.film_error.h_central:.2g} % in the centre" in repr(run)
     assert replace(run, status=Status.MAX_CYCLES).reservation == ""
     assert replace(run, film_error=ErrorEstimate(0.0, 0.05, 0.09)).reservation == ""
@@ -110,7 +110,7 @@ def test_it_is_kept_in_files_and_not_found_again_by_a_restart(tmp_path, monkeypa
 def test_old_files_have_none():
     old = load(Path(__file__).parents[2] / "data" / "simulation.h5")
     assert old.film_error is None and old.reservation == ""
-    assert old.summary()["film_error"] is None
+    assert old.to_dict()["film_error"] is None
 
 
 def test_a_start_that_fails_has_none():

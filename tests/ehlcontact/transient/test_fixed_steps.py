@@ -97,7 +97,7 @@ def test_few_steps_a_period_are_said_in_words():
     assert few.reservation == (
         "the step is coarse: 10 to a period of the load; before taking damping from it give dT = 0.025"
     )
-    assert few.reservation in repr(few) and few.summary()["reservation"] == few.reservation
+    assert few.reservation in repr(few) and few.to_dict()["reservation"] == few.reservation
     assert replace(few, status=Status.STAGNATED).reservation == ""
     for count in (FEWEST_STEPS - 1, FEWEST_STEPS, 80):
         assert bool(coarse_step_note(motion, np.arange(9) * 2.0 / count)) == (count < FEWEST_STEPS)

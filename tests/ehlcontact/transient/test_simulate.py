@@ -143,7 +143,7 @@ def test_no_snapshots(harmonic):
 
 
 def test_summary_is_plain(free):
-    summary = free.summary()
+    summary = free.to_dict()
     assert json.loads(json.dumps(summary)) == summary
     wanted = "status steps seconds T approach rate force h_central h_min"
     assert set(wanted.split()) <= set(summary)

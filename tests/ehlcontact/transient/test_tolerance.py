@@ -73,7 +73,7 @@ def test_damping_of_small_loads_is_as_good_as_that_of_large_ones(amplitude):
         assert damping(coarse, pi) != pytest.approx(damping(closely, pi), rel=0.03)
         assert "to 1 % of it" in coarse.reservation
         assert coarse.reservation in repr(coarse)
-        assert coarse.summary()["reservation"] == coarse.reservation
+        assert coarse.to_dict()["reservation"] == coarse.reservation
 
 
 def test_given_tolerance_is_kept_and_stored(tmp_path):
@@ -92,4 +92,4 @@ def test_results_of_old_files_say_nothing_of_it():
     old = load(Path(__file__).parents[2] / "data" / "simulation.h5")
     assert old.tol is None
     assert old.reservation == ""
-    assert old.summary()["tol"] is None
+    assert old.to_dict()["tol"] is None

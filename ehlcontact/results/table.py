@@ -1,0 +1,411 @@
+"""Results as tables of quantities: SI values, dictionary, xarray, pandas and a figure from the declarations.
+
+A class declares its quantities in annotations (`ehlcontact.quantities`), and in `DISPLAY` what rows and figures
+have. xarray and pandas are extras: ``pip install 'ehlcontact[tables]'``.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass, field, is_dataclass, replace
+from enum import Enum
+from math import prod
+from textwrap import fill
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.errors import InputError
+from ehlcontact.point import Scales
+from ehlcontact.quantities import (
+    Quantity,
+    quantities_of,
+    require_scales,
+    si_dimension,
+    si_quantities,
+    words,
+)
+from ehlcontact.results.picture import Map, Panel, draw
+from ehlcontact.summary import LINES, WIDTH, Summary
+
+Array = NDArray[Any]
+
+ERRORS = "error", "film_error"  # attributes that hold errors of quantities, in their units
+
+
+@dataclass(frozen=True)
+class Display:
+    """Rows of a table and panels of a figure.
+
+    Parameters
+    ----------
+    rows : str
+        Dimensions of the rows of `to_pandas`.
+    panels : tuple of str
+        Of the figure: names of quantities that share axes.
+    labels : mapping of str to tuple of str
+        Of dimensions that have no coordinate; by default they count from `first`.
+    coordinates : str
+        Quantities over one dimension that are coordinates beside one named like it; figures have the last of them.
+    logs : str
+        "x", "y" or both: axes of the figure that are logarithmic where their values are far apart.
+    first : int
+        From which dimensions without labels count.
+    """
+
+    rows: str
+    panels: tuple[str, ...] = ()
+    labels: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    coordinates: str = ""
+    logs: str = ""
+    first: int = 1
+
+    def in_si(self, names: Mapping[str, str]) -> Display:
+        """The same for a view in SI; `names` are SI names by name, quantities without one are left out."""
+        rows = " ".join(si_dimension(dim) for dim in self.rows.split())
+        panels = (" ".join(names[name] for name in group.split() if name in names) for group in self.panels)
+        return replace(self, rows=rows, panels=tuple(filter(None, panels)))
+
+
+class QuantityTable(Summary):
+    """Base of results: their quantities as dictionary, xarray, pandas and figure."""
+
+    __slots__ = ()
+    DISPLAY: ClassVar[Display]
+    UNITS: ClassVar[str] = "SI"  # or "dimensionless": of the values
+
+    def to_dict(self) -> dict[str, Any]:
+        """Listed quantities, and the errors of some of them, ready for JSON."""
+        declared = self._declared().items()
+        found = {name: plain(getattr(self, name)) for name, quantity in declared if quantity.listed}
+        return found | {name: plain(getattr(self, name)) for name in ERRORS if hasattr(self, name)}
+
+    def to_xarray(self) -> Any:
+        """``xarray.Dataset`` of everything: dimensions and coordinates named, ``units`` and ``long_name`` of each.
+
+        Raises
+        ------
+        InputError
+            xarray is not installed.
+        """
+        try:
+            import xarray
+        except ImportError as error:
+            raise _missing("xarray", error) from None
+        declared, labels = self._declared(), self._display().labels
+        at: dict[str, Any] = {
+            dim: ((dim,), np.array(self._labels(dim, size)))
+            for dim, size in self._sizes().items()
+            if dim not in declared and dim in labels
+        }
+        values: dict[str, Any] = {}
+        for name, base, array in self._columns():
+            where = at if name == base and self._is_coordinate(name) else values
+            attributes = {"units": self._unit(base) or "1", "long_name": words(base)}
+            where[name] = (declared[base].dims, array, attributes)
+        return xarray.Dataset(values, coords=at, attrs=self._about())
+
+    def to_pandas(self) -> Any:
+        """``pandas.DataFrame``, a row for each step, frequency or node; units are in the heads of the columns.
+
+        Raises
+        ------
+        InputError
+            pandas is not installed.
+        """
+        pandas, sizes = _pandas(), self._sizes()
+        rows = self._display().rows.split()
+        at = [self._along(dim, sizes) for dim in rows]
+        names = [self._head(dim) if dim in self._declared() else dim for dim in rows]
+        index = (
+            pandas.Index(at[0], name=names[0])
+            if len(rows) == 1
+            else pandas.MultiIndex.from_product(at, names=names)
+        )
+        columns: dict[str, Array] = {}
+        for name, base, array in self._columns():
+            if name not in rows:
+                columns |= self._over_rows(name, base, array, sizes)
+        frame = pandas.DataFrame(columns, index=index)
+        frame.attrs.update(self._about())
+        return frame
+
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """Matplotlib figure, in SI where the point is; into a file too where a path is given.
+
+        Raises
+        ------
+        InputError
+            The file cannot be written.
+        """
+        return draw(self._title(), list(self._drawn()._panels()), path)
+
+    def _quantities(self) -> Mapping[str, Quantity]:
+        """Declared quantities by name, with those that only SI has."""
+        return quantities_of(type(self))
+
+    def _declared(self) -> Mapping[str, Quantity]:
+        """Quantities of tables and figures by name."""
+        return {name: one for name, one in self._quantities().items() if not one.only_si}
+
+    def _display(self) -> Display:
+        return self.DISPLAY
+
+    def _in_si(self) -> bool:
+        """Whether values are in SI."""
+        return self.UNITS == "SI"
+
+    def _drawn(self) -> QuantityTable:
+        """What a figure shows: the view in SI, where there is one."""
+        return self
+
+    def _summary_lines(self) -> list[str]:
+        """Numbers with their units, and shapes of arrays."""
+        numbers, arrays = [], []
+        for name, base, array in self._columns():
+            if array.ndim:
+                arrays.append(f"{name} [{'x'.join(map(str, array.shape))}]")
+            else:
+                numbers.append(f"{name} {array:.5g} {self._unit(base)}".rstrip())
+        text = fill(", ".join([*numbers, *arrays]), WIDTH, max_lines=LINES, placeholder=" ...")
+        return text.splitlines() or [""]
+
+    def _title(self) -> str:
+        """Name of the class, and the first line of its summary where it has one of its own."""
+        own = type(self)._summary_lines is not QuantityTable._summary_lines
+        return f"{self._summary_name()}: {self._summary_lines()[0]}" if own else self._summary_name()
+
+    def _about(self) -> dict[str, Any]:
+        """Origin in plain numbers and words: attributes of tables."""
+        found: dict[str, Any] = {"result": type(self).__name__}
+        point = getattr(self, "point", None)
+        found |= {} if point is None else point.to_dict()
+        for name in ("n", "version", "status", "name", "units"):
+            value = getattr(self, name, None)
+            if value is not None and value != "":
+                found[name] = value if isinstance(value, int) else str(value)
+        return found
+
+    def _unit(self, name: str) -> str:
+        quantity = self._declared()[name]
+        return quantity.unit if self._in_si() else quantity.moes
+
+    def _head(self, name: str, of: str = "", base: str = "") -> str:
+        """Head of a column: name and unit."""
+        unit = self._unit(base or name)
+        return f"{name}{of} [{unit}]" if unit else f"{name}{of}"
+
+    def _axis(self, name: str) -> tuple[str, str]:
+        """Words and unit of an axis."""
+        return words(name), self._unit(name)
+
+    def _is_coordinate(self, name: str) -> bool:
+        return self._declared()[name].dims == (name,) or name in self._display().coordinates.split()
+
+    def _coordinate(self, dim: str) -> str | None:
+        """Quantity that a figure has along a dimension, the last of several."""
+        found = [n for n, one in self._declared().items() if one.dims == (dim,) and self._is_coordinate(n)]
+        return found[-1] if found else None
+
+    def _columns(self) -> Iterator[tuple[str, str, Array]]:
+        """Name, name of the quantity (another for error bars) and values, of all that are not None."""
+        bars = getattr(self, "error", None)
+        for name in self._declared():
+            if getattr(self, name) is None:
+                continue
+            yield name, name, self._values(name)
+            if isinstance(bars, Mapping) and name in bars:
+                yield f"{name}_error", name, np.asarray(bars[name])
+
+    def _values(self, name: str) -> Array:
+        """A quantity as an array over its dimensions; what has one of them, in a row."""
+        array = np.asarray(getattr(self, name))
+        return array.ravel() if len(self._declared()[name].dims) == 1 else array
+
+    def _sizes(self) -> dict[str, int]:
+        declared, found = self._declared(), dict[str, int]()
+        for _, base, array in self._columns():
+            found.update(zip(declared[base].dims, array.shape, strict=True))
+        return found
+
+    def _labels(self, dim: str, size: int) -> list[str]:
+        display = self._display()
+        return list(display.labels.get(dim, map(str, range(display.first, display.first + size))))
+
+    def _along(self, dim: str, sizes: Mapping[str, int]) -> Array:
+        """Values of the rows along a dimension."""
+        return self._values(dim) if dim in self._declared() else np.array(self._labels(dim, sizes[dim]))
+
+    def _pairs(self, dims: Iterable[str], sizes: Mapping[str, int]) -> list[str]:
+        """Names of the entries over further dimensions, one after another: "xx", "xy", ..."""
+        found = [""]
+        for dim in dims:
+            labels = self._labels(dim, sizes[dim])
+            separate = " " if max(map(len, labels)) > 1 else ""
+            found = [f"{one}{separate}{label}".strip() for one in found for label in labels]
+        return found
+
+    def _over_rows(self, name: str, base: str, array: Array, sizes: Mapping[str, int]) -> dict[str, Array]:
+        """Columns of one quantity over the rows; none where it is not over them, or is a field over them."""
+        rows, dims = self._display().rows.split(), self._declared()[base].dims
+        rest = [dim for dim in dims if dim not in rows]
+        if not set(dims) & set(rows) or any(self._coordinate(dim) for dim in rest):
+            return {}
+        order = [dims.index(dim) for dim in rows if dim in dims] + [dims.index(dim) for dim in rest]
+        moved = array.transpose(order)
+        ahead = tuple(sizes[dim] if dim in dims else 1 for dim in rows)
+        shape = tuple(sizes[dim] for dim in rest)
+        full = np.broadcast_to(moved.reshape(*ahead, *shape), (*(sizes[dim] for dim in rows), *shape))
+        flat = full.reshape(prod(sizes[dim] for dim in rows), -1)
+        names = [of and f"_{of.replace(' ', '_')}" for of in self._pairs(rest, sizes)]
+        return {self._head(name, of, base): flat[:, k].copy() for k, of in enumerate(names)}
+
+    def _panels(self) -> Iterator[Panel | Map]:
+        """Of the figure; those of quantities that are None are left out."""
+        display, sizes = self._display(), self._sizes()
+        for group in display.panels:
+            names = [name for name in group.split() if getattr(self, name) is not None]
+            if not names:
+                continue
+            dim, *rest = self._declared()[names[0]].dims
+            along = self._coordinate(dim)
+            place = self._values(along) if along else display.first + np.arange(sizes[dim])
+            x = (place, self._axis(along) if along else dim)
+            if len(rest) == 1 and rest[0] not in display.labels and sizes[rest[0]] > 1:
+                across = self._coordinate(rest[0])
+                y = (getattr(self, across), self._axis(across)) if across else (np.arange(sizes[rest[0]]), rest[0])
+                yield from (Map(x, y, (self._values(name), self._axis(name))) for name in names)
+            else:
+                yield Panel(x, list(self._lines(names, rest, sizes)), self._shared(names), display.logs)
+
+    def _lines(
+        self, names: list[str], rest: list[str], sizes: Mapping[str, int]
+    ) -> Iterator[tuple[str, Array, Array | None]]:
+        """Lines of a panel: name, values, half widths of error bars."""
+        bars = getattr(self, "error", None)
+        for name in names:
+            bar = bars.get(name) if isinstance(bars, Mapping) else None
+            pairs = self._pairs(rest, sizes)
+            array = self._values(name).reshape(-1, len(pairs))
+            text = words(name) if len(names) > 1 else ""
+            for k, of in enumerate(pairs):
+                yield f"{text} {of}".strip(), array[:, k], None if bar is None else np.asarray(bar)
+
+    def _shared(self, names: list[str]) -> tuple[str, str]:
+        """Words and unit of an axis; no words where several quantities share it: the legend has them."""
+        units = {self._unit(name) for name in names}
+        return words(names[0]) if len(names) == 1 else "", units.pop() if len(units) == 1 else ""
+
+
+class ScaledTable(QuantityTable):
+    """Base of dimensionless results; with ``scales``, those of an `OperatingPoint`, ``si`` has them in SI."""
+
+    __slots__ = ()
+    UNITS = "dimensionless"
+    scales: Scales | None
+
+    @property
+    def si(self) -> SIView:
+        """All quantities in SI; raises `InputError` for a dimensionless point, which has no units."""
+        return SIView(self, self._quantities())
+
+    def _drawn(self) -> QuantityTable:
+        return self if self.scales is None else self.si
+
+    def to_dict(self) -> dict[str, Any]:
+        """Listed quantities and their errors, ready for JSON; of an SI point with ``si``."""
+        return super().to_dict() | ({} if self.scales is None else {"si": self.si.to_dict()})
+
+
+class SIView(QuantityTable):
+    """A result in SI: its quantities times their scales, arrays read-only.
+
+    Attributes have the names of the result in lower case: X, Y, P, H, T become x, y, p, h, t, and Omega both
+    ``omega`` [rad/s] and ``hz``. The docstring of the result lists them with their units, and so does `dir`.
+    Errors of quantities (``error``) are in the units of the quantities.
+
+    Parameters
+    ----------
+    result : object
+        With `scales`.
+    declared : mapping of str to Quantity, optional
+        By default those of its class.
+
+    Raises
+    ------
+    InputError
+        A result without scales.
+    """
+
+    __slots__ = ("_found", "_result", "_si")
+
+    def __init__(self, result: Any, declared: Mapping[str, Quantity] | None = None) -> None:
+        scales = require_scales(result.scales)
+        self._result, self._found = result, si_quantities(declared or quantities_of(type(result)))
+        self._si = {name: one.in_si(getattr(result, own), scales) for name, (own, one) in self._found.items()}
+        self._si |= {name: self._errors(getattr(result, name), scales) for name in ERRORS if hasattr(result, name)}
+        for value in self._si.values():
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+
+    def __getattr__(self, name: str) -> Any:
+        if name[0] != "_" and name in self._si:
+            return self._si[name]
+        raise AttributeError(name if name[0] == "_" else f"{self._summary_name()} has no {name}")
+
+    def __dir__(self) -> list[str]:
+        """Names of the quantities and of the methods."""
+        return sorted({*object.__dir__(self), *self._si})
+
+    def _summary_name(self) -> str:
+        return f"{type(self._result).__name__} in SI"
+
+    def _declared(self) -> Mapping[str, Quantity]:
+        return {name: one for name, (_, one) in self._found.items()}
+
+    def _display(self) -> Display:
+        return self._result._display().in_si({own: name for name, (own, _) in self._found.items()})
+
+    def _about(self) -> dict[str, Any]:
+        return {**self._result._about(), "units": "SI"}
+
+    def _errors(self, errors: Any, scales: Scales) -> Any:
+        """Errors of quantities in their units: bars by name, or an estimate, whose films are relative."""
+        if isinstance(errors, Mapping):
+            shared = [name for name in errors if name in self._found]
+            return {name: self._found[name][1].in_si(errors[name], scales) for name in shared}
+        return errors and replace(errors, approach=errors.approach * scales.length)
+
+
+def plain(value: Any) -> Any:
+    """`value` as JSON has it: arrays as lists, dataclasses as dictionaries."""
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    if isinstance(value, Enum):
+        return str(value)
+    if is_dataclass(value) and not isinstance(value, type):
+        return plain(asdict(value))
+    if isinstance(value, Mapping):
+        return {name: plain(one) for name, one in value.items()}
+    return [plain(one) for one in value] if isinstance(value, list | tuple) else value
+
+
+def frame_of(rows: list[dict[str, Any]], index: str, about: Mapping[str, Any]) -> Any:
+    """``pandas.DataFrame`` of rows, an entry their index; raises `InputError` where pandas is missing."""
+    frame = _pandas().DataFrame(rows).set_index(index)
+    frame.attrs.update({name: value for name, value in about.items() if value is not None})
+    return frame
+
+
+def _pandas() -> Any:
+    try:
+        import pandas
+    except ImportError as error:
+        raise _missing("pandas", error) from None
+    return pandas
+
+
+def _missing(name: str, error: ImportError) -> InputError:
+    return InputError(name, None, f"installed: pip install 'ehlcontact[tables]' ({error})")
