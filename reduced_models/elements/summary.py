@@ -89,7 +89,7 @@ class ElementSummary(Summary):
         lines = [
             f"{self.units}, {f'{self.state_count} states' if self.state_count else 'no memory'}",
             ", ".join(f"{name} {value:.4g}" for name, value in numbers.items())
-            + f"; arrays {arrays}" * bool(arrays),
+            + f"; tables of {arrays}" * bool(arrays),
             f"approach {text_of(self.validity.approach)}{' m' if si else ''}",
         ]
         if self.load_range is not None:
