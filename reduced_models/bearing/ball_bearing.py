@@ -26,7 +26,7 @@ from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from reduced_models.bearing.balls import Balls, SpeedState, speed_state
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
-from reduced_models.bearing.coefficients import BearingCoefficients, impedances
+from reduced_models.bearing.coefficients import BearingCoefficients
 from reduced_models.bearing.equilibrium import (
     RingEquilibrium,
     angle_of,
@@ -35,6 +35,7 @@ from reduced_models.bearing.equilibrium import (
     ring_equilibrium,
 )
 from reduced_models.bearing.file import oil_of, plain, read, write
+from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import (
     HERTZ,
     RADIANS,
@@ -301,11 +302,9 @@ class BallBearing(BearingSummary):
         """
         force, speed = radial_load(load), self.speed(speed_rpm)
         w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
-        standings, kernel = self.standings(force, speed, cage_angle), self.kernel(speed)
-        mean = np.mean(
-            [impedances(kernel, self.speed_state(speed), standing, w) for standing in standings], axis=0
-        )
-        return BearingCoefficients.of(force, speed, cage_angle, w, mean, standings)
+        standings = self.standings(force, speed, cage_angle)
+        balls = SmallBalls.of(self.kernel(speed), self.speed_state(speed), standings)
+        return BearingCoefficients.of(force, speed, cage_angle, w, balls.coefficients(w), standings)
 
     def standings(
         self, load: ArrayLike, speed_rpm: float, cage_angle: float | None = None

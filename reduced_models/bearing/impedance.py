@@ -1,12 +1,10 @@
 """Impedance of a bearing at complex frequencies: a rational function, for every gain is one of a filter.
 
 A ball has Z = Z_i Z_o/(Z_i + Z_o) of its two contacts in series (m s^2 beside Z_o if it has inertia), each of them
-
-    Z(s) = k + s tau (dF/dm) G(s tau)
-
-with the transfer function G of the film's filters. Balls stand still while the ring vibrates: what they see change
-as they travel is no part of it. Over a ball passage Z is the mean of positions of the cage, each with the ring
-where the same load puts it: on the imaginary axis that is `BallBearing.coefficients`, to rounding.
+a `reduced_models.elements.small_motion.SmallMotion`; those of all balls add along their directions, and rings and
+fits may lose more (`reduced_models.bearing.loss`). Balls stand still while the ring vibrates: what changes as they
+travel is no part of it. Over a ball passage Z is the mean of positions of the cage, each with the ring where the
+same load puts it.
 """
 
 from __future__ import annotations
@@ -15,46 +13,44 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from reduced_models.bearing.balls import Balls, SpeedState
-from reduced_models.bearing.coefficients import SmallContact, small_contact
 from reduced_models.bearing.equilibrium import RingEquilibrium
 from reduced_models.bearing.loss import Loss, response
+from reduced_models.bearing.race_table import RaceForceTable, curve, film_cutoff
+from reduced_models.elements.film_law import DIRECT
 from reduced_models.elements.film_response import FilterRates
+from reduced_models.elements.small_motion import SmallMotion
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
+TINY_OMEGA = 1e-3  # rad/s, stands for 0: films forget in less than a second
 
-class Contacts(NamedTuple):
-    """Contacts of many balls with one race about rest, arrays over the balls as in `SmallContact`."""
 
-    stiffness: _Floats
-    slope: _Floats
-    tau: _Floats
-    gains: _Floats  # (balls, DIRECT + lags)
-    rates: FilterRates | None  # None: dry
-
-    @classmethod
-    def of(cls, found: Sequence[SmallContact]) -> Contacts:
-        """Contacts, which have one law, as arrays."""
-        stiffness, slope, tau, gains, rates = zip(*found, strict=True)
-        return cls(np.array(stiffness), np.array(slope), np.array(tau), np.array(gains), rates[0])
-
-    def impedance(self, s: complex) -> _Complex:
-        """Z(s) of all of them [N/m]."""
-        if self.rates is None:
-            return self.stiffness.astype(complex)
-        own = s * self.tau
-        return np.asarray(self.stiffness + self.slope * own * (self.rates.transfer(own) * self.gains).sum(axis=1))
+def small_motion(law: RaceForceTable, transit: float, speed_row: tuple[int, float], u: float) -> SmallMotion:
+    """Linear law of one contact at rest at approach `u` [m]; `transit` and `speed_row` as in `SpeedState`."""
+    g, by_u, _ = curve(u, speed_row[0], speed_row[1], law, 0)
+    root = np.sqrt(g)
+    if law.x.size == 0:
+        return SmallMotion(1.5 * law.kn * root * by_u, 0.0, 0.0, np.zeros(0), None)
+    rows = law.gains[speed_row[0]]
+    if speed_row[1] > 0.0:
+        rows = rows + speed_row[1] * (law.gains[speed_row[0] + 1] - rows)
+    x = law.log_kn + 1.5 * np.log(g)
+    gains = np.array([np.interp(x, law.x, column) for column in rows.T])
+    rates = FilterRates(gains.size - DIRECT, law.lag_rate, law.inlet_rate, law.fast_rate)
+    share, share_u = film_cutoff(u, law.cutoff_gap)
+    slope = share * 1.5 * law.kn * root
+    return SmallMotion(slope * by_u + share_u * law.kn * g * root, slope, transit * root, gains, rates)
 
 
 class SmallBalls(NamedTuple):
     """All balls of a bearing about rest, at one position of the cage or at several."""
 
-    inner: Contacts
-    outer: Contacts
+    inner: SmallMotion  # of all contacts, (positions * balls,)
+    outer: SmallMotion
     normals: _Floats  # (positions * balls, 2)
     positions: int
     loss: Loss
@@ -64,18 +60,25 @@ class SmallBalls(NamedTuple):
     def of(cls, balls: Balls, at_speed: SpeedState, standings: Sequence[RingEquilibrium]) -> SmallBalls:
         """From where the ring stands at each position."""
         approach = np.concatenate([standing.approach for standing in standings])
+        races = (balls.inner, at_speed.inner, approach[:, 0]), (balls.outer, at_speed.outer, approach[:, 1])
         inner, outer = (
-            Contacts.of([small_contact(law, transit, at_speed.speed_row, u) for u in column.tolist()])
-            for law, transit, column in zip(
-                (balls.inner, balls.outer), (at_speed.inner, at_speed.outer), approach.T, strict=True
-            )
+            SmallMotion.stack([small_motion(law, transit, at_speed.speed_row, u) for u in places.tolist()])
+            for law, transit, places in races
         )
         normals = np.concatenate([at.normals for at in standings])
         return cls(inner, outer, normals, len(standings), balls.loss, balls.inertia)
 
-    def impedance(self, s: complex) -> _Complex:
-        """Of the ring, shape (2, 2) [N/m], at a frequency s [1/s] of exp(s t)."""
+    def impedance(self, s: ArrayLike) -> _Complex:
+        """Of the ring [N/m] at frequencies s [1/s] of exp(s t), shape of `s` + (2, 2)."""
+        s = np.asarray(s, complex)[..., None]
         inner, outer = self.inner.impedance(s), self.outer.impedance(s) + self.inertia * s * s
         both = inner + outer
         series = np.divide(inner * outer, both, out=np.zeros_like(both), where=both != 0.0)
-        return np.asarray((self.normals.T * series) @ self.normals * (response(self.loss, s) / self.positions))
+        scale = (response(self.loss, s) / self.positions)[..., None]
+        return np.asarray((self.normals.T * series[..., None, :]) @ self.normals * scale)
+
+    def coefficients(self, omega: _Floats) -> tuple[_Floats, _Floats]:
+        """Stiffness [N/m] and damping [N s/m], shape (k, 2, 2), at angular frequencies [rad/s], shape (k,)."""
+        w = np.maximum(omega, TINY_OMEGA)
+        Z = self.impedance(1j * w)
+        return Z.real.copy(), Z.imag / w[:, None, None]

@@ -29,6 +29,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_exact_loop
 
 _Floats = NDArray[np.float64]
+_Complex = NDArray[np.complex128]
 
 LARGEST_LOSS = 0.2  # twice that of joints of steel; beyond, the filters would not follow
 BAND = (5.0, 5000.0)  # Hz, within which the loss factor holds
@@ -75,9 +76,10 @@ def seat_of(loss: Loss) -> Seat:
     return Seat(np.zeros((HELD + n, 2)), np.ones(1), np.zeros((3, n)))
 
 
-def response(loss: Loss, s: complex) -> complex:
-    """What a force of exp(s t) becomes, over it."""
-    return complex(1.0 + (loss.gains * s / (s + loss.rates)).sum())
+def response(loss: Loss, s: _Complex) -> _Complex:
+    """Factor of a force of exp(s t), of the shape of `s`."""
+    s = np.asarray(s, complex)[..., None]
+    return np.asarray(1.0 + (loss.gains * s / (s + loss.rates)).sum(axis=-1))
 
 
 @jit_exact_loop

@@ -12,7 +12,8 @@
 | jet | numbers with their derivatives, for kernels |
 | film_law | a dry spring on a film that remembers: a step, and the equations in continuous time |
 | film_curve | its static curve from a table of loads |
-| film_response | its linear response: gains from an impedance, passivity |
+| film_response | transfer functions of its filters: gains from an impedance, passivity |
+| small_motion | linear law about rest, of elements and bearings alike: impedance and state space |
 | film_element | elements with a film memory: state, steps, tangents, impedance |
 | memory | `FilmMemoryContact`: one load |
 | wide | `WideRangeContact`: every load |

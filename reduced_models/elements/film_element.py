@@ -32,6 +32,7 @@ from reduced_models.elements.film_law import (
     static_forces,
 )
 from reduced_models.elements.film_response import DRY, FilterRates
+from reduced_models.elements.small_motion import SmallMotion
 
 _Floats = NDArray[np.float64]
 _SCALES = tuple(f.name for f in fields(Scales))
@@ -204,15 +205,16 @@ class FilmContact(ContactElement):
 
     def _response(self, w: _Floats, load: float | None = None) -> NDArray[np.complex128]:
         """As `impedance`, at angular frequencies in the units of the element, shape (k,)."""
+        return self.small_motion(load).impedance(1j * w)
+
+    def small_motion(self, load: float | None = None) -> SmallMotion:
+        """Linear law about rest under `load`, by default the reference load, in the units of the element."""
         f, length, time = self._units
         at = 1.0 if load is None else require_positive("load", load) / f
-        own = at ** (1.0 / 3.0)
-        w = w * time
-        x = math.log(at)
-        gains = np.array([np.interp(x, self.law.gain_x, column) for column in self.law.gains.T])
-        tangent = self.spring_tangent(self.approach_at(at * f)) * length / f
-        G = self.rates.basis(w * own) @ gains
-        return np.asarray((tangent + 1j * w * own * own * DRY * G) * f / length)
+        own = at ** (1.0 / 3.0)  # length of the contact, and so its time, over that under the reference load
+        gains = np.array([np.interp(math.log(at), self.law.gain_x, column) for column in self.law.gains.T])
+        tangent = self.spring_tangent(self.approach_at(at * f))
+        return SmallMotion(tangent, DRY * own * f / length, own * time, gains, self.rates)
 
     @property
     def state_count(self) -> int:
@@ -245,8 +247,12 @@ class FilmContact(ContactElement):
         def output(t: float, x: _Floats, inputs: _Floats, params: object) -> _Floats:
             return np.array([self.state_rates(np.asarray(x), float(inputs[0]), float(inputs[1]))[0]])
 
-        states = ["s", "y", *(f"q{k}" for k in range(1, self.lags + 1))]
-        return control.nlsys(update, output, inputs=["u", "v"], outputs=["F"], states=states, name=name)
+        names = {"inputs": ["u", "v"], "outputs": ["F"], "states": self._state_names, "name": name}
+        return control.nlsys(update, output, **names)
+
+    @property
+    def _state_names(self) -> list[str]:
+        return ["s", "y", *(f"q{k}" for k in range(1, self.lags + 1))]
 
     def to_ss(self, load: float | None = None, name: str = "contact") -> Any:
         """Exact python-control ``StateSpace`` about rest under `load`, its reference load by default.
@@ -255,21 +261,10 @@ class FilmContact(ContactElement):
         """
         import control
 
-        f, length, time = self._units
-        own = (1.0 if load is None else require_positive("load", load) / f) ** (1.0 / 3.0)
-        gains = np.array([np.interp(3.0 * math.log(own), self.law.gain_x, column) for column in self.law.gains.T])
-        law, size = self.law, self.state_count
-        A = np.diag([-law.inlet_rate, -law.fast_rate, *[-law.lag_rate] * self.lags]) / own
-        for j in range(DIRECT - 1, size):
-            A[j, 0 if j == DIRECT - 1 else j - 1] = law.lag_rate / own
-        fed = np.zeros((size, 2))
-        fed[:2, 1] = law.inlet_rate / length, law.fast_rate / length
-        held = DRY * own * f * gains
-        tangent = self.spring_tangent(self.approach_at(own**3 * f))
-        through = np.array([[tangent, held[0] * own * time / length]])
-        states = ["s", "y", *(f"q{k}" for k in range(1, self.lags + 1))]
-        names = {"inputs": ["u", "v"], "outputs": ["F"], "states": states, "name": name}
-        return control.ss(A / time, fed, held[None, 1:], through, **names)
+        A, fed, C, D = self.small_motion(load).state_space()
+        unit = self._units[1]  # states are films in units of the reference approach
+        names = {"inputs": ["u", "v"], "outputs": ["F"], "states": self._state_names, "name": name}
+        return control.ss(A, fed / unit, C * unit, D, **names)
 
     def _si_coefficients(self, scales: Scales) -> dict[str, Any]:
         return {"scales": scales}  # the coefficients stay dimensionless

@@ -58,15 +58,16 @@ class FilterRates:
             object.__setattr__(self, name, require_positive(name, getattr(self, name)))
 
     def basis(self, omega: ArrayLike) -> _Complex:
-        """Response of every filter, shape (number of omegas, 3 + lags)."""
-        return self.transfer(1j * np.maximum(np.asarray(omega, float), SMALL_OMEGA))
+        """Response of every filter to a vibration, shape of `omega` + (3 + lags,)."""
+        return self.transfer(1j * np.asarray(omega, float))
 
     def transfer(self, s: ArrayLike) -> _Complex:
-        """Transfer function of every filter at complex `s`, shape (number of s, 3 + lags)."""
-        s = np.asarray(s, complex)[:, None]
+        """Transfer function of every filter at complex `s`, shape of `s` + (3 + lags,)."""
+        s = np.asarray(s, complex)[..., None]
+        s = np.where(np.abs(s) < SMALL_OMEGA, 1j * SMALL_OMEGA, s)
         inlet = 1.0 / (1.0 + s / self.inlet_rate)
         chain = (1.0 / (1.0 + s / self.lag_rate)) ** np.arange(1, self.lags + 1)
-        return np.hstack([np.ones_like(s), inlet, 1.0 / (1.0 + s / self.fast_rate), inlet * chain])
+        return np.concatenate([np.ones_like(s), inlet, 1.0 / (1.0 + s / self.fast_rate), inlet * chain], axis=-1)
 
     def passive(self, gains: ArrayLike) -> bool:
         """Whether every row of `gains`, shape (rows, 3 + lags) or (3 + lags,), has Re G >= 0 at all frequencies.

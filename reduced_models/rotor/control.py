@@ -19,8 +19,9 @@ from reduced_models.bearing.balls import Balls, SpeedState, begin_rest, directio
 from reduced_models.bearing.contact import PLACE
 from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.rates import bearing_rates
-from reduced_models.bearing.state_space import FILTERS, PER_METRE, System, bearing_system
+from reduced_models.bearing.state_space import PER_METRE, bearing_system
 from reduced_models.elements.film_law import DIRECT
+from reduced_models.elements.small_motion import FILTERS, StateSpace
 from reduced_models.rotor.linearise import LinearisedRotor, Signals
 from reduced_models.rotor.modes import Matrices
 from reduced_models.rotor.rotor import BearingMount, Rotor
@@ -55,7 +56,7 @@ def linear_block(at: LinearisedRotor, inputs: Signals, outputs: Signals, name: s
     )
 
 
-def rotor_system(matrices: Matrices, to_rings: _Floats, bearings: Sequence[System]) -> tuple[_Floats, _Floats]:
+def rotor_system(matrices: Matrices, to_rings: _Floats, bearings: Sequence[StateSpace]) -> tuple[_Floats, _Floats]:
     """A, and B of forces on all degrees of freedom, for the states q, q' and those of the bearings."""
     M, damping, K = matrices
     size = len(M)

@@ -7,8 +7,8 @@ import pytest
 
 from reduced_models import BallBearing
 from reduced_models.bearing.balls import Balls
-from reduced_models.bearing.coefficients import impedances
 from reduced_models.bearing.equilibrium import ring_equilibrium
+from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.race import shared_atlas
 from reduced_models.bearing.race_table import tabulate_race
 
@@ -18,7 +18,7 @@ ON = -pi / 2.0
 
 
 def as_the_prototype(bearing, rpm, load, omega):
-    """K + i omega C, mean over a ball passage, with laws of elements about the heaviest ball alone.
+    """K + i C, mean over a ball passage, with laws of elements about the heaviest ball alone.
 
     So had it the prototype: light balls are beyond these laws, which hold their gains there.
     """
@@ -28,7 +28,8 @@ def as_the_prototype(bearing, rpm, load, omega):
     kernel = Balls(*(tabulate_race([element]) for element in elements), *bearing.kernel(rpm)[2:])
     at_speed = bearing.speed_state(rpm)
     at = [ring_equilibrium(kernel, at_speed, load, ON + 2.0 * pi / 9.0 * k / 4.0) for k in range(4)]
-    return np.mean([impedances(kernel, at_speed, s, np.array([omega]))[0] for s in at], axis=0)
+    K, C = SmallBalls.of(kernel, at_speed, at).coefficients(np.array([omega]))
+    return K[0] + 1j * C[0]
 
 
 @pytest.mark.parametrize(("rpm", "expected"), list(zip(SPEEDS, (285.0, 188.0, 140.0), strict=True)))

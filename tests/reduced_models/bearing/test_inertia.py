@@ -17,9 +17,9 @@ from reduced_models import (
     simulate_on_bearings,
 )
 from reduced_models.bearing.balls import speed_state
-from reduced_models.bearing.coefficients import impedances
 from reduced_models.bearing.contact import PLACE
 from reduced_models.bearing.equilibrium import ring_equilibrium
+from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS
 
 RPM = 3000.0
@@ -72,10 +72,8 @@ def test_small_motions_in_time_have_the_impedance(oil, oiled):
     hz, size, periods, per_period = 15e3, 1e-11, 40, 400
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
     t = dt * np.arange(1, periods * per_period + 1)
-    Z, massless = (
-        impedances(k, at_speed, at, np.array([omega]))[0] for k in (kernel, kernel._replace(inertia=0.0))
-    )
-    Z = Z.real + 1j * omega * Z.imag
+    balls = SmallBalls.of(kernel, at_speed, [at])
+    Z, massless = (b.impedance(1j * omega) for b in (balls, balls._replace(inertia=0.0)))
     run = BearingMotion(kernel, RPM, dt)
     start = run.rest(at.displacement)
     rise = np.minimum(1.0, t * hz / 20.0)[:, None]  # free balls would swing on for ever

@@ -8,8 +8,8 @@ import pytest
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingMotion
 from reduced_models.bearing.balls import speed_state
-from reduced_models.bearing.coefficients import contact_impedance, impedances
 from reduced_models.bearing.equilibrium import ring_equilibrium
+from reduced_models.bearing.impedance import SmallBalls, small_motion
 from reduced_models.bearing.kinematics import RADIANS
 
 RPM = 3000.0
@@ -21,7 +21,7 @@ def test_a_contact_has_the_impedance_of_its_element(film, race, load):
     element, kernel = film.element(race, RPM), film.kernel(RPM)
     at_speed, omega = speed_state(kernel, RPM * RADIANS), np.array([10.0, 1e3, 1e5])
     law, transit = getattr(kernel, race), getattr(at_speed, race)
-    found = contact_impedance(law, transit, at_speed.speed_row, element.approach_at(load), omega)
+    found = small_motion(law, transit, at_speed.speed_row, element.approach_at(load)).impedance(1j * omega)
     expected = element.impedance(load=load, omega=omega)
     np.testing.assert_allclose(found, expected, rtol=1e-6)
 
@@ -37,8 +37,7 @@ def test_small_motions_in_time(oil, film_limit):
     omega, periods = 2.0 * pi * hz, 4
     steps = round(periods / (hz * dt))
     t = dt * np.arange(1, steps + 1)
-    Z = impedances(kernel, at_speed, at, np.array([omega]))[0]
-    Z = Z.real + 1j * omega * Z.imag
+    Z = SmallBalls.of(kernel, at_speed, [at]).impedance(1j * omega)
     for k in range(2):
         direction = np.eye(2)[k]
         run = BearingMotion(kernel, RPM, dt, 0.4)

@@ -20,8 +20,8 @@ from reduced_models import (
 )
 from reduced_models.bearing import loss as loss_room
 from reduced_models.bearing.balls import speed_state
-from reduced_models.bearing.coefficients import impedances
 from reduced_models.bearing.equilibrium import ring_equilibrium
+from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.loss import BAND, loss_of, response, seat_of
 
@@ -73,8 +73,7 @@ def test_small_motions_in_time_have_the_impedance(oil, oiled):
     hz, size, periods, per_period = 400.0, 1e-10, 200, 200
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
     t = dt * np.arange(1, periods * per_period + 1)
-    Z = impedances(kernel, at_speed, at, np.array([omega]))[0]
-    Z = Z.real + 1j * omega * Z.imag
+    Z = SmallBalls.of(kernel, at_speed, [at]).impedance(1j * omega)
     run = BearingMotion(kernel, RPM, dt, 0.4)
     start = run.rest(at.displacement)
     q = at.displacement + size * np.sin(omega * t)[:, None] * [0.0, 1.0]
