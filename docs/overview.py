@@ -48,7 +48,7 @@ def main() -> None:
     panel = axes[1, 0]
     found = json.loads((RESULTS / "results.json").read_text(encoding="utf-8"))
     film, rotor = found["memory"]["impedance"], found["operating_point"]["rotor_omega"]
-    memory = FilmMemoryContact.read(RESULTS / "elements" / "memory.json")
+    memory = load(RESULTS / "elements" / "memory.json", FilmMemoryContact)
     omega = np.geomspace(0.5 * rotor, film["Omega"][-1], 300)
     panel.loglog(film["Omega"][1:], film["damping"][1:], "o", markersize=4, label="full film")
     panel.plot(omega, memory.impedance(Omega=omega).imag / omega, label="film memory, one element")

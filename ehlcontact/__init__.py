@@ -14,10 +14,11 @@ room             responsibility
 ``assumptions/`` what every solve assumes, and the numbers that tell when it matters
 ``quantities``   units, scales and dimensions of quantities, declared once in the annotations of results
 ``results/``     results of a steady solve and of an impedance; tables, SI values and figures of all results
-``origin``       where numbers come from: what all results have in common; the version
+``origin``       where numbers come from: what all results have in common
+``version``      of the distribution
 ``film/``        the film to look at: maps, mid-planes, fringes, what the surfaces carry through
-``storage``      `save` and `load`
-``files/``       files that are replaced in one move; texts of any origin; any dataclass in an HDF5 file
+``store``        `save` and `load`: one file header, one way back, for every class
+``files``        files written in one move; texts of any origin
 ``process/``     processes that end with their parent, and on Ctrl-C; threads
 ``checks/``      checks of inputs, and the box that the solvers are made for
 ``errors``       `InputError`, `ConvergenceError`
@@ -45,14 +46,13 @@ from ehlcontact.film import (
 )
 from ehlcontact.impedance import impedance
 from ehlcontact.lubricant import Lubricant
-from ehlcontact.origin import __version__
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint, Scales
 from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
-from ehlcontact.storage import load, save
+from ehlcontact.store import load, save
 from ehlcontact.transient.full_contact import FullContact
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 from ehlcontact.transient.prescribed import PrescribedApproach, PrescribedLoad
@@ -60,6 +60,7 @@ from ehlcontact.transient.result import Instants, SimulationResult
 from ehlcontact.transient.roughness import Roughness
 from ehlcontact.transient.simulate import simulate
 from ehlcontact.transient.surface import Dent, TransverseRidge, Waviness
+from ehlcontact.version import __version__
 
 __all__ = [
     "Assumption",

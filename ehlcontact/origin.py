@@ -15,8 +15,7 @@ from ehlcontact.assumptions import assumptions
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.solver.domain import Domain
-
-__version__ = "0.1.0"  # of the distribution; stated here and in pyproject.toml, held together by a test
+from ehlcontact.version import __version__
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -62,6 +61,13 @@ class Origin:
     def source(self, motion: Any = None) -> dict[str, Any]:
         """What an element made from this result keeps as its ``source``."""
         return source_of(self.point, self.scales, self.n, self.domain.as_tuple(), motion)
+
+
+def require_shapes(record: Any, shapes: Mapping[str, tuple[int, ...]]) -> None:
+    """Raise `ValueError` naming the first array of another shape."""
+    for name, shape in shapes.items():
+        if (found := getattr(record, name).shape) != shape:
+            raise ValueError(f"{name} has the shape {found}, not {shape}")
 
 
 def freeze(record: Any) -> None:

@@ -2,7 +2,7 @@
 
 | room | is responsible for |
 |---|---|
-| elements | the elements: law, validity, units, file; `load_element` |
+| elements | the elements: law, validity, units |
 | fitting | elements from data: `ContactRecord`, `fit`, `fit_memory`, `sensitivity` |
 | atlas | elements without a solve: `Atlas`, from contacts solved beforehand, with error bars |
 | bearing | ball bearings of such contacts: `BallBearing` |
@@ -23,15 +23,14 @@ from reduced_models.bearing.coefficients import BearingCoefficients as BearingCo
 from reduced_models.bearing.kinematics import DefectFrequencies as DefectFrequencies
 from reduced_models.bearing.motion import BearingMotion as BearingMotion
 from reduced_models.bearing.state import BearingState as BearingState
-from reduced_models.elements.kinds import ContactElement as ContactElement
-from reduced_models.elements.kinds import CubicContact as CubicContact
-from reduced_models.elements.kinds import FilmMemoryContact as FilmMemoryContact
-from reduced_models.elements.kinds import LinearContact as LinearContact
-from reduced_models.elements.kinds import PolynomialContact as PolynomialContact
-from reduced_models.elements.kinds import PowerLawContact as PowerLawContact
-from reduced_models.elements.kinds import WideRangeContact as WideRangeContact
-from reduced_models.elements.kinds import load_element as load_element
+from reduced_models.elements.base import ContactElement as ContactElement
+from reduced_models.elements.memory import FilmMemoryContact as FilmMemoryContact
+from reduced_models.elements.polynomial import CubicContact as CubicContact
+from reduced_models.elements.polynomial import LinearContact as LinearContact
+from reduced_models.elements.polynomial import PolynomialContact as PolynomialContact
+from reduced_models.elements.power import PowerLawContact as PowerLawContact
 from reduced_models.elements.validity import OutsideValidityWarning as OutsideValidityWarning
+from reduced_models.elements.wide import WideRangeContact as WideRangeContact
 from reduced_models.fitting.fit import fit as fit
 from reduced_models.fitting.memory import fit_memory as fit_memory
 from reduced_models.fitting.records import ContactRecord as ContactRecord

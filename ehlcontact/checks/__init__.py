@@ -18,6 +18,7 @@ from ehlcontact.checks.inputs import (
     require_finite,
     require_instance,
     require_integer,
+    require_names,
     require_nonnegative,
     require_positive,
 )
@@ -29,6 +30,7 @@ __all__ = [
     "require_finite",
     "require_instance",
     "require_integer",
+    "require_names",
     "require_nonnegative",
     "require_positive",
 ]

@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import wraps
 from math import inf, pi
-from typing import Any, ParamSpec, TypedDict, TypeVar
+from typing import ParamSpec, TypedDict, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,7 +32,6 @@ Result = TypeVar("Result")
 _RADIANS = {"omega": 1.0, "hz": 2.0 * pi, "rpm": pi / 30.0}  # rad/s in one of each
 _UNITS = {"Omega": "", "omega": "rad/s", "hz": "Hz", "rpm": "rev/min"}
 _KEYWORDS = "Omega (dimensionless), omega (rad/s), hz or rpm"
-_RENAMED = {"omega": "Omega", "omega_n": "Omega_n", "omegas": "Omega"}  # in files, before the rule
 
 
 class Frequency(TypedDict, total=False):
@@ -160,11 +159,6 @@ def fields_by_name(positional: int, **renamed: str) -> Callable[[type[Result]], 
         return cls
 
     return decorate
-
-
-def renamed_keys(entries: Mapping[str, Any]) -> dict[str, Any]:
-    """Entries of a stored motion, with the frequencies of old files under their names of today."""
-    return {_RENAMED.get(key, key): value for key, value in entries.items()}
 
 
 def _the_one(time: float | None, values: Mapping[str, ArrayLike | None]) -> tuple[str, ArrayLike]:

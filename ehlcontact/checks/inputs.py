@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from numbers import Integral, Real
 from types import UnionType
 
@@ -51,6 +52,16 @@ def require_choice(field: str, value: object, choices: tuple[str, ...]) -> str:
     if not isinstance(value, str) or value not in choices:
         raise InputError(field, value, "one of " + ", ".join(choices))
     return value
+
+
+def require_names(entries: Collection[str], known: Collection[str], before: str = "") -> None:
+    """Raise `InputError` unless the names of `entries` are those in `known`; messages have `before` in front."""
+    for name in entries:
+        if name not in known:
+            raise InputError(f"{before}{name}", "there", f"left out; known are {', '.join(known)}")
+    for name in known:
+        if name not in entries:
+            raise InputError(f"{before}{name}", None, "there")
 
 
 def require_instance(field: str, value: object, kinds: type | UnionType, allowed: str) -> None:

@@ -31,8 +31,8 @@ from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain
 from ehlcontact.cli.streams import StdoutError, watched_stdout
 from ehlcontact.cli.usage import by_option, command_of, lower_case_note, usage_line
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.origin import __version__
 from ehlcontact.process.early_interrupt import INTERRUPTED
+from ehlcontact.version import __version__
 
 # Root of the usage errors; typer's own or click's, depending on the version of typer.
 UsageFailure: type[Exception] = [base for base in typer.BadParameter.__mro__ if hasattr(base, "format_message")][

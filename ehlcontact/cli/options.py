@@ -170,7 +170,7 @@ class Files:
         """
 
         def save(path: Path) -> None:
-            from ehlcontact.storage import save as store
+            from ehlcontact.store import save as store
 
             store(result, path)
 

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import nan, pi
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.origin import Origin
+from ehlcontact.origin import Origin, require_shapes
 from ehlcontact.quantities import ACROSS, ALONG, FORCE, LENGTH, MOMENT, NUMBER, PRESSURE
 from ehlcontact.results.contact_map import contact_panels
 from ehlcontact.results.table import Display, ScaledTable
 from ehlcontact.solver.accuracy import ALL, ErrorEstimate
 from ehlcontact.status import Status
+from ehlcontact.store import stored
 from ehlcontact.summary import contact_text
 
 Array = NDArray[np.float64]
@@ -42,6 +43,7 @@ def film_bars(error: ErrorEstimate) -> tuple[str, str]:
     return central, least
 
 
+@stored("result of solve_steady")
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SteadyResult(ScaledTable, Origin):
     """Steady film of a contact under constant load, or at a prescribed approach, dimensionless; ``si`` is in SI.
@@ -71,13 +73,13 @@ class SteadyResult(ScaledTable, Origin):
     approach_changes : ndarray, shape (cycles,)
         Change of the approach in each cycle.
     pressure_changes : ndarray, shape (cycles,)
-        Largest change of P in each cycle; empty in results that were stored before it was kept.
+        Largest change of P in each cycle.
     dry_residual : float
         Mean absolute residual of the dry Hertz start on this grid: the scale.
     status : Status
     error : ErrorEstimate or None
         How far approach and films may be from those of an endless fine mesh on the same region; None of a film
-        that is not converged, and of files written before there were estimates. In SI its approach is in m.
+        that is not converged. In SI its approach is in m.
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
@@ -95,17 +97,22 @@ class SteadyResult(ScaledTable, Origin):
     approach_changes: Array
     dry_residual: float
     status: Status
-    # files of earlier versions have neither
-    pressure_changes: Array = field(default_factory=lambda: np.empty(0), metadata={"later": True})
-    error: ErrorEstimate | None = field(default=None, metadata={"later": True})
+    pressure_changes: Array
+    error: ErrorEstimate | None = None
 
     DISPLAY: ClassVar[Display] = Display(rows="X Y", panels=("P", "H"))
+
+    def require_complete(self) -> None:
+        """Raise `ValueError` unless all arrays have the shapes of each other and of the grid."""
+        nx, ny, cycles = self.n + 1, self.Y.size, max(self.residuals.size, 1)
+        shapes = {"X": (nx,), "P": (nx, ny), "H": (nx, ny), "residuals": (cycles,), "load_residuals": (cycles,)}
+        require_shapes(self, shapes | {"approach_changes": (cycles - 1,), "pressure_changes": (cycles - 1,)})
 
     @property
     def pressure_error(self) -> Annotated[float, PRESSURE]:
         """Largest change of P that further cycles would still make: what `tol` of `solve_steady` is held against.
 
-        Infinite where the changes do not fall, NaN where `pressure_changes` is empty.
+        Infinite where the changes do not fall, NaN before the first cycle.
         """
         from ehlcontact.solver.iterate import pressure_error  # and all kernels, which a stored result needs not
 

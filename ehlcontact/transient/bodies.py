@@ -16,7 +16,6 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks.frequency import renamed_keys
 from ehlcontact.errors import InputError
 from ehlcontact.solver.balance import Balance
 
@@ -126,14 +125,14 @@ class Motion(ABC):
 
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> Motion:
-        """Rebuild a motion of any kind from `to_dict`, or from that of an old file.
+        """Rebuild a motion of any kind from `to_dict`.
 
         Raises
         ------
         InputError
             An unknown kind.
         """
-        arguments = renamed_keys(data)
+        arguments = dict(data)
         kind = arguments.pop("kind", None)
         if kind not in _KINDS:
             raise InputError("motion.kind", kind, "one of " + ", ".join(_KINDS))

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import time
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import inf, isfinite
 from pathlib import Path
 from reprlib import repr as shortened
@@ -18,24 +18,23 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.errors import InputError
-from ehlcontact.files import hdf5
-from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.level import Level
+from ehlcontact.store import save, stored
 from ehlcontact.transient.film import FilmState
 from ehlcontact.transient.record import COLUMNS, Array, Record
 from ehlcontact.transient.run import Run
 from ehlcontact.transient.settings import RunSettings, TimeSteps
 from ehlcontact.transient.surface import Surface, surface_height
 from ehlcontact.transient.time_step import StepControl
+from ehlcontact.version import __version__
 
 SAME = 1e-12  # of a time or a step: they differ by rounding only
-FORMAT = 3  # of the file: 2 called the frequencies of motions omega and omega_n, 1 had all fields side by side
-OLDEST_FORMAT = 2  # that is read
 
 
+@stored("checkpoint of `simulate`")
 @dataclass(frozen=True, slots=True, eq=False)
 class Checkpoint:
     """Contents of the file: the run up to its last sound state, and that state."""
@@ -48,7 +47,7 @@ class Checkpoint:
     static_approach: float  # of the steady state under load 1 / dry approach
     seconds: float  # that it took
     version: str
-    film_error: ErrorEstimate | None = field(default=None, metadata={"later": True})  # of the film at T = 0
+    film_error: ErrorEstimate | None  # of the film at T = 0
 
     @classmethod
     def of(cls, run: Run, settings: RunSettings, seconds: float) -> Checkpoint:
@@ -181,21 +180,8 @@ class Keeper:
         if self.path is not None:
             self._tried = time.perf_counter()
             checkpoint = Checkpoint.of(run, self.settings, self._tried - self.started)
-            hdf5.write(checkpoint, self.path, "checkpoint", FORMAT)
+            save(checkpoint, self.path, "checkpoint")
             self._failed = False
-
-
-def load_checkpoint(path: str | os.PathLike[str]) -> Checkpoint:
-    """Read a checkpoint.
-
-    Raises
-    ------
-    InputError
-        No such file, not a checkpoint, truncated, or of the layout of another version.
-    """
-    classes, what = {Checkpoint.__name__: Checkpoint}, "checkpoint of `simulate`"
-    checkpoint: Checkpoint = hdf5.read(path, classes, "restart", what, (OLDEST_FORMAT, FORMAT))
-    return checkpoint
 
 
 def require_replaceable(path: str | os.PathLike[str], restart: str | os.PathLike[str] | None) -> None:

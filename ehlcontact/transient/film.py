@@ -7,7 +7,7 @@ rule with beta = 1/4, gamma = 1/2, evaluated inside the multigrid cycle through 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import accumulate
 from math import prod
 from typing import TypeVar
@@ -49,8 +49,7 @@ class FilmState:
     dT: float  # the step that led here
     surface: Array | float
     factors: Factors | None  # of the coarsest grid; immutable, so the reference is enough
-    # approach at the same times as the pressures of `past`
-    past_u: tuple[float, ...] = field(default=(), metadata={"later": True})
+    past_u: tuple[float, ...]  # approach at the same times as the pressures of `past`
 
 
 @dataclass(frozen=True, slots=True)

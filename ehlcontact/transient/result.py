@@ -5,14 +5,14 @@ Everything is dimensionless, with the SI scales beside.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.errors import InputError
-from ehlcontact.origin import Origin, freeze
+from ehlcontact.origin import Origin, freeze, require_shapes
 from ehlcontact.quantities import (
     ACCELERATION,
     ACROSS,
@@ -30,8 +30,10 @@ from ehlcontact.results.steady import film_bars, grid_doubt
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable
 from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.status import Status
+from ehlcontact.store import stored
 from ehlcontact.summary import contact_text, span
 from ehlcontact.transient.bodies import Motion
+from ehlcontact.transient.record import COLUMNS
 from ehlcontact.transient.time_step import coarse_step_note, coarse_tolerance_note
 
 Array = NDArray[np.float64]
@@ -68,6 +70,7 @@ class Instants(QuantityTable):
         ]
 
 
+@stored("result of simulate")
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SimulationResult(ScaledTable, Origin):
     """History of a transient contact, dimensionless; entry 0 is the initial state at T = 0. ``si`` has it in SI.
@@ -107,11 +110,10 @@ class SimulationResult(ScaledTable, Origin):
         ``mass`` [kg].
     status : Status
     tol : float or None
-        Residual at which its steps counted as solved, relative to the central film at rest; None of files written
-        before it was kept.
+        Residual at which its steps counted as solved, relative to the central film at rest.
     film_error : ErrorEstimate or None
         How far approach and films at T = 0 may be from those of an endless fine mesh on the same region; None of a
-        start that is not solved, and of files written before it was kept. In SI its approach is in m.
+        start that is not solved. In SI its approach is in m.
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
@@ -137,12 +139,19 @@ class SimulationResult(ScaledTable, Origin):
     snapshot_P: Annotated[Array, PRESSURE.over("snapshot_T X Y", listed=False)]
     static_approach: Annotated[float, LENGTH]
     status: Status
-    tol: float | None = field(default=None, metadata={"later": True})
-    film_error: ErrorEstimate | None = field(default=None, metadata={"later": True})
+    tol: float | None = None
+    film_error: ErrorEstimate | None = None
 
     DISPLAY: ClassVar[Display] = Display(
         rows="T", panels=("force load", "approach", "h_central h_min", "h_midplane")
     )
+
+    def require_complete(self) -> None:
+        """Raise `ValueError` unless all arrays have the shapes of each other and of the grid."""
+        nx, steps, kept = self.n + 1, max(self.T.size, 1), self.snapshot_T.size
+        shapes: dict[str, tuple[int, ...]] = {"X": (nx,), **dict.fromkeys(COLUMNS, (steps,))}
+        shapes |= dict.fromkeys(("h_midplane", "p_midplane"), (steps, nx))
+        require_shapes(self, shapes | dict.fromkeys(("snapshot_H", "snapshot_P"), (kept, nx, self.Y.size)))
 
     @property
     def static_load(self) -> Annotated[float, FORCE.in_si_only()]:

@@ -19,8 +19,9 @@ from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, require_room, wider_meshes
 from ehlcontact.status import Status
+from ehlcontact.store import load
 from ehlcontact.transient.bodies import Motion
-from ehlcontact.transient.checkpoint import CheckpointError, Keeper, load_checkpoint, require_replaceable
+from ehlcontact.transient.checkpoint import Checkpoint, CheckpointError, Keeper, require_replaceable
 from ehlcontact.transient.film import TransientFilm
 from ehlcontact.transient.record import History
 from ehlcontact.transient.result import SimulationResult
@@ -142,7 +143,7 @@ def simulate(
 
     earlier = None
     if restart is not None:
-        earlier = load_checkpoint(restart)
+        earlier = load(restart, Checkpoint, "restart")
         mesh = next((wider for wider in meshes if wider == earlier.settings.mesh), mesh)
         film = film_on(mesh)
         earlier.check(replace(settings, mesh=mesh), dT, surface, film.level, restart)

@@ -22,6 +22,7 @@ from ehlcontact import (
     MoesPoint,
     PrescribedLoad,
     impedance,
+    save,
     simulate,
 )
 from reduced_models import ContactRecord, MemoryFit, fit_memory
@@ -167,7 +168,7 @@ def main() -> None:
     ours = float(result.element.impedance(Omega=0.05)[0].imag / 0.05)
     print(f"C(0.05): full {C:.4f}, film memory {ours:.4f}, one viscous cubic {cubic:.4f}")
     arguments.out.mkdir(parents=True, exist_ok=True)
-    result.element.save(arguments.out / "memory_element.json")
+    save(result.element, arguments.out / "memory_element.json")
     picture(arguments.out / "one_element_for_all.png", Z, result, seen)
 
 

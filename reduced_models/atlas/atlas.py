@@ -31,7 +31,9 @@ from reduced_models.atlas.frequency import Between
 from reduced_models.atlas.surface import AtlasSurface
 from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Box
 from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
-from reduced_models.elements.kinds import CubicContact, FilmMemoryContact, WideRangeContact
+from reduced_models.elements.memory import FilmMemoryContact
+from reduced_models.elements.polynomial import CubicContact
+from reduced_models.elements.wide import WideRangeContact
 
 _Floats = NDArray[np.float64]
 

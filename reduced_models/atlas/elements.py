@@ -14,9 +14,10 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from reduced_models.atlas.frequency import Between
 from reduced_models.elements.film_response import FilterRates
-from reduced_models.elements.kinds import CubicContact, FilmMemoryContact, WideRangeContact
-from reduced_models.elements.memory import film_and_exponent
+from reduced_models.elements.memory import FilmMemoryContact, film_and_exponent
+from reduced_models.elements.polynomial import CubicContact
 from reduced_models.elements.validity import MARGIN, Band
+from reduced_models.elements.wide import WideRangeContact
 
 _Floats = NDArray[np.float64]
 

@@ -16,9 +16,8 @@
 | state_space | balls and films about rest as matrices of first order |
 | rates | compiled: balls and films in continuous time |
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
-| state | `BearingState`: a bearing at rest, ball by ball; its file |
+| state | `BearingState`: a bearing at rest, ball by ball |
 | ross | bearings as elements of ROSS |
 | picture | figures |
 | summary | summary of a bearing for the prompt |
-| file | JSON of bearings and states |
 """

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import os
-from dataclasses import dataclass, field, fields
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields
 from math import hypot, inf, pi, sin
-from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
@@ -17,6 +16,7 @@ from ehlcontact.checks import (
     require_finite,
     require_instance,
     require_integer,
+    require_names,
     require_nonnegative,
     require_positive,
 )
@@ -24,6 +24,7 @@ from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.frequency import by_name, radians_per_second
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
+from ehlcontact.store import stored
 from reduced_models.bearing.balls import Balls, SpeedState, speed_state
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
 from reduced_models.bearing.coefficients import BearingCoefficients
@@ -34,7 +35,6 @@ from reduced_models.bearing.equilibrium import (
     radial_load,
     ring_equilibrium,
 )
-from reduced_models.bearing.file import oil_of, plain, read, write
 from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import (
     HERTZ,
@@ -50,15 +50,15 @@ from reduced_models.bearing.race import RACES, Race, films_under, race_of, requi
 from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
 from reduced_models.bearing.state import BearingState
 from reduced_models.bearing.summary import BearingSummary
-from reduced_models.elements.kinds import WideRangeContact
+from reduced_models.elements.wide import WideRangeContact
 
 _Floats = NDArray[np.float64]
 
-SCHEMA = "ehlcontact-bearing"
 LARGEST_PLAY = 0.05  # clearance or preload over ball diameter: five times what C5 or a heavy fit has
 POSITIONS = 12  # of the cage over a ball passage for means: those of 6205 are within 1e-3 of those of 48
 
 
+@stored("ball bearing")
 @fields_take(
     ball_diameter="m", pitch_diameter="m", clearance="m", rq_ball="m", rq_race="m", film_limit="m",
     youngs_modulus="Pa", density="kg/m3",
@@ -393,16 +393,15 @@ class BallBearing(BearingSummary):
 
     def to_dict(self) -> dict[str, Any]:
         """All arguments, ready for JSON."""
-        return {f.name: plain(getattr(self, f.name)) for f in fields(self) if f.init}
-
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write as JSON; raises `InputError` where the file cannot be written."""
-        return write(path, SCHEMA, self.to_dict())
+        found = {f.name: getattr(self, f.name) for f in fields(self) if f.init}
+        return found | {"oil": None if self.oil is None else asdict(self.oil)}
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Self:
-        """Read what `save` wrote; raises `InputError` for anything else."""
-        entries = read(path, SCHEMA, cls)
-        return cls(**entries | {"oil": oil_of(entries["oil"], str(path))})
-
-    read = load  # as of states and runs
+    def from_dict(cls, entries: Mapping[str, Any]) -> Self:
+        """Rebuild a bearing from `to_dict`; raises `InputError` for entries that are missing, unknown or wrong."""
+        oil = entries.get("oil")
+        require_instance("oil", oil, dict | None, "an object, or null")
+        require_names(entries, [f.name for f in fields(cls) if f.init])
+        if oil is not None:
+            require_names(oil, [f.name for f in fields(Lubricant)], "oil.")
+        return cls(**{**entries, "oil": None if oil is None else Lubricant(**oil)})

@@ -4,22 +4,19 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, fields
-from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
 from ehlcontact.results.layout import Layout, Tabled
+from ehlcontact.store import stored
 from ehlcontact.summary import Summary
-from reduced_models.bearing.file import plain, write
-from reduced_models.bearing.file import read as read_entries
 from reduced_models.bearing.kinematics import RADIANS
 
 _Floats = NDArray[np.float64]
 
-SCHEMA = "ehlcontact-bearing-state"
 # Arrays by their shape: of the plane, over balls, over balls and races
 SHAPES: dict[str, tuple[int | None, ...]] = {
     "load": (2,), "displacement": (2,), "stiffness": (2, 2), "angles": (None,), "force": (None, 2),
@@ -29,6 +26,7 @@ SHAPES: dict[str, tuple[int | None, ...]] = {
 OF_FILMS = "h_central", "h_min", "lambda_ratio", "moment"  # arrays that a dry bearing does not have
 
 
+@stored("state of a ball bearing")
 @dataclass(frozen=True, eq=False, kw_only=True)
 class BearingState(Summary, Tabled):
     """A bearing at rest; arrays over the balls have two columns, inner and outer race.
@@ -156,13 +154,5 @@ class BearingState(Summary, Tabled):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        return {f.name: plain(getattr(self, f.name)) for f in fields(self)}
-
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write as JSON; raises `InputError` where the file cannot be written."""
-        return write(path, SCHEMA, self.to_dict())
-
-    @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> Self:
-        """Read what `save` wrote; raises `InputError` for anything else."""
-        return cls(**read_entries(path, SCHEMA, cls))
+        values = ((f.name, getattr(self, f.name)) for f in fields(self))
+        return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values}

@@ -2,10 +2,9 @@
 
 | module | is responsible for |
 |---|---|
-| base | what every element carries: validity box, quality, source, units, file |
+| base | what every element carries: validity box, quality, source, units |
 | validity | what the data covered, and the warning for leaving it |
 | design_point | the speed, the oil and the shape of the contact it was made for |
-| file | the JSON file of an element |
 | spring | elements without memory: spring, Hertz ends, damper and clipping in one law |
 | polynomial | `LinearContact`, `CubicContact`, `PolynomialContact` |
 | power | `PowerLawContact` |
@@ -18,10 +17,9 @@
 | memory | `FilmMemoryContact`: one load |
 | wide | `WideRangeContact`: every load |
 | summary | summary and figure of an element |
-| kinds | the list of all kinds, and `load_element` |
 
-A new element is a frozen dataclass with its coefficients, ``low`` and ``high`` in a file of its own, entered in
-`kinds`; the contract tests then ask for an example of it. Without memory it derives from
+A new element is a frozen dataclass with its coefficients, ``low`` and ``high`` in a file of its own, registered
+by `ehlcontact.store.stored`; the contract tests then ask for an example of it. Without memory it derives from
 `spring.MemorylessContact`: a NamedTuple for its law and a kernel for its spring (`spring.kernel_of`); ends, damper
 and clipping follow. With another memory it derives from `base.ContactElement`, whose abstract methods say what
 rotors and oscillators need.

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-import os
 import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
-from pathlib import Path
 from typing import Any, ClassVar, Self, Unpack
 
 import numpy as np
@@ -26,9 +24,8 @@ from ehlcontact.checks.frequency import (
 from ehlcontact.errors import InputError
 from ehlcontact.point import Point, Scales
 from reduced_models.elements.design_point import DesignPoint, known_scale, require_own_scales
-from reduced_models.elements.file import UNITS, naming, numbers, read_document, write_document
 from reduced_models.elements.summary import ElementSummary
-from reduced_models.elements.validity import Band, OutsideValidityWarning, Validity
+from reduced_models.elements.validity import UNITS, Band, OutsideValidityWarning, Validity, numbers
 
 UNWATCHED = (-math.inf, math.inf, math.inf, -math.inf, math.inf)  # a reach that nothing leaves
 
@@ -341,7 +338,7 @@ class ContactElement(ElementSummary, _Common, ABC):
         return replace(self, **changes, units="SI", source=source)
 
     def to_dict(self) -> dict[str, Any]:
-        """Content of the element file, header apart."""
+        """All of it, ready for JSON."""
         return {
             "kind": self.kind,
             "units": self.units,
@@ -351,48 +348,29 @@ class ContactElement(ElementSummary, _Common, ABC):
             "source": None if self.source is None else dict(self.source),
         }
 
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write the element as JSON, replacing an existing file in one move.
+    @classmethod
+    def from_dict(cls, entries: Mapping[str, Any]) -> Self:
+        """Build the element from `to_dict`.
 
         Raises
         ------
         InputError
-            The file cannot be written.
+            Another kind or unit, an entry that is missing or no number, coefficients that make no contact.
         """
-        return write_document(path, self.to_dict())
+        if entries.get("kind") != cls.kind:
+            raise InputError("kind", entries.get("kind"), repr(cls.kind))
+        require_choice("units", entries.get("units"), UNITS)
+        for key in ("parameters", "valid"):
+            require_instance(key, entries.get(key), dict, "an object of names and values")
+        for key in ("fit", "source"):
+            require_instance(key, entries.get(key), dict | None, "an object, or null")
+        values = cls._read_coefficients(entries) | Validity.from_dict(entries["valid"]).fields()
+        return cls(**values, units=entries["units"], fit=entries.get("fit"), source=entries.get("source"))
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> Self:
-        """Read an element of this class; `load_element` reads one of any.
-
-        Raises
-        ------
-        InputError
-            Not a readable element file of this kind; the message names the file and what is wrong.
-        """
-        return cls.from_document(str(path), read_document(path))
-
-    load = read  # its name of old: that of a wide element stood beside its table ``loads``
-
-    @classmethod
-    def from_document(cls, name: str, document: Mapping[str, Any]) -> Self:
-        """Build the element from a document of `read_document`; `name` is the file, for messages.
-
-        Raises
-        ------
-        InputError
-            Another kind, an entry that is missing or no number, or coefficients that make no contact.
-        """
-        if document["kind"] != cls.kind:
-            raise InputError(name, f"kind {document['kind']!r}", f"of kind {cls.kind!r}")
-        with naming(name):
-            values = cls._read_coefficients(document) | Validity.from_dict(document["valid"]).fields()
-            return cls(**values, units=document["units"], fit=document.get("fit"), source=document.get("source"))
-
-    @classmethod
-    def _read_coefficients(cls, document: Mapping[str, Any]) -> dict[str, Any]:
-        """Coefficients of the class, as arguments of its constructor, from a document of `read_document`."""
-        return numbers("parameters", document["parameters"], cls.parameter_names)
+    def _read_coefficients(cls, entries: Mapping[str, Any]) -> dict[str, Any]:
+        """Coefficients of the class, as arguments of its constructor, from `to_dict`."""
+        return numbers("parameters", entries["parameters"], cls.parameter_names)
 
 
 def _watch(validity: Validity) -> dict[str, Any]:

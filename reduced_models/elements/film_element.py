@@ -17,7 +17,6 @@ from ehlcontact.checks import require_finite, require_nonnegative, require_posit
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from reduced_models.elements.base import ContactElement
-from reduced_models.elements.file import numbers
 from reduced_models.elements.film_curve import require_rising
 from reduced_models.elements.film_law import (
     CHAIN,
@@ -33,6 +32,7 @@ from reduced_models.elements.film_law import (
 )
 from reduced_models.elements.film_response import DRY, FilterRates
 from reduced_models.elements.small_motion import SmallMotion
+from reduced_models.elements.validity import numbers
 
 _Floats = NDArray[np.float64]
 _SCALES = tuple(f.name for f in fields(Scales))
@@ -270,16 +270,16 @@ class FilmContact(ContactElement):
         return {"scales": scales}  # the coefficients stay dimensionless
 
     def to_dict(self) -> dict[str, Any]:
-        """Content of the element file, header apart; ``parameters`` dimensionless, ``scales`` of an SI element."""
+        """All of it, ready for JSON; ``parameters`` dimensionless, ``scales`` of an SI element."""
         return super().to_dict() | {"scales": None if self.scales is None else asdict(self.scales)}
 
     @classmethod
-    def _read_coefficients(cls, document: Mapping[str, Any]) -> dict[str, Any]:
-        entries, scales = document["parameters"], document.get("scales")
+    def _read_coefficients(cls, entries: Mapping[str, Any]) -> dict[str, Any]:
+        parameters, scales = entries["parameters"], entries.get("scales")
         scalars = tuple(name for name in cls.parameter_names if name not in cls.tables)
-        values: dict[str, Any] = {**numbers("parameters", entries, scalars)}
+        values: dict[str, Any] = {**numbers("parameters", parameters, scalars)}
         for name in cls.tables:
-            values[name] = entries.get(name)
+            values[name] = parameters.get(name)
             if not isinstance(values[name], list):
                 raise InputError(f"parameters.{name}", values[name], "a list of numbers")
         if scales is not None:

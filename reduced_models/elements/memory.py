@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_column, require_finite, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
+from ehlcontact.store import stored
 from reduced_models.elements.film_curve import LEAST_EXPONENT
 from reduced_models.elements.film_element import FilmContact
 from reduced_models.elements.film_law import DIRECT
@@ -29,6 +30,7 @@ def film_and_exponent(approach: float, tangent: float) -> tuple[float, float]:
     return film, max((1.0 / tangent - 2.0 / 3.0) / film, LEAST_EXPONENT)
 
 
+@stored("contact element")
 @dataclass(frozen=True)
 class FilmMemoryContact(FilmContact):
     """Contact about one load, with the damping of every frequency: a dry spring on a film that remembers.

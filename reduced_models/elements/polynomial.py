@@ -12,6 +12,7 @@ from ehlcontact.checks import require_nonnegative, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_exact
 from ehlcontact.point import Scales
+from ehlcontact.store import stored
 from reduced_models.elements.spring import ADVICE, MemorylessContact, damper, kernel_of
 
 
@@ -69,6 +70,7 @@ class ViscousContact(_PolynomialContact):
         return {f"K{i}": scales.force / scales.length**i for i in (1, 2, 3)} | {"C1": scales.damping}
 
 
+@stored("contact element")
 @dataclass(frozen=True)
 class LinearContact(ViscousContact):
     """Linear spring and viscous damper, F = K1 u + C1 u' on [low, high] (eq. 8).
@@ -95,6 +97,7 @@ class LinearContact(ViscousContact):
     parameter_names = ("K1", "C1")
 
 
+@stored("contact element")
 @dataclass(frozen=True)
 class CubicContact(ViscousContact):
     """Cubic spring and viscous damper, F = K1 u + K2 u^2 + K3 u^3 + C1 u' on [low, high] (eq. 11).
@@ -125,6 +128,7 @@ class CubicContact(ViscousContact):
     parameter_names = ("K1", "K2", "K3", "C1")
 
 
+@stored("contact element")
 @dataclass(frozen=True)
 class PolynomialContact(_PolynomialContact):
     """F = K1 u + C1 u' + K2 u^2 + C2 u'^2 + K3 u^3 + C3 u'^3 + B4 u u' on the box (eq. 11).

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from ehlcontact.checks import require_nonnegative, require_positive
 from ehlcontact.jit import jit_exact
 from ehlcontact.point import Scales
+from ehlcontact.store import stored
 from reduced_models.elements.spring import MemorylessContact, kernel_of
 
 
@@ -41,6 +42,7 @@ def power(u, law):
     return part + law.F0, law.n * part / reach
 
 
+@stored("contact element")
 @dataclass(frozen=True)
 class PowerLawContact(MemorylessContact):
     """F = K (u + u0)_+^n + F0 + C u' on [low, high].

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -37,10 +37,6 @@ class ElementSummary(Summary):
     time: Any
     spring: Any
     impedance: Any
-
-    def __dir__(self) -> Iterable[str]:
-        """Without `load`, the name of old of `read`, which is next to nothing like the ``loads`` of a table."""
-        return [name for name in object.__dir__(self) if name != "load"]
 
     def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
         """Matplotlib figure of static force, and of K and C over frequency; into a file too where a path is given.

@@ -13,11 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import require_finite, require_nonnegative
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from reduced_models.elements.file import numbers
 
 MARGIN = 0.05  # share of the intervals of approach and load, and of the largest rate, that goes unmentioned
 STILL = 1e-6  # spread of an approach over its size, below which its frequency means nothing
 OCTAVE = 2.0  # likewise of frequency: in the contact's own band damping changes by a fifth over an octave
+
+UNITS = ("dimensionless", "SI")  # of elements and records
 
 Band = tuple[float, float]
 
@@ -128,7 +129,7 @@ class Validity:
         return {"low": low, "high": high, "rate": self.rate, "load_range": self.load, "omega_range": self.omega}
 
     def to_dict(self) -> dict[str, Any]:
-        """The box as the object ``valid`` of an element file."""
+        """The box as the object ``valid`` of an element's file."""
         named = {key.removesuffix("_range"): value for key, value in self.fields().items()}
         return {key: list(value) if isinstance(value, tuple) else value for key, value in named.items()}
 
@@ -212,3 +213,21 @@ def _read_band(valid: Mapping[str, Any], key: str) -> Band | None:
         raise InputError(f"valid.{key}", value, "a pair of finite numbers, or null")
     pair = numbers(f"valid.{key}", {"low": value[0], "high": value[1]}, ("low", "high"))
     return pair["low"], pair["high"]
+
+
+def numbers(section: str, entries: Mapping[str, Any], required: tuple[str, ...]) -> dict[str, float]:
+    """Return the `required` entries of a section as floats.
+
+    Raises
+    ------
+    InputError
+        One is absent or not a finite number.
+    """
+    found: dict[str, float] = {}
+    for key in required:
+        value = entries.get(key)
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        if not number or not math.isfinite(value):  # type: ignore[arg-type]
+            raise InputError(f"{section}.{key}", value, "a finite number")
+        found[key] = float(value)  # type: ignore[arg-type]
+    return found

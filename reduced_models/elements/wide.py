@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import as_column, as_rows, require_positive
 from ehlcontact.point import Scales
+from ehlcontact.store import stored
 from reduced_models.elements.film_curve import curve_nodes
 from reduced_models.elements.film_element import FilmContact
 from reduced_models.elements.film_law import DIRECT
@@ -16,6 +17,7 @@ from reduced_models.elements.film_law import DIRECT
 _Floats = NDArray[np.float64]
 
 
+@stored("contact element")
 @dataclass(frozen=True)
 class WideRangeContact(FilmContact):
     """Contact at any load for given geometry, lubricant and speed, with its film memory.

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 
 from ehlcontact import Status
 from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
-from ehlcontact.checks.frequency import fields_by_name, renamed_keys
+from ehlcontact.checks.frequency import fields_by_name
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.quantities import ACCELERATION, FORCE, LENGTH, RATE, TIME
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.summary import contact_text, span
-from reduced_models.elements.file import UNITS
+from reduced_models.elements.validity import UNITS
 
 _Floats = NDArray[np.float64]
 
@@ -103,8 +103,6 @@ class ContactRecord(QuantityTable):
             object.__setattr__(self, "Omega_n", require_positive("Omega_n", self.Omega_n))
             if self.units == "SI":
                 raise InputError("Omega_n", self.Omega_n, "None for a record in SI units")
-        if self.motion is not None:
-            object.__setattr__(self, "motion", renamed_keys(self.motion))
         if self.static_load is None and self.units == "dimensionless":
             object.__setattr__(self, "static_load", 1.0)
         elif self.static_load is not None:
@@ -149,7 +147,7 @@ class ContactRecord(QuantityTable):
             n=int(simulation.n),
             domain=tuple(float(value) for value in domain),
             motion=motion,
-            Omega_n=renamed_keys(motion).get("Omega_n"),
+            Omega_n=motion.get("Omega_n"),
         )
 
     def __len__(self) -> int:

@@ -6,7 +6,6 @@ import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import pi
-from pathlib import Path
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -16,8 +15,8 @@ from scipy.optimize import linear_sum_assignment
 from ehlcontact.checks import as_column, require_integer, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.files import hdf5
 from ehlcontact.results.layout import Layout, Tabled
+from ehlcontact.store import stored
 from ehlcontact.summary import Summary, span
 from reduced_models.rotor.linearise import SHOWN, linearise
 from reduced_models.rotor.modes import WhirlMode, unlike
@@ -74,6 +73,7 @@ class CriticalSpeeds(tuple[CriticalSpeed, ...]):
         return super().__repr__() if self else f"() no critical speed {self.searched}".rstrip()
 
 
+@stored("Campbell diagram")
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Campbell(Summary, Tabled):
     """Modes over the speed of the shaft; a column of an array is one mode, followed from speed to speed.
@@ -184,16 +184,6 @@ class Campbell(Summary, Tabled):
         from reduced_models.bearing.picture import draw_campbell
 
         return draw_campbell(self, path)
-
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write as HDF5; raises `InputError` where the file cannot be written."""
-        return hdf5.write(self, path, "path")
-
-    @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> Self:
-        """Read what `save` wrote; raises `InputError` for anything else."""
-        diagram: Self = hdf5.read(path, {cls.__name__: cls}, "file", "Campbell diagram")
-        return diagram
 
 
 def _sides(off: _Floats) -> tuple[int, int]:

@@ -6,8 +6,7 @@ import os
 import warnings
 from dataclasses import dataclass, field
 from math import ceil
-from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +15,8 @@ from ehlcontact import Status
 from ehlcontact.checks import as_column, require_integer, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.files import hdf5
 from ehlcontact.results.layout import Layout, Tabled
+from ehlcontact.store import stored
 from ehlcontact.summary import Summary, span
 from reduced_models.bearing.ball_bearing import RACES
 from reduced_models.bearing.balls import begin_rest, directions, films_of, press_balls, rest_balls, speed_state
@@ -38,6 +37,7 @@ ORDERS_SHOWN = 20.0  # multiples of the speed, to which spectra go
 FARTHEST = 0.05  # of a ball diameter, that a ring may go from the middle: no clearance is as large
 
 
+@stored("run of a rotor on ball bearings")
 @dataclass(frozen=True, eq=False, kw_only=True)
 class BearingRun(Summary, Tabled):
     """Histories of a rotor on ball bearings, SI; entry 0 is the start.
@@ -72,8 +72,8 @@ class BearingRun(Summary, Tabled):
     iterations: NDArray[np.int64]
     largest_load: _Floats
     status: Status
-    nodes: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 2), np.int64), metadata={"later": True})
-    names: tuple[str, ...] = field(default=(), metadata={"later": True})
+    nodes: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 2), np.int64))
+    names: tuple[str, ...] = ()
 
     LAYOUT: ClassVar[Layout] = Layout(
         rows="t",
@@ -100,16 +100,6 @@ class BearingRun(Summary, Tabled):
             f"largest force on a ball {self.largest_load.max():.4g} N",
             f"nodes {', '.join(self.names)}" if self.names else "nodes without names",
         ]
-
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write as HDF5; raises `InputError` where the file cannot be written."""
-        return hdf5.write(self, path, "path")
-
-    @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> Self:
-        """Read what `save` wrote; raises `InputError` for anything else."""
-        run: Self = hdf5.read(path, {cls.__name__: cls}, "file", "run of a rotor on ball bearings")
-        return run
 
     def plot(
         self,

@@ -15,6 +15,7 @@ from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.results.layout import Layout, Tabled
+from ehlcontact.store import stored
 from ehlcontact.summary import Summary, span
 from reduced_models.elements.validity import frequency_of
 from reduced_models.rotor.contact import Contact
@@ -25,6 +26,7 @@ _Floats = NDArray[np.float64]
 RotorStatus = Status  # its public name; a run ends as converged, interrupted or failed
 
 
+@stored("run of a rotor")
 @dataclass(frozen=True, eq=False)
 class RotorResult(Summary, Tabled):
     """Histories of a rotor run in SI; entry 0 is the start.

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field, replace
-from pathlib import Path
-from typing import Any, ClassVar, Self
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,8 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import as_column
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
-from ehlcontact.files import hdf5
 from ehlcontact.results.layout import Layout, Tabled
+from ehlcontact.store import stored
 from ehlcontact.summary import Summary, span
 from reduced_models.rotor.linearise import linearise
 from reduced_models.rotor.rotor import Rotor
@@ -23,6 +22,7 @@ _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
 
+@stored("unbalance response")
 @dataclass(frozen=True, eq=False, kw_only=True)
 class UnbalanceResponse(Summary, Tabled):
     """Amplitudes over the speed, about rest: q(t) = cosine cos(w t) + sine sin(w t), the shaft's angle being w t.
@@ -46,7 +46,7 @@ class UnbalanceResponse(Summary, Tabled):
     cosine: _Floats
     sine: _Floats
     nodes: NDArray[np.int64]
-    names: tuple[str, ...] = field(default=(), metadata={"later": True})
+    names: tuple[str, ...] = ()
 
     LAYOUT: ClassVar[Layout] = Layout(
         rows="speed_rpm",
@@ -125,16 +125,6 @@ class UnbalanceResponse(Summary, Tabled):
         from reduced_models.bearing.picture import draw_unbalance
 
         return draw_unbalance(self, path)
-
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write as HDF5; raises `InputError` where the file cannot be written."""
-        return hdf5.write(self, path, "path")
-
-    @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> Self:
-        """Read what `save` wrote; raises `InputError` for anything else."""
-        response: Self = hdf5.read(path, {cls.__name__: cls}, "file", "unbalance response")
-        return response
 
 
 @takes(speeds_rpm="rev/min")

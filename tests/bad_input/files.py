@@ -47,7 +47,7 @@ def make_good(folder):
     point = MoesPoint(20, 5, 0.5)
     save(simulate(point, HarmonicLoad(Omega=3.0), **RUN, checkpoint=folder / "checkpoint"), folder / "result")
     save(solve_steady(point, n=16, throw=False), folder / "steady")
-    CubicContact(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0).save(folder / "element")
+    save(CubicContact(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0), folder / "element")
     (folder / "study").write_text(STUDY)
     (folder / "atlas").write_bytes(SHIPPED.read_bytes())
     atlas_stub.prefill(folder / "work", 12, 12)

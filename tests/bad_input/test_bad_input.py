@@ -55,7 +55,7 @@ def good(tmp_path_factory):
             folder / name,
         )
     save(solve_steady(MoesPoint(20, 5, 0.5), n=16, throw=False), folder / FILM)
-    CubicContact(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0).save(folder / ELEMENT)
+    save(CubicContact(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0), folder / ELEMENT)
     (folder / STUDY).write_text(SMALL)
     for name in ("x.fmu", "new.npz", "k.json", "slip.toml"):
         (folder / name).write_text("kept")

@@ -5,7 +5,8 @@ import json
 import atlas_stub
 import pytest
 
-from reduced_models import Atlas, load_element
+from ehlcontact import load
+from reduced_models import Atlas
 
 AT = {"wide": (), "memory": (), "cubic": ("--Omega", "6.2832")}
 POINT = ("--M", "2900", "--L", "19", "--kappa", "0.11")
@@ -18,7 +19,7 @@ def test_element_is_printed_saved_and_written(call, tmp_path, model):
     assert result.code == 0 and result.err == ""
     document = json.loads(result.out)
     assert document["kind"] == model and document["source"]["atlas"]
-    assert load_element(path).to_dict() == document
+    assert load(path).to_dict() == document
     table = call("element", *POINT, "--model", model, *AT[model])
     assert table.code == 0 and "approach" in table.out and "±" in table.out
     assert ("damper C1" in table.out) == (model == "cubic")

@@ -11,7 +11,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant.oil import GRADES
 from fmu.contacts import contact_spec
-from reduced_models import Atlas, BallBearing, load_element
+from reduced_models import Atlas, BallBearing
 
 GIVEN = {"--bearing": "6205", "--oil": "ISO VG 68", "--temp": "60", "--rpm": "3000", "--load": "100"}
 COARSE = ("--n", "32")
@@ -88,7 +88,7 @@ def test_impedance_is_at_the_shafts_frequency_unless_another_is_given(call):
 def test_element_is_in_si_and_its_damper_that_of_the_shaft(call, tmp_path):
     target = tmp_path / "e.json"
     assert call("element", *options(), "--model", "cubic", "--save", target).code == 0
-    saved, ours = load_element(target), Atlas().element(ball(), "cubic", rpm=3000)
+    saved, ours = load(target), Atlas().element(ball(), "cubic", rpm=3000)
     assert saved.units == "SI" and saved.C1 == ours.C1
     said = "6205, inner race, most loaded ball of 100 N at 3000 rpm, ISO VG 68 at 60 °C"
     assert saved.source["contact"] == said and contact_spec(saved).description.endswith(f"; {said}")
@@ -109,7 +109,7 @@ def test_simulation_in_hz_and_its_element_in_si(call, refused, tmp_path):
     assert isinstance(stored, SimulationResult)
     assert stored.si.hz == pytest.approx(2e4) and stored.si.t[-1] == pytest.approx(1e-4)
     assert call("fit", record, "--model", "linear", "--si", "--save", element).code == 0
-    assert load_element(element).units == "SI"
+    assert load(element).units == "SI"
 
 
 def test_si_of_a_fit_needs_a_record_in_si(call, refused, point, tmp_path):

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from ehlcontact import save
 from ehlcontact.cli.study.reduction import export_fmu
 from fmu.binaries import this_machine
 from reduced_models import CubicContact
@@ -21,7 +22,7 @@ CUBIC = {"K1": 0.624, "K2": 0.750, "K3": -0.174, "C1": 0.0130, "low": 0.75, "hig
 @pytest.fixture
 def element(tmp_path):
     """An element file; nothing beside it may stay when a command is refused."""
-    return CubicContact(**CUBIC).save(tmp_path / "e.json")
+    return save(CubicContact(**CUBIC), tmp_path / "e.json")
 
 
 def beside(element):

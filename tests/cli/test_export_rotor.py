@@ -6,6 +6,7 @@ from pathlib import Path
 import fmpy
 import pytest
 
+from ehlcontact import save
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import load_study
 from reduced_models import Atlas, CubicContact
@@ -35,7 +36,7 @@ def test_an_element_of_ones_own(call, tmp_path):
     scales = load_study(STUDY).point.scales
     found = []
     for name, element in (("one", CubicContact(**CUBIC)), ("si", CubicContact(**CUBIC).to_si(scales))):
-        file, target = element.save(tmp_path / f"{name}.json"), tmp_path / f"{name}.fmu"
+        file, target = save(element, tmp_path / f"{name}.json"), tmp_path / f"{name}.fmu"
         done = call("export", STUDY, "-o", target, "--contact", file, "--fmi", "3")
         assert done.code == 0 and "cubic" in done.out and "inner step" in done.out, done
         found.append(target.read_bytes())
@@ -50,7 +51,7 @@ def test_what_cannot_be(refused, tmp_path):
     bare.write_text(text[:start] + text[end:])
     refused(("bare.toml", "no table [rotor]"), "export", bare, "-o", target)
     refused(("none.toml", "readable TOML"), "export", tmp_path / "none.toml", "-o", target)
-    element = CubicContact(**CUBIC).save(tmp_path / "e.json")
+    element = save(CubicContact(**CUBIC), tmp_path / "e.json")
     refused(("--contact", "left out"), "export", element, "-o", target, "--contact", element)
     refused(("nothing.json",), "export", STUDY, "-o", target, "--contact", tmp_path / "nothing.json")
     broken = tmp_path / "broken.toml"

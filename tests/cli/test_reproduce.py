@@ -14,7 +14,7 @@ from ehlcontact.cli.paper.data import paper_fits, paper_sensitivity
 from ehlcontact.cli.paper.figures import FIGURES
 from ehlcontact.cli.paper.order import limit
 from ehlcontact.cli.paper.table import EQUATION_13, SIGNED
-from reduced_models import OutsideValidityWarning, load_element
+from reduced_models import OutsideValidityWarning
 
 
 @pytest.fixture(scope="module")
@@ -168,7 +168,7 @@ def test_fit_and_export_of_the_new_models(call, folder, tmp_path):
         result = call("fit", folder / "case_2_n64.h5", "--model", model, "--save", element, "--json", "-")
         assert result.code == 0 and result.err == "", result
         document = json.loads(result.out)
-        assert load_element(element).parameters == document["parameters"]
+        assert load(element).parameters == document["parameters"]
         assert set(document["intervals"]) == set(document["parameters"])
         made = call("export", element, "-o", tmp_path / f"{model}.fmu", "--json", "-")
         assert made.code == 0 and json.loads(made.out)["passes"] is True, made

@@ -23,7 +23,7 @@ from ehlcontact.cli.study.results import evaluate
 from ehlcontact.cli.study.rotor import build_rotor, load_rotor
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.errors import ConvergenceError
-from reduced_models import ContactEvents, Settling, load_element
+from reduced_models import ContactEvents, Settling
 
 
 @pytest.fixture(scope="module")
@@ -158,7 +158,7 @@ def test_damper_of_the_headline_is_the_impedances(finished, results):
     assert told["damping"] == pytest.approx(response.damping[at] * scales.damping, rel=1e-6)
     assert told["stiffness"] == pytest.approx(response.stiffness[at] * scales.stiffness, rel=1e-6)
 
-    si = load_element(finished[1] / "elements" / "rotor_band_cubic_si.json")
+    si = load(finished[1] / "elements" / "rotor_band_cubic_si.json")
     fit = next(row for row in results["fits"] if row["record"] == "rotor_band" and row["model"] == "cubic")
     assert results["damper_of_fit"]["damping"] == si.C1
     assert results["damper_of_fit"]["interval"] == pytest.approx(

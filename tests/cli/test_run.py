@@ -27,7 +27,6 @@ from ehlcontact.cli.study.rotor import build_rotor, load_rotor
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import STAGES, stage_named
 from fmu import verify_references
-from reduced_models import load_element
 
 PACKAGE_ROOT = Path(__file__).parents[2]
 
@@ -54,9 +53,9 @@ def test_everything_is_there(finished):
         assert load(folder / f"{name}.h5").status.ok
     assert results["rotor"]["whole"]["memory"]["force"] < 0.03
     assert max(results["memory"]["record_rms"]) < 0.05 and len(results["memory"]["impedance"]["omega"]) > 20
-    dimensionless = load_element(folder / "elements" / "rotor_band_cubic.json")
-    si = load_element(folder / "elements" / "rotor_band_cubic_si.json")
-    memory = load_element(folder / "elements" / "memory_si.json")
+    dimensionless = load(folder / "elements" / "rotor_band_cubic.json")
+    si = load(folder / "elements" / "rotor_band_cubic_si.json")
+    memory = load(folder / "elements" / "memory_si.json")
     assert memory.units == "SI" and memory.parameters == results["memory"]["parameters"]
     assert si.units == "SI" and dimensionless.to_si(load(folder / "rotor_band.h5").scales) == si
 
@@ -86,10 +85,10 @@ def test_what_is_assumed_is_told(finished):
     assert found["out_of_range"] == ["smooth"] and "smooth" in found["headline"] and found["not_judged"] == []
     expected = assumptions(study.point, film=film, roughness=study.roughness).short()
     for name in ("rotor_band_cubic", "rotor_band_cubic_si", "memory_si"):
-        assert load_element(folder / "elements" / f"{name}.json").source["assumptions"] == expected
+        assert load(folder / "elements" / f"{name}.json").source["assumptions"] == expected
     said = reduction.contact_said(study)
     assert study.bearing.name in said and study.oil.label in said and "3000 rpm" in said
-    assert load_element(folder / "elements" / "memory_si.json").source["contact"] == said
+    assert load(folder / "elements" / "memory_si.json").source["contact"] == said
     for name in ("contact", "contact_film"):
         with zipfile.ZipFile(folder / f"{name}.fmu") as archive:
             description = ElementTree.fromstring(archive.read("modelDescription.xml")).attrib["description"]

@@ -9,7 +9,6 @@ import pytest
 
 from ehlcontact import SimulationResult, Status, SteadyResult, load
 from ehlcontact.cli.numerals import numeral
-from reduced_models import load_element
 
 STEADY_KEYS = (
     "approach, force, h_central, h_min, p_max, moment, pressure_error, residual, load_residual, cycles, seconds, "
@@ -89,7 +88,7 @@ def test_from_simulation_to_fmu(call, refused, point, tmp_path):
     assert result.code == 0, result.err
     document = json.loads(result.out)
     assert set(FIT_KEYS) <= set(document) and set(document["parameters"]) == {"K1", "K2", "K3", "C1"}
-    assert load_element(element).parameters == document["parameters"]
+    assert load(element).parameters == document["parameters"]
 
     result = call("fit", record, "--window", "2", "4")
     assert result.code == 0 and "tangent" in result.out
@@ -132,7 +131,7 @@ def test_film_memory_from_a_simulation_alone(call, point, tmp_path):
     assert result.code == 0 and "C(Ω)" in result.out and "root" in result.out, result
     document = json.loads(report.read_text())
     assert set(FIT_KEYS) <= set(document) and document["rms"] < 0.02 and document["condition"] is None
-    loaded = load_element(element)
+    loaded = load(element)
     assert loaded.parameters == document["parameters"] and loaded.source["n"] == 32
     assert loaded.approach_at(1.0) == document["root"]
 

@@ -12,7 +12,7 @@ from fmpy import fmi2
 
 from ehlcontact.point import Scales
 from fmu import export_contact
-from reduced_models.elements.kinds import (
+from reduced_models import (
     CubicContact,
     FilmMemoryContact,
     LinearContact,

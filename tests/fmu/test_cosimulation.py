@@ -9,7 +9,7 @@ import pytest
 
 from ehlcontact.errors import InputError
 from fmu.comparison import outside, state_grid
-from reduced_models.elements.kinds import CubicContact
+from reduced_models.elements.polynomial import CubicContact
 from reduced_models.elements.validity import OutsideValidityWarning
 from reduced_models.rotor.oscillator import simulate_oscillator
 

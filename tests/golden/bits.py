@@ -45,6 +45,7 @@ from ehlcontact import (
     film_of,
     film_wave,
     impedance,
+    save,
     simulate,
     solve_steady,
     track_wave,
@@ -72,7 +73,6 @@ from reduced_models import (
     fit_memory,
     impedance_about,
     linearise,
-    load_element,
     log_decrement,
     rotor_on_bearings,
     sensitivity,
@@ -301,9 +301,9 @@ def element(name: str, contact: Any) -> Leaves:
         t = np.linspace(0.0, 20.0 * dt, 30)
         yield f"{name}.drive", contact.drive(t, np.linspace(low, high, 30), np.full(30, (high - low) / t[-1]))
     with tempfile.TemporaryDirectory() as folder:
-        path = contact.save(Path(folder) / "element.json")
+        path = save(contact, Path(folder) / "element.json")
         yield from leaves(f"{name}.file", json.loads(path.read_text()))
-        again = load_element(path)
+        again = load(path)
     yield f"{name}.again", again.spring(0.5 * (low + high))
 
 

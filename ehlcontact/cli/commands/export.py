@@ -20,6 +20,7 @@ from ehlcontact.cli.output import (
 )
 from ehlcontact.cli.progress import progress
 from ehlcontact.errors import InputError
+from ehlcontact.store import load
 
 if TYPE_CHECKING:
     from fmu import RotorModel, Verification
@@ -86,9 +87,9 @@ def export(
         raise InputError("--output", str(output), "a new file, or replaced with --force")
     from fmu import BuildError, VerificationError
     from fmu.binaries import choose
-    from reduced_models import load_element
+    from reduced_models import ContactElement
 
-    exported: Any = _rotor_of(file, contact) if study else load_element(file)
+    exported: Any = _rotor_of(file, contact) if study else load(file, ContactElement)
     system = output.suffix.lower() == ".ssp"
     try:
         names = {"model_name": "--name", "platforms": "--platform", "path": "--output", "element": str(file)}
@@ -143,7 +144,7 @@ def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
     from ehlcontact.cli.study.rotor import build_rotor
     from ehlcontact.cli.study.schema import load_study
     from fmu import RotorModel
-    from reduced_models import load_element
+    from reduced_models import ContactElement
     from reduced_models.atlas.atlas import Atlas
 
     study = load_study(file)
@@ -151,7 +152,7 @@ def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
         raise InputError("file", str(file), "a study with a rotor: it has no table [rotor]")
     rotor = build_rotor(study)
     if contact is not None:
-        element: Any = load_element(contact)
+        element: Any = load(contact, ContactElement)
         if element.units != "SI":
             element = element.to_si(study.point.scales)
         place = "--contact"

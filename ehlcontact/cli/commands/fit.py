@@ -42,7 +42,7 @@ def fit(
     json_to: o.JsonTo = None,
 ) -> None:
     """Fit a contact element to one or several simulations of the same contact."""
-    from ehlcontact.storage import load
+    from ehlcontact.store import load
     from ehlcontact.transient.result import SimulationResult
     from reduced_models import ContactRecord, FitResult
     from reduced_models import fit as fit_records
@@ -57,9 +57,7 @@ def fit(
     check_apart({"--save": save, "--json": json_to}, files)
     records = []
     for file in files:
-        result = load(file)
-        if not isinstance(result, SimulationResult):
-            raise InputError("file", str(file), "a simulation; this is a steady film")
+        result = load(file, SimulationResult)
         try:
             records.append(ContactRecord.from_result(result))
         except InputError as error:

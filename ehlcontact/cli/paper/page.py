@@ -15,7 +15,7 @@ from ehlcontact.cli.paper.fits import Fits
 from ehlcontact.cli.paper.runs import POINT, VALIDATION_POINT, compute
 from ehlcontact.cli.paper.table import EXTRAPOLATED, TABLE_CASES, Table
 from ehlcontact.cli.paper.tables import make_table
-from ehlcontact.origin import __version__
+from ehlcontact.version import __version__
 
 LABELS = {
     "force_rms": "rms of force error / std of force",

@@ -12,17 +12,17 @@ from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.origin import __version__
 from ehlcontact.point import MoesPoint
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.domain import Domain, check_intervals
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
-from ehlcontact.storage import load, save
+from ehlcontact.store import load, save
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.simulate import simulate
+from ehlcontact.version import __version__
 
 POINT = MoesPoint(200.0, 10.0, 0.5)
 VALIDATION_POINT = MoesPoint(58.07, 4.62, 1.0)
@@ -204,10 +204,7 @@ def _stored(path: Path, kind: type[Kind]) -> Kind | None:
     if not path.is_file():
         return None
     try:
-        found = load(path)
-        if isinstance(found, kind):
-            return found
+        return load(path, kind)
     except InputError:
-        pass
-    complain(f"{path} is damaged: it is made again")
-    return None
+        complain(f"{path} is damaged: it is made again")
+        return None

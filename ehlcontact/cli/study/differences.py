@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ehlcontact import store
 from ehlcontact.cli.study.bode import Bode, bode
 from ehlcontact.cli.study.kick import decrement_of, kicked_mode, run_decay_reduced
 from ehlcontact.cli.study.reduction import CHOSEN, DRY, FULL, UNDAMPED
 from ehlcontact.cli.study.response import linear_rotors, mode_numbers
-from ehlcontact.cli.study.rotor import build_rotor, load_rotor, run_reduced
+from ehlcontact.cli.study.rotor import build_rotor, run_reduced
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.results import ImpedanceResult
@@ -195,8 +196,8 @@ def events_dict(events: Events) -> dict[str, list[dict[str, Any]]]:
 
 
 def _unbalance(study: Study, ran: Mapping[str, _Ran], folder: Path) -> Unbalance:
-    rotor, load = build_rotor(study), study.ball_load
-    full = load_rotor(folder / "rotor_full.h5", rotor)
+    load = study.ball_load
+    full = store.load(folder / "rotor_full.h5", RotorResult)
     reduced = {name: one.turning for name, one in ran.items()}
     settled = settling(full)
     after: dict[str, Comparison] = {}
@@ -216,7 +217,7 @@ def _unbalance(study: Study, ran: Mapping[str, _Ran], folder: Path) -> Unbalance
 
 
 def _half_step(study: Study, full: RotorResult, chosen: _Ran, folder: Path) -> HalfStep:
-    full_half = load_rotor(folder / "rotor_half_step.h5", full.rotor)
+    full_half = store.load(folder / "rotor_half_step.h5", RotorResult)
     reduced_half = run_reduced(study, chosen.element, 1)
     return HalfStep(
         full=full_half,
@@ -229,12 +230,12 @@ def _half_step(study: Study, full: RotorResult, chosen: _Ran, folder: Path) -> H
 def _decay(
     study: Study, mode: RotorMode, ran: Mapping[str, _Ran], response: ImpedanceResult, folder: Path
 ) -> Decay:
-    rotor, load = build_rotor(study, unbalance=False), study.ball_load
-    full = load_rotor(folder / "decay.h5", rotor)
+    load = study.ball_load
+    full = store.load(folder / "decay.h5", RotorResult)
     runs = {FULL: full} | {name: one.decaying for name, one in ran.items()}
     half: dict[str, RotorResult] = {}
     if study.check.half_step:
-        half[FULL] = load_rotor(folder / "decay_half_step.h5", rotor)
+        half[FULL] = store.load(folder / "decay_half_step.h5", RotorResult)
         half[CHOSEN[0]] = run_decay_reduced(study, ran[CHOSEN[0]].element, mode, response, 1)
     return Decay(
         mode=mode,

@@ -14,6 +14,7 @@ from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Scales
 from ehlcontact.results import ImpedanceResult
+from ehlcontact.store import save
 from ehlcontact.transient.motion import HarmonicLoad
 from ehlcontact.transient.result import SimulationResult
 from reduced_models import (
@@ -166,11 +167,11 @@ def save_elements(reduction: Reduction, folder: Path) -> list[Path]:
     target.mkdir(exist_ok=True)
     files = []
     for (record, model), found in reduction.fits.items():
-        files.append(found.element.save(target / f"{record}_{model}.json"))
-        files.append(reduction.element_si(record, model).save(target / f"{record}_{model}_si.json"))
+        files.append(save(found.element, target / f"{record}_{model}.json"))
+        files.append(save(reduction.element_si(record, model), target / f"{record}_{model}_si.json"))
     if not isinstance(reduction.memory, str):
-        files.append(reduction.memory.element.save(target / f"{MEMORY}.json"))
-        files.append(reduction.memory_si.save(target / f"{MEMORY}_si.json"))
+        files.append(save(reduction.memory.element, target / f"{MEMORY}.json"))
+        files.append(save(reduction.memory_si, target / f"{MEMORY}_si.json"))
     return files
 
 

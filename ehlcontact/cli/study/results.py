@@ -32,7 +32,7 @@ from ehlcontact.cli.study.stages import stages_of
 from ehlcontact.cli.study.whole import WholeFindings, run_whole
 from ehlcontact.errors import InputError
 from ehlcontact.results import SteadyResult
-from ehlcontact.storage import load
+from ehlcontact.store import load
 from ehlcontact.transient.result import SimulationResult
 from reduced_models import film_impedance
 
@@ -237,8 +237,8 @@ class Findings:
 def evaluate(study: Study, folder: Path, ledger: Mapping[str, Mapping[str, Any]]) -> Findings:
     """Reduce, export and compare what the stages left in the folder; files are written on the way."""
     started = time.perf_counter()
-    steady = load(folder / "steady.h5")
-    simulations = {name: load(folder / f"{name}.h5") for name in RECORDS}
+    steady = load(folder / "steady.h5", SteadyResult)
+    simulations = {name: load(folder / f"{name}.h5", SimulationResult) for name in RECORDS}
     if not isinstance(steady, SteadyResult):
         raise InputError("file", str(folder / "steady.h5"), "a steady film")
     histories = {name: run for name, run in simulations.items() if isinstance(run, SimulationResult)}

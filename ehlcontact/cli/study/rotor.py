@@ -1,23 +1,18 @@
-"""The rotor of a study on full contacts and on elements, turning with its unbalance: its runs and their file."""
+"""The rotor of a study on full contacts and on elements, turning with its unbalance: its runs."""
 
 from __future__ import annotations
 
-import json
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import fields
 from math import ceil, cos, radians
-from pathlib import Path
 from typing import Any
 
-import h5py
 import numpy as np
 
 from ehlcontact.cli.study.response import at_rotor_speed, film_response, linear_rotor
 from ehlcontact.cli.study.schema import Study
-from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.files import hdf5
+from ehlcontact.errors import ConvergenceError
 from ehlcontact.results import ImpedanceResult
 from ehlcontact.status import Status
 from ehlcontact.transient.full_contact import FullContact
@@ -35,8 +30,6 @@ from reduced_models import (
 )
 from reduced_models.rotor.settled import end_of
 
-HISTORIES = tuple(f.name for f in fields(RotorResult) if f.name not in ("status", "rotor"))
-FORMAT = 1  # of the file of a run
 # Of the force balance on full films: at a third of it they take 2 to 3 solves per step in place of 2, and at ten
 # times as much the journal's velocity under a light unbalance shows it.
 TOLERANCE = 1e-6
@@ -167,34 +160,3 @@ def _lead(contacts: list[ScaledContact], orbit: RotorResult, film_time: float) -
         first = int(np.argmin(away[: max(1, away.size - steps)]))
         for u, v in zip(orbit.approach[first:, i], orbit.rate[first:, i], strict=True):
             contact.advance(dt, float(u), float(v))
-
-
-def save_rotor(result: RotorResult, path: Path) -> None:
-    """Write the histories of a rotor run in one move; what rotor it was stands in the study."""
-    with hdf5.making(path, "file") as file:
-        file.attrs["format"] = FORMAT
-        hdf5.set_text(file, "class", RotorResult.__name__)
-        hdf5.set_text(file, "status", str(result.status))
-        hdf5.set_text(file, "static_load", json.dumps(result.rotor.static_load.tolist()))
-        for name in HISTORIES:
-            hdf5.put(file, name, getattr(result, name))
-
-
-def load_rotor(path: Path, rotor: JeffcottRotor) -> RotorResult:
-    """Read a rotor run of the given rotor.
-
-    Raises
-    ------
-    InputError
-        Not a complete file of `save_rotor`.
-    """
-    try:
-        with h5py.File(path, "r") as file:
-            ours = hdf5.text_of(file, "class") == RotorResult.__name__ and file.attrs["format"] == FORMAT
-            values = {name: hdf5.take(file[name]) for name in HISTORIES if ours}
-            status = Status(hdf5.text_of(file, "status"))
-    except Exception as error:  # whatever h5py and numpy raise on what is damaged
-        raise InputError("file", str(path), f"a complete rotor run of this library ({error})") from None
-    if not ours:
-        raise InputError("file", str(path), "a rotor run of this library")
-    return RotorResult(status=status, rotor=rotor, **values)

@@ -18,10 +18,10 @@ from ehlcontact.errors import InputError
 from ehlcontact.files import read_text
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant import Lubricant
-from ehlcontact.origin import __version__
 from ehlcontact.point import OperatingPoint, require_solvable
 from ehlcontact.solver.domain import Domain
 from ehlcontact.transient.motion import FASTEST, SLOWEST, FreeVibration, HarmonicLoad
+from ehlcontact.version import __version__
 from reduced_models.bearing.catalogue import catalogue_row
 
 MOST_ECCENTRIC = 0.01  # m of the disc's centre of mass: balanced rotors have some 1e-6, and none runs with more
@@ -284,19 +284,17 @@ class Study(Section):
         """Largest load of the motions, in static loads."""
         return max(m.largest_load for m in (self.free_motion, self.harmonic_motion, self.rotor_motion))
 
-    def fingerprint(self, *sections: str, names: bool = True) -> str:
-        """Hash of what a stage depends on: bearing, oil, version, further sections; of old with `names` too."""
+    def fingerprint(self, *sections: str) -> str:
+        """Hash of what a stage depends on: bearing and oil without their names, version, further sections."""
         dump = self.model_dump(exclude_none=True)  # so that an entry more in the schema changes nothing
-        # however it was given, and under its name of old: so that a finished study stays finished
-        for section, name, given, value in (
-            ("free", "omega_n", "Omega_n", self.free_motion.Omega_n),
-            ("harmonic", "omega", "Omega", self.harmonic_motion.Omega),
+        for section, name, value in (  # the same frequency, however it was given
+            ("free", "Omega_n", self.free_motion.Omega_n),
+            ("harmonic", "Omega", self.harmonic_motion.Omega),
         ):
-            kept = {key: entry for key, entry in dump[section].items() if key not in (given, "hz")}
-            dump[section] = kept | {name: value}
-        if not names:
-            for section, key in (("bearing", "catalogue"), ("bearing", "name"), ("oil", "name")):
-                dump[section].pop(key, None)
+            dump[section].pop("hz", None)
+            dump[section][name] = value
+        for section, key in (("bearing", "catalogue"), ("bearing", "name"), ("oil", "name")):
+            dump[section].pop(key, None)
         content = {name: dump[name] for name in ("bearing", "oil", *sections)}
         text = json.dumps([__version__, content], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:16]

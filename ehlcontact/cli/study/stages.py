@@ -32,8 +32,6 @@ class Stage:
     title: str
     sections: tuple[str, ...]
     compute: Callable[[Study, Update], Any]
-    store: Callable[[Any, Path], None]
-    load: Callable[[Study, Path], Any]  # raises `InputError` for a file that `store` did not write
     checks: bool = False  # only for [check] half_step
 
     def wanted(self, study: Study) -> bool:
@@ -50,6 +48,8 @@ class Stage:
 
     def run(self, study: Study, folder: Path, update: Update) -> Outcome:
         """Compute and save; a result that is not converged goes to the partial file."""
+        from ehlcontact.store import save
+
         try:
             result = self.compute(study, update)
             outcome = Outcome(result.status, result.status.advice)
@@ -59,43 +59,13 @@ class Stage:
             return Outcome(Status.INTERRUPTED, "stopped before anything could be kept")
         try:
             if outcome.status.ok:
-                self.store(result, self.file(folder))
+                save(result, self.file(folder))
                 self.partial(folder).unlink(missing_ok=True)
             elif hasattr(result, "force"):  # not a single failed step, but a result
-                self.store(result, self.partial(folder))
+                save(result, self.partial(folder))
         except InputError as error:
             return Outcome(Status.FAILED, str(error), stored=False)
         return outcome
-
-
-def _store(result: Any, path: Path) -> None:
-    from ehlcontact.storage import save
-
-    save(result, path)
-
-
-def _load(kind: str) -> Callable[[Study, Path], Any]:
-    def load(study: Study, path: Path) -> Any:
-        from ehlcontact.storage import load as read
-
-        result = read(path)
-        if type(result).__name__ != kind:
-            raise InputError("file", str(path), f"a {kind}")
-        return result
-
-    return load
-
-
-def _store_rotor(result: Any, path: Path) -> None:
-    from ehlcontact.cli.study.rotor import save_rotor
-
-    save_rotor(result, path)
-
-
-def _load_rotor(study: Study, path: Path) -> Any:
-    from ehlcontact.cli.study.rotor import build_rotor, load_rotor
-
-    return load_rotor(path, build_rotor(study))
 
 
 def _steady(study: Study, update: Update) -> Any:
@@ -180,18 +150,15 @@ def _decay_half_step(study: Study, update: Update) -> Any:
     return run_decay_full(study, 1, update)
 
 
-_STEADY, _RUN = (_store, _load("SteadyResult")), (_store, _load("SimulationResult"))
-_ROTOR = (_store_rotor, _load_rotor)
-
 STAGES = (  # the longest first
-    Stage("rotor_half_step", "rotor again, half the step", ("solver", "rotor"), _rotor_half_step, *_ROTOR, True),
-    Stage("decay_half_step", "decay again, half the step", ("solver", "rotor"), _decay_half_step, *_ROTOR, True),
-    Stage("rotor_full", "rotor on full contacts", ("solver", "rotor"), _rotor_full, *_ROTOR),
-    Stage("decay", "decay after a kick", ("solver", "rotor"), _decay, *_ROTOR),
-    Stage("steady", "steady film", ("solver",), _steady, *_STEADY),
-    Stage("free", "free vibration", ("solver", "free"), _free, *_RUN),
-    Stage("harmonic", "harmonic load, contact band", ("solver", "harmonic"), _harmonic, *_RUN),
-    Stage("rotor_band", "harmonic load, rotor band", ("solver", "rotor"), _rotor_band, *_RUN),
+    Stage("rotor_half_step", "rotor again, half the step", ("solver", "rotor"), _rotor_half_step, True),
+    Stage("decay_half_step", "decay again, half the step", ("solver", "rotor"), _decay_half_step, True),
+    Stage("rotor_full", "rotor on full contacts", ("solver", "rotor"), _rotor_full),
+    Stage("decay", "decay after a kick", ("solver", "rotor"), _decay),
+    Stage("steady", "steady film", ("solver",), _steady),
+    Stage("free", "free vibration", ("solver", "free"), _free),
+    Stage("harmonic", "harmonic load, contact band", ("solver", "harmonic"), _harmonic),
+    Stage("rotor_band", "harmonic load, rotor band", ("solver", "rotor"), _rotor_band),
 )
 
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ehlcontact.cli.study.whole_input import whole_bearing
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
+from ehlcontact.store import save
 from reduced_models import (
     BallBearing,
     BearingCoefficients,
@@ -269,7 +270,7 @@ def _run(study: Study, rotor: Rotor, path: Path) -> Ran:
     run: BearingRun = simulate_on_bearings(rotor, speed_rpm=rpm, dt=dt, until=until, start=start)
     if run.status is Status.INTERRUPTED:
         raise KeyboardInterrupt
-    run.save(path)
+    save(run, path)
     seen = run.t >= begin - 0.5 * dt
     vertical, horizontal = _slowest(rotor, [(mode.eigenvalue, mode.shape) for mode in at.modes(None)])
     return Ran(

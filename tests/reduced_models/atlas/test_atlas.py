@@ -17,10 +17,12 @@ from ehlcontact import (
     Purpose,
     __version__,
     mesh_for,
+    save,
     solve_steady,
 )
 from ehlcontact.hertz import most_loaded_ball
-from reduced_models import Atlas, load_element
+from ehlcontact.store import load as load_file
+from reduced_models import Atlas
 from reduced_models.atlas.atlas import MODELS, SHIPPED
 from reduced_models.atlas.build import BOX, INTERPOLATION, assemble
 from reduced_models.atlas.elements import LEAST_APPROACH
@@ -281,7 +283,7 @@ def test_operating_points_get_elements_in_si(shipped, model):
 
 @pytest.mark.parametrize("model", MODELS)
 def test_elements_say_where_they_come_from(shipped, tmp_path, model):
-    read = load_element(shipped.element(CASE, model, **AT[model]).save(tmp_path / "e.json"))
+    read = load_file(save(shipped.element(CASE, model, **AT[model]), tmp_path / "e.json"))
     assert read.source["atlas"] == shipped.metadata["version"]
     assert read.source["point"]["M"] == CASE.M and 0.0 < read.source["error"]["approach"] < 0.01
     assert read.load_range is not None and read.omega_range is not None

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ehlcontact import Lubricant
+from ehlcontact import Lubricant, load, save
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingMotion, BearingState
 from reduced_models.bearing.catalogue import ROWS
@@ -142,22 +142,22 @@ def test_lambda_ratio_is_film_over_roughness(oil):
 
 def test_files(tmp_path, oil):
     bearing = BallBearing.catalogue("6203", oil=oil, clearance=5e-6, rq_race=1e-7, film_limit=1e-5)
-    again = BallBearing.load(bearing.save(tmp_path / "bearing.json"))
+    again = load(save(bearing, tmp_path / "bearing.json"), BallBearing)
     assert again == bearing
     state = bearing.equilibrium(DOWN, speed_rpm=2000.0)
-    back = BearingState.read(state.save(tmp_path / "state.json"))
+    back = load(save(state, tmp_path / "state.json"), BearingState)
     assert back.to_dict() == state.to_dict()
     assert again.equilibrium(DOWN, speed_rpm=2000.0).to_dict() == state.to_dict()
     dry = BallBearing.catalogue("209").equilibrium(DOWN)
-    assert BearingState.read(dry.save(tmp_path / "dry.json")).to_dict() == dry.to_dict()
+    assert load(save(dry, tmp_path / "dry.json"), BearingState).to_dict() == dry.to_dict()
 
 
 def test_files_that_are_none(tmp_path, oil):
     path = tmp_path / "bearing.json"
-    refused("file = .*readable", lambda: BallBearing.load(path))
+    refused("file = .*readable", lambda: load(path, BallBearing))
     path.write_text("{")
-    refused("file = .*readable", lambda: BallBearing.load(path))
-    document = json.loads(BallBearing.catalogue("6203", oil=oil).save(path).read_text())
+    refused("file = .*readable", lambda: load(path, BallBearing))
+    document = json.loads(save(BallBearing.catalogue("6203", oil=oil), path).read_text())
     for changes, match in (
         ({"schema": "other"}, "schema = 'other'"),
         ({"version": 2}, "version = 2"),
@@ -167,11 +167,11 @@ def test_files_that_are_none(tmp_path, oil):
         ({"oil": 5}, "oil = 'int'"),
     ):
         path.write_text(json.dumps(document | changes))
-        refused(match, lambda: BallBearing.load(path))
+        refused(match, lambda: load(path, BallBearing))
     path.write_text(json.dumps({key: value for key, value in document.items() if key != "balls"}))
-    refused("balls = None", lambda: BallBearing.load(path))
+    refused("balls = None", lambda: load(path, BallBearing))
     path.write_text(json.dumps(document | {"schema": "ehlcontact-bearing-state"}))
-    refused("left out", lambda: BearingState.read(path))
+    refused("left out", lambda: load(path, BearingState))
 
 
 def test_the_snippet_of_the_readme(tmp_path):

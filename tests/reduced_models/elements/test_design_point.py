@@ -7,14 +7,13 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from ehlcontact import InputError, Lubricant, OperatingPoint
+from ehlcontact import InputError, Lubricant, OperatingPoint, load, save
 from reduced_models import (
     Atlas,
     ContactMount,
     JeffcottRotor,
     OutsideValidityWarning,
     ScaledContact,
-    load_element,
     simulate_rotor,
 )
 from reduced_models.atlas.elements import damper_band
@@ -47,7 +46,7 @@ def element(atlas, request):
 def test_speed_and_oil_are_known_in_si_without_dimensions_and_from_the_file(element, atlas, tmp_path):
     made = element.design_point
     assert made.u_sum == pytest.approx(POINT.u_sum) and (made.eta0, made.alpha) == (0.037, 2e-8)
-    assert load_element(element.save(tmp_path / "e.json")).design_point == made
+    assert load(save(element, tmp_path / "e.json")).design_point == made
     plain = atlas.element(POINT.moes, "memory")
     assert plain.design_point == replace(made, u_sum=None)
     assert plain.to_si(POINT.scales).design_point.u_sum == pytest.approx(POINT.u_sum)

@@ -5,17 +5,18 @@ import os
 
 import pytest
 
+from ehlcontact import load, save
 from ehlcontact.errors import InputError
-from reduced_models import CubicContact, fit, load_element
+from reduced_models import CubicContact, fit
 
 
 def test_round_trip_is_exact(tmp_path, record):
     element = fit(record).element
-    path = element.save(tmp_path / "e.json")
-    back = load_element(path)
+    path = save(element, tmp_path / "e.json")
+    back = load(path)
     assert back == element and type(back) is CubicContact
     assert back.fit == element.fit and back.source == element.source
-    assert CubicContact.load(path) == element
+    assert load(path, CubicContact) == element
     document = json.loads(path.read_text())
     assert (document["schema"], document["version"], document["kind"]) == ("ehlcontact-element", 1, "cubic")
     assert set(document["parameters"]) == {"K1", "K2", "K3", "C1"}
@@ -26,27 +27,27 @@ def test_round_trip_is_exact(tmp_path, record):
 
 
 def test_a_file_without_the_newer_bounds_is_read(tmp_path, cubic):
-    path = cubic.save(tmp_path / "old.json")
+    path = save(cubic, tmp_path / "old.json")
     _edit(path, valid={"low": 0.75, "high": 1.0, "rate": None})
-    assert load_element(path) == cubic and load_element(path).load_range is None
+    assert load(path) == cubic and load(path).load_range is None
 
 
 def test_saving_replaces_in_one_move_and_leaves_nothing_behind(tmp_path, linear, cubic, monkeypatch):
-    path = linear.save(tmp_path / "e.json")
+    path = save(linear, tmp_path / "e.json")
 
     def fail(*_):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(os, "replace", fail)
     with pytest.raises(InputError, match="No space left"):
-        cubic.save(path)
-    assert load_element(path) == linear
+        save(cubic, path)
+    assert load(path) == linear
     assert [p.name for p in tmp_path.iterdir()] == ["e.json"]
 
 
 def test_saving_into_a_missing_folder_is_an_input_error(tmp_path, linear):
     with pytest.raises(InputError, match="can be written"):
-        linear.save(tmp_path / "none" / "e.json")
+        save(linear, tmp_path / "none" / "e.json")
 
 
 def _edit(path, **changes):
@@ -83,10 +84,10 @@ def _edit(path, **changes):
     ],
 )
 def test_wrong_content_is_one_line_that_names_the_file(tmp_path, cubic, changes, message):
-    path = cubic.save(tmp_path / "wrong.json")
+    path = save(cubic, tmp_path / "wrong.json")
     _edit(path, **changes)
     with pytest.raises(InputError, match=message) as caught:
-        load_element(path)
+        load(path)
     assert "wrong.json" in str(caught.value) and "\n" not in str(caught.value)
 
 
@@ -95,20 +96,20 @@ def test_truncated_and_foreign_files(tmp_path, content):
     path = tmp_path / "broken.json"
     path.write_bytes(content)
     with pytest.raises(InputError, match=r"broken\.json"):
-        load_element(path)
+        load(path)
 
 
 def test_truncation_anywhere_is_noticed(tmp_path, cubic):
-    path = cubic.save(tmp_path / "cut.json")
+    path = save(cubic, tmp_path / "cut.json")
     text = path.read_text().rstrip()
     for length in range(0, len(text), 7):
         path.write_text(text[:length])
         with pytest.raises(InputError, match=r"cut\.json"):
-            load_element(path)
+            load(path)
 
 
 def test_missing_file_and_wrong_class(tmp_path, linear):
     with pytest.raises(InputError, match=r"gone\.json"):
-        load_element(tmp_path / "gone.json")
+        load(tmp_path / "gone.json")
     with pytest.raises(InputError, match="kind 'cubic'"):
-        CubicContact.load(linear.save(tmp_path / "e.json"))
+        load(save(linear, tmp_path / "e.json"), CubicContact)

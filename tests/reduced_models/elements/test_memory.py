@@ -8,8 +8,8 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import InputError
-from reduced_models import ScaledContact, load_element
+from ehlcontact import InputError, load, save
+from reduced_models import ScaledContact
 
 
 def test_active_gains_are_refused(memory):
@@ -39,12 +39,12 @@ def test_impedance_and_wrapper_in_si(memory, scales):
     ],
 )
 def test_wrong_files_name_the_entry(memory, tmp_path, section, key, value, message):
-    path = memory.save(tmp_path / "wrong.json")
+    path = save(memory, tmp_path / "wrong.json")
     document = json.loads(path.read_text())
     (document if section is None else document[section])[key] = value
     path.write_text(json.dumps(document))
     with pytest.raises(InputError, match=message) as caught:
-        load_element(path)
+        load(path)
     assert "wrong.json" in str(caught.value) and "\n" not in str(caught.value)
 
 

@@ -6,11 +6,20 @@ from math import inf, nan, pi
 import numpy as np
 import pytest
 
-from ehlcontact import ConvergenceError, InputError, MoesPoint, PrescribedLoad, impedance, simulate, solve_steady
+from ehlcontact import (
+    ConvergenceError,
+    InputError,
+    MoesPoint,
+    PrescribedLoad,
+    impedance,
+    load,
+    save,
+    simulate,
+    solve_steady,
+)
 from reduced_models import (
     WideRangeContact,
     fit_memory,
-    load_element,
     simulate_oscillator,
     wide_range_contact,
     wide_range_from_solves,
@@ -110,7 +119,7 @@ def test_box_is_that_of_its_tables_in_si_too(wide, scales, tmp_path):
     si = wide.to_si(scales)
     assert si.load_range == (0.005 * scales.force, 3.0 * scales.force)
     assert si.low == wide.low * scales.length
-    assert load_element(si.save(tmp_path / "w.json")) == si
+    assert load(save(si, tmp_path / "w.json")) == si
 
 
 @pytest.mark.parametrize(

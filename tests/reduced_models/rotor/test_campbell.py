@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from ehlcontact import load, save
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import (
     Campbell,
@@ -130,14 +131,14 @@ def test_response_over_the_speed_is_that_at_each_speed(film, beam):
 
 
 def test_files(film, block, diagram, tmp_path):
-    again = Campbell.read(diagram.save(tmp_path / "c.h5"))
+    again = load(save(diagram, tmp_path / "c.h5"), Campbell)
     response = unbalance_response(block(film), [2000.0, 3000.0, 4000.0])
-    back = UnbalanceResponse.read(response.save(tmp_path / "u.h5"))
+    back = load(save(response, tmp_path / "u.h5"), UnbalanceResponse)
     for one, two in ((diagram, again), (response, back)):
         for name, values in vars(one).items():
             np.testing.assert_array_equal(getattr(two, name), values)
     with pytest.raises(InputError, match="Campbell diagram"):
-        Campbell.read(tmp_path / "u.h5")
+        load(tmp_path / "u.h5", Campbell)
 
 
 def test_figures(film, block, diagram, tmp_path):

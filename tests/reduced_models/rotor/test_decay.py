@@ -8,7 +8,7 @@ from rotor_twins import C, K, one_mass, spring
 
 from ehlcontact import InputError
 from reduced_models import LinearRotor, RotorState, log_decrement, simulate_rotor
-from reduced_models.elements.kinds import LinearContact
+from reduced_models.elements.polynomial import LinearContact
 
 
 @pytest.mark.parametrize("delta", [-0.02, 0.0, 0.003, 0.03, 0.3, 1.0])

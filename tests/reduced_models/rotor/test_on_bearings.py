@@ -7,7 +7,7 @@ import pytest
 from beam_rotor import shaft
 from scipy.integrate import solve_ivp
 
-from ehlcontact import Status
+from ehlcontact import Status, load, save
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import (
     BallBearing,
@@ -157,12 +157,12 @@ def test_balls_are_heard_as_they_pass(film):
 
 def test_files_of_runs(film, tmp_path):
     run = simulate_on_bearings(block(film), speed_rpm=RPM, dt=DT, until=0.002)
-    again = BearingRun.read(run.save(tmp_path / "run.h5"))
+    again = load(save(run, tmp_path / "run.h5"), BearingRun)
     for name, values in vars(run).items():
         np.testing.assert_array_equal(getattr(again, name), values)
     (tmp_path / "none.h5").write_text("nothing")
     with pytest.raises(InputError, match="run of a rotor on ball bearings"):
-        BearingRun.read(tmp_path / "none.h5")
+        load(tmp_path / "none.h5", BearingRun)
 
 
 def test_a_course_of_one_speed_is_that_speed(film):

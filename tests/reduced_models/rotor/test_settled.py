@@ -8,7 +8,7 @@ from rotor_twins import SCALES, C, K, one_mass
 
 from ehlcontact import InputError, Status
 from reduced_models import RotorResult, dry_contact, run_until_settled, settling
-from reduced_models.elements.kinds import LinearContact
+from reduced_models.elements.polynomial import LinearContact
 from reduced_models.rotor.settled import QUIET, part_of
 
 STEPS = 40

@@ -116,7 +116,7 @@ class Board:
         """Whether a stage is finished, here or elsewhere."""
         study, folder, ledger = point.study, point.folder, self.ledgers[point.name]
         if is_done(stage, study, folder, ledger):
-            if is_sound(stage, study, folder, ledger[stage.name]):
+            if is_sound(stage, folder, ledger[stage.name]):
                 return True
             self.journal.warn(f"{stage.file(folder)} is damaged: it is made again")
         note = adopted(stage, study, folder, others)
@@ -199,7 +199,7 @@ class Board:
             for text in last.get("warnings", ()):
                 self.journal.warn(point.titled(f"warning: {text}"))
         else:
-            ledger[task.name] = last | {"fingerprint": point.study.fingerprint(*task.stage.sections, names=False)}
+            ledger[task.name] = last | {"fingerprint": point.study.fingerprint(*task.stage.sections)}
             if done:
                 ledger[task.name]["sha256"] = checksum(task.stage.file(point.folder))
         write_ledger(ledger, point.folder)

@@ -11,7 +11,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from ehlcontact.cli.output import complain, one_line
-from ehlcontact.origin import __version__
+from ehlcontact.version import __version__
 
 LOG = "run.log"
 LIBRARIES = ("numpy", "scipy", "numba", "h5py", "fmpy")

@@ -15,7 +15,6 @@ from typing import Any
 from ehlcontact.cli.output import write_json
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import STAGES, Stage, stages_of
-from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json, read_text, replacing
 from ehlcontact.status import Status
 
@@ -60,20 +59,14 @@ def is_done(stage: Stage, study: Study, folder: Path, ledger: Mapping[str, Note]
 
 
 def _holds(stage: Stage, study: Study, note: Note) -> bool:
-    """Whether a note is of this stage's contents; that of earlier versions had names in it."""
-    own = {study.fingerprint(*stage.sections, names=names) for names in (False, True)}
-    return note.get("fingerprint") in own and note.get("status") == Status.CONVERGED
+    """Whether a note is of this stage's contents."""
+    own = study.fingerprint(*stage.sections)
+    return bool(note.get("fingerprint") == own and note.get("status") == Status.CONVERGED)
 
 
-def is_sound(stage: Stage, study: Study, folder: Path, note: Note) -> bool:
-    """Whether the file of a stage that is done is what was written: by its checksum, where one was noted."""
-    if "sha256" in note:
-        return bool(note["sha256"] == checksum(stage.file(folder)))
-    try:
-        stage.load(study, stage.file(folder))
-    except InputError:
-        return False
-    return True
+def is_sound(stage: Stage, folder: Path, note: Note) -> bool:
+    """Whether the file of a stage that is done is what was written, by its checksum."""
+    return bool(note.get("sha256") == checksum(stage.file(folder)))
 
 
 def checksum(path: Path) -> str | None:
@@ -95,9 +88,7 @@ def adopted(stage: Stage, study: Study, folder: Path, others: Iterable[Path]) ->
     """
     for other in others:
         note = read_ledger(other).get(stage.name, {})
-        if other == folder or "sha256" not in note or not _holds(stage, study, note):
-            continue
-        if is_sound(stage, study, other, note):
+        if other != folder and _holds(stage, study, note) and is_sound(stage, other, note):
             with replacing(stage.file(folder), "file") as temporary:
                 shutil.copyfile(stage.file(other), temporary)
             return dict(note)

@@ -1,6 +1,7 @@
-"""Files that are never half written: a reader sees the old content or the new, whatever happens in between.
+"""Files written in one move, and texts of any origin.
 
-And texts of any origin, read without surprises: too large, too deep, or no text at all is told, not run into.
+A file is never half written: a reader finds the old content or the new, whatever happens in between. A text that
+is too large, nested too deeply or no text at all raises an error that names the reason.
 """
 
 from __future__ import annotations
