@@ -20,11 +20,6 @@ class Status(StrEnum):
     FAILED = "failed"
     NOT_CONVERGED = "failed"  # what rotors called it: the name for `FAILED` in programs written before
 
-    @classmethod
-    def _missing_(cls, value: object) -> Status | None:
-        # Rotor runs saved before there was one vocabulary say it in these words.
-        return cls.FAILED if value == "not converged" else None
-
     @property
     def advice(self) -> str:
         """One sentence."""

@@ -26,6 +26,7 @@ from dataclasses import dataclass, fields, is_dataclass
 from enum import Enum
 from importlib import import_module
 from pathlib import Path
+from reprlib import repr as shortened
 from types import NoneType, UnionType
 from typing import Any, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
@@ -57,6 +58,7 @@ class _Stored:
     number: int
 
 
+_NOTHING = _Stored(NoneType, "nothing", 0)
 _classes: dict[str, _Stored] = {}
 
 
@@ -136,7 +138,9 @@ def load(path: str | os.PathLike[str], kind: type[T] = object, field: str = "fil
         raise InputError(field, name, f"a complete file of a {wanted} ({error})") from None
     except Exception:  # whatever h5py and numpy raise on what is damaged
         raise InputError(field, name, f"a complete file of a {wanted}") from None
-    entry = _entry(header, name, kind)
+    entry, wrong = _entry(header, kind)
+    if wrong:
+        raise InputError(field, name, f"a {wanted}{wrong}")
     try:
         record = _build(entry.cls, content)
         if hasattr(record, "require_complete"):
@@ -155,27 +159,21 @@ def _wanted(kind: type[Any]) -> str:
     return " or ".join(found) if kind is not object else "result, element or bearing of this library"
 
 
-def _entry(header: Any, name: str, kind: type[Any]) -> _Stored:
-    """Registered class that a header names.
-
-    Raises
-    ------
-    InputError
-        No header; a class that is unknown or not of `kind`; another format.
-    """
+def _entry(header: Any, kind: type[Any]) -> tuple[_Stored, str]:
+    """Registered class that a header names, and what is wrong with it: unknown, not of `kind`, another format."""
     found = header if isinstance(header, dict) else {}
     cls, number = found.get("class"), found.get("format")
     if isinstance(cls, str) and cls not in _classes:
         for package in PACKAGES:
             import_module(package)
-    entry = _classes.get(cls) if isinstance(cls, str) else None
-    if entry is None or not issubclass(entry.cls, kind):
-        raise InputError(f"{name}: class", cls, f"that of a {_wanted(kind)}")
+    entry = _classes.get(cls, _NOTHING) if isinstance(cls, str) else _NOTHING
+    if entry is _NOTHING or not issubclass(entry.cls, kind):
+        return entry, f"; its header names the class {shortened(cls)}" if found else "; it has no header"
     if type(number) is not int or number != entry.number:
         newer = type(number) is int and number > entry.number
-        allowed = f"{entry.number}; " + ("a newer version wrote it" if newer else "make the file anew")
-        raise InputError(f"{name}: format", number, allowed)
-    return entry
+        advice = "a newer version wrote it" if newer else "make the file anew"
+        return entry, f" of format {entry.number}, not {shortened(number)}: {advice}"
+    return entry, ""
 
 
 def _is_hdf5(path: str | os.PathLike[str]) -> bool:
@@ -302,8 +300,10 @@ def _content(group: h5py.Group) -> dict[str, Any]:
 
 def _build(hint: Any, tree: Any) -> Any:
     """Rebuild what an annotation announces from its tree; raises any exception where it does not fit."""
+    if tree is None:
+        return None
     kind = _kind(hint, tree)
-    if tree is None or kind is Any:
+    if kind is Any:
         return tree
     if isinstance(tree, np.ndarray):
         if get_origin(kind) is not np.ndarray:

@@ -14,7 +14,16 @@ from typing import Annotated, Any, get_type_hints
 import typer
 
 from ehlcontact.checks.machine import require_threads
-from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, show_table, write_json, write_to
+from ehlcontact.cli.output import (
+    check_apart,
+    check_file,
+    check_json,
+    deliver,
+    save_to,
+    show_table,
+    write_json,
+    write_to,
+)
 from ehlcontact.errors import InputError
 from ehlcontact.solver.domain import Domain, check_intervals
 
@@ -169,11 +178,6 @@ class Files:
             One of the files could not be written.
         """
 
-        def save(path: Path) -> None:
-            from ehlcontact.store import save as store
-
-            store(result, path)
-
         def figure(path: Path) -> None:
             if draw is not None:
                 from ehlcontact.cli.plots.style import write_figure
@@ -181,7 +185,7 @@ class Files:
                 write_figure(draw, result, path)
 
         deliver(
-            lambda: write_to("--save", self.save, save),
+            lambda: save_to("--save", self.save, result),
             lambda: write_to("--figure", self.figure, figure),
             lambda: write_json({**result.to_dict(), **about}, self.json_to),
             lambda: show_table(title, rows, self.json_to),

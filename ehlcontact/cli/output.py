@@ -192,6 +192,14 @@ def write_to(option: str, path: Path | None, write: Callable[[Path], object]) ->
             raise InputError(option, error.value, error.allowed) from None
 
 
+def save_to(option: str, path: Path | None, record: Any) -> None:
+    """Save a result or an element at the path of an option, if there is one; an `InputError` names the option."""
+    from ehlcontact.store import save
+
+    if path is not None:
+        save(record, path, option)
+
+
 def deliver(*steps: Callable[[], object]) -> None:
     """Hand a result over, step by step: one that fails does not keep it from the others.
 

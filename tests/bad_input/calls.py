@@ -250,11 +250,14 @@ CALLS = {
         ("dt", "a finite number > 0"),
     ),
     # files
-    "load a folder": (lambda: load(Path(__file__).parent), ("file", "an existing HDF5 result of this")),
-    "load a script": (lambda: load(__file__), ("file", "a complete HDF5 result of this")),
+    "load a folder": (lambda: load(Path(__file__).parent), ("file", "a readable result, element or bearing")),
+    "load a script": (lambda: load(__file__), ("file", "a complete file of a result")),
     "load a number": (lambda: load(5), ("file", "the name of a file")),
-    "save a number": (lambda: save(5, "none.h5"), ("result", "a result of solve_steady or")),
-    "load an element of Python": (lambda: rm.load_element(__file__), ("file", "an element file: complete JSON")),
+    "save a number": (lambda: save(5, "none.h5"), ("object to save", "result, element or bearing")),
+    "load an element of Python": (
+        lambda: load(__file__, rm.ContactElement),
+        ("file", "a complete file of a contact element"),
+    ),
     "an atlas of Python": (lambda: rm.Atlas(__file__), ("atlas", "a complete atlas file (no npz")),
     # elements, fits, atlas
     "K1 in words": (lambda: cubic(K1="1"), ("K1", "a finite number")),

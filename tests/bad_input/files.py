@@ -93,6 +93,16 @@ def attribute(name, value):
     return hdf5(lambda file: file.attrs.__setitem__(name, value))
 
 
+def header_of(**changes):
+    """An HDF5 file with other entries in its header."""
+
+    def edit(file):
+        entries = json.loads(file.attrs["header"]) | changes
+        file.attrs["header"] = json.dumps({key: value for key, value in entries.items() if value is not None})
+
+    return hdf5(edit)
+
+
 def foreign(edit):
     """A new HDF5 file."""
 
@@ -195,11 +205,13 @@ HDF5 = {
     "byte in the structure": flipped(0.005),
     "byte in the middle": flipped(0.5),
     "foreign": foreign(lambda file: file.__setitem__("P", np.zeros(3))),
-    "class of others": foreign(lambda file: file.attrs.update({"class": "Sofa", "format": 1})),
-    "class that is an array": foreign(lambda file: file.attrs.__setitem__("class", np.zeros(3))),
-    "newer": attribute("format", 99),
-    "format in words": attribute("format", "one"),
-    "no format": hdf5(lambda file: file.attrs.__delitem__("format")),
+    "class of others": foreign(lambda file: file.attrs.__setitem__("header", '{"class": "Sofa", "format": 1}')),
+    "header that is an array": foreign(lambda file: file.attrs.__setitem__("header", np.zeros(3))),
+    "no header": hdf5(lambda file: file.attrs.__delitem__("header")),
+    "newer": header_of(format=99),
+    "format in words": header_of(format="one"),
+    "no format": header_of(format=None),
+    "a class without end": header_of(**{"class": "x" * 100_000}),
     "version that is no text": attribute("version", 3.0),
     "deep": attribute("version", DEEP),
 }
@@ -209,7 +221,9 @@ BAD = {
         "a steady film": of("steady"),
         "a checkpoint": of("checkpoint"),
         "an atlas": of("atlas"),
-        "no fields": foreign(lambda file: file.attrs.update({"class": "SimulationResult", "format": 1})),
+        "no fields": foreign(
+            lambda file: file.attrs.__setitem__("header", '{"class": "SimulationResult", "format": 1}')
+        ),
         "times in words": array("T", lambda old: np.array([b"a"] * old.size)),
         "times in rows": array("T", lambda old: old[None, :]),
         "times that are no numbers": array("T", lambda old: old * np.nan),
@@ -236,7 +250,7 @@ BAD = {
     "checkpoint": HDF5
     | {
         "a result": of("result"),
-        "older": attribute("format", 1),
+        "older": header_of(format=0),
         "another version": attribute("version", '"0.0.1"'),
         "no settings": hdf5(lambda file: file.attrs.__delitem__("settings")),
         "settings in words": attribute("settings", '"none"'),
@@ -255,8 +269,8 @@ BAD = {
         "deep": content("element", DEEP),
         "deep lists": content("element", "[" * 100_000),
         "deep parameters": lambda good: good.replace(b'"K1": 1.0', b'"K1": ' + DEEP.encode()),
-        "nan": content("element", '{"schema": NaN}'),
-        "no schema": content("element", '{"a": 1}'),
+        "nan": content("element", '{"header": NaN}'),
+        "no header at all": content("element", '{"a": 1}'),
         "5000 digits": lambda good: good.replace(b'"K1": 1.0', b'"K1": ' + b"9" * 5000),
         "400 digits": lambda good: good.replace(b'"K1": 1.0', b'"K1": ' + b"9" * 400),
         "too large a number": lambda good: good.replace(b'"K1": 1.0', b'"K1": 1e999'),
@@ -265,9 +279,12 @@ BAD = {
             b'"source": null', rb'"source": {"a": "\udfff"}'
         ),
         "byte order mark": lambda good: b"\xef\xbb\xbf" + good,
-        "another schema": element(schema="soup"),
-        "newer": element(version=99),
-        "version in words": element(version="1"),
+        "no header": element(header=None),
+        "a bearing": element(header={"class": "BallBearing"}),
+        "another class": element(header={"class": "LinearContact"}),
+        "class of others": element(header={"class": "Sofa"}),
+        "newer": element(header={"format": 99}),
+        "format in words": element(header={"format": "1"}),
         "kind of others": element(kind="spline"),
         "a long kind": element(kind="x" * 100_000),
         "units of others": element(units="mm"),

@@ -7,16 +7,12 @@ import sys
 import zipfile
 from pathlib import Path
 
-import numpy as np
 import pytest
 from tiny_study import STUDY
 
 from ehlcontact import InputError, load
-from ehlcontact.cli.study.rotor import FORMAT, HISTORIES
-from ehlcontact.cli.study.schema import load_study
-from ehlcontact.cli.study.stages import stage_named
-from ehlcontact.files import hdf5
-from ehlcontact.transient.checkpoint import load_checkpoint
+from ehlcontact.transient import checkpoint
+from ehlcontact.transient.checkpoint import Checkpoint
 
 ROOT = Path(__file__).parents[2]
 SMALL = ROOT / "examples" / "small_study.toml"
@@ -82,44 +78,18 @@ def test_fmu_atlas_and_report(call, refused, no_room, tmp_path):
     assert work.read_bytes() == b""  # no torn line
 
 
-@pytest.fixture
-def study_folder(tmp_path):
-    """A study and a folder with a rotor run, as a stage leaves it."""
-    stage = stage_named("rotor_full")
-    with hdf5.making(stage.file(tmp_path), "file") as file:
-        file.attrs["format"] = FORMAT
-        hdf5.set_text(file, "class", "RotorResult")
-        hdf5.set_text(file, "status", "converged")
-        for name in HISTORIES:
-            hdf5.put(
-                file, name, np.arange(6.0).reshape(3, 2) if name not in ("t", "iterations") else np.arange(3.0)
-            )
-    return load_study(SMALL), tmp_path
-
-
-def test_rotor_runs(study_folder, no_room):
-    study, folder = study_folder
-    stage = stage_named("rotor_full")
-    run = stage.load(study, stage.file(folder))
-    before = stage.file(folder).read_bytes()
-    no_room()
-    with pytest.raises(InputError, match="No space left"):
-        stage.store(run, stage.file(folder))
-    assert stage.file(folder).read_bytes() == before
-
-
 def test_the_last_checkpoint_is_told_and_the_run_kept(call, point, tmp_path, monkeypatch):
     """The disk fills up during the run: it goes on, and what it found is saved elsewhere."""
-    write, saved, path = hdf5.write, tmp_path / "r.h5", tmp_path / "c.h5"
+    write, saved, path = checkpoint.save, tmp_path / "r.h5", tmp_path / "c.h5"
 
     def once(record, target, *given):
         if Path(target) == path and path.exists():
             raise InputError("checkpoint", str(path), "a file that can be written (No space left on device)")
         return write(record, target, *given)
 
-    monkeypatch.setattr(hdf5, "write", once)
+    monkeypatch.setattr(checkpoint, "save", once)
     options = ("--n", "16", "--free", "5", "--until", "0.3", "--dt", "0.1", "--save", saved)
     result = call("simulate", *point, *options, "--checkpoint", path)
     assert result.code == 2 and "converged" in result.out
     assert result.err.startswith("ehlcontact: --checkpoint = ") and len(result.err.splitlines()) == 1
-    assert load(saved).steps == 3 and load_checkpoint(path).record.T == 0.0
+    assert load(saved).steps == 3 and load(path, Checkpoint).record.T == 0.0

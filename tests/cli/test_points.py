@@ -113,7 +113,7 @@ def test_every_speed_with_every_load(tmp_path):
     file.write_text(with_lists("[4500.5]", "[30.0]"))
     (single,) = load_points(file, tmp_path / "out")
     assert single.study == alone and single.folder == tmp_path / "out"
-    assert alone.fingerprint(names=False) == one.fingerprint(names=False)
+    assert alone.fingerprint() == one.fingerprint()
 
 
 @pytest.mark.parametrize(

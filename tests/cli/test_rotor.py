@@ -20,10 +20,9 @@ from ehlcontact.cli.study.differences import compare_rotors
 from ehlcontact.cli.study.reduction import CONTACTS
 from ehlcontact.cli.study.response import film_response, frequencies
 from ehlcontact.cli.study.results import evaluate
-from ehlcontact.cli.study.rotor import build_rotor, load_rotor
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.errors import ConvergenceError
-from reduced_models import ContactEvents, Settling
+from reduced_models import ContactEvents, RotorResult, Settling
 
 
 @pytest.fixture(scope="module")
@@ -269,7 +268,7 @@ def test_a_contact_that_the_rotor_does_not_run_on(finished, found, monkeypatch):
 
 def test_pictures_show_what_is_settled(finished, found):
     """The heavy part of an orbit is the settled one, or the last revolution where there is none."""
-    run = load_rotor(finished[1] / "rotor_full.h5", build_rotor(found.study))
+    run = load(finished[1] / "rotor_full.h5", RotorResult)
     settled, is_settled = pictures.settled_part(run, Settling((0.001,), 0.01))
     assert is_settled and settled.t.size == 41
     last, is_settled = pictures.settled_part(run, Settling((0.5,), 0.01))

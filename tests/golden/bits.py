@@ -302,7 +302,8 @@ def element(name: str, contact: Any) -> Leaves:
         yield f"{name}.drive", contact.drive(t, np.linspace(low, high, 30), np.full(30, (high - low) / t[-1]))
     with tempfile.TemporaryDirectory() as folder:
         path = save(contact, Path(folder) / "element.json")
-        yield from leaves(f"{name}.file", json.loads(path.read_text()))
+        content = json.loads(path.read_text())
+        yield from leaves(f"{name}.file", {key: content[key] for key in content if key != "header"})
         again = load(path)
     yield f"{name}.again", again.spring(0.5 * (low + high))
 

@@ -8,7 +8,7 @@ def test_public_names_are_there():
         "ContactRecord", "fit", "fit_memory", "sensitivity", "FitResult", "MemoryFit", "ElementFit",
         "LinearContact", "CubicContact", "PolynomialContact", "PowerLawContact", "FilmMemoryContact",
         "WideRangeContact", "wide_range_contact", "wide_range_from_solves",
-        "load_element", "ContactElement", "OutsideValidityWarning",
+        "ContactElement", "OutsideValidityWarning",
         "JeffcottRotor", "ContactMount", "RotorState", "RotorResult", "RotorStatus", "simulate_rotor", "compare",
         "simulate_oscillator", "ScaledContact", "BallBearing", "BearingState", "BearingCoefficients",
         "BearingMotion", "DefectFrequencies", "Rotor", "BearingMount", "Unbalance", "SpeedProfile",

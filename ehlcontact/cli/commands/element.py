@@ -13,7 +13,7 @@ from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import Contact, Surfaces, frequency
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, show_table, write_json, write_to
+from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, save_to, show_table, write_json
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ def element(
         ],
         json_to,
     )
-    kept = partial(write_to, "--save", save, made.save)
+    kept = partial(save_to, "--save", save, made)
     deliver(kept, lambda: write_json({**made.to_dict(), **contact.about(point), **about}, json_to), shown)
 
 

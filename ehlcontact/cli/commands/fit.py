@@ -12,7 +12,7 @@ import typer
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, show_table, write_json, write_to
+from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, save_to, show_table, write_json
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
@@ -100,7 +100,7 @@ def fit(
         ],
         json_to,
     )
-    kept = partial(write_to, "--save", save, saved.save)
+    kept = partial(save_to, "--save", save, saved)
     deliver(kept, lambda: write_json(fitted.to_dict(), json_to), table)
 
 

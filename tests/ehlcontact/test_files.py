@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import HarmonicLoad, InputError, MoesPoint, files, save, simulate
-from ehlcontact.files import hdf5
+from ehlcontact.store import making, put, set_text, take, text_of
 
 POINT = MoesPoint(20, 5, 0.5)
 
@@ -66,9 +66,9 @@ def test_no_path_for_a_file(path, tmp_path, monkeypatch):
 
 def test_hdf5_on_a_disk_of_16_kb(full_disk):
     """Written there by HDF5 itself, it took the process down when it ended."""
-    with pytest.raises(InputError, match="No space left"), hdf5.making(full_disk / "r.h5", "save") as file:
+    with pytest.raises(InputError, match="No space left"), making(full_disk / "r.h5", "save") as file:
         file["x"] = np.zeros(100_000)
-    with hdf5.making(full_disk / "small.h5", "save") as file:
+    with making(full_disk / "small.h5", "save") as file:
         file["x"] = np.zeros(10)
     assert names(full_disk) == ["kept.txt", "small.h5"]
 
@@ -78,7 +78,7 @@ def test_results_and_checkpoints_on_a_disk_of_16_kb(full_disk):
     with pytest.raises(InputError, match=r"^checkpoint = .*No space left"):
         simulate(POINT, HarmonicLoad(Omega=3.0), **options, checkpoint=full_disk / "c.h5")
     result = simulate(POINT, HarmonicLoad(Omega=3.0), **options)
-    with pytest.raises(InputError, match=r"^save = .*No space left"):
+    with pytest.raises(InputError, match=r"^path = .*No space left"):
         save(result, full_disk / "r.h5")
     assert names(full_disk) == ["kept.txt"]
 
@@ -86,7 +86,7 @@ def test_results_and_checkpoints_on_a_disk_of_16_kb(full_disk):
 def test_hdf5_that_is_not_finished_is_not_written(tmp_path):
     path = tmp_path / "r.h5"
     path.write_text("old")
-    with pytest.raises(KeyboardInterrupt), hdf5.making(path, "save") as file:
+    with pytest.raises(KeyboardInterrupt), making(path, "save") as file:
         file["x"] = np.zeros(3)
         raise KeyboardInterrupt
     assert path.read_text() == "old" and names(tmp_path) == ["r.h5"]
@@ -95,10 +95,10 @@ def test_hdf5_that_is_not_finished_is_not_written(tmp_path):
 def test_a_damaged_byte_is_told_or_does_not_matter(tmp_path):
     """Structure and arrays have checksums: HDF5 is never led astray, and no number is read that was not stored."""
     path, x, told = tmp_path / "r.h5", np.arange(200.0), 0
-    with hdf5.making(path, "save") as file:
-        hdf5.put(file, "x", x)
-        hdf5.put(file, "y", x.reshape(2, 100))
-        hdf5.set_text(file, "t", "text" * 20)
+    with making(path, "save") as file:
+        put(file, "x", x)
+        put(file, "y", x.reshape(2, 100))
+        set_text(file, "t", "text" * 20)
     whole = path.read_bytes()
     for at in range(0, len(whole), 11):
         content = bytearray(whole)
@@ -106,7 +106,7 @@ def test_a_damaged_byte_is_told_or_does_not_matter(tmp_path):
         path.write_bytes(content)
         try:
             with h5py.File(path) as file:
-                found = hdf5.take(file["x"]), hdf5.take(file["y"]).ravel(), hdf5.text_of(file, "t")
+                found = take(file["x"]), take(file["y"]).ravel(), text_of(file, "t")
         except Exception:
             told += 1
         else:
@@ -145,7 +145,7 @@ def test_json_that_is_meant():
 
 
 def test_a_text_without_end(tmp_path, monkeypatch):
-    monkeypatch.setattr(files.replacement, "LARGEST_TEXT", 2**20)
+    monkeypatch.setattr(files, "LARGEST_TEXT", 2**20)
     with pytest.raises(ValueError, match="more than 1 MiB"):
         files.read_text("/dev/zero")
 
