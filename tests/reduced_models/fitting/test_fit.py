@@ -275,7 +275,7 @@ def test_noisy_rate_with_an_offset_is_accepted(record):
 
 
 def test_validity_box_is_what_the_records_covered(record):
-    result = fit([record, replace(shorter(record), motion={"kind": "harmonic", "omega": 9.0})], window=(1.0, 3.0))
+    result = fit([record, replace(shorter(record), motion={"kind": "harmonic", "Omega": 9.0})], window=(1.0, 3.0))
     cut, element = record.window(1.0, 3.0), result.element
     assert (element.low, element.high) == (cut.approach.min(), cut.approach.max())
     assert element.rate == np.abs(cut.rate).max()
