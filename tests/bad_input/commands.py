@@ -241,9 +241,9 @@ COMMANDS = [
     (at("impedance", "--omega", "1", "--json", "none/z.json"), ("--json", "folder that exists")),
     # fit
     (("fit",), ("R.h5", "given", "simulate")),
-    (("fit", "none.h5"), ("file = 'none.h5'", "existing HDF5 result")),
-    (("fit", ELEMENT), ("file = 'element.json'", "complete HDF5 result")),
-    (("fit", FILM), ("file = 'film.h5'", "a simulation; this is a steady film")),
+    (("fit", "none.h5"), ("file = 'none.h5'", "a readable result of simulate")),
+    (("fit", ELEMENT), ("file = 'element.json'", "result of simulate; its header names the class 'CubicContact'")),
+    (("fit", FILM), ("file = 'film.h5'", "result of simulate; its header names the class 'SteadyResult'")),
     (("fit", RECORD, RECORD), ("file = 'record.h5'", "given once")),
     (("fit", RECORD, f"./{RECORD}"), ("given once", "record.h5")),
     (("fit", RECORD, OTHER), ("other.h5", "as in record.h5", "M=20")),
@@ -276,8 +276,11 @@ COMMANDS = [
     # export
     (("export", "-o", "new.fmu"), ("ELEMENT.json", "given")),
     (("export", ELEMENT), ("--output", "given", "FMU")),
-    (("export", "none.json", "-o", "new.fmu"), ("file = 'none.json'", "readable element file")),
-    (("export", RECORD, "-o", "new.fmu"), ("file = 'record.h5'", "JSON in UTF-8")),
+    (("export", "none.json", "-o", "new.fmu"), ("file = 'none.json'", "readable contact element")),
+    (
+        ("export", RECORD, "-o", "new.fmu"),
+        ("file = 'record.h5'", "contact element; its header names the class 'SimulationResult'"),
+    ),
     (("export", STUDY, "-o", "x.fmu"), ("--output = 'x.fmu'", "new file", "--force")),
     (("export", STUDY, "-o", "new.fmu", "--contact", FILM), ("film.h5",)),
     (("explore",), ("--output", "given")),

@@ -138,7 +138,7 @@ def test_film_memory_from_a_simulation_alone(call, point, tmp_path):
 
 def test_a_steady_file_cannot_be_fitted(call, refused, point, tmp_path):
     assert call("steady", *point, "--n", "16", "--save", tmp_path / "s.h5").code == 0
-    refused(("s.h5", "simulation"), "fit", tmp_path / "s.h5")
+    refused(("s.h5", "result of simulate"), "fit", tmp_path / "s.h5")
 
 
 @pytest.mark.parametrize("command", ["steady", "simulate"])
