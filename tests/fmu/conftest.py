@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from math import cos, radians
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +13,9 @@ import pytest
 from fmpy import fmi2
 
 from ehlcontact.point import Scales
-from fmu import export_contact
+from fmu import RotorModel, export_contact, export_rotor
 from reduced_models import (
+    JeffcottRotor,
     CubicContact,
     FilmMemoryContact,
     LinearContact,
@@ -41,6 +44,34 @@ SPRINGS = ELEMENTS | {"polynomial": POLYNOMIAL, "power": POWER, "power_si": POWE
 SPRINGS["polynomial without rate"] = PolynomialContact(0.62, 0.02, 0.75, 0.0, -0.17, 0.0, 0.01, 0.75, 1.0)
 FILMS = {"memory": MEMORY, "wide": WIDE, "wide_si": WIDE.to_si(SCALES)}
 EXTRAPOLATED, END, HELD = 1, 2, 3  # values of input_meaning
+
+BALL = 850.0  # N, on a contact at rest
+BODIES = {
+    "disc_mass": 2.0,
+    "journal_mass": 0.3,
+    "shaft_stiffness": 2e8,
+    "shaft_damping": 60.0,
+    "disc_damping": 1.0,
+}
+TURNING = {"unbalance": 4e-5, "speed_rpm": 8000.0, **BODIES}
+HALF = radians(20.0)
+WEIGHT = 2.3 * 9.81
+VEE = JeffcottRotor.vee(half_angle=HALF, offset=1e-6, load=(0.0, WEIGHT - 4.0 * BALL * cos(HALF)), **TURNING)
+VERTICAL = JeffcottRotor.vertical(load=(0.0, WEIGHT - BALL), **TURNING)
+
+
+@dataclass(frozen=True)
+class Unit:
+    """One FMU: its file, its folder, what it was made from."""
+
+    path: Path
+    folder: str
+    model: RotorModel
+    fmi: int
+
+    @property
+    def description(self) -> Any:
+        return fmpy.read_model_description(self.folder)
 
 
 def instantiate(folder: str, description: Any, logger: Callable) -> fmi2.FMU2Slave:
@@ -162,6 +193,36 @@ def any_kind(request) -> str:
 @pytest.fixture(scope="session")
 def elements() -> dict[str, Any]:
     return SPRINGS | FILMS
+
+
+@pytest.fixture(scope="session")
+def rotors(elements) -> dict[str, RotorModel]:
+    """Alone and closed, with two axes and with one, with equal contacts and with different ones."""
+    scales = elements["wide_si"], elements["cubic_si"], elements["power_si"]
+    wide, cubic, power = scales
+    return {
+        "alone": RotorModel(VEE),
+        "alone in y": RotorModel(VERTICAL),
+        "wide": RotorModel(VEE, [wide, wide]),
+        "cubic": RotorModel(VEE, [cubic, cubic]),
+        "mixed": RotorModel(VEE, [wide, power]),
+        "wide in y": RotorModel(VERTICAL, [wide]),
+    }
+
+
+@pytest.fixture(scope="session")
+def unit(rotors, tmp_path_factory) -> Callable[..., Unit]:
+    """``unit("wide", 3)``: exported once."""
+    made: dict[tuple[str, int], Unit] = {}
+
+    def make(name: str, fmi: int = 2) -> Unit:
+        if (name, fmi) not in made:
+            folder, model = tmp_path_factory.mktemp("rotor"), rotors[name]
+            path = export_rotor(model.rotor, folder / "x.fmu", model.contacts, fmi=fmi)
+            made[name, fmi] = Unit(path, fmpy.extract(str(path), unzipdir=str(folder / "x")), model, fmi)
+        return made[name, fmi]
+
+    return make
 
 
 @pytest.fixture(scope="session")

@@ -5,7 +5,6 @@ They are of the extra ``importers``; CI installs it where it can be had.
 
 import ctypes
 import math
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -134,16 +133,3 @@ def test_the_loop_of_every_tutorial(tmp_path, importer, fmi):
     with importer(path, 1e-4) as advance:
         _, growth = damping_of_loop(advance, 1e-4)
     assert growth < 1.0
-
-
-@pytest.mark.parametrize("fmi", [2, 3])
-def test_fmutool_has_nothing_to_say(elements, kind, fmi, tmp_path):
-    pytest.importorskip("fmu_manipulation_toolbox")
-    path = export_contact(elements[kind], tmp_path / "x.fmu", fmi=fmi)
-    program = Path(sys.executable).with_name("fmutool")
-    line = [str(program), "-input", str(path), "-check"]
-    done = subprocess.run(line, capture_output=True, text=True, check=False, timeout=120)
-    said = done.stdout + done.stderr
-    assert done.returncode == 0, said
-    assert f"compliant with FMI-{fmi}.0" in said and "No semantic error" in said
-    assert "WARNING" not in said and "ERROR" not in said

@@ -1,8 +1,13 @@
-"""The C sources without fmpy in between: clean under strict warnings and sanitizers."""
+"""The C sources of all FMUs under strict warnings, sanitizers and valgrind, and what their libraries export.
+
+Random calls (`fuzz.c`, `fuzz3.c`): one that fails changes nothing, and OK never comes with a number that is not
+finite.
+"""
 
 import re
 import shutil
 import subprocess
+import sys
 import zipfile
 from pathlib import Path
 
@@ -10,14 +15,29 @@ import fmpy
 import numpy as np
 import pytest
 from fmpy.build import build_platform_binary
+from fmpy.validation import validate_fmu
 
-from fmu import verify
+from fmu import export_contact, verify
 from fmu.comparison import film_motion, state_grid
-from fmu.sources import CSRC
+from fmu.contacts import contact_spec
+from fmu.export import content_guid
+from fmu.rotor.laws import distinct, law_source
+from fmu.rotor.variables import spec_of
+from fmu.sources import CSRC, source_files
 
-STRICT = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Werror"]
+pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
+STRICT = ["-pedantic", "-Wall", "-Wextra", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Werror"]
 SANITIZE = ["-g", "-O1", "-fsanitize=address,undefined,float-divide-by-zero", "-fno-sanitize-recover=all"]
-DRIVER = Path(__file__).parent / "driver.c"
+CONTACTS = ["cubic", "polynomial", "power_si", "wide_si", "memory"]
+ROTORS = ["rotor alone", "rotor mixed", "rotor wide in y"]
+FUZZ = {2: "fuzz.c", 3: "fuzz3.c"}
+MANY = 1_250_000  # calls of each version of FMI, over all kinds
+FEW = 20_000  # of each kind, in the default suite
+UNDER_VALGRIND = 2_000  # of each kind: it is some fifty times slower
+
+
+def run(line, **options):
+    return subprocess.run([str(part) for part in line], capture_output=True, text=True, timeout=1000, **options)
 
 
 @pytest.fixture(scope="module")
@@ -29,37 +49,93 @@ def compiler() -> str:
     pytest.skip("no system C compiler")
 
 
+@pytest.fixture(scope="module")
+def models(elements, rotors):
+    """All that FMUs are made from."""
+    return elements | {f"rotor {name}": rotor for name, rotor in rotors.items()}
+
+
 @pytest.fixture
-def sources(extracted, any_kind) -> tuple[list[str], Path]:
-    """C files and folder of an exported FMU."""
-    folder = Path(extracted[any_kind]) / "sources"
-    return sorted(str(path) for path in folder.glob("*.c")), folder
+def compiled(compiler, models, tmp_path):
+    """``compiled("cubic", 2, flags)``: sources of an FMU as a library, or with a program of this folder."""
+
+    def make(name: str, fmi: int, flags: list[str], program: str | None = None) -> Path:
+        spec = spec_of(models[name])
+        folder = tmp_path / f"{name}{fmi}"
+        folder.mkdir()
+        for file, content in source_files(spec, content_guid(spec, fmi), fmi).items():
+            (folder / file).write_bytes(content)
+        files = [*sorted(folder.glob("*.c")), *([] if program is None else [Path(__file__).with_name(program)])]
+        how = ["-fPIC", "-shared"] if program is None else ["-ffp-contract=off"]
+        include = ["-I", folder, "-I", CSRC / "fmi3"] if fmi == 3 else ["-I", folder]
+        built = run([compiler, "-std=c99", *flags, *how, *include, *files, "-lm", "-o", folder / "made"])
+        if built.returncode != 0 and "sanitize" in built.stderr:
+            pytest.skip("no sanitizer runtime")
+        assert (built.returncode, built.stderr) == (0, "")
+        return folder / "made"
+
+    return make
 
 
-def run(line, **options):
-    return subprocess.run([str(part) for part in line], capture_output=True, text=True, timeout=120, **options)
+def random_calls_of(name):
+    """Macros of `fuzz.c` for a rotor: which variables it sets and reads."""
+    if name not in ROTORS:
+        return []
+    first = "FIRST_STATE+4*AXES" if "alone" in name else "FIRST_FORCE"  # the angle, or a force
+    given = {"INPUTS": "0,1", "OUTPUTS": f"{first},FIRST_APPROACH,FIRST_RATE", "USUAL": "1e3", "STEP": "1e-8"}
+    return [f"-DFUZZ_{macro}={text}" for macro, text in given.items()]
 
 
-def test_sources_are_clean_under_strict_warnings(compiler, sources, tmp_path):
-    files, _ = sources
-    done = run([compiler, *STRICT, "-O2", "-fPIC", "-shared", *files, "-lm", "-o", tmp_path / "x.so"])
+def test_strict_warnings(compiled, any_kind):
+    compiled(any_kind, 2, [*STRICT, "-O2"])
+
+
+@pytest.mark.parametrize("name", [*ROTORS, "rotor alone in y", "rotor cubic"])
+def test_strict_warnings_of_rotors(compiled, name):
+    compiled(name, 2, [*STRICT, "-O2"])
+
+
+@pytest.mark.parametrize(("fmi", "name"), [(2, "cubic"), (3, "cubic"), (3, "power_si"), (3, "wide_si")])
+def test_a_library_exports_fmi(compiled, extracted, fmi, name):
+    """In FMI 2 nothing else: its functions are those of one header."""
+    library = compiled(name, fmi, [*STRICT, "-O2"])
+    if shutil.which("nm") is None:
+        pytest.skip("no nm")
+    if fmi == 2:
+        (library,) = (Path(extracted[name]) / "binaries" / "linux64").iterdir()
+    lines = run(["nm", "-D", "--defined-only", library], check=True).stdout.splitlines()
+    exported = {line.split()[-1] for line in lines}
+    header = (CSRC / f"fmi{fmi}" / f"fmi{fmi}Functions.h").read_text()
+    declared = set(re.findall(rf"FMI{fmi}_Export\s+fmi{fmi}\w+TYPE\s+(fmi{fmi}\w+);", header))
+    assert len(declared) == 44 if fmi == 2 else len(declared) > 70
+    assert declared <= exported
+    assert fmi == 3 or {symbol for symbol in exported if not symbol.startswith("_")} == declared
+
+
+@pytest.mark.parametrize(
+    ("fmi", "name"), [*((fmi, kind) for fmi in (2, 3) for kind in CONTACTS), *((2, r) for r in ROTORS)]
+)
+def test_random_calls_under_sanitizers(compiled, fmi, name):
+    calls = 2 * FEW if name in ROTORS else FEW
+    done = run([compiled(name, fmi, [*SANITIZE, *random_calls_of(name)], FUZZ[fmi]), calls, 1])
     assert done.returncode == 0, done.stderr
-    assert done.stderr == ""
 
 
-def test_driver_under_sanitizers_agrees_with_python(compiler, sources, elements, any_kind, tmp_path):
-    files, folder = sources
-    probe = tmp_path / "probe.c"
-    probe.write_text("int main(void) { return 0; }\n")
-    if run([compiler, *SANITIZE, probe, "-o", tmp_path / "probe"]).returncode != 0:
-        pytest.skip("no sanitizer runtime")
-    line = [compiler, *STRICT, *SANITIZE, "-ffp-contract=off", "-I", folder, DRIVER, *files, "-lm"]
-    built = run([*line, "-o", tmp_path / "driver"])
-    assert built.returncode == 0, built.stderr
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CONTACTS)
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_a_million_random_calls_under_sanitizers(compiled, fmi, name):
+    program = compiled(name, fmi, SANITIZE, FUZZ[fmi])
+    for seed in (2, 3):
+        done = run([program, MANY // len(CONTACTS) // 2, seed])
+        assert done.returncode == 0, done.stderr
+
+
+def test_driver_under_sanitizers_agrees_with_python(compiled, elements, any_kind):
     element = elements[any_kind]
     h, u, v, expected, scales = wanted(element)
     text = "".join(f"{a!r} {b!r} {c!r}\n" for a, b, c in zip(h.tolist(), u.tolist(), v.tolist(), strict=True))
-    done = run([tmp_path / "driver"], input=text)
+    done = run([compiled(any_kind, 2, [*STRICT, *SANITIZE], "driver.c")], input=text)
     assert done.returncode == 0, done.stderr
     found = np.array(done.stdout.split(), dtype=float).reshape(-1, 3)
     assert found.shape == (u.size, 3)
@@ -80,6 +156,41 @@ def wanted(element):
     return np.full(u.size, 1e-3), u, v, [function(u, v) for function in functions], scales
 
 
+@pytest.fixture
+def valgrind() -> list[str]:
+    """The command; a leak, or a use of memory that holds nothing, ends with its exit code."""
+    program = shutil.which("valgrind")
+    if program is None:
+        pytest.skip("valgrind is not installed")
+    return [program, "--quiet", "--error-exitcode=99", "--leak-check=full", "--errors-for-leak-kinds=all"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CONTACTS)
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_random_calls_under_valgrind(compiled, valgrind, fmi, name):
+    done = run([*valgrind, compiled(name, fmi, ["-g", "-O1"], FUZZ[fmi]), UNDER_VALGRIND, 4])
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["cubic", "wide_si"])
+def test_driver_under_valgrind(compiled, valgrind, elements, name):
+    u = contact_spec(elements[name])["approach"].start
+    done = run([*valgrind, compiled(name, 2, ["-g", "-O1"], "driver.c")], input=f"1e-6 {u!r} 0.0\n")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert len(done.stdout.split()) == 3
+
+
+def test_valgrind_sees_what_is_wrong(compiler, valgrind, tmp_path):
+    """A leak and a number that was never written."""
+    for k, body in enumerate(("return malloc(8) == NULL;", 'int x[2]; return x[1] == 3 ? puts("") : 0;')):
+        source, program = tmp_path / f"{k}.c", tmp_path / f"{k}"
+        source.write_text(f"#include <stdio.h>\n#include <stdlib.h>\nint main(void) {{ {body} }}\n")
+        run([compiler, "-O0", source, "-o", program], check=True)
+        assert run([*valgrind, program]).returncode == 99
+
+
 def test_sources_in_the_fmu_build_by_cmake(fmus, elements, kind, tmp_path):
     if shutil.which("cmake") is None:
         pytest.skip("no cmake")
@@ -97,20 +208,31 @@ def test_sources_in_the_fmu_build_by_cmake(fmus, elements, kind, tmp_path):
     assert verify(rebuilt, elements[kind]).passes
 
 
-def test_library_exports_fmi_and_nothing_else(extracted):
-    if shutil.which("nm") is None:
-        pytest.skip("no nm")
-    (library,) = (Path(extracted["cubic"]) / "binaries" / "linux64").iterdir()
-    lines = run(["nm", "-D", "--defined-only", library], check=True).stdout.splitlines()
-    exported = {line.split()[-1] for line in lines}
-    header = (CSRC / "fmi2" / "fmi2Functions.h").read_text()
-    declared = set(re.findall(r"FMI2_Export\s+fmi2\w+TYPE\s+(fmi2\w+);", header))
-    assert len(declared) == 44
-    assert {name for name in exported if not name.startswith("_")} == declared
+@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize("name", ["cubic", "linear", "cubic_si", *ROTORS])
+def test_other_checkers_find_nothing(elements, unit, name, fmi, tmp_path):
+    """fmpy's validation and fmutool."""
+    if name in ROTORS:
+        path = unit(name.removeprefix("rotor "), fmi).path
+    else:
+        path = export_contact(elements[name], tmp_path / "x.fmu", fmi=fmi)
+    assert validate_fmu(str(path)) == []
+    pytest.importorskip("fmu_manipulation_toolbox")
+    done = run([Path(sys.executable).with_name("fmutool"), "-input", path, "-check"])
+    said = done.stdout + done.stderr
+    assert done.returncode == 0, said
+    assert f"compliant with FMI-{fmi}.0" in said and "No semantic error" in said
+    assert "WARNING" not in said and "ERROR" not in said
 
 
-def test_sources_are_ascii_and_short():
+def test_equal_contacts_share_a_law(rotors):
+    wide, mixed = rotors["wide"].elements, rotors["mixed"].elements
+    assert [len(distinct(elements)[0]) for elements in (wide, mixed)] == [1, 2]
+    assert distinct((*mixed, *wide))[1] == [0, 1, 0, 0]
+    text = law_source(wide[0], "law_of_a_ball")
+    assert "#define model_step law_of_a_ball_model_step" in text and '#include "' not in text
+
+
+def test_sources_are_ascii():
     for path in CSRC.rglob("*.[ch]"):
-        text = path.read_bytes().decode("ascii")
-        assert "\t" not in text
-        assert path.parent.name in ("fmi2", "fmi3") or len(text.splitlines()) <= 400  # or not ours
+        assert "\t" not in path.read_bytes().decode("ascii")
