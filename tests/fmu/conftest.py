@@ -14,10 +14,12 @@ from fmpy import fmi2
 
 from ehlcontact.point import Scales
 from fmu import RotorModel, export_contact, export_rotor
+from fmu.driver import Exchange
+from fmu.driver import Slave as DriverSlave
 from reduced_models import (
-    JeffcottRotor,
     CubicContact,
     FilmMemoryContact,
+    JeffcottRotor,
     LinearContact,
     PolynomialContact,
     PowerLawContact,
@@ -223,6 +225,20 @@ def unit(rotors, tmp_path_factory) -> Callable[..., Unit]:
         return made[name, fmi]
 
     return make
+
+
+@pytest.fixture
+def instance(unit) -> Iterator[Callable[..., Any]]:
+    """Make instances, not yet started: ``instance("wide", exchange=True)``."""
+    with ExitStack() as stack:
+
+        def make(name: str, fmi: int = 2, *, exchange: bool = False) -> Any:
+            one = unit(name, fmi)
+            found = (Exchange if exchange else DriverSlave)(one.folder, one.description, [])
+            stack.callback(found.free)
+            return found
+
+        yield make
 
 
 @pytest.fixture(scope="session")

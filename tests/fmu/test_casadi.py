@@ -73,3 +73,33 @@ def test_a_mass_in_a_loop_by_its_own_integrator(block, elements):
 
     run = solve_ivp(right_side, (0.0, END), start, method="Radau", rtol=1e-9, atol=1e-11)
     assert found == pytest.approx(run.y[:, -1], abs=1e-6)
+
+
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_equations_of_a_rotor_and_their_jacobian(unit, instance, fmi):
+    one = unit("wide", fmi)
+    outputs = ["journal_x", "force[1]", "approach[2]"]
+    block = casadi.DaeBuilder("rotor", str(one.folder))
+    block.set_y(outputs)
+    f = block.create("f", ["x", "u"], ["ode", "y"])
+    model = instance("wide", fmi, exchange=True)
+    model.start()
+    states = [v.variable.name[4:-1] for v in model.description.derivatives]
+    assert block.x() == states
+    starts = {v.name: v.start for v in model.description.modelVariables}
+    x = np.array([float(starts[name]) for name in states])
+    u = np.array([10.0 * k for k in range(len(block.u()))])
+    rates = model.place(x, **dict(zip(block.u(), u, strict=True)))
+    ode, y = (np.array(part)[:, 0] for part in f(x, u))
+    assert ode == pytest.approx(rates, rel=1e-13, abs=1e-300) and y == pytest.approx(
+        model.get(*outputs), rel=1e-13
+    )
+    jacobian = f.factory("J", ["x", "u"], ["jac:ode:x", "jac:y:x"])
+    ode_x, y_x = (np.array(part) for part in jacobian(x, u))
+    rows = [model.reference[f"der({name})"] for name in states], [model.reference[name] for name in outputs]
+    for k, name in enumerate(states):
+        for found, references in ((ode_x, rows[0]), (y_x, rows[1])):
+            column = np.array(model.raw.getDirectionalDerivative(references, [model.reference[name]], [1.0]))
+            rounding = 1e-14 * np.abs(column).max()  # of what cancels between the two sides of the vee
+            assert found[:, k] == pytest.approx(column, rel=1e-12, abs=rounding), name

@@ -18,11 +18,12 @@ from reduced_models import CubicContact
 
 EXTRAPOLATED = 1  # what inputs mean, unless another is asked for
 STEP = 0.01  # in units of 2a/u_sum
+SPEED_OUTSIDE = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 VALUES = ("approach", "rate", "force", "stiffness", "damping")
 
 
 @contextmanager
-def libcosimpy(path, step) -> Iterator[Callable]:
+def libcosimpy(path, step, inputs=VALUES[:2], outputs=VALUES) -> Iterator[Callable]:
     """Open Simulation Platform, on the FMI library of Modelon."""
     pytest.importorskip("libcosimpy")
     from libcosimpy.CosimExecution import CosimExecution
@@ -31,22 +32,22 @@ def libcosimpy(path, step) -> Iterator[Callable]:
     from libcosimpy.CosimSlave import CosimLocalSlave
 
     execution = CosimExecution.from_step_size(round(step * 1e9))  # nanoseconds
-    slave = execution.add_local_slave(CosimLocalSlave(fmu_path=str(path), instance_name="contact"))
+    slave = execution.add_local_slave(CosimLocalSlave(fmu_path=str(path), instance_name="unit"))
     manipulator, observer = CosimManipulator.create_override(), CosimObserver.create_last_value()
     assert execution.add_manipulator(manipulator) and execution.add_observer(observer)
     known = {variable.name.decode(): variable.reference for variable in execution.slave_variables(slave)}
-    reference = [known[name] for name in VALUES]
 
-    def advance(approach, rate):
-        assert manipulator.slave_real_values(slave, reference[:2], [approach, rate])
+    def advance(*values):
+        if inputs:
+            assert manipulator.slave_real_values(slave, [known[name] for name in inputs], list(values))
         assert execution.step()
-        return observer.last_real_values(slave, reference)
+        return observer.last_real_values(slave, [known[name] for name in outputs])
 
     yield advance
 
 
 @contextmanager
-def ecospy(path, step) -> Iterator[Callable]:
+def ecospy(path, step, inputs=VALUES[:2], outputs=VALUES) -> Iterator[Callable]:
     """Ecos, on fmi4c; its library wants libtbb.so.12, of the system or of the package ``tbb``."""
     for library in (Path(sys.prefix) / "lib").glob("libtbb.so.12"):
         ctypes.CDLL(str(library), mode=ctypes.RTLD_GLOBAL)
@@ -55,15 +56,15 @@ def ecospy(path, step) -> Iterator[Callable]:
     except (ImportError, OSError) as error:
         pytest.skip(f"no ecospy ({error})")
     structure = EcosSimulationStructure()
-    structure.add_model("contact", str(path))
+    structure.add_model("unit", str(path))
     with EcosSimulation(structure=structure, step_size=step) as simulation:
         simulation.init()
 
-        def advance(approach, rate):
-            simulation.set_real("contact::approach", approach)
-            simulation.set_real("contact::rate", rate)
+        def advance(*values):
+            for name, value in zip(inputs, values, strict=True):
+                simulation.set_real(f"unit::{name}", value)
             simulation.step()
-            return [simulation.get_real(f"contact::{name}") for name in VALUES]
+            return [simulation.get_real(f"unit::{name}") for name in outputs]
 
         yield advance
         simulation.terminate()
@@ -133,3 +134,17 @@ def test_the_loop_of_every_tutorial(tmp_path, importer, fmi):
     with importer(path, 1e-4) as advance:
         _, growth = damping_of_loop(advance, 1e-4)
     assert growth < 1.0
+
+
+@SPEED_OUTSIDE
+@pytest.mark.parametrize(("importer", "fmi"), [(libcosimpy, 2), (ecospy, 2), (ecospy, 3)])
+def test_a_rotor_moves_as_by_fmpy(unit, instance, importer, fmi):
+    """To the last bits of what each makes of the time."""
+    names, step, steps = ("journal_x", "journal_y", "disc_x", "disc_y", "force[1]"), 1e-5, 200
+    slave = instance("wide", fmi)
+    slave.start()
+    with importer(unit("wide", fmi).path, step, (), names) as advance:
+        for _ in range(steps):
+            slave.step(step)
+            found = advance()
+    assert found == pytest.approx(slave.get(*names), rel=1e-9, abs=1e-16)

@@ -1,28 +1,12 @@
 """Rotors and their FMUs, compiled once, and instances of them by hand."""
 
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 
-from fmu.driver import Exchange, Slave
 from reduced_models import JeffcottRotor
-
-
-@pytest.fixture
-def instance(unit) -> Iterator[Callable[..., Any]]:
-    """Make instances, not yet started: ``instance("wide", exchange=True)``."""
-    with ExitStack() as stack:
-
-        def make(name: str, fmi: int = 2, *, exchange: bool = False) -> Any:
-            one = unit(name, fmi)
-            found = (Exchange if exchange else Slave)(one.folder, one.description, [])
-            stack.callback(found.free)
-            return found
-
-        yield make
 
 
 def names_of(rotor: JeffcottRotor) -> list[str]:
