@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
-from typing import Any, ClassVar
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.summary import Summary, span
+from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, HERTZ, LENGTH, RADIAN, SPEED, STIFFNESS
+from ehlcontact.results.frequency import FrequencyResponse
+from ehlcontact.results.table import Display
+from ehlcontact.summary import span
 from reduced_models.bearing.equilibrium import RingEquilibrium
 
 _Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class BearingCoefficients(Summary, Tabled):
+class BearingCoefficients(FrequencyResponse):
     """Matrices of a small vibration of the ring, in the order x, y.
 
     Attributes
@@ -29,7 +31,7 @@ class BearingCoefficients(Summary, Tabled):
     cage_angle : float or None
         Of the first ball [rad]; None: means over a ball passage.
     omega : ndarray, shape (k,)
-        Angular frequencies [rad/s].
+        Angular frequencies [rad/s]; ``hz`` has them in Hz.
     stiffness, damping : ndarray, shape (k, 2, 2)
         K [N/m] and C [N s/m].
     displacement : ndarray, shape (2,)
@@ -38,30 +40,17 @@ class BearingCoefficients(Summary, Tabled):
         How far the ring goes up and down while a ball passes slowly [m]; 0 at a given angle of the cage.
     """
 
-    load: _Floats
-    speed_rpm: float
-    cage_angle: float | None
-    omega: _Floats
-    stiffness: _Floats
-    damping: _Floats
-    displacement: _Floats
-    swing: _Floats
+    load: Annotated[_Floats, FORCE.over("axis")]
+    speed_rpm: Annotated[float, SPEED]
+    cage_angle: Annotated[float | None, RADIAN]
+    omega: Annotated[_Floats, FREQUENCY.over("hz")]
+    stiffness: Annotated[_Floats, STIFFNESS.over("hz axis by")]
+    damping: Annotated[_Floats, DAMPING.over("hz axis by")]
+    displacement: Annotated[_Floats, LENGTH.over("axis")]
+    swing: Annotated[_Floats, LENGTH.over("axis")]
 
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="hz",
-        panels=("stiffness", "damping"),
-        quantities={
-            "omega": ("rad/s", "hz"),
-            "hz": ("Hz", "hz"),
-            "stiffness": ("N/m", "hz axis by"),
-            "damping": ("N s/m", "hz axis by"),
-            "load": ("N", "axis"),
-            "displacement": ("m", "axis"),
-            "swing": ("m", "axis"),
-            "speed_rpm": ("rev/min", ""),
-        },
-        labels={"axis": ("x", "y"), "by": ("x", "y")},
-        logs="x",
+    DISPLAY: ClassVar[Display] = Display(
+        rows="hz", panels=("stiffness", "damping"), labels={"axis": ("x", "y"), "by": ("x", "y")}, logs="x"
     )
 
     def _summary_lines(self) -> list[str]:
@@ -75,7 +64,7 @@ class BearingCoefficients(Summary, Tabled):
         ]
 
     @property
-    def hz(self) -> _Floats:
+    def hz(self) -> Annotated[_Floats, HERTZ.over("hz")]:
         """The frequencies [Hz]."""
         return np.asarray(self.omega / (2.0 * np.pi))
 
@@ -92,7 +81,3 @@ class BearingCoefficients(Summary, Tabled):
         """From the mean `matrices` K and C, shape (k, 2, 2), and the positions that they are the mean of."""
         places = np.array([standing.displacement for standing in standings])
         return cls(load, speed_rpm, cage_angle, omega, *matrices, places.mean(axis=0), np.ptp(places, axis=0))
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON but for the arrays."""
-        return asdict(self)

@@ -3,32 +3,26 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, fields
-from typing import Any, ClassVar
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
-from ehlcontact.results.layout import Layout, Tabled
+from ehlcontact.quantities import FORCE, LENGTH, MOMENT, NUMBER, RADIAN, SPEED, STIFFNESS
+from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
-from ehlcontact.summary import Summary
 from reduced_models.bearing.kinematics import RADIANS
 
 _Floats = NDArray[np.float64]
 
-# Arrays by their shape: of the plane, over balls, over balls and races
-SHAPES: dict[str, tuple[int | None, ...]] = {
-    "load": (2,), "displacement": (2,), "stiffness": (2, 2), "angles": (None,), "force": (None, 2),
-    "approach": (None, 2), "h_central": (None, 2), "h_min": (None, 2), "lambda_ratio": (None, 2),
-    "moment": (None, 2),
-}  # fmt: skip
 OF_FILMS = "h_central", "h_min", "lambda_ratio", "moment"  # arrays that a dry bearing does not have
 
 
 @stored("state of a ball bearing")
 @dataclass(frozen=True, eq=False, kw_only=True)
-class BearingState(Summary, Tabled):
+class BearingState(QuantityTable):
     """A bearing at rest; arrays over the balls have two columns, inner and outer race.
 
     Attributes
@@ -63,35 +57,22 @@ class BearingState(Summary, Tabled):
     """
 
     name: str
-    load: _Floats
-    speed_rpm: float
-    cage_angle: float
-    displacement: _Floats
-    stiffness: _Floats
-    angles: _Floats
-    force: _Floats
-    approach: _Floats
-    h_central: _Floats | None = None
-    h_min: _Floats | None = None
-    lambda_ratio: _Floats | None = None
-    moment: _Floats | None = None
-    rolling_torque: float | None = None
+    load: Annotated[_Floats, FORCE.over("axis")]
+    speed_rpm: Annotated[float, SPEED]
+    cage_angle: Annotated[float, RADIAN]
+    displacement: Annotated[_Floats, LENGTH.over("axis")]
+    stiffness: Annotated[_Floats, STIFFNESS.over("axis by")]
+    angles: Annotated[_Floats, RADIAN.over("ball")]
+    force: Annotated[_Floats, FORCE.over("ball race")]
+    approach: Annotated[_Floats, LENGTH.over("ball race")]
+    h_central: Annotated[_Floats | None, LENGTH.over("ball race")] = None
+    h_min: Annotated[_Floats | None, LENGTH.over("ball race")] = None
+    lambda_ratio: Annotated[_Floats | None, NUMBER.over("ball race")] = None
+    moment: Annotated[_Floats | None, MOMENT.over("ball race")] = None
+    rolling_torque: Annotated[float | None, MOMENT] = None
 
-    LAYOUT: ClassVar[Layout] = Layout(
+    DISPLAY: ClassVar[Display] = Display(
         rows="ball",
-        panels=(),
-        quantities={
-            "angles": ("rad", "ball"),
-            "force": ("N", "ball race"),
-            **dict.fromkeys(("approach", "h_central", "h_min"), ("m", "ball race")),
-            "lambda_ratio": ("", "ball race"),
-            "moment": ("N m", "ball race"),
-            "load": ("N", "axis"),
-            "displacement": ("m", "axis"),
-            "stiffness": ("N/m", "axis by"),
-            "speed_rpm": ("rev/min", ""),
-            "rolling_torque": ("N m", ""),
-        },
         labels={"race": ("inner", "outer"), "axis": ("x", "y"), "by": ("x", "y")},
         coordinates="angles",
         first=0,
@@ -99,11 +80,12 @@ class BearingState(Summary, Tabled):
 
     def __post_init__(self) -> None:
         balls = np.asarray(self.angles).size
-        for name, shape in SHAPES.items():
-            if getattr(self, name) is None and name in OF_FILMS:
+        sizes = {"ball": balls, "race": 2, "axis": 2, "by": 2}
+        for name, quantity in self._declared().items():
+            if not quantity.dims or (getattr(self, name) is None and name in OF_FILMS):
                 continue
             array = np.array(getattr(self, name), dtype=np.float64)
-            wanted = tuple(balls if size is None else size for size in shape)
+            wanted = tuple(sizes[dim] for dim in quantity.dims)
             if array.shape != wanted:
                 raise InputError(f"shape of {name}", array.shape, str(wanted))
             array.setflags(write=False)
@@ -154,5 +136,4 @@ class BearingState(Summary, Tabled):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        values = ((f.name, getattr(self, f.name)) for f in fields(self))
-        return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values}
+        return {"name": self.name, **super().to_dict()}
