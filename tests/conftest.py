@@ -29,8 +29,15 @@ def pytest_cmdline_main(config):
     if not default or asked or hasattr(config, "workerinput"):
         return
     if option.dist == "no" and cores() > 1:
-        option.numprocesses, option.dist = cores(), "worksteal"  # whole runs of files: few fixtures are made twice
+        option.numprocesses, option.dist = cores(), "loadgroup"  # by `pytest_collection_modifyitems`
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # a solve has as many threads, and the cores are taken
+
+
+def pytest_collection_modifyitems(config, items):
+    """Tests of a file stay in one process, and so do those that share an expensive fixture: it is made once."""
+    for item in items if config.pluginmanager.hasplugin("xdist") else ():
+        shared = "study" if "finished" in item.fixturenames else "fmus" if "fmus" in item.fixturenames else None
+        item.add_marker(pytest.mark.xdist_group(shared or item.nodeid.partition("::")[0]))
 
 
 @cache
