@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from math import nan
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.results.table import frame_of
+from ehlcontact.results.table import frame_of, plain
 from ehlcontact.summary import Summary
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.memory import FilmMemoryContact
@@ -87,16 +87,7 @@ class ElementFit(Summary):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the element, ready for JSON."""
-        return {
-            "model": self.model,
-            "parameters": dict(self.parameters),
-            "rms": self.rms,
-            "e_f": self.e_f,
-            "root": self.root,
-            "tangent": self.tangent,
-            "valid": {k: list(v) if isinstance(v, tuple) else v for k, v in self.valid.items()},
-            "condition": self.condition,
-        }
+        return {f.name: plain(getattr(self, f.name)) for f in fields(self) if f.name != "element"}
 
     def quality(self) -> dict[str, Any]:
         """Part of `to_dict` that the element stores; coefficients and validity box have their own entries."""
@@ -143,18 +134,6 @@ class FitResult(ElementFit):
     samples: int
     independent_samples: float
 
-    def to_dict(self) -> dict[str, Any]:
-        """Everything but the element, ready for JSON."""
-        return super().to_dict() | {
-            "e_acc": self.e_acc,
-            "std_errors": dict(self.std_errors),
-            "intervals": {name: list(pair) for name, pair in self.intervals.items()},
-            "covariance": self.covariance.tolist(),
-            "window": [list(span) for span in self.window],
-            "samples": self.samples,
-            "independent_samples": self.independent_samples,
-        }
-
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MemoryFit(ElementFit):
@@ -182,14 +161,11 @@ class MemoryFit(ElementFit):
     weights: Mapping[str, float] = field(default_factory=dict)
 
     def to_dict(self) -> dict[str, Any]:
-        """Everything but the element, ready for JSON."""
-        return super().to_dict() | {
-            "record_rms": list(self.record_rms),
-            "damping_error_max": float(np.abs(self.damping_error).max()),
-            "stiffness_error_max": float(np.abs(self.stiffness_error).max()),
-            "validation": {str(lags): score for lags, score in self.validation.items()},
-            "weights": dict(self.weights),
-        }
+        """Everything but the element, ready for JSON; of the errors over frequency the largest."""
+        found = super().to_dict()
+        for name in ("damping_error", "stiffness_error"):
+            found[f"{name}_max"] = float(np.abs(found.pop(name)).max())
+        return found | {"validation": {str(lags): score for lags, score in self.validation.items()}}
 
 
 def rms_error(force: _Floats, fitted: _Floats) -> float:

@@ -126,14 +126,7 @@ class Sensitivity(Summary):
 
     def to_dict(self) -> dict[str, Any]:
         """All numbers, ready for JSON."""
-        return {
-            "rows": [asdict(row) for row in self.rows],
-            "ranking": list(self.ranking),
-            "samples": self.samples,
-            "independent_samples": self.independent_samples,
-            "lag_one": self.lag_one,
-            "warning": self.warning,
-        }
+        return asdict(self) | {"ranking": list(self.ranking), "warning": self.warning}
 
 
 def sensitivity(records: ContactRecord | Sequence[ContactRecord], window: Window | None = None) -> Sensitivity:
