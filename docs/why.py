@@ -17,7 +17,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from ehlcontact import ImpedanceResult, simulate
+from ehlcontact import Grid, ImpedanceResult, simulate
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.study.bode import Bode, bode
 from ehlcontact.cli.study.response import film_response, linear_rotors
@@ -49,7 +49,7 @@ def elements(study: Study) -> dict[str, ContactElement]:
     """What the rotor runs on in place of the film."""
     point, scales = study.point, study.point.scales
     motion, stiffness = study.harmonic_motion, 1.5 * scales.stiffness
-    record = simulate(point, motion, n=study.solver.n_transient, domain=study.domain)
+    record = simulate(point, motion, grid=Grid(n=study.solver.n_transient, domain=study.domain))
     return {
         MEMORY: Atlas().element(point, "memory"),
         CUBIC: fit(ContactRecord.from_result(record), model="cubic").element.to_si(scales),

@@ -49,7 +49,7 @@ from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint, Scales
 from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for
+from ehlcontact.solver.grid import Grid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.store import load, save
@@ -58,6 +58,7 @@ from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 from ehlcontact.transient.prescribed import PrescribedApproach, PrescribedLoad
 from ehlcontact.transient.result import Instants, SimulationResult
 from ehlcontact.transient.roughness import Roughness
+from ehlcontact.transient.settings import KeepSettings, RunSettings, TimeSteps
 from ehlcontact.transient.simulate import simulate
 from ehlcontact.transient.surface import Dent, TransverseRidge, Waviness
 from ehlcontact.version import __version__
@@ -74,24 +75,26 @@ __all__ = [
     "FreeVibration",
     "FullContact",
     "Geometry",
+    "Grid",
     "HarmonicLoad",
     "ImpedanceResult",
     "InputError",
     "Instants",
     "Interferogram",
+    "KeepSettings",
     "Lubricant",
-    "Mesh",
     "MoesPoint",
     "OperatingPoint",
     "PrescribedApproach",
     "PrescribedLoad",
-    "Purpose",
     "RampLoad",
     "Roughness",
+    "RunSettings",
     "Scales",
     "SimulationResult",
     "Status",
     "SteadyResult",
+    "TimeSteps",
     "TransverseRidge",
     "WaveTrack",
     "Waviness",
@@ -103,7 +106,6 @@ __all__ = [
     "impedance",
     "interferogram",
     "load",
-    "mesh_for",
     "save",
     "simulate",
     "solve_steady",

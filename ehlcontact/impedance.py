@@ -14,13 +14,11 @@ small least-squares problem, whose residual is the error measure: the frequency 
 from __future__ import annotations
 
 import time
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import linalg
 
-from ehlcontact.checks import require_choice
 from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
@@ -28,8 +26,7 @@ from ehlcontact.point import Point, moes_point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.deflection import ENGINES
-from ehlcontact.solver.domain import Domain
+from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
 from ehlcontact.solver.memory import Solve
 from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, require_room, wider_meshes
@@ -58,9 +55,7 @@ def impedance(
     omega: ArrayLike | None = None,
     hz: ArrayLike | None = None,
     rpm: ArrayLike | None = None,
-    n: int | None = None,
-    domain: Domain | None = None,
-    deflection: str = "fft",
+    grid: Grid = AUTOMATIC,
     threads: int | None = None,
 ) -> ImpedanceResult:
     """Linearise the converged steady contact and return K(Omega) and C(Omega).
@@ -71,12 +66,9 @@ def impedance(
     Omega, omega, hz, rpm : float or sequence of float
         Frequencies, in exactly one of these: dimensionless (time unit 2a/u_sum, from 0 to 200) at every point; at
         an `OperatingPoint` also in rad/s, Hz or rev/min.
-    n : int, optional
-        Intervals along X, a multiple of 16; by default as many as the inlet needs, 80 or more.
-    domain : Domain, optional
-        Computed region, by default that of `solve_steady`. C depends on it by about 1/extent^2.
-    deflection : {"fft", "mlmi", "direct"}
-        Engine of the elastic deflection, as in `solve_steady`.
+    grid : Grid
+        Intervals along X, by default as many as the inlet needs, 80 or more; computed region, by default that of
+        `solve_steady` (C depends on it by about 1/extent^2); engine of the elastic deflection.
     threads : int, optional
         As in `solve_steady`.
 
@@ -84,19 +76,18 @@ def impedance(
     ------
     InputError
         Frequencies not given in exactly one way, in SI at a dimensionless point, not finite, negative or above
-        Omega = 200; n not a multiple of 16, or a grid that would not fit into memory; no such engine; more
-        threads than cores.
+        Omega = 200; a grid that would not fit into memory; more threads than cores.
     ConvergenceError
         The steady state did not converge.
     """
     started = time.perf_counter()
     moes_point(point)
     w = dimensionless(_time(point), Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=LARGEST_OMEGA)
-    require_choice("deflection", deflection, tuple(ENGINES))
+    require_grid(grid)
     moes = require_solvable(point)
     threads = require_threads("threads", threads)
-    steady = _steady(point, n, domain, deflection, threads)
-    contact = LinearisedContact(steady, deflection, threads)
+    steady = _steady(point, grid, threads)
+    contact = LinearisedContact(steady, grid.deflection, threads)
     Z, residual = contact.respond(np.maximum(w, NEAR_ZERO), TOLERANCE)
     return ImpedanceResult(
         point=moes,
@@ -115,14 +106,14 @@ def impedance(
     )
 
 
-def _steady(point: Point, n: int | None, domain: Domain | None, deflection: str, threads: int) -> SteadyResult:
-    """The film to linearise; on a wider region where that is left open and light load needs it."""
+def _steady(point: Point, grid: Grid, threads: int) -> SteadyResult:
+    """The film to linearise; on a wider region where none is given and light load needs it."""
     moes = moes_point(point)
-    mesh = mesh_for(moes, Purpose.DAMPING, n=n, domain=domain)
+    mesh = mesh_for(moes, Purpose.DAMPING, grid)
     require_room(mesh, moes, Solve.IMPEDANCE)
-    way: dict[str, Any] = {"deflection": deflection, "threads": threads, "throw": False}
-    for tried in wider_meshes(mesh, moes, Purpose.DAMPING, n=n, domain=domain, solve=Solve.IMPEDANCE):
-        steady = solve_steady(point, n=tried.n, domain=tried.domain, **way)
+    for tried in wider_meshes(mesh, moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE):
+        own = Grid(tried.n, tried.domain, grid.deflection)
+        steady = solve_steady(point, grid=own, threads=threads, throw=False)
         if steady.status is not Status.OUT_OF_DOMAIN:
             break
     if steady.status is Status.INTERRUPTED:

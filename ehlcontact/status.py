@@ -39,7 +39,8 @@ _ADVICE = {
     Status.NONFINITE: "NaN or infinity appeared: use a finer grid, or check that M, L and kappa are meant.",
     Status.MAX_CYCLES: "The cycles ran out while still converging: raise max_cycles.",
     Status.OUT_OF_DOMAIN: "Pressure reaches the border of the computed region: give a wider domain, such as "
-    "domain=Domain.for_load(largest force to come), --domain XA XB YMAX, or domain under [solver] of a study.",
+    "Grid(domain=Domain.for_load(largest force to come)), --domain XA XB YMAX, or domain under [solver] of "
+    "a study.",
     Status.UNRESOLVED: "The grid is too coarse for this film, which is zero or negative somewhere: raise n.",
     Status.STEP_TOO_SMALL: "However short the step, it does not meet its tolerance: allow a larger error, or "
     "smooth what jumps (a load, a surface).",

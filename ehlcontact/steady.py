@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -18,9 +19,9 @@ from ehlcontact.results import SteadyResult
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.deflection import ENGINES
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.estimate import estimate_error
+from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.memory import Solve
 from ehlcontact.solver.mesh import (
@@ -29,7 +30,6 @@ from ehlcontact.solver.mesh import (
     Mesh,
     Purpose,
     allows_newton,
-    default_domain,
     is_last,
     mesh_for,
     newton_mesh,
@@ -73,13 +73,11 @@ CLOSE_METHODS = (Method(False, 1), CONTINUATION, CLOSE_LAST_RESORT)
 def solve_steady(
     point: Point,
     *,
-    n: int | None = None,
-    domain: Domain | None = None,
+    grid: Grid = AUTOMATIC,
     approach: float | None = None,
     tol: float = 1e-5,
     max_cycles: int = MAX_CYCLES,
     method: str = "automatic",
-    deflection: str = "fft",
     refine: bool = True,
     threads: int | None = None,
     throw: bool = True,
@@ -90,14 +88,13 @@ def solve_steady(
     Parameters
     ----------
     point : MoesPoint or OperatingPoint
-    n : int
-        Intervals along X, a multiple of 16; by default as many as the film needs, 128 or more, and, until the
-        errors estimated are within 0.2 % of the dry approach, 1 % of the central and 3 % of the smallest film,
-        twice as many again: as far as a grid of a million nodes goes, and of four where the side lobes of a long
-        contact come out negative otherwise. ``result.error`` says what was reached.
-    domain : Domain, optional
-        Computed region; by default ``Domain()``, wider at light load, and with `n` left out narrower where the
-        film is too thin for a grid of that extent.
+    grid : Grid
+        Intervals along X, computed region, engine of the elastic deflection. The default number of intervals is
+        what the film needs, 128 or more. It is doubled until the estimated errors are within 0.2 % of the dry
+        approach, 1 % of the central and 3 % of the smallest film, up to a grid of a million nodes, and of four
+        million where the side lobes of a long contact come out negative otherwise; ``result.error`` is
+        what was reached. The default region is ``Domain()``, wider at light load, and, with the number of
+        intervals left out, narrower where the film is too thin for a grid of that extent.
     approach : float, optional
         Prescribe the approach (dry Hertz value 1) instead of the load; above 1 the default domain widens for the
         force it takes.
@@ -112,12 +109,9 @@ def solve_steady(
         ``"automatic"`` cycles; where that fails it begins again with twice the sweeps in every cycle, and at last,
         on grids that allow it, turns to Newton. Where lines lie close (long contacts, kappa above 1) it begins
         again with the load raised in small steps instead, and on a still finer grid where that fails.
-    deflection : {"fft", "mlmi", "direct"}
-        Engine of the elastic deflection: fast transforms, exact to rounding; multilevel multi-integration, as in
-        the paper; the direct sum, slow. See `ehlcontact.solver.deflection`.
     refine : bool
-        False, with `n` left out, stays on the first grid that carries a film, with a quarter of the nodes or fewer
-        where it would not do: the smallest film may be off by a third. ``result.error`` says how far.
+        False, with the number of intervals left out, accepts the first grid that gives a film, with a quarter of
+        the nodes or fewer: the smallest film may be off by a third (``result.error``).
     threads : int, optional
         Threads that share the work, at most the cores there are; by default all of them, within the present limits
         of BLAS, and one in the processes of a pool. Results are the same, bit for bit, for any number.
@@ -144,7 +138,7 @@ def solve_steady(
     require_positive("tol", tol)
     require_instance("refine", refine, bool | np.bool_, "True or False")
     require_choice("method", method, tuple(METHODS))
-    require_choice("deflection", deflection, tuple(ENGINES))
+    require_grid(grid)
     threads = require_threads("threads", threads)
     if approach is None:
         balance = Balance.of_load()
@@ -152,14 +146,14 @@ def solve_steady(
         balance = Balance.of_approach(require_finite("approach", approach))
         load = min(max(approach, 1.0), LARGEST_APPROACH) ** 1.5  # of a dry contact
         require_solvable(point, load)
-        if load > 1.0 and domain is None:
-            domain = default_domain(moes, load)
-    mesh = mesh_for(moes, Purpose.FILM, n=n, domain=domain)
+        if load > 1.0 and grid.domain is None:
+            grid = replace(grid, domain=Domain.for_point(moes, load))
+    mesh = mesh_for(moes, Purpose.FILM, grid)
     require_room(mesh, moes, Solve.NEWTON if method == "newton" else Solve.CYCLES)
     work = partial(
         _solve,
         moes,
-        deflection=deflection,
+        deflection=grid.deflection,
         threads=threads,
         balance=balance,
         tol=tol,
@@ -168,8 +162,8 @@ def solve_steady(
     )
     solved, status = work(mesh, _methods(method, mesh, moes))
     for _ in range(1, LARGEST_ATTEMPTS):
-        error = solved.error if refine else None
-        other = remedy(solved.mesh, status, moes, n=n, domain=domain, error=error)
+        error = solved.error_estimate if refine else None
+        other = remedy(solved.mesh, status, moes, grid=grid, error=error)
         if other is None or _cut_short(status, max_cycles):
             break
         attempt, ended = work(other, _methods(method, other, moes)[: 1 if status.ok else None])
@@ -179,7 +173,7 @@ def solve_steady(
         solved, status = attempt, ended
     coarser = newton_mesh(solved.mesh, moes)
     hopeless = status in FAILED and not _cut_short(status, max_cycles)
-    if n is None and hopeless and LAST_RESORT in METHODS[method] and coarser != solved.mesh:
+    if grid.n is None and hopeless and LAST_RESORT in METHODS[method] and coarser != solved.mesh:
         attempt, ended = work(coarser, _methods(method, coarser, moes)[-1:])
         if ended not in FAILED:  # its smallest film may be far off, and says so; better than none
             solved, status = attempt, ended
@@ -231,7 +225,7 @@ class _Attempt:
         )
         self.scale = self.multigrid.finest.dry_residual()
         self.track = IterationHistory()
-        self.error: ErrorEstimate | None = None
+        self.error_estimate: ErrorEstimate | None = None
 
     def run(self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None) -> Status:
         """Cycle, or take Newton steps, until the residuals say how it ended."""
@@ -257,7 +251,7 @@ class _Attempt:
         advance = NewtonKrylov(mg).step if self.method.newton else AcceleratedCycles(mg).step
         status = iterate(mg, balance, advance, goal, self.track, watch)
         if status.ok:
-            self.error = estimate_error(mg, balance)
+            self.error_estimate = estimate_error(mg, balance)
         return status
 
     def result(self, status: Status, scales: Scales | None, seconds: float) -> SteadyResult:
@@ -283,6 +277,6 @@ class _Attempt:
             pressure_changes=np.array(track.pressure_changes[: max(track.iterations, 0)]),
             dry_residual=self.scale,
             status=status,
-            error=self.error,
+            error=self.error_estimate,
             seconds=seconds,
         )

@@ -11,7 +11,7 @@ import sys
 
 import numpy as np
 
-from ehlcontact import FreeVibration, ImpedanceResult, MoesPoint, SimulationResult, impedance, simulate
+from ehlcontact import FreeVibration, Grid, ImpedanceResult, MoesPoint, SimulationResult, impedance, simulate
 from reduced_models import ContactRecord, FitResult, fit
 
 POINT = MoesPoint(M=200, L=10, kappa=0.5)
@@ -21,13 +21,13 @@ OMEGA_N = 5.13  # of the mass, dimensionless
 
 def vibration(n: int = 128) -> tuple[SimulationResult, FitResult]:
     """A mass on the film is let go; the cubic is fitted to its motion and force."""
-    run = simulate(POINT, FreeVibration(Omega_n=OMEGA_N), n=n)
+    run = simulate(POINT, FreeVibration(Omega_n=OMEGA_N), grid=Grid(n=n))
     return run, fit(ContactRecord.from_result(run), model="cubic")
 
 
 def film(n: int = 128) -> ImpedanceResult:
     """The same film, linearised: damping at every frequency."""
-    return impedance(POINT, Omega=np.geomspace(0.02, 30.0, 40), n=n)
+    return impedance(POINT, Omega=np.geomspace(0.02, 30.0, 40), grid=Grid(n=n))
 
 
 def tangent(K1: float, K2: float, K3: float) -> float:

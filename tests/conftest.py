@@ -11,7 +11,7 @@ from functools import cache
 
 import pytest
 
-from ehlcontact import MoesPoint, solve_steady
+from ehlcontact import Grid, MoesPoint, solve_steady
 from ehlcontact.process.threads import cores
 
 # A shell starts what runs in the background with Ctrl-C ignored, and that is inherited: the programs under test,
@@ -42,7 +42,7 @@ def pytest_collection_modifyitems(config, items):
 
 @cache
 def _steady(M, L, kappa, n, laws):
-    return solve_steady(MoesPoint(M, L, kappa, **dict(laws)), n=n)
+    return solve_steady(MoesPoint(M, L, kappa, **dict(laws)), grid=Grid(n=n))
 
 
 @pytest.fixture(scope="session")

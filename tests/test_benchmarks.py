@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ehlcontact import MoesPoint, solve_steady
+from ehlcontact import Grid, MoesPoint, solve_steady
 
 FOLDER = Path(__file__).parent / "benchmarks"
 POINT = MoesPoint(200, 10, 0.5)
@@ -114,8 +114,8 @@ def test_converged_film_is_that_of_solve_steady(row):
     """Its own tolerance leaves the error that the row tells; a loose one is told to be none of that."""
     import honest
 
-    exact = honest.converge(POINT, honest.mesh_for(POINT, honest.Purpose.FILM, n=64))
-    result = solve_steady(POINT, n=64)
+    exact = honest.converge(POINT, honest.mesh_for(POINT, honest.Purpose.FILM, grid=Grid(n=64)))
+    result = solve_steady(POINT, grid=Grid(n=64))
     error = float(np.abs(result.P.T - exact.state.P).max())
     assert row["solve_steady"]["errors"]["P"] == pytest.approx(error, rel=1e-3)
     assert row["solve_steady"]["honest"]
@@ -124,7 +124,7 @@ def test_converged_film_is_that_of_solve_steady(row):
 def test_an_unconverged_film_is_not_honest():
     import honest
 
-    film, start, advance = honest.film_on(POINT, honest.mesh_for(POINT, honest.Purpose.FILM, n=64))
+    film, start, advance = honest.film_on(POINT, honest.mesh_for(POINT, honest.Purpose.FILM, grid=Grid(n=64)))
     start()
     first = honest.State.of(film)
     found = honest.settle(film, advance, 60)
@@ -140,7 +140,7 @@ def test_work_of_a_cycle_is_counted_in_sweeps():
     """Twice the sweeps on all levels are twice the work."""
     import honest
 
-    film, start, _ = honest.film_on(POINT, honest.mesh_for(POINT, honest.Purpose.FILM, n=64))
+    film, start, _ = honest.film_on(POINT, honest.mesh_for(POINT, honest.Purpose.FILM, grid=Grid(n=64)))
     start()
     work = honest.count_work(film)
     for level in film.levels[1:]:
@@ -262,7 +262,7 @@ def test_thinnest_films_are_solved_on_twice_the_grid():
     row = box.solve(100.0, 5.0, 0.5) | {"key": "0"}
     assert row["status"] == "converged"
     finer = box.solve_finer(row)
-    twice = solve_steady(MoesPoint(100.0, 5.0, 0.5), n=2 * row["n"])
+    twice = solve_steady(MoesPoint(100.0, 5.0, 0.5), grid=Grid(n=2 * row["n"]))
     assert finer["move"] == pytest.approx(abs(row["h_min"] / twice.h_min - 1.0), rel=1e-3)
     assert 0.0 < finer["move"] < 0.1
     text = "\n".join(box.summary([row, row | {"status": "nonfinite"}], [finer | {"move": 0.5}]))

@@ -15,10 +15,13 @@ import fmu
 import reduced_models
 from ehlcontact import (
     FullContact,
+    Grid,
     HarmonicLoad,
     Lubricant,
     MoesPoint,
     OperatingPoint,
+    RunSettings,
+    TimeSteps,
     film_history,
     film_of,
     film_wave,
@@ -65,7 +68,8 @@ SHOWN = "PrescribedApproach", "PrescribedLoad", "Roughness"
 INPUT, NUMBERS, KIND = "an input", "a few numbers, which its summary has", "no result: it is used by its kind"
 # Public classes without `plot`, and why.
 WITHOUT_PLOT = {
-    **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Mesh", "Purpose"), INPUT),
+    **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Grid"), INPUT),
+    **dict.fromkeys(("TimeSteps", "KeepSettings", "RunSettings"), INPUT),
     **dict.fromkeys(("MoesPoint", "OperatingPoint", "Geometry", "Lubricant", "Scales"), INPUT),
     **dict.fromkeys(("FreeVibration", "HarmonicLoad", "RampLoad", "PrescribedApproach", "PrescribedLoad"), INPUT),
     **dict.fromkeys(("BallBearing", "BearingMount", "Unbalance", "ContactMount", "Rotor"), INPUT),
@@ -95,8 +99,14 @@ def point():
 def told(point):
     """One of everything."""
     moes, motion = MoesPoint(20, 5, 0.5), HarmonicLoad(Omega=3.0)
-    film = solve_steady(point, n=32)
-    run = simulate(point, motion, n=16, until=1.0, dT=0.05, throw=False)
+    film = solve_steady(point, grid=Grid(n=32))
+    run = simulate(
+        point,
+        motion,
+        grid=Grid(n=16),
+        time=TimeSteps(until=point.scales.time, dt=0.05 * point.scales.time),
+        run=RunSettings(throw=False),
+    )
     record, atlas = ContactRecord.from_result(run), Atlas()
     oil = point.lubricant
     bearing = BallBearing.catalogue("6205", oil=oil, rq_race=1e-7)
@@ -108,10 +118,11 @@ def told(point):
         mounts=(BearingMount(bearing=bearing, x=0, y=1),),
         unbalances=(Unbalance(x=0, y=1, amount=1e-6),),
     )
-    speeds, response = [2000.0, 4000.0], impedance(point, hz=[50.0, 100.0], n=32)
+    speeds, response = [2000.0, 4000.0], impedance(point, hz=[50.0, 100.0], grid=Grid(n=32))
     return [
-        film, film.si, film_of(film), solve_steady(moes, n=16, throw=False), run, run.si, run.at([0.2, 0.3]),
-        record, response, response.si, impedance(moes, Omega=1.0, n=16),
+        film, film.si, film_of(film), solve_steady(moes, grid=Grid(n=16), throw=False),
+        run, run.si, run.at([0.2, 0.3]),
+        record, response, response.si, impedance(moes, Omega=1.0, grid=Grid(n=16)),
         atlas.at(point), atlas.at(point).si, atlas.at(moes), atlas.at(point).impedance(hz=50.0),
         atlas.over([20.0, 30.0], 5.0, 0.5), element, atlas.element(point), atlas.element(point, "cubic", rpm=3000),
         bearing.equilibrium(down, speed_rpm=3000.0), BallBearing.catalogue("6205").equilibrium(down),
@@ -121,7 +132,7 @@ def told(point):
         fit(record, model="linear"), linearise(rotor, 3000.0), linearise(rotor, 3000.0).modes(1)[0],
         *films_of(film, run), *rotors(atlas.element(point, "cubic", rpm=3000), bearing), sensitivity(record),
         SpeedProfile.ramp(0.0, 3000.0, 1.0), bearing, BearingMount(bearing=bearing, x=0, y=1),
-        FullContact(point, n=32),
+        FullContact(point, grid=Grid(n=32)),
         References(Trial(np.arange(3.0), {"u": np.ones(3)}, {"F": np.arange(3.0)}), None),
         Trial(np.arange(3.0), {}, {"F": np.arange(3.0)}), *verifications(),
     ]  # fmt: skip

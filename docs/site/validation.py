@@ -53,19 +53,19 @@ def solvers() -> list[Row]:
     of *PINN-EHL-Reproducibility* (github.com/vachekivan495-design), converged on 769 x 769 nodes, a steel ball on
     glass; and the limits, by Richardson from 257 x 257 and 513 x 513 nodes, of the program of Venner and Lubrecht.
     """
-    from ehlcontact import Domain, Geometry, Lubricant, MoesPoint, OperatingPoint, solve_steady
+    from ehlcontact import Domain, Geometry, Grid, Lubricant, MoesPoint, OperatingPoint, solve_steady
 
     tests, rows = module(FILMS), []
     for n in (64, 128, 256):
-        film = solve_steady(tests.POINT, n=n)
+        film = solve_steady(tests.POINT, grid=Grid(n=n))
         rows.append(row(f"M = 200, L = 10, kappa = 0.5, n = {n}", "approach", film.approach, 0.8700))
     steel_on_glass = Geometry(12.68e-3, 12.68e-3, 210e9, 0.3, 81e9, 0.208)
     for name, (alpha, u_mean, eta0, load, M, L, approach) in tests.PUBLIC.items():
         point = OperatingPoint(steel_on_glass, Lubricant(eta0, alpha), load, 2.0 * u_mean)
-        film = solve_steady(point, n=256, domain=Domain(-4.0, 2.0, 3.0))
+        film = solve_steady(point, grid=Grid(n=256, domain=Domain(-4.0, 2.0, 3.0)))
         rows.append(row(f"{name}: M = {M:.3g}, L = {L:.3g}, n = 256", "approach", film.approach, approach))
     for M, n in ((20, 64), (20, 128), (200, 128), (200, 256)):
-        film = solve_steady(MoesPoint(M, 10, 1.0, **tests.BARUS), n=n)
+        film = solve_steady(MoesPoint(M, 10, 1.0, **tests.BARUS), grid=Grid(n=n))
         unit = film.point.film_to_moes
         for name, ours, theirs in zip(
             ("central film", "smallest film"), (film.h_central, film.h_min), tests.VLC_LIMIT[M], strict=True
@@ -80,16 +80,16 @@ def formulas() -> list[Row]:
     Central film of Nijenbanning, Venner and Moes, *Wear* 176 (1994) 217-229, which is for incompressible oil, and
     the approach of Wijnant, thesis, Twente 1998; n = 128.
     """
-    from ehlcontact import MoesPoint, solve_steady
+    from ehlcontact import Grid, MoesPoint, solve_steady
     from ehlcontact.formulas import nvm_central_film, wijnant_approach
 
     rows = []
     for M, L in ((20, 10), (58.07, 4.62), (200, 10)):
-        film = solve_steady(MoesPoint(M, L, 1.0, density="incompressible"), n=128)
+        film = solve_steady(MoesPoint(M, L, 1.0, density="incompressible"), grid=Grid(n=128))
         ours, theirs = film.h_central * film.point.film_to_moes, nvm_central_film(M, L, 1.0)
         rows.append(row(f"M = {M}, L = {L}, circle, incompressible", "central film, Moes", ours, theirs))
     for M, L, kappa in ((58.07, 4.62, 1.0), (200, 10, 1.0), (200, 10, 0.5)):
-        film = solve_steady(MoesPoint(M, L, kappa), n=128)
+        film = solve_steady(MoesPoint(M, L, kappa), grid=Grid(n=128))
         rows.append(
             row(f"M = {M}, L = {L}, kappa = {kappa}", "approach", film.approach, wijnant_approach(M, L, kappa))
         )
@@ -104,12 +104,12 @@ def cubics() -> list[Row]:
     printed with two digits. Here: n = 128, the record and window that a user gets by default. All tables and
     figures of the paper, ours beside theirs: `ehlcontact reproduce`.
     """
-    from ehlcontact import simulate
+    from ehlcontact import Grid, simulate
     from reduced_models import ContactRecord, fit
 
     tests, rows = module(FILMS), []
     for name, (motion, (k1, k2, k3, c1)) in tests.CUBICS.items():
-        found = fit(ContactRecord.from_result(simulate(tests.POINT, motion, n=128)), model="cubic")
+        found = fit(ContactRecord.from_result(simulate(tests.POINT, motion, grid=Grid(n=128))), model="cubic")
         root, tangent = tests.oracles.spring_root_and_tangent(k1, k2, k3)
         for quantity, ours, theirs in (
             ("approach at load 1", found.root, root),

@@ -26,6 +26,7 @@ from ehlcontact.cli.output import (
 )
 from ehlcontact.errors import InputError
 from ehlcontact.solver.domain import Domain, check_intervals
+from ehlcontact.solver.grid import Grid as SolverGrid
 
 _GRID, _FILES = "Discretisation", "Results"
 Drawing = Callable[[Any], Any]  # a result to its figure
@@ -124,13 +125,13 @@ class Grid:
     ] = None
 
     def chosen(self) -> dict[str, Any]:
-        """Check the options; ``n``, ``domain`` and ``threads`` for a solver, None where it shall choose."""
+        """Check the options; ``grid`` and ``threads`` for a solver."""
         if self.n is not None:
             check_intervals(self.n)
         require_threads("threads", self.threads)
         with called(x_in="--domain XA", x_out="--domain XB", y_max="--domain YMAX"):
             domain = None if self.domain is None else Domain(*self.domain)
-        return {"n": self.n, "domain": domain, "threads": self.threads}
+        return {"grid": SolverGrid(self.n, domain), "threads": self.threads}
 
 
 @dataclass(frozen=True, kw_only=True)

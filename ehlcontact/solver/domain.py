@@ -1,14 +1,22 @@
-"""The computed region in Hertz units: how far the inlet is flooded is a physical input."""
+"""Computed region of a film, in Hertz semi-axes: how far the inlet is flooded is a physical input."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import exp, log
 
 from ehlcontact.checks import require_finite, require_integer
 from ehlcontact.errors import InputError
+from ehlcontact.formulas import lightness
+from ehlcontact.point import MoesPoint
 
 MOST_INTERVALS = 2048  # along X: beyond, grids of ten million nodes that no solver here affords
 HELD_BY_MARGINS = 0.08  # growth of the Hertz ellipse (of a quarter more load) for which no region has to grow
+# Where the film holds the bodies apart by much of a dry approach, pressure reaches far beyond the Hertz ellipse:
+# at light loads the inlet grows with a power of the load number, outlet and sides with a power of its growth. That
+# begins gently, from twice to half the load number of `formulas.LIGHT_LOAD`: answers have no kink there.
+LIGHT_GROWTH, LIGHT_SIDES_GROWTH = 0.6, 1.2
+MOST_LIGHT_GROWTH = 10.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +58,24 @@ class Domain:
         if growth < HELD_BY_MARGINS:
             return cls()
         return cls(-4.5 - growth, 1.5 + 3.0 * growth, 3.0 + 2.0 * growth)
+
+    @classmethod
+    def for_point(cls, point: MoesPoint, largest_load: float = 1.0) -> Domain:
+        """Return the default region of a contact, widened for a load that will rise and for a light one."""
+        domain, light = cls.for_load(largest_load), lightness(log(point.load_number))
+        if light == 0.0:
+            return domain
+        wider = min(exp(light * LIGHT_GROWTH), MOST_LIGHT_GROWTH)
+        sides = wider**LIGHT_SIDES_GROWTH
+        return cls(domain.x_in * wider, domain.x_out * sides, domain.y_max * sides)
+
+    @classmethod
+    def near(cls) -> Domain:
+        """Return the region around a film so thin that oil further out makes no difference to the film.
+
+        Approach and damping do depend on the oil further out.
+        """
+        return cls(-2.0, 1.35, 1.6)
 
     def scaled(self, factor: float) -> Domain:
         """Return the region stretched by `factor`."""

@@ -10,15 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from math import exp, floor, log, log2
+from math import floor, log2
 from typing import NamedTuple
 
-from ehlcontact.checks import require_instance
-from ehlcontact.errors import InputError
-from ehlcontact.formulas import lightness
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.accuracy import ErrorEstimate
-from ehlcontact.solver.domain import MOST_INTERVALS, Domain, check_intervals
+from ehlcontact.solver.domain import MOST_INTERVALS, Domain
+from ehlcontact.solver.grid import AUTOMATIC, Grid
 from ehlcontact.solver.memory import Solve, fits, require_memory
 from ehlcontact.status import Status
 
@@ -30,18 +28,10 @@ class Purpose(StrEnum):
     DAMPING = "damping"  # the film linearised: `impedance`
     RUN = "run"  # a film through time: `simulate`
     CONTACT = "contact"  # one inside a rotor: `FullContact`
-    TABLE = "table"  # the film linearised, a thousand times over: a point of the atlas,
-    TABLE_FILM = "table_film"  # its steady film where that deserves a finer mesh,
-    TABLE_NEAR = "table_near"  # and, at some points, the near region, to compare
 
 
 # Which region? --------------------------------------------------------------------------------------------------
-# Where the film holds the bodies apart by much of a dry approach, pressure reaches far beyond the Hertz ellipse:
-# at light loads the inlet grows with a power of the load number, outlet and sides with a power of its growth. That
-# begins gently, from twice to half the load number of `formulas.LIGHT_LOAD`: answers have no kink there.
-LIGHT_GROWTH, LIGHT_SIDES_GROWTH = 0.6, 1.2
-MOST_LIGHT_GROWTH = 10.0
-NEAR_DOMAIN = Domain(-2.0, 1.35, 1.6)  # around a film so thin that oil further out makes no difference to it
+NEAR_DOMAIN = Domain.near()
 INLET_NEAR = 0.06  # inlet width below which that may be tried after a failure,
 INLET_NEAR_AT_ONCE = 0.03  # and below which it is chosen at once: cycles on more oil converge slowly
 # Along a contact that is long in the rolling direction, oil leaks out over the sides all the way: the film in the
@@ -98,38 +88,6 @@ LARGEST_ATTEMPTS = 4  # meshes for one film, the first one included
 LARGEST_NEWTON = 300_000  # nodes for Newton as a last resort: sparse factors take minutes and gigabytes beyond
 
 
-# What does a point of the atlas get? ----------------------------------------------------------------------------
-class TableMesh(NamedTuple):
-    """Mesh for inlets of at least this width."""
-
-    least_inlet: float
-    n: int
-    near: bool  # on NEAR_DOMAIN, otherwise on the default region
-
-
-# The mesh is about a third of the inlet width, half of it at most. Thinner films than the last are left out.
-TABLE_MESHES = (
-    TableMesh(0.13, 128, False),
-    TableMesh(0.09, 192, False),
-    TableMesh(0.05, 192, True),
-    TableMesh(0.025, 256, True),
-    TableMesh(0.0165, 384, True),
-    TableMesh(0.0115, 512, True),
-)
-TABLE_LIGHT_LOAD, TABLE_LIGHT_INTERVALS = 4.5, 96  # a load number below which few intervals resolve the thick film
-# Below TABLE_FILM_INLET the film by itself is solved once more: on more intervals, if possible with all the oil.
-TABLE_FILM_INLET = 0.3
-TABLE_FILM_MESHES = (
-    TableMesh(0.13, 256, False),
-    TableMesh(0.09, 384, False),
-    TableMesh(0.05, 768, False),
-    TableMesh(0.033, 1024, False),
-    TableMesh(0.0, 1024, True),
-)
-# Inlet widths at which both regions are solved, to learn what the oil further out adds.
-TABLE_BOTH_REGIONS, TABLE_NEAR_INTERVALS = (0.1, 0.16), 128
-
-
 @dataclass(frozen=True, slots=True)
 class Mesh:
     """Intervals along X on a region.
@@ -168,51 +126,26 @@ class Mesh:
         return self._length / self.n * max(1.0, kappa / self.y_refinement)
 
     @property
-    def near(self) -> bool:
-        """Whether the region leaves out oil that does not matter to the film, but to approach and damping."""
-        return self.domain == NEAR_DOMAIN
-
-    @property
     def _length(self) -> float:
         return self.domain.x_out - self.domain.x_in
 
 
-def mesh_for(
-    point: MoesPoint,
-    purpose: Purpose,
-    *,
-    n: int | None = None,
-    domain: Domain | None = None,
-    largest_load: float = 1.0,
-) -> Mesh:
-    """Return the mesh that the film to be expected needs, or what of it the caller leaves open.
+def mesh_for(point: MoesPoint, purpose: Purpose, grid: Grid = AUTOMATIC, *, largest_load: float = 1.0) -> Mesh:
+    """Return the mesh that the expected film needs, with the intervals and the region that the caller gave.
 
     Parameters
     ----------
     point : MoesPoint
     purpose : Purpose
-    n : int, optional
-        Intervals along X, a multiple of 16, where the caller wants these.
-    domain : Domain, optional
-        Likewise the region.
+    grid : Grid
+        Intervals and region given by the caller.
     largest_load : float
         That the contact will have to carry; the static load is 1.
-
-    Raises
-    ------
-    InputError
-        `n` or `domain` that cannot be; for a table, a film too thin for any mesh that is affordable there.
     """
-    if n is not None:
-        n = check_intervals(n)
-    if domain is not None:
-        require_instance("domain", domain, Domain, "a Domain(x_in, x_out, y_max)")
-    if purpose not in FINENESS:
-        table = _table_mesh(point, purpose)
-        return Mesh(n or table.n, domain or table.domain)
+    n, domain = grid.n, grid.domain
     if domain is None:
         closes_in = purpose is Purpose.DAMPING or (purpose is Purpose.FILM and n is None)
-        domain = (closes_in and _thin_film_domain(point)) or default_domain(point, largest_load)
+        domain = (closes_in and _thin_film_domain(point)) or Domain.for_point(point, largest_load)
     if n is None:
         n = _intervals(point, domain, purpose)
     return Mesh(n, domain)
@@ -223,28 +156,29 @@ def remedy(
     status: Status,
     point: MoesPoint,
     purpose: Purpose = Purpose.FILM,
+    grid: Grid = AUTOMATIC,
     *,
-    n: int | None = None,
-    domain: Domain | None = None,
     error: ErrorEstimate | None = None,
 ) -> Mesh | None:
     """Return the mesh to try after a solve on `mesh` ended with `status`: wider, nearer or finer; None to end.
 
-    `n` and `domain` are what the caller of `mesh_for` gave: what was asked for is not changed. A steady film with
-    a given `n` is judged on the mesh it was asked for. `error` is that of a film solved, to be within `ACCURACY`;
-    None takes it as it is.
+    `grid` is what the caller of `mesh_for` gave; given intervals and a given region are not changed. A steady film
+    with given intervals is solved on that mesh only. `error` is the estimate for a converged film, which is solved
+    on a finer mesh until the estimate is within `ACCURACY`; None accepts the film as it is.
     """
-    if purpose is Purpose.FILM and n is not None:
+    if purpose is Purpose.FILM and grid.n is not None:
         return None
     if status is Status.OUT_OF_DOMAIN:
-        if domain is not None:
+        if grid.domain is not None:
             return None
         wider = mesh.domain.scaled(DOMAIN_GROWTH)
-        return Mesh(mesh.n, wider) if purpose is Purpose.FILM else mesh_for(point, purpose, n=n, domain=wider)
+        if purpose is Purpose.FILM:
+            return Mesh(mesh.n, wider)
+        return mesh_for(point, purpose, replace(grid, domain=wider))
     inexact = status.ok and error is not None and not error.within(ACCURACY)
     if purpose is not Purpose.FILM or not (inexact or status in REFINED):
         return None
-    far = domain is None and mesh.domain not in {NEAR_DOMAIN, NEAREST_DOMAIN}
+    far = grid.domain is None and mesh.domain not in {NEAR_DOMAIN, NEAREST_DOMAIN}
     if far and not inexact and point.inlet_width < INLET_NEAR:
         return Mesh(mesh.n, NEAR_DOMAIN)
     finer = replace(mesh, n=2 * mesh.n)
@@ -260,14 +194,13 @@ def wider_meshes(
     mesh: Mesh,
     point: MoesPoint,
     purpose: Purpose,
+    grid: Grid = AUTOMATIC,
     *,
-    n: int | None = None,
-    domain: Domain | None = None,
     solve: Solve = Solve.CYCLES,
 ) -> Iterator[Mesh]:
-    """Give `mesh`, and for whoever goes on because his film left its region, what `remedy` has for that.
+    """Yield `mesh`, then meshes on wider regions, for a caller whose film leaves the region of the one before.
 
-    It ends before a mesh that would not fit into memory.
+    The iteration ends before a mesh that would not fit into memory.
 
     Parameters
     ----------
@@ -275,8 +208,8 @@ def wider_meshes(
         That of `mesh_for`.
     point : MoesPoint
     purpose : Purpose
-    n, domain
-        What the caller of `mesh_for` gave.
+    grid : Grid
+        Intervals and region given by the caller of `mesh_for`.
     solve : Solve
         What the mesh is solved with.
     """
@@ -285,17 +218,7 @@ def wider_meshes(
         if wider is None or not (wider is mesh or wider.fits(point.kappa, solve)):
             return
         yield wider
-        wider = remedy(wider, Status.OUT_OF_DOMAIN, point, purpose, n=n, domain=domain)
-
-
-def default_domain(point: MoesPoint, largest_load: float = 1.0) -> Domain:
-    """Return the default region, widened for a load that will rise and for a light one."""
-    domain, light = Domain.for_load(largest_load), lightness(log(point.load_number))
-    if light == 0.0:
-        return domain
-    wider = min(exp(light * LIGHT_GROWTH), MOST_LIGHT_GROWTH)
-    sides = wider**LIGHT_SIDES_GROWTH
-    return Domain(domain.x_in * wider, domain.x_out * sides, domain.y_max * sides)
+        wider = remedy(wider, Status.OUT_OF_DOMAIN, point, purpose, grid)
 
 
 def thin_sides(point: MoesPoint) -> bool:
@@ -379,21 +302,3 @@ def _first(
     return next(
         (n for n in affordable if Mesh(n, domain, y_refinement).size(point.kappa) <= wanted), affordable[-1]
     )
-
-
-def _table_mesh(point: MoesPoint, purpose: Purpose) -> Mesh:
-    """Mesh of a point of the atlas; the one for its damping where the film, or both regions, need no other."""
-    width, default = point.inlet_width, default_domain(point)
-    light = point.load_number < TABLE_LIGHT_LOAD
-    if not light and width < TABLE_MESHES[-1].least_inlet:
-        allowed = f"at least {TABLE_MESHES[-1].least_inlet} semi-axes, for a mesh that a table can afford"
-        raise InputError("inlet width", f"{width:.3g}", allowed)
-    low, high = TABLE_BOTH_REGIONS
-    if purpose is Purpose.TABLE_NEAR and low <= width < high:
-        return Mesh(TABLE_NEAR_INTERVALS, NEAR_DOMAIN)
-    film = purpose is Purpose.TABLE_FILM and width < TABLE_FILM_INLET
-    if light and not film:
-        return Mesh(TABLE_LIGHT_INTERVALS, default)
-    choices = TABLE_FILM_MESHES if film else TABLE_MESHES
-    _, n, near = next(choice for choice in choices if width >= choice.least_inlet)
-    return Mesh(n, NEAR_DOMAIN if near else default)

@@ -26,7 +26,7 @@ from ehlcontact.store import save, stored
 from ehlcontact.transient.film import FilmState
 from ehlcontact.transient.record import COLUMNS, Array, Record
 from ehlcontact.transient.run import Run
-from ehlcontact.transient.settings import RunSettings, TimeSteps
+from ehlcontact.transient.settings import RunInputs, even_step
 from ehlcontact.transient.surface import Surface, surface_height
 from ehlcontact.transient.time_step import StepControl
 from ehlcontact.version import __version__
@@ -39,7 +39,7 @@ SAME = 1e-12  # of a time or a step: they differ by rounding only
 class Checkpoint:
     """Contents of the file: the run up to its last sound state, and that state."""
 
-    settings: RunSettings
+    inputs: RunInputs
     record: Record
     film: FilmState  # with the LU factors of the coarsest grid: to make them anew would change the rounding
     control: StepControl | None  # None in fixed steps
@@ -50,11 +50,11 @@ class Checkpoint:
     film_error: ErrorEstimate | None  # of the film at T = 0
 
     @classmethod
-    def of(cls, run: Run, settings: RunSettings, seconds: float) -> Checkpoint:
+    def of(cls, run: Run, inputs: RunInputs, seconds: float) -> Checkpoint:
         """Contents for the last sound state of `run`."""
         kept = run.kept
         return cls(
-            settings=settings,
+            inputs=inputs,
             record=run.history.record(run.film.level, kept.entries),
             film=kept.film,
             control=kept.control,
@@ -67,7 +67,7 @@ class Checkpoint:
 
     def check(
         self,
-        asked: RunSettings,
+        asked: RunInputs,
         dT: float | None,
         surface: Surface | None,
         level: Level,
@@ -76,7 +76,8 @@ class Checkpoint:
         """Raise `InputError` naming the first item that is not as `asked` for.
 
         A surface is a function and cannot be stored: its heights at the time reached must be the same. The step
-        depends on the end: `dT`, the argument, must give the stored step with the end that was asked for first.
+        depends on the end: `dT`, the dimensionless step that is given, must give the stored step with the end of
+        the first run.
         """
 
         def same(item: str, stored: Any, wanted: Any) -> None:
@@ -85,19 +86,19 @@ class Checkpoint:
                 raise InputError("restart", str(path), f"a checkpoint of this run: {what}")
 
         same("version", self.version, __version__)
-        ours = self.settings
+        ours = self.inputs
         for name in ("point", "deflection"):
             same(name, getattr(ours, name), getattr(asked, name))
         for name in ("n", "domain"):
             same(name, getattr(ours.mesh, name), getattr(asked.mesh, name))
-        for name in ("error", "tol"):
+        for name in ("local_error", "tol"):
             same(name, getattr(ours.steps, name), getattr(asked.steps, name))
         theirs = asked.motion.to_dict()
         for key, value in ours.motion.to_dict().items():
             same(f"motion.{key}", value, theirs.get(key))
-        if ours.steps.error is None and dT is not None:
-            wanted = TimeSteps.of(asked.motion, ours.steps.until, min(dT, ours.steps.until), None, asked.steps.tol)
-            if abs(ours.steps.dT - wanted.dT) > SAME * ours.steps.dT:
+        if ours.steps.local_error is None and dT is not None:
+            wanted = even_step(ours.steps.until, min(dT, ours.steps.until))
+            if abs(ours.steps.dT - wanted) > SAME * ours.steps.dT:
                 same("dT", ours.steps.dT, dT)
         if not self._fits(level):
             raise InputError("restart", str(path), "a complete checkpoint of `simulate`: its arrays do not fit")
@@ -125,7 +126,7 @@ class Checkpoint:
             unknowns = film.factors.free.size + 1
             sound &= film.factors.lu[0].shape == (unknowns, unknowns)
             sound &= film.factors.lu[1].shape == (unknowns,)
-        controlled = (self.control is not None) == (self.settings.steps.error is not None)
+        controlled = (self.control is not None) == (self.inputs.steps.local_error is not None)
         return sound and controlled and all(isfinite(x) for x in (self.scale, self.static_approach, film.u))
 
 
@@ -144,8 +145,8 @@ class Keeper:
     first ends it, before anything is lost.
     """
 
-    def __init__(self, path: str | os.PathLike[str] | None, every: float, settings: RunSettings, started: float):
-        self.path, self.every, self.settings, self.started = path, every, settings, started
+    def __init__(self, path: str | os.PathLike[str] | None, every: float, inputs: RunInputs, started: float):
+        self.path, self.every, self.inputs, self.started = path, every, inputs, started
         self._tried = -inf
         self._failed = False
 
@@ -179,7 +180,7 @@ class Keeper:
         """
         if self.path is not None:
             self._tried = time.perf_counter()
-            checkpoint = Checkpoint.of(run, self.settings, self._tried - self.started)
+            checkpoint = Checkpoint.of(run, self.inputs, self._tried - self.started)
             save(checkpoint, self.path, "checkpoint")
             self._failed = False
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from ehlcontact.checks import require_choice, require_finite, require_positive
+from ehlcontact.checks import require_finite, require_positive
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import Point, require_solvable, scales_of
@@ -13,8 +13,7 @@ from ehlcontact.quantities import FORCE, LENGTH
 from ehlcontact.results.steady import grid_doubt
 from ehlcontact.results.table import SIView
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.deflection import ENGINES
-from ehlcontact.solver.domain import Domain
+from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.mesh import Purpose, mesh_for, require_room, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, contact_text
@@ -31,18 +30,14 @@ class FullContact(Summary):
     Parameters
     ----------
     point : MoesPoint or OperatingPoint
-    n : int, optional
-        Intervals along X, a multiple of 16; by default as many as the inlet needs, 80 or more.
-    domain : Domain, optional
-        Computed region; give `largest_load` instead if the load will rise. Left out, it is widened until it holds
-        the film at rest.
+    grid : Grid
+        Intervals along X, by default as many as the inlet needs, 80 or more; computed region, by default wide
+        enough for `largest_load` and widened until it holds the film at rest; engine of the elastic deflection.
     largest_load : float
         Largest force to expect, in static loads.
     tol : float
         Residual at which a step counts as solved, relative to the central film at rest. The approach is given, so
         the error of the force falls with the motion, and there is nothing for it to follow as in `simulate`.
-    deflection : {"fft", "mlmi", "direct"}
-        Engine of the elastic deflection, as in `solve_steady`.
     threads : int, optional
         As in `solve_steady`.
 
@@ -74,22 +69,20 @@ class FullContact(Summary):
         self,
         point: Point,
         *,
-        n: int | None = None,
-        domain: Domain | None = None,
+        grid: Grid = AUTOMATIC,
         largest_load: float = 1.0,
         tol: float = DEFAULT_TOL,
-        deflection: str = "fft",
         threads: int | None = None,
     ) -> None:
         load = require_positive("largest_load", largest_load)
         self.point, self.scales = require_solvable(point, load), scales_of(point)
-        first = mesh_for(self.point, Purpose.CONTACT, n=n, domain=domain, largest_load=load)
+        require_grid(grid)
+        first = mesh_for(self.point, Purpose.CONTACT, grid, largest_load=load)
         require_room(first, self.point)
-        require_choice("deflection", deflection, tuple(ENGINES))
         tol, threads = require_positive("tol", tol), require_threads("threads", threads)
         left: Step | None = None
-        for mesh in wider_meshes(first, self.point, Purpose.CONTACT, n=n, domain=domain):
-            self._film = TransientFilm(self.point, mesh, tol, deflection, threads)
+        for mesh in wider_meshes(first, self.point, Purpose.CONTACT, grid):
+            self._film = TransientFilm(self.point, mesh, tol, grid.deflection, threads)
             self.n, self.domain = mesh.n, mesh.domain
             start = self._film.start_steady(Balance.of_load())
             if start.status is not Status.OUT_OF_DOMAIN:

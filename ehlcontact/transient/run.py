@@ -11,7 +11,7 @@ from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion, MotionState
 from ehlcontact.transient.film import FilmState, TransientFilm
 from ehlcontact.transient.record import Entry, History
-from ehlcontact.transient.settings import TimeSteps
+from ehlcontact.transient.settings import StepPlan
 from ehlcontact.transient.surface import Surface, surface_height, surface_step
 from ehlcontact.transient.time_step import (
     StepControl,
@@ -120,10 +120,10 @@ class Run:
         self.state = self.history.entries[self.kept.entries - 1].motion
 
 
-def march(run: Run, steps: TimeSteps) -> RunEnd:
+def march(run: Run, steps: StepPlan) -> RunEnd:
     """All steps until ``steps.until``; Ctrl-C ends them early."""
     try:
-        if steps.error is None:
+        if steps.local_error is None:
             return march_fixed(run, round(steps.until / steps.dT), steps.dT)
         return march_controlled(run, steps.until)
     except KeyboardInterrupt:
@@ -142,7 +142,7 @@ def march_fixed(run: Run, steps: int, dT: float) -> RunEnd:
 
 
 def march_controlled(run: Run, until: float) -> RunEnd:
-    """Steps whose local error stays below ``control.error``; corners, snapshots and the end are met.
+    """Steps whose local error stays below ``control.tolerance``; corners, snapshots and the end are met.
 
     From rest, and from each corner, the past is not smooth: one step is compared with two of half the length,
     of which the first is backward Euler, and those two are kept.
@@ -158,10 +158,10 @@ def march_controlled(run: Run, until: float) -> RunEnd:
         smooth = len(entries) - 1 - control.first >= 2
         if smooth:
             new = [run.advance(T, dT)]
-            error = local_error(entries[-3:], new[0], motion) / control.error
+            error = local_error(entries[-3:], new[0], motion) / control.tolerance
         else:
             new, error = _start_pair(run, T, dT)
-            error /= control.error
+            error /= control.tolerance
         failed = next((e.step.status for e in new if not e.step.status.ok), None)
         if failed is None and error <= 1.0:
             if smooth:
@@ -185,7 +185,7 @@ def march_controlled(run: Run, until: float) -> RunEnd:
             fault = f"ends {failed} under"
         if control.step < shortest:
             return RunEnd(
-                Status.STEP_TOO_SMALL, f"a step of {dT:.3g} {fault} the tolerated error {control.error:g}"
+                Status.STEP_TOO_SMALL, f"a step of {dT:.3g} {fault} the tolerated error {control.tolerance:g}"
             )
     return RunEnd(Status.CONVERGED)
 

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-import os
-import time
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from time import perf_counter
 from typing import Any
 
 import numpy as np
 
-from ehlcontact.checks import require_instance, require_nonnegative
+from ehlcontact.checks import require_instance
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
-from ehlcontact.solver.domain import Domain
+from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, require_room, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.store import load
@@ -27,10 +26,19 @@ from ehlcontact.transient.record import History
 from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.roughness import Roughness
 from ehlcontact.transient.run import Run, RunEnd, march
-from ehlcontact.transient.settings import RunSettings, TimeSteps
+from ehlcontact.transient.settings import (
+    KeepSettings,
+    RunInputs,
+    RunSettings,
+    StepPlan,
+    TimeSteps,
+    require_groups,
+    snapshot_times,
+)
 from ehlcontact.transient.surface import Dent, Surface, require_surface, surface_height
 from ehlcontact.transient.time_step import StepControl, default_fixed_step
 
+BY_MOTION, HISTORY_ONLY, UNATTENDED = TimeSteps(), KeepSettings(), RunSettings()  # the defaults
 LARGEST_MISMATCH = 0.01  # of the kappa of a feature, over that of the contact
 
 
@@ -39,21 +47,11 @@ def simulate(
     point: Point,
     motion: Motion,
     *,
-    n: int | None = None,
-    domain: Domain | None = None,
-    until: float | None = None,
-    dT: float | None = None,
-    error: float | None = None,
-    tol: float | None = None,
-    snapshots: Sequence[float] = (),
+    grid: Grid = AUTOMATIC,
+    time: TimeSteps = BY_MOTION,
     surface: Surface | None = None,
-    deflection: str = "fft",
-    threads: int | None = None,
-    throw: bool = True,
-    callback: Callable[[float, float], None] | None = None,
-    checkpoint: str | os.PathLike[str] | None = None,
-    checkpoint_every: float = 60.0,
-    restart: str | os.PathLike[str] | None = None,
+    keep: KeepSettings = HISTORY_ONLY,
+    run: RunSettings = UNATTENDED,
 ) -> SimulationResult:
     """Integrate the transient contact (eqs. 1, 3, 5, 6) from rest under the given motion.
 
@@ -61,48 +59,19 @@ def simulate(
     ----------
     point : MoesPoint or OperatingPoint
     motion : FreeVibration, HarmonicLoad, RampLoad, PrescribedLoad or PrescribedApproach
-    n : int, optional
-        Intervals along X, a multiple of 16; by default as many as the inlet needs, 128 or more.
-    domain : Domain, optional
-        Computed region; by default wide enough for the largest load of the motion. Where the film leaves that one,
-        the run begins again on a wider one.
-    until, dT : float, optional
-        End and (fixed) step of dimensionless time; the motion's own defaults otherwise. That of the step is at
-        most 0.1 for tables and ramps and 0.5 for other motions; over a feature a fortieth of the time in which its
-        wave passes (a tenth of a dent's radius), over `Roughness` and functions of one's own a node's. The step is
-        shortened to divide `until` evenly. With `error`, `dT` is the step tried first.
-    error : float, optional
-        Steps are not fixed but controlled: the estimated local error of each, in approach (dry approaches), force
-        (static loads) and mean film, stays below `error`. Corners of the motion, snapshots and `until` are met.
-        Over a run they add up, to about ``error**(2/3)`` where bodies have inertia (docs/solver.md): for approach
-        and force within g all the way give ``error = g**1.5``.
-    tol : float, optional
-        Residual at which a step counts as solved, relative to the central film at rest; force and approach then
-        change by less than tol/30 in the last cycle. By default 0.003, and where a load moves less than 0.1 of the
-        static one, or a vibration less than 0.1 dry approaches, in proportion less (1e-6 at least), so that the
-        motion is told to the same share. With `error`, at most ``3 error``.
-    snapshots : sequence of float
-        Times whose whole fields are kept.
+    grid : Grid
+        Intervals along X, by default as many as the inlet needs, 128 or more; computed region, by default wide
+        enough for the largest load of the motion (where the film leaves it, the run begins again on a wider one);
+        engine of the elastic deflection.
+    time : TimeSteps
+        End, step, tolerances; in seconds for an `OperatingPoint`, in 2a/u_sum for a `MoesPoint`.
     surface : callable, optional
         Feature G(X, Y, T) added to the gap, even in Y: `Dent`, `TransverseRidge`, `Waviness`, `Roughness`, or a
-        function of one's own. At rest for T <= 0. One made for another `kappa` is warned of.
-    deflection : {"fft", "mlmi", "direct"}
-        Engine of the elastic deflection, as in `solve_steady`.
-    threads : int, optional
-        As in `solve_steady`.
-    throw : bool
-        Raise on failure; otherwise look at ``result.status``.
-    callback : callable, optional
-        Called with T and `until` after every step.
-    checkpoint : path, optional
-        HDF5 file, new or that of `restart`; replaced, in one move, every `checkpoint_every` seconds (0: after
-        every step) and at the end, once the start was solved.
-    checkpoint_every : float
-        Seconds between checkpoints.
-    restart : path, optional
-        Checkpoint to go on from. The other arguments must be those of its run, except `threads`; the record then
-        equals that of an uninterrupted run bit for bit. `until` may be later: the stored step goes on, and ends at
-        or, where it does not divide `until`, within a step after it.
+        function of one's own. At rest for T <= 0. One made for another `kappa` gives a warning.
+    keep : KeepSettings
+        Snapshots of whole fields, checkpoints, restart.
+    run : RunSettings
+        Threads, callback, whether a failure is raised.
 
     Returns
     -------
@@ -116,73 +85,78 @@ def simulate(
         or is not one of this run. Only the first checkpoint ends the run; of the last, ``error.result`` holds the
         run all the same.
     ConvergenceError
-        A step did not converge, or did not meet `error` however short (status ``step_too_small``);
+        A step did not converge, or did not meet the local error however short (status ``step_too_small``);
         ``error.result`` holds the history so far.
     """
-    started = time.perf_counter()
+    started = perf_counter()
     require_instance("motion", motion, Motion, "a motion such as FreeVibration or HarmonicLoad")
     moes = require_solvable(point, motion.largest_load)
-    mesh = mesh_for(moes, Purpose.RUN, n=n, domain=domain, largest_load=motion.largest_load)
+    require_grid(grid)
+    require_groups(time, keep, run)
+    mesh = mesh_for(moes, Purpose.RUN, grid, largest_load=motion.largest_load)
     require_room(mesh, moes)
     require_surface(surface)
     _warn_of_shape(surface, moes.kappa)
     spacing = (mesh.domain.x_out - mesh.domain.x_in) / mesh.n
-    steps = TimeSteps.of(motion, until, dT, error, tol, default_fixed_step(motion, surface, spacing))
-    settings = RunSettings.of(moes, mesh, motion, steps, snapshots, deflection)
-    require_nonnegative("checkpoint_every", checkpoint_every)
-    if checkpoint is not None:
-        require_replaceable(checkpoint, restart)
-    threads = require_threads("threads", threads)
-    meshes = wider_meshes(mesh, moes, Purpose.RUN, n=n, domain=domain)
+    scales = scales_of(point)
+    unit = 1.0 if scales is None else scales.time
+    steps = StepPlan.of(motion, time, unit, default_fixed_step(motion, surface, spacing))
+    inputs = RunInputs(moes, mesh, motion, steps, snapshot_times(keep, steps, unit), grid.deflection)
+    if keep.checkpoint is not None:
+        require_replaceable(keep.checkpoint, keep.restart)
+    threads = require_threads("threads", run.threads)
+    meshes = wider_meshes(mesh, moes, Purpose.RUN, grid)
 
     def film_on(mesh: Mesh) -> TransientFilm:
-        film = TransientFilm(moes, mesh, steps.tol, deflection, threads)
+        film = TransientFilm(moes, mesh, steps.tol, grid.deflection, threads)
         if isinstance(surface, Roughness):
             surface.require_fit(film.level.X, film.level.Y, steps.until)
         return film
 
     earlier = None
-    if restart is not None:
-        earlier = load(restart, Checkpoint, "restart")
-        mesh = next((wider for wider in meshes if wider == earlier.settings.mesh), mesh)
+    if keep.restart is not None:
+        earlier = load(keep.restart, Checkpoint, "restart")
+        mesh = next((wider for wider in meshes if wider == earlier.inputs.mesh), mesh)
         film = film_on(mesh)
-        earlier.check(replace(settings, mesh=mesh), dT, surface, film.level, restart)
+        given = time.step_of(motion, unit)
+        earlier.check(replace(inputs, mesh=mesh), given, surface, film.level, keep.restart)
         started -= earlier.seconds
-        steps = steps.going_on(earlier.settings.steps)
+        steps = steps.going_on(earlier.inputs.steps)
         # the step follows from the end first asked for
-        settings = replace(settings, mesh=mesh, steps=earlier.settings.steps)
-    keeper = Keeper(checkpoint, checkpoint_every, settings, started)
+        inputs = replace(inputs, mesh=mesh, steps=earlier.inputs.steps)
+    keeper = Keeper(keep.checkpoint, keep.checkpoint_every, inputs, started)
 
-    def watch(run: Run) -> None:
-        keeper.visit(run)
-        if callback is not None and run.state.T > 0.0:
-            callback(run.state.T, steps.until)
+    def watch(under_way: Run) -> None:
+        keeper.visit(under_way)
+        if run.callback is not None and under_way.state.T > 0.0:
+            run.callback(under_way.state.T * unit, steps.until * unit)
 
     def from_rest(mesh: Mesh) -> tuple[Run, RunEnd]:
-        keeper.settings = replace(settings, mesh=mesh)
+        keeper.inputs = replace(inputs, mesh=mesh)
         film = film_on(mesh)
-        control = None if error is None else StepControl(error, steps.dT)
-        run = Run(film, motion, surface, History(settings.snapshots), control, watch)
-        end = RunEnd(run.start())
-        return run, march(run, steps) if end.status.ok else end
+        control = None if steps.local_error is None else StepControl(steps.local_error, steps.dT)
+        film_run = Run(film, motion, surface, History(inputs.snapshots), control, watch)
+        end = RunEnd(film_run.start())
+        return film_run, march(film_run, steps) if end.status.ok else end
 
     if earlier is None:
-        mesh, run, end = _first_inside(meshes, from_rest)
-        settings = keeper.settings = replace(settings, mesh=mesh)
+        mesh, film_run, end = _first_inside(meshes, from_rest)
+        inputs = keeper.inputs = replace(inputs, mesh=mesh)
     else:
-        run = Run(film, motion, surface, History.of(earlier.record, settings.snapshots), earlier.control, watch)
-        run.resume(earlier.film, earlier.scale, earlier.static_approach, earlier.film_error)
-        end = march(run, steps)
+        history = History.of(earlier.record, inputs.snapshots)
+        film_run = Run(film, motion, surface, history, earlier.control, watch)
+        film_run.resume(earlier.film, earlier.scale, earlier.static_approach, earlier.film_error)
+        end = march(film_run, steps)
     unkept = None
-    if run.history.entries[0].step.status.ok:  # there is a start to go on from
+    if film_run.history.entries[0].step.status.ok:  # there is a start to go on from
         try:
-            keeper.write(run)
+            keeper.write(film_run)
         except InputError as lost:
             unkept = lost
         except KeyboardInterrupt:  # a second one; the file is what it was
             end = RunEnd(Status.INTERRUPTED)
-    result = _result(run, settings, scales_of(point), end.status, time.perf_counter() - started)
-    if throw and not end.status.ok and end.status is not Status.INTERRUPTED:
+    result = _result(film_run, inputs, scales, end.status, perf_counter() - started)
+    if run.throw and not end.status.ok and end.status is not Status.INTERRUPTED:
         G = surface_height(surface, result.X, result.Y, float(result.T[-1]))
         raise ConvergenceError(_message(result, end, -float(np.min(G))), result)
     if unkept is not None:
@@ -216,19 +190,19 @@ def _first_inside(
 
 
 def _result(
-    run: Run, settings: RunSettings, scales: Scales | None, status: Status, seconds: float
+    run: Run, inputs: RunInputs, scales: Scales | None, status: Status, seconds: float
 ) -> SimulationResult:
     level, record = run.film.level, run.history.record(run.film.level)
     numbers: dict[str, Any] = record.columns()
     if numbers["T"].size > 2:
         columns = (numbers[name] for name in ("T", "approach", "rate", "acceleration"))
-        numbers["rate"], numbers["acceleration"] = settings.motion.slopes(*columns)
+        numbers["rate"], numbers["acceleration"] = inputs.motion.slopes(*columns)
     return SimulationResult(
-        point=settings.point,
+        point=inputs.point,
         scales=scales,
-        domain=settings.mesh.domain,
-        n=settings.mesh.n,
-        motion=settings.motion,
+        domain=inputs.mesh.domain,
+        n=inputs.mesh.n,
+        motion=inputs.motion,
         X=level.X.copy(),
         Y=level.Y.copy(),
         **numbers,
@@ -239,7 +213,7 @@ def _result(
         snapshot_P=record.snapshot_P,
         static_approach=run.static_approach,
         status=status,
-        tol=settings.steps.tol,
+        tol=inputs.steps.tol,
         film_error=run.film_error,
         seconds=seconds,
     )

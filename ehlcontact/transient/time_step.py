@@ -73,10 +73,8 @@ def coarse_step_note(motion: Motion, T: Array) -> str:
     if not steps.size or np.ptp(steps) > EQUAL_STEPS * steps[0] or steps[0] * FEWEST_STEPS <= motion.load_period:
         return ""
     count = motion.load_period / steps[0]
-    return (
-        f"the step is coarse: {count:.3g} to a period of the load; before taking damping from it give dT = "
-        f"{motion.default_step:.2g}"
-    )
+    enough = round(motion.load_period / motion.default_step)
+    return f"the step is coarse: {count:.3g} to a period of the load; for damping take steps_per_period = {enough}"
 
 
 def default_tol(motion: Motion) -> float:
@@ -104,9 +102,9 @@ def _fitting_tol(motion: Motion) -> float:
 class StepControl:
     """Step-size controller: the next step, and what its choice depends on."""
 
-    error: float  # tolerated local error per step
+    tolerance: float  # local error allowed per step
     step: float  # to be tried next
-    last_error: float = 1.0  # of the last accepted step, relative to `error`
+    last_error: float = 1.0  # of the last accepted step, relative to `tolerance`
     first: int = 0  # number of the entry at which the smooth stretch began
 
     def accepted(self, dT: float, error: float) -> None:

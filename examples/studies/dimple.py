@@ -20,10 +20,14 @@ import numpy as np
 from ehlcontact import (
     Dent,
     Geometry,
+    Grid,
+    KeepSettings,
     Lubricant,
     OperatingPoint,
     PrescribedLoad,
+    RunSettings,
     SimulationResult,
+    TimeSteps,
     film_of,
     interferogram,
     simulate,
@@ -88,18 +92,17 @@ def roll(surface: Surface, centres: list[float], n: int = 256) -> SimulationResu
     return simulate(
         POINT,
         PrescribedLoad(T, np.ones_like(T)),
-        n=n,
-        until=until,
-        dT=mesh,
+        grid=Grid(n=n),
+        time=TimeSteps(dt=mesh * scales.time),
         surface=surface,
-        snapshots=[k * mesh for k in steps],
-        callback=show_progress if sys.stdout.isatty() else None,
+        keep=KeepSettings(snapshots=[k * mesh * scales.time for k in steps]),
+        run=RunSettings(callback=show_progress if sys.stdout.isatty() else None),
     )
 
 
-def show_progress(T: float, end: float) -> None:
+def show_progress(t: float, end: float) -> None:
     """One line, written over and over."""
-    print(f"\r  dimple at X = {START + T:+.2f}  ({T / end:4.0%})", end="\r", flush=True)
+    print(f"\r  dimple at X = {START + t / POINT.scales.time:+.2f}  ({t / end:4.0%})", end="\r", flush=True)
 
 
 def gaps(run: SimulationResult) -> list[Curve]:
@@ -179,7 +182,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("picture", nargs="?", type=Path, default=Path("dimple.png"))
     target = parser.parse_args().picture
-    steady = solve_steady(POINT, n=256)
+    steady = solve_steady(POINT, grid=Grid(n=256))
     unit = POINT.scales.length * 1e9
     central, least = steady.h_central * unit, steady.h_min * unit
     print(f"smooth: central film {central:.1f} nm, minimum film {least:.1f} nm (Mourier et al.: 212 and 119 nm)")

@@ -12,6 +12,7 @@ mesh. Half a minute on one core with n = 256 (the default), eight times as long 
 """
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,12 +22,15 @@ from ehlcontact import (
     Dent,
     Domain,
     Geometry,
+    Grid,
+    KeepSettings,
     Lubricant,
     MoesPoint,
     OperatingPoint,
     PrescribedLoad,
     Roughness,
     SimulationResult,
+    TimeSteps,
     film_of,
     simulate,
     solve_steady,
@@ -48,12 +52,22 @@ NEAR = Domain(-2.5, 1.5, 2.0)
 COLOURS = {"blue": "#0072b2", "red": "#d55e00", "grey": "#888888"}
 
 
-def under_load(point: Any, n: int, until: float, **options: Any) -> SimulationResult:
-    """A run under constant load in steps of one mesh size."""
+def under_load(
+    point: MoesPoint | OperatingPoint, n: int, until: float, surface: Any, snapshots: Sequence[float]
+) -> SimulationResult:
+    """A run under constant load in steps of one mesh size; times in 2a/u_sum."""
     mesh = (NEAR.x_out - NEAR.x_in) / n
     until = mesh * np.ceil(until / mesh - 1e-9)
     load = PrescribedLoad(np.linspace(0.0, until, 4), np.ones(4))
-    return simulate(point, load, n=n, domain=NEAR, until=until, dT=mesh, **options)
+    unit = point.scales.time if isinstance(point, OperatingPoint) else 1.0
+    return simulate(
+        point,
+        load,
+        grid=Grid(n=n, domain=NEAR),
+        time=TimeSteps(dt=mesh * unit),
+        surface=surface,
+        keep=KeepSettings(snapshots=[T * unit for T in snapshots]),
+    )
 
 
 def roll(speed: float, start: float, n: int) -> SimulationResult:
@@ -67,7 +81,7 @@ def roll(speed: float, start: float, n: int) -> SimulationResult:
 
 def rough(n: int, seed: int = 1) -> tuple[SimulationResult, Roughness]:
     """Let a rough surface roll in, until its front has left."""
-    film = solve_steady(ROUGH_POINT, n=128, domain=NEAR).h_central
+    film = solve_steady(ROUGH_POINT, grid=Grid(n=128, domain=NEAR)).h_central
     shortest = 8.0 * (NEAR.x_out - NEAR.x_in) / n
     surface = Roughness.synthetic(0.1 * film, LONGEST, shortest, length=4.0, width=2.0, seed=seed, start=FRONT[0])
     return under_load(ROUGH_POINT, n, FRONT[1], surface=surface, snapshots=[FRONT[1]]), surface

@@ -17,6 +17,7 @@ import numpy as np
 from ehlcontact import (
     Domain,
     FreeVibration,
+    Grid,
     HarmonicLoad,
     ImpedanceResult,
     MoesPoint,
@@ -57,7 +58,7 @@ def fitted_motions() -> dict[str, Any]:
 
 def record(motion: Any, n: int) -> ContactRecord:
     """Record of a full simulation."""
-    return ContactRecord.from_result(simulate(POINT, motion, n=n, domain=DOMAIN))
+    return ContactRecord.from_result(simulate(POINT, motion, grid=Grid(n=n, domain=DOMAIN)))
 
 
 def relative_error(force: np.ndarray, of: ContactRecord) -> float:
@@ -151,7 +152,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path())
     arguments = parser.parse_args()
     n = arguments.n
-    Z = impedance(POINT, Omega=OMEGAS, n=n, domain=DOMAIN)
+    Z = impedance(POINT, Omega=OMEGAS, grid=Grid(n=n, domain=DOMAIN))
     seen = {name: record(motion, n) for name, motion in fitted_motions().items()}
     unseen = {"chirp (not fitted)": record(chirp(), n), "load step (not fitted)": record(load_step(), n)}
     result = fit_memory(Z, list(seen.values()))

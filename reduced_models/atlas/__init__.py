@@ -10,6 +10,7 @@
 | elements | contact elements from answers under one or several loads |
 | build | `build_atlas`: sample, solve what is missing, put together; the numbers of a build |
 | sample | the points of a build |
+| mesh | grids of a point, by the width of its inlet |
 | solve | one of them solved |
 | work | the file of solved points, and the processes or the cluster that solve them |
 | tune | how the numbers of a build were found |

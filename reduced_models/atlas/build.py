@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
-from ehlcontact import Domain, Mesh, MoesPoint, __version__
+from ehlcontact import Domain, MoesPoint, __version__
 from ehlcontact.errors import InputError
 from ehlcontact.formulas import LIGHT_BLEND, LIGHT_LOAD
 from reduced_models.atlas import surface
@@ -178,10 +178,10 @@ def assemble(entries: Sequence[Entry], made_by: Mapping[str, Any]) -> AtlasTable
     film = dict(zip(FILM, _column(steady, *FILM).T, strict=True))
     K, C = (np.array([e[name] for e in good]) for name in ("stiffness", "damping"))
     far = _FarOil([e for e in good if e.get("close") is not None])
-    near = np.array([_mesh(e).near for e in good])
+    near = np.array([_is_near(e) for e in good])
     if near.any():
         C[near] += far.adds("damping", points[near])
-        ends_near = np.array([_mesh(e).near for e in steady])
+        ends_near = np.array([_is_near(e) for e in steady])
         for name in ("approach", "moment"):
             film[name][ends_near] += far.adds(name, points[ends_near])
     table = AtlasTable(
@@ -207,8 +207,8 @@ def judged(table: AtlasTable) -> AtlasTable:
 def _metadata(entries: Sequence[Entry], good: Sequence[Entry]) -> dict[str, Any]:
     """Settings and sources of the table."""
     law = MoesPoint(good[0]["M"], good[0]["L"], good[0]["kappa"])
-    meshes = Counter((_mesh(e).n, "the near domain" if _mesh(e).near else "the default domain") for e in good)
-    near = next((list(e["domain"]) for e in good if _mesh(e).near), None)
+    meshes = Counter((int(e["n"]), "the near domain" if _is_near(e) else "the default domain") for e in good)
+    near = next((list(e["domain"]) for e in good if _is_near(e)), None)
     return {
         "box": BOX.to_dict(),
         "rates": asdict(RATES),
@@ -282,5 +282,6 @@ def _column(entries: Sequence[Entry], *names: str) -> _Floats:
     return np.array([[e[name] for name in names] for e in entries])
 
 
-def _mesh(entry: Entry) -> Mesh:
-    return Mesh(int(entry["n"]), Domain(*entry["domain"]))
+def _is_near(entry: Entry) -> bool:
+    """Whether an entry was solved on the near region."""
+    return Domain(*entry["domain"]) == Domain.near()

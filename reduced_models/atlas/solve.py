@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from ehlcontact import Mesh, MoesPoint, Purpose, __version__, impedance, mesh_for, solve_steady
+from ehlcontact import Grid, MoesPoint, __version__, impedance, solve_steady
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
+from reduced_models.atlas.mesh import film_grid, impedance_grid, near_grid
 
 # Dense enough for the cubic between them (`reduced_models.atlas.frequency`), where lags make K and C wave.
 OMEGAS = (
@@ -31,38 +32,39 @@ def solve_point(point: MoesPoint) -> dict[str, Any]:
     entry: dict[str, Any] = {"M": point.M, "L": point.L, "kappa": point.kappa, "alpha": point.alpha}
     entry |= {"eta0": point.eta0, "version": __version__, "status": str(Status.UNRESOLVED)}
     try:
-        mesh, of_film, near = (mesh_for(point, p) for p in (Purpose.TABLE, Purpose.TABLE_FILM, Purpose.TABLE_NEAR))
+        grid, of_film, near = (choose(point) for choose in (impedance_grid, film_grid, near_grid))
     except InputError:  # too thin a film for any mesh that is affordable
         return entry
     try:
-        entry |= respond(point, mesh)
-        entry |= fine_film(point, of_film, mesh)
+        entry |= respond(point, grid)
+        entry |= fine_film(point, of_film, grid)
         entry["status"] = str(Status.CONVERGED)
     except ConvergenceError as error:
         entry["status"] = "unknown" if error.result is None else str(error.result.status)
-    if near != mesh:
+    if near != grid:
         with suppress(ConvergenceError):
             entry["close"] = respond(point, near)
     return entry | {"seconds": time.perf_counter() - started}
 
 
-def fine_film(point: MoesPoint, wanted: Mesh, coarse: Mesh) -> dict[str, Any]:
-    """The film on the mesh wanted, or on half its intervals where that fails; nothing if `coarse` is as fine."""
-    for mesh in (wanted, replace(wanted, n=wanted.n // 2)):
-        if mesh.domain == coarse.domain and mesh.n <= coarse.n:
+def fine_film(point: MoesPoint, wanted: Grid, coarse: Grid) -> dict[str, Any]:
+    """The film on the grid wanted, or on half its intervals where that fails; nothing if `coarse` is as fine."""
+    assert wanted.n is not None and coarse.n is not None
+    for n in (wanted.n, wanted.n // 2):
+        if wanted.domain == coarse.domain and n <= coarse.n:
             break
         with suppress(ConvergenceError):
-            return {"film": _film(solve_steady(point, n=mesh.n, domain=mesh.domain), mesh)}
+            return {"film": _film(solve_steady(point, grid=replace(wanted, n=n)))}
     return {}
 
 
-def respond(point: MoesPoint, mesh: Mesh) -> dict[str, Any]:
+def respond(point: MoesPoint, grid: Grid) -> dict[str, Any]:
     """Steady film and impedance at `OMEGAS`."""
-    found = impedance(point, Omega=OMEGAS, n=mesh.n, domain=mesh.domain)
-    return _film(found, mesh) | {"stiffness": found.stiffness.tolist(), "damping": found.damping.tolist()}
+    found = impedance(point, Omega=OMEGAS, grid=grid)
+    return _film(found) | {"stiffness": found.stiffness.tolist(), "damping": found.damping.tolist()}
 
 
-def _film(found: Any, mesh: Mesh) -> dict[str, Any]:
+def _film(found: Any) -> dict[str, Any]:
     """Approach and films of a result, and where it was solved."""
     numbers = {name: getattr(found, name) for name in FILM}
-    return numbers | {"n": mesh.n, "domain": list(mesh.domain.as_tuple())}
+    return numbers | {"n": found.n, "domain": list(found.domain.as_tuple())}

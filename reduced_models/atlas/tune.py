@@ -21,9 +21,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from ehlcontact import MoesPoint, Purpose, mesh_for
+from ehlcontact import MoesPoint
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.build import gain_equations, smooth_gains
+from reduced_models.atlas.mesh import impedance_grid
 from reduced_models.atlas.solve import respond
 from reduced_models.atlas.surface import LOBE, coordinates, films, left_out_errors, to_smooth
 from reduced_models.atlas.table import HEAD, AtlasTable
@@ -116,7 +117,7 @@ def oil_slopes(points: Sequence[MoesPoint] = OIL_POINTS) -> dict[str, tuple[floa
 
 def _answers(point: MoesPoint) -> dict[str, tuple[_Floats, _Floats]]:
     """Films, K, C and moment of a point solved, each with what its changes are divided by; 0 leaves one out."""
-    found = respond(point, mesh_for(point, Purpose.TABLE))
+    found = respond(point, impedance_grid(point))
     film = np.array([1.0 - found["approach"], found["h_central"], found["h_min"]])
     K, C = np.array(found["stiffness"]), np.array(found["damping"])
     return {

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from ehlcontact import Domain, ImpedanceResult, impedance
+from ehlcontact import Domain, Grid, ImpedanceResult, impedance
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
 from reduced_models.elements.film_law import film_drive
@@ -212,7 +212,7 @@ def impedance_of(records: Sequence[ContactRecord]) -> ImpedanceResult:
     first = records[0]
     if first.point is None or first.n is None or first.domain is None:
         raise InputError("records[0]", "without point, n or domain", "of a simulation, or give an impedance")
-    return impedance(first.point, Omega=OMEGAS, n=first.n, domain=Domain(*first.domain))
+    return impedance(first.point, Omega=OMEGAS, grid=Grid(n=first.n, domain=Domain(*first.domain)))
 
 
 def cross_validate(target: Target, lags: int) -> float:

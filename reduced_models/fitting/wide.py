@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import least_squares
 
-from ehlcontact import impedance, solve_steady
+from ehlcontact import Grid, impedance, solve_steady
 from ehlcontact.checks import as_column
 from ehlcontact.checks.frequency import by_name
 from ehlcontact.errors import InputError
@@ -134,8 +134,8 @@ def wide_range_from_solves(
     moes, scales = moes_point(point), scales_of(point)
     for f in sorted({*at.tolist(), *places.tolist()}):  # all of them before the first solve
         require_solvable(replace(moes, M=moes.M * f))
-    steady = [solve_steady(replace(moes, M=moes.M * f), n=n) for f in at.tolist()]
-    responses = [impedance(replace(moes, M=moes.M * f), Omega=Omega, n=n) for f in places.tolist()]
+    steady = [solve_steady(replace(moes, M=moes.M * f), grid=Grid(n=n)) for f in at.tolist()]
+    responses = [impedance(replace(moes, M=moes.M * f), Omega=Omega, grid=Grid(n=n)) for f in places.tolist()]
     approach, domains = [s.approach for s in steady], [list(s.domain.as_tuple()) for s in steady]
     source = source_of(moes, scales, n, domains)
     return wide_range_contact(at, approach, places, responses, lags=lags, memory=memory, source=source)

@@ -13,7 +13,9 @@ from ehlcontact import (
     FreeVibration,
     FullContact,
     Geometry,
+    Grid,
     HarmonicLoad,
+    KeepSettings,
     Lubricant,
     MoesPoint,
     OperatingPoint,
@@ -21,6 +23,8 @@ from ehlcontact import (
     PrescribedLoad,
     RampLoad,
     Roughness,
+    RunSettings,
+    TimeSteps,
     TransverseRidge,
     Waviness,
     impedance,
@@ -59,7 +63,7 @@ def point():
 @cache
 def full_contact():
     """Solved, and compiled, before anything bad is asked of it."""
-    return FullContact(point(), n=32)
+    return FullContact(point(), grid=Grid(n=32))
 
 
 def record(**changes):
@@ -168,22 +172,22 @@ CALLS = {
     "region inside out": (lambda: Domain(1.5, -4.5, 3.0), ("x_in", "between -100 and -1.2 (left of")),
     "region in words": (lambda: Domain("-4.5", 1.5, 3.0), ("x_in", "a finite number")),
     "region a list": (
-        lambda: solve_steady(point(), domain=[-4.5, 1.5, 3.0]),
+        lambda: solve_steady(point(), grid=Grid(domain=[-4.5, 1.5, 3.0])),
         ("domain", "a Domain(x_in, x_out, y_max)"),
     ),
     "no threads": (lambda: solve_steady(point(), threads=0), ("threads", "a whole number from 1 to")),
     "threads of a float": (lambda: FullContact(point(), threads=2.0), ("threads", "a whole number from 1 to")),
     "more threads than cores": (
-        lambda: simulate(point(), FreeVibration(Omega_n=5.0), threads=9999),
+        lambda: simulate(point(), FreeVibration(Omega_n=5.0), run=RunSettings(threads=9999)),
         ("threads", "a whole number from 1 to"),
     ),
     "threads below 0": (
         lambda: impedance(point(), Omega=1.0, threads=-1),
         ("threads", "a whole number from 1 to"),
     ),
-    "n odd": (lambda: solve_steady(point(), n=100), ("n", "a multiple of 16 between 16 and")),
+    "n odd": (lambda: solve_steady(point(), grid=Grid(n=100)), ("n", "a multiple of 16 between 16 and")),
     "n of a float": (
-        lambda: simulate(point(), FreeVibration(Omega_n=5.0), n=64.0),
+        lambda: simulate(point(), FreeVibration(Omega_n=5.0), grid=Grid(n=64.0)),
         ("n", "a multiple of 16 between 16 and"),
     ),
     "tol 0": (lambda: solve_steady(point(), tol=0.0), ("tol", "a finite number > 0")),
@@ -211,16 +215,18 @@ CALLS = {
         lambda: PrescribedApproach([0.0, 1.0, 2.0, 3.0], [0.9] * 3),
         ("length of values", "4"),
     ),
-    "until before dT": (
-        lambda: simulate(point(), FreeVibration(Omega_n=5.0), until=0.1, dT=1.0),
-        ("dT", "at most until = 0.1"),
+    "until before dt": (
+        lambda: simulate(point(), FreeVibration(Omega_n=5.0), time=TimeSteps(until=0.1, dt=1.0)),
+        ("dt", "at most until = 0.1"),
     ),
     "error in %": (
-        lambda: simulate(point(), FreeVibration(Omega_n=5.0), error=5.0),
-        ("error", "between 1e-08 and 0.1"),
+        lambda: simulate(point(), FreeVibration(Omega_n=5.0), time=TimeSteps(local_error=5.0)),
+        ("local_error", "between 1e-08 and 0.1"),
     ),
     "snapshot later": (
-        lambda: simulate(point(), FreeVibration(Omega_n=5.0), until=1.0, snapshots=(2.0,)),
+        lambda: simulate(
+            point(), FreeVibration(Omega_n=5.0), time=TimeSteps(until=1.0), keep=KeepSettings(snapshots=(2.0,))
+        ),
         ("snapshots", "at most until = 1.0"),
     ),
     "ridge of no width": (lambda: TransverseRidge(0.1, 0.0), ("width", "a finite number > 0")),
@@ -233,7 +239,10 @@ CALLS = {
     ),
     "roughness finer than the mesh": (
         lambda: simulate(
-            point(), FreeVibration(Omega_n=5.0), n=64, surface=Roughness.synthetic(0.01, 0.5, 0.1, kappa=0.5)
+            point(),
+            FreeVibration(Omega_n=5.0),
+            grid=Grid(n=64),
+            surface=Roughness.synthetic(0.01, 0.5, 0.1, kappa=0.5),
         ),
         ("surface.shortest", "at least 0.75 semi-axes, 4 of the mesh of 0.188: raise n, or smooth the surface"),
     ),

@@ -3,19 +3,24 @@
 from math import pi
 
 import numpy as np
+from argument_groups import grouped
 
 from ehlcontact import (
     Domain,
     FreeVibration,
     FullContact,
     Geometry,
+    Grid,
     HarmonicLoad,
+    KeepSettings,
     Lubricant,
     MoesPoint,
     OperatingPoint,
     PrescribedApproach,
     PrescribedLoad,
     RampLoad,
+    RunSettings,
+    TimeSteps,
     impedance,
     simulate,
     solve_steady,
@@ -45,8 +50,16 @@ def from_function(until):
     return PrescribedLoad.from_function(lambda t: 1.0, until)
 
 
+def run_until_1(**arguments):
+    return simulate(POINT, HarmonicLoad(Omega=pi), **grouped(n=32, until=1.0, **arguments))
+
+
+def tabulated(**arguments):
+    return simulate(POINT, PrescribedLoad(T, 1.0 + T), **grouped(n=32, **arguments))
+
+
 BALL = {"ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3, "conformity": 0.52}
-RUN = {"point": POINT, "motion": HarmonicLoad(Omega=pi), "n": 32}
+RUN = {"point": POINT, "motion": HarmonicLoad(Omega=pi), "grid": Grid(n=32)}
 FIELDS = [  # function, good arguments, bad values of some
     (
         MoesPoint,
@@ -117,31 +130,46 @@ FIELDS = [  # function, good arguments, bad values of some
         solve_steady,
         {"point": POINT},
         {
-            "n": NO_GRID,
+            "grid": [64, Domain()],
             "tol": [0.0, -1e-5, NAN, None],
             "approach": [NAN, INF, True],
             "point": [(200, 10, 0.5)],
-            "domain": [(-4.5, 1.5, 3.0)],
             "max_cycles": [-1, "a"],
         },
     ),
-    (impedance, {"point": POINT, "Omega": [1.0]}, {"n": NO_GRID, "Omega": [[], [-1.0]]}),
-    (FullContact, {"point": POINT}, {"n": NO_GRID, "largest_load": [0.0, NAN], "tol": [-1.0], "point": [3]}),
+    (impedance, {"point": POINT, "Omega": [1.0]}, {"grid": [64], "Omega": [[], [-1.0]]}),
+    (FullContact, {"point": POINT}, {"grid": [64], "largest_load": [0.0, NAN], "tol": [-1.0], "point": [3]}),
     (
         simulate,
         RUN,
         {
-            "n": NO_GRID,
-            "until": [0.0, NAN, True],
-            "dT": [-0.1, INF],
-            "tol": [0.0, NAN, "1e-3"],
-            "snapshots": [(-1.0,), (0.5, NAN), 0.5],
+            "grid": [64, None],
+            "time": [1.0],
+            "keep": [(0.5,)],
+            "run": [False],
             "point": ["M200"],
             "motion": [1],
             "surface": [3],
         },
     ),
-    (simulate, RUN | {"until": 1.0}, {"dT": [2.0, 1e-9], "snapshots": [(1.5,)]}),
+    (Grid, {}, {"n": NO_GRID, "domain": [(-4.5, 1.5, 3.0)], "deflection": ["FFT", None]}),
+    (
+        TimeSteps,
+        {},
+        {
+            "until": [0.0, NAN, True],
+            "dt": [-0.1, INF],
+            "periods": [0.0],
+            "steps_per_period": [-80],
+            "local_error": [0.0, 1e-9, 0.5],
+            "tol": [0.0, NAN, "1e-3"],
+        },
+    ),
+    (TimeSteps, {"until": 1.0, "dt": 0.1}, {"periods": [2.0], "steps_per_period": [80]}),
+    (KeepSettings, {}, {"snapshots": [(-1.0,), (0.5, NAN), 0.5], "checkpoint_every": [-1.0, NAN]}),
+    (RunSettings, {}, {"threads": [0, 2.0, 9999]}),
+    (run_until_1, {}, {"dt": [2.0, 1e-9], "snapshots": [(1.5,)]}),
+    (tabulated, {}, {"periods": [2.0], "steps_per_period": [80]}),
     (FreeVibration, {}, {"Omega_n": NOT_POSITIVE}),
     (FreeVibration, {"Omega_n": 5.0}, {"offset": [NAN, 2.5], "rate": [INF]}),
     (

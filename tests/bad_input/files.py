@@ -9,13 +9,14 @@ from pathlib import Path
 import atlas_stub
 import h5py
 import numpy as np
+from argument_groups import grouped
 
-from ehlcontact import HarmonicLoad, MoesPoint, save, simulate, solve_steady
+from ehlcontact import Grid, HarmonicLoad, MoesPoint, save, simulate, solve_steady
 from reduced_models import CubicContact
 from reduced_models.atlas.atlas import SHIPPED
 
 POINT = ("--M", "20", "--L", "5", "--kappa", "0.5")
-RUN = {"n": 32, "until": 0.2, "dT": 0.05}
+RUN = {"n": 32, "until": 0.2, "dt": 0.05}
 STUDY = (Path(__file__).parents[2] / "examples" / "small_study.toml").read_text()
 DEEP = '{"a":' * 100_000 + "1" + "}" * 100_000
 
@@ -45,8 +46,11 @@ SUFFIX = {
 def make_good(folder):
     """Content of a sound file of every kind, and of a steady film."""
     point = MoesPoint(20, 5, 0.5)
-    save(simulate(point, HarmonicLoad(Omega=3.0), **RUN, checkpoint=folder / "checkpoint"), folder / "result")
-    save(solve_steady(point, n=16, throw=False), folder / "steady")
+    save(
+        simulate(point, HarmonicLoad(Omega=3.0), **grouped(**RUN, checkpoint=folder / "checkpoint")),
+        folder / "result",
+    )
+    save(solve_steady(point, grid=Grid(n=16), throw=False), folder / "steady")
     save(CubicContact(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0), folder / "element")
     (folder / "study").write_text(STUDY)
     (folder / "atlas").write_bytes(SHIPPED.read_bytes())
@@ -252,8 +256,8 @@ BAD = {
         "a result": of("result"),
         "older": header_of(format=0),
         "another version": attribute("version", '"0.0.1"'),
-        "no settings": hdf5(lambda file: file.attrs.__delitem__("settings")),
-        "settings in words": attribute("settings", '"none"'),
+        "no inputs": hdf5(lambda file: file.attrs.__delitem__("inputs")),
+        "inputs in words": attribute("inputs", '"none"'),
         "too few films": array("record/film", lambda old: old[:-1]),
         "no entries": array("record/numbers", lambda old: old[:0]),
         "another grid": array("film/P", lambda old: old[:-1, :-1]),

@@ -18,7 +18,18 @@ from bad_input.commands import COMMANDS, ELEMENT, FILM, OTHER, RECORD, STUDY, at
 from bad_input.fields import FIELDS, NAMED
 from bad_input.studies import SLIPS, SMALL
 
-from ehlcontact import HarmonicLoad, InputError, Lubricant, MoesPoint, save, simulate, solve_steady
+from ehlcontact import (
+    Grid,
+    HarmonicLoad,
+    InputError,
+    Lubricant,
+    MoesPoint,
+    RunSettings,
+    TimeSteps,
+    save,
+    simulate,
+    solve_steady,
+)
 from ehlcontact.cli import main
 from ehlcontact.cli.study.points.ledger import read_ledger
 from reduced_models import BallBearing, CubicContact
@@ -51,10 +62,16 @@ def good(tmp_path_factory):
     folder = tmp_path_factory.mktemp("good")
     for name, M in ((RECORD, 20.0), (OTHER, 30.0)):
         save(
-            simulate(MoesPoint(M, 5, 0.5), HarmonicLoad(Omega=3.0), n=16, until=0.5, dT=0.05, throw=False),
+            simulate(
+                MoesPoint(M, 5, 0.5),
+                HarmonicLoad(Omega=3.0),
+                grid=Grid(n=16),
+                time=TimeSteps(until=0.5, dt=0.05),
+                run=RunSettings(throw=False),
+            ),
             folder / name,
         )
-    save(solve_steady(MoesPoint(20, 5, 0.5), n=16, throw=False), folder / FILM)
+    save(solve_steady(MoesPoint(20, 5, 0.5), grid=Grid(n=16), throw=False), folder / FILM)
     save(CubicContact(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0), folder / ELEMENT)
     (folder / STUDY).write_text(SMALL)
     for name in ("x.fmu", "new.npz", "k.json", "slip.toml"):

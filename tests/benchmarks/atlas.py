@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 from scipy.stats import qmc
 
-from ehlcontact import Domain, Mesh, MoesPoint, impedance
+from ehlcontact import Domain, Grid, MoesPoint, impedance
 from reduced_models import Atlas
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.solve import OMEGAS, solve_point
@@ -42,7 +42,7 @@ def held_out(atlas, count, seed):
 
 def is_near(entry):
     """Whether it was solved on the near region."""
-    return Mesh(entry["n"], Domain(*entry["domain"])).near
+    return Domain(*entry["domain"]) == Domain.near()
 
 
 def rows_of(atlas, entries):
@@ -95,7 +95,7 @@ def between(atlas, entries):
     worst = []
     for entry in entries[::10]:
         point = MoesPoint(entry["M"], entry["L"], entry["kappa"])
-        truth = impedance(point, Omega=middle, n=entry["n"], domain=Domain(*entry["domain"]))
+        truth = impedance(point, Omega=middle, grid=Grid(n=entry["n"], domain=Domain(*entry["domain"])))
         K, C = (Between(nodes, np.array(entry[name])).at(middle) for name in ("stiffness", "damping"))
         worst.append(
             [np.abs(K / truth.stiffness - 1.0).max(), np.abs(C - truth.damping).max() / entry["damping"][1]]

@@ -25,7 +25,7 @@ from conv import circumstances
 from ledger import Ledger, Row, Task, duration, work_through
 from scipy.stats import qmc
 
-from ehlcontact import Domain, MoesPoint, solve_steady
+from ehlcontact import Domain, Grid, MoesPoint, solve_steady
 from ehlcontact.checks.admissible_range import MEASURED
 from ehlcontact.errors import InputError
 from ehlcontact.solver.acceleration import AcceleratedCycles
@@ -98,7 +98,7 @@ def solve_finer(row: Row) -> Row:
         result = (
             finer_close_lines(point, mesh)
             if mesh.y_refinement > 1
-            else solve_steady(point, n=mesh.n, domain=domain, throw=False)
+            else solve_steady(point, grid=Grid(n=mesh.n, domain=domain), throw=False)
         )
     except InputError as refused:  # too little memory
         return found | {"status": f"not solved: {refused}", "move": None}

@@ -16,7 +16,7 @@ from pathlib import Path
 from honest import WAYS, measure
 from ledger import Ledger, Row, Task, work_through
 
-from ehlcontact import MoesPoint
+from ehlcontact import Grid, MoesPoint
 from ehlcontact.solver.mesh import Purpose, mesh_for
 
 GRIDS = (128, 256, 512, 1024, 2048)
@@ -55,7 +55,7 @@ POINTS: tuple[tuple[float, float, float], ...] = (
 
 def resolved(point: MoesPoint, n: int) -> bool:
     """Whether the mesh of n intervals sees the inlet of the film."""
-    return mesh_for(point, Purpose.FILM, n=n).size(point.kappa) <= RESOLVED * point.inlet_width
+    return mesh_for(point, Purpose.FILM, grid=Grid(n=n)).size(point.kappa) <= RESOLVED * point.inlet_width
 
 
 def chosen(texts: list[str]) -> list[tuple[float, float, float]]:

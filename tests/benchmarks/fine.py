@@ -23,7 +23,7 @@ from honest import MOST, Errors, State
 from honest_step import Middle
 from numpy.typing import NDArray
 
-from ehlcontact import Dent, Domain, MoesPoint, PrescribedLoad, Roughness
+from ehlcontact import Dent, Domain, Grid, MoesPoint, PrescribedLoad, Roughness
 from ehlcontact.solver.mesh import Purpose, mesh_for
 from ehlcontact.transient.surface import Surface
 
@@ -42,9 +42,11 @@ CASES: dict[str, tuple[MoesPoint, Surface, float]] = {
 def passage(case: str, n: int, until: float | None) -> tuple[dict[str, Any], NDArray[np.float64]]:
     """All steps of a case: a row of figures, and the change of the film at the end over the central one."""
     point, surface, end = CASES[case]
-    mesh, dT = mesh_for(point, Purpose.RUN, n=n, domain=NEAR), (NEAR.x_out - NEAR.x_in) / n
+    mesh, dT = mesh_for(point, Purpose.RUN, grid=Grid(n=n, domain=NEAR)), (NEAR.x_out - NEAR.x_in) / n
     steps = round((end if until is None else until) / dT)
-    Middle(point, steady_load(end), mesh_for(point, Purpose.RUN, n=64, domain=NEAR), 2, dT=dT)  # compiles
+    Middle(
+        point, steady_load(end), mesh_for(point, Purpose.RUN, grid=Grid(n=64, domain=NEAR)), 2, dT=dT
+    )  # compiles
     middle = Middle(point, steady_load(end), mesh, 0, dT=dT, surface=surface)
     level, seconds, cpu, told = middle.film.level, [], [], []
     rest, central = level.H.copy(), level.central_film()

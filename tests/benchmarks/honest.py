@@ -19,7 +19,7 @@ import numpy as np
 from conv import Bracket, Clock, circumstances
 from numpy.typing import NDArray
 
-from ehlcontact import MoesPoint, solve_steady
+from ehlcontact import Grid, MoesPoint, solve_steady
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.iterate import LARGEST_SWEEP_FACTOR, falls_slowly
@@ -291,7 +291,7 @@ def measure(
     threads : int
         Of a second timing, which stands beside that of one thread; 1 leaves it out.
     """
-    mesh = mesh_for(point, Purpose.FILM, n=n)
+    mesh = mesh_for(point, Purpose.FILM, grid=Grid(n=n))
     _warm_up(point, way)
     memory = _peak_memory(point, mesh, way)
     exact = converge(point, mesh, most)
@@ -350,7 +350,7 @@ def _judged(found: Trace, exact: Reference) -> dict[str, Any]:
 def _as_asked_for(point: MoesPoint, n: int, exact: Reference) -> dict[str, Any]:
     """`solve_steady` as a user calls it: its time, and how far it is from the converged solution."""
     with Clock() as clock:
-        result = solve_steady(point, n=n, throw=False)
+        result = solve_steady(point, grid=Grid(n=n), throw=False)
     state = State(result.P.T, result.approach, result.h_central, result.h_min, result.force)
     errors = Errors.between(state, exact.state)
     return {
@@ -372,7 +372,7 @@ def _newton_gap(point: MoesPoint, mesh: Mesh, exact: Reference, most: int) -> di
 
 def _warm_up(point: MoesPoint, way: str) -> None:
     """Compile, on the smallest grid."""
-    mesh = mesh_for(point, Purpose.FILM, n=64)
+    mesh = mesh_for(point, Purpose.FILM, grid=Grid(n=64))
     clocked(point, mesh, way, 1)
 
 

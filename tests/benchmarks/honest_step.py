@@ -17,7 +17,7 @@ from unittest import mock
 from conv import Bracket, Clock, circumstances
 from honest import FULL, LARGEST, MOST, Errors, Reference, State, is_full, is_over, settle, unknown, verdict
 
-from ehlcontact import FreeVibration, HarmonicLoad, MoesPoint
+from ehlcontact import FreeVibration, Grid, HarmonicLoad, MoesPoint
 from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for
 from ehlcontact.transient import film as film_module
 from ehlcontact.transient.bodies import Motion
@@ -114,8 +114,8 @@ def measure_step(
 
     With more than one thread a second timing stands beside that of one.
     """
-    mesh = mesh_for(point, Purpose.RUN, n=n, largest_load=MOTIONS[name].largest_load)
-    Middle(point, MOTIONS[name], mesh_for(point, Purpose.RUN, n=64), 3)  # compiles
+    mesh = mesh_for(point, Purpose.RUN, grid=Grid(n=n), largest_load=MOTIONS[name].largest_load)
+    Middle(point, MOTIONS[name], mesh_for(point, Purpose.RUN, grid=Grid(n=64)), 3)  # compiles
     middle = Middle(point, MOTIONS[name], mesh, steps)
     row: dict[str, Any] = {"motion": name, "n": n, "region": list(mesh.domain.as_tuple()), "T": middle.T}
     row |= point.to_dict() | circumstances()

@@ -23,7 +23,7 @@ from honest import measure
 from honest_step import MOTIONS, measure_step
 from ledger import Ledger, Row, Task, work_through
 
-from ehlcontact import FreeVibration, Lubricant, MoesPoint, impedance, simulate
+from ehlcontact import FreeVibration, Grid, Lubricant, MoesPoint, impedance, simulate
 from ehlcontact.solver.deflection import make_deflection
 from reduced_models import BallBearing, BearingMotion, ContactRecord, fit
 
@@ -60,7 +60,7 @@ def fitted_element() -> Row:
     outcome: dict[str, float] = {}
 
     def work() -> None:
-        record = ContactRecord.from_result(simulate(POINT, FreeVibration(Omega_n=5.13), n=64))
+        record = ContactRecord.from_result(simulate(POINT, FreeVibration(Omega_n=5.13), grid=Grid(n=64)))
         result = fit(record, model="cubic")
         outcome.update(root=result.root or np.nan, tangent=result.tangent or np.nan, **result.parameters)
 

@@ -23,12 +23,12 @@ POINTS = (200, 10, 0.5), (2900, 19, 0.107), (20, 10, 1.0)
 
 def results() -> dict[str, list[float]]:
     """Films on default grids, one impedance, one free vibration."""
-    from ehlcontact import FreeVibration, MoesPoint, impedance, simulate, solve_steady
+    from ehlcontact import FreeVibration, Grid, MoesPoint, TimeSteps, impedance, simulate, solve_steady
 
     points = [MoesPoint(*numbers) for numbers in POINTS]
     films = [solve_steady(point) for point in points]
-    response = impedance(points[0], Omega=[0.0, 0.25, 3.0], n=64)
-    record = simulate(points[0], FreeVibration(Omega_n=5.13), n=64, until=1.0)
+    response = impedance(points[0], Omega=[0.0, 0.25, 3.0], grid=Grid(n=64))
+    record = simulate(points[0], FreeVibration(Omega_n=5.13), grid=Grid(n=64), time=TimeSteps(until=1.0))
     return {
         "films": [value for film in films for value in (film.approach, film.h_central, film.h_min)],
         "impedance": [*response.stiffness, *response.damping],

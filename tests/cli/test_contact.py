@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from ehlcontact import Lubricant, OperatingPoint, SimulationResult, impedance, load, solve_steady
+from ehlcontact import Grid, Lubricant, OperatingPoint, SimulationResult, impedance, load, solve_steady
 from ehlcontact.cli.contact import Contact
 from ehlcontact.cli.oils import oil_grade
 from ehlcontact.errors import InputError
@@ -59,7 +59,7 @@ def test_other_oils_are_told_the_known_ones(text):
 
 def test_steady_answers_in_si(call, tmp_path):
     result = call("steady", *options(), *COARSE, "--json", "-", "--save", tmp_path / "r.h5")
-    found, ours = json.loads(result.out), solve_steady(ball(), n=32)
+    found, ours = json.loads(result.out), solve_steady(ball(), grid=Grid(n=32))
     assert ours.reservation and found["reservation"] == ours.reservation
     assert result.code == 0 and result.err == f"ehlcontact: warning: {ours.reservation}\n"
     assert found["si"]["h_central"] == ours.si.h_central and found["si"]["force"] == ours.si.force
@@ -75,7 +75,7 @@ def test_steady_answers_in_si(call, tmp_path):
 
 def test_impedance_is_at_the_shafts_frequency_unless_another_is_given(call):
     said = json.loads(call("impedance", *options(), *COARSE, "--json", "-").out)["si"]
-    ours = impedance(ball(), rpm=3000.0, n=32).si
+    ours = impedance(ball(), rpm=3000.0, grid=Grid(n=32)).si
     assert said["hz"] == pytest.approx([50.0]) and said["damping"] == pytest.approx(
         ours.damping.tolist(), rel=1e-9
     )

@@ -6,7 +6,17 @@ import numpy as np
 import pytest
 from matplotlib.text import Text
 
-from ehlcontact import Geometry, HarmonicLoad, Lubricant, MoesPoint, OperatingPoint, simulate, solve_steady
+from ehlcontact import (
+    Geometry,
+    Grid,
+    HarmonicLoad,
+    Lubricant,
+    MoesPoint,
+    OperatingPoint,
+    TimeSteps,
+    simulate,
+    solve_steady,
+)
 from ehlcontact.cli.paper.figures import FIGURES
 from ehlcontact.cli.paper.page import reproduce
 from ehlcontact.cli.plots import film, fringes, motion
@@ -51,8 +61,9 @@ def test_the_papers_elements_are_drawn_as_printed(reproduction):
 
 
 def test_figures_of_films_and_motions():
-    steady = solve_steady(BALL, n=32)
-    run = simulate(BALL, HarmonicLoad(Omega=3.0), n=32, until=1.0, dT=0.1)
+    steady = solve_steady(BALL, grid=Grid(n=32))
+    steps = TimeSteps(until=1.0 * BALL.scales.time, dt=0.1 * BALL.scales.time)
+    run = simulate(BALL, HarmonicLoad(Omega=3.0), grid=Grid(n=32), time=steps)
     draws = (film.steady_figure, film.film_maps, film.midplanes, film.convergence, fringes.three_lights)
     said = {draw.__name__: texts(draw(steady)) for draw in draws}
     said |= {"simulation": texts(motion.simulation_figure(run)), "wave": texts(motion.wave(run))}
@@ -64,7 +75,7 @@ def test_figures_of_films_and_motions():
 @pytest.mark.parametrize("kappa", [0.1, 0.5, 1.0, 3.0])
 def test_an_ellipse_out_of_scale_says_how_much(kappa):
     """The note against the drawing itself: pixels of a semi-axis along and across."""
-    steady = solve_steady(MoesPoint(20.0, 5.0, kappa), n=64)
+    steady = solve_steady(MoesPoint(20.0, 5.0, kappa), grid=Grid(n=64))
     for draw, upwards in ((film.film_maps, True), (film.steady_figure, False)):
         figure = draw(steady)
         said = texts(figure)

@@ -3,7 +3,17 @@
 import numpy as np
 import pytest
 
-from ehlcontact import Geometry, HarmonicLoad, Lubricant, MoesPoint, OperatingPoint, simulate, solve_steady
+from ehlcontact import (
+    Geometry,
+    Grid,
+    HarmonicLoad,
+    Lubricant,
+    MoesPoint,
+    OperatingPoint,
+    TimeSteps,
+    simulate,
+    solve_steady,
+)
 
 IN_SI = OperatingPoint(Geometry(12.7e-3, 20e-3), Lubricant(0.1), 20.0, 0.5)
 PLAIN = MoesPoint(50.0, 5.0, 0.5)
@@ -25,7 +35,7 @@ def line(figure, name):
 def test_steady_figure(point, si):
     from ehlcontact.cli.plots.film import steady_figure
 
-    result = solve_steady(point, n=32)
+    result = solve_steady(point, grid=Grid(n=32))
     figure = steady_figure(result)
     seen = labels(figure)
     assert any("pressure [GPa]" in text for text in seen) == si
@@ -41,7 +51,9 @@ def test_steady_figure(point, si):
 def test_simulation_figure(point, si):
     from ehlcontact.cli.plots.motion import simulation_figure
 
-    run = simulate(point, HarmonicLoad(Omega=3.0), n=32, until=1.0, dT=0.1)
+    unit = IN_SI.scales.time if si else 1.0
+    steps = TimeSteps(until=1.0 * unit, dt=0.1 * unit)
+    run = simulate(point, HarmonicLoad(Omega=3.0), grid=Grid(n=32), time=steps)
     figure = simulation_figure(run)
     assert (
         {"approach [µm]", "force [N]"} <= labels(figure) if si else {"approach u", "force f/f0"} <= labels(figure)
@@ -62,7 +74,9 @@ def test_loops_show_the_element_that_was_fitted():
     from ehlcontact.cli.plots.motion import loops
     from reduced_models import ContactRecord, fit
 
-    run = simulate(IN_SI, HarmonicLoad(Omega=3.0), n=32, until=4.0, dT=0.05)
+    unit = IN_SI.scales.time
+    steps = TimeSteps(until=4.0 * unit, dt=0.05 * unit)
+    run = simulate(IN_SI, HarmonicLoad(Omega=3.0), grid=Grid(n=32), time=steps)
     found = fit(ContactRecord.from_result(run), "cubic", (2.0, 4.0))
     figure = loops({"harmonic": run}, {"harmonic": found}, {"harmonic": "a title"})
     assert "a title" in labels(figure)
@@ -131,5 +145,5 @@ def test_drawing_leaves_matplotlib_alone(tmp_path):
     from ehlcontact.cli.plots.style import write_figure
 
     before = dict(mpl.rcParams)
-    write_figure(steady_figure, solve_steady(PLAIN, n=32), tmp_path / "film.png")
+    write_figure(steady_figure, solve_steady(PLAIN, grid=Grid(n=32)), tmp_path / "film.png")
     assert dict(mpl.rcParams) == before

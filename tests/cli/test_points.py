@@ -17,7 +17,7 @@ import pytest
 from matplotlib.figure import Figure
 from tiny_study import STUDY
 
-from ehlcontact import InputError, load, solve_steady
+from ehlcontact import Grid, InputError, load, solve_steady
 from ehlcontact.cli.study import runner
 from ehlcontact.cli.study.points import cluster
 from ehlcontact.cli.study.points.alone import alone_in
@@ -392,7 +392,7 @@ def test_stages_of_a_cluster_are_those_of_this_machine(run, stub, monkeypatch):
     assert stub() == ["3000rpm_20N report", "4000rpm_20N report"]
     (run.folder / "s.toml").write_text(text)
     for point in load_points(run.folder / "s.toml", run.folder):
-        ours = solve_steady(point.study.point, n=32, domain=point.study.domain)
+        ours = solve_steady(point.study.point, grid=Grid(n=32, domain=point.study.domain))
         assert load(point.folder / "steady.h5").h_min == ours.h_min
     assert run(text, "--scheduler", "tcp://somewhere").code == 0 and len(sent) == 2
 

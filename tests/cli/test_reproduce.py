@@ -6,6 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
+from argument_groups import grouped
 
 from ehlcontact import InputError, Status, load
 from ehlcontact.cli.page import cell
@@ -112,7 +113,7 @@ def test_interrupt_keeps_what_is_finished(call, tmp_path, monkeypatch):
     def interrupted(*arguments, **options):
         if done:
             raise KeyboardInterrupt
-        done.append(simulate(*arguments, **options))
+        done.append(simulate(*arguments, **grouped(**options)))
         return done[0]
 
     monkeypatch.setattr(runs, "simulate", interrupted)
@@ -126,7 +127,7 @@ def test_a_case_that_fails_is_told_and_the_page_is_made_without_it(call, tmp_pat
     simulate = runs.simulate
 
     def short_of_breath(point, motion, **options):
-        return simulate(point, motion, **(options | {"tol": 1e-14}))
+        return simulate(point, motion, **grouped(**(options | {"tol": 1e-14})))
 
     monkeypatch.setattr(runs, "simulate", short_of_breath)
     result = call("reproduce", "--table", "3", "--figure", "6", "-o", tmp_path, "--n", "32", "--json", "-")

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from ehlcontact import Purpose, mesh_for
 from ehlcontact.cli.study.forecast import forecast
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import STAGES
+from ehlcontact.solver.mesh import Purpose, mesh_for
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SMALL = EXAMPLES / "small_study.toml"

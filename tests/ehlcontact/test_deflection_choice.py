@@ -3,7 +3,17 @@
 import numpy as np
 import pytest
 
-from ehlcontact import FreeVibration, FullContact, InputError, MoesPoint, impedance, simulate, solve_steady
+from ehlcontact import (
+    FreeVibration,
+    FullContact,
+    Grid,
+    InputError,
+    MoesPoint,
+    TimeSteps,
+    impedance,
+    simulate,
+    solve_steady,
+)
 
 POINT = MoesPoint(200, 10, 0.5)
 # by the direct sum to the tolerance of the solves, by multi-integration below the error of these grids
@@ -11,19 +21,21 @@ ENGINES = [("direct", 1e-7), ("mlmi", 1e-3)]
 
 
 def film(engine):
-    return solve_steady(POINT, n=64, tol=1e-9, deflection=engine).H
+    return solve_steady(POINT, grid=Grid(n=64, deflection=engine), tol=1e-9).H
 
 
 def run(engine):
-    return simulate(POINT, FreeVibration(Omega_n=5.13), n=32, until=0.2, tol=1e-6, deflection=engine).force
+    return simulate(
+        POINT, FreeVibration(Omega_n=5.13), grid=Grid(n=32, deflection=engine), time=TimeSteps(until=0.2, tol=1e-6)
+    ).force
 
 
 def response(engine):
-    return impedance(POINT, Omega=[0.0, 3.0], n=32, deflection=engine).stiffness
+    return impedance(POINT, Omega=[0.0, 3.0], grid=Grid(n=32, deflection=engine)).stiffness
 
 
 def contact(engine):
-    full = FullContact(POINT, n=32, tol=1e-6, deflection=engine)
+    full = FullContact(POINT, grid=Grid(n=32, deflection=engine), tol=1e-6)
     return np.array([full.advance(0.1, 0.9), full.advance(0.1, 0.88)])
 
 

@@ -7,6 +7,7 @@ import stat
 import h5py
 import numpy as np
 import pytest
+from argument_groups import grouped
 
 from ehlcontact import HarmonicLoad, InputError, MoesPoint, files, save, simulate
 from ehlcontact.store import making, put, set_text, take, text_of
@@ -74,10 +75,10 @@ def test_hdf5_on_a_disk_of_16_kb(full_disk):
 
 
 def test_results_and_checkpoints_on_a_disk_of_16_kb(full_disk):
-    options = dict(n=64, until=0.2, dT=0.1)
+    options = dict(n=64, until=0.2, dt=0.1)
     with pytest.raises(InputError, match=r"^checkpoint = .*No space left"):
-        simulate(POINT, HarmonicLoad(Omega=3.0), **options, checkpoint=full_disk / "c.h5")
-    result = simulate(POINT, HarmonicLoad(Omega=3.0), **options)
+        simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(**options, checkpoint=full_disk / "c.h5"))
+    result = simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(**options))
     with pytest.raises(InputError, match=r"^path = .*No space left"):
         save(result, full_disk / "r.h5")
     assert names(full_disk) == ["kept.txt"]

@@ -6,12 +6,15 @@ import pytest
 from ehlcontact import (
     FreeVibration,
     Geometry,
+    Grid,
     HarmonicLoad,
     InputError,
+    KeepSettings,
     Lubricant,
     MoesPoint,
     OperatingPoint,
     PrescribedLoad,
+    TimeSteps,
     simulate,
     solve_steady,
 )
@@ -22,7 +25,7 @@ STEEL_ON_GLASS = OperatingPoint(Geometry(12.7e-3, 20e-3, e2=8e10, nu2=0.2), Lubr
 
 @pytest.fixture(scope="module")
 def steady():
-    return solve_steady(STEEL_ON_GLASS, n=64)
+    return solve_steady(STEEL_ON_GLASS, grid=Grid(n=64))
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +35,9 @@ def film(steady):
 
 @pytest.fixture(scope="module")
 def harmonic():
-    return simulate(MoesPoint(200.0, 10.0, 0.5), HarmonicLoad(Omega=np.pi), n=32, until=1.0)
+    return simulate(
+        MoesPoint(200.0, 10.0, 0.5), HarmonicLoad(Omega=np.pi), grid=Grid(n=32), time=TimeSteps(until=1.0)
+    )
 
 
 def wedge(gap):
@@ -104,13 +109,13 @@ def test_fringes_of_a_contact(film):
 
 
 def test_snapshots_of_a_simulation():
+    unit = STEEL_ON_GLASS.scales.time
     run = simulate(
         STEEL_ON_GLASS,
         PrescribedLoad(np.linspace(0, 1, 4), np.ones(4)),
-        n=32,
-        until=0.4,
-        dT=0.1,
-        snapshots=[0.2, 0.4],
+        grid=Grid(n=32),
+        time=TimeSteps(until=0.4 * unit, dt=0.1 * unit),
+        keep=KeepSettings(snapshots=[0.2 * unit, 0.4 * unit]),
     )
     np.testing.assert_array_equal(film_of(run).along.H, run.h_midplane[-1])
     np.testing.assert_array_equal(film_of(run, 0.2).along.P, run.p_midplane[2])
@@ -129,7 +134,7 @@ def test_film_bad_input(steady, harmonic):
         film_of(harmonic)
     with pytest.raises(InputError, match="SteadyResult"):
         film_of(steady.H)
-    plain = film_of(solve_steady(MoesPoint(20.0, 5.0, 1.0), n=32))
+    plain = film_of(solve_steady(MoesPoint(20.0, 5.0, 1.0), grid=Grid(n=32)))
     for ask in (lambda: plain.si, lambda: plain.along.si, lambda: interferogram(plain, 6e-7)):
         with pytest.raises(InputError, match="OperatingPoint"):
             ask()
@@ -157,7 +162,7 @@ def test_tracking_a_known_wave(speed):
 )
 def test_film_is_carried_at_the_mean_speed(motion):
     """Measured dX/dT is 1 in incompressible oil; in compressible oil a part of the film follows the pressure."""
-    run = simulate(MoesPoint(200.0, 10.0, 0.5, density="incompressible"), motion, n=64)
+    run = simulate(MoesPoint(200.0, 10.0, 0.5, density="incompressible"), motion, grid=Grid(n=64))
     wave = film_wave(run)
     assert wave.change.shape == (run.T.size, run.X.size)
     assert not wave.change[0].any()
@@ -184,6 +189,8 @@ def test_film_wave_of_a_steady_film_is_refused(steady):
 
 
 def test_wave_in_too_long_steps_is_refused():
-    run = simulate(MoesPoint(200.0, 10.0, 0.5), HarmonicLoad(Omega=np.pi), n=32, until=4.0, dT=1.0)
+    run = simulate(
+        MoesPoint(200.0, 10.0, 0.5), HarmonicLoad(Omega=np.pi), grid=Grid(n=32), time=TimeSteps(until=4.0, dt=1.0)
+    )
     with pytest.raises(InputError, match=r"^wave = 'a record of 4 steps': must be one in steps of 0.3 at most"):
         track_wave(film_wave(run))

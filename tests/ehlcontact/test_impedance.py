@@ -5,11 +5,10 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, InputError, MoesPoint, Purpose, mesh_for
+from ehlcontact import Domain, Grid, InputError, MoesPoint
 from ehlcontact.impedance import LinearisedContact, impedance
-from ehlcontact.solver import mesh
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
-from ehlcontact.solver.mesh import NEAR_DOMAIN, Mesh
+from ehlcontact.solver.mesh import NEAR_DOMAIN, Mesh, Purpose, mesh_for
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.steady import solve_steady
 from ehlcontact.transient.full_contact import FullContact
@@ -44,7 +43,7 @@ def test_equals_the_dense_complex_solve(steady, n):
     J, B = dense(contact, film, n)
     np.testing.assert_allclose(contact.j, J[:, -1], atol=1e-12 * np.abs(J[:, -1]).max())
     np.testing.assert_allclose(contact.b, B[:, -1], atol=1e-12 * np.abs(J[:, -1]).max())
-    result = impedance(POINT, Omega=OMEGA, n=n)
+    result = impedance(POINT, Omega=OMEGA, grid=Grid(n=n))
     assert (result.residual < 1e-5).all()
     for k, w in enumerate(np.maximum(OMEGA, 1e-4)):
         matrix = J + 1j * w * B
@@ -86,17 +85,17 @@ def test_fine_grid_is_within_reach(steady):
 
 
 def test_tells_the_film_that_was_linearised(steady):
-    film, result = steady(200, 10, 0.5, 48), impedance(POINT, Omega=[0.0], n=48)
+    film, result = steady(200, 10, 0.5, 48), impedance(POINT, Omega=[0.0], grid=Grid(n=48))
     told = result.approach, result.h_central, result.h_min
     # to rounding: impedance keeps BLAS on one thread, and LU factors of several round differently
     assert told == pytest.approx((film.approach, film.h_central, film.h_min), rel=1e-8)
 
 
 def test_static_stiffness_is_the_slope_of_the_load_curve():
-    u = solve_steady(POINT, n=48, tol=1e-7).approach
+    u = solve_steady(POINT, grid=Grid(n=48), tol=1e-7).approach
     h = 2e-3
-    force = [solve_steady(POINT, n=48, approach=u + s * h, tol=1e-7).force for s in (-1, 1)]
-    assert impedance(POINT, Omega=[0.0], n=48).stiffness[0] == pytest.approx(
+    force = [solve_steady(POINT, grid=Grid(n=48), approach=u + s * h, tol=1e-7).force for s in (-1, 1)]
+    assert impedance(POINT, Omega=[0.0], grid=Grid(n=48)).stiffness[0] == pytest.approx(
         (force[1] - force[0]) / (2 * h), rel=2e-3
     )
 
@@ -108,14 +107,14 @@ FOUR = [pytest.param(w, marks=[] if w == pi else pytest.mark.slow) for w in (0.2
 def test_agrees_with_small_motion_in_time(steady, omega):
     """A small harmonic approach on the full contact, last period of three, first harmonic of the force."""
     n, amplitude, steps = 48, 2e-3, 160
-    contact = FullContact(POINT, n=n, tol=1e-6)
+    contact = FullContact(POINT, grid=Grid(n=n), tol=1e-6)
     T = 2.0 * pi / omega * np.arange(1, 3 * steps + 1) / steps
     force = np.array([contact.advance(T[0], contact.static_approach + amplitude * np.sin(omega * t)) for t in T])
     last = slice(2 * steps, 3 * steps)
     c = 2.0 / steps / amplitude
     K = c * np.sum(force[last] * np.sin(omega * T[last]))
     C = c * np.sum(force[last] * np.cos(omega * T[last])) / omega
-    result = impedance(POINT, Omega=[omega], n=n)
+    result = impedance(POINT, Omega=[omega], grid=Grid(n=n))
     assert result.stiffness[0] == pytest.approx(K, rel=2e-3)
     assert result.damping[0] == pytest.approx(C, rel=0.02)
 
@@ -123,7 +122,7 @@ def test_agrees_with_small_motion_in_time(steady, omega):
 @pytest.mark.parametrize("values", [[], [-1.0], [float("nan")], [float("inf")], [201.0], ["fast"], [[1.0]]])
 def test_bad_frequencies_are_named(values):
     with pytest.raises(InputError, match=r"^Omega = .*: must be "):
-        impedance(POINT, Omega=values, n=32)
+        impedance(POINT, Omega=values, grid=Grid(n=32))
 
 
 def test_interrupted_start_gives_no_result(monkeypatch):
@@ -134,17 +133,21 @@ def test_interrupted_start_gives_no_result(monkeypatch):
 
     monkeypatch.setattr("ehlcontact.solver.multigrid.Multigrid.cycle", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        impedance(MoesPoint(200, 10, 0.5), Omega=[0.0, 1.0], n=48)
+        impedance(MoesPoint(200, 10, 0.5), Omega=[0.0, 1.0], grid=Grid(n=48))
 
 
 def test_thin_film_on_the_region_of_its_steady_solve():
     point = MoesPoint(20000, 2, 0.2)
-    assert impedance(point, Omega=[1.0], n=256).domain == mesh_for(point, Purpose.FILM).domain == NEAR_DOMAIN
+    assert (
+        impedance(point, Omega=[1.0], grid=Grid(n=256)).domain
+        == mesh_for(point, Purpose.FILM).domain
+        == NEAR_DOMAIN
+    )
 
 
 def test_region_widens_at_light_load(monkeypatch):
     point = MoesPoint(7, 1, 0.08)
-    assert impedance(point, Omega=[1.0], n=64).domain == solve_steady(point, n=64).domain
+    assert impedance(point, Omega=[1.0], grid=Grid(n=64)).domain == solve_steady(point, grid=Grid(n=64)).domain
     # from a region that pressure fills: no default one does any more
-    monkeypatch.setattr(mesh, "default_domain", lambda *_: Domain())
-    assert impedance(point, Omega=[1.0], n=64).domain.x_in < Domain().x_in
+    monkeypatch.setattr(Domain, "for_point", lambda *_: Domain())
+    assert impedance(point, Omega=[1.0], grid=Grid(n=64)).domain.x_in < Domain().x_in

@@ -9,11 +9,13 @@ from ehlcontact import (
     Domain,
     FreeVibration,
     Geometry,
+    Grid,
     HarmonicLoad,
     Lubricant,
     MoesPoint,
     OperatingPoint,
     RampLoad,
+    TimeSteps,
     simulate,
     solve_steady,
 )
@@ -60,7 +62,7 @@ def test_public_solutions(row):
     assert geometry.e_reduced == pytest.approx(1.238782e11, rel=1e-6)
     point = OperatingPoint(geometry, Lubricant(eta0, alpha), load, 2.0 * u_mean)
     assert (point.moes.M, point.moes.L) == pytest.approx((M, L), rel=1e-4)
-    film = solve_steady(point, n=256, domain=Domain(-4.0, 2.0, 3.0))
+    film = solve_steady(point, grid=Grid(n=256, domain=Domain(-4.0, 2.0, 3.0)))
     assert film.approach == pytest.approx(approach, rel=0.005)
 
 
@@ -112,7 +114,7 @@ CUBICS = {
 def test_tables_3_and_5(case):
     """n = 128, the record and window a user gets by default (the last two thirds of the record)."""
     motion, (k1, k2, k3, c1) = CUBICS[case]
-    result = fit(ContactRecord.from_result(simulate(POINT, motion, n=128)), model="cubic")
+    result = fit(ContactRecord.from_result(simulate(POINT, motion, grid=Grid(n=128))), model="cubic")
     root, tangent = oracles.spring_root_and_tangent(k1, k2, k3)
     assert result.root == pytest.approx(root, rel=0.005)
     assert result.tangent == pytest.approx(tangent, rel=0.015)
@@ -130,9 +132,8 @@ def test_table_6():
     record = simulate(
         MoesPoint(58.07, 4.62, 1.0),
         RampLoad(3.67, 1.69, Omega_n=2.4),
-        n=128,
-        domain=Domain(-5.0, 3.0, 4.0),
-        until=5.6,
+        grid=Grid(n=128, domain=Domain(-5.0, 3.0, 4.0)),
+        time=TimeSteps(until=5.6),
     )
     result = fit(ContactRecord.from_result(record), model="cubic")
     assert result.window == (pytest.approx((0.0, 5.6)),)

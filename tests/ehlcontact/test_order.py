@@ -9,10 +9,12 @@ import pytest
 from ehlcontact import (
     Domain,
     FreeVibration,
+    Grid,
     HarmonicLoad,
     MoesPoint,
     PrescribedApproach,
     RampLoad,
+    TimeSteps,
     simulate,
     solve_steady,
 )
@@ -113,7 +115,7 @@ def test_time_steps_are_second_order():
     ends = []
     for steps in (20, 40, 80, 160):
         until = motion.period
-        record = simulate(POINT, motion, n=32, until=until, dT=until / steps, tol=1e-7)
+        record = simulate(POINT, motion, grid=Grid(n=32), time=TimeSteps(until=until, dt=until / steps, tol=1e-7))
         assert record.steps == steps
         ends.append((record.approach[-1], record.force[-1]))
     differences = np.abs(np.diff(ends, axis=0))
@@ -147,12 +149,12 @@ def test_uneven_time_steps_are_second_order(motion):
 
 def test_squeeze_term_is_second_order():
     """Film and force under a given smooth approach: without the motion equation, whose error would hide it."""
-    u = solve_steady(POINT, n=32, tol=1e-7).approach
+    u = solve_steady(POINT, grid=Grid(n=32), tol=1e-7).approach
     T = np.linspace(0.0, 1.25, 1001)
     motion = PrescribedApproach(T, u + 0.08 * np.sin(pi * T) ** 4)
     ends = []
     for steps in (50, 100, 200):
-        record = simulate(POINT, motion, n=32, until=1.25, dT=1.25 / steps, tol=1e-8)
+        record = simulate(POINT, motion, grid=Grid(n=32), time=TimeSteps(until=1.25, dt=1.25 / steps, tol=1e-8))
         ends.append((record.force[-1], record.h_midplane[-1, np.abs(record.X) < 1.0]))
     (force0, film0), (force1, film1), (force2, film2) = ends
     assert log2(abs((force0 - force1) / (force1 - force2))) >= 1.8
@@ -161,10 +163,10 @@ def test_squeeze_term_is_second_order():
 
 def wave_speed(n):
     """Speed of a film bump made by a short approach, by the lag of best correlation between two times."""
-    u = solve_steady(POINT, n=n).approach
+    u = solve_steady(POINT, grid=Grid(n=n)).approach
     T = np.linspace(0.0, 2.0, 81)
     bump = 0.03 * np.where(T < 0.8, np.sin(np.pi * T / 0.8) ** 2, 0.0)
-    record = simulate(POINT, PrescribedApproach(T, u + bump), n=n)
+    record = simulate(POINT, PrescribedApproach(T, u + bump), grid=Grid(n=n))
     change = record.h_midplane - record.h_midplane[0]
     before, after = (change[int(np.argmin(np.abs(record.T - t)))] for t in (0.95, 1.35))
     X = np.linspace(-0.6, 0.35, 200)

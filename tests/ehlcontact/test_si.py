@@ -13,11 +13,14 @@ from ehlcontact import (
     FilmHistory,
     FreeVibration,
     FullContact,
+    Grid,
     HarmonicLoad,
     ImpedanceResult,
     InputError,
+    KeepSettings,
     SimulationResult,
     SteadyResult,
+    TimeSteps,
     simulate,
     solve_steady,
 )
@@ -49,13 +52,19 @@ UNITS = {
 
 @pytest.fixture(scope="module")
 def steady():
-    return solve_steady(POINT, n=32)
+    return solve_steady(POINT, grid=Grid(n=32))
 
 
 @pytest.fixture(scope="module")
 def run():
     motion = HarmonicLoad.at(POINT, hz=2000.0, mass=0.05)
-    return simulate(POINT, motion, n=32, until=0.3, dT=0.1, snapshots=(0.1,))
+    return simulate(
+        POINT,
+        motion,
+        grid=Grid(n=32),
+        time=TimeSteps(until=0.3 * S.time, dt=0.1 * S.time),
+        keep=KeepSettings(snapshots=(0.1 * S.time,)),
+    )
 
 
 def test_every_field_in_its_unit(steady, run):
@@ -96,24 +105,29 @@ def test_motion_in_si(run):
     assert si.static_load == POINT.load
     # Newton's law in SI: what the film does not carry accelerates the mass.
     np.testing.assert_allclose(si.mass * si.acceleration[1:], (si.load - si.force)[1:], atol=1e-3 * POINT.load)
-    assert simulate(POINT, FreeVibration(Omega_n=5.0), n=16, until=0.2, dT=0.1).si.hz is None
+    assert (
+        simulate(
+            POINT, FreeVibration(Omega_n=5.0), grid=Grid(n=16), time=TimeSteps(until=0.2 * S.time, dt=0.1 * S.time)
+        ).si.hz
+        is None
+    )
 
 
 def test_full_contact_in_si():
-    contact = FullContact(POINT, n=32)
+    contact = FullContact(POINT, grid=Grid(n=32))
     si = contact.si
     assert si.force == contact.force * S.force
     assert contact.force == pytest.approx(1.0, rel=1e-5)  # a film at rest, solved to 1e-5 of its pressure
     assert si.static_approach == contact.static_approach * S.length
     assert (si.h_central, si.h_min) == (contact.h_central * S.length, contact.h_min * S.length)
     with pytest.raises(InputError, match=r"^scales = None"):
-        _ = FullContact(POINT.moes, n=32).si
+        _ = FullContact(POINT.moes, grid=Grid(n=32)).si
 
 
 def test_dimensionless_points_have_none():
     for result in (
-        solve_steady(POINT.moes, n=16, throw=False),
-        simulate(POINT.moes, FreeVibration(Omega_n=5.0), n=16, until=0.1, dT=0.1),
+        solve_steady(POINT.moes, grid=Grid(n=16), throw=False),
+        simulate(POINT.moes, FreeVibration(Omega_n=5.0), grid=Grid(n=16), time=TimeSteps(until=0.1, dt=0.1)),
     ):
         with pytest.raises(InputError, match=r"^scales = None: must be those of a result made from an Op"):
             _ = result.si

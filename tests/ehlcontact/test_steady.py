@@ -4,11 +4,13 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
+from argument_groups import with_grid
 
 from ehlcontact import (
     ConvergenceError,
     Domain,
     Geometry,
+    Grid,
     InputError,
     Lubricant,
     MoesPoint,
@@ -111,9 +113,9 @@ def test_moment_of_pressure_is_the_rolling_resistance(steady, numbers):
 
 def test_pressure_error_is_what_further_cycles_change():
     """Ended early, a solve says how far its pressure still moves: within a factor of two here."""
-    end = solve_steady(POINT, n=64, tol=1e-10)
+    end = solve_steady(POINT, grid=Grid(n=64), tol=1e-10)
     for cycles in range(3, end.cycles - 2):
-        early = solve_steady(POINT, n=64, tol=1e-10, max_cycles=cycles, throw=False, method="multigrid")
+        early = solve_steady(POINT, grid=Grid(n=64), tol=1e-10, max_cycles=cycles, throw=False, method="multigrid")
         np.testing.assert_array_equal(early.pressure_changes, end.pressure_changes[:cycles])
         moved = np.abs(end.P - early.P).max()
         assert moved < 2.0 * early.pressure_error, cycles
@@ -123,7 +125,7 @@ def test_pressure_error_is_what_further_cycles_change():
 
 def test_tol_is_of_the_pressure():
     """The sharper solve goes on from where the looser one ended, which is as near as was asked."""
-    ends = {tol: solve_steady(POINT, n=64, tol=tol) for tol in (1e-3, 1e-5, 1e-10)}
+    ends = {tol: solve_steady(POINT, grid=Grid(n=64), tol=tol) for tol in (1e-3, 1e-5, 1e-10)}
     assert ends[1e-3].cycles <= ends[1e-5].cycles < ends[1e-10].cycles  # the approach settles to 1e-7 in all
     for tol in (1e-3, 1e-5):
         assert ends[tol].pressure_error <= tol
@@ -132,9 +134,9 @@ def test_tol_is_of_the_pressure():
 
 def test_a_grid_too_coarse_for_its_film_is_said_in_words():
     """The equations of a grid may be solved, and its film still be far from that of a finer one."""
-    fine = solve_steady(MoesPoint(200, 10, 1), n=128)
+    fine = solve_steady(MoesPoint(200, 10, 1), grid=Grid(n=128))
     assert fine.error.h_min < 0.1 and fine.reservation == ""
-    coarse = solve_steady(MoesPoint(200, 10, 1), n=48)
+    coarse = solve_steady(MoesPoint(200, 10, 1), grid=Grid(n=48))
     assert coarse.status.ok and abs(coarse.h_min / fine.h_min - 1.0) > 0.1
     said = coarse.reservation
     assert f"central film may be off by {100.0 * coarse.error.h_central:.0f} %" in said
@@ -146,17 +148,17 @@ def test_a_grid_too_coarse_for_its_film_is_said_in_words():
 def test_prescribed_approach_is_the_inverse(steady):
     """The approach found under load 1 gives back load 1."""
     free = steady(200, 10, 0.5, 64)
-    held = solve_steady(POINT, n=64, approach=free.approach)
+    held = solve_steady(POINT, grid=Grid(n=64), approach=free.approach)
     assert held.approach == pytest.approx(free.approach, abs=1e-7)
     assert held.force == pytest.approx(1.0, abs=3e-5)
     np.testing.assert_allclose(held.P, free.P, atol=1e-3)
-    more = solve_steady(POINT, n=64, approach=free.approach + 0.05)
+    more = solve_steady(POINT, grid=Grid(n=64), approach=free.approach + 0.05)
     assert more.force > 1.05
 
 
 def test_operating_point_is_its_moes_point():
     op = OperatingPoint(Geometry(0.004, 0.01), Lubricant(0.08, 1.9e-8), 30.0, 1.3)
-    si, plain = solve_steady(op, n=32), solve_steady(op.moes, n=32)
+    si, plain = solve_steady(op, grid=Grid(n=32)), solve_steady(op.moes, grid=Grid(n=32))
     assert si.approach == plain.approach
     assert si.scales is op.scales
     assert plain.scales is None
@@ -164,7 +166,7 @@ def test_operating_point_is_its_moes_point():
 
 
 def test_domain_is_reported_and_used(steady):
-    wide = solve_steady(POINT, n=96, domain=Domain(-6.0, 1.5, 4.5))
+    wide = solve_steady(POINT, grid=Grid(n=96, domain=Domain(-6.0, 1.5, 4.5)))
     assert wide.domain.as_tuple() == (-6.0, 1.5, 4.5)
     assert (wide.X[0], wide.X[-1], wide.Y[-1]) == (-6.0, 1.5, 4.5)
     assert wide.approach == pytest.approx(steady(200, 10, 0.5, 64).approach, abs=0.01)
@@ -174,7 +176,7 @@ def test_too_few_cycles_raise_with_the_result():
     with pytest.raises(
         ConvergenceError, match=r"max_cycles after 1 iterations on n = 64: The cycles ran out"
     ) as caught:
-        solve_steady(POINT, n=64, max_cycles=1)
+        solve_steady(POINT, grid=Grid(n=64), max_cycles=1)
     result = caught.value.result
     assert result.status is Status.MAX_CYCLES
     assert result.cycles == 1
@@ -182,7 +184,7 @@ def test_too_few_cycles_raise_with_the_result():
 
 
 def test_throw_false_returns_the_same_kind():
-    result = solve_steady(POINT, n=64, max_cycles=1, throw=False)
+    result = solve_steady(POINT, grid=Grid(n=64), max_cycles=1, throw=False)
     assert result.status is Status.MAX_CYCLES
     assert not result.status.ok
 
@@ -190,21 +192,21 @@ def test_throw_false_returns_the_same_kind():
 def test_pressure_at_the_outlet_is_not_called_converged():
     """A film still under pressure where the grid ends was not computed; more room settles it."""
     point = MoesPoint(5, 5, 0.12)
-    narrow = solve_steady(point, n=64, domain=Domain(-12.0, 1.5, 5.0), throw=False)
+    narrow = solve_steady(point, grid=Grid(n=64, domain=Domain(-12.0, 1.5, 5.0)), throw=False)
     assert narrow.status is Status.OUT_OF_DOMAIN
     assert "domain" in narrow.status.advice
-    assert solve_steady(point, n=64, domain=Domain(-12.0, 4.0, 8.0)).status is Status.CONVERGED
+    assert solve_steady(point, grid=Grid(n=64, domain=Domain(-12.0, 4.0, 8.0))).status is Status.CONVERGED
 
 
 def test_callback_sees_every_cycle():
     seen = []
-    result = solve_steady(POINT, n=32, callback=lambda cycle, residual: seen.append((cycle, residual)))
+    result = solve_steady(POINT, grid=Grid(n=32), callback=lambda cycle, residual: seen.append((cycle, residual)))
     assert [cycle for cycle, _ in seen] == list(range(1, result.cycles + 1))
     assert all(residual > 0.0 for _, residual in seen)
 
 
 def test_repeats_bit_for_bit():
-    one, other = solve_steady(POINT, n=48), solve_steady(POINT, n=48)
+    one, other = solve_steady(POINT, grid=Grid(n=48)), solve_steady(POINT, grid=Grid(n=48))
     assert (one.P == other.P).all()
     assert one.approach == other.approach
 
@@ -227,7 +229,9 @@ def test_prescribed_approach_above_one_gets_room():
 @pytest.mark.parametrize(("M", "kappa"), [(200, 1.0), (20, 0.2)])
 def test_film_at_l_0_is_the_limit_of_small_l(M, kappa):
     """No jump: what is left of the difference falls with L, and with the viscosity at the Hertz pressure."""
-    limit, *others = (solve_steady(MoesPoint(M, L, kappa), n=64, tol=1e-8) for L in (0.0, 1e-6, 1e-3, 0.01))
+    limit, *others = (
+        solve_steady(MoesPoint(M, L, kappa), grid=Grid(n=64), tol=1e-8) for L in (0.0, 1e-6, 1e-3, 0.01)
+    )
     for film in others:
         far = 10.0 * film.point.alpha_bar
         for name in ("approach", "h_central", "h_min"):
@@ -254,10 +258,10 @@ def test_newton_on_a_coarser_grid_where_cycles_fail_on_one_too_large_for_it(cycl
     cycles_fail(wanted.nodes(thin.kappa) / 3.9)
     found = solve_steady(thin)
     assert found.status.ok and found.n == wanted.n // 2 and found.domain == wanted.domain
-    alone = solve_steady(thin, n=found.n, domain=wanted.domain, method="newton")
+    alone = solve_steady(thin, grid=Grid(n=found.n, domain=wanted.domain), method="newton")
     assert found.error.h_min > 0.0 and found.h_min == pytest.approx(alone.h_min, rel=1e-5)
     for left in ({"n": wanted.n}, {"method": "multigrid"}):
-        assert solve_steady(thin, **left, throw=False).status is Status.STAGNATED
+        assert solve_steady(thin, **with_grid(**left, throw=False)).status is Status.STAGNATED
 
 
 @pytest.mark.slow
@@ -276,7 +280,7 @@ def test_a_limit_of_cycles_ends_the_solve(monkeypatch, given):
     with pytest.raises(
         ConvergenceError, match=r"max_cycles after 1 iterations on n = \d+: The cycles ran out"
     ) as caught:
-        solve_steady(MoesPoint(20, 8, 0.5), max_cycles=1, tol=1e-9, **given)
+        solve_steady(MoesPoint(20, 8, 0.5), **with_grid(max_cycles=1, tol=1e-9, **given))
     assert caught.value.result.cycles == 1 and len(runs) == 1
 
 
@@ -288,14 +292,14 @@ def test_refine_is_a_truth_value(refine):
 
 def test_pressure_at_the_side_border_is_told():
     """M = 5 at kappa = 0.12 floods this domain to its sides."""
-    result = solve_steady(MoesPoint(5, 5, 0.12), n=64, domain=Domain(-12.0, 2.5, 3.0), throw=False)
+    result = solve_steady(MoesPoint(5, 5, 0.12), grid=Grid(n=64, domain=Domain(-12.0, 2.5, 3.0)), throw=False)
     assert str(result.status) == "out_of_domain"
     assert "wider" in result.status.advice
 
 
 def test_light_load_gets_room():
     """The default region of the same contact is wide enough, and the film carries it far apart."""
-    result = solve_steady(MoesPoint(5, 5, 0.12), n=64)
+    result = solve_steady(MoesPoint(5, 5, 0.12), grid=Grid(n=64))
     assert result.approach < -5.0
     assert result.domain.x_in < -8.0
 
@@ -303,7 +307,7 @@ def test_light_load_gets_room():
 def test_film_below_the_grid_is_told():
     """Residuals below tolerance, but surfaces that overlap: no result to rely on."""
     with pytest.raises(ConvergenceError, match="raise n") as caught:
-        solve_steady(MoesPoint(200, 10, 1.0), n=16)
+        solve_steady(MoesPoint(200, 10, 1.0), grid=Grid(n=16))
     assert str(caught.value.result.status) == "unresolved"
     assert caught.value.result.h_min < 0.0
 
@@ -313,5 +317,5 @@ def test_interrupted_steady_solve_keeps_what_it_has():
         if cycle == 2:
             raise KeyboardInterrupt
 
-    result = solve_steady(POINT, n=32, callback=stop)
+    result = solve_steady(POINT, grid=Grid(n=32), callback=stop)
     assert str(result.status) == "interrupted" and result.cycles == 2

@@ -16,8 +16,10 @@ from numpy.typing import NDArray
 from ehlcontact import (
     FreeVibration,
     Geometry,
+    Grid,
     HarmonicLoad,
     InputError,
+    KeepSettings,
     Lubricant,
     MoesPoint,
     OperatingPoint,
@@ -27,6 +29,7 @@ from ehlcontact import (
     SimulationResult,
     Status,
     SteadyResult,
+    TimeSteps,
     load,
     save,
     simulate,
@@ -46,12 +49,18 @@ def edit_header(path, **changes):
 
 @pytest.fixture(scope="module")
 def steady_si():
-    return solve_steady(OperatingPoint(Geometry(0.004, 0.01), Lubricant(0.08, 1.9e-8), 30.0, 1.3), n=32)
+    return solve_steady(OperatingPoint(Geometry(0.004, 0.01), Lubricant(0.08, 1.9e-8), 30.0, 1.3), grid=Grid(n=32))
 
 
 @pytest.fixture(scope="module")
 def record():
-    return simulate(POINT, HarmonicLoad(Omega=pi), n=32, until=0.3, dT=0.1, snapshots=(0.1,))
+    return simulate(
+        POINT,
+        HarmonicLoad(Omega=pi),
+        grid=Grid(n=32),
+        time=TimeSteps(until=0.3, dt=0.1),
+        keep=KeepSettings(snapshots=(0.1,)),
+    )
 
 
 def assert_same(one, other):
@@ -90,7 +99,7 @@ def test_steady_round_trip(steady_si, tmp_path):
     ids=lambda m: m.kind,
 )
 def test_simulation_round_trip(motion, tmp_path):
-    result = simulate(POINT, motion, n=16, until=0.2, dT=0.05)
+    result = simulate(POINT, motion, grid=Grid(n=16), time=TimeSteps(until=0.2, dt=0.05))
     again = load(save(result, tmp_path / "record.h5"))
     assert isinstance(again, SimulationResult)
     assert_same(result, again)
@@ -103,7 +112,7 @@ def test_snapshots_survive(record, tmp_path):
 
 
 def test_unconverged_result_is_stored_with_its_status(tmp_path):
-    result = solve_steady(POINT, n=32, max_cycles=1, throw=False)
+    result = solve_steady(POINT, grid=Grid(n=32), max_cycles=1, throw=False)
     assert_same(result, load(save(result, tmp_path / "partial.h5")))
 
 

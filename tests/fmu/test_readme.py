@@ -7,7 +7,7 @@ from zipfile import ZipFile
 
 import pytest
 
-from ehlcontact import HarmonicLoad, impedance, simulate
+from ehlcontact import HarmonicLoad, TimeSteps, impedance, simulate
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.schema import load_study
 from reduced_models import Atlas, ContactRecord, fit
@@ -60,7 +60,7 @@ def test_the_film_itself_says_the_same(snippet):
     assert pytest.approx(float(film.si.damping[0]), rel=0.03) == si.C1
     assert pytest.approx(float(film.si.stiffness[0]), rel=0.01) == si.spring_tangent(si.approach_at(486.0))
     motion = HarmonicLoad.at(point, rpm=3000, amplitude=0.1)
-    record = simulate(point, motion, dT=motion.period / 40, until=2 * motion.period)
+    record = simulate(point, motion, time=TimeSteps(periods=2, steps_per_period=40))
     fitted = fit(ContactRecord.from_result(record), model="cubic").element.to_si(point.scales)
     assert pytest.approx(float(film.si.damping[0]), rel=0.03) == fitted.C1
     assert record.n == load_study(ROOT / "examples" / "deep_groove_6205.toml").solver.n_transient

@@ -16,6 +16,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 import json
+import sys
 import tempfile
 import warnings
 import zipfile
@@ -34,13 +35,16 @@ from ehlcontact import (
     Domain,
     FreeVibration,
     FullContact,
+    Grid,
     HarmonicLoad,
+    KeepSettings,
     Lubricant,
     MoesPoint,
     OperatingPoint,
     PrescribedApproach,
     PrescribedLoad,
     RampLoad,
+    TimeSteps,
     Waviness,
     film_of,
     film_wave,
@@ -82,6 +86,10 @@ from reduced_models import (
     unbalance_response,
     wide_range_from_solves,
 )
+
+sys.path.insert(0, str(Path(__file__).parents[1]))  # the tests' own helpers
+
+from argument_groups import grouped, with_grid
 
 PAPER = MoesPoint(200, 10, 0.5)
 NARROW = MoesPoint(500, 15, 0.12)
@@ -162,12 +170,12 @@ def steady_films() -> Leaves:
         "unresolved": (MoesPoint(10000, 2, 0.5), {"n": 32, "throw": False}),
     }
     for name, (point, options) in cases.items():
-        result = solve_steady(point, **options)
+        result = solve_steady(point, **with_grid(**options))
         yield from leaves(name, result)
         numbers = result.to_dict() if hasattr(result, "to_dict") else result.summary()  # older checkouts
         yield from leaves(name, {k: v for k, v in numbers.items() if k not in ("seconds", "version")})
     yield from named("si", solve_steady(BEARING).si, "x y p h approach force h_central h_min p_max moment")
-    yield from leaves("film", film_of(solve_steady(BEARING, n=64)).constriction)
+    yield from leaves("film", film_of(solve_steady(BEARING, grid=Grid(n=64))).constriction)
 
 
 def records() -> Leaves:
@@ -180,11 +188,11 @@ def records() -> Leaves:
         "ramp": (PAPER, RampLoad(1.5, 0.5, Omega_n=5.13), {"n": 32, "until": 1.0}),
         "load": (PAPER, PrescribedLoad(T, 1.0 + 0.1 * T), {"n": 32}),
         "approach": (PAPER, PrescribedApproach(T, 0.88 + 0.05 * np.sin(np.pi * T) ** 2), {"n": 32}),
-        "controlled": (PAPER, RampLoad(1.5, 0.5, Omega_n=5.13), {"n": 32, "until": 1.0, "error": 1e-3}),
+        "controlled": (PAPER, RampLoad(1.5, 0.5, Omega_n=5.13), {"n": 32, "until": 1.0, "local_error": 1e-3}),
         "controlled approach": (
             PAPER,
             PrescribedApproach(T, 0.88 + 0.05 * np.sin(np.pi * T) ** 2),
-            {"n": 32, "error": 1e-3, "snapshots": (0.5, 1.0)},
+            {"n": 32, "local_error": 1e-3, "snapshots": (0.5, 1.0)},
         ),
         "dent": (PAPER, HarmonicLoad(Omega=np.pi), {"n": 64, "until": 0.5, "surface": Dent(0.05, 0.8, speed=1.2)}),
         "waves": (PAPER, HarmonicLoad(Omega=np.pi), {"n": 64, "until": 0.5, "surface": Waviness(0.01, 0.8)}),
@@ -193,7 +201,7 @@ def records() -> Leaves:
         "failing": (PAPER, RampLoad(60.0, 0.3, Omega_n=5.13), {"n": 32, "until": 0.5, "throw": False}),
     }
     for name, (point, motion, options) in cases.items():
-        result = simulate(point, motion, **options)
+        result = simulate(point, motion, **grouped(**options))
         yield from leaves(name, result)
         if result.steps > 2:
             yield from leaves(f"{name} between", result.at([0.25 * result.T[-1], 0.7 * result.T[-1]]))
@@ -204,20 +212,33 @@ def records() -> Leaves:
                 "t approach rate acceleration force load h_central h_min x y h_midplane p_midplane static_approach"
                 " static_load mass",
             )
-    wave = film_wave(simulate(PAPER, HarmonicLoad(Omega=np.pi), n=32, until=4.0))
+    wave = film_wave(simulate(PAPER, HarmonicLoad(Omega=np.pi), grid=Grid(n=32), time=TimeSteps(until=4.0)))
     yield from leaves("wave", track_wave(wave))
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "run.h5"
-        simulate(PAPER, FreeVibration(Omega_n=5.13), n=32, until=0.25, dT=0.0125, checkpoint=file)
+        simulate(
+            PAPER,
+            FreeVibration(Omega_n=5.13),
+            grid=Grid(n=32),
+            time=TimeSteps(until=0.25, dt=0.0125),
+            keep=KeepSettings(checkpoint=file),
+        )
         yield from leaves(
-            "resumed", simulate(PAPER, FreeVibration(Omega_n=5.13), n=32, until=0.5, dT=0.0125, restart=file)
+            "resumed",
+            simulate(
+                PAPER,
+                FreeVibration(Omega_n=5.13),
+                grid=Grid(n=32),
+                time=TimeSteps(until=0.5, dt=0.0125),
+                keep=KeepSettings(restart=file),
+            ),
         )
 
 
 def responses() -> Leaves:
     """Impedances."""
     omega = [0.0, 0.05, 0.25, 3.0, 12.0, 30.0]
-    yield from leaves("paper", impedance(PAPER, Omega=omega, n=32))
+    yield from leaves("paper", impedance(PAPER, Omega=omega, grid=Grid(n=32)))
     yield from leaves("chosen", impedance(PAPER, Omega=omega))
     yield from leaves("narrow", impedance(NARROW, Omega=omega))
     yield from leaves("light", impedance(MoesPoint(5, 12, 0.12), Omega=omega))
@@ -228,7 +249,7 @@ def responses() -> Leaves:
 
 def full_contact() -> Leaves:
     """The film as a force element, with a return to a saved state and a step that fails."""
-    contact = FullContact(PAPER, n=32)
+    contact = FullContact(PAPER, grid=Grid(n=32))
     forces = [contact.advance(0.05, 0.88 + 0.02 * k) for k in range(6)]
     state = contact.save_state()
     forces += [contact.advance(0.3, 0.7), contact.advance(0.1, 0.3)]
@@ -243,13 +264,13 @@ def full_contact() -> Leaves:
 
 def fits() -> Leaves:
     """Every model fitted to the same records."""
-    free = ContactRecord.from_result(simulate(PAPER, FreeVibration(Omega_n=5.13), n=32))
-    harmonic = ContactRecord.from_result(simulate(PAPER, HarmonicLoad(Omega=2.0 * np.pi), n=32))
+    free = ContactRecord.from_result(simulate(PAPER, FreeVibration(Omega_n=5.13), grid=Grid(n=32)))
+    harmonic = ContactRecord.from_result(simulate(PAPER, HarmonicLoad(Omega=2.0 * np.pi), grid=Grid(n=32)))
     for model in ("linear", "cubic", "polynomial", "power"):
         yield from leaves(model, fit([free, harmonic], model=model).to_dict())
         yield from leaves(f"{model} of one", fit(free, model=model).to_dict())
     yield from leaves("window", fit(free, window=(0.5, 2.0)).to_dict())
-    response = impedance(PAPER, Omega=[0.0, *np.geomspace(0.03, 60.0, 14)], n=32)
+    response = impedance(PAPER, Omega=[0.0, *np.geomspace(0.03, 60.0, 14)], grid=Grid(n=32))
     memory = fit_memory(response, [free], lags=6)
     yield from leaves("memory", memory.to_dict())
     yield from leaves("memory chosen", fit_memory(response).to_dict())
@@ -365,7 +386,7 @@ def motions() -> Leaves:
                     dimensionless, np.linspace(0.0, 1.0, 21), Omega_n=omega_n, load=1.05, u0=0.87, v0=0.1
                 )
                 yield from leaves(f"oscillator {model} {omega_n}", swing)
-        full = FullContact(BEARING, n=64)
+        full = FullContact(BEARING, grid=Grid(n=64))
         start = UPRIGHT.state_at([full.static_approach * BEARING.scales.length])
         run = simulate_rotor(
             UPRIGHT, [ScaledContact(full, BEARING.scales)], dt=2e-4, until=0.004, start=start, tolerance=1e-4

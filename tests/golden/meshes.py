@@ -11,9 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ehlcontact import Domain, InputError, MoesPoint, Purpose, Status, mesh_for
+from ehlcontact import Domain, Grid, InputError, MoesPoint, Status
 from ehlcontact.solver.coarse_levels import coarsest_intervals, resolved_load
-from ehlcontact.solver.mesh import Mesh, allows_newton, default_domain, remedy
+from ehlcontact.solver.mesh import Mesh, Purpose, allows_newton, mesh_for, remedy
+from reduced_models.atlas.mesh import film_grid, impedance_grid, near_grid
 
 FILE = Path(__file__).with_name("meshes.json")
 PICKED = [
@@ -43,11 +44,12 @@ def plain(mesh):
 
 def chain(point, purpose, statuses, **given):
     """Meshes tried one after the other when solves end like that."""
-    mesh = mesh_for(point, purpose, **given)
+    grid = Grid(**given)
+    mesh = mesh_for(point, purpose, grid)
     found = [plain(mesh)]
     for status in statuses:
         try:
-            mesh = remedy(mesh, Status(status), point, purpose, **given)
+            mesh = remedy(mesh, Status(status), point, purpose, grid)
         except InputError:
             return [*found, "refused"]
         found.append(plain(mesh))
@@ -56,17 +58,18 @@ def chain(point, purpose, statuses, **given):
     return found
 
 
-def table(point, purpose):
+def table(point, choose):
     """Mesh of a point of the atlas; None for too thin a film."""
     try:
-        return plain(mesh_for(point, purpose))
+        grid = choose(point)
+        return plain(Mesh(grid.n, grid.domain))
     except InputError:
         return None
 
 
 def decisions(M, L, kappa):
     """Every rule at one point."""
-    point, default = MoesPoint(M, L, kappa), default_domain(MoesPoint(M, L, kappa))
+    point, default = MoesPoint(M, L, kappa), Domain.for_point(MoesPoint(M, L, kappa))
     return {
         "load number": point.load_number,
         "inlet": point.inlet_width,
@@ -82,9 +85,9 @@ def decisions(M, L, kappa):
         "run": plain(mesh_for(point, Purpose.RUN)),
         "run to load 3": plain(mesh_for(point, Purpose.RUN, largest_load=3.0)),
         "contact": plain(mesh_for(point, Purpose.CONTACT)),
-        "table": table(point, Purpose.TABLE),
-        "table film": table(point, Purpose.TABLE_FILM),
-        "table near": table(point, Purpose.TABLE_NEAR),
+        "table": table(point, impedance_grid),
+        "table film": table(point, film_grid),
+        "table near": table(point, near_grid),
         "coarsest": [coarsest_intervals(point, n) for n in (32, 128, 512)],
         "resolved load": [resolved_load(point, mesh) for mesh in (0.2, 0.05)],
         "newton": [allows_newton(Mesh(n, default), point) for n in (256, 1024, 2048)],

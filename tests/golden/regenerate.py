@@ -8,21 +8,28 @@ Run from the root of the checkout, look at the difference, and record it under "
 """
 
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
 
 from ehlcontact import (
     FreeVibration,
+    Grid,
     HarmonicLoad,
     MoesPoint,
     PrescribedApproach,
     RampLoad,
+    TimeSteps,
     impedance,
     simulate,
     solve_steady,
 )
 from reduced_models import Atlas, ContactRecord, fit, fit_memory
+
+sys.path.insert(0, str(Path(__file__).parents[1]))  # the tests' own helpers
+
+from argument_groups import grouped
 
 FILE = Path(__file__).with_name("golden.json")
 PAPER = MoesPoint(200, 10, 0.5)
@@ -51,31 +58,33 @@ ATLAS = {"paper": PAPER, "narrow": MoesPoint(500, 15, 0.12), "heavy": MoesPoint(
 def steady(name):
     """Numbers of one steady film, solved far below discretisation error."""
     point, n = STEADY[name]
-    film = solve_steady(point, n=n, tol=1e-8, max_cycles=80)
+    film = solve_steady(point, grid=Grid(n=n), tol=1e-8, max_cycles=80)
     return {k: getattr(film, k) for k in ("approach", "h_central", "h_min", "p_max")}
 
 
 def transient(name):
     """End of one record at n = 32."""
     motion, arguments = TRANSIENT[name]
-    record = simulate(PAPER, motion, n=32, tol=1e-7, **arguments)
+    record = simulate(PAPER, motion, **grouped(n=32, tol=1e-7, **arguments))
     last = {k: float(getattr(record, k)[-1]) for k in ("T", "approach", "rate", "force", "h_central", "h_min")}
     return {"steps": record.steps, **last}
 
 
 def response():
     """Stiffness and damping at n = 32."""
-    result = impedance(PAPER, Omega=OMEGAS, n=32)
+    result = impedance(PAPER, Omega=OMEGAS, grid=Grid(n=32))
     return {"stiffness": result.stiffness.tolist(), "damping": result.damping.tolist()}
 
 
 def fitted(model):
     """What every model makes of one short record: coefficients, quality, and the statics of the element."""
     if model == "memory":
-        response = impedance(PAPER, Omega=[0.0, *np.geomspace(0.03, 60.0, 12)], n=32)
+        response = impedance(PAPER, Omega=[0.0, *np.geomspace(0.03, 60.0, 12)], grid=Grid(n=32))
         result = fit_memory(response, lags=6)
         return {"root": result.root, "tangent": result.tangent, "gains": list(result.element.gains)}
-    record = ContactRecord.from_result(simulate(PAPER, FreeVibration(Omega_n=5.13), n=32, tol=1e-7))
+    record = ContactRecord.from_result(
+        simulate(PAPER, FreeVibration(Omega_n=5.13), grid=Grid(n=32), time=TimeSteps(tol=1e-7))
+    )
     result = fit(record, model=model)
     return {"root": result.root, "tangent": result.tangent, "rms": result.rms, **result.parameters}
 

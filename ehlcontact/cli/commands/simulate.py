@@ -22,6 +22,7 @@ from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
+from ehlcontact.transient.settings import KeepSettings, RunSettings, TimeSteps
 
 if TYPE_CHECKING:
     from ehlcontact.transient.result import SimulationResult
@@ -193,12 +194,15 @@ class TimeOptions:
         ),
     ] = None
 
-    def chosen(self, point: Point) -> dict[str, float | None]:
-        """Check the options and call them as `ehlcontact.simulate` does."""
+    def chosen(self, point: Point) -> TimeSteps:
+        """Check the options; the time steps that they stand for, in the unit of the point."""
         for name in ("until", "dt", "error", "tol"):
             if getattr(self, name) is not None:
                 require_positive(name, getattr(self, name))
-        return {"until": self._end(point), "dT": self.dt, "error": self.error, "tol": self.tol}
+        unit = point.scales.time if isinstance(point, OperatingPoint) else 1.0
+        until, dt = (None if T is None else T * unit for T in (self._end(point), self.dt))
+        with o.called(dt="--dt", local_error="--error"):
+            return TimeSteps(until=until, dt=dt, local_error=self.error, tol=self.tol)
 
     def _end(self, point: Point) -> float | None:
         if self.until_ms is None:
@@ -250,14 +254,18 @@ def simulate(
     point = contact.solvable()
     arguments = (point, motion.chosen(point))
     surfaces.check(contact)
-    chosen = grid.chosen() | time.chosen(point)
+    chosen, steps = grid.chosen(), time.chosen(point)
     check_file("--checkpoint", restart.checkpoint, o.HDF5)
     files.check({"--checkpoint": restart.checkpoint}, restart.other)
     failure, unkept = "", None
-    with progress("transient film") as update, o.called(dT="--dt"):
+    with progress("transient film") as update, o.called(dt="--dt", local_error="--error"):
         try:
             result = integrate(
-                *arguments, **chosen, callback=update, checkpoint=restart.checkpoint, restart=restart.restart
+                *arguments,
+                grid=chosen["grid"],
+                time=steps,
+                keep=KeepSettings(checkpoint=restart.checkpoint, restart=restart.restart),
+                run=RunSettings(threads=chosen["threads"], callback=update),
             )
         except ConvergenceError as stopped:
             result, failure = stopped.result, str(stopped)

@@ -15,12 +15,14 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import MoesPoint
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.domain import Domain, check_intervals
+from ehlcontact.solver.grid import Grid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.store import load, save
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 from ehlcontact.transient.result import SimulationResult
+from ehlcontact.transient.settings import KeepSettings, RunSettings, TimeSteps
 from ehlcontact.transient.simulate import simulate
 from ehlcontact.version import __version__
 
@@ -149,12 +151,10 @@ def _simulated(path: Path, case: Case, n: int, label: str) -> SimulationResult:
         result = simulate(
             case.point,
             case.motion,
-            n=n,
-            domain=case.domain,
-            until=case.until,
-            snapshots=_until(case),
-            throw=False,
-            callback=update,
+            grid=Grid(n=n, domain=case.domain),
+            time=TimeSteps(until=case.until),
+            keep=KeepSettings(snapshots=_until(case)),
+            run=RunSettings(throw=False, callback=update),
         )
     if result.status is Status.INTERRUPTED:
         raise KeyboardInterrupt
@@ -191,7 +191,7 @@ def _solved(folder: Path, point: MoesPoint, n: int, label: str, runs: Runs) -> S
         return kept
     try:
         with progress(label):
-            result = solve_steady(point, n=n)
+            result = solve_steady(point, grid=Grid(n=n))
     except ConvergenceError as error:
         runs.failed[f"steady film, M = {point.M:g}, L = {point.L:g}"] = str(error)
         return None

@@ -21,7 +21,9 @@ from ehlcontact.cli.study.slips import range_of
 from ehlcontact.cli.study.whole_input import require_whole_bearing
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant.oil import DENSITIES, GRADES, INDICES, TEMPERATURES
-from ehlcontact.solver.mesh import Purpose, default_domain, mesh_for
+from ehlcontact.solver.domain import Domain
+from ehlcontact.solver.grid import Grid
+from ehlcontact.solver.mesh import Purpose, mesh_for
 from reduced_models.bearing.catalogue import catalogue_row
 
 WIDTH = 115  # characters of a line, as in the files of examples/
@@ -106,7 +108,7 @@ def _fitting(studies: Sequence[Study]) -> dict[str, Any]:
     """Grids and region that suit the films of all points, where those of the schema do not."""
     found: dict[str, Any] = {}
     own = studies[0].domain
-    wide = [default_domain(study.point.moes, study.largest_load) for study in studies]
+    wide = [Domain.for_point(study.point.moes, study.largest_load) for study in studies]
     ends = own.as_tuple(), *(domain.as_tuple() for domain in wide)
     x_in, x_out, y_max = min(e[0] for e in ends), max(e[1] for e in ends), max(e[2] for e in ends)
     domain = own
@@ -114,7 +116,7 @@ def _fitting(studies: Sequence[Study]) -> dict[str, Any]:
         domain = type(own)(*(_outward(end) for end in (x_in, x_out, y_max)))
         found["solver.domain"] = domain.as_tuple()
     for key, purpose in (("n", Purpose.FILM), ("n_transient", Purpose.RUN)):
-        n = max(mesh_for(study.point.moes, purpose, domain=domain).n for study in studies)
+        n = max(mesh_for(study.point.moes, purpose, grid=Grid(domain=domain)).n for study in studies)
         if n > getattr(studies[0].solver, key):
             found[f"solver.{key}"] = n
     return found

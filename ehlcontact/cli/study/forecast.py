@@ -16,7 +16,9 @@ from ehlcontact.cli.study.points.ledger import is_closed, is_done, read_ledger
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import Stage, stages_of
-from ehlcontact.solver.mesh import FINENESS, LARGEST_MESH, Mesh, Purpose, default_domain, mesh_for
+from ehlcontact.solver.domain import Domain
+from ehlcontact.solver.grid import Grid
+from ehlcontact.solver.mesh import FINENESS, LARGEST_MESH, Mesh, Purpose, mesh_for
 
 # Cost of a stage: convolutions ("conv", docs/solver.md) per thousand nodes and step of one contact, the geometric
 # mean of the two studies in examples/, whose own costs are up to a factor 1.5 on either side. What a step costs
@@ -218,7 +220,7 @@ def _coarse(study: Study) -> list[str]:
         size = Mesh(n, domain).size(point.kappa)
         wanted = min(FINENESS[purpose].share * point.inlet_width, LARGEST_MESH)
         if size > wanted * (1.0 + 1e-9):
-            better = mesh_for(point, purpose, domain=domain).n
+            better = mesh_for(point, purpose, grid=Grid(domain=domain)).n
             advice = (
                 f"{key} = {better}" if better > n else "the library chooses none finer: it would take too long"
             )
@@ -226,7 +228,7 @@ def _coarse(study: Study) -> list[str]:
                 f"solver.{key} = {n}: a mesh of {size:.2g} semi-axes is too coarse for the inlet of this film, "
                 f"{point.inlet_width:.2g} wide ({why}); {advice}"
             )
-    wide = default_domain(point, study.largest_load)
+    wide = Domain.for_point(point, study.largest_load)
     if wide.x_in < domain.x_in or wide.y_max > domain.y_max or wide.x_out > domain.x_out:
         bounds = ", ".join(f"{x:.3g}" for x in wide.as_tuple())
         found.append(f"solver.domain = {list(domain.as_tuple())}: this load wants [{bounds}] or more")

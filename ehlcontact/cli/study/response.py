@@ -11,6 +11,7 @@ from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.impedance import impedance
 from ehlcontact.results import ImpedanceResult
+from ehlcontact.solver.grid import Grid
 from reduced_models import ContactElement, JeffcottRotor, LinearRotor, RotorMode, film_impedance, impedance_about
 from reduced_models.fitting.memory import OMEGAS
 from reduced_models.rotor.linear import Impedance
@@ -24,7 +25,9 @@ def film_response(study: Study) -> ImpedanceResult:
 
     It is the same every time: a stage that needs it solves it again, in the time of a few steps of its run.
     """
-    return impedance(study.point, Omega=frequencies(study), n=study.solver.n_transient, domain=study.domain)
+    return impedance(
+        study.point, Omega=frequencies(study), grid=Grid(n=study.solver.n_transient, domain=study.domain)
+    )
 
 
 def frequencies(study: Study) -> list[float]:

@@ -14,6 +14,7 @@ from ehlcontact.cli.study.response import at_rotor_speed, film_response, linear_
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.results import ImpedanceResult
+from ehlcontact.solver.grid import Grid
 from ehlcontact.status import Status
 from ehlcontact.transient.full_contact import FullContact
 from reduced_models import (
@@ -71,7 +72,7 @@ def time_step(study: Study, halvings: int = 0) -> float:
 def full_contacts(study: Study, rotor: JeffcottRotor) -> list[ScaledContact]:
     """Films at rest under the load of the operating point, one for every mount."""
     point = study.point
-    films = [FullContact(point, n=study.solver.n_transient, domain=study.domain) for _ in rotor.mounts]
+    films = [FullContact(point, grid=Grid(n=study.solver.n_transient, domain=study.domain)) for _ in rotor.mounts]
     return [ScaledContact(film, point.scales) for film in films]
 
 

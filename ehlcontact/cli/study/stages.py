@@ -9,8 +9,10 @@ from typing import Any, NamedTuple
 
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.solver.grid import Grid
 from ehlcontact.status import Status
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
+from ehlcontact.transient.settings import KeepSettings, RunSettings, TimeSteps
 
 Update = Callable[[float, float], None]  # done, total
 FRAMES = 24  # of a period: whole fields that the report can run through
@@ -73,8 +75,7 @@ def _steady(study: Study, update: Update) -> Any:
 
     return solve_steady(
         study.point,
-        n=study.solver.n,
-        domain=study.domain,
+        grid=Grid(n=study.solver.n, domain=study.domain),
         throw=False,
         callback=lambda cycle, residual: update(cycle, MAX_CYCLES),
     )
@@ -93,13 +94,10 @@ def _simulate(
     return simulate(
         study.point,
         motion,
-        n=study.solver.n_transient,
-        domain=study.domain,
-        until=periods * motion.period,
-        dT=motion.period / steps,
-        snapshots=snapshots,
-        throw=False,
-        callback=update,
+        grid=Grid(n=study.solver.n_transient, domain=study.domain),
+        time=TimeSteps(periods=periods, steps_per_period=steps),
+        keep=KeepSettings(snapshots=[T * study.point.scales.time for T in snapshots]),
+        run=RunSettings(throw=False, callback=update),
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from ehlcontact import Domain, InputError, Lubricant, MoesPoint, OperatingPoint, assumptions, solve_steady
+from ehlcontact import Domain, Grid, InputError, Lubricant, MoesPoint, OperatingPoint, assumptions, solve_steady
 from ehlcontact.assumptions.contact import Contact
 from ehlcontact.formulas import (
     flooding_distance,
@@ -191,7 +191,7 @@ def test_starved_films_follow_hamrock_and_dowson(steady, kappa, x_in):
     """Their part IV (1977) against films solved here with oil from x_in on."""
     flooded = steady(200, 10, kappa, 64)
     n = 16 * round(64 * (1.5 - x_in) / 6.0 / 16)
-    starved = solve_steady(flooded.point, n=n, domain=Domain(x_in, 1.5, 3.0))
+    starved = solve_steady(flooded.point, grid=Grid(n=n, domain=Domain(x_in, 1.5, 3.0)))
     edge = flooding_distance(flooded.h_central / (2.0 * shape_factor(kappa)))
     assert starved.h_central / flooded.h_central == pytest.approx(starved_film(-x_in, edge), rel=0.06)
 

@@ -5,7 +5,16 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import FreeVibration, HarmonicLoad, InputError, MoesPoint, PrescribedLoad, RampLoad, impedance
+from ehlcontact import (
+    FreeVibration,
+    Grid,
+    HarmonicLoad,
+    InputError,
+    MoesPoint,
+    PrescribedLoad,
+    RampLoad,
+    impedance,
+)
 from ehlcontact.checks.frequency import dimensionless, radians_per_second
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import OperatingPoint
@@ -124,7 +133,10 @@ def test_motions_of_a_point_in_si():
 
 def test_impedance_at_a_frequency_in_hertz_is_that_at_its_Omega():
     Omega = 2 * pi * 50.0 * BEARING.scales.time
-    by_hz, plain = impedance(BEARING, hz=[50.0, 5000.0], n=32), impedance(BEARING.moes, Omega=Omega, n=32)
+    by_hz, plain = (
+        impedance(BEARING, hz=[50.0, 5000.0], grid=Grid(n=32)),
+        impedance(BEARING.moes, Omega=Omega, grid=Grid(n=32)),
+    )
     assert by_hz.Omega == pytest.approx([Omega, 100 * Omega], rel=1e-14)
     assert by_hz.damping[0] == pytest.approx(plain.damping[0], rel=1e-3)
     si, scales = by_hz.si, BEARING.scales

@@ -5,7 +5,17 @@ import threading
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from ehlcontact import FreeVibration, FullContact, InputError, MoesPoint, impedance, simulate, solve_steady
+from ehlcontact import (
+    FreeVibration,
+    FullContact,
+    Grid,
+    InputError,
+    MoesPoint,
+    TimeSteps,
+    impedance,
+    simulate,
+    solve_steady,
+)
 from ehlcontact.process.blas import blas_threads, one_blas_thread
 from ehlcontact.process.threads import threads_allowed
 from ehlcontact.solver import coarse
@@ -63,16 +73,16 @@ def test_default_of_a_solve_within_a_block(monkeypatch):
 
 def test_after_an_error():
     with pytest.raises(InputError):
-        solve_steady(POINT, n=17)
+        solve_steady(POINT, grid=Grid(n=17))
     assert set(limits()) == {3}
 
 
 CALLS = {
-    "film": lambda: solve_steady(POINT, n=32),
-    "newton": lambda: solve_steady(POINT, n=32, method="newton"),
-    "run": lambda: simulate(POINT, FreeVibration(Omega_n=5.13), n=32, until=0.1),
-    "response": lambda: impedance(POINT, Omega=[0.0], n=32),
-    "contact": lambda: FullContact(POINT, n=32).advance(0.1, 0.9),
+    "film": lambda: solve_steady(POINT, grid=Grid(n=32)),
+    "newton": lambda: solve_steady(POINT, grid=Grid(n=32), method="newton"),
+    "run": lambda: simulate(POINT, FreeVibration(Omega_n=5.13), grid=Grid(n=32), time=TimeSteps(until=0.1)),
+    "response": lambda: impedance(POINT, Omega=[0.0], grid=Grid(n=32)),
+    "contact": lambda: FullContact(POINT, grid=Grid(n=32)).advance(0.1, 0.9),
 }
 
 
@@ -91,7 +101,7 @@ def test_every_solve(call, monkeypatch):
 
 
 def test_solves_in_a_step_of_a_contact(monkeypatch):
-    contact, seen = FullContact(POINT, n=32), []
+    contact, seen = FullContact(POINT, grid=Grid(n=32)), []
     advance = contact._film.advance
     monkeypatch.setattr(contact._film, "advance", lambda *args: seen.extend(limits()) or advance(*args))
     contact.advance(0.1, 0.9)

@@ -13,14 +13,18 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from argument_groups import grouped
 from threadpoolctl import threadpool_limits
 
 from ehlcontact import (
     FreeVibration,
     FullContact,
+    Grid,
     HarmonicLoad,
     InputError,
     MoesPoint,
+    RunSettings,
+    TimeSteps,
     impedance,
     simulate,
     solve_steady,
@@ -231,10 +235,16 @@ def test_cores_of_this_process():
 
 
 CALLS = {
-    "film": lambda threads: solve_steady(POINT, n=64, threads=threads),
-    "run": lambda threads: simulate(POINT, FreeVibration(Omega_n=5.13), n=32, until=0.1, threads=threads),
-    "response": lambda threads: impedance(POINT, Omega=[0.0], n=32, threads=threads),
-    "contact": lambda threads: FullContact(POINT, n=32, threads=threads),
+    "film": lambda threads: solve_steady(POINT, grid=Grid(n=64), threads=threads),
+    "run": lambda threads: simulate(
+        POINT,
+        FreeVibration(Omega_n=5.13),
+        grid=Grid(n=32),
+        time=TimeSteps(until=0.1),
+        run=RunSettings(threads=threads),
+    ),
+    "response": lambda threads: impedance(POINT, Omega=[0.0], grid=Grid(n=32), threads=threads),
+    "contact": lambda threads: FullContact(POINT, grid=Grid(n=32), threads=threads),
 }
 
 
@@ -250,20 +260,20 @@ def test_results_are_the_same_bit_for_bit(threads, monkeypatch):
     """On grids large enough to be shared, whatever the machine has."""
     monkeypatch.setattr("ehlcontact.checks.machine.cores", lambda: 8)
     monkeypatch.setattr("ehlcontact.solver.level.SHARED_FROM", 500)
-    one, more = (solve_steady(POINT, n=128, threads=k) for k in (1, threads))
+    one, more = (solve_steady(POINT, grid=Grid(n=128), threads=k) for k in (1, threads))
     np.testing.assert_array_equal(one.P, more.P)
     np.testing.assert_array_equal(one.H, more.H)
     assert one.approach == more.approach
-    settings = dict(n=96, until=0.2, dT=0.05)
-    one, more = (simulate(POINT, HarmonicLoad(Omega=3.0), **settings, threads=k) for k in (1, threads))
+    settings = dict(n=96, until=0.2, dt=0.05)
+    one, more = (simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(**settings, threads=k)) for k in (1, threads))
     for name in ("approach", "force", "h_min"):
         np.testing.assert_array_equal(getattr(one, name), getattr(more, name))
-    one, more = (impedance(POINT, Omega=[0.0, 3.0], n=96, threads=k) for k in (1, threads))
+    one, more = (impedance(POINT, Omega=[0.0, 3.0], grid=Grid(n=96), threads=k) for k in (1, threads))
     np.testing.assert_array_equal(one.stiffness, more.stiffness)
     np.testing.assert_array_equal(one.damping, more.damping)
 
 
 def test_full_contact_is_copied_with_its_team():
-    contact = FullContact(POINT, n=32, threads=1)
+    contact = FullContact(POINT, grid=Grid(n=32), threads=1)
     twin = copy.deepcopy(contact)
     assert twin.advance(0.1, 0.9) == contact.advance(0.1, 0.9)

@@ -6,11 +6,11 @@ from dataclasses import astuple, replace
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, Mesh, MoesPoint, Purpose, Status, load, mesh_for, save, solve_steady
+from ehlcontact import Domain, Grid, MoesPoint, Status, load, save, solve_steady
 from ehlcontact.solver.accuracy import ALL, ErrorEstimate, regular_error
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.estimate import estimate_error
-from ehlcontact.solver.mesh import ACCURACY, remedy
+from ehlcontact.solver.mesh import ACCURACY, Mesh, Purpose, mesh_for, remedy
 from ehlcontact.solver.multigrid import Multigrid
 
 NUMBERS = ("approach", "h_central", "h_min")
@@ -45,7 +45,7 @@ def test_a_small_last_difference_alone_says_nothing():
 )
 def test_errors_against_twice_the_grid(M, L, kappa):
     for n in (64, 128):
-        film, finer = (solve_steady(MoesPoint(M, L, kappa), n=k, throw=False) for k in (n, 2 * n))
+        film, finer = (solve_steady(MoesPoint(M, L, kappa), grid=Grid(n=k), throw=False) for k in (n, 2 * n))
         if film.status.ok:
             for error, estimate in zip(errors(film, finer), astuple(film.error), strict=True):
                 assert error < estimate or estimate == ALL
@@ -55,7 +55,7 @@ def test_errors_against_twice_the_grid(M, L, kappa):
 @pytest.mark.parametrize("method", ["multigrid", "newton"])
 def test_thin_films_state_large_errors(method):
     """Of the film that was called converged and was 16 % off."""
-    film, finer = (solve_steady(MoesPoint(*ONCE_WRONG[0]), n=n, method=method) for n in (128, 256))
+    film, finer = (solve_steady(MoesPoint(*ONCE_WRONG[0]), grid=Grid(n=n), method=method) for n in (128, 256))
     found = errors(film, finer)
     assert found[2] > 0.15
     for error, estimate in zip(found, astuple(film.error), strict=True):
@@ -68,7 +68,7 @@ def test_default_grids_are_exact(case):
     """Half the grid is already as near as promised; the first, which was the default, is not."""
     film = solve_steady(MoesPoint(*case))
     first = mesh_for(film.point, Purpose.FILM)
-    half, coarse = (solve_steady(film.point, n=n, domain=film.domain) for n in (film.n // 2, first.n))
+    half, coarse = (solve_steady(film.point, grid=Grid(n=n, domain=film.domain)) for n in (film.n // 2, first.n))
     assert film.error.within(ACCURACY) and film.n >= 4 * first.n
     assert ErrorEstimate(*errors(half, film)).within(ACCURACY)
     assert errors(coarse, film)[2] > ACCURACY.h_min
@@ -76,7 +76,11 @@ def test_default_grids_are_exact(case):
 
 def test_a_cheaper_grid_is_an_option():
     point = MoesPoint(97, 10.56, 1.489)
-    cheap, film, asked = solve_steady(point, refine=False), solve_steady(point), solve_steady(point, n=128)
+    cheap, film, asked = (
+        solve_steady(point, refine=False),
+        solve_steady(point),
+        solve_steady(point, grid=Grid(n=128)),
+    )
     assert cheap.n == mesh_for(point, Purpose.FILM).n < film.n and asked.n == 128
     assert not cheap.error.within(ACCURACY) and film.error.within(ACCURACY)
 
@@ -86,7 +90,7 @@ def test_remedy_asks_for_finer_meshes_only_where_they_pay():
     assert remedy(mesh, Status.CONVERGED, PAPER, error=bad) == Mesh(256, Domain())
     assert remedy(mesh, Status.CONVERGED, PAPER, error=ACCURACY) is None
     assert remedy(mesh, Status.CONVERGED, PAPER) is None
-    assert remedy(mesh, Status.CONVERGED, PAPER, n=128, error=bad) is None
+    assert remedy(mesh, Status.CONVERGED, PAPER, grid=Grid(n=128), error=bad) is None
     assert remedy(Mesh(1024, Domain()), Status.CONVERGED, PAPER, error=bad) is None  # two million nodes
     assert remedy(mesh, Status.CONVERGED, MoesPoint(30000, 0, 0.3), error=bad).domain == Domain()
 
@@ -137,21 +141,21 @@ def test_estimates_of_wide_contacts_count_their_lines(kappa):
     finest, half = mg.finest, mg.halved().finest
     assert (half.nx, half.ny) == (finest.nx // 2, finest.ny // 2)
     assert (mg.levels[-2].ny == finest.ny) is (kappa < 0.2)
-    films = [solve_steady(point, n=n, domain=domain, tol=1e-9) for n in (128, 64, 32)]
+    films = [solve_steady(point, grid=Grid(n=n, domain=domain), tol=1e-9) for n in (128, 64, 32)]
     found = ErrorEstimate.of([tuple(getattr(film, name) for name in NUMBERS) for film in films])
     # two cycles leave a hundredth of each difference, which d/(d0/d - 1) makes up to seven
     assert astuple(films[0].error) == pytest.approx(astuple(found), rel=0.07)
 
 
 def test_prescribed_approach_is_exact():
-    film = solve_steady(PAPER, n=64, approach=0.85)
+    film = solve_steady(PAPER, grid=Grid(n=64), approach=0.85)
     assert film.error.approach == 0.0 and film.error.h_central > 0.0
 
 
 def test_errors_are_kept_and_told(tmp_path):
-    film = solve_steady(PAPER, n=64)
+    film = solve_steady(PAPER, grid=Grid(n=64))
     assert load(save(film, tmp_path / "film.h5")).error == film.error
     assert json.loads(json.dumps(film.to_dict()))["error"] == dict(zip(NUMBERS, astuple(film.error), strict=True))
-    failed = solve_steady(PAPER, n=64, max_cycles=1, throw=False)
+    failed = solve_steady(PAPER, grid=Grid(n=64), max_cycles=1, throw=False)
     assert failed.error is None and failed.to_dict()["error"] is None
     assert load(save(failed, tmp_path / "film.h5")).error is None

@@ -5,7 +5,7 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 
-from ehlcontact import MoesPoint, PrescribedLoad, simulate
+from ehlcontact import Grid, KeepSettings, MoesPoint, PrescribedLoad, TimeSteps, simulate
 from ehlcontact.solver.lowest_film import cubic_at, lowest_film
 
 LEAST = 0.08
@@ -135,6 +135,12 @@ def test_films_of_results(steady):
     assert 0.95 * result.H.min() < result.h_min < result.H.min()
     times = [0.0, 0.1, 0.2]
     rest = PrescribedLoad(np.linspace(0.0, 1.0, 4), np.ones(4))
-    run = simulate(MoesPoint(200, 10, 0.5), rest, n=32, until=0.2, dT=0.1, snapshots=times)
+    run = simulate(
+        MoesPoint(200, 10, 0.5),
+        rest,
+        grid=Grid(n=32),
+        time=TimeSteps(until=0.2, dt=0.1),
+        keep=KeepSettings(snapshots=times),
+    )
     expected = [lowest_film(run.snapshot_H[k].T)[0] for k in range(3)]
     assert run.h_min == pytest.approx(expected, rel=1e-12)

@@ -6,7 +6,17 @@ from pathlib import Path
 
 import pytest
 
-from ehlcontact import Domain, FreeVibration, FullContact, InputError, MoesPoint, impedance, simulate, solve_steady
+from ehlcontact import (
+    Domain,
+    FreeVibration,
+    FullContact,
+    Grid,
+    InputError,
+    MoesPoint,
+    impedance,
+    simulate,
+    solve_steady,
+)
 from ehlcontact.solver import memory
 from ehlcontact.solver.level import build_hierarchy
 from ehlcontact.solver.memory import Solve, fits, needed_bytes, require_memory
@@ -17,17 +27,18 @@ POINT = MoesPoint(200, 10, 0.5)
 SCRIPT = r"""
 import re
 from pathlib import Path
-from ehlcontact import FreeVibration, MoesPoint, impedance, simulate, solve_steady
+from ehlcontact import FreeVibration, Grid, MoesPoint, RunSettings, TimeSteps, impedance, simulate, solve_steady
 
 def solve(n):
-    point, settings = MoesPoint(200, 10, {kappa}), dict(n=n, threads=1)
+    point, settings = MoesPoint(200, 10, {kappa}), dict(grid=Grid(n))
     if {what!r} == "run":
-        simulate(point, FreeVibration(Omega_n=5.13), until=0.03, dT=0.01, throw=False, **settings)
+        steps, run = TimeSteps(until=0.03, dt=0.01), RunSettings(threads=1, throw=False)
+        simulate(point, FreeVibration(Omega_n=5.13), time=steps, run=run, **settings)
     elif {what!r} == "impedance":
-        impedance(point, Omega=[0.0, 3.0], **settings)
+        impedance(point, Omega=[0.0, 3.0], threads=1, **settings)
     else:
         method = "newton" if {what!r} == "newton" else "multigrid"
-        solve_steady(point, max_cycles=2, method=method, throw=False, **settings)
+        solve_steady(point, max_cycles=2, method=method, threads=1, throw=False, **settings)
 
 def peak():  # not ru_maxrss, which begins with that of the parent
     return 1024 * int(re.search(r"VmHWM:\s*(\d+)", Path("/proc/self/status").read_text())[1])
@@ -100,11 +111,11 @@ def test_where_nobody_tells_what_is_free(free):
 
 
 CALLS = {
-    "film": lambda: solve_steady(POINT, n=256),
-    "newton": lambda: solve_steady(POINT, n=128, method="newton"),
-    "run": lambda: simulate(POINT, FreeVibration(Omega_n=5.13), n=256),
-    "response": lambda: impedance(POINT, Omega=[0.0], n=128),
-    "contact": lambda: FullContact(POINT, n=256),
+    "film": lambda: solve_steady(POINT, grid=Grid(n=256)),
+    "newton": lambda: solve_steady(POINT, grid=Grid(n=128), method="newton"),
+    "run": lambda: simulate(POINT, FreeVibration(Omega_n=5.13), grid=Grid(n=256)),
+    "response": lambda: impedance(POINT, Omega=[0.0], grid=Grid(n=128)),
+    "contact": lambda: FullContact(POINT, grid=Grid(n=256)),
 }
 
 

@@ -10,20 +10,23 @@ from ehlcontact import (
     Domain,
     FreeVibration,
     FullContact,
+    Grid,
     InputError,
-    Mesh,
+    KeepSettings,
     MoesPoint,
-    Purpose,
+    RunSettings,
     Status,
+    TimeSteps,
     impedance,
-    mesh_for,
     simulate,
     solve_steady,
 )
 from ehlcontact.formulas import LIGHT_BLEND, LIGHT_LOAD
+from ehlcontact.solver import domain as d
 from ehlcontact.solver import mesh as m
 from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.domain import check_intervals
+from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for
 
 BOX = [
     (5, 0, 5.0),
@@ -65,7 +68,7 @@ def test_steady_mesh_resolves_the_inlet_or_is_the_finest(M, L, kappa):
 def test_region_closes_in_on_thin_films():
     assert mesh_for(MoesPoint(2900, 19, 0.11), Purpose.FILM).domain == Domain()
     near = mesh_for(MoesPoint(30000, 0, 0.3), Purpose.FILM)
-    assert near.domain == m.NEAR_DOMAIN and near.near
+    assert near.domain == m.NEAR_DOMAIN == Domain.near()
     assert not m.thin_sides(MoesPoint(200, 10, 3.0))
     assert m.thin_sides(MoesPoint(7333, 2.6, 3.0))
     assert mesh_for(MoesPoint(7333, 2.6, 3.0), Purpose.FILM).domain == m.NEAREST_DOMAIN
@@ -88,17 +91,17 @@ def test_what_is_given_is_kept(M, L, kappa, purpose):
     domain, point = Domain(-3.0, 1.4, 2.0), MoesPoint(M, L, kappa)
     if purpose not in m.FINENESS and point.inlet_width < 0.025:
         point = MoesPoint(200, 10, 0.5)
-    assert mesh_for(point, purpose, domain=domain).domain == domain
-    assert mesh_for(point, purpose, n=48).n == 48
-    assert mesh_for(point, purpose, n=48, domain=domain) == Mesh(48, domain)
+    assert mesh_for(point, purpose, grid=Grid(domain=domain)).domain == domain
+    assert mesh_for(point, purpose, grid=Grid(n=48)).n == 48
+    assert mesh_for(point, purpose, grid=Grid(n=48, domain=domain)) == Mesh(48, domain)
 
 
 @pytest.mark.parametrize("purpose", Purpose)
 def test_what_cannot_be_is_named(purpose):
     with pytest.raises(InputError, match=r"^n = 50: must be a multiple of 16"):
-        mesh_for(MoesPoint(200, 10, 0.5), purpose, n=50)
+        mesh_for(MoesPoint(200, 10, 0.5), purpose, grid=Grid(n=50))
     with pytest.raises(InputError, match=r"^domain = 'tuple': must be a Domain"):
-        mesh_for(MoesPoint(200, 10, 0.5), purpose, domain=(-3.0, 1.4, 2.0))
+        mesh_for(MoesPoint(200, 10, 0.5), purpose, grid=Grid(domain=(-3.0, 1.4, 2.0)))
 
 
 def test_meshes_of_moving_films_follow_the_inlet():
@@ -107,7 +110,7 @@ def test_meshes_of_moving_films_follow_the_inlet():
         assert mesh_for(MoesPoint(200, 10, 0.5), purpose).n == rule.counts[0]
         for M, L, kappa in BOX:
             point = MoesPoint(M, L, kappa)
-            mesh = mesh_for(point, purpose, domain=Domain())
+            mesh = mesh_for(point, purpose, grid=Grid(domain=Domain()))
             resolved = mesh.size(kappa) <= min(rule.share * point.inlet_width, m.LARGEST_MESH)
             following = next((k for k in rule.counts if k > mesh.n), None)
             assert resolved or following is None or Mesh(following, Domain()).nodes(kappa) > rule.largest
@@ -118,9 +121,9 @@ def test_no_remedy_for_what_was_asked_for_or_is_done():
     for purpose in m.FINENESS:
         assert m.remedy(mesh, Status.CONVERGED, point, purpose) is None
         assert m.remedy(mesh, Status.INTERRUPTED, point, purpose) is None
-        assert m.remedy(mesh, Status.OUT_OF_DOMAIN, point, purpose, domain=Domain()) is None
+        assert m.remedy(mesh, Status.OUT_OF_DOMAIN, point, purpose, grid=Grid(domain=Domain())) is None
     for status in (*m.REFINED, Status.OUT_OF_DOMAIN):
-        assert m.remedy(mesh, status, point, n=128) is None
+        assert m.remedy(mesh, status, point, grid=Grid(n=128)) is None
         assert m.remedy(mesh, status, point) is not None
     assert m.remedy(Mesh(2048, Domain()), Status.UNRESOLVED, point) is None
 
@@ -181,7 +184,11 @@ def test_contacts_that_are_not_long_keep_their_lines(M, L, kappa):
 def test_spikes_of_stiff_oil_have_their_mesh_where_the_film_moves(purpose):
     """Not a thick film, which has none, and not a steady one, which is judged by its own estimate."""
     stiff, less, thick = (MoesPoint(*at) for at in ((1000, 24, 0.2), (1000, 20, 0.2), (5, 25, 0.08)))
-    assert mesh_for(stiff, purpose).size(stiff.kappa) <= m.SPIKE_MESH < mesh_for(less, purpose, n=96).size(0.2)
+    assert (
+        mesh_for(stiff, purpose).size(stiff.kappa)
+        <= m.SPIKE_MESH
+        < mesh_for(less, purpose, grid=Grid(n=96)).size(0.2)
+    )
     assert mesh_for(thick, purpose).size(thick.kappa) > m.SPIKE_MESH
     assert mesh_for(stiff, Purpose.FILM).n == mesh_for(less, Purpose.FILM).n == 128
 
@@ -190,14 +197,14 @@ def test_spikes_of_stiff_oil_have_their_mesh_where_the_film_moves(purpose):
 def test_damping_of_stiff_oil_at_the_resonance_of_its_film_within_a_few_per_cent():
     """On 80 intervals, which its inlet asks for, it is 25 % too large."""
     point = MoesPoint(1000, 24, 0.2)
-    default, fine, coarse = (impedance(point, Omega=[5.0], n=n).damping[0] for n in (None, 192, 80))
+    default, fine, coarse = (impedance(point, Omega=[5.0], grid=Grid(n=n)).damping[0] for n in (None, 192, 80))
     assert default == pytest.approx(fine, rel=0.03)
     assert coarse > 1.15 * fine
 
 
 def test_impedance_tells_the_grid_it_chose():
     assert impedance(MoesPoint(200, 10, 0.5), Omega=[0.0]).n == 80
-    assert impedance(MoesPoint(200, 10, 0.5), Omega=[0.0], n=48).n == 48
+    assert impedance(MoesPoint(200, 10, 0.5), Omega=[0.0], grid=Grid(n=48)).n == 48
 
 
 @pytest.mark.slow
@@ -205,7 +212,7 @@ def test_damping_of_a_thin_film_within_a_few_per_cent():
     """A deep groove at 1 kN on the chosen grid against one of half the mesh size."""
     point, omega = MoesPoint(2900, 19, 0.11), [0.05, 0.25, 1.0, 3.14, 6.28]
     chosen = impedance(point, Omega=omega)
-    finer = impedance(point, Omega=omega, n=2 * chosen.n)
+    finer = impedance(point, Omega=omega, grid=Grid(n=2 * chosen.n))
     assert np.abs(chosen.damping / finer.damping - 1.0).max() < 0.05
     assert np.abs(chosen.stiffness / finer.stiffness - 1.0).max() < 0.005
 
@@ -215,15 +222,15 @@ def test_default_region_grows_without_a_kink(kappa):
     """Exactly the documented one for heavy loads; extents and their slopes over ln N are continuous below."""
 
     def extents(log_load):
-        return np.log(np.abs(m.default_domain(MoesPoint(np.exp(log_load) / unit, 5.0, kappa)).as_tuple()))
+        return np.log(np.abs(Domain.for_point(MoesPoint(np.exp(log_load) / unit, 5.0, kappa)).as_tuple()))
 
     unit = MoesPoint(1.0, 5.0, kappa).load_number
     highest = np.log(LIGHT_LOAD * LIGHT_BLEND)
     for log_load in (highest + 1e-9, highest + 0.1, highest + 5.0):
-        assert m.default_domain(MoesPoint(np.exp(log_load) / unit, 5.0, kappa)) == Domain()
+        assert Domain.for_point(MoesPoint(np.exp(log_load) / unit, 5.0, kappa)) == Domain()
     at = np.arange(np.log(0.5), highest + 0.5, 0.01)
     slopes = np.diff([extents(log_load) for log_load in at], axis=0) / 0.01
-    power = m.LIGHT_GROWTH * np.array([1.0, m.LIGHT_SIDES_GROWTH, m.LIGHT_SIDES_GROWTH])
+    power = d.LIGHT_GROWTH * np.array([1.0, d.LIGHT_SIDES_GROWTH, d.LIGHT_SIDES_GROWTH])
     np.testing.assert_allclose(slopes[0], -power, rtol=1e-9)
     assert np.all(np.abs(np.diff(slopes, axis=0)) < 0.03 * power)  # a corner would change them by all of it
     assert np.all(np.diff(slopes, axis=0) > -1e-9)
@@ -235,49 +242,66 @@ LIGHT = MoesPoint(6.0748, 2.7586, 0.08827)
 @pytest.fixture
 def tight(monkeypatch):
     """A default region that pressure reaches beyond: none is known that the real one does not hold."""
-    monkeypatch.setattr(m, "LIGHT_SIDES_GROWTH", 0.8)
+    monkeypatch.setattr(d, "LIGHT_SIDES_GROWTH", 0.8)
 
 
 @pytest.mark.usefixtures("tight")
 def test_every_solve_widens_its_region_alike():
     """The film at rest decides; of what is left open, all solvers take the same."""
-    film = solve_steady(LIGHT, n=128, throw=False)
+    film = solve_steady(LIGHT, grid=Grid(n=128), throw=False)
     assert film.status is Status.OUT_OF_DOMAIN  # a given n is judged as it is
     wide = solve_steady(LIGHT, refine=False).domain
-    assert wide == m.default_domain(LIGHT).scaled(m.DOMAIN_GROWTH)
+    assert wide == Domain.for_point(LIGHT).scaled(m.DOMAIN_GROWTH)
     motion = FreeVibration(Omega_n=5.13)
-    run = simulate(LIGHT, motion, n=128, until=0.05, dT=0.025)
-    contact = FullContact(LIGHT, n=128)
-    response = impedance(LIGHT, Omega=1.0, n=128)
+    run = simulate(LIGHT, motion, grid=Grid(n=128), time=TimeSteps(until=0.05, dt=0.025))
+    contact = FullContact(LIGHT, grid=Grid(n=128))
+    response = impedance(LIGHT, Omega=1.0, grid=Grid(n=128))
     assert run.domain == contact.domain == response.domain == wide
     assert run.static_approach == pytest.approx(contact.static_approach, abs=1e-6)
-    given = m.default_domain(LIGHT)
-    assert simulate(LIGHT, motion, n=128, domain=given, until=0.05, throw=False).status is Status.OUT_OF_DOMAIN
+    given = Domain.for_point(LIGHT)
+    assert (
+        simulate(
+            LIGHT, motion, grid=Grid(n=128, domain=given), time=TimeSteps(until=0.05), run=RunSettings(throw=False)
+        ).status
+        is Status.OUT_OF_DOMAIN
+    )
     with pytest.raises(ConvergenceError, match="out_of_domain"):
-        FullContact(LIGHT, n=128, domain=given)
+        FullContact(LIGHT, grid=Grid(n=128, domain=given))
 
 
 @pytest.mark.usefixtures("tight")
 def test_a_run_on_a_widened_region_goes_on(tmp_path):
     """A restart leaves the region open as the run did, and finds that of the checkpoint."""
     motion, path = FreeVibration(Omega_n=5.13), tmp_path / "run.h5"
-    simulate(LIGHT, motion, n=128, until=0.05, dT=0.025, checkpoint=path)
-    whole = simulate(LIGHT, motion, n=128, until=0.1, dT=0.025)
-    rest = simulate(LIGHT, motion, n=128, until=0.1, dT=0.025, restart=path)
+    simulate(
+        LIGHT, motion, grid=Grid(n=128), time=TimeSteps(until=0.05, dt=0.025), keep=KeepSettings(checkpoint=path)
+    )
+    whole = simulate(LIGHT, motion, grid=Grid(n=128), time=TimeSteps(until=0.1, dt=0.025))
+    rest = simulate(
+        LIGHT, motion, grid=Grid(n=128), time=TimeSteps(until=0.1, dt=0.025), keep=KeepSettings(restart=path)
+    )
     np.testing.assert_array_equal(rest.approach, whole.approach)
-    assert rest.domain == whole.domain != m.default_domain(LIGHT)
+    assert rest.domain == whole.domain != Domain.for_point(LIGHT)
     with pytest.raises(InputError, match="domain"):
-        simulate(LIGHT, motion, n=128, domain=Domain(), until=0.1, dT=0.025, restart=path)
+        simulate(
+            LIGHT,
+            motion,
+            grid=Grid(n=128, domain=Domain()),
+            time=TimeSteps(until=0.1, dt=0.025),
+            keep=KeepSettings(restart=path),
+        )
 
 
 def test_a_run_that_leaves_its_region_begins_again(monkeypatch):
     """At rest the film stays inside here, and leaves with the first step."""
-    monkeypatch.setattr(m, "LIGHT_SIDES_GROWTH", 0.5)
+    monkeypatch.setattr(d, "LIGHT_SIDES_GROWTH", 0.5)
     point, motion = MoesPoint(5.5, 4.0, 0.15), FreeVibration(Omega_n=5.13)
     inside = solve_steady(point, refine=False).domain
-    given = simulate(point, motion, n=64, domain=inside, until=0.2, throw=False)
+    given = simulate(
+        point, motion, grid=Grid(n=64, domain=inside), time=TimeSteps(until=0.2), run=RunSettings(throw=False)
+    )
     assert given.status is Status.OUT_OF_DOMAIN and given.T[-1] > 0.0
-    run = simulate(point, motion, n=64, until=0.2)
+    run = simulate(point, motion, grid=Grid(n=64), time=TimeSteps(until=0.2))
     assert run.domain == inside.scaled(m.DOMAIN_GROWTH) and run.T[-1] == 0.2
 
 
@@ -285,13 +309,13 @@ def test_a_run_that_leaves_its_region_begins_again(monkeypatch):
 @pytest.mark.parametrize("N", [0.5, 2.0, 5.0])
 def test_default_region_holds_the_pressure_of_light_loads(kappa, N):
     point = MoesPoint(N / MoesPoint(1.0, 0.0, kappa).load_number, 5.0, kappa)
-    assert solve_steady(point, n=128, method="multigrid").status is Status.CONVERGED
+    assert solve_steady(point, grid=Grid(n=128), method="multigrid").status is Status.CONVERGED
 
 
 def test_widened_ends_with_what_was_given():
     given = Domain(-3.0, 1.4, 2.0)
     first = Mesh(64, given)
-    assert list(m.wider_meshes(first, LIGHT, Purpose.RUN, domain=given)) == [first]
+    assert list(m.wider_meshes(first, LIGHT, Purpose.RUN, grid=Grid(domain=given))) == [first]
     regions = [mesh.domain for mesh in m.wider_meshes(first, LIGHT, Purpose.RUN)]
     assert regions[1] == given.scaled(m.DOMAIN_GROWTH) and len(regions) == m.LARGEST_ATTEMPTS
 
@@ -311,8 +335,8 @@ def test_the_page_of_notation_has_the_numbers_of_the_code():
         f"[{near.x_in:g}, {near.x_out:g}] x [-{near.y_max:g}, {near.y_max:g}]",
         f"[{nearest.x_in:g}, {nearest.x_out:g}] x [-{nearest.y_max:g}, {nearest.y_max:g}]",
         f"below Wijnant's load number N = {LIGHT_LOAD / LIGHT_BLEND:g} the inlet with ({LIGHT_LOAD:g}/N)^"
-        f"{m.LIGHT_GROWTH:g}, up to {m.MOST_LIGHT_GROWTH:g} times, outlet and sides with the power "
-        f"{m.LIGHT_SIDES_GROWTH:g} of that, and gently from N = {LIGHT_LOAD * LIGHT_BLEND:g} on",
+        f"{d.LIGHT_GROWTH:g}, up to {d.MOST_LIGHT_GROWTH:g} times, outlet and sides with the power "
+        f"{d.LIGHT_SIDES_GROWTH:g} of that, and gently from N = {LIGHT_LOAD * LIGHT_BLEND:g} on",
         f"Default [{Domain().x_in:g}, {Domain().x_out:g}] x [-{Domain().y_max:g}, {Domain().y_max:g}]",
     ):
         assert said in text, said

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, MoesPoint, Status, solve_steady, steady
+from ehlcontact import Domain, Grid, MoesPoint, Status, solve_steady, steady
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse_levels import coarsest_intervals
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Level
 from ehlcontact.solver.mesh import NEAREST_DOMAIN, Mesh, is_last
-from ehlcontact.solver.multigrid import CAREFUL_LOADING, Multigrid, initial_approach
+from ehlcontact.solver.multigrid import CONTINUATION_LOADING, Multigrid, initial_approach
 
 LOAD = Balance.of_load()
 
@@ -63,7 +63,7 @@ CASES = [(20, 10, 1), (58.07, 4.62, 1), (200, 10, 0.5), (200, 10, 1), (500, 15, 
 @pytest.mark.parametrize(("M", "L", "kappa"), CASES)
 def test_residual_falls_fourfold_per_cycle(M, L, kappa):
     """Five V(2,1) cycles after full multigrid, n = 128: geometric mean of the factors at least 4."""
-    result = solve_steady(MoesPoint(M, L, kappa), n=128, tol=1e-13, max_cycles=6, throw=False)
+    result = solve_steady(MoesPoint(M, L, kappa), grid=Grid(n=128), tol=1e-13, max_cycles=6, throw=False)
     residuals = result.residuals
     assert (residuals[0] / residuals[5]) ** 0.2 >= 4.0
 
@@ -71,14 +71,14 @@ def test_residual_falls_fourfold_per_cycle(M, L, kappa):
 @pytest.mark.parametrize(("M", "L", "kappa"), CASES)
 def test_no_limit_cycle(M, L, kappa):
     """The classical hybrid relaxation stalls around 1e-3 to 1e-4; this goes on to rounding."""
-    result = solve_steady(MoesPoint(M, L, kappa), n=64, tol=1e-12, max_cycles=60, throw=False)
+    result = solve_steady(MoesPoint(M, L, kappa), grid=Grid(n=64), tol=1e-12, max_cycles=60, throw=False)
     assert result.residual < 1e-10
 
 
 @pytest.mark.parametrize(("kappa", "L", "M"), [(0.11, 19.0, 2900.0), (0.1, 15.0, 1e4), (2.0, 10.0, 200.0)])
 def test_hard_points_converge(M, L, kappa):
     """Real bearings live at high M; an ellipse along rolling is the weak direction of X lines."""
-    result = solve_steady(MoesPoint(M, L, kappa), n=128)
+    result = solve_steady(MoesPoint(M, L, kappa), grid=Grid(n=128))
     assert result.residual < 1e-4
 
 
@@ -87,7 +87,7 @@ def test_hard_points_converge(M, L, kappa):
 )
 def test_incompressible_oil_at_high_pressure(M, L, kappa, viscosity):
     """Steep flanks without compressibility: nodes there swing to and fro if relaxation takes eps as given."""
-    result = solve_steady(MoesPoint(M, L, kappa, viscosity=viscosity, density="incompressible"), n=128)
+    result = solve_steady(MoesPoint(M, L, kappa, viscosity=viscosity, density="incompressible"), grid=Grid(n=128))
     assert result.residual < 1e-4
 
 
@@ -97,7 +97,7 @@ def test_narrow_ellipses_converge(M, L, kappa):
 
     The equations are solved; whether 128 intervals resolve the film of a long ellipse is another matter, and told.
     """
-    result = solve_steady(MoesPoint(M, L, kappa), n=128, throw=False)
+    result = solve_steady(MoesPoint(M, L, kappa), grid=Grid(n=128), throw=False)
     assert result.residual < 1e-4 and abs(result.load_residual) < 1e-6
     assert result.status in (("converged",) if result.h_min > 0.0 else ("unresolved",))
 
@@ -106,10 +106,12 @@ def test_narrow_ellipses_converge(M, L, kappa):
 def test_where_single_sweeps_fail_twice_as_many_take_over():
     """Oil so stiff on lines so far apart that cycles swing by more than the Hertz pressure."""
     point = MoesPoint(4200, 30, 0.057)
-    plain, result = (solve_steady(point, n=512, method=m, throw=False) for m in ("multigrid", "automatic"))
+    plain, result = (
+        solve_steady(point, grid=Grid(n=512), method=m, throw=False) for m in ("multigrid", "automatic")
+    )
     assert not plain.status.ok
     assert result.status.ok and result.pressure_error < 1e-5
-    assert result.h_central == pytest.approx(solve_steady(point, n=256).h_central, rel=2e-3)
+    assert result.h_central == pytest.approx(solve_steady(point, grid=Grid(n=256)).h_central, rel=2e-3)
 
 
 def test_each_way_of_a_method_is_tried_in_turn(monkeypatch):
@@ -124,7 +126,7 @@ def test_each_way_of_a_method_is_tried_in_turn(monkeypatch):
     monkeypatch.setattr(steady, "remedy", lambda *_, **__: None)
     for name, sweep_factors in (("automatic", [1, 2, 2]), ("multigrid", [1]), ("newton", [1])):
         tried.clear()
-        assert solve_steady(MoesPoint(20, 8, 0.5), n=32, method=name, throw=False).status == "stagnated"
+        assert solve_steady(MoesPoint(20, 8, 0.5), grid=Grid(n=32), method=name, throw=False).status == "stagnated"
         assert tried == [(way, e, e) for way, e in zip(steady.METHODS[name], sweep_factors, strict=True)]
     assert [way.newton for way in steady.METHODS["automatic"]] == [False, False, True]
 
@@ -267,7 +269,7 @@ def test_a_start_of_a_finer_grid_carries_what_leaves_its_film_positive(monkeypat
     monkeypatch.setattr(Multigrid, "_repeat", repeat)
     monkeypatch.setattr(level, "update_film", update_film)
     mg._raise_load(len(mg.levels) - 1, 100.0, LOBES.M, LOAD)
-    assert most / CAREFUL_LOADING**0.125 < level.M <= most
+    assert most / CONTINUATION_LOADING**0.125 < level.M <= most
     assert mg.u == 0.25 and 0.0 < level.P.max() < 0.05  # as the last step that settled left it
 
 
@@ -307,7 +309,7 @@ def test_after_all_affordable_grids_one_more_is_tried_carefully(monkeypatch):
     monkeypatch.setattr(steady._Attempt, "run", run)
     assert solve_steady(LOBES, throw=False).status is Status.DIVERGED
     last = [(mesh, method) for mesh, method in tried if is_last(mesh, LOBES)]
-    assert last == [(Mesh(2048, NEAREST_DOMAIN, 4), steady.CAREFUL)]
+    assert last == [(Mesh(2048, NEAREST_DOMAIN, 4), steady.CONTINUATION)]
     assert tried[-2:] == [*last, (Mesh(512, NEAREST_DOMAIN, 4), steady.CLOSE_LAST_RESORT)]
 
 

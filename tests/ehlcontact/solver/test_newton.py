@@ -8,6 +8,7 @@ import pytest
 from ehlcontact import MoesPoint
 from ehlcontact.solver import newton as newton_module
 from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.kernels import linearise as lin
 from ehlcontact.solver.linear import (
@@ -18,7 +19,7 @@ from ehlcontact.solver.linear import (
     solve_linear,
     stencil_matrix,
 )
-from ehlcontact.solver.mesh import Mesh, default_domain
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.status import Status
@@ -32,7 +33,7 @@ FINEST = [pytest.param(*point, 256, marks=pytest.mark.slow) for point in POINTS]
 
 def hierarchy(M, L, kappa, n):
     point = MoesPoint(M, L, kappa)
-    multigrid = Multigrid(point, Mesh(n, default_domain(point)))
+    multigrid = Multigrid(point, Mesh(n, Domain.for_point(point)))
     return multigrid, multigrid.finest.dry_residual()
 
 
@@ -254,7 +255,7 @@ def test_transient_steps_agree_and_share_factors(M, L, kappa, monkeypatch):
     point, dT, omega_n = MoesPoint(M, L, kappa), 0.02, 5.13
     results = []
     for by_newton in (False, True):
-        film = TransientFilm(point, Mesh(64, default_domain(point)), tol=1e-8)
+        film = TransientFilm(point, Mesh(64, Domain.for_point(point)), tol=1e-8)
         film.start_steady(LOAD)
         solver = NewtonKrylov(film.multigrid)
         if by_newton:

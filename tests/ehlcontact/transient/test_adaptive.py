@@ -9,13 +9,17 @@ from ehlcontact import (
     ConvergenceError,
     Domain,
     FreeVibration,
+    Grid,
     HarmonicLoad,
     InputError,
+    KeepSettings,
     MoesPoint,
     PrescribedApproach,
     PrescribedLoad,
     RampLoad,
+    RunSettings,
     Status,
+    TimeSteps,
     simulate,
 )
 from ehlcontact.transient.bodies import MotionState
@@ -42,12 +46,15 @@ def largest_error(record, reference):
 
 @pytest.fixture(scope="module")
 def pulse_reference():
-    return simulate(POINT, PULSE, n=N, until=3.0, error=1e-5)
+    return simulate(POINT, PULSE, grid=Grid(n=N), time=TimeSteps(until=3.0, local_error=1e-5))
 
 
 @pytest.fixture(scope="module")
 def pulse():
-    return {error: simulate(POINT, PULSE, n=N, until=3.0, error=error) for error in (1e-3, 1e-4)}
+    return {
+        error: simulate(POINT, PULSE, grid=Grid(n=N), time=TimeSteps(until=3.0, local_error=error))
+        for error in (1e-3, 1e-4)
+    }
 
 
 def test_corners_and_end_are_met(pulse):
@@ -69,9 +76,9 @@ def test_error_falls_with_the_tolerance(pulse, pulse_reference):
 @pytest.mark.parametrize("motion", [FreeVibration(Omega_n=5.13), HarmonicLoad(Omega=pi, Omega_n=5.13)])
 def test_errors_of_a_run_are_what_is_said(motion):
     """About error^(2/3) in force and two thirds of it in approach, of bodies with inertia: within a factor 3."""
-    reference = simulate(POINT, motion, n=N, until=2.5, error=2e-6)
+    reference = simulate(POINT, motion, grid=Grid(n=N), time=TimeSteps(until=2.5, local_error=2e-6))
     for error in (1e-3, 1e-4):
-        record = simulate(POINT, motion, n=N, until=2.5, error=error)
+        record = simulate(POINT, motion, grid=Grid(n=N), time=TimeSteps(until=2.5, local_error=error))
         there = reference.at(record.T)
         for name, share in (("approach", 2.0 / 3.0), ("force", 1.0)):
             ratio = np.abs(getattr(record, name) - getattr(there, name)).max() / (share * error ** (2.0 / 3.0))
@@ -80,14 +87,16 @@ def test_errors_of_a_run_are_what_is_said(motion):
 
 def test_fewer_steps_than_fixed_ones_of_the_same_accuracy(pulse, pulse_reference):
     controlled = pulse[1e-4]
-    fixed = simulate(POINT, PULSE, n=N, until=3.0, dT=3.0 / (2 * controlled.steps), tol=3e-4)
+    fixed = simulate(
+        POINT, PULSE, grid=Grid(n=N), time=TimeSteps(until=3.0, dt=3.0 / (2 * controlled.steps), tol=3e-4)
+    )
     assert fixed.steps == 2 * controlled.steps
     assert largest_error(fixed, pulse_reference) > largest_error(controlled, pulse_reference)
 
 
 def test_steps_grow_where_nothing_happens():
     """Two transits after the pulse the film is at rest again."""
-    record = simulate(POINT, PULSE, n=N, until=6.0, error=1e-3)
+    record = simulate(POINT, PULSE, grid=Grid(n=N), time=TimeSteps(until=6.0, local_error=1e-3))
     steps, middles = np.diff(record.T), 0.5 * (record.T[1:] + record.T[:-1])
     ramp = (middles > 0.5) & (middles < 0.7)
     assert steps[middles > 4.5].min() > 3.0 * np.median(steps[ramp])
@@ -107,11 +116,11 @@ def test_steps_grow_where_nothing_happens():
 )
 def test_second_order_in_the_number_of_steps(motion, until):
     """Error over number of steps from tolerances 3e-3 to 1e-4, with the steps as the controller varies them."""
-    reference = simulate(POINT, motion, n=N, until=until, error=1e-5)
+    reference = simulate(POINT, motion, grid=Grid(n=N), time=TimeSteps(until=until, local_error=1e-5))
     name = "force" if isinstance(motion, PrescribedApproach) else "approach"
     steps, errors = [], []
     for error in (3e-3, 1e-4):
-        record = simulate(POINT, motion, n=N, until=until, error=error)
+        record = simulate(POINT, motion, grid=Grid(n=N), time=TimeSteps(until=until, local_error=error))
         steps.append(record.steps)
         errors.append(np.abs(getattr(record, name) - getattr(reference.at(record.T), name)).max())
     assert np.log(errors[0] / errors[1]) / np.log(steps[1] / steps[0]) >= 1.8
@@ -120,12 +129,20 @@ def test_second_order_in_the_number_of_steps(motion, until):
 
 def test_snapshots_are_taken_at_their_times():
     wanted = (0.0, 0.123, 0.4567)
-    record = simulate(POINT, HarmonicLoad(Omega=pi), n=N, until=0.8, error=1e-3, snapshots=wanted)
+    record = simulate(
+        POINT,
+        HarmonicLoad(Omega=pi),
+        grid=Grid(n=N),
+        time=TimeSteps(until=0.8, local_error=1e-3),
+        keep=KeepSettings(snapshots=wanted),
+    )
     assert tuple(record.snapshot_T) == wanted
 
 
 def test_controlled_motion_with_inertia_obeys_its_equation():
-    record = simulate(POINT, FreeVibration(Omega_n=5.13), n=N, until=1.0, error=3e-4)
+    record = simulate(
+        POINT, FreeVibration(Omega_n=5.13), grid=Grid(n=N), time=TimeSteps(until=1.0, local_error=3e-4)
+    )
     residual = record.acceleration / 5.13**2 + record.force - record.load
     assert np.abs(residual).max() < 1e-4
     dT = np.diff(record.T)
@@ -135,7 +152,7 @@ def test_controlled_motion_with_inertia_obeys_its_equation():
 
 def test_load_that_rises_forty_fold():
     """From 5 % to twice the static load: the domain is widened beforehand."""
-    record = simulate(POINT, several_fold(0.05, 2.0), n=64, error=1e-3)
+    record = simulate(POINT, several_fold(0.05, 2.0), grid=Grid(n=64), time=TimeSteps(local_error=1e-3))
     assert record.status is Status.CONVERGED
     assert record.domain == Domain.for_load(2.0)
     assert record.force.min() == pytest.approx(0.05, abs=1e-4)
@@ -147,7 +164,7 @@ def test_load_that_rises_forty_fold():
 @pytest.mark.slow
 @pytest.mark.parametrize("Omega_n", [None, 5.13])
 def test_load_that_rises_sixty_fold(Omega_n):
-    record = simulate(POINT, several_fold(0.05, 3.0, Omega_n), n=128, error=1e-3)
+    record = simulate(POINT, several_fold(0.05, 3.0, Omega_n), grid=Grid(n=128), time=TimeSteps(local_error=1e-3))
     assert record.status is Status.CONVERGED
     assert record.force.max() >= 3.0 - 1e-3
     assert (record.h_min > 0.0).all()
@@ -158,17 +175,19 @@ def test_overload_of_a_given_domain_is_said_with_advice():
     with pytest.raises(
         ConvergenceError, match=r"out_of_domain .*force so far 2\.[23].*domain=Domain\.for_load\("
     ) as caught:
-        simulate(POINT, motion, n=N, error=1e-3, domain=Domain())
+        simulate(POINT, motion, grid=Grid(n=N, domain=Domain()), time=TimeSteps(local_error=1e-3))
     result = caught.value.result
     assert result.status is Status.OUT_OF_DOMAIN
     assert result.T[-1] < 1.0
-    assert simulate(POINT, motion, n=64, error=1e-3).force[-1] > 8.0  # the default domain is wide enough
+    assert (
+        simulate(POINT, motion, grid=Grid(n=64), time=TimeSteps(local_error=1e-3)).force[-1] > 8.0
+    )  # the default domain is wide enough
 
 
 def test_vibration_that_separates_and_comes_back():
     """Let go two dry approaches below: the bodies part (no film force), fall back and are caught by the film."""
     motion = FreeVibration(Omega_n=5.13, offset=2.0)
-    record = simulate(POINT, motion, n=64, error=1e-3, until=1.5)
+    record = simulate(POINT, motion, grid=Grid(n=64), time=TimeSteps(local_error=1e-3, until=1.5))
     assert record.status is Status.CONVERGED
     away = record.force < 1e-6
     assert away.sum() >= 3
@@ -185,7 +204,14 @@ def test_step_that_cannot_meet_its_tolerance():
         return (0.4 if T > 0.3 else 0.0) + 0.0 * X * Y
 
     def run(throw):
-        return simulate(POINT, HarmonicLoad(Omega=3.0), n=N, until=1.0, error=1e-3, surface=jump, throw=throw)
+        return simulate(
+            POINT,
+            HarmonicLoad(Omega=3.0),
+            grid=Grid(n=N),
+            time=TimeSteps(until=1.0, local_error=1e-3),
+            surface=jump,
+            run=RunSettings(throw=throw),
+        )
 
     message = r"step_too_small at T = 0\.2999\d+ \(a step of \d.*e-0\d .* the tolerated error 0\.001\): However"
     with pytest.raises(ConvergenceError, match=message) as caught:
@@ -247,5 +273,5 @@ def test_local_error_of_uneven_steps(times):
 
 @pytest.mark.parametrize("error", [0.0, -1e-3, float("nan"), float("inf"), 0.2, True, "small"])
 def test_bad_error_is_named(error):
-    with pytest.raises(InputError, match=r"^error = .*: must be "):
-        simulate(POINT, HarmonicLoad(Omega=3.0), n=N, error=error)
+    with pytest.raises(InputError, match=r"^local_error = .*: must be "):
+        simulate(POINT, HarmonicLoad(Omega=3.0), grid=Grid(n=N), time=TimeSteps(local_error=error))

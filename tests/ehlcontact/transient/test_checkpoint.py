@@ -9,14 +9,17 @@ from dataclasses import fields, replace
 import h5py
 import numpy as np
 import pytest
+from argument_groups import grouped
 
 from ehlcontact import (
     ConvergenceError,
     Dent,
     Domain,
     FreeVibration,
+    Grid,
     HarmonicLoad,
     InputError,
+    KeepSettings,
     MoesPoint,
     PrescribedApproach,
     PrescribedLoad,
@@ -24,6 +27,7 @@ from ehlcontact import (
     Roughness,
     SimulationResult,
     Status,
+    TimeSteps,
     Waviness,
     load,
     save,
@@ -35,8 +39,8 @@ from ehlcontact.transient.film import TransientFilm
 
 POINT = MoesPoint(200, 10, 0.5)
 N = 32
-FIXED = dict(n=N, until=0.8, dT=0.05, snapshots=(0.1, 0.52))
-CONTROLLED = dict(n=N, until=0.8, error=1e-3, snapshots=(0.1, 0.52))
+FIXED = dict(n=N, until=0.8, dt=0.05, snapshots=(0.1, 0.52))
+CONTROLLED = dict(n=N, until=0.8, local_error=1e-3, snapshots=(0.1, 0.52))
 RUNS = {
     "free": (FreeVibration(Omega_n=5.13), FIXED),
     "harmonic over waviness": (HarmonicLoad(Omega=3.0), FIXED | dict(surface=Waviness(0.05, 0.5))),
@@ -74,12 +78,12 @@ def stop_after(T_stop):
 def test_restart_equals_the_uninterrupted_run(name, tmp_path):
     motion, settings = RUNS[name]
     path = tmp_path / "c.h5"
-    whole = simulate(POINT, motion, **settings)
+    whole = simulate(POINT, motion, **grouped(**settings))
     for T in (0.0, 0.25, 0.55):
-        part = simulate(POINT, motion, **settings, checkpoint=path, callback=stop_after(T))
+        part = simulate(POINT, motion, **grouped(**settings, checkpoint=path, callback=stop_after(T)))
         assert part.status is Status.INTERRUPTED
         assert T < part.T[-1] < 0.8
-        assert_same_bits(whole, simulate(POINT, motion, **settings, restart=path))
+        assert_same_bits(whole, simulate(POINT, motion, **grouped(**settings, restart=path)))
         path.unlink()
 
 
@@ -87,7 +91,13 @@ def test_an_existing_file_is_not_overwritten(tmp_path):
     path = tmp_path / "kept.h5"
     path.write_bytes(b"somebody's result")
     with pytest.raises(InputError, match=r"^checkpoint = .*would be lost"):
-        simulate(POINT, HarmonicLoad(Omega=3.0), n=16, until=0.1, dT=0.1, checkpoint=path)
+        simulate(
+            POINT,
+            HarmonicLoad(Omega=3.0),
+            grid=Grid(n=16),
+            time=TimeSteps(until=0.1, dt=0.1),
+            keep=KeepSettings(checkpoint=path),
+        )
     assert path.read_bytes() == b"somebody's result"
 
 
@@ -96,21 +106,23 @@ def test_an_existing_file_is_not_overwritten(tmp_path):
 @pytest.mark.parametrize("n", [64, 128])
 def test_other_points_and_grids(point, n, tmp_path):
     """Other coarsest grids, engines and a ring of restarts, in another process."""
-    settings = dict(n=n, until=0.2, dT=0.02)
-    whole = simulate(point, HarmonicLoad(Omega=3.0), **settings)
-    simulate(point, HarmonicLoad(Omega=3.0), **settings, checkpoint=tmp_path / "c.h5", callback=stop_after(0.07))
+    settings = dict(n=n, until=0.2, dt=0.02)
+    whole = simulate(point, HarmonicLoad(Omega=3.0), **grouped(**settings))
     simulate(
         point,
         HarmonicLoad(Omega=3.0),
-        **settings,
-        restart=tmp_path / "c.h5",
-        checkpoint=tmp_path / "c.h5",
-        callback=stop_after(0.13),
+        **grouped(**settings, checkpoint=tmp_path / "c.h5", callback=stop_after(0.07)),
+    )
+    simulate(
+        point,
+        HarmonicLoad(Omega=3.0),
+        **grouped(**settings, restart=tmp_path / "c.h5", checkpoint=tmp_path / "c.h5", callback=stop_after(0.13)),
     )
     script = (
         "import sys; from ehlcontact import *\n"
         f"point = MoesPoint({point.M}, {point.L}, {point.kappa})\n"
-        f"run = simulate(point, HarmonicLoad(Omega=3.0), n={n}, until=0.2, dT=0.02, restart=sys.argv[1])\n"
+        f"run = simulate(point, HarmonicLoad(Omega=3.0), "
+        f"grid=Grid({n}), time=TimeSteps(until=0.2, dt=0.02), keep=KeepSettings(restart=sys.argv[1]))\n"
         "save(run, sys.argv[2])"
     )
     alone = os.environ | {"OPENBLAS_NUM_THREADS": "1"}
@@ -121,7 +133,7 @@ def test_other_points_and_grids(point, n, tmp_path):
 def test_ctrl_c_within_a_step_leaves_a_current_checkpoint(tmp_path, monkeypatch):
     motion, settings = RUNS["free"]
     path = tmp_path / "c.h5"
-    whole = simulate(POINT, motion, **settings)
+    whole = simulate(POINT, motion, **grouped(**settings))
     advance, calls = TransientFilm.advance, []
 
     def stopped(self, *arguments):
@@ -133,10 +145,10 @@ def test_ctrl_c_within_a_step_leaves_a_current_checkpoint(tmp_path, monkeypatch)
 
     with monkeypatch.context() as patch:
         patch.setattr(TransientFilm, "advance", stopped)
-        part = simulate(POINT, motion, **settings, checkpoint=path)
+        part = simulate(POINT, motion, **grouped(**settings, checkpoint=path))
     assert part.status is Status.INTERRUPTED
     assert part.steps == 6
-    assert_same_bits(whole, simulate(POINT, motion, **settings, restart=path))
+    assert_same_bits(whole, simulate(POINT, motion, **grouped(**settings, restart=path)))
 
 
 def test_a_killed_run_goes_on_from_its_last_checkpoint(tmp_path):
@@ -148,8 +160,8 @@ def test_a_killed_run_goes_on_from_its_last_checkpoint(tmp_path):
         if not kept.exists() and T > 0.4:
             shutil.copy(path, kept)
 
-    whole = simulate(POINT, motion, **settings, checkpoint=path, checkpoint_every=0.0, callback=copy)
-    assert_same_bits(whole, simulate(POINT, motion, **settings, restart=kept))
+    whole = simulate(POINT, motion, **grouped(**settings, checkpoint=path, checkpoint_every=0.0, callback=copy))
+    assert_same_bits(whole, simulate(POINT, motion, **grouped(**settings, restart=kept)))
 
 
 def test_checkpoints_are_not_written_more_often_than_asked(tmp_path):
@@ -157,7 +169,9 @@ def test_checkpoints_are_not_written_more_often_than_asked(tmp_path):
     path = tmp_path / "c.h5"
     seen = []
     simulate(
-        POINT, motion, **settings, checkpoint=path, callback=lambda T, until: seen.append(path.stat().st_mtime_ns)
+        POINT,
+        motion,
+        **grouped(**settings, checkpoint=path, callback=lambda T, until: seen.append(path.stat().st_mtime_ns)),
     )
     assert len(set(seen)) == 1  # at the start; the next one at the end
     assert path.stat().st_mtime_ns > seen[0]
@@ -167,57 +181,79 @@ def test_checkpoints_are_not_written_more_often_than_asked(tmp_path):
 def test_failed_step_leaves_the_last_good_one(tmp_path, monkeypatch):
     motion, settings = RUNS["free"]
     path = tmp_path / "c.h5"
-    whole = simulate(POINT, motion, **settings)
+    whole = simulate(POINT, motion, **grouped(**settings))
 
     def no_more_cycles(T, until):
         if T > 0.3:
             monkeypatch.setattr("ehlcontact.transient.film.STEP_CYCLES", 0)
 
     with pytest.raises(ConvergenceError, match=r"step 0\.05, residual .* with tol 0\.003"), monkeypatch.context():
-        simulate(POINT, motion, **settings, checkpoint=path, callback=no_more_cycles)
+        simulate(POINT, motion, **grouped(**settings, checkpoint=path, callback=no_more_cycles))
     monkeypatch.undo()
-    assert_same_bits(whole, simulate(POINT, motion, **settings, restart=path))
+    assert_same_bits(whole, simulate(POINT, motion, **grouped(**settings, restart=path)))
 
 
 def test_a_finished_run_can_be_extended(tmp_path):
     motion = HarmonicLoad(Omega=3.0)
-    simulate(POINT, motion, n=N, until=0.4, dT=0.05, checkpoint=tmp_path / "c.h5")
-    longer = simulate(POINT, motion, n=N, until=0.8, dT=0.05, restart=tmp_path / "c.h5")
-    assert_same_bits(simulate(POINT, motion, n=N, until=0.8, dT=0.05), longer)
+    simulate(
+        POINT,
+        motion,
+        grid=Grid(n=N),
+        time=TimeSteps(until=0.4, dt=0.05),
+        keep=KeepSettings(checkpoint=tmp_path / "c.h5"),
+    )
+    longer = simulate(
+        POINT,
+        motion,
+        grid=Grid(n=N),
+        time=TimeSteps(until=0.8, dt=0.05),
+        keep=KeepSettings(restart=tmp_path / "c.h5"),
+    )
+    assert_same_bits(simulate(POINT, motion, grid=Grid(n=N), time=TimeSteps(until=0.8, dt=0.05)), longer)
 
 
 @pytest.mark.parametrize("motion", [HarmonicLoad(Omega=3.0), FreeVibration(Omega_n=5.13)], ids=lambda m: m.kind)
-@pytest.mark.parametrize("dT", [None, 0.03])
-def test_a_later_end_keeps_the_stored_step(motion, dT, tmp_path):
+@pytest.mark.parametrize("dt", [None, 0.03])
+def test_a_later_end_keeps_the_stored_step(motion, dt, tmp_path):
     """Whatever the default, or the shortening, would be for that end; also the second time."""
-    options = dict(n=N, dT=dT)
-    first = simulate(POINT, motion, until=0.2, **options, checkpoint=tmp_path / "c.h5")
+    options = dict(n=N, dt=dt)
+    first = simulate(POINT, motion, **grouped(until=0.2, **options, checkpoint=tmp_path / "c.h5"))
     step = float(first.T[1])
     for until in (0.2, 0.37, 0.4, 0.55):
         longer = simulate(
-            POINT, motion, until=until, **options, restart=tmp_path / "c.h5", checkpoint=tmp_path / "c.h5"
+            POINT,
+            motion,
+            **grouped(until=until, **options, restart=tmp_path / "c.h5", checkpoint=tmp_path / "c.h5"),
         )
         np.testing.assert_allclose(np.diff(longer.T), step, rtol=1e-9)
         assert until - 1e-12 <= longer.T[-1] < until + step
         assert np.array_equal(longer.force[: first.T.size], first.force)
-    whole = simulate(POINT, motion, n=N, until=longer.T[-1], dT=step)
+    whole = simulate(POINT, motion, grid=Grid(n=N), time=TimeSteps(until=longer.T[-1], dt=step))
     assert_same_bits(replace(longer, T=whole.T), whole)
     with pytest.raises(InputError, match=r"its dT is 0\.0"):
-        simulate(POINT, motion, until=0.6, n=N, dT=0.011, restart=tmp_path / "c.h5")
+        simulate(
+            POINT,
+            motion,
+            time=TimeSteps(until=0.6, dt=0.011),
+            grid=Grid(n=N),
+            keep=KeepSettings(restart=tmp_path / "c.h5"),
+        )
 
 
 @pytest.mark.parametrize("until", [0.3, 0.7, 1.1])
 def test_a_finished_run_can_be_asked_for_again(until, tmp_path):
     """Its end is met but for rounding: three steps of 0.1 are more than 0.3."""
-    options = dict(n=N, until=until, dT=0.1)
-    whole = simulate(POINT, HarmonicLoad(Omega=3.0), **options, checkpoint=tmp_path / "c.h5")
-    assert_same_bits(whole, simulate(POINT, HarmonicLoad(Omega=3.0), **options, restart=tmp_path / "c.h5"))
+    options = dict(n=N, until=until, dt=0.1)
+    whole = simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(**options, checkpoint=tmp_path / "c.h5"))
+    assert_same_bits(
+        whole, simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(**options, restart=tmp_path / "c.h5"))
+    )
 
 
 def test_a_controlled_run_can_be_extended(tmp_path):
-    options = dict(n=N, error=1e-3)
-    simulate(POINT, HarmonicLoad(Omega=3.0), until=0.4, **options, checkpoint=tmp_path / "c.h5")
-    longer = simulate(POINT, HarmonicLoad(Omega=3.0), until=0.8, **options, restart=tmp_path / "c.h5")
+    options = dict(n=N, local_error=1e-3)
+    simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(until=0.4, **options, checkpoint=tmp_path / "c.h5"))
+    longer = simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(until=0.8, **options, restart=tmp_path / "c.h5"))
     assert longer.T[-1] == 0.8
 
 
@@ -231,15 +267,15 @@ def test_a_checkpoint_that_cannot_be_written_later_is_told_and_the_run_goes_on(t
         return write(record, *given)
 
     monkeypatch.setattr(checkpoint, "save", counted)
-    options = dict(n=N, until=0.4, dT=0.1, checkpoint=path, checkpoint_every=0.0)
+    options = dict(n=N, until=0.4, dt=0.1, checkpoint=path, checkpoint_every=0.0)
     fails.add(0.35)
     with pytest.warns(RuntimeWarning, match="No space left.*the run goes on") as told:
-        result = simulate(POINT, HarmonicLoad(Omega=3.0), **options)
+        result = simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(**options))
     assert len(told) == 1 and result.status.ok and load(path, Checkpoint).record.T == result.T[-1]
     path.unlink()
     fails.add(9.0)
     with pytest.warns(RuntimeWarning), pytest.raises(InputError, match=r"^checkpoint = .*No space left") as caught:
-        simulate(POINT, HarmonicLoad(Omega=3.0), **options)
+        simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(**options))
     assert np.array_equal(caught.value.result.force, result.force)
     assert load(path, Checkpoint).record.T == 0.1
 
@@ -263,7 +299,7 @@ def test_arrays_that_do_not_fit(stopped, tmp_path, name, change):
         del file[name]
         file[name] = new
     with pytest.raises(InputError, match=r"^restart = .*checkpoint of `simulate`"):
-        simulate(**stopped[1], restart=path)
+        simulate(**grouped(**stopped[1], restart=path))
 
 
 @pytest.fixture(scope="module")
@@ -275,11 +311,11 @@ def stopped(tmp_path_factory):
         motion=FreeVibration(Omega_n=5.13),
         n=N,
         until=0.4,
-        dT=0.05,
+        dt=0.05,
         snapshots=(0.1,),
         surface=Dent(0.05, 0.5, start=-0.5, kappa=0.5),
     )
-    simulate(**arguments, checkpoint=path, callback=stop_after(0.16))
+    simulate(**grouped(**arguments, checkpoint=path, callback=stop_after(0.16)))
     return path, arguments
 
 
@@ -292,8 +328,8 @@ def stopped(tmp_path_factory):
         (dict(motion=FreeVibration(Omega_n=5.2)), ("motion.Omega_n", "5.13", "5.2")),
         (dict(motion=HarmonicLoad(Omega=5.13)), ("motion.kind", "free", "harmonic")),
         (dict(tol=1e-3), ("tol", "0.003", "0.001")),
-        (dict(dT=0.04), ("dT", "0.05", "0.04")),
-        (dict(error=1e-3), ("error", "None", "0.001")),
+        (dict(dt=0.04), ("dT", "0.05", "0.04")),
+        (dict(local_error=1e-3), ("local_error", "None", "0.001")),
         (dict(snapshots=(0.1, 0.15)), ("snapshots", "[0.1]", "0.15")),
         (dict(surface=Dent(0.06, 0.5, start=-0.5, kappa=0.5)), ("surface", "0.0464", "0.0557")),
         (dict(surface=None), ("surface", "none")),
@@ -305,7 +341,7 @@ def test_checkpoint_of_another_run(stopped, change, words):
     with pytest.raises(
         InputError, match=r"^restart = '.*c\.h5': must be a checkpoint of this run: its "
     ) as caught:
-        simulate(**(arguments | change), restart=path)
+        simulate(**grouped(**(arguments | change), restart=path))
     message = str(caught.value)
     assert "\n" not in message
     assert len(message) < 600
@@ -316,7 +352,7 @@ def test_checkpoint_of_another_run(stopped, change, words):
 def test_end_before_the_checkpoint(stopped):
     path, arguments = stopped
     with pytest.raises(InputError, match=r"^until = 0\.1: must be at least 0\.2"):
-        simulate(**(arguments | dict(until=0.1)), restart=path)
+        simulate(**grouped(**(arguments | dict(until=0.1)), restart=path))
 
 
 def test_checkpoint_of_another_version(stopped, tmp_path):
@@ -324,7 +360,7 @@ def test_checkpoint_of_another_version(stopped, tmp_path):
     with h5py.File(path, "a") as file:
         file.attrs["version"] = '"0.0.1"'
     with pytest.raises(InputError, match=r"its version is 0\.0\.1, asked for is "):
-        simulate(**stopped[1], restart=path)
+        simulate(**grouped(**stopped[1], restart=path))
 
 
 @pytest.mark.parametrize("part", [0.0, 0.02, 0.5, 0.9, 0.999])
@@ -333,16 +369,19 @@ def test_truncated_checkpoint(stopped, tmp_path, part):
     path = tmp_path / "cut.h5"
     path.write_bytes(data[: int(part * len(data))])
     with pytest.raises(InputError, match=r"^restart = '.*cut\.h5': must be .*checkpoint") as caught:
-        simulate(**stopped[1], restart=path)
+        simulate(**grouped(**stopped[1], restart=path))
     assert "\n" not in str(caught.value)
 
 
 def test_files_that_are_no_checkpoint(stopped, tmp_path):
-    save(simulate(POINT, HarmonicLoad(Omega=3.0), n=N, until=0.1, dT=0.05), tmp_path / "result.h5")
+    save(
+        simulate(POINT, HarmonicLoad(Omega=3.0), grid=Grid(n=N), time=TimeSteps(until=0.1, dt=0.05)),
+        tmp_path / "result.h5",
+    )
     (tmp_path / "text.h5").write_text("T,u\n0,1\n")
     for name in ("result.h5", "text.h5", "missing.h5", "."):
         with pytest.raises(InputError, match=r"^restart = .*: must be .*checkpoint of `simulate`"):
-            simulate(**stopped[1], restart=tmp_path / name)
+            simulate(**grouped(**stopped[1], restart=tmp_path / name))
 
 
 def test_a_checkpoint_is_no_result(stopped):
@@ -352,9 +391,20 @@ def test_a_checkpoint_is_no_result(stopped):
 
 def test_checkpoint_in_no_folder(tmp_path):
     with pytest.raises(InputError, match=r"^checkpoint = .*: must be in a folder that can be written to"):
-        simulate(POINT, HarmonicLoad(Omega=3.0), n=N, until=0.1, dT=0.05, checkpoint=tmp_path / "none" / "c.h5")
+        simulate(
+            POINT,
+            HarmonicLoad(Omega=3.0),
+            grid=Grid(n=N),
+            time=TimeSteps(until=0.1, dt=0.05),
+            keep=KeepSettings(checkpoint=tmp_path / "none" / "c.h5"),
+        )
     with pytest.raises(InputError, match=r"^checkpoint_every = -1\.0: must be "):
-        simulate(POINT, HarmonicLoad(Omega=3.0), n=16, checkpoint=tmp_path / "c.h5", checkpoint_every=-1.0)
+        simulate(
+            POINT,
+            HarmonicLoad(Omega=3.0),
+            grid=Grid(n=16),
+            keep=KeepSettings(checkpoint=tmp_path / "c.h5", checkpoint_every=-1.0),
+        )
 
 
 @pytest.mark.skipif(os.name != "posix", reason="permissions of POSIX")

@@ -6,14 +6,14 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import HarmonicLoad, InputError, MoesPoint, PrescribedApproach, simulate
+from ehlcontact import Grid, HarmonicLoad, InputError, MoesPoint, PrescribedApproach, TimeSteps, simulate
 
 POINT = MoesPoint(20, 5, 0.5)
 
 
 @pytest.fixture(scope="module")
 def record():
-    return simulate(POINT, HarmonicLoad(Omega=pi), n=16, until=1.0, dT=0.1)
+    return simulate(POINT, HarmonicLoad(Omega=pi), grid=Grid(n=16), time=TimeSteps(until=1.0, dt=0.1))
 
 
 def smooth(record, steps):
@@ -68,7 +68,7 @@ def test_shape_and_load(record):
     assert dense.force.shape == (2, 2)
     np.testing.assert_allclose(dense.load, 1.0 + 0.1 * np.sin(pi * dense.T), atol=1e-12)
     T = np.linspace(0.0, 0.3, 4)
-    driven = simulate(POINT, PrescribedApproach(T, 0.6 + 0.1 * T), n=16, dT=0.1)
+    driven = simulate(POINT, PrescribedApproach(T, 0.6 + 0.1 * T), grid=Grid(n=16), time=TimeSteps(dt=0.1))
     np.testing.assert_array_equal(driven.at(T).load, driven.at(T).force)
 
 
@@ -80,4 +80,4 @@ def test_outside_the_record(record, T):
 
 def test_too_short_a_record(record):
     with pytest.raises(InputError, match=r"^steps = 1: must be at least 2"):
-        simulate(POINT, HarmonicLoad(Omega=pi), n=16, until=0.1, dT=0.1).at(0.05)
+        simulate(POINT, HarmonicLoad(Omega=pi), grid=Grid(n=16), time=TimeSteps(until=0.1, dt=0.1)).at(0.05)

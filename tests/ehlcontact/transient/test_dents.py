@@ -5,8 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from argument_groups import grouped
 
-from ehlcontact import Dent, Domain, MoesPoint, PrescribedLoad, Roughness, simulate, solve_steady
+from ehlcontact import Dent, Domain, Grid, MoesPoint, PrescribedLoad, Roughness, simulate, solve_steady
 
 MOURIER = MoesPoint(63.78, 5.788, 1.0)
 NEAR = Domain(-2.5, 1.5, 2.0)
@@ -19,8 +20,8 @@ def steady_load(until):
 
 def passing(speed, start, until, n=128, **options):
     surface = Dent(DEPTH, RADIUS, start, speed=speed)
-    settings = {"n": n, "domain": NEAR, "until": until, "dT": 4.0 / n, "surface": surface, "threads": 1}
-    return simulate(MOURIER, steady_load(until), **settings | options)
+    settings = {"n": n, "domain": NEAR, "until": until, "dt": 4.0 / n, "surface": surface, "threads": 1}
+    return simulate(MOURIER, steady_load(until), **grouped(**settings | options))
 
 
 class Passage:
@@ -125,7 +126,7 @@ def test_film_ahead_of_the_sliding_dimple_of_mourier():
 def test_steps_on_a_grid_of_a_thousand(case):
     """Every step converges within two cycles of the tolerance's, and one more as tight changes the film little."""
     point = MOURIER if case == "dent" else MoesPoint(200.0, 10.0, 1.0)
-    film = solve_steady(point, n=128, domain=NEAR).h_central
+    film = solve_steady(point, grid=Grid(n=128, domain=NEAR)).h_central
     surfaces = {
         "dent": Dent(DEPTH, RADIUS, -0.9, speed=0.5),
         "roughness": Roughness.synthetic(
@@ -133,8 +134,8 @@ def test_steps_on_a_grid_of_a_thousand(case):
         ),
     }
     mesh = 4.0 / 1024
-    settings = {"n": 1024, "domain": NEAR, "until": 8 * mesh, "dT": mesh, "surface": surfaces[case]}
-    runs = [simulate(point, steady_load(1.0), tol=tol, **settings) for tol in (3e-3, 1e-5)]
+    settings = {"n": 1024, "domain": NEAR, "until": 8 * mesh, "dt": mesh, "surface": surfaces[case]}
+    runs = [simulate(point, steady_load(1.0), **grouped(tol=tol, **settings)) for tol in (3e-3, 1e-5)]
     assert all(run.status.ok for run in runs)
     assert runs[0].cycles[1:].max() <= 3
     inside = np.abs(runs[0].X) < 0.9

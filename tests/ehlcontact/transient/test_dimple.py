@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ehlcontact import solve_steady
+from ehlcontact import Grid, solve_steady
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "studies" / "dimple.py"
 
@@ -42,7 +42,7 @@ def test_operating_point(dimple):
 @pytest.mark.slow
 def test_smooth_film(dimple):
     """212 nm in the centre and 119 nm at the least, within 1 %."""
-    steady = solve_steady(dimple.POINT, n=256)
+    steady = solve_steady(dimple.POINT, grid=Grid(n=256))
     unit = dimple.POINT.scales.length * 1e9
     assert steady.h_central * unit == pytest.approx(212.0, rel=0.01)
     assert steady.h_min * unit == pytest.approx(119.0, rel=0.01)

@@ -6,7 +6,7 @@ from unittest import mock
 import numpy as np
 import pytest
 
-from ehlcontact import FreeVibration, HarmonicLoad, MoesPoint
+from ehlcontact import FreeVibration, Grid, HarmonicLoad, MoesPoint
 from ehlcontact.solver.mesh import Purpose, mesh_for
 from ehlcontact.transient.film import TransientFilm, extrapolate
 from ehlcontact.transient.record import History
@@ -30,7 +30,9 @@ def test_as_many_values_as_a_polynomial_needs_give_it(order):
 
 def starts_and_ends(motion, steps):
     """Approach that the first cycle of every step begins with, and that at its end."""
-    film = TransientFilm(POINT, mesh_for(POINT, Purpose.RUN, n=64, largest_load=motion.largest_load), 3e-3)
+    film = TransientFilm(
+        POINT, mesh_for(POINT, Purpose.RUN, grid=Grid(n=64), largest_load=motion.largest_load), 3e-3
+    )
     run = Run(film, motion, None, History(()), None, lambda run: None)
     run.start()
     solve, found = film._solve, []

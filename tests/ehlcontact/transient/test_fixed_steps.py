@@ -9,6 +9,7 @@ import pytest
 from ehlcontact import (
     Dent,
     FreeVibration,
+    Grid,
     HarmonicLoad,
     InputError,
     MoesPoint,
@@ -17,12 +18,13 @@ from ehlcontact import (
     RampLoad,
     Roughness,
     Status,
+    TimeSteps,
     TransverseRidge,
     Waviness,
     simulate,
 )
 from ehlcontact.transient.bodies import LONGEST_ABRUPT, LONGEST_SMOOTH
-from ehlcontact.transient.settings import TimeSteps
+from ehlcontact.transient.settings import StepPlan
 from ehlcontact.transient.surface import require_surface
 from ehlcontact.transient.time_step import FEWEST_STEPS, STEPS_PER_WAVE, coarse_step_note, default_fixed_step
 
@@ -71,21 +73,27 @@ def test_features_shorten_it(surface, step):
 
 
 def test_what_is_given_stays_and_an_early_end_is_met():
-    assert TimeSteps.of(BENT, None, 1.0, None, None, 0.1).dT == 1.0
-    assert TimeSteps.of(BENT, 0.02, None, None, None, 0.1).dT == 0.02
+    assert StepPlan.of(BENT, TimeSteps(dt=1.0), longest=0.1).dT == 1.0
+    assert StepPlan.of(BENT, TimeSteps(until=0.02), longest=0.1).dT == 0.02
     # steps under control of the error begin as the table says: a stop is a stop, and the film is looked at
-    assert TimeSteps.of(BENT, None, None, 1e-3, None, 0.1) == TimeSteps.of(BENT, None, None, 1e-3, None)
+    controlled = TimeSteps(local_error=1e-3)
+    assert StepPlan.of(BENT, controlled, longest=0.1) == StepPlan.of(BENT, controlled)
 
 
 def test_a_coarse_table_is_run_in_steps_that_show_the_film():
-    found, fine, coarse = (simulate(POINT, BENT, n=64, dT=dT) for dT in (None, 0.025, 1.0))
+    found, fine, coarse = (
+        simulate(POINT, BENT, grid=Grid(n=64), time=TimeSteps(dt=dT)) for dT in (None, 0.025, 1.0)
+    )
     assert found.steps == 40 and coarse.steps == 4
     assert found.h_min.min() == pytest.approx(fine.h_min.min(), rel=5e-3)
     assert coarse.h_min.min() > 1.1 * fine.h_min.min()
 
 
 def test_a_dent_passes_in_steps_that_show_it():
-    found, fine = (simulate(POINT, REST, n=64, dT=dT, surface=Dent(0.1, 0.5, kappa=0.5)) for dT in (None, 0.0125))
+    found, fine = (
+        simulate(POINT, REST, grid=Grid(n=64), time=TimeSteps(dt=dT), surface=Dent(0.1, 0.5, kappa=0.5))
+        for dT in (None, 0.0125)
+    )
     assert found.steps == 60
     assert found.h_central.max() == pytest.approx(fine.h_central.max(), rel=0.02)
     assert found.h_central.max() > 1.3 * found.h_central[0]
@@ -93,9 +101,9 @@ def test_a_dent_passes_in_steps_that_show_it():
 
 def test_few_steps_a_period_are_said_in_words():
     motion = HarmonicLoad(Omega=pi)
-    few = simulate(POINT, motion, n=64, dT=0.2, until=2.0)
+    few = simulate(POINT, motion, grid=Grid(n=64), time=TimeSteps(dt=0.2, until=2.0))
     assert few.reservation == (
-        "the step is coarse: 10 to a period of the load; before taking damping from it give dT = 0.025"
+        "the step is coarse: 10 to a period of the load; for damping take steps_per_period = 80"
     )
     assert few.reservation in repr(few) and few.to_dict()["reservation"] == few.reservation
     assert replace(few, status=Status.STAGNATED).reservation == ""
@@ -113,9 +121,11 @@ def test_a_feature_made_for_another_contact_is_warned_of(surface):
     """It would be an ellipse in metres; whoever wants that is not kept from it."""
     words = "^kappa = 1 of the surface is not that of the contact, 0.5: .* 2 times as long across as along"
     with pytest.warns(RuntimeWarning, match=words) as told:
-        run = simulate(POINT, REST, n=32, until=0.1, surface=surface)
+        run = simulate(POINT, REST, grid=Grid(n=32), time=TimeSteps(until=0.1), surface=surface)
     assert run.status.ok and told[0].filename == __file__
-    simulate(POINT, REST, n=32, until=0.1, surface=replace(surface, kappa=0.5003))  # rounded
+    simulate(
+        POINT, REST, grid=Grid(n=32), time=TimeSteps(until=0.1), surface=replace(surface, kappa=0.5003)
+    )  # rounded
 
 
 class Moving:
@@ -131,4 +141,4 @@ def test_surfaces_that_can_be_called(surface):
 @pytest.mark.parametrize("surface", [lambda X, Y: 0.0 * X, Roughness, Dent, Moving, 1, "dent", np.zeros(3)])
 def test_surfaces_that_cannot_are_one_line(surface):
     with pytest.raises(InputError, match=r"^surface = .*: must be a feature .*a function of X, Y and T, or None$"):
-        simulate(POINT, REST, n=16, surface=surface)
+        simulate(POINT, REST, grid=Grid(n=16), surface=surface)

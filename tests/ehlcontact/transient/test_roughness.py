@@ -6,6 +6,7 @@ from math import log, pi
 
 import numpy as np
 import pytest
+from argument_groups import grouped
 
 from ehlcontact import (
     Domain,
@@ -159,8 +160,8 @@ def test_a_map_in_metres():
 
 
 def run_over(surface, n=64, until=0.5, **changes):
-    options = {"n": n, "domain": NEAR, "until": until, "dT": 4.0 / n, "surface": surface, "threads": 1} | changes
-    return simulate(POINT, PrescribedLoad(np.linspace(0.0, 4.0, 4), np.ones(4)), **options)
+    options = {"n": n, "domain": NEAR, "until": until, "dt": 4.0 / n, "surface": surface, "threads": 1} | changes
+    return simulate(POINT, PrescribedLoad(np.linspace(0.0, 4.0, 4), np.ones(4)), **grouped(**options))
 
 
 def test_waves_that_the_mesh_does_not_show_are_refused(made):

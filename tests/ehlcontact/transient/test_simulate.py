@@ -11,12 +11,16 @@ from ehlcontact import (
     ConvergenceError,
     Domain,
     FreeVibration,
+    Grid,
     HarmonicLoad,
+    KeepSettings,
     MoesPoint,
     PrescribedApproach,
     PrescribedLoad,
     RampLoad,
+    RunSettings,
     Status,
+    TimeSteps,
     simulate,
     solve_steady,
 )
@@ -28,12 +32,20 @@ N = 32
 
 @pytest.fixture(scope="module")
 def free():
-    return simulate(POINT, FreeVibration(Omega_n=OMEGA_N), n=N, tol=1e-6, snapshots=(0.0, 0.31, 1.0))
+    return simulate(
+        POINT,
+        FreeVibration(Omega_n=OMEGA_N),
+        grid=Grid(n=N),
+        time=TimeSteps(tol=1e-6),
+        keep=KeepSettings(snapshots=(0.0, 0.31, 1.0)),
+    )
 
 
 @pytest.fixture(scope="module")
 def harmonic():
-    return simulate(POINT, HarmonicLoad(Omega=2.0 * pi), n=N, until=4.0, dT=0.025, tol=1e-6)
+    return simulate(
+        POINT, HarmonicLoad(Omega=2.0 * pi), grid=Grid(n=N), time=TimeSteps(until=4.0, dt=0.025, tol=1e-6)
+    )
 
 
 def test_record_starts_at_rest(free, steady):
@@ -73,7 +85,7 @@ def test_energy_balance(free):
 
 def test_free_vibration_dissipates_in_every_cycle():
     """Loops closed at equal approach (upward passages of the static one, after the first transit)."""
-    record = simulate(POINT, FreeVibration(Omega_n=OMEGA_N), n=N, until=6.0, tol=1e-6)
+    record = simulate(POINT, FreeVibration(Omega_n=OMEGA_N), grid=Grid(n=N), time=TimeSteps(until=6.0, tol=1e-6))
     above = record.approach > record.static_approach
     starts = np.flatnonzero(~above[:-1] & above[1:])
     assert starts.size >= 5
@@ -132,7 +144,13 @@ def test_snapshots(free):
 
 
 def test_snapshot_at_the_end():
-    run = simulate(POINT, HarmonicLoad(Omega=3.0), n=N, until=0.2, dT=0.1, snapshots=(0.1, 0.2))
+    run = simulate(
+        POINT,
+        HarmonicLoad(Omega=3.0),
+        grid=Grid(n=N),
+        time=TimeSteps(until=0.2, dt=0.1),
+        keep=KeepSettings(snapshots=(0.1, 0.2)),
+    )
     np.testing.assert_allclose(run.snapshot_T, [0.1, 0.2], rtol=1e-12)
     np.testing.assert_array_equal(run.snapshot_H[-1, :, 0], run.h_midplane[-1])
 
@@ -151,40 +169,44 @@ def test_summary_is_plain(free):
 
 def test_steady_is_a_rest_state():
     """Under its own static approach nothing moves."""
-    u = solve_steady(POINT, n=N, tol=1e-7).approach
+    u = solve_steady(POINT, grid=Grid(n=N), tol=1e-7).approach
     T = np.linspace(0.0, 2.0, 11)
-    record = simulate(POINT, PrescribedApproach(T, np.full(T.size, u)), n=N, tol=1e-6)
+    record = simulate(POINT, PrescribedApproach(T, np.full(T.size, u)), grid=Grid(n=N), time=TimeSteps(tol=1e-6))
     assert np.abs(record.force - 1.0).max() < 2e-4
     assert np.ptp(record.force) < 2e-5
 
 
 def test_prescribed_load_equals_the_same_harmonic_load():
     harmonic = HarmonicLoad(Omega=pi)
-    one = simulate(POINT, harmonic, n=N, until=2.0, dT=0.05, tol=1e-6)
+    one = simulate(POINT, harmonic, grid=Grid(n=N), time=TimeSteps(until=2.0, dt=0.05, tol=1e-6))
     T = np.linspace(0.0, 2.0, 41)
     table = PrescribedLoad(T, [harmonic.load(t) for t in T])
-    other = simulate(POINT, table, n=N, until=2.0, dT=0.05, tol=1e-6)
+    other = simulate(POINT, table, grid=Grid(n=N), time=TimeSteps(until=2.0, dt=0.05, tol=1e-6))
     np.testing.assert_allclose(other.approach, one.approach, atol=1e-6)
 
 
 def test_inertia_of_a_stiff_oscillator_is_quasi_static():
     """At Omega_n far above the load's frequency, eq. 5 tends to eq. 6."""
-    light = simulate(POINT, HarmonicLoad(Omega=0.5 * pi, Omega_n=40.0), n=N, until=4.0, dT=0.025)
-    none = simulate(POINT, HarmonicLoad(Omega=0.5 * pi), n=N, until=4.0, dT=0.025)
+    light = simulate(
+        POINT, HarmonicLoad(Omega=0.5 * pi, Omega_n=40.0), grid=Grid(n=N), time=TimeSteps(until=4.0, dt=0.025)
+    )
+    none = simulate(POINT, HarmonicLoad(Omega=0.5 * pi), grid=Grid(n=N), time=TimeSteps(until=4.0, dt=0.025))
     late = light.T > 1.0
     np.testing.assert_allclose(light.approach[late], none.approach[late], atol=3e-3)
 
 
 def test_prescribed_load_may_start_elsewhere():
     T = np.linspace(0.0, 0.4, 5)
-    record = simulate(POINT, PrescribedLoad(T, np.full(5, 1.2)), n=N, tol=1e-6)
+    record = simulate(POINT, PrescribedLoad(T, np.full(5, 1.2)), grid=Grid(n=N), time=TimeSteps(tol=1e-6))
     assert record.force[0] == pytest.approx(1.2, abs=1e-5)
     assert np.ptp(record.approach) < 1e-4
     assert record.static_approach < record.approach[0]
 
 
 def test_offset_starts_from_the_displaced_film():
-    record = simulate(POINT, FreeVibration(Omega_n=OMEGA_N, offset=0.05), n=N, until=0.5)
+    record = simulate(
+        POINT, FreeVibration(Omega_n=OMEGA_N, offset=0.05), grid=Grid(n=N), time=TimeSteps(until=0.5)
+    )
     assert record.approach[0] == pytest.approx(record.static_approach + 0.05, abs=1e-7)
     assert record.rate[0] == 0.0
     assert record.force[0] > 1.05
@@ -192,17 +214,17 @@ def test_offset_starts_from_the_displaced_film():
 
 
 def test_ramp_widens_the_domain_and_settles():
-    record = simulate(MoesPoint(58.07, 4.62, 1.0), RampLoad(3.67, 1.69, Omega_n=2.4), n=64)
+    record = simulate(MoesPoint(58.07, 4.62, 1.0), RampLoad(3.67, 1.69, Omega_n=2.4), grid=Grid(n=64))
     assert record.domain.x_out > 1.5 * 3.67 ** (1 / 3) - 1e-9
     assert record.approach[-1] == pytest.approx(2.25, abs=0.2)
     assert record.load[-1] == pytest.approx(3.67)
 
 
 def test_steps_divide_the_end_evenly():
-    record = simulate(POINT, HarmonicLoad(Omega=pi), n=N, until=0.5, dT=0.3)
+    record = simulate(POINT, HarmonicLoad(Omega=pi), grid=Grid(n=N), time=TimeSteps(until=0.5, dt=0.3))
     assert record.steps == 2
     assert record.T[-1] == pytest.approx(0.5)
-    exact = simulate(POINT, HarmonicLoad(Omega=pi), n=N, until=0.3, dT=0.1)
+    exact = simulate(POINT, HarmonicLoad(Omega=pi), grid=Grid(n=N), time=TimeSteps(until=0.3, dt=0.1))
     assert exact.steps == 3
 
 
@@ -211,7 +233,13 @@ def test_interrupt_keeps_what_was_computed():
         if T > 0.45:
             raise KeyboardInterrupt
 
-    record = simulate(POINT, HarmonicLoad(Omega=pi), n=N, until=2.0, dT=0.1, callback=stop)
+    record = simulate(
+        POINT,
+        HarmonicLoad(Omega=pi),
+        grid=Grid(n=N),
+        time=TimeSteps(until=2.0, dt=0.1),
+        run=RunSettings(callback=stop),
+    )
     assert record.status is Status.INTERRUPTED
     assert record.steps == 5
     assert record.approach.shape == record.h_midplane.shape[:1] == (6,)
@@ -220,7 +248,11 @@ def test_interrupt_keeps_what_was_computed():
 def test_callback_sees_every_step():
     seen = []
     simulate(
-        POINT, HarmonicLoad(Omega=pi), n=N, until=0.5, dT=0.1, callback=lambda T, until: seen.append((T, until))
+        POINT,
+        HarmonicLoad(Omega=pi),
+        grid=Grid(n=N),
+        time=TimeSteps(until=0.5, dt=0.1),
+        run=RunSettings(callback=lambda T, until: seen.append((T, until))),
     )
     np.testing.assert_allclose(seen, [(0.1 * k, 0.5) for k in range(1, 6)])
 
@@ -234,7 +266,11 @@ def test_failed_step_keeps_the_history(monkeypatch, throw):
 
     def run():
         return simulate(
-            POINT, HarmonicLoad(Omega=pi), n=N, until=1.0, dT=0.1, tol=1e-6, throw=throw, callback=no_more_cycles
+            POINT,
+            HarmonicLoad(Omega=pi),
+            grid=Grid(n=N),
+            time=TimeSteps(until=1.0, dt=0.1, tol=1e-6),
+            run=RunSettings(throw=throw, callback=no_more_cycles),
         )
 
     if throw:
@@ -253,7 +289,11 @@ def test_failed_step_keeps_the_history(monkeypatch, throw):
 def test_time_out_of_the_domain_is_reported():
     """A ramp to five times the load on the default region: the ellipse reaches the outlet."""
     record = simulate(
-        MoesPoint(58.07, 4.62, 1.0), RampLoad(5.0, 1.0, Omega_n=4.0), n=N, domain=Domain(), throw=False, until=4.0
+        MoesPoint(58.07, 4.62, 1.0),
+        RampLoad(5.0, 1.0, Omega_n=4.0),
+        grid=Grid(n=N, domain=Domain()),
+        run=RunSettings(throw=False),
+        time=TimeSteps(until=4.0),
     )
     assert record.status is Status.OUT_OF_DOMAIN
     assert record.T[-1] < 4.0
@@ -261,5 +301,7 @@ def test_time_out_of_the_domain_is_reported():
 
 def test_fast_squeezing_of_a_narrow_ellipse():
     """Local passes along the cavitation boundary must keep out of where the squeeze term rules."""
-    record = simulate(MoesPoint(500, 15, 0.12), HarmonicLoad(Omega=12.56), n=128, until=0.4)
+    record = simulate(
+        MoesPoint(500, 15, 0.12), HarmonicLoad(Omega=12.56), grid=Grid(n=128), time=TimeSteps(until=0.4)
+    )
     assert record.cycles.max() < 10

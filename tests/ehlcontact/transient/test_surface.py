@@ -6,10 +6,12 @@ import pytest
 from ehlcontact import (
     ConvergenceError,
     Dent,
+    Grid,
     HarmonicLoad,
     InputError,
     MoesPoint,
     PrescribedLoad,
+    TimeSteps,
     TransverseRidge,
     Waviness,
     simulate,
@@ -73,9 +75,8 @@ def carry(depth, part):
     return simulate(
         MoesPoint(58.07, 4.62, 1.0),
         PrescribedLoad(np.linspace(0.0, -start, 4), np.ones(4)),
-        n=64,
-        until=-start,
-        dT=part * mesh,
+        grid=Grid(n=64),
+        time=TimeSteps(until=-start, dt=part * mesh),
         surface=Dent(depth, 0.3, start),
     )
 
@@ -105,8 +106,8 @@ def test_surface_must_be_even_in_y():
         simulate(
             MoesPoint(200, 10, 0.5),
             HarmonicLoad(Omega=3.0),
-            n=16,
-            until=0.1,
+            grid=Grid(n=16),
+            time=TimeSteps(until=0.1),
             surface=lambda X, Y, T: 0.01 * Y + 0.0 * X,
         )
 
@@ -142,4 +143,10 @@ def test_step_of_a_surface_is_not_taken_for_a_short_wave():
 def test_surface_that_closes_the_gap_is_named():
     ridge = TransverseRidge(3.0, 0.4, start=0.0)
     with pytest.raises(ConvergenceError, match="surface stands out by 3"):
-        simulate(MoesPoint(200, 10, 0.5), HarmonicLoad(Omega=3.0), n=32, until=0.1, surface=ridge)
+        simulate(
+            MoesPoint(200, 10, 0.5),
+            HarmonicLoad(Omega=3.0),
+            grid=Grid(n=32),
+            time=TimeSteps(until=0.1),
+            surface=ridge,
+        )

@@ -5,14 +5,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from argument_groups import grouped
 
 from ehlcontact import (
     FreeVibration,
+    Grid,
     HarmonicLoad,
     MoesPoint,
     PrescribedApproach,
     PrescribedLoad,
     RampLoad,
+    TimeSteps,
     load,
     save,
     simulate,
@@ -64,12 +67,15 @@ def damping(record, Omega):
 @pytest.mark.parametrize("amplitude", [0.01, 0.001])
 def test_damping_of_small_loads_is_as_good_as_that_of_large_ones(amplitude):
     motion = HarmonicLoad(Omega=pi, amplitude=amplitude)
-    found, closely = (simulate(POINT, motion, n=32, tol=tol) for tol in (None, 1e-6))
+    found, closely = (simulate(POINT, motion, grid=Grid(n=32), time=TimeSteps(tol=tol)) for tol in (None, 1e-6))
     assert damping(found, pi) == pytest.approx(damping(closely, pi), rel=0.01)
     assert "tol" not in found.reservation
     if amplitude == 0.01:
         # Where steps are short the first cycle ends nearer than any tolerance asks; not so in twenty a period.
-        coarse, closely = (simulate(POINT, motion, n=32, dT=0.1, tol=tol) for tol in (DEFAULT_TOL, 1e-6))
+        coarse, closely = (
+            simulate(POINT, motion, grid=Grid(n=32), time=TimeSteps(dt=0.1, tol=tol))
+            for tol in (DEFAULT_TOL, 1e-6)
+        )
         assert damping(coarse, pi) != pytest.approx(damping(closely, pi), rel=0.03)
         assert "to 1 % of it" in coarse.reservation
         assert coarse.reservation in repr(coarse)
@@ -79,7 +85,8 @@ def test_damping_of_small_loads_is_as_good_as_that_of_large_ones(amplitude):
 def test_given_tolerance_is_kept_and_stored(tmp_path):
     motion = HarmonicLoad(Omega=pi, amplitude=0.02)
     given, own, controlled = (
-        simulate(POINT, motion, n=32, until=0.1, **how) for how in (dict(tol=2e-3), {}, dict(error=1e-5))
+        simulate(POINT, motion, **grouped(n=32, until=0.1, **how))
+        for how in (dict(tol=2e-3), {}, dict(local_error=1e-5))
     )
     assert (given.tol, own.tol, controlled.tol) == (2e-3, pytest.approx(6e-4), pytest.approx(3e-5))
     again = load(save(given, tmp_path / "run.h5"))

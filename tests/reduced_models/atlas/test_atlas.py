@@ -10,13 +10,12 @@ import pytest
 
 from ehlcontact import (
     Geometry,
+    Grid,
     InputError,
     Lubricant,
     MoesPoint,
     OperatingPoint,
-    Purpose,
     __version__,
-    mesh_for,
     save,
     solve_steady,
 )
@@ -26,6 +25,7 @@ from reduced_models import Atlas
 from reduced_models.atlas.atlas import MODELS, SHIPPED
 from reduced_models.atlas.build import BOX, INTERPOLATION, assemble
 from reduced_models.atlas.elements import LEAST_APPROACH
+from reduced_models.atlas.mesh import impedance_grid
 from reduced_models.atlas.sample import sample_points
 from reduced_models.atlas.solve import OMEGAS, solve_point
 from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
@@ -67,7 +67,7 @@ def analytic(tmp_path_factory):
 def test_l_0_means_the_same_as_in_a_solve(shipped, M, kappa):
     """As near as everywhere; with the density of 1 GPa the films of the last two were 5 to 7 % off."""
     point = MoesPoint(M, 0.0, kappa)
-    answer, film = shipped.at(point), solve_steady(point, n=256)
+    answer, film = shipped.at(point), solve_steady(point, grid=Grid(n=256))
     assert answer.approach == pytest.approx(film.approach, abs=LIMITS["approach"])
     for name in ("h_central", "h_min"):
         assert getattr(answer, name) == pytest.approx(getattr(film, name), rel=LIMITS["film"]), name
@@ -247,7 +247,7 @@ def test_wide_range_ends_where_the_box_ends(shipped, point, end, expected):
 def test_bars_are_wide_where_films_are_too_thin_to_be_solved(shipped):
     thin = MoesPoint(30000.0, 1.0, 1.0)
     with pytest.raises(InputError, match=r"^inlet width = "):
-        mesh_for(thin, Purpose.TABLE)
+        impedance_grid(thin)
     far, near = shipped.at(thin), shipped.at(CASE)
     assert far.error["h_central"] / far.h_central > 5.0 * near.error["h_central"] / near.h_central
 
@@ -461,7 +461,7 @@ def test_sixty_random_points_of_the_box(shipped):
     found, covered = {name: [] for name in LIMITS}, []
     for point in random_points(60, 2026):
         try:
-            mesh = mesh_for(point, Purpose.TABLE)
+            mesh = impedance_grid(point)
         except InputError:  # too thin a film for any affordable mesh
             continue
         truth = solve_point(point)

@@ -12,9 +12,9 @@ import atlas_stub
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, InputError, MoesPoint, Purpose, mesh_for
-from ehlcontact.solver.mesh import TABLE_LIGHT_INTERVALS, TABLE_MESHES
+from ehlcontact import Domain, InputError, MoesPoint
 from reduced_models.atlas.build import BOX, RATES, assemble, build_atlas, smooth_gains
+from reduced_models.atlas.mesh import GRIDS, LIGHT_INTERVALS, impedance_grid
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import OMEGAS, solve_point
 from reduced_models.atlas.table import AtlasTable
@@ -62,9 +62,9 @@ def test_mesh_is_finer_for_thinner_films_and_ends():
     for M in np.geomspace(20.0, 3e4, 40).tolist():
         point = MoesPoint(M, 2.0, 0.6)
         try:
-            mesh = mesh_for(point, Purpose.TABLE)
+            mesh = impedance_grid(point)
         except InputError:
-            assert point.inlet_width < TABLE_MESHES[-1].least_inlet
+            assert point.inlet_width < GRIDS[-1].least_inlet
         else:
             widths.append(point.inlet_width)
             steps.append(mesh.size(0.6) / widths[-1])
@@ -73,7 +73,7 @@ def test_mesh_is_finer_for_thinner_films_and_ends():
 
 def test_a_solved_point_has_everything_that_is_assembled():
     entry = json.loads(json.dumps(solve_point(MoesPoint(5.0, 3.0, 0.5))))
-    assert entry["status"] == "converged" and entry["n"] == TABLE_LIGHT_INTERVALS and entry["moment"] > 0.0
+    assert entry["status"] == "converged" and entry["n"] == LIGHT_INTERVALS and entry["moment"] > 0.0
     assert len(entry["stiffness"]) == len(entry["damping"]) == len(OMEGAS)
     assert entry["approach"] < 1.0 and 0.0 < entry["h_min"] < entry["h_central"]
 

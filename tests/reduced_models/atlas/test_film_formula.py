@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from ehlcontact import InputError, Lubricant, MoesPoint, OperatingPoint, assumptions, impedance, solve_steady
+from ehlcontact import Grid, InputError, Lubricant, MoesPoint, OperatingPoint, assumptions, impedance, solve_steady
 from ehlcontact.assumptions.film import FORMULA_SCATTER
 from ehlcontact.formulas import film_to_moes, hamrock_dowson_minimum
 from reduced_models import Atlas
@@ -61,10 +61,10 @@ def test_film_of_the_atlas_makes_the_lambda_ratio():
 
 def test_solved_film_says_so():
     point = MoesPoint(200, 10, 0.5)
-    solved = solve_steady(point, n=64)
+    solved = solve_steady(point, grid=Grid(n=64))
     assert solved.film_origin == f"solved, ± {100.0 * solved.error.h_min:.2g} %"
-    assert impedance(point, Omega=[0.0], n=64).film_origin == "solved"
-    stopped = solve_steady(point, n=64, max_cycles=1, throw=False)
+    assert impedance(point, Omega=[0.0], grid=Grid(n=64)).film_origin == "solved"
+    stopped = solve_steady(point, grid=Grid(n=64), max_cycles=1, throw=False)
     assert stopped.film_origin == f"not solved: {stopped.status}"
 
 

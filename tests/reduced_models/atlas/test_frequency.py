@@ -5,9 +5,18 @@ import math
 import numpy as np
 import pytest
 
-from ehlcontact import Geometry, InputError, Lubricant, MoesPoint, OperatingPoint, Purpose, impedance, mesh_for
+from ehlcontact import (
+    Geometry,
+    Grid,
+    InputError,
+    Lubricant,
+    MoesPoint,
+    OperatingPoint,
+    impedance,
+)
 from reduced_models import Atlas
 from reduced_models.atlas.frequency import Between
+from reduced_models.atlas.mesh import impedance_grid
 from reduced_models.atlas.solve import OMEGAS
 
 CASE = MoesPoint(200.0, 10.0, 0.5)
@@ -35,9 +44,9 @@ def test_exact_at_the_nodes_and_static_at_0(shipped):
 @pytest.mark.parametrize("point", [CASE, MoesPoint(20.0, 5.0, 0.3)])
 def test_between_the_nodes_it_is_what_is_solved_there(point):
     """The interpolation over frequency alone: nodes and what lies between are solved on one mesh."""
-    mesh = mesh_for(point, Purpose.TABLE)
+    mesh = impedance_grid(point)
     middle = 0.5 * (NODES[1:] + NODES[:-1])
-    solved = impedance(point, Omega=np.concatenate([NODES, middle]), n=mesh.n, domain=mesh.domain)
+    solved = impedance(point, Omega=np.concatenate([NODES, middle]), grid=Grid(n=mesh.n, domain=mesh.domain))
     k = NODES.size
     for values, size, limit in (
         (solved.stiffness, solved.stiffness[0], 1e-3),

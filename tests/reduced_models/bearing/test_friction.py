@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, load, save, solve_steady
+from ehlcontact import Domain, Grid, load, save, solve_steady
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import ellipse_ratio, hertz_contact
 from reduced_models import BallBearing, BearingState
@@ -91,7 +91,7 @@ def test_biboulet_and_houpert_with_as_much_oil(film):
     point = film.race("inner").point(30.0, 3000.0)
     unit = point.scales.moment / (2.0 * biboulet_houpert(point, 30.0))
     near, far = (
-        solve_steady(point, n=n, domain=domain).moment * unit
+        solve_steady(point, grid=Grid(n=n, domain=domain)).moment * unit
         for n, domain in ((128, None), (512, Domain(-18.0, 6.0, 12.0)))
     )
     assert far == pytest.approx(1.0, abs=0.05)

@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, PrescribedApproach, impedance, simulate, solve_steady
+from ehlcontact import Domain, Grid, PrescribedApproach, TimeSteps, impedance, simulate, solve_steady
 
 DOWN = (0.0, -1000.0)
 OMEGA = np.array([0.0, 0.05, 0.25, 1.0, pi, 2.0 * pi, 12.0, 20.0])  # 1 is 4.2 kHz at 3000 rpm under 477 N
@@ -51,7 +51,7 @@ def ball(film):
     time = angles / (rpm * pi / 30.0 * film.orders.ftf)
     point = film.race("inner").point(force[0], rpm)
     s = point.scales
-    full = simulate(point, PrescribedApproach(time / s.time, approach / s.length), dT=1.0)
+    full = simulate(point, PrescribedApproach(time / s.time, approach / s.length), time=TimeSteps(dt=s.time))
     t, u, v = full.T * s.time, full.approach * s.length, full.rate * s.length / s.time
     wide = film.element("inner", rpm).drive(t, u, v)
     return u, full.force * s.force, wide, film.element("inner", rpm).spring(u)
@@ -81,7 +81,7 @@ def test_what_a_light_ball_lacks_is_the_oil_further_out(ball, film):
     far = (full[0] / load) ** (1.0 / 3.0)
     n = int(np.ceil(128 * far / 16)) * 16
     near, wider = (
-        solve_steady(own, n=n, domain=domain).si.approach
+        solve_steady(own, grid=Grid(n=n, domain=domain)).si.approach
         for n, domain in ((128, None), (n, Domain(-4.5 * far, 1.5 * far, 3.0 * far)))
     )
     assert wider == pytest.approx(u[-1], abs=0.05 * (near - wider))

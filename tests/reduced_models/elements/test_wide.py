@@ -8,6 +8,7 @@ import pytest
 
 from ehlcontact import (
     ConvergenceError,
+    Grid,
     InputError,
     MoesPoint,
     PrescribedLoad,
@@ -153,9 +154,9 @@ def test_from_solves_meets_loads_it_was_not_made_of():
     loads, unused = (0.05, 0.1, 0.25, 0.6, 1.0, 2.0), (0.16, 0.4, 1.5)
     wide = wide_range_from_solves(point, loads, memory_loads=(0.2, 1.0), lags=6, n=48)
     for F in unused:
-        u = solve_steady(replace(point, M=200 * F), n=48).approach * F ** (2.0 / 3.0)
+        u = solve_steady(replace(point, M=200 * F), grid=Grid(n=48)).approach * F ** (2.0 / 3.0)
         assert wide.spring(u) == pytest.approx(F, rel=0.01)
-    Z = impedance(point, Omega=[0.05, pi, 2.0 * pi], n=48)
+    Z = impedance(point, Omega=[0.05, pi, 2.0 * pi], grid=Grid(n=48))
     ours = wide.impedance(Omega=Z.Omega)
     np.testing.assert_allclose(ours.real, Z.stiffness, rtol=0.02)
     assert ours[0].imag / 0.05 == pytest.approx(Z.damping[0], rel=0.05)
@@ -176,14 +177,14 @@ def test_a_6205_from_lift_off_to_overload():
     """Static curve against unused solves, and a load pulse from 5 % to 200 % and back against full EHL."""
     point = MoesPoint(2900, 19, 0.11)
     omegas = np.concatenate([[0.0], np.geomspace(0.03, 60.0, 24)])
-    memory = fit_memory(impedance(point, Omega=omegas, n=128), lags=12).element
+    memory = fit_memory(impedance(point, Omega=omegas, grid=Grid(n=128)), lags=12).element
     wide = wide_range_from_solves(point, memory=memory, n=128)
     for F in (0.01 * 1.3, 0.025, 0.06, 0.12, 0.2, 0.45, 0.8, 1.3, 2.2, 2.7):
-        u = solve_steady(replace(point, M=2900 * F), n=128).approach * F ** (2.0 / 3.0)
+        u = solve_steady(replace(point, M=2900 * F), grid=Grid(n=128)).approach * F ** (2.0 / 3.0)
         assert wide.spring(u) == pytest.approx(F, rel=0.01)
     T = np.linspace(0.0, 12.0, 601)
     load = 0.05 + 1.95 * np.sin(pi * np.clip((T - 1.0) / 8.0, 0.0, 1.0)) ** 2
-    run = simulate(point, PrescribedLoad(T, load), n=128)
+    run = simulate(point, PrescribedLoad(T, load), grid=Grid(n=128))
     error = wide.drive(run.T, run.approach, run.rate) - run.force
     rms = np.sqrt(np.mean(error**2)) / run.force.max()
     static = np.sqrt(np.mean((wide.spring(run.approach) - run.force) ** 2)) / run.force.max()

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from ehlcontact import FreeVibration, HarmonicLoad, InputError, MoesPoint, impedance, simulate
+from ehlcontact import FreeVibration, Grid, HarmonicLoad, InputError, MoesPoint, impedance, simulate
 from reduced_models import ContactRecord, fit_memory
 
 POINT = MoesPoint(200, 10, 0.5)
@@ -20,10 +20,11 @@ EXAMPLE = Path(__file__).parents[3] / "examples" / "studies" / "one_element_for_
 @pytest.fixture(scope="module")
 def coarse():
     """Impedance and records of the same contact on a coarse grid."""
-    response = impedance(POINT, Omega=OMEGAS, n=32)
+    response = impedance(POINT, Omega=OMEGAS, grid=Grid(n=32))
     motions = (FreeVibration(Omega_n=5.13), HarmonicLoad(Omega=pi / 4), HarmonicLoad(Omega=2.0 * pi))
     records = [
-        ContactRecord.from_result(simulate(POINT, motion, n=32, domain=response.domain)) for motion in motions
+        ContactRecord.from_result(simulate(POINT, motion, grid=Grid(n=32, domain=response.domain)))
+        for motion in motions
     ]
     return response, records
 
@@ -72,7 +73,7 @@ def test_bad_data_for_the_fit(coarse):
         Omega=response.Omega, stiffness=response.stiffness, damping=response.damping, approach=response.approach
     )
     with pytest.raises(InputError, match="at least 8 frequencies"):
-        fit_memory(impedance(POINT, Omega=[0.0, 1.0], n=32))
+        fit_memory(impedance(POINT, Omega=[0.0, 1.0], grid=Grid(n=32)))
     few = SimpleNamespace(
         **(vars(plain) | {key: getattr(plain, key)[9:] for key in ("Omega", "stiffness", "damping")})
     )
@@ -96,7 +97,7 @@ def test_one_element_for_all():
     spec = importlib.util.spec_from_file_location("one_element_for_all", EXAMPLE)
     example = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(example)
-    Z = impedance(example.POINT, Omega=example.OMEGAS, n=64, domain=example.DOMAIN)
+    Z = impedance(example.POINT, Omega=example.OMEGAS, grid=Grid(n=64, domain=example.DOMAIN))
     seen = {name: example.record(motion, 64) for name, motion in example.fitted_motions().items()}
     unseen = {"chirp": example.record(example.chirp(), 64), "step": example.record(example.load_step(), 64)}
     result = fit_memory(Z, list(seen.values()))
@@ -109,7 +110,7 @@ def test_one_element_for_all():
     assert np.abs(result.stiffness_error[band]).max() < 0.01
     w = np.geomspace(0.022, 29.5, 40)  # frequencies that the fit did not see
     between, ours = (
-        impedance(example.POINT, Omega=w, n=64, domain=example.DOMAIN),
+        impedance(example.POINT, Omega=w, grid=Grid(n=64, domain=example.DOMAIN)),
         result.element.impedance(Omega=w),
     )
     assert np.abs(ours.imag / w / between.damping - 1.0).max() < 0.1

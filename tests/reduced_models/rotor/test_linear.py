@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from rotor_twins import MASS, POINT, C, K, one_mass, spring
 
-from ehlcontact import InputError, MoesPoint, impedance
+from ehlcontact import Grid, InputError, MoesPoint, impedance
 from reduced_models import (
     Atlas,
     JeffcottRotor,
@@ -101,7 +101,7 @@ def test_orbit_state_is_on_the_periodic_motion():
 
 
 def test_film_impedance_follows_the_solve():
-    response = impedance(POINT, Omega=[0.0, 0.005, 0.1, 1.0], n=32)
+    response = impedance(POINT, Omega=[0.0, 0.005, 0.1, 1.0], grid=Grid(n=32))
     Z, s = film_impedance(response), POINT.scales
     at = Z(response.Omega / s.time)
     assert at.real == pytest.approx(response.stiffness * s.stiffness)
@@ -122,4 +122,4 @@ def test_refused():
     with pytest.raises(InputError, match="one per mount"):
         LinearRotor(one_mass(), [spring, spring])
     with pytest.raises(InputError, match="OperatingPoint"):
-        film_impedance(impedance(MoesPoint(20, 5, 0.5), Omega=[0.0, 0.1], n=32))
+        film_impedance(impedance(MoesPoint(20, 5, 0.5), Omega=[0.0, 0.1], grid=Grid(n=32)))

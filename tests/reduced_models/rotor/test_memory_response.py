@@ -6,7 +6,7 @@ from math import cos, pi
 import numpy as np
 import pytest
 
-from ehlcontact import FreeVibration, InputError, MoesPoint, simulate
+from ehlcontact import FreeVibration, Grid, InputError, MoesPoint, simulate
 from reduced_models import (
     ContactRecord,
     JeffcottRotor,
@@ -23,7 +23,9 @@ BODY = {"disc_mass": 20.0, "journal_mass": 1.0, "shaft_stiffness": 2e7}
 @pytest.fixture(scope="module")
 def free():
     """Full EHL free vibration, a window long enough for the film to cross twice."""
-    return ContactRecord.from_result(simulate(MoesPoint(200, 10, 0.5), FreeVibration(Omega_n=5.13), n=64))
+    return ContactRecord.from_result(
+        simulate(MoesPoint(200, 10, 0.5), FreeVibration(Omega_n=5.13), grid=Grid(n=64))
+    )
 
 
 @pytest.fixture(scope="module")
