@@ -10,17 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu.spec import ModelSpec
-from reduced_models.elements.film_law import (
-    CHAIN,
-    DIRECT,
-    INLET,
-    RATE,
-    THETA,
-    film_entering,
-    film_rest,
-    film_step,
-    static,
-)
+from reduced_models.elements.film_filters import CHAIN, DIRECT, INLET, film_entering
+from reduced_models.elements.film_law import RATE, THETA, film_rest, film_step, static
 
 _Floats = NDArray[np.float64]
 

@@ -6,7 +6,8 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
-from reduced_models.elements.film_law import DIRECT, static
+from reduced_models.elements.film_filters import DIRECT
+from reduced_models.elements.film_law import static
 
 
 def lags_after(held, rate, start, mean, end, span):

@@ -12,7 +12,7 @@ from fmu.contact_variables import Element, Film
 from fmu.contacts import SHARE_OF_TRANSIT, round_down
 from fmu.references.series import References, Trial
 from fmu.spec import ModelSpec
-from reduced_models.elements.film_law import DIRECT
+from reduced_models.elements.film_filters import DIRECT
 
 _Floats = NDArray[np.float64]
 

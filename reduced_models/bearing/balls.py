@@ -42,7 +42,7 @@ from reduced_models.bearing.contact import (
 )  # fmt: skip
 from reduced_models.bearing.loss import Loss, accept_seat, begin_seat, hold_still, press_seat, rest_seat
 from reduced_models.bearing.race_table import RaceForceTable
-from reduced_models.elements.film_law import DIRECT
+from reduced_models.elements.film_filters import DIRECT
 
 _Floats = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ the mean of both ends. Both are of second order.
 
 from __future__ import annotations
 
-from math import exp, log, sqrt
+from math import log, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -22,11 +22,20 @@ from numpy.typing import NDArray
 from ehlcontact.jit import jit_exact_loop, jit_exact_node
 from reduced_models.bearing.loss import Loss, Seat, seat_of
 from reduced_models.bearing.race_table import curve, film_cutoff
-from reduced_models.elements.film_law import DIRECT
+from reduced_models.elements.film_filters import (
+    CHAIN,
+    DIRECT,
+    FAST,
+    INLET,
+    chain_moments,
+    lag_moments,
+    pass_on,
+    poisson_shares,
+)  # fmt: skip
 
 _Floats = NDArray[np.float64]
 
-APPROACH, RATE, OWN, INLET, FAST, CHAIN = range(6)  # entries of a state; the chain is the rest
+APPROACH, RATE, OWN = range(3)  # entries of a state before those of its filters
 # Entries of the work of a step: inlet, fast and hump as sums of 1, e and t; the sums of two rows of gains; then,
 # of all lags, what they hold, what they make of the film at the end, and of the hump.
 S, Y, HUMP, ROW, NEXT, HELD = 0, 3, 6, 9, 12, 15
@@ -36,7 +45,6 @@ S, Y, HUMP, ROW, NEXT, HELD = 0, 3, 6, 9, 12, 15
 PLACE, PLACE_HISTORY, PLACE_NOW, PLACE_BEFORE = range(4)
 TRIED_DELTA, TRIED_RATE, BY_DELTA, BY_RATE = range(4, 8)
 RATE_HISTORY, RATE_NOW, RATE_BEFORE, BALL_ENTRIES = range(8, 12)
-FEW, TERMS = 0.5, 16  # mean of Poisson's law below which its shares are summed, and how many then are enough
 
 
 @jit_exact_node
@@ -60,61 +68,22 @@ def begin(law, transit, speed_row, dt, films, c):
     work[c, HUMP] = -(s_a - inlet) / (p * span) - 0.5 * (inlet + s_a)
     work[c, HUMP + 1], work[c, HUMP + 2] = -s_e * both, 1.0 / span - s_t * both
     mu, lags = law.lag_rate * span, law.gains.shape[2] - DIRECT
-    _shares(mu, lags + 2, poisson, share)
+    poisson_shares(mu, lags + 2, poisson, share)
     per_mu = 1.0 / mu
     for j in range(lags):
-        r1 = (j + 1) * share[j + 2] * per_mu
-        work[c, HELD + j] = inlet * r1
-        work[c, HELD + lags + j] = share[j + 1] - r1
-        work[c, HELD + 2 * lags + j] = 6.0 * (r1 - (j + 1) * (j + 2) * share[j + 3] * per_mu * per_mu)
-    for i in range(lags):  # not lag by lag: sums of their own do not wait for each other
-        held = state[c, CHAIN + i]
-        for j in range(lags - i):
-            work[c, HELD + i + j] += poisson[j] * held
+        r0, r1, r2 = chain_moments(j + 1, per_mu, share)
+        work[c, HELD + j], work[c, HELD + lags + j] = inlet * r1, r0 - r1
+        work[c, HELD + 2 * lags + j] = 6.0 * (r1 - r2)
+    pass_on(state[c, CHAIN : CHAIN + lags], poisson, work[c, HELD : HELD + lags])
     films.place[c, 1] = -1
 
 
 @jit_exact_node
 def _lag(old, start, rate, span):
-    """One lag after the input start + (e - start) s + 6 bump s (1 - s) of integral t: sums of 1, e and t."""
-    mu = rate * span
-    still = exp(-mu)
-    if mu < FEW:
-        term, third = still * mu * mu * mu / 6.0, 0.0
-        for k in range(4, TERMS):
-            third += term
-            term *= mu / k
-        second = third + 0.5 * still * mu * mu
-        r0 = second + still * mu
-    else:
-        r0 = 1.0 - still
-        second = r0 - still * mu
-        third = second - 0.5 * still * mu * mu
-    r1 = second / mu
-    hump = r1 - 2.0 * third / (mu * mu)
-    return old * still + start * (r1 - 3.0 * hump), r0 - r1 - 3.0 * hump, 6.0 * hump / span
-
-
-@jit_exact_node
-def _shares(mu, n, poisson, share):
-    """Poisson's weights of mean `mu`, and the share of what entered that k lags have passed on, to k = n.
-
-    As `_residence` of the elements, whose care for shares too small to be seen takes twice the time.
-    """
-    weight, passed = exp(-mu), 1.0
-    for k in range(n + 1):
-        poisson[k], share[k] = weight, passed
-        passed -= weight
-        weight *= mu / (k + 1)
-    if mu < FEW:  # from the far end, or shares that are divided by mu would drown in rounding
-        passed, k = 0.0, n
-        while weight > 1e-17 * passed:
-            passed += weight
-            k += 1
-            weight *= mu / (k + 1)
-        for k in range(n, -1, -1):
-            passed += poisson[k]
-            share[k] = passed
+    """One lag at the end of a step that travels t at an own rate from `start` to e: its sums of 1, e and t."""
+    kept, r0, r1, r2 = lag_moments(rate * span)
+    hump = r1 - r2
+    return old * kept + start * (r1 - 3.0 * hump), r0 - r1 - 3.0 * hump, 6.0 * hump / span
 
 
 @jit_exact_node

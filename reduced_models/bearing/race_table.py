@@ -27,7 +27,8 @@ from ehlcontact.jit import jit_exact, jit_exact_node
 from ehlcontact.point import Scales
 from reduced_models.elements.film_curve import RIGID_SLOPE
 from reduced_models.elements.film_element import FilmContact
-from reduced_models.elements.film_law import DIRECT, FilmLaw, films, static
+from reduced_models.elements.film_filters import DIRECT
+from reduced_models.elements.film_law import FilmLaw, films, static
 
 _Floats = NDArray[np.float64]
 

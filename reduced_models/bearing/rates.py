@@ -15,7 +15,7 @@ import numpy as np
 
 from ehlcontact.jit import jit_exact
 from reduced_models.bearing.race_table import curve, film_cutoff
-from reduced_models.elements.film_law import DIRECT
+from reduced_models.elements.film_filters import filter_rates
 
 SMALL_STEP = 1e-14  # of the rates, that ends the search for w': rounding
 MOST_STEPS = 60  # of it: a handful
@@ -85,17 +85,6 @@ def _balance(inner, outer, rate, centrifugal):
 
 
 @jit_exact
-def _filter(law, tau, v, states, first, rates):
-    """Rates of one film's states."""
-    rates[first] = law.inlet_rate * (v - states[first] / tau)
-    rates[first + 1] = law.fast_rate * (v - states[first + 1] / tau)
-    fed = states[first]
-    for j in range(first + DIRECT - 1, first + law.gains.shape[2] - 1):
-        rates[j] = law.lag_rate * (fed - states[j]) / tau
-        fed = states[j]
-
-
-@jit_exact
 def bearing_rates(balls, at_speed, normals, states, r, v, rates, force):
     """Fill the rates of all balls' states [m/s] and the force of the ring at `r`, moving at `v`, on the balls."""
     wet, first = balls.inner.x.size > 0, 2 if balls.inertia > 0.0 else 1
@@ -118,7 +107,8 @@ def bearing_rates(balls, at_speed, normals, states, r, v, rates, force):
             pushed, own = _balance(inner, outer, rate, at_speed.centrifugal)
         rates[at] = own
         if wet:
-            _filter(balls.inner, inner[3], rate - own, states, at + first, rates)
-            _filter(balls.outer, outer[3], own, states, second, rates)
+            at_i, at_o = slice(at + first, second), slice(second, second + size_o)
+            filter_rates(balls.inner, 0.0, inner[3], rate - own, states[at_i], rates[at_i])
+            filter_rates(balls.outer, 0.0, outer[3], own, states[at_o], rates[at_o])
         force[0] += pushed * x
         force[1] += pushed * y

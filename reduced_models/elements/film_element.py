@@ -18,9 +18,8 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.film_curve import require_rising
+from reduced_models.elements.film_filters import CHAIN, DIRECT
 from reduced_models.elements.film_law import (
-    CHAIN,
-    DIRECT,
     FilmLaw,
     film_drive,
     film_rate,

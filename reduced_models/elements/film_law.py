@@ -27,13 +27,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.jit import jit_exact
+from reduced_models.elements.film_filters import (
+    CHAIN,
+    DIRECT,
+    FAST,
+    INLET,
+    chain_moments,
+    film_entering,
+    filter_rates,
+    lag_moments,
+    pass_on,
+    poisson_shares,
+)  # fmt: skip
 from reduced_models.elements.jet import Jet, half, minus, over, plus, root, through, through3, times
 
 _Floats = NDArray[np.float64]
 
-THETA, RATE, APPROACH, INLET, FAST, CHAIN = range(6)  # entries of a state; the chain is the rest
+THETA, RATE, APPROACH = range(3)  # entries of a state before those of its filters; the rate is the own one
 NOTHING = -400.0  # ln of a force that is none
-DIRECT = 3  # gains before those of the chain: viscous, inlet, fast
 
 
 class FilmLaw(NamedTuple):
@@ -113,71 +124,21 @@ def static(u, law):
 
 
 @jit_exact
-def _residence(mu, n, poisson, share):
-    """Poisson weights of mean `mu`, and the share of what entered within mu that j lags have passed on."""
-    poisson[0] = exp(-mu)
-    for k in range(1, n + 1):
-        poisson[k] = poisson[k - 1] * mu / k
-    if mu < n:  # from the far end, or small shares would drown in rounding
-        term, total, k = poisson[n], poisson[n], n
-        while term > 1e-17 * total:
-            k += 1
-            term *= mu / k
-            total += term
-        share[n] = total
-        for k in range(n - 1, -1, -1):
-            share[k] = share[k + 1] + poisson[k]
-    else:
-        share[0] = 1.0
-        for k in range(1, n + 1):
-            share[k] = share[k - 1] - poisson[k - 1]
-
-
-@jit_exact
-def _moments(j, mu, poisson, share):
-    """Response of j lags to inputs 1, t and t^2 of age t (1 at the start of the step), and d/d mu of each."""
-    r1 = j * share[j + 1] / mu
-    r2 = j * (j + 1) * share[j + 2] / (mu * mu)
-    d1 = (j * poisson[j] - r1) / mu
-    d2 = (j * (j + 1) * poisson[j + 1] / mu - 2.0 * r2) / mu
-    return share[j], r1, r2, poisson[j - 1], d1, d2
-
-
-@jit_exact
-def _one_lag(old, start, end, bump, rate, span, poisson, share):
-    """Jet of one lag after input start + (end - start) s + 6 bump s (1 - s); end, bump and span are jets."""
+def _one_lag(old, start, end, bump, rate, span):
+    """Jet of one lag at the end of a step; end, bump and span are jets."""
     mu = rate * span.x
-    _residence(mu, 3, poisson, share)
-    r0, r1, r2, d0, d1, d2 = _moments(1, mu, poisson, share)
-    value = old * poisson[0] + start * r1 + end.x * (r0 - r1) + 6.0 * bump.x * (r1 - r2)
-    slope = -old * poisson[0] + start * d1 + end.x * (d0 - d1) + 6.0 * bump.x * (d1 - d2)
+    kept, r0, r1, r2 = lag_moments(mu)
+    d1, d2 = (kept * mu - r1) / mu, (kept * mu - 2.0 * r2) / mu
+    value = old * kept + start * r1 + end.x * (r0 - r1) + 6.0 * bump.x * (r1 - r2)
+    slope = -old * kept + start * d1 + end.x * (kept - d1) + 6.0 * bump.x * (d1 - d2)
     return through3(value, slope * rate, span, r0 - r1, end, 6.0 * (r1 - r2), bump)
 
 
 @jit_exact
-def film_entering(s, beta):
-    """phi(s), the film that enters the chain, and its derivative."""
-    b = beta * s
-    d = 1.0 + abs(b)
-    return s + b * s / d, 1.0 + b * (1.0 + d) / (d * d)
-
-
-@jit_exact
-def _made(s, beta):
-    """Phi of a jet."""
-    x, slope = film_entering(s.x, beta)
+def _entering(s, saturation):
+    """Film that enters the chain, of a jet."""
+    x, slope = film_entering(s.x, saturation)
     return through(x, slope, s)
-
-
-@jit_exact
-def _passed_on(j, states, poisson):
-    """What lag `j` now has of what it and the lags before it held at the start; the same of those before alone."""
-    held, held_before = 0.0, 0.0
-    for i in range(j):
-        held += poisson[i] * states[CHAIN + j - 1 - i]
-        if i < j - 1:
-            held_before += poisson[i] * states[CHAIN + j - 2 - i]
-    return held, held_before
 
 
 @jit_exact
@@ -215,29 +176,31 @@ def film_step(law, old, new, dt, u, v):
     travel = Jet(u - old[APPROACH], 1.0, 0.0)
     bump = minus(over(travel, span), half(start, end))
 
-    poisson, share = np.empty(lags + 3), np.empty(lags + 3)
     p = law.inlet_rate
-    s = _one_lag(old[INLET], start, end, bump, p, span, poisson, share)
-    y = _one_lag(old[FAST], start, end, bump, law.fast_rate, span, poisson, share)
+    s = _one_lag(old[INLET], start, end, bump, p, span)
+    y = _one_lag(old[FAST], start, end, bump, law.fast_rate, span)
 
     # the film made: its ends, and a bump that keeps its mean, which the balance of the inlet lag gives
     mean = (travel.x - (s.x - old[INLET]) / p) / span.x
     entered = Jet(mean, (travel.u - s.u / p - mean * span.u) / span.x, -s.v / (p * span.x))
     f0 = film_entering(old[INLET], law.inlet_saturation)[0]
     f, f_s = film_entering(s.x, law.inlet_saturation)
-    hump = minus(_made(entered, law.inlet_saturation), _made(half(old[INLET], s), law.inlet_saturation))
+    hump = minus(_entering(entered, law.inlet_saturation), _entering(half(old[INLET], s), law.inlet_saturation))
 
     between, x_u = _between(x, law), 1.5 * g.u / g.x
     m = _weighed(0, end, law, between, x_u)
     m = plus(m, _weighed(1, s, law, between, x_u))
     m = plus(m, _weighed(2, y, law, between, x_u))
     mu = through(law.lag_rate * span.x, law.lag_rate, span)
-    _residence(mu.x, lags + 2, poisson, share)
+    per_mu, poisson, share, held = 1.0 / mu.x, np.empty(lags + 3), np.empty(lags + 3), np.zeros(lags + 1)
+    poisson_shares(mu.x, lags + 2, poisson, share)
+    pass_on(old[CHAIN:], poisson, held[1:])
     for j in range(1, lags + 1):
-        held, held_before = _passed_on(j, old, poisson)
-        r0, r1, r2, d0, d1, d2 = _moments(j, mu.x, poisson, share)
-        value = held + f0 * r1 + f * (r0 - r1) + 6.0 * hump.x * (r1 - r2)
-        slope = held_before - held + f0 * d1 + f * (d0 - d1) + 6.0 * hump.x * (d1 - d2)
+        r0, r1, r2 = chain_moments(j, per_mu, share)
+        d0, d1 = poisson[j - 1], (j * poisson[j] - r1) * per_mu
+        d2 = (j * (j + 1) * poisson[j + 1] * per_mu - 2.0 * r2) * per_mu
+        value = held[j] + f0 * r1 + f * (r0 - r1) + 6.0 * hump.x * (r1 - r2)
+        slope = held[j - 1] - held[j] + f0 * d1 + f * (d0 - d1) + 6.0 * hump.x * (d1 - d2)
         q = through3(value, slope, mu, (r0 - r1) * f_s, s, 6.0 * (r1 - r2), hump)
         m = plus(m, _weighed(DIRECT - 1 + j, q, law, between, x_u))
         new[CHAIN + j - 1] = value
@@ -292,14 +255,8 @@ def film_rates(law, states, u, v, rates):
     """Force at approach `u` and rate `v`; fills the time derivatives of the states."""
     x, g, _ = static(u, law)
     theta = sqrt(g)
-    i = theta * v
-    rates[0] = law.inlet_rate * (i - states[0]) / theta
-    rates[1] = law.fast_rate * (i - states[1]) / theta
-    fed = film_entering(states[0], law.inlet_saturation)[0]
-    for k in range(DIRECT - 1, states.size):
-        rates[k] = law.lag_rate * (fed - states[k]) / theta
-        fed = states[k]
-    w = g + _gain(law, x, 0) * i + _remembered(law, x, states)
+    filter_rates(law, law.inlet_saturation, theta, v, states, rates)
+    w = g + _gain(law, x, 0) * (theta * v) + _remembered(law, x, states)
     return w * sqrt(w) if w > 0.0 else 0.0
 
 

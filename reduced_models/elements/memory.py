@@ -16,7 +16,7 @@ from ehlcontact.point import Scales
 from ehlcontact.store import stored
 from reduced_models.elements.film_curve import LEAST_EXPONENT
 from reduced_models.elements.film_element import FilmContact
-from reduced_models.elements.film_law import DIRECT
+from reduced_models.elements.film_filters import DIRECT
 
 _Floats = NDArray[np.float64]
 

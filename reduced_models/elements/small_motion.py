@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reduced_models.elements.film_law import DIRECT
+from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.film_response import FilterRates
 
 _Floats = NDArray[np.float64]

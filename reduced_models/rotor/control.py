@@ -20,7 +20,7 @@ from reduced_models.bearing.contact import PLACE
 from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.rates import bearing_rates
 from reduced_models.bearing.state_space import PER_METRE, bearing_system
-from reduced_models.elements.film_law import DIRECT
+from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.small_motion import FILTERS, StateSpace
 from reduced_models.rotor.linearise import LinearisedRotor, Signals
 from reduced_models.rotor.modes import Matrices

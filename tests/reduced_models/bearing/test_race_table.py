@@ -127,7 +127,7 @@ def test_compiled_and_plain_are_twins(film, monkeypatch):
     at_speed = speed_state(kernel, 3000.0 * RADIANS)
     names = {
         table_room: ("_at", "curve", "film_cutoff"),
-        contact_room: ("_lag", "_weigh", "_add", "begin", "press", "accept", "curve", "film_cutoff", "_shares"),
+        contact_room: ("_lag", "_weigh", "_add", "begin", "press", "accept", "curve", "film_cutoff"),
         balls_room: ("_ball", "begin_step", "press_balls", "accept_balls", "begin", "press", "accept"),
     }
     normals = np.array([[0.0, -1.0]] * 9)

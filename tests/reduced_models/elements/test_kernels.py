@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from reduced_models import PolynomialContact, PowerLawContact, WideRangeContact
-from reduced_models.elements import film_law, jet, polynomial, power, spring
+from reduced_models.elements import film_filters, film_law, jet, polynomial, power, spring
 
 BOX = {"low": 0.75, "high": 1.0}
 POLYNOMIAL = PolynomialContact(0.806, 0.004, 0.346, 0.002, 0.054, -0.001, 0.010, rate=1.2, **BOX).law
@@ -47,15 +47,19 @@ CASES = {
     },
     polynomial: {"cubic": [(0.9, POLYNOMIAL)]},
     power: {"power": [(0.9, POWER)]},
+    film_filters: {
+        "film_entering": [(0.3, 0.2), (-0.3, 0.2)],
+        "lag_moments": [(mu,) for mu in (0.1, 2.0)],
+        "poisson_shares": [(mu, 4, np.zeros(5), np.zeros(5)) for mu in (0.1, 2.0, 9.0)],
+        "chain_moments": [(j, 2.5, SHARE) for j in (1, 3)],
+        "pass_on": [(STATE[5:], POISSON, np.ones(2))],
+        "filter_rates": [(FILM, 0.2, 0.9, 0.2, STATE[3:], np.zeros(4))],
+    },
     film_law: {
         "_film": [(x, FILM) for x in (-9.0, -1.0, 0.3, 4.0)],
         "static": [(u, FILM) for u in (-1e9, -3.0, 0.0, 0.9, 5.0)],
-        "_residence": [(mu, 4, np.zeros(5), np.zeros(5)) for mu in (0.1, 2.0, 9.0)],
-        "_moments": [(j, 0.4, POISSON, SHARE) for j in (1, 3)],
-        "_one_lag": [(0.1, 0.2, A, B, 3.0, C, np.zeros(6), np.zeros(6))],
-        "film_entering": [(0.3, 0.2), (-0.3, 0.2)],
-        "_made": [(A, 0.2)],
-        "_passed_on": [(j, STATE, POISSON) for j in (1, 2)],
+        "_one_lag": [(0.1, 0.2, A, B, rate, C) for rate in (0.3, 3.0)],
+        "_entering": [(A, 0.2)],
         "_between": [(x, FILM) for x in (-9.0, 0.3, 4.0)],
         "_weighed": [(3, A, FILM, (0, 1, 0.3, 0.7), 0.6)],
         "film_step": [(FILM, STATE, np.zeros(7), dt, u, 0.3) for dt in (0.01, 1.0) for u in (-3.0, 0.8, 2.5)],

@@ -1,0 +1,93 @@
+"""Filters of the film memory, compiled: over a step of any length, and in continuous time.
+
+Elements (`reduced_models.elements.film_law`) and bearings (`reduced_models.bearing.contact`) have the same filters
+of the own rate i: an inlet lag s, a fast lag y, and a chain of lags q_1 ... which the film from the inlet enters.
+Over a step of `span` in own time the input of a lag of rate p is
+
+    i(t) = start + (end - start) t + 6 bump t (1 - t),    t from 0 to 1,
+
+and the response of the lag at the end follows from its moments r_k: those to (1 - t)^k, with mu = p span.
+"""
+
+from __future__ import annotations
+
+from math import exp
+
+from ehlcontact.jit import jit_exact_node
+
+INLET, FAST, CHAIN = range(3, 6)  # entries of a state of a step, behind three of its own; the chain is the rest
+DIRECT = 3  # gains before those of the chain: viscous, inlet, fast
+FEW, TERMS = 0.5, 16  # mean of Poisson's law below which shares are summed, and how many terms are enough then
+
+
+@jit_exact_node
+def film_entering(s, saturation):
+    """phi(s), the film that enters the chain, and its derivative."""
+    b = saturation * s
+    d = 1.0 + abs(b)
+    return s + b * s / d, 1.0 + b * (1.0 + d) / (d * d)
+
+
+@jit_exact_node
+def lag_moments(mu):
+    """Share of its state that one lag keeps over a step, and its moments r_0, r_1, r_2."""
+    kept = exp(-mu)
+    if mu < FEW:  # as sums, or small differences would drown in rounding
+        term, third = kept * mu * mu * mu / 6.0, 0.0
+        for k in range(4, TERMS):
+            third += term
+            term *= mu / k
+        second = third + 0.5 * kept * mu * mu
+        r0 = second + kept * mu
+    else:
+        r0 = 1.0 - kept
+        second = r0 - kept * mu
+        third = second - 0.5 * kept * mu * mu
+    return kept, r0, second / mu, 2.0 * third / (mu * mu)
+
+
+@jit_exact_node
+def poisson_shares(mu, n, poisson, share):
+    """Fill Poisson's weights of mean `mu`, and the share of what entered that k lags have passed on, to k = n."""
+    weight, passed = exp(-mu), 1.0
+    for k in range(n + 1):
+        poisson[k], share[k] = weight, passed
+        passed -= weight
+        weight *= mu / (k + 1)
+    if mu < FEW:  # from the far end, or shares that are divided by mu would drown in rounding
+        passed, k = 0.0, n
+        while weight > 1e-17 * passed:
+            passed += weight
+            k += 1
+            weight *= mu / (k + 1)
+        for k in range(n, -1, -1):
+            passed += poisson[k]
+            share[k] = passed
+
+
+@jit_exact_node
+def chain_moments(j, per_mu, share):
+    """Moments r_0, r_1, r_2 of `j` equal lags in a row, from `poisson_shares`; `per_mu` is 1/mu."""
+    return share[j], j * share[j + 1] * per_mu, j * (j + 1) * share[j + 2] * per_mu * per_mu
+
+
+@jit_exact_node
+def pass_on(chain, poisson, held):
+    """Add to `held` what each lag now has of what the `chain` held at the start of the step."""
+    lags = chain.size
+    for i in range(lags):  # not lag by lag: sums of their own do not wait for each other
+        start = chain[i]
+        for j in range(lags - i):
+            held[i + j] += poisson[j] * start
+
+
+@jit_exact_node
+def filter_rates(law, saturation, tau, v, states, rates):
+    """Fill the time derivatives of the states of one film: inlet, fast, chain; `tau` is its own time, v = u'."""
+    fed = tau * v
+    rates[0] = law.inlet_rate * (fed - states[0]) / tau
+    rates[1] = law.fast_rate * (fed - states[1]) / tau
+    fed = film_entering(states[0], saturation)[0]
+    for k in range(DIRECT - 1, states.size):
+        rates[k] = law.lag_rate * (fed - states[k]) / tau
+        fed = states[k]
