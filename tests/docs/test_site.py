@@ -49,29 +49,25 @@ def test_reference_has_every_public_name_once(name):
     assert sorted(entries) == sorted(public(PACKAGES[name])), "a line in a page of docs/api for each"
 
 
-@pytest.mark.parametrize(("package", "directive", "name"), described())
-def test_entries_are_of_their_kind(package, directive, name):
-    value = getattr(PACKAGES[package], name)
-    if not inspect.isclass(value):
-        assert directive == "function"
-    else:
-        assert directive == ("exception" if issubclass(value, BaseException) else "class")
+def test_entries_are_of_their_kind():
+    for package, directive, name in described():
+        value = getattr(PACKAGES[package], name)
+        if not inspect.isclass(value):
+            assert directive == "function", name
+        else:
+            assert directive == ("exception" if issubclass(value, BaseException) else "class"), name
 
 
-CLASSES = [
-    (p, name) for p, kind, name in described() if kind == "class" and is_dataclass(getattr(PACKAGES[p], name))
-]
-
-
-@pytest.mark.parametrize(("package", "name"), CLASSES)
-def test_every_field_is_described(package, name):
+def test_every_field_is_described():
     """By its name, in the list of parameters or attributes of the class or, of the smallest, in its text."""
-    kind = getattr(PACKAGES[package], name)
-    text = inspect.getdoc(kind)
-    lists = re.findall(r"^(?:Parameters|Attributes)\n-+\n(.*?)(?=^\w+\n-+\n|\Z)", text, flags=re.M | re.S)
-    heads = [line.split(" : ")[0] for part in lists for line in part.splitlines() if re.match(r"\w", line)]
-    listed = {word.strip() for head in heads for word in head.split(",")} | set(re.findall(r"`(\w+)`", text))
-    assert {field.name for field in fields(kind) if field.name[0] != "_"} - listed == set()
+    for package, _, name in described():
+        if not is_dataclass(kind := getattr(PACKAGES[package], name)):
+            continue
+        text = inspect.getdoc(kind)
+        lists = re.findall(r"^(?:Parameters|Attributes)\n-+\n(.*?)(?=^\w+\n-+\n|\Z)", text, flags=re.M | re.S)
+        heads = [line.split(" : ")[0] for part in lists for line in part.splitlines() if re.match(r"\w", line)]
+        listed = {word.strip() for head in heads for word in head.split(",")} | set(re.findall(r"`(\w+)`", text))
+        assert {field.name for field in fields(kind) if field.name[0] != "_"} - listed == set(), name
 
 
 def test_marks_of_the_readme():
@@ -155,3 +151,23 @@ def test_links_of_the_pages_themselves():
                 assert re.match(r"https://[\w.-]+\.\w+(/|$)", link), (page.name, link)
             elif not link.startswith("#"):
                 assert (page.parent / link.split("#")[0]).exists(), (page.name, link)
+
+
+def test_the_citation_is_of_this_version():
+    said = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert re.search(r"^version: (\S+)$", said, flags=re.M)[1] == ehlcontact.__version__
+
+
+@pytest.mark.slow
+def test_the_numbers_beside_the_first_picture():
+    why = module(DOCS / "why.py")
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    found, _, _ = why.respond(why.load_study(why.STUDY))
+    peak = {name: resonance.amplitude for name, resonance in found.peaks["y"].items()}
+    told = re.search(
+        r"gives a fifth of the peak .* no film (\d+) times, .* (\d+) times as much", text.replace("\n", " ")
+    )
+    assert peak[why.FULL] / peak[why.GUESSED] == pytest.approx(5.0, abs=0.5)
+    assert peak[why.DRY] / peak[why.FULL] == pytest.approx(float(told[1]), abs=0.5)
+    assert peak[why.CUBIC] / peak[why.FULL] == pytest.approx(float(told[2]), abs=0.5)
+    assert peak[why.MEMORY] / peak[why.FULL] == pytest.approx(1.0, abs=0.03)
