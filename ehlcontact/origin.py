@@ -1,6 +1,6 @@
-"""Where numbers come from: the contact, the mesh it was solved on, and the library that did it.
+"""Origin of results and elements: contact, mesh, and version of the library.
 
-Results are such origins (they inherit its fields); elements and the atlas keep what `source_of` makes of one.
+Results inherit the fields of `Origin`; elements and the atlas keep a dictionary, made by `source_of`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ehlcontact.version import __version__
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Origin:
-    """The part that all results have in common.
+    """Fields that all results have.
 
     Attributes
     ----------
@@ -33,7 +33,7 @@ class Origin:
     n : int
         Intervals along X.
     seconds : float
-        That it took.
+        Wall time of the solve.
     version : str
         Of the library.
     """
@@ -63,13 +63,6 @@ class Origin:
         return source_of(self.point, self.scales, self.n, self.domain.as_tuple(), motion)
 
 
-def require_shapes(record: Any, shapes: Mapping[str, tuple[int, ...]]) -> None:
-    """Raise `ValueError` naming the first array of another shape."""
-    for name, shape in shapes.items():
-        if (found := getattr(record, name).shape) != shape:
-            raise ValueError(f"{name} has the shape {found}, not {shape}")
-
-
 def freeze(record: Any) -> None:
     """Make the arrays of a dataclass read-only."""
     for f in fields(record):
@@ -87,8 +80,8 @@ def source_of(
 ) -> dict[str, Any]:
     """Provenance of an element, ready for JSON; `n`, `domain`, `motion` may be lists where there are several.
 
-    Of a contact that is known, ``assumptions`` says how far what was assumed holds: with the film to be expected,
-    a typical mineral oil, and no roughness.
+    With a point, ``assumptions`` has how far each assumption holds, for the expected film, a typical mineral oil
+    and no roughness.
     """
     found = {
         "point": None if point is None else point.to_dict(),

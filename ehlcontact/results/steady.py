@@ -10,10 +10,10 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.origin import Origin, require_shapes
+from ehlcontact.origin import Origin
 from ehlcontact.quantities import ACROSS, ALONG, FORCE, LENGTH, MOMENT, NUMBER, PRESSURE
 from ehlcontact.results.contact_map import contact_panels
-from ehlcontact.results.table import Display, ScaledTable
+from ehlcontact.results.table import Display, QuantityTable, ScaledTable
 from ehlcontact.solver.accuracy import ALL, ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.store import stored
@@ -71,9 +71,9 @@ class SteadyResult(ScaledTable, Origin):
     load_residuals : ndarray, shape (cycles + 1,)
         Of the load (or approach) equation, likewise.
     approach_changes : ndarray, shape (cycles,)
-        Change of the approach in each cycle.
+        Change of the approach in each cycle; in SI [m].
     pressure_changes : ndarray, shape (cycles,)
-        Largest change of P in each cycle.
+        Largest change of P in each cycle; in SI [Pa].
     dry_residual : float
         Mean absolute residual of the dry Hertz start on this grid: the scale.
     status : Status
@@ -92,21 +92,19 @@ class SteadyResult(ScaledTable, Origin):
     force: Annotated[float, FORCE]
     h_central: Annotated[float, LENGTH]
     h_min: Annotated[float, LENGTH]
-    residuals: Array
-    load_residuals: Array
-    approach_changes: Array
+    residuals: Annotated[Array, NUMBER.over("cycle", listed=False)]
+    load_residuals: Annotated[Array, NUMBER.over("cycle", listed=False)]
+    approach_changes: Annotated[Array, LENGTH.over("change", listed=False)]
     dry_residual: float
     status: Status
-    pressure_changes: Array
+    pressure_changes: Annotated[Array, PRESSURE.over("change", listed=False)]
     error: ErrorEstimate | None = None
 
     DISPLAY: ClassVar[Display] = Display(rows="X Y", panels=("P", "H"))
 
-    def require_complete(self) -> None:
+    def require_complete(self, **sizes: int) -> None:
         """Raise `ValueError` unless all arrays have the shapes of each other and of the grid."""
-        nx, ny, cycles = self.n + 1, self.Y.size, max(self.residuals.size, 1)
-        shapes = {"X": (nx,), "P": (nx, ny), "H": (nx, ny), "residuals": (cycles,), "load_residuals": (cycles,)}
-        require_shapes(self, shapes | {"approach_changes": (cycles - 1,), "pressure_changes": (cycles - 1,)})
+        QuantityTable.require_complete(self, X=self.n + 1, change=max(self.residuals.size, 1) - 1)
 
     @property
     def pressure_error(self) -> Annotated[float, PRESSURE]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.errors import InputError
-from ehlcontact.origin import Origin, freeze, require_shapes
+from ehlcontact.origin import Origin, freeze
 from ehlcontact.quantities import (
     ACCELERATION,
     ACROSS,
@@ -33,7 +33,6 @@ from ehlcontact.status import Status
 from ehlcontact.store import stored
 from ehlcontact.summary import contact_text, span
 from ehlcontact.transient.bodies import Motion
-from ehlcontact.transient.record import COLUMNS
 from ehlcontact.transient.time_step import coarse_step_note, coarse_tolerance_note
 
 Array = NDArray[np.float64]
@@ -132,7 +131,7 @@ class SimulationResult(ScaledTable, Origin):
     h_midplane: Annotated[Array, LENGTH.over("T X", listed=False)]
     p_midplane: Annotated[Array, PRESSURE.over("T X", listed=False)]
     residuals: Annotated[Array, NUMBER.over("T", listed=False)]
-    load_residuals: Array
+    load_residuals: Annotated[Array, NUMBER.over("T", listed=False)]
     cycles: Annotated[Array, NUMBER.over("T", listed=False)]
     snapshot_T: Annotated[Array, TIME.over("snapshot_T", listed=False)]
     snapshot_H: Annotated[Array, LENGTH.over("snapshot_T X Y", listed=False)]
@@ -146,12 +145,9 @@ class SimulationResult(ScaledTable, Origin):
         rows="T", panels=("force load", "approach", "h_central h_min", "h_midplane")
     )
 
-    def require_complete(self) -> None:
+    def require_complete(self, **sizes: int) -> None:
         """Raise `ValueError` unless all arrays have the shapes of each other and of the grid."""
-        nx, steps, kept = self.n + 1, max(self.T.size, 1), self.snapshot_T.size
-        shapes: dict[str, tuple[int, ...]] = {"X": (nx,), **dict.fromkeys(COLUMNS, (steps,))}
-        shapes |= dict.fromkeys(("h_midplane", "p_midplane"), (steps, nx))
-        require_shapes(self, shapes | dict.fromkeys(("snapshot_H", "snapshot_P"), (kept, nx, self.Y.size)))
+        QuantityTable.require_complete(self, X=self.n + 1, T=max(self.T.size, 1))
 
     @property
     def static_load(self) -> Annotated[float, FORCE.in_si_only()]:

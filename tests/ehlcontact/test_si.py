@@ -37,12 +37,15 @@ UNITS = {
     "y": ("Y", S.b),
     "p": ("P", S.pressure),
     "h": ("H", S.length),
-    **{name: (name, S.pressure) for name in ("p_max", "pressure_error")},
+    **{name: (name, S.pressure) for name in ("p_max", "pressure_error", "pressure_changes")},
     "p_midplane": ("p_midplane", S.pressure),
     "snapshot_p": ("snapshot_P", S.pressure),
     "h_midplane": ("h_midplane", S.length),
     "snapshot_h": ("snapshot_H", S.length),
-    **{name: (name, S.length) for name in ("approach", "h_central", "h_min", "static_approach")},
+    **{
+        name: (name, S.length)
+        for name in ("approach", "h_central", "h_min", "static_approach", "approach_changes")
+    },
     **{name: (name, S.force) for name in ("force", "load")},
     "moment": ("moment", S.force * S.a),
     "rate": ("rate", S.length / S.time),
