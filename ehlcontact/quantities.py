@@ -83,6 +83,7 @@ MASS = Quantity("kg", "u_sum/(2a)", lambda value, s: s.stiffness * (s.time / val
 HERTZ = Quantity("Hz")
 RADIAN = Quantity("rad")
 SPEED = Quantity("rev/min")
+PER_SECOND = Quantity("1/s")
 
 WORDS = {
     "X": "place along rolling",

@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import pi
-from typing import Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,9 +15,10 @@ from scipy.optimize import linear_sum_assignment
 from ehlcontact.checks import as_column, require_integer, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.results.layout import Layout, Tabled
+from ehlcontact.quantities import FREQUENCY, HERTZ, NUMBER, PER_SECOND, SPEED
+from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
-from ehlcontact.summary import Summary, span
+from ehlcontact.summary import span
 from reduced_models.rotor.linearise import SHOWN, linearise
 from reduced_models.rotor.modes import WhirlMode, unlike
 from reduced_models.rotor.rotor import Rotor
@@ -75,7 +76,7 @@ class CriticalSpeeds(tuple[CriticalSpeed, ...]):
 
 @stored("Campbell diagram")
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Campbell(Summary, Tabled):
+class Campbell(QuantityTable):
     """Modes over the speed of the shaft; a column of an array is one mode, followed from speed to speed.
 
     Attributes
@@ -88,24 +89,12 @@ class Campbell(Summary, Tabled):
         1 forward, -1 backward, 0 on straight lines.
     """
 
-    speed_rpm: _Floats
-    omega: _Floats
-    growth: _Floats
-    whirl: _Floats
+    speed_rpm: Annotated[_Floats, SPEED.over("speed_rpm")]
+    omega: Annotated[_Floats, FREQUENCY.over("speed_rpm mode")]
+    growth: Annotated[_Floats, PER_SECOND.over("speed_rpm mode")]
+    whirl: Annotated[_Floats, NUMBER.over("speed_rpm mode")]
 
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="speed_rpm",
-        panels=(),
-        quantities={
-            "speed_rpm": ("rev/min", "speed_rpm"),
-            "omega": ("rad/s", "speed_rpm mode"),
-            "hz": ("Hz", "speed_rpm mode"),
-            "growth": ("1/s", "speed_rpm mode"),
-            "decrement": ("", "speed_rpm mode"),
-            "whirl": ("", "speed_rpm mode"),
-        },
-        first=0,
-    )
+    DISPLAY: ClassVar[Display] = Display(rows="speed_rpm", first=0)
 
     def _summary_lines(self) -> list[str]:
         lines = [
@@ -121,12 +110,12 @@ class Campbell(Summary, Tabled):
         return lines
 
     @property
-    def hz(self) -> _Floats:
+    def hz(self) -> Annotated[_Floats, HERTZ.over("speed_rpm mode")]:
         """Damped frequencies [Hz]."""
         return np.asarray(self.omega / (2.0 * pi))
 
     @property
-    def decrement(self) -> _Floats:
+    def decrement(self) -> Annotated[_Floats, NUMBER.over("speed_rpm mode")]:
         """Logarithmic decrements."""
         return np.asarray(-2.0 * pi * self.growth / self.omega)
 

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import as_column, require_nonnegative, require_positive
 from ehlcontact.checks.quantity import fields_take, takes
-from ehlcontact.results.layout import Layout, Tabled
-from ehlcontact.summary import Summary, span
+from ehlcontact.quantities import SPEED, TIME
+from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.summary import span
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.rotor.rotor import Rotor
 
@@ -23,7 +24,7 @@ SPEED_RATIO = 1.25  # of neighbouring speeds at which laws are made
 
 @fields_take(t="s", speed_rpm="rev/min")
 @dataclass(frozen=True, eq=False)
-class SpeedProfile(Summary, Tabled):
+class SpeedProfile(QuantityTable):
     """Speed of the shaft over time, straight between given times.
 
     Parameters
@@ -34,12 +35,10 @@ class SpeedProfile(Summary, Tabled):
         Speeds [rev/min], >= 0; constant before the first and after the last time.
     """
 
-    t: _Floats
-    speed_rpm: _Floats
+    t: Annotated[_Floats, TIME.over("t")]
+    speed_rpm: Annotated[_Floats, SPEED.over("t")]
 
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="t", panels=("speed_rpm",), quantities={"t": ("s", "t"), "speed_rpm": ("rev/min", "t")}
-    )
+    DISPLAY: ClassVar[Display] = Display(rows="t", panels=("speed_rpm",))
 
     def _summary_lines(self) -> list[str]:
         over = f"{self.t.size} times from {self.t[0]:.4g} to {self.t[-1]:.4g} s"
