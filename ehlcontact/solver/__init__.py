@@ -4,7 +4,7 @@
 room             responsibility
 ================ ==========================================================================================
 ``mesh``         `mesh_for`, `remedy`: which region and grid a film needs, what to try after a failure
-``coarse_levels`` the coarsest grid of a hierarchy, and the load that each level carries
+``regime``       what ellipse ratio, inlet width and load decide: named conditions, coarse levels
 ``domain``       `Domain`: the computed region
 ``grid``         `Grid`: intervals, region and engine of the deflection, as a user gives them
 ``memory``       what a grid takes, told before it is tried

@@ -15,7 +15,8 @@ from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.kernels import boundary, flanks, relax, reynolds
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS
 from ehlcontact.solver.lowest_film import lowest_film
-from ehlcontact.solver.mesh import LINES_APART, LONG, Mesh
+from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.regime import LINES_APART, is_long, longer_axis
 
 Array = NDArray[np.float64]
 
@@ -56,8 +57,8 @@ class Level:
         S = shape_factor(point.kappa)
         self.gap = S * self.X**2 + (1.0 - S) * self.Y[:, None] ** 2
         self.team = CALLING_THREAD
-        self.block = ny if point.kappa > LONG else BLOCK
-        self.passes = flanks.passes_of(nx, point.kappa > LONG)
+        self.block = ny if is_long(point) else BLOCK
+        self.passes = flanks.passes_of(nx, is_long(point))
         self.deflection = make_deflection(nx, ny, self.hx, self.hy, point.kappa, deflection)
         self.near = self.deflection.kernel[: relax.NEAR + 2, : relax.ALONG + 2].copy()
         shape = (ny + 1, nx + 1)
@@ -234,7 +235,7 @@ def build_hierarchy(point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str
     hx = (domain.x_out - domain.x_in) / n
     # hy as near to hx as the halvings allow, but physically no finer unless asked for: where the lines lie closer
     # together than their nodes, relaxation by lines along X fails if both meshes are halved
-    hy = hx * max(1.0, point.kappa)
+    hy = hx * longer_axis(point.kappa)
     ny = max(4, round(domain.y_max / hy / 2**halvings)) * 2**halvings
     sizes, last = [(n, ny * mesh.y_refinement)], (n >> halvings, ny >> halvings)
     while sizes[-1] != last:

@@ -1,8 +1,8 @@
-"""Which region and which grid a film needs, and what to try where they did not do: all rules and their numbers.
+"""Mesh of a film: region and fineness that it needs, and the mesh to try after a failure.
 
-The film to be expected decides. Beside a dry contact the gap opens like x^(3/2), so the pressure of the inlet
-rises to the dry one over about (Hc)^(2/3) semi-axes (`MoesPoint.inlet_width`): the mesh has to see that width.
-Mesh sizes below are in the longer semi-axis.
+The expected film decides. Beside a dry contact the gap opens like x^(3/2), so the pressure of the inlet rises to
+the dry one over about (Hc)^(2/3) semi-axes (`MoesPoint.inlet_width`), which the mesh has to resolve. The
+conditions on kappa, inlet width and load are those of `solver.regime`. Mesh sizes are in the longer semi-axis.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from math import floor, log2
+from math import log2
 from typing import NamedTuple
 
 from ehlcontact.point import MoesPoint
@@ -18,6 +18,16 @@ from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.domain import MOST_INTERVALS, Domain
 from ehlcontact.solver.grid import AUTOMATIC, Grid
 from ehlcontact.solver.memory import Solve, fits, require_memory
+from ehlcontact.solver.regime import (
+    has_side_lobes,
+    has_spike,
+    has_thin_inlet,
+    has_thin_sides,
+    has_very_thin_inlet,
+    is_long,
+    longer_axis,
+    x_coarsenings,
+)
 from ehlcontact.status import Status
 
 
@@ -32,17 +42,11 @@ class Purpose(StrEnum):
 
 # Which region? --------------------------------------------------------------------------------------------------
 NEAR_DOMAIN = Domain.near()
-INLET_NEAR = 0.06  # inlet width below which that may be tried after a failure,
-INLET_NEAR_AT_ONCE = 0.03  # and below which it is chosen at once: cycles on more oil converge slowly
-# Along a contact that is long in the rolling direction, oil leaks out over the sides all the way: the film in the
-# side lobes falls to a tenth and less of the central film. A mesh that sees the inlet leaves it negative there.
-KAPPA_OF_SIDE_LOBES = 0.7  # above which side lobes are thinner than the film in the outlet
 NEAREST_DOMAIN = Domain(-1.5, 1.2, 1.25)  # around such a film where it is very thin: its mesh can be afforded
 
 # How fine? ------------------------------------------------------------------------------------------------------
 LARGEST_MESH = 0.12  # semi-axes: what the pressure itself asks for, however thick the film
-# And its spike where a film moves, in oil of L above that and inlets no wider: else C at Omega 5 is 40 % off.
-STIFF_OIL, SPIKE_INLET, SPIKE_MESH = 20.0, 1.0, 0.05
+SPIKE_MESH = 0.05  # for the pressure spike of stiff oil, where the film moves
 # The side lobes of long contacts: mesh over inlet width that keeps their film positive where it is very thin; and
 # those for which it is within some ten per cent, taken as long as the grid has no more nodes than AFFORDABLE_GRID.
 MESH_OF_THIN_SIDES = 0.4
@@ -73,10 +77,6 @@ FINENESS = {
     Purpose.RUN: Fineness(1.0 / 3.0, STEPPED[2:], 70_000),
     Purpose.CONTACT: Fineness(1.0 / 3.0, STEPPED, 70_000),
 }
-
-# Which contacts are wide, which long? ------------------------------------------------------------------------
-LINES_APART = 5.0  # physical distance of lines over that of nodes, from which a level is coarsened along X alone
-LONG = 1.0  # kappa above which the side lobes of thin films are so much thinner than the inlet
 
 # What is tried after a failure, or a film that is not yet exact? ------------------------------------------------
 FAILED = (Status.STAGNATED, Status.DIVERGED, Status.MAX_CYCLES, Status.NONFINITE)
@@ -110,11 +110,11 @@ class Mesh:
         """Nodes of the grid, about; infinite beyond `MOST_INTERVALS`."""
         if self.n > MOST_INTERVALS:
             return float("inf")
-        return self.n * self.n * self.y_refinement * self.domain.y_max / (self._length * max(1.0, kappa))
+        return self.n * self.n * self.y_refinement * self.domain.y_max / (self._length * longer_axis(kappa))
 
     def levels(self, kappa: float) -> float:
         """Nodes of all levels over those of this grid, about: the first may be halved in one direction alone."""
-        halvings = max(floor(log2(max(1.0, 1.0 / kappa) / LINES_APART)) + 1, 0) + round(log2(self.y_refinement))
+        halvings = x_coarsenings(kappa) + round(log2(self.y_refinement))
         return 2.0 - 2.0 / 3.0 * 0.5**halvings
 
     def fits(self, kappa: float, solve: Solve = Solve.CYCLES) -> bool:
@@ -179,10 +179,10 @@ def remedy(
     if purpose is not Purpose.FILM or not (inexact or status in REFINED):
         return None
     far = grid.domain is None and mesh.domain not in {NEAR_DOMAIN, NEAREST_DOMAIN}
-    if far and not inexact and point.inlet_width < INLET_NEAR:
+    if far and not inexact and has_thin_inlet(point):
         return Mesh(mesh.n, NEAR_DOMAIN)
     finer = replace(mesh, n=2 * mesh.n)
-    if point.kappa > LONG and mesh.y_refinement == 1 and (status in REFINED or not _affordable(finer, point)):
+    if is_long(point) and mesh.y_refinement == 1 and (status in REFINED or not _affordable(finer, point)):
         finer = _with_close_lines(mesh.domain, point)
     elif mesh.y_refinement > 1 and status in REFINED:
         finer = _last(mesh)
@@ -221,11 +221,6 @@ def wider_meshes(
         wider = remedy(wider, Status.OUT_OF_DOMAIN, point, purpose, grid)
 
 
-def thin_sides(point: MoesPoint) -> bool:
-    """Whether the side lobes, not the inlet, set the mesh."""
-    return point.kappa > KAPPA_OF_SIDE_LOBES and point.inlet_width < INLET_NEAR_AT_ONCE
-
-
 def allows_newton(mesh: Mesh, point: MoesPoint) -> bool:
     """Whether the factors of Newton steps on this mesh are affordable."""
     return mesh.nodes(point.kappa) <= LARGEST_NEWTON and mesh.fits(point.kappa, Solve.NEWTON)
@@ -250,20 +245,20 @@ def require_room(mesh: Mesh, point: MoesPoint, solve: Solve = Solve.CYCLES) -> N
 
 def _thin_film_domain(point: MoesPoint) -> Domain | None:
     """Region around a film so thin that it is chosen at once."""
-    if thin_sides(point):
+    if has_thin_sides(point):
         return NEAREST_DOMAIN
-    return NEAR_DOMAIN if point.inlet_width < INLET_NEAR_AT_ONCE else None
+    return NEAR_DOMAIN if has_very_thin_inlet(point) else None
 
 
 def _intervals(point: MoesPoint, domain: Domain, purpose: Purpose) -> int:
     """Intervals along X that `domain` needs."""
     width, (share, counts, largest) = point.inlet_width, FINENESS[purpose]
     if purpose is not Purpose.FILM:
-        spike = SPIKE_MESH if point.L > STIFF_OIL and width < SPIKE_INLET else LARGEST_MESH
+        spike = SPIKE_MESH if has_spike(point) else LARGEST_MESH
         return _first(point, domain, min(share * width, spike), counts, largest)
-    sides = thin_sides(point)
+    sides = has_thin_sides(point)
     needed = (MESH_OF_THIN_SIDES if sides else share) * width
-    if point.kappa > KAPPA_OF_SIDE_LOBES:  # the smallest film, in the side lobes, needs more than to be positive
+    if has_side_lobes(point):  # the smallest film, in the side lobes, needs more than to be positive
         n = _first(point, domain, (FINE_THIN_SIDES if sides else FINE_SIDES) * width, counts, AFFORDABLE_GRID)
         if Mesh(n, domain).size(point.kappa) <= needed:
             return n

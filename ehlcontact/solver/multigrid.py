@@ -20,16 +20,17 @@ from scipy.interpolate import RectBivariateSpline
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse import CoarseNewton
-from ehlcontact.solver.coarse_levels import (
+from ehlcontact.solver.kernels import transfer
+from ehlcontact.solver.level import Array, Level, build_hierarchy
+from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.regime import (
     LEAST_NESTED,
     LOBE_SHARE,
     coarsest_intervals,
+    is_long,
     level_is_useful,
     resolved_load,
 )
-from ehlcontact.solver.kernels import transfer
-from ehlcontact.solver.level import Array, Level, build_hierarchy
-from ehlcontact.solver.mesh import LONG, Mesh
 
 PRE_SWEEPS, POST_SWEEPS = 2, 1
 REPEATED_LEVELS = 2  # of a long contact: the finest, which alone repeat their sweeps
@@ -88,7 +89,7 @@ class Multigrid:
             level.share(threads)
         self.sweep_factor = self.least_sweep_factor = sweep_factor  # how often the sweeps of a cycle are repeated
         self.is_start = False  # of a finer grid, which goes on from whatever load is carried here
-        self.newton = CoarseNewton(self.levels[0], point.kappa > LONG)
+        self.newton = CoarseNewton(self.levels[0], is_long(point))
         self.u = initial_approach(point)
 
     @property
@@ -141,7 +142,7 @@ class Multigrid:
 
     def _start_from_coarsest(self, balance: Balance, M: float) -> None:
         """Level by level, under the load M at last."""
-        share = LOBE_SHARE if self.point.kappa > LONG and self.least_sweep_factor > 1 else 1.0
+        share = LOBE_SHARE if is_long(self.point) and self.least_sweep_factor > 1 else 1.0
         sizes = [max(level.hx, level.hy) / share for level in self.levels[:-1]]
         loads = [*(min(resolved_load(self.point, size), M) for size in sizes), M]
         self._set_load(0, loads[0])
@@ -271,7 +272,7 @@ class Multigrid:
         """Sweeps on a level before or after its coarse correction, the last of them along its `flanks` first."""
         last = level.relax_flanks_first if flanks else level.relax
         # Coarse levels of a long contact see its side lobes on a line or two: more sweeps lead away from there.
-        once = self.point.kappa > LONG and level not in self.levels[-REPEATED_LEVELS:]
+        once = is_long(self.point) and level not in self.levels[-REPEATED_LEVELS:]
         return (*(level.relax,) * (count - 1), last) * (1 if once else self.sweep_factor)
 
 

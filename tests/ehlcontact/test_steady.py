@@ -21,9 +21,9 @@ from ehlcontact import (
 from ehlcontact import steady as steady_module
 from ehlcontact.hertz import shape_factor
 from ehlcontact.solver import mesh
-from ehlcontact.solver.coarse_levels import coarsest_intervals
 from ehlcontact.solver.level import build_hierarchy
 from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.regime import coarsest_intervals
 
 POINT = MoesPoint(200, 10, 0.5)
 CASES = [(200, 10, 0.5), (20, 10, 1.0), (500, 15, 0.12)]

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from ehlcontact import Domain, Grid, InputError, MoesPoint, Status
-from ehlcontact.solver.coarse_levels import coarsest_intervals, resolved_load
 from ehlcontact.solver.mesh import Mesh, Purpose, allows_newton, mesh_for, remedy
+from ehlcontact.solver.regime import coarsest_intervals, resolved_load
 from reduced_models.atlas.mesh import film_grid, impedance_grid, near_grid
 
 FILE = Path(__file__).with_name("meshes.json")
