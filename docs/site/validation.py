@@ -1,18 +1,16 @@
 """The page of validation: this library beside what others published, from numbers that were measured and kept.
 
-    python docs/site/validation.py --measure   # solve everything anew into validation.json: about a minute
-    python docs/site/validation.py --page      # docs/validation.md from it
+    python tests/golden/regenerate.py validation   # solve everything anew: about a minute
+    python docs/site/validation.py                 # docs/validation.md from it
 
 What others published stands in the tests, which hold the library to it; here it is only read from there.
 """
 
 from __future__ import annotations
 
-import argparse
 import importlib.util
 import inspect
 import json
-import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
@@ -21,7 +19,7 @@ from types import ModuleType
 from typing import Any, NamedTuple
 
 ROOT = Path(__file__).parents[2]
-DATA, PAGE = Path(__file__).with_suffix(".json"), ROOT / "docs" / "validation.md"
+PAGE = ROOT / "docs" / "validation.md"
 GOLDEN = ROOT / "tests" / "golden" / "golden.json"
 FILMS = "tests/ehlcontact/test_literature.py"
 BEARINGS = "tests/reduced_models/bearing/test_literature.py"
@@ -184,13 +182,6 @@ SECTIONS = {
 }
 
 
-def measured() -> dict[str, Any]:
-    """All tables, and by which commit."""
-    asked = ["git", "rev-parse", "--short", "HEAD"]
-    commit = subprocess.run(asked, cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
-    return {"version": commit, **{name: section.measure() for name, section in SECTIONS.items()}}
-
-
 def cells(found: Row) -> str:
     """A row as markdown; a difference of nothing has no share."""
     ours, theirs = found["ours"], found["theirs"]
@@ -226,10 +217,10 @@ HEAD = """\
 
 <!-- made by docs/site/validation.py: change that -->
 
-This library (commit {version}) beside what others published. `python docs/site/validation.py --measure --page`
-solves all of it anew and remakes this page. The tests named hold every version to these numbers, within the limits
-that stand there: `pytest -m literature`. How the solver does on grids, over its box and by the clock is in
-[the solver](solver.md), whole bearings against films are in [ball bearings](bearings.md).
+This library (commit {version}) beside what others published. `python tests/golden/regenerate.py validation` solves
+all of it anew, `python docs/site/validation.py` remakes this page. The tests named hold every version to these
+numbers, within the limits that stand there: `pytest -m literature`. How the solver does on grids, over its box and
+by the clock is in [the solver](solver.md), whole bearings against films are in [ball bearings](bearings.md).
 """
 TAIL = """\
 ## Its own numbers
@@ -242,26 +233,15 @@ dimensionless; `python tests/golden/regenerate.py` writes them.
 
 def page() -> str:
     """All of it."""
-    data = json.loads(DATA.read_text(encoding="utf-8"))
+    stored = json.loads(GOLDEN.read_text(encoding="utf-8"))
+    data = stored["validation"]
     parts = [HEAD.format(version=data["version"])]
     for name, section in SECTIONS.items():
         said = inspect.getdoc(section.measure)
         parts += [f"## {section.title}\n", f"{said}\n", table(data[name]) + "\n"]
         parts += [f"Held by `{section.held_by}`.\n"]
-    return "\n".join([*parts, TAIL, golden(json.loads(GOLDEN.read_text(encoding="utf-8")))]) + "\n"
-
-
-def main() -> None:
-    """Measure, write the page, or both."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--measure", action="store_true")
-    parser.add_argument("--page", action="store_true")
-    options = parser.parse_args()
-    if options.measure:
-        DATA.write_text(json.dumps(measured(), indent=1) + "\n", encoding="utf-8")
-    if options.page:
-        PAGE.write_text(page(), encoding="utf-8")
+    return "\n".join([*parts, TAIL, golden(stored)]) + "\n"
 
 
 if __name__ == "__main__":
-    main()
+    PAGE.write_text(page(), encoding="utf-8")

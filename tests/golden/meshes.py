@@ -1,13 +1,6 @@
-"""Write meshes.json anew: the mesh chosen for every purpose at sixty points, and what follows a failure there.
+"""The mesh chosen for every purpose at sixty points, and what follows a failure there."""
 
-Run from the root of the checkout where a rule of `ehlcontact.solver.mesh` is meant to change:
-
-    python tests/golden/meshes.py
-"""
-
-import json
 from math import exp, log
-from pathlib import Path
 
 import numpy as np
 
@@ -16,7 +9,6 @@ from ehlcontact.solver.mesh import Mesh, Purpose, allows_newton, mesh_for, remed
 from ehlcontact.solver.regime import coarsest_intervals, resolved_load
 from reduced_models.atlas.mesh import film_grid, impedance_grid, near_grid
 
-FILE = Path(__file__).with_name("meshes.json")
 PICKED = [
     *((200, 10, 0.5), (20, 10, 1.0), (5, 0, 5.0), (5, 25, 0.08), (2900, 19, 0.11), (1000, 5, 1.0)),
     *((30000, 0, 0.08), (500, 3, 2.0), (30000, 0, 0.3), (7333, 2.6, 3.0), (12834, 3.2, 1.09), (7, 1, 0.08)),
@@ -33,7 +25,7 @@ def points():
     for _ in range(44):
         M, L = exp(draw.uniform(0.0, log(4e4))), 25.0 * draw.uniform() ** 1.5
         found.append((round(M, 2), round(L, 2), round(exp(draw.uniform(log(0.05), log(5.0))), 3)))
-    return [[float(value) for value in point] for point in found]
+    return {"{} {} {}".format(*point): tuple(map(float, point)) for point in found}
 
 
 def plain(mesh):
@@ -92,9 +84,3 @@ def decisions(M, L, kappa):
         "resolved load": [resolved_load(point, mesh) for mesh in (0.2, 0.05)],
         "newton": [allows_newton(Mesh(n, default), point) for n in (256, 1024, 2048)],
     }
-
-
-if __name__ == "__main__":
-    rows = [json.dumps({"point": point, **decisions(*point)}) for point in points()]
-    FILE.write_text("[\n" + ",\n".join(rows) + "\n]\n")
-    print(f"wrote {FILE}")

@@ -1,13 +1,15 @@
-"""Write golden.json anew: the library's own numbers, to notice when they change.
+"""The library's own numbers, to notice when they change: cases, and `golden.json` written anew.
 
-Run from the root of the checkout, look at the difference, and record it under "Numerics" in CHANGELOG.md:
+    python tests/golden/regenerate.py                       # everything, about two minutes
+    python tests/golden/regenerate.py steady meshes         # these groups
 
-    python tests/golden/regenerate.py
-
-`bits.py` beside this file is sharper, and for two checkouts on one machine.
+Look at the difference and record it under "Numerics" in CHANGELOG.md; after ``validation``, run
+``python docs/site/validation.py`` for its page. `bits.py` beside this file compares two checkouts on one machine,
+to the last bit.
 """
 
 import json
+import subprocess
 import sys
 from pathlib import Path
 
@@ -27,10 +29,15 @@ from ehlcontact import (
 )
 from reduced_models import Atlas, ContactRecord, fit, fit_memory
 
+sys.path.insert(0, str(Path(__file__).parent))
 sys.path.insert(0, str(Path(__file__).parents[1]))  # the tests' own helpers
+sys.path.insert(0, str(Path(__file__).parents[2] / "docs" / "site"))
 
+import meshes
+import validation
 from argument_groups import grouped
 
+ROOT = Path(__file__).parents[2]
 FILE = Path(__file__).with_name("golden.json")
 PAPER = MoesPoint(200, 10, 0.5)
 
@@ -70,7 +77,7 @@ def transient(name):
     return {"steps": record.steps, **last}
 
 
-def response():
+def response(_):
     """Stiffness and damping at n = 32."""
     result = impedance(PAPER, Omega=OMEGAS, grid=Grid(n=32))
     return {"stiffness": result.stiffness.tolist(), "damping": result.damping.tolist()}
@@ -104,17 +111,46 @@ def answered(name):
     return found
 
 
-def everything():
-    """All golden values."""
-    return {
-        "steady": {name: steady(name) for name in STEADY},
-        "transient": {name: transient(name) for name in TRANSIENT},
-        "impedance": response(),
-        "fit": {model: fitted(model) for model in MODELS},
-        "atlas": {name: answered(name) for name in ATLAS},
-    }
+def measured(section):
+    """A section of the page of validation: this library beside what others published."""
+    return validation.SECTIONS[section].measure()
+
+
+GROUPS = {  # names, the numbers of one, and how far they may be off: relative and absolute
+    "steady": (STEADY, steady, 1e-6, 1e-9),
+    "transient": (TRANSIENT, transient, 2e-5, 1e-5),
+    "impedance": (["paper"], response, 1e-4, 1e-9),
+    "fit": (MODELS, fitted, 1e-3, 1e-9),
+    "atlas": (ATLAS, answered, 1e-6, 1e-9),
+    "meshes": (meshes.points(), lambda name: meshes.decisions(*meshes.points()[name]), 1e-9, 0.0),
+    "validation": (validation.SECTIONS, measured, 1e-5, 1e-9),
+}
+
+
+def stored():
+    """Content of `golden.json`."""
+    return json.loads(FILE.read_text(encoding="utf-8"))
+
+
+def write(content):
+    """One line for every case."""
+    groups = []
+    for group, cases in content.items():
+        lines = ",\n".join(f" {json.dumps(name)}: {json.dumps(found)}" for name, found in cases.items())
+        groups.append(f"{json.dumps(group)}: {{\n{lines}\n}}")
+    FILE.write_text("{\n" + ",\n".join(groups) + "\n}\n", encoding="utf-8")
+
+
+def commit():
+    """Short name of the present commit."""
+    asked = ["git", "rev-parse", "--short", "HEAD"]
+    return subprocess.run(asked, cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
 
 
 if __name__ == "__main__":
-    FILE.write_text(json.dumps(everything(), indent=2) + "\n")
-    print(f"wrote {FILE}")
+    asked = sys.argv[1:] or list(GROUPS)
+    made = {group: {name: GROUPS[group][1](name) for name in GROUPS[group][0]} for group in asked}
+    if "validation" in made:
+        made["validation"]["version"] = commit()
+    write(stored() | made)
+    print(f"wrote {', '.join(asked)} of {FILE}")

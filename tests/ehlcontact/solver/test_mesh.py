@@ -1,4 +1,4 @@
-"""Regions and grids chosen from the film to be expected; `tests/golden/meshes.json` has what is chosen where."""
+"""Regions and grids chosen from the film to be expected; `tests/golden/golden.json` has what is chosen where."""
 
 from pathlib import Path
 
