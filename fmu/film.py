@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from fmu.c_headers import c_double, c_table
 from fmu.contact_variables import ContactVariables, Film
 
+LAW = "film_law", "film_filters", "film_curve"  # C files of the film law, each with its header
+
 
 def film_parts(element: Film, common: ContactVariables) -> dict[str, Any]:
     """Fields of the `ModelSpec` of an element with a film memory."""
@@ -36,11 +38,11 @@ def film_parts(element: Film, common: ContactVariables) -> dict[str, Any]:
     nominal = max(rate * time / length, 1e-3)
     _states(common, states, nominal)
     law = element.law
-    inverse = np.append(0.0, 1.0 / np.arange(1.0, lags + 3.0))
+    inverse = np.append(0.0, 1.0 / np.arange(1.0, lags + 4.0))
     return {
         "description": f"Rolling contact with a film memory ({element.kind} element, {lags} lags)",
-        "sources": ("core.c", "core_step.c", "validity.c", "model_film.c", "film_law.c", "film_curve.c"),
-        "headers": ("core.h", "model.h", "validity.h", "jet.h", "film_law.h", "film_curve.h"),
+        "sources": ("core.c", "core_step.c", "validity.c", "model_film.c", *(f"{name}.c" for name in LAW)),
+        "headers": ("core.h", "model.h", "validity.h", "jet.h", *(f"{name}.h" for name in LAW)),
         "variables": tuple(common.variables),
         "macros": common.macros() | _macros(element),
         "tables": {
@@ -49,9 +51,10 @@ def film_parts(element: Film, common: ContactVariables) -> dict[str, Any]:
                 {"curve_x": law.x, "curve_y": law.y, "curve_slope": law.slope, "curve_u": law.u},
             ),
             "film_gains.h": _header(
-                "ln F_s of the rows of gains; viscous, inlet and fast gain and those of the chain; 1/k",
-                {"gain_x": law.gain_x, "gains": law.gains, "inverse": inverse},
+                "ln F_s of the rows of gains; viscous, inlet and fast gain and those of the chain",
+                {"gain_x": law.gain_x, "gains": law.gains},
             ),
+            "film_inverse.h": _header("1/k, and 0 for k = 0", {"inverse": inverse}),
         },
     }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "film_curve.h"
+#include "film_filters.h"
 #include "film_gains.h"
 #include "jet.h"
 
@@ -14,67 +15,19 @@ typedef struct {
     double weight, per_x;
 } Between;
 
-/* Poisson weights of mean `mu`, and the share of what entered within mu that j lags have passed on. */
-static void residence(double mu, int n, double poisson[], double share[])
-{
-    double term, total;
-    int k;
-    poisson[0] = exp(-mu);
-    for (k = 1; k <= n; k++) {
-        poisson[k] = poisson[k - 1] * (mu * inverse[k]);
-    }
-    if (mu < n) { /* from the far end, or small shares would drown in rounding */
-        term = total = poisson[n];
-        k = n;
-        while (term > 1e-17 * total) {
-            k++;
-            term *= mu / k;
-            total += term;
-        }
-        share[n] = total;
-        for (k = n - 1; k >= 0; k--) {
-            share[k] = share[k + 1] + poisson[k];
-        }
-    } else {
-        share[0] = 1.0;
-        for (k = 1; k <= n; k++) {
-            share[k] = share[k - 1] - poisson[k - 1];
-        }
-    }
-}
-
-/* Response of j lags to inputs 1, t and t^2 of age t (1 at the start of the step), and d/d mu of each. */
-static void moments(int j, double mu, const double poisson[], const double share[], double r[3], double d[3])
-{
-    r[0] = share[j];
-    r[1] = j * share[j + 1] / mu;
-    r[2] = j * (j + 1) * share[j + 2] / (mu * mu);
-    d[0] = poisson[j - 1];
-    d[1] = (j * poisson[j] - r[1]) / mu;
-    d[2] = (j * (j + 1) * poisson[j + 1] / mu - 2.0 * r[2]) / mu;
-}
-
-/* One lag after input start + (end - start) s + 6 bump s (1 - s). */
+/* One lag after input start + (end - start) t + 6 bump t (1 - t). */
 static Jet one_lag(double old, double start, Jet end, Jet bump, double rate, Jet span)
 {
-    const double mu = rate * span.x;
-    double poisson[4], share[4], r[3], d[3], value, slope;
-    residence(mu, 3, poisson, share);
-    moments(1, mu, poisson, share, r, d);
-    value = old * poisson[0] + start * r[1] + end.x * (r[0] - r[1]) + 6.0 * bump.x * (r[1] - r[2]);
-    slope = -old * poisson[0] + start * d[1] + end.x * (d[0] - d[1]) + 6.0 * bump.x * (d[1] - d[2]);
-    return through3(value, slope * rate, span, r[0] - r[1], end, 6.0 * (r[1] - r[2]), bump);
+    Moments r;
+    const double mu = rate * span.x, kept = lag_moments(mu, &r);
+    const double d1 = (kept * mu - r.r1) / mu, d2 = (kept * mu - 2.0 * r.r2) / mu;
+    const double value = old * kept + start * r.r1 + end.x * (r.r0 - r.r1) + 6.0 * bump.x * (r.r1 - r.r2);
+    const double slope = -old * kept + start * d1 + end.x * (kept - d1) + 6.0 * bump.x * (d1 - d2);
+    return through3(value, slope * rate, span, r.r0 - r.r1, end, 6.0 * (r.r1 - r.r2), bump);
 }
 
-double film_entering(double s, double *slope)
-{
-    const double b = INLET_SATURATION * s, d = 1.0 + fabs(b);
-    *slope = 1.0 + b * (1.0 + d) / (d * d);
-    return s + b * s / d;
-}
-
-/* Phi of a jet. */
-static Jet made(Jet s)
+/* Film that enters the chain, of a jet. */
+static Jet entering(Jet s)
 {
     double slope;
     const double x = film_entering(s.x, &slope);
@@ -152,34 +105,27 @@ static Chain advance_chain(const double before[FILM_SIZE], double after[FILM_SIZ
 {
     const double *row = gains[b->row], *next = gains[b->after];
     const double share_of_next = b->weight, share_of_row = 1.0 - b->weight, per_x = b->per_x, per_mu = 1.0 / mu;
-    double poisson[LAGS + 3], share[LAGS + 3], earlier = 0.0;
+    double poisson[LAGS + 3], share[LAGS + 3], held[LAGS + 1] = {0.0};
     Chain sum = {0.0, 0.0, 0.0, 0.0, 0.0};
-    int i, j;
-    residence(mu, LAGS + 2, poisson, share);
+    int j;
+    poisson_shares(mu, LAGS + 2, poisson, share);
+    pass_on(&before[CHAIN], poisson, &held[1]);
     for (j = 1; j <= LAGS; j++) {
-        const double n = j, nn = n * (n + 1.0);
-        const double r0 = share[j], r1 = n * share[j + 1] * per_mu, r2 = nn * share[j + 2] * (per_mu * per_mu);
+        const Moments r = chain_moments(j, per_mu, share);
         const double low = row[DIRECT - 1 + j], high = next[DIRECT - 1 + j];
-        double even = 0.0, odd = 0.0, held, value;
-        for (i = 0; i + 1 < j; i += 2) { /* what the lag now has of what the chain held at the start; two sums are faster */
-            even += poisson[i] * before[CHAIN + j - 1 - i];
-            odd += poisson[i + 1] * before[CHAIN + j - 2 - i];
-        }
-        held = even + odd + (i < j ? poisson[i] * before[CHAIN] : 0.0);
-        value = held + f0 * r1 + f * (r0 - r1) + 6.0 * hump * (r1 - r2);
+        const double value = held[j] + f0 * r.r1 + f * (r.r0 - r.r1) + 6.0 * hump * (r.r1 - r.r2);
         after[CHAIN + j - 1] = value;
         if (low != 0.0 || high != 0.0) { /* many lags have no part in the force */
-            const double d0 = poisson[j - 1], d1 = (n * poisson[j] - r1) * per_mu;
-            const double d2 = (nn * poisson[j + 1] * per_mu - 2.0 * r2) * per_mu;
-            const double slope = earlier - held + f0 * d1 + f * (d0 - d1) + 6.0 * hump * (d1 - d2);
+            const double d0 = poisson[j - 1], d1 = (j * poisson[j] - r.r1) * per_mu;
+            const double d2 = (j * (j + 1) * poisson[j + 1] * per_mu - 2.0 * r.r2) * per_mu;
+            const double slope = held[j - 1] - held[j] + f0 * d1 + f * (d0 - d1) + 6.0 * hump * (d1 - d2);
             const double weight = low * share_of_row + high * share_of_next;
             sum.value += weight * value;
             sum.by_gain += (high - low) * per_x * value;
             sum.by_mu += weight * slope;
-            sum.by_end += weight * (r0 - r1);
-            sum.by_hump += weight * (6.0 * (r1 - r2));
+            sum.by_end += weight * (r.r0 - r.r1);
+            sum.by_hump += weight * (6.0 * (r.r1 - r.r2));
         }
-        earlier = held;
     }
     return sum;
 }
@@ -208,7 +154,7 @@ void film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double d
     Jet hump, m, w;
     f0 = film_entering(before[INLET], &ignored);
     f = film_entering(s.x, &f_s);
-    hump = minus(made(entered), made(half(before[INLET], s)));
+    hump = minus(entering(entered), entering(half(before[INLET], s)));
     chain = advance_chain(before, after, LAG_RATE * span.x, f0, f, hump.x, &b);
     m = weighed(VISCOUS, end, &b, x_u);
     m = plus(m, weighed(1, s, &b, x_u));

@@ -53,7 +53,4 @@ void film_rates(const double states[FILM_RATES], const Rest *rest, double v, dou
 void film_rates_along(const double states[FILM_RATES], const Rest *rest, double v, double du, double dv,
                       const double along[FILM_RATES], double change[FILM_RATES]);
 
-/* phi(s) and its slope. */
-double film_entering(double s, double *slope);
-
 #endif

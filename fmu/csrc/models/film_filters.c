@@ -1,0 +1,74 @@
+/* Filters of the film memory; see film_filters.h. Names and order of the arithmetic are those of film_filters.py. */
+#include "film_filters.h"
+
+#include <math.h>
+
+#include "film_inverse.h"
+
+/* Mean of Poisson's law below which shares are summed, and how many terms are enough then. */
+static const double few = 0.5;
+enum { TERMS = 16 };
+
+double film_entering(double s, double *slope)
+{
+    const double b = INLET_SATURATION * s, d = 1.0 + fabs(b);
+    *slope = 1.0 + b * (1.0 + d) / (d * d);
+    return s + b * s / d;
+}
+
+double lag_moments(double mu, Moments *r)
+{
+    const double kept = exp(-mu);
+    double second, third, term;
+    int k;
+    if (mu < few) { /* as sums, or small differences would drown in rounding */
+        term = kept * mu * mu * mu / 6.0;
+        third = 0.0;
+        for (k = 4; k < TERMS; k++) {
+            third += term;
+            term *= mu / k;
+        }
+        second = third + 0.5 * kept * mu * mu;
+        r->r0 = second + kept * mu;
+    } else {
+        r->r0 = 1.0 - kept;
+        second = r->r0 - kept * mu;
+        third = second - 0.5 * kept * mu * mu;
+    }
+    r->r1 = second / mu;
+    r->r2 = 2.0 * third / (mu * mu);
+    return kept;
+}
+
+void poisson_shares(double mu, int n, double poisson[], double share[])
+{
+    double weight = exp(-mu), passed = 1.0;
+    int k;
+    for (k = 0; k <= n; k++) {
+        poisson[k] = weight;
+        share[k] = passed;
+        passed -= weight;
+        weight *= mu * inverse[k + 1];
+    }
+    if (mu < few) { /* from the far end, or shares that are divided by mu would drown in rounding */
+        passed = 0.0;
+        for (k = n + 1; weight > 1e-17 * passed; k++) {
+            passed += weight;
+            weight *= mu / (k + 1);
+        }
+        for (k = n; k >= 0; k--) {
+            passed += poisson[k];
+            share[k] = passed;
+        }
+    }
+}
+
+void pass_on(const double chain[LAGS], const double poisson[], double held[LAGS])
+{
+    int i, j;
+    for (i = 0; i < LAGS; i++) { /* not lag by lag: sums of their own do not wait for each other */
+        for (j = 0; j < LAGS - i; j++) {
+            held[i + j] += poisson[j] * chain[i];
+        }
+    }
+}
