@@ -1,11 +1,11 @@
-"""The film as a tribologist looks at it: what a rig would show of a `SteadyResult`, or of a run's snapshots.
+"""Film maps, mid-planes, fringes and film waves of results: what an optical rig shows.
 
-========= =====================================================================================
+========= =========================================================================================
 module    responsibility
-========= =====================================================================================
+========= =========================================================================================
 ``plane`` one instant: `film_of` the whole plane, mid-planes, horseshoe, `interferogram`
-``waves`` over time: `film_history`; `film_wave`, what the surfaces carry, and `track_wave`
-========= =====================================================================================
+``waves`` over time: `film_history`; `film_wave`, which travels with the surfaces, and `track_wave`
+========= =========================================================================================
 """
 
 from ehlcontact.film.plane import Constriction, Film, Interferogram, Profile, film_of, interferogram

@@ -1,4 +1,4 @@
-"""The film at one instant: whole plane, mid-planes, horseshoe, fringes."""
+"""Film at one instant: whole plane, mid-planes, horseshoe, fringes."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""The film over time: central and smallest film, and the waves that the surfaces carry through.
+"""Film over time: central and smallest film, and film waves, which travel with the surfaces.
 
-Along Y = 0 what the inlet makes of the motion travels through at dX/dT = 1, the mean speed of the surfaces. In
-compressible oil it is the mass rho H that is carried: a part of the film follows the pressure at once and shifts
-the measured speed, by 1 % at Omega = pi and more in slower motion.
+Along Y = 0 a change of the film at the inlet crosses the contact at dX/dT = 1, the mean speed of the surfaces. In
+compressible oil the surfaces carry the mass rho H: a part of the film follows the pressure at once and shifts the
+measured speed, by 1 % at Omega = pi and by more in slower motion.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def film_history(run: SimulationResult) -> FilmHistory:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FilmWave(QuantityTable):
-    """Change of the film along Y = 0 over place and time: what the surfaces carry through.
+    """Change of the film along Y = 0 over place and time.
 
     `X` is of shape (nx + 1,), `T` (steps + 1,), and `change` (steps + 1, nx + 1) the film less that at rest.
     """
@@ -76,7 +76,7 @@ class WaveTrack(QuantityTable):
     Attributes
     ----------
     X, delay : ndarray, shape (k,)
-        Stations, and the time in 2a/u_sum at which each sees what the first one saw.
+        Stations, and delays of their films behind that of the first station, in 2a/u_sum.
     speed : float
         dX/dT of the line through them; that of the surfaces is 1.
     spread : float

@@ -1,4 +1,4 @@
-"""The film at rest."""
+"""Result of a steady solve."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ module           responsibility
 ``surface``      what travels through: `Dent`, `TransverseRidge`, `Waviness`
 ``roughness``    `Roughness`: likewise, made or measured
 ``film``         `TransientFilm`: one implicit step of the film
-``record``       what is recorded: an entry per step, whole fields at the wanted times
+``record``       record of a run: an entry per step, whole fields at given times
 ``time_step``    length of a time step: default, error control; and how closely a step is solved
 ``settings``     what a run is asked for, checked and with its defaults
 ``run``          film and motion advanced together, in fixed or in controlled steps

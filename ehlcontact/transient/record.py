@@ -1,4 +1,4 @@
-"""What a simulation records: one entry per step, whole fields at the wanted times."""
+"""Record of a simulation: one entry per step, whole fields at given times."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ class Record:
 
 
 class History:
-    """The entries so far, and the snapshots taken and still wanted."""
+    """Entries of a run until now, its snapshots, and the times of further ones."""
 
     def __init__(self, snapshots: Sequence[float]) -> None:
         self.entries: list[Entry] = []
@@ -113,7 +113,7 @@ class History:
 
     @classmethod
     def of(cls, record: Record, snapshots: Sequence[float]) -> History:
-        """Go on from a record, with those of the `snapshots` that are still to come."""
+        """History that continues a record, with the `snapshots` after its end."""
         history = cls([T for T in snapshots if T > record.T])
         history.entries = record.entries()
         taken = zip(record.snapshot_T.tolist(), record.snapshot_H, record.snapshot_P, strict=True)
@@ -121,7 +121,7 @@ class History:
         return history
 
     def take_snapshot(self, T: float, level: Level) -> None:
-        """Keep the whole fields for every wanted time that has come."""
+        """Copy the whole fields for every time of `wanted` that has been reached."""
         while self.wanted and T >= self.wanted[0] - SAME_TIME:
             self.wanted.pop(0)
             self.snapshots.append((T, level.H.T.copy(), level.P.T.copy()))

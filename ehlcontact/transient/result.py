@@ -1,4 +1,4 @@
-"""What a run leaves: its history, and the history between its steps; arrays are read-only.
+"""Result of a transient run: its history, and interpolation between its steps; arrays are read-only.
 
 Everything is dimensionless, with the SI scales beside.
 """
