@@ -29,7 +29,7 @@ from reduced_models.atlas import frequency
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.surface import AtlasSurface
 from reduced_models.atlas.table import AtlasTable
-from reduced_models.bearing import ball_bearing, linear, race, statics
+from reduced_models.bearing import ball_bearing, equilibrium, impedance, race
 from reduced_models.bearing.catalogue import ROWS
 from reduced_models.elements import film_curve, film_response
 
@@ -44,8 +44,8 @@ RULES: Mapping[Any, tuple[str, ...]] = {
     film_curve: ("DECADE", "RIGID_SLOPE"),
     film_response: ("DRY", "LEAST_VISCOUS", "SMALL_OMEGA"),
     ball_bearing: ("LARGEST_PLAY", "POSITIONS"),
-    statics: ("SEATED",),
-    linear: ("TINY_OMEGA",),
+    equilibrium: ("SEATED",),
+    impedance: ("TINY_OMEGA",),
 }
 OF_INPUTS = ("ball_diameter", "pitch_diameter", "conformity", "speed_rpm", "eta0", "alpha")
 
