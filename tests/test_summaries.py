@@ -248,7 +248,7 @@ def test_figures_are_drawn(told, tmp_path):
 
 def test_a_figure_of_a_point_in_si_is_in_si(told):
     names = {axes.get_xlabel() for axes in told[0].plot().axes if axes.get_xlabel()}
-    assert names == {"x along rolling [µm]"} and told[0].scales is not None
+    assert names == {"x along rolling [µm]", "y across [µm]"} and told[0].scales is not None
     films = [thing for thing in told if isinstance(thing, ehlcontact.SteadyResult) and thing.scales is None]
     assert films[0].plot().axes[0].get_xlabel() == "x/a"
     answer = next(thing for thing in told if isinstance(thing, reduced_models.AtlasAnswer))

@@ -29,7 +29,7 @@ from ehlcontact.solver.domain import Domain, check_intervals
 from ehlcontact.solver.grid import Grid as SolverGrid
 
 _GRID, _FILES = "Discretisation", "Results"
-Drawing = Callable[[Any], Any]  # a result to its figure
+Drawing = Callable[[Any, Path], object]  # a result into a file
 HDF5 = (".h5", ".hdf5")
 PICTURES = (".png", ".svg", ".pdf")
 
@@ -181,9 +181,7 @@ class Files:
 
         def figure(path: Path) -> None:
             if draw is not None:
-                from ehlcontact.cli.plots.style import write_figure
-
-                write_figure(draw, result, path)
+                draw(result, path)
 
         deliver(
             lambda: save_to("--save", self.save, result),

@@ -7,26 +7,16 @@ from pathlib import Path
 from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
-from matplotlib.figure import Figure
 
 from ehlcontact.cli.numerals import numeral, percent
-from ehlcontact.cli.plots.live.bundle import bundle
-from ehlcontact.cli.plots.live.scene import scene_of
-from ehlcontact.cli.plots.style import embedded, styled
 from ehlcontact.files import write_text
 
 
-def write_page(
-    path: Path,
-    template: str,
-    drawings: Mapping[Any, Callable[[], Figure]],
-    scenes: Mapping[str, Callable[[], Any]] | None = None,
-    **content: Any,
-) -> Path:
-    """Draw all figures, which the template finds under ``images``, and write the page.
+def write_page(path: Path, template: str, drawings: Mapping[str, Callable[[], Any]], **content: Any) -> Path:
+    """Draw all figures with plotly and write the page.
 
-    With `scenes` the page can be zoomed into: its template finds plotly.js and the scenes of all figures, those
-    given or else those of `cli.plots.live`, under ``live``.
+    The template finds the height of each figure [px] by its name in ``heights``, and plotly.js and the figures in
+    ``bundle``, None where there are none.
 
     Raises
     ------
@@ -41,15 +31,16 @@ def write_page(
         lstrip_blocks=True,
     )
     environment.filters |= {"sig": numeral, "percent": percent, "cell": cell}
-    images, found = {}, {}
-    with styled():
-        for name, draw in drawings.items():
-            figure = draw()
-            images[name] = embedded(figure)
-            if scenes is not None:
-                found[name] = scenes[name]() if name in scenes else scene_of(figure)
-    live = None if scenes is None else bundle(found)
-    return write_text(path, environment.get_template(template).render(images=images, live=live, **content), "file")
+    heights, packed = {}, None
+    if drawings:
+        from ehlcontact.cli.plots.bundle import bundle
+        from ehlcontact.cli.plots.finish import finished
+
+        found = {name: finished(draw()) for name, draw in drawings.items()}
+        heights = {name: one["layout"]["height"] for name, one in found.items()}
+        packed = bundle(found)
+    page = environment.get_template(template).render(heights=heights, bundle=packed, **content)
+    return write_text(path, page, "file")
 
 
 def cell(value: float | str | None, digits: int = 5) -> str:

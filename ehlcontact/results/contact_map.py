@@ -70,7 +70,7 @@ def contact_panels(
     kappa: float | None,
     scales: Scales | None,
 ) -> list[ContactMap | Panel]:
-    """Maps of pressure and film, and both along rolling through the centre; in SI where there are scales.
+    """Maps of pressure and film, and both along rolling and across; in SI where there are scales.
 
     Parameters
     ----------
@@ -91,18 +91,34 @@ def contact_panels(
     else:
         a, b, pressure, film = 1e6 * scales.a, 1e6 * scales.b, 1e-9 * scales.pressure, 1e6 * scales.length
         labels = "x along rolling [µm]", "y across [µm]", "pressure [GPa]", "film [µm]"
-    x, y, p, h = a * X, b * Y, pressure * P, film * H
-    near = np.abs(X) <= REACH
-    middle = int(np.argmin(np.abs(Y)))
-    dry = pressure * np.sqrt(np.maximum(0.0, 1.0 - X**2))
+    p, h = pressure * P, film * H
     highest = DEEPEST * film * h_central
+    maps = [
+        ContactMap(a * X, b * Y, p, (*labels[:2], labels[2]), (a, b), "inferno", (0.0, float(p.max()))),
+        ContactMap(a * X, b * Y, h, (*labels[:2], labels[3]), (a, b), "viridis", (float(h.min()), highest)),
+    ]
+    i, j = (int(np.argmin(np.abs(place))) for place in (X, Y))
+    along = _profiles(a, X, (p[:, j], h[:, j]), (labels[0], *labels[2:]), (pressure, highest))
+    return [*maps, *along, *_profiles(b, Y, (p[i], h[i]), (labels[1], *labels[2:]), (pressure, highest))]
+
+
+def _profiles(
+    semi_axis: float,
+    place: Array,
+    lines: tuple[Array, Array],
+    labels: tuple[str, str, str],
+    most: tuple[float, float],
+) -> list[Panel]:
+    """Pressure with that of the dry contact, and film, over a place in semi-axes.
+
+    `labels` are of place, pressure and film, `most` is the Hertz pressure and the thickest film that is shown.
+    """
+    near = np.abs(place) <= REACH
+    p, h = (line[near] for line in lines)
+    x = semi_axis * place[near], labels[0]
+    dry = most[0] * np.sqrt(np.maximum(0.0, 1.0 - place[near] ** 2))
+    film = np.where(h <= most[1], h, np.nan)
     return [
-        ContactMap(x, y, p, (*labels[:2], labels[2]), (a, b), "inferno", (0.0, float(p.max()))),
-        ContactMap(x, y, h, (*labels[:2], labels[3]), (a, b), "viridis", (float(h.min()), highest)),
-        Panel((x[near], labels[0]), [("film", p[near, middle], None), ("dry", dry[near], None)], labels[2]),
-        Panel(
-            (x[near], labels[0]),
-            [("", np.where(h[near, middle] <= highest, h[near, middle], np.nan), None)],
-            labels[3],
-        ),
+        Panel(x, [("film", p, None), ("dry", dry, None)], labels[1]),
+        Panel(x, [("", film, None)], labels[2]),
     ]

@@ -39,12 +39,18 @@ class Panel:
     y : label
     logs : str
         "x", "y" or both: logarithmic axes, where their values are `far_apart`.
+    marks : str
+        Marker of each line, one after another; none by default.
+    bottom : float, optional
+        Where the y axis begins.
     """
 
     x: Axis
     lines: Sequence[tuple[str, Array, Array | None]]
     y: str | tuple[str, str]
     logs: str = ""
+    marks: str = ""
+    bottom: float | None = None
 
     def draw(self, axes: Any) -> None:
         """Into matplotlib axes."""
@@ -56,7 +62,7 @@ class Panel:
             if words:
                 axes.bar(at, y, color=colour, label=name or None, yerr=None if bars is None else bars * size)
                 continue
-            mark = "o" if len(at) < 2 else ""
+            mark = self.marks[k % len(self.marks)] if self.marks else "o" if len(at) < 2 else ""
             axes.plot(at, y, style, marker=mark, color=colour, linewidth=1.2, label=name or None)
             if bars is not None:
                 axes.fill_between(at, y - bars * size, y + bars * size, color=colour, alpha=0.2, linewidth=0.0)
@@ -69,6 +75,8 @@ class Panel:
         if words:
             axes.tick_params(axis="x", labelrotation=45)
         axes.set(xlabel=x_label, ylabel=y_label)
+        if self.bottom is not None:
+            axes.set_ylim(self.bottom, None)
         axes.grid(**GRID)
         axes.set_axisbelow(True)
         if 1 <= sum(bool(name) for name, *_ in self.lines) <= MOST_NAMED:
@@ -88,8 +96,12 @@ class Map:
         (x, x_label, _), (y, y_label, _), (field, label, _) = (
             _scaled(*one) for one in (self.x, self.y, self.values)
         )
-        norm = "log" if far_apart(field) else None  # a film grows a hundredfold towards the inlet
-        mesh = axes.pcolormesh(x, y, field.T, cmap="viridis", shading="nearest", rasterized=True, norm=norm)
+        look: dict[str, Any] = {"cmap": "viridis", "norm": "log" if far_apart(field) else None}
+        if field.min() < 0.0 < field.max():  # white is no change
+            most = float(np.percentile(np.abs(field), 99.0))
+            look = {"cmap": "RdBu_r", "vmin": -most, "vmax": most}
+        # a film grows a hundredfold towards the inlet
+        mesh = axes.pcolormesh(x, y, field.T, shading="nearest", rasterized=True, **look)
         axes.figure.colorbar(mesh, ax=axes, label=label)
         axes.set(xlabel=x_label, ylabel=y_label)
 

@@ -132,15 +132,25 @@ class QuantityTable(Summary):
         frame.attrs.update(self._about())
         return frame
 
-    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
+    def plot(self, path: str | os.PathLike[str] | None = None, *beside: Any) -> Any:
         """Matplotlib figure, in SI where the point is; into a file too where a path is given.
+
+        Parameters
+        ----------
+        path : path, optional
+            Its ending gives the format.
+        *beside : result or panel
+            Shown in the same figure, after this result.
 
         Raises
         ------
         InputError
             The file cannot be written.
         """
-        return draw(self._title(), list(self._drawn()._panels()), path)
+        panels: list[Any] = []
+        for one in (self, *beside):
+            panels += one._drawn()._panels() if isinstance(one, QuantityTable) else [one]
+        return draw(self._title(), panels, path)
 
     def require_complete(self, **sizes: int) -> None:
         """Raise `ValueError` unless the arrays of fields fit the dimensions, of given `sizes`, and each other."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -41,6 +42,45 @@ def draw_state(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
     return written(figure, path)
 
 
+def draw_over_speed(
+    state: Any, points: Sequence[Any], curve: Sequence[Any], path: str | os.PathLike[str] | None = None
+) -> Any:
+    """Load zone and films at one speed, above K and C over speed.
+
+    Parameters
+    ----------
+    state : BearingState
+    points, curve : sequence of BearingCoefficients
+        Shown as points and as lines, each at its first frequency.
+    path : path, optional
+        The file's ending gives its format.
+    """
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(SIZE[0], 1.7 * SIZE[1]), layout="constrained")
+    load_zone(figure.add_subplot(2, 2, 1, projection="polar"), state)
+    films(figure.add_subplot(2, 2, 2), state)
+    for place, name, unit, label in (
+        (3, "stiffness", 1e-6, "stiffness [N/um]"),
+        (4, "damping", 1.0, "damping [N s/m]"),
+    ):
+        axes = figure.add_subplot(2, 2, place)
+        for k, colour, direction in ((1, LOAD, "along the load"), (0, INNER, "across it")):
+            for found, look in ((curve, "-"), (points, "o")):
+                speeds, values = (
+                    [at.speed_rpm for at in found],
+                    [getattr(at, name)[0, k, k] * unit for at in found],
+                )
+                axes.plot(speeds, values, look, color=colour, label=direction if look == "-" else None)
+        axes.set(xlabel="speed [rev/min]", title=f"{label}, at the frequency of the shaft")
+        axes.set_ylim(0.0, max(1.05 * axes.get_ylim()[1], 1.0))  # a dry bearing damps nothing
+        axes.grid(**GRID)
+        axes.legend(frameon=False, fontsize=8)
+    load, at = np.hypot(*state.load), f"above at {state.speed_rpm:g} rev/min, a ball under the load"
+    figure.suptitle(f"{state.name or 'ball bearing'}, {load:.4g} N; {at}")
+    return written(figure, path)
+
+
 def load_zone(axes: Any, state: Any) -> None:
     """Force of every ball, outward from the centre, and the load."""
     width = BAR * 2.0 * np.pi / state.angles.size
@@ -66,9 +106,15 @@ def _free_angle(state: Any) -> float:
     return float(np.degrees(np.angle(gaps[np.argmax((gaps * np.exp(-1j * away)).real)])))
 
 
+def from_load(state: Any) -> Any:
+    """Angles of the balls from the direction of the load [degrees], from -180 to 180."""
+    turned = state.angles - np.arctan2(state.load[1], state.load[0])
+    return np.degrees((turned + np.pi) % (2.0 * np.pi) - np.pi)
+
+
 def films(axes: Any, state: Any) -> None:
     """Smallest film of every ball over its place, or the approaches of a dry bearing."""
-    turned = np.degrees((state.angles - np.arctan2(state.load[1], state.load[0]) + np.pi) % (2.0 * np.pi) - np.pi)
+    turned = from_load(state)
     order = np.argsort(turned)
     if state.h_min is None:
         shown, title = state.approach * 1e6, "approach of the surfaces [um]; below 0 a gap"

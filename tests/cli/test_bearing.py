@@ -125,13 +125,13 @@ def test_a_figure(call, tmp_path, speeds, oil):
 
 def test_curves_pass_through_what_was_asked_for():
     from ehlcontact.cli.commands.bearing import BearingReport, curve
-    from ehlcontact.cli.plots.bearing import bearing_figure
     from ehlcontact.cli.study.bearing import load_job
+    from reduced_models.bearing.picture import draw_over_speed
 
     job = load_job("6205", {"--load": 500.0, "--speed": [1000.0, 4000.0], "--grade": 68, "--temperature": 50.0})
     at = tuple(job.bearing.coefficients((0, -500), speed_rpm=s, rpm=s) for s in job.speeds)
-    report = BearingReport(job, tuple(job.bearing.equilibrium((0, -500), speed_rpm=s) for s in job.speeds), at)
-    panels = bearing_figure(report, curve(report)).axes
+    states = tuple(job.bearing.equilibrium((0, -500), speed_rpm=s) for s in job.speeds)
+    panels = draw_over_speed(states[1], at, curve(BearingReport(job, states, at))).axes
     lines = panels[3].get_lines()
     for curve_of, points in (lines[:2], lines[2:4]):
         np.testing.assert_allclose(curve_of.get_ydata()[[0, -1]], points.get_ydata(), rtol=1e-9)

@@ -19,54 +19,42 @@ IN_SI = OperatingPoint(Geometry(12.7e-3, 20e-3), Lubricant(0.1), 20.0, 0.5)
 PLAIN = MoesPoint(50.0, 5.0, 0.5)
 
 
-def labels(figure):
-    return {
-        text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel(), axes.get_title()) if text
-    }
-
-
-def line(figure, name):
-    """Data of the first line called `name`."""
-    lines = [line for axes in figure.axes for line in axes.get_lines() if line.get_label() == name]
-    return np.asarray(lines[0].get_xdata()), np.asarray(lines[0].get_ydata())
+def named(figure, name, number=0):
+    """A trace called `name`."""
+    return [trace for trace in figure.data if trace.name == name][number]
 
 
 @pytest.mark.parametrize(("point", "si"), [(IN_SI, True), (PLAIN, False)], ids=["SI", "dimensionless"])
-def test_steady_figure(point, si):
-    from ehlcontact.cli.plots.film import steady_figure
+def test_mid_planes(point, si):
+    from ehlcontact.cli.plots.film import midplanes
 
     result = solve_steady(point, grid=Grid(n=32))
-    figure = steady_figure(result)
-    seen = labels(figure)
-    assert any("pressure [GPa]" in text for text in seen) == si
-    assert any("fringes" in text for text in seen) == si  # only with scales
-    x, film = line(figure, "film")
+    figure = midplanes(result)
     place, gap = (point.scales.a * 1e3, point.scales.length * 1e6) if si else (1.0, 1.0)
-    np.testing.assert_allclose(x, result.X * place)
-    np.testing.assert_allclose(film, result.H[:, 0] * gap)
-    np.testing.assert_allclose(line(figure, "dry Hertz")[1].max(), point.scales.pressure * 1e-9 if si else 1.0)
+    assert ("[GPa]" in figure.layout.yaxis.title.text) == si
+    np.testing.assert_allclose(named(figure, "film").x, result.X * place)
+    np.testing.assert_allclose(named(figure, "film").y, result.H[:, 0] * gap)
+    np.testing.assert_allclose(named(figure, "dry Hertz").y.max(), point.scales.pressure * 1e-9 if si else 1.0)
 
 
 @pytest.mark.parametrize(("point", "si"), [(IN_SI, True), (PLAIN, False)], ids=["SI", "dimensionless"])
-def test_simulation_figure(point, si):
-    from ehlcontact.cli.plots.motion import simulation_figure
+def test_histories_and_film_wave(point, si):
+    from ehlcontact.cli.plots.motion import histories, wave
 
     unit = IN_SI.scales.time if si else 1.0
     steps = TimeSteps(until=1.0 * unit, dt=0.1 * unit)
     run = simulate(point, HarmonicLoad(Omega=3.0), grid=Grid(n=32), time=steps)
-    figure = simulation_figure(run)
-    assert (
-        {"approach [µm]", "force [N]"} <= labels(figure) if si else {"approach u", "force f/f0"} <= labels(figure)
-    )
-    t, minimum = line(figure, "minimum")
-    np.testing.assert_allclose(t, run.T * (run.scales.time * 1e3 if si else 1.0))
-    np.testing.assert_allclose(minimum, run.h_min * (run.scales.length * 1e6 if si else 1.0))
-    (wave,) = [image for axes in figure.axes for image in axes.images if axes.get_ylabel() == "place X = x/a"]
-    assert wave.get_extent() == [0.0, run.T[-1], -1.1, 1.1]
-    shown, unit = np.asarray(wave.get_array()), run.scales.length * 1e6 if si else 1.0
-    np.testing.assert_allclose(shown[:, 0], 0.0, atol=1e-12 * unit)
+    figure = histories(run, None)
+    labels = {axis.title.text for axis in figure.select_yaxes()}
+    assert {"approach [µm]", "force [N]"} <= labels if si else {"approach u", "force f/f0"} <= labels
+    np.testing.assert_allclose(named(figure, "minimum").x, run.T * (run.scales.time * 1e3 if si else 1.0))
+    unit = run.scales.length * 1e6 if si else 1.0
+    np.testing.assert_allclose(named(figure, "minimum").y, run.h_min * unit)
+    shown = wave(run).data[0]
+    assert (shown.x[0], shown.x[-1], shown.y[0], shown.y[-1]) == (0.0, run.T[-1], -1.1, 1.1)
+    np.testing.assert_allclose(shown.z[:, 0], 0.0, atol=1e-12 * unit)
     centre = (run.h_midplane[-1] - run.h_midplane[0])[np.argmin(np.abs(run.X))]
-    np.testing.assert_allclose(shown[shown.shape[0] // 2, -1], centre * unit, rtol=1e-6)
+    np.testing.assert_allclose(shown.z[shown.z.shape[0] // 2, -1], centre * unit, rtol=1e-6)
 
 
 def test_loops_show_the_element_that_was_fitted():
@@ -79,17 +67,17 @@ def test_loops_show_the_element_that_was_fitted():
     run = simulate(IN_SI, HarmonicLoad(Omega=3.0), grid=Grid(n=32), time=steps)
     found = fit(ContactRecord.from_result(run), "cubic", (2.0, 4.0))
     figure = loops({"harmonic": run}, {"harmonic": found}, {"harmonic": "a title"})
-    assert "a title" in labels(figure)
+    assert "a title" in [note.text for note in figure.layout.annotations]
     k, inside = found.parameters, run.T >= 2.0
     u, damper = run.approach[inside], k["C1"] * run.rate[inside]
     spring = k["K1"] * u + k["K2"] * u**2 + k["K3"] * u**3
-    place, force = line(figure, "cubic element")
-    np.testing.assert_allclose(place, u * run.scales.length * 1e6)
-    np.testing.assert_allclose(force, (spring + damper) * run.scales.force)
-    np.testing.assert_allclose(line(figure, "film")[1], run.force[inside] * run.scales.force)
-    film, element = (np.asarray(drawn.get_ydata()) for drawn in figure.axes[1].get_lines()[:2])
-    np.testing.assert_allclose(film, (run.force[inside] - spring) * run.scales.force, atol=1e-12)
-    np.testing.assert_allclose(element, damper * run.scales.force, atol=1e-12)
+    element, film = named(figure, "cubic element"), named(figure, "film")
+    np.testing.assert_allclose(element.x, u * run.scales.length * 1e6)
+    np.testing.assert_allclose(element.y, (spring + damper) * run.scales.force)
+    np.testing.assert_allclose(film.y, run.force[inside] * run.scales.force)
+    element, film = named(figure, "cubic element", 1), named(figure, "film", 1)
+    np.testing.assert_allclose(film.y, (run.force[inside] - spring) * run.scales.force, atol=1e-12)
+    np.testing.assert_allclose(element.y, damper * run.scales.force, atol=1e-12)
 
 
 def test_spectrum_shows_amplitudes():
@@ -109,7 +97,7 @@ def test_spectrum_shows_amplitudes():
     unknown = {"disc_velocity": still, "journal_velocity": still, "approach": once, "rate": once}
     run = RotorResult(**known, **unknown, status=Status.CONVERGED, rotor=rotor)
     figure = spectrum({"full": run}, Settling((0.5, 0.0), 0.01), {"full": "full film"})
-    displacement, load = (np.array(axes.get_lines()[0].get_data()) for axes in figure.axes)
+    displacement, load = (np.array([trace.x, trace.y]) for trace in figure.data)
     for (hz, amplitude), (where, size) in ((displacement, (100.0, 3.0)), (load, (50.0, 7.0))):
         highest = np.argmax(amplitude)
         assert hz[highest] == pytest.approx(where) and amplitude[highest] == pytest.approx(size, rel=1e-12)
@@ -141,9 +129,20 @@ def test_figure_that_cannot_be_written(refused, point, tmp_path):
 def test_drawing_leaves_matplotlib_alone(tmp_path):
     import matplotlib as mpl
 
-    from ehlcontact.cli.plots.film import steady_figure
-    from ehlcontact.cli.plots.style import write_figure
-
     before = dict(mpl.rcParams)
-    write_figure(steady_figure, solve_steady(PLAIN, grid=Grid(n=32)), tmp_path / "film.png")
+    solve_steady(PLAIN, grid=Grid(n=32)).plot(tmp_path / "film.png")
     assert dict(mpl.rcParams) == before
+
+
+def test_pictures_stand_side_by_side_in_a_file():
+    """What is given beside a result is drawn after it: fringes, a panel of one's own."""
+    from ehlcontact import film_of, interferogram
+    from ehlcontact.results.picture import Panel
+
+    film = solve_steady(IN_SI, grid=Grid(n=32))
+    alone = film.plot()
+    loop = Panel((film.X, "place"), [("", film.H[:, 0], None)], "gap")
+    beside = film.plot(None, interferogram(film_of(film), 600e-9), loop)
+    texts = [[axes.get_ylabel() for axes in one.axes] for one in (alone, beside)]
+    assert len(texts[1]) == len(texts[0]) + 3 and texts[1][-1] == "gap"  # the map of fringes has a bar of colours
+    assert "intensity" in " ".join(texts[1])

@@ -14,7 +14,6 @@ from scipy.optimize import curve_fit
 
 from ehlcontact import load
 from ehlcontact.cli.plots import rotor as pictures
-from ehlcontact.cli.plots import vibration
 from ehlcontact.cli.study import headline
 from ehlcontact.cli.study.differences import compare_rotors
 from ehlcontact.cli.study.reduction import CONTACTS
@@ -263,7 +262,7 @@ def test_a_contact_that_the_rotor_does_not_run_on(finished, found, monkeypatch):
     assert "dry Hertz contact (force imbalance 3 N)" in headline.failures(SimpleNamespace(rotors=rotors))
     assert rotors.decay.film_decides
     runs = {"full": rotors.unbalance.full, **rotors.unbalance.reduced}
-    assert pictures.spectrum(runs, rotors.unbalance.settling["full"], CONTACTS).axes
+    assert pictures.spectrum(runs, rotors.unbalance.settling["full"], CONTACTS).data
 
 
 def test_pictures_show_what_is_settled(finished, found):
@@ -274,8 +273,7 @@ def test_pictures_show_what_is_settled(finished, found):
     last, is_settled = pictures.settled_part(run, Settling((0.5,), 0.01))
     assert not is_settled and last.t.size == 21 and last.t[-1] == run.t[-1]
     grey = pictures.response({"full": run, "dry": run, "rotor_band": run}, Settling((0.5,), 0.01), CONTACTS)
-    said = [text.get_text() for axes in grey.axes for text in axes.texts]
-    assert "not settled" in said
+    assert "not settled" in [note.text for note in grey.layout.annotations]
 
 
 def test_spectrum_has_the_amplitude(found):
@@ -291,11 +289,9 @@ def test_spectrum_has_the_amplitude(found):
 
 def test_bode_picture_has_amplitude_and_phase(found):
     bode = found.rotors.bode
-    figure = vibration.bode(bode.hz, bode.curves, bode.spans, CONTACTS)
-    upper, lower = figure.axes
-    curve = next(line for line in upper.get_lines() if line.get_label() == "full film").get_ydata()
+    figure = pictures.bode(bode.hz, bode.curves, bode.spans, CONTACTS)
+    curve, phase = (trace.y for trace in figure.data if trace.name == "full film")
     assert curve.max() == pytest.approx(bode.peaks["y"]["full"].amplitude)
-    phase = lower.get_lines()[0].get_ydata()
     assert phase[0] == pytest.approx(0.0, abs=5.0) and phase[-1] == pytest.approx(-180.0, abs=5.0)
 
 

@@ -63,7 +63,7 @@ def test_everything_is_there(finished):
 def test_report_is_self_contained(finished):
     _, folder = finished
     page = (folder / "report.html").read_text()
-    assert page.count("data:image/png;base64,") == 14 + 7  # of the contact and its rotor, and of whole bearings
+    assert page.count(" data-figure=") == 14 + 7  # of the contact and its rotor, and of whole bearings
     linked = set(re.findall(r'(?:src|href)="(?!data:|#)([^"]*)', page))
     assert linked >= {"contact.fmu", "contact_film.fmu", "results.json", "elements/memory_si.json", "harmonic.h5"}
     assert all((folder / name).is_file() for name in linked)

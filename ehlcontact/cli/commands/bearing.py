@@ -147,10 +147,9 @@ def bearing(
         report = _computed(job)
 
     def draw(path: Path) -> None:
-        from ehlcontact.cli.plots.bearing import bearing_figure
-        from ehlcontact.cli.plots.style import write_figure
+        from reduced_models.bearing.picture import draw_over_speed
 
-        write_figure(lambda found: bearing_figure(found, curve(found)), report, path)
+        draw_over_speed(report.states[len(report.states) // 2], report.coefficients, curve(report), path)
 
     deliver(
         lambda: write_to("--figure", figure, draw),

@@ -290,10 +290,16 @@ def simulate(
         raise typer.Exit(INTERRUPTED if result.status is Status.INTERRUPTED else FAILED)
 
 
-def _draw(result: SimulationResult) -> Any:
-    from ehlcontact.cli.plots.motion import simulation_figure
+def _draw(result: SimulationResult, path: Path) -> None:
+    """Draw histories, the film wave, and the force against the approach."""
+    from ehlcontact.film import film_wave
+    from ehlcontact.results.picture import Panel
 
-    return simulation_figure(result)
+    shown, units = (result, ("", "")) if result.scales is None else (result.si, ("m", "N"))
+    loop = Panel(
+        (shown.approach, ("mutual approach", units[0])), [("", shown.force, None)], ("contact force", units[1])
+    )
+    result.plot(path, film_wave(result), loop)
 
 
 def _rows(result: SimulationResult) -> list[tuple[str, str, str]]:

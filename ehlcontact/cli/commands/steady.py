@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from ehlcontact.results import SteadyResult
 
 _SOLVER = "Solver"
+WAVELENGTH, REFRACTIVE_INDEX = 600e-9, 1.5  # of the light [m] and of the oil: fringes in the figure
 Refine = Annotated[
     bool,
     typer.Option(
@@ -99,10 +101,12 @@ def steady(
         raise typer.Exit(FAILED)
 
 
-def _draw(result: SteadyResult) -> Any:
-    from ehlcontact.cli.plots.film import steady_figure
+def _draw(result: SteadyResult, path: Path) -> None:
+    """Draw the contact, and its fringes where there is a unit of length."""
+    from ehlcontact.film import film_of, interferogram
 
-    return steady_figure(result)
+    fringes = [] if result.scales is None else [interferogram(film_of(result), WAVELENGTH, REFRACTIVE_INDEX)]
+    result.plot(path, *fringes)
 
 
 def _rows(result: SteadyResult) -> list[tuple[str, str, str]]:

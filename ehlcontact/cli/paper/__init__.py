@@ -12,8 +12,9 @@ module        responsibility
 ``removal``   Table 2
 ``cubic``     Tables 3, 5 and 6
 ``tables``    any of them by its number
-``drawings``  what figures draw and tell
-``figures``   what each figure needs, shows and says; drawn by ``cli/plots``
+``pictures``  its figures, made with plotly
+``numbers``   what stands in numbers beside them
+``figures``   what each figure needs, shows and says
 ``page``      one HTML page and one JSON document
 ============  ========================================================================================
 

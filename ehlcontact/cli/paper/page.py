@@ -89,7 +89,7 @@ def reproduce(tables: Sequence[int], figures: Sequence[int], folder: Path, n: in
 
 def write_reproduction(found: Reproduction, path: Path) -> Path:
     """Draw the figures and write the page."""
-    drawings = {figure.number: partial(figure.draw, found.fits) for figure in found.figures}
+    drawings = {str(figure.number): partial(figure.draw, found.fits) for figure in found.figures}
     return write_page(
         path,
         "reproduction.html.j2",

@@ -1,22 +1,22 @@
-"""Every picture of the program; functions take results and return a matplotlib figure.
+"""Figures of the pages, made with plotly; functions take results and return a `plotly.graph_objects.Figure`.
+
+Files of pictures are drawn with matplotlib: ``.plot()`` of the results, `ehlcontact.results.picture`.
 
 =============  ======================================================================================
-module         shows
+module         shows, or does
 =============  ======================================================================================
-``style``      fonts, colours, figures embedded in a page or written to a file
+``style``      colours, axes, grids of panels, sliders
 ``units``      what the axes show: SI or dimensionless
 ``maps``       a field over the contact's plane
-``fringes``    pseudo-interferograms
-``film``       the steady film: maps, mid-planes, convergence
-``instants``   film and pressure at instants of a period
+``film``       the steady film: maps, fringes, mid-planes, convergence
+``instants``   film and pressure at instants of a period, with a slider
 ``motion``     histories, the film wave, force against approach
 ``impedance``  stiffness and damping over frequency, and what the elements have of them
-``rotor``      the rotor under its unbalance: orbit, time response, spectrum
-``vibration``  the rotor's own vibrations: free decay, and unbalance over frequency
-``bearing``    a ball bearing: load zone, films, stiffness and damping over speed
-``points``     films, stiffness, damping and decay over speeds and loads
-``whole``      the rotor on whole bearings: load zone, orbits, spectra, K and C over frequency, Campbell diagram
-``paper``      histories, approaches and springs as the paper shows them
-``live``       any of them in a browser: to zoom into, to point at, to run through time
+``rotor``      the rotor on its contacts: orbit, time response, spectrum, free decay, unbalance
+``bearing``    the rotor on whole bearings: load zone, orbits, spectra, K and C, Campbell diagram
+``points``     films, stiffness, damping and decay over the points of a study, in a file
+``thinned``    fewer points and digits than the results have, and how many fewer
+``finish``     legend, words under the pointer and places of panels, for wide and for narrow pages
+``bundle``     plotly.js and the figures, packed into the page
 =============  ======================================================================================
 """

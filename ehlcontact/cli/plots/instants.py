@@ -1,27 +1,27 @@
-"""Film and pressure at instants of a harmonic load's last period: four of them as a picture."""
+"""Film and pressure through the last period of a harmonic load, with a slider."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
+import plotly.graph_objects as go
 from numpy.typing import NDArray
 
-from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.plots.maps import VIEW, draw_ellipse, draw_map, refined, scale_note
-from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, RED, legend_above, new_figure
+from ehlcontact.cli.plots.film import noted
+from ehlcontact.cli.plots.maps import HIGHEST, VIEW, add_film, add_pressure, move_together, refined, scale_note
+from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, PURPLE, RED, grid, label_axes, slide
 from ehlcontact.cli.plots.units import units_of
 from ehlcontact.cli.study.stages import FRAMES
-from ehlcontact.film import film_of
+from ehlcontact.film import Film, film_of
 from ehlcontact.point import moes_point
 from ehlcontact.transient.motion import HarmonicLoad
 from ehlcontact.transient.result import SimulationResult
 
-SHOWN = 4  # instants of the picture
+POINTS = (49, 81)  # of a map, along rolling and across
 THICKEST = 1.8  # largest central film, that the colours end at
 
-Array = NDArray[np.float64]
+Moving = list[tuple[int, list[dict[str, Any]]]]  # number of a trace, and its numbers in every frame
 
 
 def steps_of(run: SimulationResult) -> NDArray[np.int_]:
@@ -35,55 +35,84 @@ def steps_of(run: SimulationResult) -> NDArray[np.int_]:
     return last[:: -(-last.size // FRAMES)]
 
 
-def limits_of(run: SimulationResult, steps: NDArray[np.int_]) -> tuple[float, float, float]:
-    """Smallest and largest film, and largest pressure, that the colours of all instants have in common."""
-    pressure = run.snapshot_P if run.snapshot_T.size else run.p_midplane[steps]
-    return float(run.h_min[steps].min()), THICKEST * float(run.h_central[steps].max()), float(pressure.max())
+def instants(run: SimulationResult) -> go.Figure:
+    """Pressure and film, both along the mid-plane, and force and film over time.
+
+    A run that kept no whole fields is shown without the maps.
+    """
+    units, steps = units_of(run.scales), steps_of(run)
+    kappa = moes_point(run.point).kappa
+    films = [refined(film_of(run, float(run.T[step])), POINTS) for step in steps] if run.snapshot_T.size else []
+    maps = 2 if films else 0
+    titles = ["pressure; the surfaces move upwards", "film"] if films else []
+    figure = grid(
+        maps + 2,
+        heights=[HIGHEST] * maps + [200, 200],
+        titles=[*titles, "along rolling, y = 0; dotted: at rest", "over time"],
+        second=((maps + 1, 1), (maps + 2, 1)),
+    )
+    moving = _maps(figure, run, films, kappa, steps) if films else []
+    moving += _midplane(figure, run, steps, maps + 1) + _history(figure, run, steps, maps + 2)
+    numbers = [number for number, _ in moving]
+    figure.frames = [
+        go.Frame(data=[frames[k] for _, frames in moving], traces=numbers, name=str(k)) for k in range(steps.size)
+    ]
+    label, _, unit = units.time.label.rstrip("]").partition(" [")
+    slide(figure, label, unit, units.time(run.T[steps]), 0, runs=True)
+    return noted(figure, scale_note(films[0], kappa) if films else "")
 
 
-def instants(run: SimulationResult) -> Figure:
-    """Maps of pressure and film at `SHOWN` instants; mid-planes of a run that kept no whole fields."""
-    steps = steps_of(run)
-    chosen = steps[np.linspace(0, steps.size - 1, SHOWN + 1).astype(int)[:-1]]
-    return _maps(run, chosen, steps) if run.snapshot_T.size else _midplanes(run, chosen)
+def _maps(
+    figure: go.Figure, run: SimulationResult, films: list[Film], kappa: float, steps: NDArray[np.int_]
+) -> Moving:
+    """Maps with the same colours in every frame."""
+    thickest = THICKEST * float(run.h_central[steps].max())
+    first, units = films[0], units_of(run.scales)
+    add_pressure(figure, first, kappa, 1, float(run.snapshot_P.max()))
+    add_film(figure, first, kappa, 2, (float(run.h_min[steps].min()), thickest))
+    move_together(figure)
+    return [
+        (0, [{"type": "heatmap", "z": units.pressure(film.P)} for film in films]),
+        (1, [{"type": "heatmap", "z": units.film(np.minimum(film.H, thickest))} for film in films]),
+    ]
 
 
-def _maps(run: SimulationResult, chosen: NDArray[np.int_], steps: NDArray[np.int_]) -> Figure:
-    units, kappa = units_of(run.scales), moes_point(run.point).kappa
-    thinnest, thickest, most = limits_of(run, steps)
-    figure = new_figure(1.55 * chosen.size + 0.7)
-    panels = figure.subplots(chosen.size, 2, squeeze=False, sharex=True, sharey=True)
-    shown: list[Any] = []
-    for row, step in zip(panels, chosen.tolist(), strict=True):
-        film = refined(film_of(run, float(run.T[step])))
-        fields = (
-            (units.pressure(np.maximum(film.P, 0.0)), "inferno", 0.0, units.pressure(most)),
-            (units.film(film.H), "viridis", units.film(thinnest), units.film(thickest)),
-        )
-        shown = [
-            draw_map(axes, film, values, kappa, upwards=True, cmap=cmap, vmin=low, vmax=high)
-            for axes, (values, cmap, low, high) in zip(row, fields, strict=True)
-        ]
-        row[0].set_title(f"{units.time.label.split(' [')[0]} {numeral(units.time(run.T[step]))}", loc="left")
-        for axes in row:
-            draw_ellipse(axes, film, "white", upwards=True)
-            axes.label_outer()
-    for column, (image, quantity) in enumerate(zip(shown, (units.pressure, units.film), strict=True)):
-        figure.colorbar(image, ax=panels[:, column], label=quantity.label, location="top", aspect=40, pad=0.01)
-    figure.suptitle(scale_note(film, kappa, upwards=True), fontsize=10, color=GREY)
-    return figure
+def _midplane(figure: go.Figure, run: SimulationResult, steps: NDArray[np.int_], row: int) -> Moving:
+    """Pressure and film along y = 0."""
+    units, inside = units_of(run.scales), (run.X >= VIEW[0]) & (run.X <= VIEW[1])
+    x, number, at = units.x(run.X[inside]), len(figure.data), {"row": row, "col": 1}
+    pressures, films = units.pressure(run.p_midplane[:, inside]), units.film(run.h_midplane[:, inside])
+    for name, values, colour, second in (("pressure", pressures, RED, False), ("film", films, BLUE, True)):
+        figure.add_scatter(x=x, y=values[steps[0]], name=name, line_color=colour, **at, secondary_y=second)
+    for values, colour, second in ((pressures, RED, False), (films, BLUE, True)):
+        rest: Any = {"color": colour, "dash": "dot"}
+        figure.add_scatter(x=x, y=values[0], line=rest, hoverinfo="skip", **at, secondary_y=second)
+    highest, thickest = 1.08 * float(pressures[steps].max()), units.film(3.0 * float(run.h_central[steps].max()))
+    label_axes(figure, units.x.label, units.pressure.label, row, range=[0.0, highest], title_font_color=RED)
+    figure.update_xaxes(range=[x[0], x[-1]], **at)
+    _second(figure, units.film.label, BLUE, row, range=[0.0, thickest])
+    return [(number + k, [{"y": values[step]} for step in steps]) for k, values in enumerate((pressures, films))]
 
 
-def _midplanes(run: SimulationResult, chosen: NDArray[np.int_]) -> Figure:
-    units = units_of(run.scales)
-    figure = new_figure(3.6)
-    panels: Any = figure.subplots(1, 2)
-    for step, colour in zip(chosen.tolist(), (BLUE, GREEN, ORANGE, RED), strict=True):
-        label = numeral(units.time(run.T[step]))
-        panels[0].plot(units.x(run.X), units.pressure(run.p_midplane[step]), color=colour, label=label)
-        panels[1].plot(units.x(run.X), units.film(run.h_midplane[step]), color=colour, label=label)
-    for axes, quantity in zip(panels, (units.pressure, units.film), strict=True):
-        axes.set(xlabel=units.x.label, ylabel=quantity.label, xlim=(units.x(VIEW[0]), units.x(VIEW[1])))
-    panels[1].set_ylim(0.0, units.film(3.0 * float(run.h_central.max())))
-    legend_above(panels[0], title=units.time.label)
-    return figure
+def _history(figure: go.Figure, run: SimulationResult, steps: NDArray[np.int_], row: int) -> Moving:
+    """Force and central film over the run, with dots at the time of the frame."""
+    units, at = units_of(run.scales), {"row": row, "col": 1}
+    t, force, film = units.time(run.T), units.force(run.force), units.film(run.h_central)
+    figure.add_scatter(x=t, y=force, name="force of the film", line_color=PURPLE, **at)
+    figure.add_scatter(x=t, y=units.force(run.load), name="load", line={"color": GREY, "dash": "dot"}, **at)
+    figure.add_scatter(x=t, y=film, name="film in the centre", line_color=GREEN, **at, secondary_y=True)
+    number, now = len(figure.data), steps[:1]
+    dot: Any = {"mode": "markers", "marker": {"size": 9, "color": RED}}
+    figure.add_scatter(x=t[now], y=force[now], name="now", **dot, **at)
+    figure.add_scatter(x=t[now], y=film[now], name="now", **dot, **at, secondary_y=True)
+    label_axes(figure, units.time.label, units.force.label, row, title_font_color=PURPLE)
+    figure.update_xaxes(range=[0.0, float(t[-1])], **at)
+    _second(figure, units.film.label, GREEN, row)
+    return [
+        (number + k, [{"x": [t[step]], "y": [values[step]]} for step in steps])
+        for k, values in enumerate((force, film))
+    ]
+
+
+def _second(figure: go.Figure, label: str, colour: str, row: int, **options: Any) -> None:
+    figure.update_yaxes(title_text=label, title_font_color=colour, **options, row=row, col=1, secondary_y=True)

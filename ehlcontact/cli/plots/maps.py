@@ -1,12 +1,11 @@
-"""Maps over the contact's plane: a field, the Hertz ellipse and the axes."""
+"""Maps over the contact's plane: a field, the Hertz ellipse, and how far they are from scale."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.patches import Ellipse
+import plotly.graph_objects as go
 from numpy.typing import NDArray
 from scipy.interpolate import RectBivariateSpline
 
@@ -15,70 +14,118 @@ from ehlcontact.cli.plots.units import units_of
 from ehlcontact.film import Film
 
 VIEW = (-1.8, 1.5, 1.5)  # along X from, to; across to: in semi-axes
-POINTS = (331, 701)  # of a refined film
 FLATTEST = 0.3  # height over width of a map with the surfaces moving upwards: a flatter one is stretched
+HIGHEST = 420.0  # px of a map
 
 Array = NDArray[np.float64]
 
 
-def refined(film: Film, growth: float = 1.0) -> Film:
+def refined(film: Film, points: tuple[int, int], growth: float = 1.0) -> Film:
     """The part of a film that maps show, interpolated smoothly, so that no picture shows the grid.
 
     Parameters
     ----------
     film : Film
+    points : (int, int)
+        Along rolling and across.
     growth : float
         Semi-axes over those of the film's scales, where the load has risen.
     """
     first, last, across = (growth * edge for edge in VIEW)
-    X = np.linspace(max(first, film.X[0]), min(last, film.X[-1]), POINTS[0])
+    X = np.linspace(max(first, film.X[0]), min(last, film.X[-1]), points[0])
     across = min(across, film.Y[-1])
-    Y = np.linspace(-across, across, POINTS[1])
+    Y = np.linspace(-across, across, points[1])
     H, P = (RectBivariateSpline(film.X, film.Y, field)(X, Y) for field in (film.H, film.P))
-    return Film(X, Y, H, P, film.scales)
+    return Film(X, Y, H, np.maximum(P, 0.0), film.scales)  # the spline may swing below zero
 
 
-def draw_map(axes: Axes, film: Film, values: Array, kappa: float, *, upwards: bool = False, **image: Any) -> Any:
-    """Draw `values` over the plane of a film, and the image is returned for a colour bar.
+def map_axes(
+    figure: go.Figure, film: Film, kappa: float, row: int = 1, col: int = 1, *, upwards: bool = True
+) -> Array:
+    """Axes of a map, with the Hertz ellipse dashed; returns the places along its x and y axis.
 
     Parameters
     ----------
-    axes : Axes
+    figure : Figure
     film : Film
         Says where.
-    values : array, shape (nx, ny) or (nx, ny, 3)
-        Numbers to colour, or red, green and blue.
     kappa : float
         Ratio a/b of the ellipse.
+    row, col : int
+        Of the panel.
     upwards : bool
         Let the surfaces move upwards; otherwise they move to the right, and the ellipse is drawn as a circle.
         What is not to scale `scale_note` says.
-    **image
-        Colour map and limits.
     """
     units = units_of(film.scales)
-    along, across = units.x(film.X[[0, -1]]), units.y(film.Y[[0, -1]])
-    options: dict[str, Any] = {"origin": "lower", "aspect": "auto", "interpolation": "bilinear"} | image
+    along, across = (units.x, film.X), (units.y, film.Y)
+    (x, X), (y, Y) = (across, along) if upwards else (along, across)
+    # px of a unit along y over those of one along x
+    ratio = units.x.factor / units.y.factor
     if upwards:
-        shown = axes.imshow(values, extent=(*across, *along), **options)
-        axes.set(xlabel=units.y.label, ylabel=units.x.label)
-        axes.set_box_aspect(max(_flatness(film, kappa), FLATTEST))
-    else:
-        shown = axes.imshow(np.swapaxes(values, 0, 1), extent=(*along, *across), **options)
-        axes.set(xlabel=units.x.label, ylabel=units.y.label)
-        axes.set_box_aspect(float((film.Y[-1] - film.Y[0]) / (film.X[-1] - film.X[0])))
-    axes.grid(False)
-    return shown
+        ratio = _stretch(film, kappa) * kappa / ratio
+    shared: dict[str, Any] = {"constrain": "domain", "showgrid": False, "row": row, "col": col}
+    x_ends, y_ends = ([float(quantity(end)) for end in (at[0], at[-1])] for quantity, at in ((x, X), (y, Y)))
+    figure.update_xaxes(title_text=x.label, range=x_ends, **shared)
+    anchor = next(figure.select_xaxes(row=row, col=col)).plotly_name.replace("axis", "")
+    figure.update_yaxes(title_text=y.label, range=y_ends, scaleanchor=anchor, scaleratio=ratio, **shared)
+    edge: Any = {"color": "white", "dash": "dash", "width": 1.2}
+    ends = {"x0": -x.factor, "x1": x.factor, "y0": -y.factor, "y1": y.factor}
+    figure.add_shape(type="circle", line=edge, **ends, row=row, col=col)
+    return x(X), y(Y)
 
 
-def scale_note(film: Film, kappa: float, *, upwards: bool = False) -> str:
-    """How far a map of `draw_map` is from true proportions, in words; empty where it is to scale."""
-    flatness = _flatness(film, kappa)
-    stretch = max(1.0, FLATTEST / flatness) if upwards else 1.0 / kappa
+def add_map(
+    figure: go.Figure,
+    film: Film,
+    values: Array,
+    kappa: float,
+    row: int = 1,
+    *,
+    label: str,
+    colours: str,
+    limits: tuple[float, float],
+) -> None:
+    """Colour a field over the plane of a film, shape (nx, ny), the surfaces moving upwards.
+
+    `limits` are those of the colours, `label` names them; the figure has one column.
+    """
+    x, y = map_axes(figure, film, kappa, row)
+    coloraxis = f"coloraxis{row if row > 1 else ''}"
+    figure.add_heatmap(x=x, y=y, z=values, coloraxis=coloraxis, row=row, col=1)
+    bar = {"title": {"text": label, "side": "right"}, "thickness": 10, "outlinewidth": 0, "nticks": 5}
+    figure.update_layout(
+        {coloraxis: {"colorscale": colours, "cmin": float(limits[0]), "cmax": float(limits[1]), "colorbar": bar}}
+    )
+
+
+def add_pressure(figure: go.Figure, film: Film, kappa: float, row: int, most: float) -> None:
+    """Map of the pressure; `most`, over Hertz's, is where its colours end."""
+    pressure = units_of(film.scales).pressure
+    limits = 0.0, pressure(most)
+    add_map(figure, film, pressure(film.P), kappa, row, label=pressure.label, colours="Inferno", limits=limits)
+
+
+def add_film(figure: go.Figure, film: Film, kappa: float, row: int, ends: tuple[float, float]) -> None:
+    """Map of the film; `ends`, over the dry approach, are those of its colours."""
+    unit = units_of(film.scales).film
+    limits = unit(ends[0]), unit(ends[1])
+    shown = np.minimum(unit(film.H), limits[1])
+    add_map(figure, film, shown, kappa, row, label=unit.label, colours="Viridis", limits=limits)
+
+
+def move_together(figure: go.Figure) -> None:
+    """Let a second map show the part of the plane that the first one shows."""
+    figure.update_xaxes(matches="x", row=2, col=1).update_yaxes(matches="y", scaleanchor=None, row=2, col=1)
+
+
+def scale_note(film: Film, kappa: float, *, upwards: bool = True) -> str:
+    """How far a map is from true proportions, in words; empty where it is to scale."""
+    stretch = _stretch(film, kappa) if upwards else 1.0 / kappa
     if abs(stretch - 1.0) < 0.01:
         return ""
     longer, shorter, times = ("x", "y", stretch) if stretch > 1.0 else ("y", "x", 1.0 / stretch)
-    return f"not to scale: {longer} stretched {numeral(times, 2)} times against {shorter}"
+    return f"Not to scale: {longer} stretched {numeral(times, 2)} times against {shorter}."
 
 
 def _flatness(film: Film, kappa: float) -> float:
@@ -86,9 +133,6 @@ def _flatness(film: Film, kappa: float) -> float:
     return float(kappa * (film.X[-1] - film.X[0]) / (film.Y[-1] - film.Y[0]))
 
 
-def draw_ellipse(axes: Axes, film: Film, colour: str, *, upwards: bool = False) -> None:
-    """Edge of the dry contact, dashed."""
-    units = units_of(film.scales)
-    axes_of = (units.y.factor, units.x.factor) if upwards else (units.x.factor, units.y.factor)
-    width, height = (2.0 * semi_axis for semi_axis in axes_of)
-    axes.add_patch(Ellipse((0.0, 0.0), width, height, fill=False, edgecolor=colour, linestyle="--", linewidth=1.0))
+def _stretch(film: Film, kappa: float) -> float:
+    """Of the direction of rolling, where a map would be too flat."""
+    return max(1.0, FLATTEST / _flatness(film, kappa))

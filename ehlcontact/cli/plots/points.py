@@ -1,13 +1,14 @@
-"""Films, stiffness, damping and decay over the points of a study."""
+"""Films, stiffness, damping and decay over the points of a study: a file of a picture."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
-from matplotlib.figure import Figure
+import numpy as np
 
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, PURPLE, RED, new_figure
+from ehlcontact.results.picture import Panel, draw
 
 Numbers = Mapping[str, float | None]
 AXES = {"speed_rpm": ("speed [rev/min]", "rpm"), "radial_load": ("radial load [N]", "N")}
@@ -19,32 +20,30 @@ PANELS = (  # number, what it is shown in, label
     ("damping", 1.0, "damping of a contact [N s/m]"),
     ("decrement", 1.0, "logarithmic decrement"),
 )
-ROOM = 1.05  # height of a panel over its highest value
-COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, GREY)
-MARKS = "osD^v*"
 
 
-def over_points(points: Sequence[Numbers]) -> Figure:
-    """A panel per number, over the speed, or over the load where there are more; a line for each other one.
+def draw_points(points: Sequence[Numbers], path: Path) -> None:
+    """Draw a panel per number, over the speed, or over the load where there are more; a line for each other one.
 
     What no point has, as the lambda ratio of a study without roughness, has no panel.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written.
     """
     counts = {name: len({point[name] for point in points}) for name in AXES}
     along, apart = sorted(AXES, key=lambda name: -counts[name])
-    panels = [panel for panel in PANELS if any(point[panel[0]] is not None for point in points)]
-    rows = (len(panels) + 1) // 2
-    figure = new_figure(2.6 * max(rows, 1) + 0.5)
-    for k, (name, unit, label) in enumerate(panels, start=1):
-        axes = figure.add_subplot(rows, 2, k)
-        for i, value in enumerate(sorted({float(point[apart] or 0.0) for point in points})):
-            found = [(point[along], point[name]) for point in points if point[apart] == value]
-            line = sorted((x, unit * y) for x, y in found if x is not None and y is not None)
-            # a colour and a mark for every line, also in print
-            colour, mark = COLOURS[i % len(COLOURS)], MARKS[(i // len(COLOURS) + i) % len(MARKS)]
-            said = f"{numeral(value)} {AXES[apart][1]}"
-            axes.plot([x for x, _ in line], [y for _, y in line], marker=mark, color=colour, label=said)
-        axes.set(xlabel=AXES[along][0], title=label)
-        axes.set_ylim(0.0, ROOM * axes.get_ylim()[1])
-        if k == 1 and counts[apart] > 1:
-            axes.legend(ncols=1 + counts[apart] // 7)
-    return figure
+    x, others = (np.unique([float(point[name] or 0.0) for point in points]) for name in (along, apart))
+    at = {(float(point[along] or 0.0), float(point[apart] or 0.0)): point for point in points}
+    panels = []
+    for name, unit, label in PANELS:
+        if all(point[name] is None for point in points):
+            continue
+        lines = []
+        for other in others.tolist():
+            found = [(at.get((place, other)) or {}).get(name) for place in x.tolist()]
+            values = np.array([np.nan if value is None else unit * value for value in found])
+            lines.append((f"{numeral(other)} {AXES[apart][1]}" if len(others) > 1 else "", values, None))
+        panels.append(Panel((x, AXES[along][0]), lines, label, marks="osD^v*", bottom=0.0))
+    draw("", panels, path)

@@ -6,15 +6,10 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from matplotlib.figure import Figure
-
 from ehlcontact.cli.page import write_page
-from ehlcontact.cli.plots import film, motion, rotor, vibration, whole
-from ehlcontact.cli.plots.fringes import three_lights
+from ehlcontact.cli.plots import bearing, film, motion, rotor
 from ehlcontact.cli.plots.impedance import impedance
 from ehlcontact.cli.plots.instants import instants
-from ehlcontact.cli.plots.live.instants import instants_scene
-from ehlcontact.cli.plots.live.scene import running
 from ehlcontact.cli.study.headline import findings, reservations
 from ehlcontact.cli.study.reduction import CONTACTS, FULL, MEMORY, RECORDS
 from ehlcontact.cli.study.results import Findings
@@ -45,7 +40,6 @@ def write_report(found: Findings, path: Path) -> Path:
         path,
         "report.html.j2",
         drawings(found),
-        scenes(found),
         found=found,
         story={"findings": findings(found), "reservations": reservations(found)},
         files=files_beside(path.parent),
@@ -83,22 +77,7 @@ def ways_of_coupling(fmus: Iterable[Mapping[str, Any]]) -> list[tuple[str, list[
     return rows
 
 
-def scenes(found: Findings) -> dict[str, Callable[[], Any]]:
-    """Figures that have a slider, as a browser shows them, by the name of their static picture."""
-    with_slider: dict[str, Callable[[], Any]] = {
-        "instants": lambda: instants_scene(found.simulations["harmonic"]),
-    }
-    if found.whole is not None and found.whole.over_speed:
-        every = found.whole.over_speed
-        speeds = [one.state.speed_rpm for one in every]
-        own = min(range(len(speeds)), key=lambda k: abs(speeds[k] - found.study.bearing.speed_rpm))
-        with_slider["whole_speeds"] = lambda: running(
-            [whole.at_speed(one) for one in every], "speed", "rpm", speeds, own
-        )
-    return with_slider
-
-
-def drawings(found: Findings) -> dict[str, Callable[[], Figure]]:
+def drawings(found: Findings) -> dict[str, Callable[[], Any]]:
     """The figures by name, not drawn yet."""
     reduction, rotors = found.reduction, found.rotors
     cubic = {name: reduction.fits[name, "cubic"] for name in RECORDS if (name, "cubic") in reduction.fits}
@@ -106,11 +85,11 @@ def drawings(found: Findings) -> dict[str, Callable[[], Figure]]:
     turning = {FULL: rotors.unbalance.full, **rotors.unbalance.reduced}
     how = rotors.unbalance.settling[FULL]
     free, frequencies = found.simulations["free"], (found.study.rotor_omega, found.at_kicked_mode["Omega"])
-    found_whole = {} if found.whole is None else whole.drawings(found.whole, NAMES)
+    found_whole = {} if found.whole is None else bearing.drawings(found.whole, NAMES)
     return found_whole | {
         "film_maps": lambda: film.film_maps(found.steady),
         "midplane": lambda: film.midplanes(found.steady),
-        "interferogram": lambda: three_lights(found.steady),
+        "interferogram": lambda: film.interferogram_picture(found.steady),
         "convergence": lambda: film.convergence(found.steady),
         "free": lambda: motion.histories(free, cubic.get("free")),
         "film_wave": lambda: motion.wave(found.simulations["harmonic"]),
@@ -120,6 +99,6 @@ def drawings(found: Findings) -> dict[str, Callable[[], Figure]]:
         "orbit": lambda: rotor.orbit(turning, how, CONTACTS),
         "response": lambda: rotor.response(turning, how, CONTACTS),
         "spectrum": lambda: rotor.spectrum(turning, how, CONTACTS),
-        "decay": lambda: vibration.decay(rotors.decay.runs, rotors.decay.decrements, CONTACTS),
-        "bode": lambda: vibration.bode(rotors.bode.hz, rotors.bode.curves, rotors.bode.spans, CONTACTS),
+        "decay": lambda: rotor.decay(rotors.decay.runs, rotors.decay.decrements, CONTACTS),
+        "bode": lambda: rotor.bode(rotors.bode.hz, rotors.bode.curves, rotors.bode.spans, CONTACTS),
     }

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.page import write_page
-from ehlcontact.cli.plots.points import over_points
-from ehlcontact.cli.plots.style import write_figure
+from ehlcontact.cli.plots.points import draw_points
 from ehlcontact.cli.study.points.closing import REPORT
 from ehlcontact.cli.study.points.summary import PICTURE, Row
 
@@ -47,14 +47,15 @@ def write_overview(rows: Sequence[Row], document: Mapping[str, Any], folder: Pat
     InputError
         One of them cannot be written.
     """
-    numbers = [row.numbers for row in rows]
-    drawings = {"over_points": lambda: over_points(numbers)} if document["converged"] else {}
-    if drawings:
-        write_figure(over_points, numbers, folder / PICTURE)
+    picture = ""
+    if document["converged"]:
+        draw_points([row.numbers for row in rows], folder / PICTURE)
+        picture = base64.b64encode((folder / PICTURE).read_bytes()).decode("ascii")
     return write_page(
         folder / REPORT,
         "points.html.j2",
-        drawings,
+        {},
+        picture=picture,
         summary=document,
         rows=rows,
         heads=[head for head, *_ in COLUMNS],

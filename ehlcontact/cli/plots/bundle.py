@@ -1,9 +1,8 @@
-"""plotly.js and the scenes of a page, packed: a page that needs no network and stays small.
+"""plotly.js and the figures of a page, packed: a page that needs no network and stays small.
 
-Plotly, because its Python package is maintained, needs two small others (narwhals, packaging) where bokeh needs
-half a dozen, carries its JavaScript for `get_plotlyjs`, and draws SVG, whose words a test can measure. That script
-has 4.8 MB; gzipped, and unpacked in the browser by `DecompressionStream`, it takes 2 MB of the page. A browser
-without that (before 2023) shows the static pictures, as does one without JavaScript.
+Plotly, because its Python package is maintained, carries its JavaScript for `get_plotlyjs`, and draws SVG, whose
+words a test can measure. That script has 4.8 MB; gzipped, and unpacked in the browser by `DecompressionStream`
+(every browser since 2023), it takes 2 MB of the page.
 """
 
 from __future__ import annotations
@@ -17,7 +16,6 @@ from importlib.resources import files
 from typing import Any
 
 PACKING = 6  # of gzip: 9 takes three times as long for a hundredth of the size
-SCRIPTS = ("arrange.js", "draw.js")  # of templates/live, in the order in which they build on each other
 
 
 def packed(text: str) -> str:
@@ -45,13 +43,13 @@ def version() -> str:
     return str(get_plotlyjs_version())
 
 
-def bundle(scenes: Mapping[str, Any]) -> dict[str, str]:
-    """What the page's template puts in: the library and the scenes, both packed, and our scripts."""
-    folder = files("ehlcontact.cli") / "templates" / "live"
-    data = json.dumps(scenes, separators=(",", ":"), allow_nan=False)
+def bundle(figures: Mapping[str, Any]) -> dict[str, str]:
+    """What the page's template puts in: the library and the figures, both packed, and our script."""
+    texts = {name: json.dumps(one, separators=(",", ":"), allow_nan=False) for name, one in figures.items()}
+    script = files("ehlcontact.cli") / "templates" / "figures.js"
     return {
         "library": library(),
-        "scenes": packed(data),
-        "script": "\n".join((folder / name).read_text(encoding="utf-8") for name in SCRIPTS),
+        "figures": packed(json.dumps(texts)),
+        "script": script.read_text(encoding="utf-8"),
         "version": version(),
     }
