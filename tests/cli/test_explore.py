@@ -114,13 +114,13 @@ def test_oils_by_grade_are_those_of_python(ask):
 
 
 BEARING = """
-const bearing = new Bearing(asked.bearing, asked.oil, atlas), turn = bearing.turn(asked.rpm);
-const state = bearing.stand(turn, asked.load), all = read => state.balls.map(read);
+const bearing = new Bearing(asked.bearing, asked.oil, atlas), atSpeed = bearing.speedState(asked.rpm);
+const state = bearing.ringEquilibrium(atSpeed, asked.load), all = read => state.balls.map(read);
 return { q: state.q, stiffness: state.stiffness,
   force: all(ball => ball.force), approach: all(ball => ball.approach),
-  films: all(ball => bearing.films(turn, ball).map(film => [film.h_central, film.h_min])),
+  films: all(ball => bearing.films(atSpeed, ball).map(film => [film.h_central, film.h_min])),
   highest: bearing.highestSpeed,
-  both: bearing.coefficients(turn, asked.load, asked.hz.map(hz => 2 * Math.PI * hz)) };
+  both: bearing.coefficients(atSpeed, asked.load, asked.hz.map(hz => 2 * Math.PI * hz)) };
 """
 
 

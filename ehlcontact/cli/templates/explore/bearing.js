@@ -1,4 +1,4 @@
-// A ball bearing under a load, in -y, at a speed: reduced_models.bearing.ball_bearing, .statics and .linear, in SI.
+// A ball bearing under a load, in -y, at a speed: reduced_models.bearing.ball_bearing, .equilibrium and .impedance, in SI.
 // Python balances every ball by its approach at the outer race; here ln of the force at the inner race is looked
 // for, from which the approaches of both contacts follow: the same balance, with one search instead of three.
 
@@ -31,7 +31,7 @@ class Bearing {
   }
 
   // Both contacts and the centrifugal force at a speed [rev/min].
-  turn(rpm) {
+  speedState(rpm) {
     if (!(isFinite(rpm) && rpm >= 0)) throw new InputError("speed_rpm", rpm, "a finite number >= 0");
     if (rpm === 0)
       throw new InputError("speed_rpm", rpm, "> 0 for a bearing with oil: without rolling there is no film");
@@ -62,11 +62,11 @@ class Bearing {
   }
 
   // Force on the ring at q [m], its slopes, and the balls, the first at `angle`.
-  press(turn, angle, q) {
+  press(atSpeed, angle, q) {
     const force = [0, 0], slope = [[0, 0], [0, 0]], balls = [];
     for (let k = 0; k < this.balls; k++) {
       const psi = angle + 2 * Math.PI * k / this.balls, n = [Math.cos(psi), Math.sin(psi)];
-      const ball = this.ball(turn, n[0] * q[0] + n[1] * q[1] - 0.5 * this.clearance), F = Math.exp(ball.x[0]);
+      const ball = this.ball(atSpeed, n[0] * q[0] + n[1] * q[1] - 0.5 * this.clearance), F = Math.exp(ball.x[0]);
       for (let i = 0; i < 2; i++) {
         force[i] += F * n[i];
         for (let j = 0; j < 2; j++) slope[i][j] += ball.stiffness * n[i] * n[j];
@@ -77,32 +77,32 @@ class Bearing {
   }
 
   // The ring at rest under a load [N] in -y, the first ball at `angle` (reduced_models.rotor.equilibrium).
-  stand(turn, load, angle = -Math.PI / 2) {
-    const balance = q => { const { force } = this.press(turn, angle, q); return [force[0], force[1] + load]; };
+  ringEquilibrium(atSpeed, load, angle = -Math.PI / 2) {
+    const balance = q => { const { force } = this.press(atSpeed, angle, q); return [force[0], force[1] + load]; };
     const size = v => Math.hypot(...v), plus = (q, t, step) => [q[0] + t * step[0], q[1] + t * step[1]];
     const search = (q, step) => plus(q, root(t => { const r = balance(plus(q, t, step)); return step[0] * r[0] + step[1] * r[1]; }), step);
     let q = [0, 0];
     if (load > 0) q = search(q, [0, FIRST_STEP * Math.sign(-load * balance(q)[1])]);
     for (let step = 0; load > 0; step++) {
-      const { force, slope: [[a, b], [c, d]] } = this.press(turn, angle, q), r = [force[0], force[1] + load];
+      const { force, slope: [[a, b], [c, d]] } = this.press(atSpeed, angle, q), r = [force[0], force[1] + load];
       const error = size(r), soft = REGULARISATION * Math.max(a + d, load), det = (a + soft) * (d + soft) - b * c;
       if (error <= BALANCED * load || (step > 30 && error <= ROUNDING * load)) break;
       if (step > 100) throw new Error("static equilibrium not found");
       const go = [(b * r[1] - (d + soft) * r[0]) / det, (c * r[0] - (a + soft) * r[1]) / det];
       q = size(balance(plus(q, 1, go))) < 0.5 * error || error <= ROUNDING * load ? plus(q, 1, go) : search(q, go);
     }
-    const { slope, balls } = this.press(turn, angle, q), trace = slope[0][0] + slope[1][1];
+    const { slope, balls } = this.press(atSpeed, angle, q), trace = slope[0][0] + slope[1][1];
     if (!(slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0] > SEATED * trace * trace)) {
       const allowed = "one that presses balls on both sides of its direction; or preload the bearing (clearance < 0)";
       throw new InputError("load", load, allowed);
     }
-    this.requireCarried(turn, load, balls);
+    this.requireCarried(atSpeed, load, balls);
     return { q, stiffness: slope, balls };
   }
 
-  requireCarried(turn, load, balls) {
+  requireCarried(atSpeed, load, balls) {
     ["inner", "outer"].forEach((name, i) => {
-      const most = Math.max(...balls.map(ball => ball.force[i])), highest = this.races[name].loads(turn.rpm)[1];
+      const most = Math.max(...balls.map(ball => ball.force[i])), highest = this.races[name].loads(atSpeed.rpm)[1];
       if (most <= highest) return;
       const [what, value] = load > 0 ? ["load", load] : ["clearance", this.clearance];
       const allowed = `such that a ball carries at most ${g(highest, 4)} N on the ${name} race, `
@@ -112,32 +112,32 @@ class Bearing {
   }
 
   // Central and smallest film [m] of a ball with both races; below the lightest load of the atlas both are the gap.
-  films(turn, ball) {
+  films(atSpeed, ball) {
     return ["inner", "outer"].map((name, i) => {
       const race = this.races[name], load = ball.force[i];
-      if (load < race.loads(turn.rpm)[0]) {
+      if (load < race.loads(atSpeed.rpm)[0]) {
         const gap = (load / race.kn) ** (2 / 3) - ball.approach[i];
         return { h_central: gap, h_min: gap };
       }
-      const point = race.point(load, turn.rpm), answer = this.atlas.at(point);
+      const point = race.point(load, atSpeed.rpm), answer = this.atlas.at(point);
       return { answer, point, h_central: answer.h_central * point.length, h_min: answer.h_min * point.length };
     });
   }
 
   // K [N/m] and C [N s/m] along and across the load at angular frequencies [rad/s], means over a ball passage.
-  coefficients(turn, load, omegas) {
+  coefficients(atSpeed, load, omegas) {
     const rows = omegas.map(() => ({ along: [0, 0], across: [0, 0] }));
     for (let k = 0; k < POSITIONS; k++) {
-      const { balls } = this.stand(turn, load, -Math.PI / 2 + 2 * Math.PI / this.balls * k / POSITIONS);
-      for (const ball of balls) this.add(turn, ball, omegas, rows);
+      const { balls } = this.ringEquilibrium(atSpeed, load, -Math.PI / 2 + 2 * Math.PI / this.balls * k / POSITIONS);
+      for (const ball of balls) this.add(atSpeed, ball, omegas, rows);
     }
     const named = ([K, C]) => ({ stiffness: K / POSITIONS, damping: C / POSITIONS });
     return rows.map(row => ({ along: named(row.along), across: named(row.across) }));
   }
 
   // Both contacts of a ball in series.
-  add(turn, { x, n }, omegas, rows) {
-    const inner = turn.inner.impedance(x[0]), outer = turn.outer.impedance(x[1]);
+  add(atSpeed, { x, n }, omegas, rows) {
+    const inner = atSpeed.inner.impedance(x[0]), outer = atSpeed.outer.impedance(x[1]);
     omegas.forEach((omega, i) => {
       const w = Math.max(omega, TINY_OMEGA), [a, b] = inner(w), [c, d] = outer(w);
       const re = a + c, im = b + d, over = re * re + im * im, pr = a * c - b * d, pi = a * d + b * c;

@@ -55,15 +55,15 @@ function compute() {
   const oil = grade === OWN ? { eta0: given("eta0"), alpha: given("alpha") } : mineralOil(DATA.oil, grade, typed("temperature"));
   const rq = positive("rq"), ratio = positive("ratio", ">= 0");
   const whole = new Bearing(bearing, oil, atlas), rpm = typed("speed_rpm"), load = positive("load", ">= 0");
-  const turn = whole.turn(rpm), state = whole.stand(turn, load), films = state.balls.map(ball => whole.films(turn, ball));
+  const atSpeed = whole.speedState(rpm), state = whole.ringEquilibrium(atSpeed, load), films = state.balls.map(ball => whole.films(atSpeed, ball));
   const times = ["inner", "outer"].map((race, i) => whole.races[race].point(state.balls[0].force[i], rpm).time);
   const highest = Math.min(...times.map(time => atlas.highest_omega / (2 * Math.PI * time)));
   const hz = field("hz").value.trim() === "" ? rpm / 60 : positive("hz", ">= 0");
   if (hz > highest) throw new InputError("hz", hz, `at most ${g(highest, 4)}: there the atlas ends for the film's memory`);
   const low = Math.min(1, rpm / 600), hzs = Array.from({ length: FREQUENCIES }, (_, i) => low * (highest / low) ** (i / (FREQUENCIES - 1)));
-  const rows = whole.coefficients(turn, load, [0, hz, ...hzs].map(one => 2 * Math.PI * one));
+  const rows = whole.coefficients(atSpeed, load, [0, hz, ...hzs].map(one => 2 * Math.PI * one));
   const contacts = films[0].map(film => film.answer && contact(film));
-  return { whole, rpm, load, rq, ratio, turn, state, films, hz, hzs, contacts, still: rows[0], there: rows[1], over: rows.slice(2) };
+  return { whole, rpm, load, rq, ratio, state, films, hz, hzs, contacts, still: rows[0], there: rows[1], over: rows.slice(2) };
 }
 
 // K and C of one film in SI, with their bars: hz => { K: [value, bar], C: [value, bar] }.

@@ -1,5 +1,5 @@
-// One race, and its contact with a ball at a speed, over any load: reduced_models.bearing.race and .law, and what
-// of reduced_models.elements they stand on. Loads run as x = ln(F/N): approach and film follow from x outright.
+// One race, and its contact with a ball at a speed, over any load: reduced_models.bearing.race and .race_table, with
+// the film law of reduced_models.elements. Loads run as x = ln(F/N): approach and film follow from x outright.
 
 const { INSIDE, PER_DECADE, NEAR, DECADE, RIGID_SLOPE, DRY, LEAST_VISCOUS, SMALL_OMEGA } = DATA.rules;
 
@@ -137,7 +137,7 @@ class Contact {
     return { compression, approach: compression - h, byX: 2 / 3 * compression - slope };
   }
 
-  // What a small vibration at any angular frequency w [rad/s] meets at rest under e^x: w => [Re Z, Im Z], N/m.
+  // Impedance about rest under e^x (elements.small_motion): w [rad/s] => [Re Z, Im Z] [N/m].
   impedance(x) {
     const force = Math.exp(x), { compression, byX } = this.at(x), stiffness = force / byX;
     const [k, t] = between(this.gainX, x), slope = 1.5 * force / compression, tau = this.transit * Math.sqrt(compression);
