@@ -85,16 +85,12 @@ RADIAN = Quantity("rad")
 SPEED = Quantity("rev/min")
 PER_SECOND = Quantity("1/s")
 
+# By name in lower case: X and x, H and h, Omega and omega are one quantity in two units
 WORDS = {
-    "X": "place along rolling",
-    "Y": "place across",
     "x": "place along rolling",
     "y": "place across",
-    "P": "pressure",
     "p": "pressure",
-    "H": "film",
     "h": "film",
-    "T": "time",
     "t": "time",
     "h_central": "film in the centre",
     "h_min": "smallest film",
@@ -103,7 +99,6 @@ WORDS = {
     "rate": "rate of approach",
     "force": "contact force",
     "load": "applied load",
-    "Omega": "angular frequency",
     "omega": "angular frequency",
     "hz": "frequency",
     "film_share": "film's share of the dry approach",
@@ -119,7 +114,7 @@ WORDS = {
 
 def words(name: str) -> str:
     """Name of a quantity in words, for axes."""
-    return WORDS.get(name, name.replace("_", " "))
+    return WORDS.get(name.lower(), name.replace("_", " "))
 
 
 def quantities_of(cls: Any) -> Mapping[str, Quantity]:
