@@ -1,9 +1,10 @@
-"""How far a steady film is from that of an endless fine mesh, by what the two meshes below say of it.
+"""Error estimate of a steady film from the differences of three grids.
 
-With d the last of the two differences and r how much smaller it is than the one before, an error that falls
-regularly is d/(r - 1). It does not always: from a mesh that hardly sees the inlet errors fall faster than they
-will, some parts of them at first order, and where parts cancel d is small by chance. So r counts within bounds,
-and the difference before has its share. Bounds and share were measured: docs/solver.md, "Error estimates".
+With d the difference between the finest grid and the one of half its intervals, and r the ratio of the
+difference before to d, an error that falls regularly is d/(r - 1). It does not always fall regularly: on a grid
+that hardly resolves the inlet errors fall faster than they will later, some parts fall at first order, and where
+parts cancel d is small by chance. So r is bounded, and the estimate is at least a share of the difference before.
+Bounds and share were measured: docs/solver_development.md, "Accuracy and error estimates".
 """
 
 from __future__ import annotations

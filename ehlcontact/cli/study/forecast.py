@@ -20,7 +20,8 @@ from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.solver.mesh import FINENESS, LARGEST_MESH, Mesh, Purpose, mesh_for
 
-# Cost of a stage: convolutions ("conv", docs/solver.md) per thousand nodes and step of one contact, the geometric
+# Cost of a stage: convolutions ("conv", docs/solver_development.md)
+# per thousand nodes and step of one contact, the geometric
 # mean of the two studies in examples/, whose own costs are up to a factor 1.5 on either side. What a step costs
 # depends on how far it goes: hardly a cycle in a free vibration, three at the rotor's frequency.
 COST = {
