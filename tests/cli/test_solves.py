@@ -51,7 +51,7 @@ def test_impedance(call, refused, point):
     result = call("impedance", *point, "--n", "32", "--Omega", "0", "--Omega", "3", "--json", "-")
     assert result.code == 0 and result.err == ""
     document = json.loads(result.out)
-    assert document["omega"] == [0.0, 3.0]
+    assert document["Omega"] == [0.0, 3.0]
     assert all(k > 1.0 for k in document["stiffness"]) and all(c > 0.0 for c in document["damping"])
     table = call("impedance", *point, "--n", "32", "--omega", "3")
     assert table.code == 0 and "Omega = 3" in table.out
