@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 from conv import circumstances
-from ledger import Ledger, Row, Task, duration, work_through
+from row_file import Row, RowFile, Task, measure_missing
 from scipy.stats import qmc
 
 from ehlcontact import Domain, Grid, MoesPoint, solve_steady
@@ -173,7 +173,7 @@ def summary(rows: list[Row], thin: list[Row]) -> list[str]:
     if factors:
         lines.append(f"factor per cycle: median {np.median(factors):.3f}, worst {max(factors):.2f}")
         seconds = [row["seconds"] for row in rows if "seconds" in row]
-        lines.append(f"seconds: median {np.median(seconds):.2f}, all {duration(sum(seconds))}")
+        lines.append(f"seconds: median {np.median(seconds):.2f}, all {sum(seconds) / 60.0:.1f} min")
     if thin:
         known = [row for row in thin if row.get("move") is not None]  # none of a process that died
         moves = [row["move"] for row in known]
@@ -199,22 +199,22 @@ def main() -> None:
     parser.add_argument("--json", type=Path, help="file for the rows; gone on with where it exists")
     parser.add_argument("--again", action="store_true", help="forget what the file holds")
     arguments = parser.parse_args()
-    ledger = Ledger(arguments.json, "box.py", {"seed": arguments.seed}, arguments.again)
-    ledger.more["made"] = circumstances()
+    file = RowFile(arguments.json, "box.py", {"seed": arguments.seed}, arguments.again)
+    file.more["made"] = circumstances()
     points = box_points(arguments.count, arguments.seed)
     wanted = [Task(str(k), solve, (p.M, p.L, p.kappa), 1.0) for k, p in enumerate(points)]
     for task in wanted:
-        if ledger.rows.get(task.key, {}).get("M", task.arguments[0]) != task.arguments[0]:
+        if file.rows.get(task.key, {}).get("M", task.arguments[0]) != task.arguments[0]:
             parser.error(
                 f"{arguments.json}: point {task.key} is another; the box has changed, --again overwrites it"
             )
     print(f"seed {arguments.seed}: {len(points)} points below {MEASURED.p_hertz * 1e-9:g} GPa")
-    work_through(ledger, wanted, failure, jobs=arguments.jobs, lasting=True, tries=2)
-    rows = [ledger.rows[task.key] for task in wanted]
+    measure_missing(file, wanted, failure, jobs=arguments.jobs, lasting=True, tries=2)
+    rows = [file.rows[task.key] for task in wanted]
     thin = thinnest(rows, arguments.thin)
     again = [Task(f"thin {row['key']}", solve_finer, (row,), float(row["n"]) ** 2) for row in thin]
-    work_through(ledger, again, line, jobs=arguments.jobs, tries=2)
-    print("\n".join(summary(rows, [ledger.rows[task.key] for task in again])))
+    measure_missing(file, again, line, jobs=arguments.jobs, tries=2)
+    print("\n".join(summary(rows, [file.rows[task.key] for task in again])))
     print("worst ten:")
     for row in sorted(rows, key=lambda row: (row["status"] == "converged", -(row.get("factor") or 1.0)))[:SHOWN]:
         print("  " + line(row["key"], row))

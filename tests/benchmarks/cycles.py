@@ -4,8 +4,8 @@
     python tests/benchmarks/cycles.py --n 128 256 --points 1 4 20:10:.7
 
 For each: cycles until P is within 1e-8 of the converged film, the mean factor by which its error falls, that
-factor per V(2,1) cycle worth of relaxation, and what becomes of the cycles otherwise. `honest` tells how it is
-measured. A JSON file keeps each row as it comes; a second call measures only what is missing.
+factor per V(2,1) cycle worth of relaxation, and what becomes of the cycles otherwise, as in
+`time_to_accuracy`. A JSON file keeps each row as it comes; a second call measures only what is missing.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from honest import WAYS, measure
-from ledger import Ledger, Row, Task, work_through
+from row_file import Row, RowFile, Task, measure_missing
+from time_to_accuracy import WAYS, measure
 
 from ehlcontact import Grid, MoesPoint
 from ehlcontact.solver.mesh import Purpose, mesh_for
@@ -129,10 +129,10 @@ def main() -> None:
     parser.add_argument("--json", type=Path, help="file for the rows; gone on with where it exists")
     parser.add_argument("--again", action="store_true", help="forget what the file holds")
     arguments = parser.parse_args()
-    ledger = Ledger(arguments.json, "cycles.py", {"way": arguments.way}, arguments.again)
+    file = RowFile(arguments.json, "cycles.py", {"way": arguments.way}, arguments.again)
     wanted = tasks(chosen(arguments.points), list(arguments.n), arguments.way, arguments.newton)
-    work_through(ledger, wanted, line, jobs=arguments.jobs)
-    rows = [ledger.rows[task.key] for task in wanted]
+    measure_missing(file, wanted, line, jobs=arguments.jobs)
+    rows = [file.rows[task.key] for task in wanted]
     bad = [row for row in rows if fault(row)]
     print(f"{len(rows) - len(bad)} of {len(rows)} as asked for")
     for row in bad:

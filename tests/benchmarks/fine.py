@@ -3,8 +3,8 @@
     python tests/benchmarks/fine.py --n 256 512 1024 --case rolling sliding rough [--until 0.2] [--json fine.json]
 
 Steps of one mesh size. Of every passage: statuses and cycles of all steps, seconds of a step, and of one step in
-the middle and the last the distance from the fully converged one (as `honest_step`). Of every two grids the change
-of the film by the feature is compared within 0.85 of the Hertz radius, and of three the order follows.
+the middle and the last the distance from the fully converged one (as `time_to_accuracy`). Of every two grids the
+change of the film by the feature is compared within 0.85 of the Hertz radius, and of three the order follows.
 """
 
 from __future__ import annotations
@@ -19,9 +19,8 @@ from typing import Any
 
 import numpy as np
 from conv import Bracket, Clock, circumstances
-from honest import MOST, Errors, State
-from honest_step import Middle
 from numpy.typing import NDArray
+from time_to_accuracy import MOST, Errors, Middle, State
 
 from ehlcontact import Dent, Domain, Grid, MoesPoint, PrescribedLoad, Roughness
 from ehlcontact.solver.mesh import Purpose, mesh_for

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from conv import Bracket, circumstances
-from ledger import Row
+from row_file import Row
 
 from ehlcontact import MoesPoint
 from fmu.binaries import this_machine

@@ -17,13 +17,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from ledger import Row
+from row_file import Row
 
 PAGE = Path(__file__).parents[2] / "docs" / "solver_development.md"
 
 Rows = dict[str, Row]
 
-# Venner and Lubrecht's published program, seconds to the honest measure against its own converged solution, one
+# Venner and Lubrecht's published program, seconds to accuracy against its own converged solution, one
 # thread: with its published under-relaxation factors, and with factors tuned; measured by the author of issue 11
 # side by side with this library, on a machine whose conv is about 4 ms. By intervals, M and oil.
 PUBLISHED = {
@@ -37,7 +37,8 @@ PUBLISHED = {
     (512, 200, "barus"): (7.8, 4.2),
 }
 PUBLISHED_CONV = 4e-3  # s, of the machine of those figures
-TWO = ["honest, two threads", "to 1e-8, two threads"]
+REACHED = "accurate", "full"
+COSTS = ["accurate", "to 1e-8", "accurate, two threads", "to 1e-8, two threads"]
 NAMES = {"roelands": "Roelands, compressible", "barus": "Barus, incompressible"}
 
 
@@ -55,6 +56,11 @@ def table(head: list[str], rows: list[list[str]]) -> str:
     """As markdown."""
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
+
+
+def made_table(head: list[str], cells: list[list[str]], rows: list[Row]) -> str | None:
+    """The table and what its rows were made by; nothing without rows."""
+    return table(head, cells) + "\n\n" + made_by(rows) if rows else None
 
 
 def point_name(row: Row) -> str:
@@ -96,66 +102,51 @@ def shared_ratio(row: Row, name: str) -> str:
 
 
 def steady(rows: Rows) -> str | None:
-    """Steady films, honestly."""
+    """Steady films: cost to accuracy and to full convergence, and of `solve_steady` at its own tolerance."""
     mine = [row for key, row in rows.items() if key.startswith("steady ")]
-    if not mine:
-        return None
+    films = list(dict.fromkeys(key.rsplit(" ", 1)[0] for key in rows))
     cells = []
-    for row in sorted(mine, key=lambda row: (_order(rows, row), row["n"])):
+    for row in sorted(mine, key=lambda row: (films.index(row["key"].rsplit(" ", 1)[0]), row.get("n", 0))):
         if "n" not in row:
             continue
-        default = row.get("solve_steady")
-        asked = "-"
-        if default:
-            fits = {True: "", False: ", not honest", None: ", unknown"}[default["honest"]]
-            asked = f"{default['status']}{fits}, {reached(default)}"
-        cost = [reached(row["honest"]), reached(row["full"])]
-        shared = [shared_ratio(row, name) for name in ("honest", "full")]
         told = "" if row["verdict"] == "converges" else row["verdict"]
         factor = number(row["factor_v21"]) if row["factor"] else told
-        cells.append([point_name(row), f"{row['n']}", *cost, *shared, factor, asked, number(row["peak_mb"], 3)])
-    head = [
-        "M, L, kappa",
-        "n",
-        "honest",
-        "to 1e-8",
-        *TWO,
-        "factor per V(2,1)",
-        "`solve_steady`, its own tol",
-        "MB",
-    ]
-    return table(head, cells) + "\n\n" + made_by(mine)
-
-
-def _order(rows: Rows, row: Row) -> int:
-    """Position of the film of a row among all."""
-    return list(dict.fromkeys(key.rsplit(" ", 1)[0] for key in rows)).index(row["key"].rsplit(" ", 1)[0])
+        asked = by_default(row.get("solve_steady"))
+        cells.append([point_name(row), f"{row['n']}", *costs(row), factor, asked, number(row["peak_mb"], 3)])
+    head = ["M, L, kappa", "n", *COSTS, "factor per V(2,1)", "`solve_steady`, its own tol", "MB"]
+    return made_table(head, cells, mine)
 
 
 def steps(rows: Rows) -> str | None:
-    """Steps in time, honestly."""
+    """Steps in time, likewise."""
     mine = [row for key, row in rows.items() if key.startswith("step ")]
-    if not mine:
-        return None
     cells = []
     for row in sorted(mine, key=lambda row: (row["motion"], row["n"])):
-        default = row.get("simulate")
-        fits = {True: "", False: " (not honest)", None: " (unknown)"}[default["honest"]] if default else ""
         told = "" if row["verdict"] == "converges" else f" ({row['verdict']})"
-        cost = [reached(row["honest"]), reached(row["full"]) + told]
-        shared = [shared_ratio(row, name) for name in ("honest", "full")]
-        cells.append([row["motion"], f"{row['n']}", *cost, *shared, reached(default) + fits])
-    head = ["motion", "n", "honest", "to 1e-8", *TWO, "`simulate`, its own tol"]
-    return table(head, cells) + "\n\n" + made_by(mine)
+        accurate, full, *shared = costs(row)
+        asked = by_default(row.get("simulate"))
+        cells.append([row["motion"], f"{row['n']}", accurate, full + told, *shared, asked])
+    return made_table(["motion", "n", *COSTS, "`simulate`, its own tol"], cells, mine)
+
+
+def costs(row: Row) -> list[str]:
+    """Cells of `COSTS`."""
+    one = [reached(row[name]) for name in REACHED]
+    return one + [shared_ratio(row, name) for name in REACHED]
+
+
+def by_default(part: Row | None) -> str:
+    """Cost at the library's own tolerance, with its status and whether the result is accurate."""
+    if not part:
+        return "-"
+    fits = {True: "", False: ", not accurate", None: ", accuracy unknown"}[part["accurate"]]
+    return f"{part['status']}{fits}, {reached(part)}"
 
 
 def others(rows: Rows) -> str | None:
     """The rest of `run`."""
     mine = [row for key, row in rows.items() if not key.startswith(("steady ", "step "))]
-    if not mine:
-        return None
-    cells = [[row["key"], ratio(row)] for row in mine]
-    return table(["work", "conv"], cells) + "\n\n" + made_by(mine)
+    return made_table(["work", "conv"], [[row["key"], ratio(row)] for row in mine], mine)
 
 
 def published(rows: Rows) -> str | None:
@@ -167,14 +158,12 @@ def published(rows: Rows) -> str | None:
         ours = ["-", "-"]
         if row is not None:
             mine.append(row)
-            part = row["honest"]
+            part = row["accurate"]
             ours = [ratio(part), number(part["seconds"])] if part else [row["verdict"], "-"]
         theirs = [number(s / PUBLISHED_CONV, 3) for s in (as_published, tuned)]
         cells.append([f"{n + 1}^2", f"{M}", NAMES[oil], *theirs, *ours])
-    if not mine:
-        return None
     head = ["grid", "M", "oil", "published factors, conv", "tuned, conv", "ours, conv", "ours, s"]
-    return table(head, cells) + "\n\n" + made_by(mine)
+    return made_table(head, cells, mine)
 
 
 def cycles(rows: Rows) -> str | None:

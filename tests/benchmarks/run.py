@@ -4,7 +4,7 @@
     python tests/benchmarks/run.py --only "steady 6205" --n 128 256 512 1024 2048 --json run.json
     python tests/benchmarks/run.py --list                 # names of the rows
 
-Steady films and steps in time are measured honestly, see `honest` and `honest_step`. Every row runs in a fresh
+Steady films and steps in time are measured as `time_to_accuracy` says. Every row runs in a fresh
 process, after JIT compilation; wall seconds are the median of a few repetitions, processor seconds stand beside. A
 JSON file keeps each row as it comes, and a second call measures only what is missing, or was refused because the
 machine was busy. Nothing here asserts a time.
@@ -19,9 +19,8 @@ from typing import Any
 import numpy as np
 from conv import Bracket, circumstances, median_seconds
 from fmu_steps import fmu_steps
-from honest import measure
-from honest_step import MOTIONS, measure_step
-from ledger import Ledger, Row, Task, work_through
+from row_file import Row, RowFile, Task, measure_missing
+from time_to_accuracy import MOTIONS, measure, measure_step
 
 from ehlcontact import FreeVibration, Grid, Lubricant, MoesPoint, impedance, simulate
 from ehlcontact.solver.deflection import make_deflection
@@ -45,7 +44,7 @@ NEWTON_NODES = 40_000  # grids on which cycles are compared with Newton steps: n
 
 
 def steady(name: str, n: int, repeat: int | None = None, threads: int = 1) -> Row:
-    """Full multigrid and cycles from nothing to the honest measure, and to full convergence."""
+    """Full multigrid and cycles from nothing to the accurate measure, and to full convergence."""
     repeat = repeat or (5 if n <= 256 else 3)
     return measure(STEADY[name], n, repeat=repeat, newton_nodes=NEWTON_NODES, default=True, threads=threads)
 
@@ -137,10 +136,10 @@ def tasks(grids: tuple[int, ...], repeat: int | None = None, threads: int = 1) -
 def line(key: str, row: Row) -> str:
     """A row in words."""
     parts = []
-    for name in ("honest", "honest_shared", "full", "full_shared", "solve_steady", "simulate"):
+    for name in ("accurate", "accurate_shared", "full", "full_shared", "solve_steady", "simulate"):
         if row.get(name):
             part = row[name]
-            note = "" if part.get("honest", True) else " (not honest)"
+            note = "" if part.get("accurate", True) else " (not accurate)"
             parts.append(f"{name} {part['cycles']} cycles {_ratio(part)}{note}")
     if "seconds" in row:
         parts.append(_ratio(row))
@@ -187,8 +186,8 @@ def main() -> None:
     if arguments.list:
         print("\n".join(task.key for task in wanted))
         return
-    ledger = Ledger(arguments.json, "run.py", again=arguments.again)
-    work_through(ledger, wanted, line, tries=arguments.tries)
+    file = RowFile(arguments.json, "run.py", again=arguments.again)
+    measure_missing(file, wanted, line, tries=arguments.tries)
 
 
 if __name__ == "__main__":

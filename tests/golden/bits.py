@@ -68,7 +68,7 @@ from reduced_models import (
     PowerLawContact,
     ScaledContact,
     Shaft,
-    SpeedCourse,
+    SpeedProfile,
     Support,
     campbell,
     compare,
@@ -452,7 +452,7 @@ def bearing_rotors() -> Leaves:
         discs=[Disc.cylinder(position=0.15, **disc)],
         supports=[Support(position=0.0, bearing=heavy), Support(position=0.3, bearing=dry)],
     )
-    speeds = SpeedCourse(np.array([0.0, 0.01, 0.02]), np.array([3000.0, 8000.0, 6000.0]))
+    speeds = SpeedProfile(np.array([0.0, 0.01, 0.02]), np.array([3000.0, 8000.0, 6000.0]))
     history = "t speed_rpm displacement velocity ring force iterations largest_load"
     for name, rotor in {"overhung": overhung, "beam": beam}.items():
         yield from named(name, rotor, "mass stiffness load")

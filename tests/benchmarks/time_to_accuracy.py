@@ -1,40 +1,53 @@
-"""The honest measure of a steady film: what it costs until the result is that of the converged film on its grid.
+"""Time to accuracy of a steady film and of a step in time: cost until the result is the converged one on its grid.
 
-"Honest" is approach, central and smallest film within `RELATIVE` and P within `LARGEST` (largest difference over
+"Accurate" is approach, central and smallest film within `RELATIVE` and P within `LARGEST` (largest difference over
 the grid) of the fully converged solution on the same grid; "full" is P within `FULL` of it. The converged solution
-is found first: cycles until the change of P stays at rounding, or, where they stagnate, thorough ones, or Newton
-steps. Then everything is done again from nothing against the clock, which stands still while errors are taken.
+is found first: cycles until the change of P stays at rounding, or, where they stagnate, with twice the sweeps, or
+Newton steps. Then everything is done again from nothing against the clock, which stands while errors are taken.
+A step is taken from the middle of a run, again and again: converged, watched, timed, and as `simulate` takes it.
 """
 
 from __future__ import annotations
 
-import inspect
 import resource
 import statistics
-from collections.abc import Callable
-from math import isfinite
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from math import isfinite, pi
 from typing import Any, NamedTuple
+from unittest import mock
 
 import numpy as np
 from conv import Bracket, Clock, circumstances
 from numpy.typing import NDArray
 
-from ehlcontact import Grid, MoesPoint, solve_steady
+from ehlcontact import FreeVibration, Grid, HarmonicLoad, MoesPoint, solve_steady
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.iterate import LARGEST_SWEEP_FACTOR, falls_slowly
 from ehlcontact.solver.mesh import Mesh, Purpose, allows_newton, mesh_for
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
+from ehlcontact.transient import film as film_module
+from ehlcontact.transient.bodies import Motion
+from ehlcontact.transient.film import TransientFilm
+from ehlcontact.transient.record import History
+from ehlcontact.transient.run import Run, march_fixed
+from ehlcontact.transient.surface import Surface
 
 Advance = Callable[[], None]
+Row = dict[str, Any]
 
 LOAD = Balance.of_load()
 RELATIVE, LARGEST, FULL = 1e-4, 1e-3, 1e-8
 ROUNDING = 1e-10  # change of P below which one that no longer falls is rounding
 MOST = 60  # cycles, or Newton steps
 PATIENCE, PROGRESS = 20, 0.7  # so many cycles have to bring the error to this share of the least before
-WAYS = ("cycles", "thorough cycles", "newton", "thorough newton")  # in this order the converged film is looked for
+WAYS = ("cycles", "careful cycles", "newton", "careful newton")  # in this order the converged film is looked for
+MOTIONS: dict[str, Motion] = {"free": FreeVibration(Omega_n=5.13), "harmonic": HarmonicLoad(Omega=2.0 * pi)}
+DEFAULT_TOL = 3e-3  # of `simulate`
+STEPS_BEFORE = 50  # 0.6 periods: nothing stands still there
+OUT_OF_REACH = 1e-16  # a tolerance that is never met: the number of cycles ends the step
 ALMOST_EVERY = 0.1  # of a tolerance: how well the converged solution must be known to judge by it
 
 
@@ -70,8 +83,8 @@ class Errors(NamedTuple):
         return cls(float(np.abs(state.P - exact.P).max()), *relative)
 
     @property
-    def honest(self) -> bool:
-        """Whether all are within the honest measure."""
+    def accurate(self) -> bool:
+        """Whether all are within the accurate measure."""
         return self.P <= LARGEST and max(self.approach, self.h_central, self.h_min) <= RELATIVE
 
 
@@ -97,10 +110,11 @@ class Trace(NamedTuple):
     cpu: list[float]
     work: float | None  # relaxation per cycle, in V(2,1) cycles
 
-    def first(self, holds: Callable[[Errors], bool]) -> int | None:
-        """Cycles after which `holds` is true, and stays so."""
-        last_wrong = max((k for k, errors in enumerate(self.errors) if not holds(errors)), default=-1)
-        return last_wrong + 1 if last_wrong + 1 < len(self.errors) else None
+
+def first(errors: list[Errors], holds: Callable[[Errors], bool]) -> int | None:
+    """Cycles after which `holds` is true, and stays so; None without any."""
+    last_wrong = max((k for k, one in enumerate(errors) if not holds(one)), default=-1)
+    return last_wrong + 1 if last_wrong + 1 < len(errors) else None
 
 
 def is_full(errors: Errors) -> bool:
@@ -112,10 +126,7 @@ def film_on(
     point: MoesPoint, mesh: Mesh, way: str = "cycles", threads: int = 1
 ) -> tuple[Multigrid, Callable[[], None], Advance]:
     """Film, its start (full multigrid), and one iteration of `way`, its sweeps repeated where it falls slowly."""
-    options = {"threads": threads} | ({"sweep_factor": 2} if way.startswith("thorough") else {})
-    known = inspect.signature(Multigrid).parameters  # earlier versions, measured beside, know neither
-    options = {name: value for name, value in options.items() if name in known}
-    film = Multigrid(point, mesh, **options)
+    film = Multigrid(point, mesh, threads=threads, sweep_factor=2 if way.startswith("careful") else 1)
     if not way.endswith("newton"):
         cycles, changes = AcceleratedCycles(film), []
 
@@ -188,26 +199,6 @@ def count_work(film: Multigrid) -> Callable[[], float]:
     return lambda: total[0] / (3.0 * sum(shares[1:]))
 
 
-def trace(point: MoesPoint, mesh: Mesh, exact: State, way: str = "cycles", most: int = MOST) -> Trace:
-    """Solve from nothing until P is full, or never will be; errors are taken while the clock stands."""
-    clock, errors = Clock(), []
-    wall, cpu = [], []
-    with clock:
-        film, start, advance = film_on(point, mesh, way)
-        start()
-    work = count_work(film)
-    while True:
-        errors.append(Errors.between(State.of(film), exact))
-        wall.append(clock.wall)
-        cpu.append(clock.cpu)
-        if len(errors) > most or is_over([e.P for e in errors]):
-            break
-        with clock:
-            advance()
-    cycles = len(errors) - 1
-    return Trace(errors, wall, cpu, work() / cycles if cycles and work() else None)
-
-
 def is_over(errors: list[float]) -> bool:
     """Whether more cycles tell nothing new: full twice over, diverged, or no longer falling."""
     if not isfinite(errors[-1]) or errors[-1] > 1e2:
@@ -244,20 +235,29 @@ def mean_factor(errors: list[float], cycles: int | None) -> float | None:
 
 
 def clocked(
-    point: MoesPoint, mesh: Mesh, way: str, cycles: int, threads: int = 1
-) -> tuple[list[float], list[float]]:
-    """Wall and processor seconds of one solve from nothing, after full multigrid and each of `cycles`."""
-    wall, cpu, clock = [], [], Clock()
+    point: MoesPoint, mesh: Mesh, way: str, cycles: int, threads: int = 1, exact: State | None = None
+) -> Trace:
+    """One solve from nothing, timed after full multigrid and each of `cycles`.
+
+    With the `exact` state errors are taken while the clock stands, and the solve ends where they tell nothing new.
+    """
+    found, clock = Trace([], [], [], None), Clock()
     with clock:
-        _, start, advance = film_on(point, mesh, way, threads)
+        film, start, advance = film_on(point, mesh, way, threads)
         start()
+    work = count_work(film) if exact else float
     for k in range(cycles + 1):
-        wall.append(clock.wall)
-        cpu.append(clock.cpu)
+        found.wall.append(clock.wall)
+        found.cpu.append(clock.cpu)
+        if exact:
+            found.errors.append(Errors.between(State.of(film), exact))
+            if is_over([e.P for e in found.errors]):
+                break
         if k < cycles:
             with clock:
                 advance()
-    return wall, cpu
+    made = len(found.wall) - 1
+    return found._replace(work=work() / made if made and work() else None)
 
 
 def measure(
@@ -270,7 +270,7 @@ def measure(
     newton_nodes: int = 0,
     default: bool = False,
     threads: int = 1,
-) -> dict[str, Any]:
+) -> Row:
     """Everything about one film on one grid; meant for a fresh process, whose peak memory is told.
 
     Parameters
@@ -296,24 +296,26 @@ def measure(
     memory = _peak_memory(point, mesh, way)
     exact = converge(point, mesh, most)
     with Bracket() as bracket:
-        found = trace(point, mesh, exact.state, way, most)
-        row = _judged(found, exact)
-        needed = max((row[name]["cycles"] for name in ("honest", "full") if row[name]), default=0)
-        runs, shared = [(found.wall, found.cpu)], []
+        found = clocked(point, mesh, way, most, exact=exact.state)
+        row = judged(found.errors, exact)
+        factor = mean_factor(row["errors"], row["full"] and row["full"]["cycles"])
+        row |= {"factor": factor, "work": found.work}
+        row["factor_v21"] = factor ** (1.0 / found.work) if factor is not None and found.work else None
+        needed = max((row[name]["cycles"] for name in ("accurate", "full") if row[name]), default=0)
+        runs, shared = [found], []
         for k in range(repeat):
             if k > 0:
                 runs.append(clocked(point, mesh, way, needed))
             if threads > 1:
                 shared.append(clocked(point, mesh, way, needed, threads))
-        for name in ("honest", "full"):
+        for name in ("accurate", "full"):
             if row[name] is not None:
                 row[name] |= _median(runs, row[name]["cycles"])
                 if shared:
                     timed = _median(shared, row[name]["cycles"])
                     row[f"{name}_shared"] = {"cycles": row[name]["cycles"], "threads": threads, **timed}
         row["start"] = {
-            "seconds": statistics.median(wall[0] for wall, _ in runs),
-            "cpu": statistics.median(cpu[0] for _, cpu in runs),
+            **_median(runs, 0),
             "errors": found.errors[0]._asdict(),
         }
         if default:
@@ -324,46 +326,44 @@ def measure(
     return bracket.ratios(described | row | {"peak_mb": memory} | circumstances())
 
 
-def _median(runs: list[tuple[list[float], list[float]]], cycles: int) -> dict[str, float]:
-    """Median of wall and processor seconds of these runs, as `clocked` gives them, after so many cycles."""
-    return {name: statistics.median(run[k][cycles] for run in runs) for k, name in enumerate(("seconds", "cpu"))}
-
-
-def _judged(found: Trace, exact: Reference) -> dict[str, Any]:
-    """Cycles, factors and verdict of a trace, as far as the reference knows."""
-    errors = [e.P for e in found.errors]
-    honest = found.first(lambda e: e.honest) if exact.knows(LARGEST) else None
-    full = found.first(is_full) if exact.knows(FULL) else None
-    factor = mean_factor(errors, full)
+def _median(runs: list[Trace], cycles: int) -> dict[str, float]:
+    """Median of wall and processor seconds of these runs after so many cycles."""
     return {
-        "reference": {"way": exact.way, "iterations": exact.iterations, "uncertainty": exact.uncertainty},
-        "honest": None if honest is None else {"cycles": honest},
-        "full": None if full is None else {"cycles": full},
-        "factor": factor,
-        "work": found.work,
-        "factor_v21": factor ** (1.0 / found.work) if factor is not None and found.work else None,
-        "verdict": verdict(errors) if exact.knows(FULL) else unknown(exact),
-        "errors": errors,
+        "seconds": statistics.median(run.wall[cycles] for run in runs),
+        "cpu": statistics.median(run.cpu[cycles] for run in runs),
     }
 
 
-def _as_asked_for(point: MoesPoint, n: int, exact: Reference) -> dict[str, Any]:
+def judged(errors: list[Errors], exact: Reference) -> Row:
+    """Cycles and verdict of the errors after each cycle, as far as the reference knows."""
+    accurate = first(errors, lambda e: e.accurate) if exact.knows(LARGEST) else None
+    full = first(errors, is_full) if exact.knows(FULL) else None
+    of_P = [e.P for e in errors]
+    return {
+        "reference": {"way": exact.way, "iterations": exact.iterations, "uncertainty": exact.uncertainty},
+        "accurate": None if accurate is None else {"cycles": accurate},
+        "full": None if full is None else {"cycles": full},
+        "verdict": verdict(of_P) if exact.knows(FULL) else unknown(exact),
+        "errors": of_P,
+    }
+
+
+def by_default(state: State, exact: Reference, status: object, cycles: int) -> Row:
+    """How far a result at the library's own tolerance is from the converged one."""
+    errors = Errors.between(state, exact.state)
+    accurate = bool(errors.accurate) if exact.knows(LARGEST) else None
+    return {"status": str(status), "cycles": cycles, "accurate": accurate, "errors": errors._asdict()}
+
+
+def _as_asked_for(point: MoesPoint, n: int, exact: Reference) -> Row:
     """`solve_steady` as a user calls it: its time, and how far it is from the converged solution."""
     with Clock() as clock:
         result = solve_steady(point, grid=Grid(n=n), throw=False)
     state = State(result.P.T, result.approach, result.h_central, result.h_min, result.force)
-    errors = Errors.between(state, exact.state)
-    return {
-        "seconds": clock.wall,
-        "cpu": clock.cpu,
-        "status": str(result.status),
-        "cycles": result.cycles,
-        "honest": bool(errors.honest) if exact.knows(LARGEST) else None,
-        "errors": errors._asdict(),
-    }
+    return by_default(state, exact, result.status, result.cycles) | {"seconds": clock.wall, "cpu": clock.cpu}
 
 
-def _newton_gap(point: MoesPoint, mesh: Mesh, exact: Reference, most: int) -> dict[str, Any]:
+def _newton_gap(point: MoesPoint, mesh: Mesh, exact: Reference, most: int) -> Row:
     """Largest difference of P, and the relative ones, between the solutions of cycles and of Newton steps."""
     newton = converge(point, mesh, most, ("newton",))
     gaps = Errors.between(newton.state, exact.state)._asdict()
@@ -380,3 +380,129 @@ def _peak_memory(point: MoesPoint, mesh: Mesh, way: str) -> float:
     """Peak resident memory [MB] of this process after full multigrid and two cycles: what a solve takes."""
     clocked(point, mesh, way, 2)
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+
+
+class Middle:
+    """A run stopped in its middle, and its next step, to be repeated at will."""
+
+    def __init__(
+        self,
+        point: MoesPoint,
+        motion: Motion,
+        mesh: Mesh,
+        steps: int,
+        *,
+        dT: float | None = None,
+        surface: Surface | None = None,
+    ) -> None:
+        self.dT = motion.default_step if dT is None else dT
+        self.film = TransientFilm(point, mesh, DEFAULT_TOL)
+        self.run = Run(self.film, motion, surface, History(()), None, lambda run: None)
+        self.status = self.run.start()
+        if self.status.ok:
+            self.status = march_fixed(self.run, steps, self.dT).status
+        self.T = (steps + 1) * self.dT
+
+    def step(self) -> Any:
+        """The next step, from the same state every time; returns its `Step`."""
+        self.run.back()
+        return self.run.advance(self.T, self.dT).step
+
+    @contextmanager
+    def cycles(self, number: int) -> Iterator[None]:
+        """Steps take exactly `number` cycles, unless they stagnate before."""
+        tol = self.film.tol
+        self.film.tol = OUT_OF_REACH
+        with mock.patch.object(film_module, "STEP_CYCLES", number):
+            yield
+        self.film.tol = tol
+
+    def share(self, threads: int) -> None:
+        """Let so many threads do the work from here on."""
+        for level in self.film.multigrid.levels:
+            level.share(threads)
+
+    def converged(self, most: int) -> Reference:
+        """The step with cycles until P changes by rounding only."""
+        self.run.back()
+        balance, _ = self.run.motion.balance(self.run.state, self.T, self.dT)
+        with self.cycles(1):
+            self.step()
+        film = self.film.multigrid
+        return settle(film, lambda: film.cycle(balance), most)
+
+    def errors(self, exact: State, most: int) -> list[Errors]:
+        """Of the extrapolated start, and after every cycle."""
+        film, found = self.film.multigrid, []
+        cycle = film.cycle
+
+        def watched(balance: Any) -> float:
+            if not found:
+                found.append(Errors.between(State.of(film), exact))
+            if is_over([e.P for e in found]):
+                return 0.0
+            change: float = cycle(balance)
+            found.append(Errors.between(State.of(film), exact))
+            return change
+
+        with mock.patch.object(film, "cycle", watched), self.cycles(most):
+            self.step()
+        return found
+
+
+def measure_step(
+    point: MoesPoint,
+    name: str,
+    n: int,
+    *,
+    steps: int = STEPS_BEFORE,
+    repeat: int = 9,
+    most: int = MOST,
+    threads: int = 1,
+) -> Row:
+    """One step of the motion `name` in the middle of a run on n intervals; `repeat` timed repetitions.
+
+    With more than one thread a second timing stands beside that of one.
+    """
+    mesh = mesh_for(point, Purpose.RUN, grid=Grid(n=n), largest_load=MOTIONS[name].largest_load)
+    Middle(point, MOTIONS[name], mesh_for(point, Purpose.RUN, grid=Grid(n=64)), 3)  # compiles
+    middle = Middle(point, MOTIONS[name], mesh, steps)
+    row: Row = {"motion": name, "n": n, "region": list(mesh.domain.as_tuple()), "T": middle.T}
+    row |= point.to_dict() | circumstances()
+    if not middle.status.ok:
+        return row | {"verdict": f"the run before the step: {middle.status}", "accurate": None, "full": None}
+    exact = middle.converged(most)
+    found = middle.errors(exact.state, most)
+    row |= judged(found, exact) | {"start": {"errors": found[0]._asdict()}}
+    with Bracket() as bracket:
+        for key in ("accurate", "full"):
+            if row[key] is None:
+                continue
+            cycles = row[key]["cycles"]
+            row[key] |= _timed(middle, cycles, repeat)
+            if threads > 1:
+                middle.share(threads)
+                row[f"{key}_shared"] = {"cycles": cycles, "threads": threads, **_timed(middle, cycles, repeat)}
+                middle.share(1)
+        step = middle.step()
+        state = State.of(middle.film.multigrid)
+        row["simulate"] = by_default(state, exact, step.status, step.cycles) | _median_step(middle, repeat)
+    return bracket.ratios(row)
+
+
+def _timed(middle: Middle, cycles: int, repeat: int) -> dict[str, float]:
+    """Median seconds of the step with so many cycles."""
+    with middle.cycles(cycles):
+        return _median_step(middle, repeat)
+
+
+def _median_step(middle: Middle, repeat: int) -> dict[str, float]:
+    clocks = []
+    middle.step()  # what else was done since the last step has its arrays out of the caches
+    for _ in range(repeat):
+        middle.run.back()
+        with Clock() as clock:
+            middle.run.advance(middle.T, middle.dT)
+        clocks.append(clock)
+    wall, cpu = ([getattr(clock, kind) for clock in clocks] for kind in ("wall", "cpu"))
+    return {"seconds": statistics.median(wall), "cpu": statistics.median(cpu)}

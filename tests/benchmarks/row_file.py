@@ -1,11 +1,10 @@
-"""What the benchmarks share: rows that survive an interruption, work in processes, and the time left."""
+"""Rows of a benchmark in a JSON file that survives an interruption, measured in processes of their own."""
 
 from __future__ import annotations
 
 import json
 import os
 import sys
-import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -13,9 +12,11 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TimeElapsedColumn, TimeRemainingColumn
+
 Row = dict[str, Any]
 
-BETWEEN_LINES = 3.0  # s, of progress
 LASTING = 30  # tasks of a process that takes several
 
 
@@ -28,7 +29,7 @@ class Task(NamedTuple):
     weight: float
 
 
-class Ledger:
+class RowFile:
     """Rows by key in a JSON file, written after each; without a path, in memory only.
 
     Parameters
@@ -100,33 +101,8 @@ def in_processes(tasks: list[Task], jobs: int = 1, lasting: bool = False) -> Ite
                 raise
 
 
-class Progress:
-    """Rows done and the time left, on stderr; from the time that a unit of weight has taken."""
-
-    def __init__(self, tasks: list[Task]) -> None:
-        self.total, self.count = sum(task.weight for task in tasks), len(tasks)
-        self.done, self.weight, self.start, self.told = 0, 0.0, time.perf_counter(), 0.0
-
-    def step(self, task: Task) -> str:
-        """Note that a task is done; returns what to say, which is nothing where little time has passed."""
-        self.done, self.weight = self.done + 1, self.weight + task.weight
-        spent = time.perf_counter() - self.start
-        if spent - self.told < BETWEEN_LINES and self.done < self.count:
-            return ""
-        self.told = spent
-        left = spent * (self.total - self.weight) / self.weight
-        return f"  [{self.done} of {self.count}, {duration(spent)}, about {duration(left)} left]\n"
-
-
-def duration(seconds: float) -> str:
-    """Seconds in words."""
-    if seconds < 100.0:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60.0:.0f} min" if seconds < 6000.0 else f"{seconds / 3600.0:.1f} h"
-
-
-def work_through(
-    ledger: Ledger,
+def measure_missing(
+    file: RowFile,
     tasks: list[Task],
     line: Callable[[str, Row], str],
     *,
@@ -134,18 +110,19 @@ def work_through(
     lasting: bool = False,
     tries: int = 1,
 ) -> None:
-    """Measure what the ledger lacks and print a line for each; those refused are tried again, `tries` in all.
+    """Measure what the file lacks and print a line for each; those refused are tried again, `tries` in all.
 
     Again means in a process of its own.
     """
     for attempt in range(tries):
-        missing = ledger.missing(tasks)
+        missing = file.missing(tasks)
         if attempt == 0 and len(missing) < len(tasks):
             print(f"{len(tasks) - len(missing)} of {len(tasks)} known")
-        progress = Progress(missing)
-        for task, row in in_processes(missing, jobs, lasting and attempt == 0):
-            ledger.put(task.key, row)
-            if told := line(task.key, row):
-                print(told, flush=True)
-            sys.stderr.write(progress.step(task))
-            sys.stderr.flush()
+        columns = (BarColumn(), TimeElapsedColumn(), TimeRemainingColumn())
+        with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+            bar = progress.add_task("", total=sum(task.weight for task in missing))
+            for task, row in in_processes(missing, jobs, lasting and attempt == 0):
+                file.put(task.key, row)
+                if told := line(task.key, row):
+                    print(told, flush=True)
+                progress.advance(bar, task.weight)
