@@ -4,20 +4,19 @@
 room           responsibility
 =============  =======================================================================================
 ``app``        the program: subcommands, errors to one line and an exit code
+``entries``    type, unit, range and meaning of every input of files and options
 ``contact``    options of a point: a ball of a bearing in SI, or M, L and kappa
-``examples``   of every command, for its help
-``oils``       "ISO VG 68" as it is written
-``options``    options that subcommands share, in groups, and the inputs they stand for
-``output``     tables, JSON, complaints, checks of where results go
-``usage``      what is wrong with a command line, in one line
+``options``    groups of options, and where results go
+``output``     tables, JSON, messages, checks of where results go, streams
+``usage``      what is wrong with a command line, in one line; examples
 ``numerals``   numbers for people: figures, exponents, characters of units
-``streams``    stdout and stderr that may be full, closed, or of few characters
 ``progress``   how far a computation is: bars on a terminal, now and then a line elsewhere
 ``page``       HTML pages that need no other file, from ``templates/``
 ``explorer``   the page of ``explore``: its data, and JavaScript from ``templates/explore/``
 ``commands/``  one subcommand each
 ``plots/``     every picture
-``starter/``   the study file that ``init`` writes
+``starter``    the study file that ``init`` writes
+``toml``       TOML read and written
 ``study/``     the study behind ``run``
 ``paper/``     the paper's tables and figures behind ``reproduce``
 =============  =======================================================================================

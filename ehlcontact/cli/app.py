@@ -26,10 +26,8 @@ from ehlcontact.cli.commands import (
     validate,
     verify,
 )
-from ehlcontact.cli.examples import epilog
-from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, complain
-from ehlcontact.cli.streams import StdoutError, watched_stdout
-from ehlcontact.cli.usage import by_option, command_of, lower_case_note, usage_line
+from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, StdoutError, complain, watched_stdout
+from ehlcontact.cli.usage import by_option, command_of, epilog, lower_case_note, usage_line
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.process.early_interrupt import INTERRUPTED
 from ehlcontact.version import __version__
@@ -67,15 +65,14 @@ def _program(
 
 
 # In the order of the help.
-commands = (
-    *(init, validate, run, reproduce),
-    *(steady, simulate, impedance, fit, element, export, verify),
-    *(bearing, explore, atlas),
+COMMANDS = (
+    *(init.init, validate.validate, run.run, reproduce.reproduce),
+    *(steady.steady, simulate.simulate, impedance.impedance, fit.fit, element.element),
+    *(export.export, verify.verify, bearing.bearing, explore.explore),
 )
-for module in commands:
-    module.register(app)
-for shown in app.registered_commands:
-    shown.epilog = epilog(shown.name or "")
+for command in COMMANDS:
+    app.command(command.__name__, epilog=epilog(command.__name__))(command)
+app.add_typer(atlas.group, name="atlas")
 
 
 def execute(arguments: Sequence[str] | None = None) -> int:

@@ -4,104 +4,71 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import typer
 
-from ehlcontact.checks import require_choice, require_positive
 from ehlcontact.checks.admissible_range import INPUTS, Given
+from ehlcontact.cli import entries as e
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.oils import OIL_HELP, TEMP_HELP, oil_grade
-from ehlcontact.cli.options import called
+from ehlcontact.cli.options import Options, called
+from ehlcontact.cli.study.schema import lubricant_of, oil_grade
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
 
 _SI, _MOES, _LAWS = "A ball of a bearing, in SI", "Or a point without dimensions", "Laws of the oil"
-RACES = ("inner", "outer")
-RQ_UM = 1e-3, 100.0  # um of a roughness: below, it was given in m
-# What each option of a point is, for its help and for who left it out.
-MEANING = {
-    "--M": "Moes load parameter, > 0",
-    "--L": "Moes lubricant parameter, >= 0",
-    "--kappa": "ellipse ratio a/b, 0.01 to 100",
-    "--bearing": "deep-groove ball bearing by its name, as 6205",
-    "--rpm": "speed of the shaft, rev/min",
-    "--load": "radial load on the bearing, N",
-}
 BESIDE = "or a ball of a bearing: --bearing, --oil, --temp, --rpm, --load"
 NO_TIME = (
     "a point of --M --L --kappa has no unit of time; its frequencies are given as --Omega, 2a/u_sum times rad/s"
 )
 
 
-def _option(name: str, panel: str, **more: Any) -> Any:
-    text = MEANING[name]
-    return typer.Option(
-        name, help=f"{text[0].upper()}{text[1:]}.", rich_help_panel=panel, show_default=False, **more
-    )
-
-
 def known_bearings() -> list[str]:
-    """For the completion of a shell."""
+    """Names of the catalogue, for the completion of a shell."""
     from reduced_models.bearing.catalogue import ROWS
 
     return list(ROWS)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Contact:
+def _moes(name: str) -> Any:
+    return typer.Option(name, rich_help_panel=_MOES, show_default=False)
+
+
+def _law(*names: str, **more: Any) -> Any:
+    return typer.Option(*names, rich_help_panel=_LAWS, **more)
+
+
+OIL_NAME = typer.Option("--oil", metavar="GRADE", help='ISO grade of a mineral oil, as "ISO VG 68".')
+
+
+class Contact(Options):
     """Which contact it is: that of a bearing's most loaded ball, or M, L and kappa."""
 
-    bearing: Annotated[str | None, _option("--bearing", _SI, metavar="NAME", autocompletion=known_bearings)] = None
-    oil: Annotated[str | None, typer.Option("--oil", metavar="GRADE", help=OIL_HELP, rich_help_panel=_SI)] = None
-    temp: Annotated[float | None, typer.Option("--temp", "--temperature", help=TEMP_HELP, rich_help_panel=_SI)] = (
-        None
-    )
-    rpm: Annotated[float | None, _option("--rpm", _SI)] = None
-    load: Annotated[float | None, _option("--load", _SI)] = None
-    race: Annotated[
-        str | None,
-        typer.Option(
-            "--contact",
-            metavar="RACE",
-            show_default="inner",
-            help="Race that the ball under the load is on: inner or outer.",
-            rich_help_panel=_SI,
-        ),
+    panel: ClassVar[str | None] = _SI
+    bearing: Annotated[
+        e.Catalogue | None,
+        typer.Option("--bearing", metavar="NAME", autocompletion=known_bearings, show_default=False),
     ] = None
-    M: Annotated[float | None, _option("--M", _MOES)] = None
-    L: Annotated[float | None, _option("--L", _MOES)] = None
-    kappa: Annotated[float | None, _option("--kappa", _MOES)] = None
-    alpha: Annotated[
-        float | None,
-        typer.Option(
-            "--alpha",
-            show_default="2.2e-8, or the oil's",
-            help="Pressure-viscosity coefficient, 1/Pa; in place of --oil with --eta0.",
-            rich_help_panel=_LAWS,
-        ),
-    ] = None
-    eta0: Annotated[
-        float | None,
-        typer.Option(
-            "--eta0",
-            show_default="0.04, or the oil's",
-            help="Ambient viscosity, Pa s; in place of --oil with --alpha.",
-            rich_help_panel=_LAWS,
-        ),
-    ] = None
-    viscosity: Annotated[
-        str, typer.Option("--viscosity", help="roelands or barus.", rich_help_panel=_LAWS, metavar="LAW")
-    ] = "roelands"
-    density: Annotated[
-        str,
-        typer.Option(
-            "--density", help="dowson-higginson or incompressible.", rich_help_panel=_LAWS, metavar="LAW"
-        ),
-    ] = "dowson-higginson"
+    oil: Annotated[str | None, OIL_NAME] = None
+    temp: Annotated[e.Temperature | None, typer.Option("--temp", "--temperature", show_default=False)] = None
+    rpm: Annotated[e.Speed | None, typer.Option("--rpm", show_default=False)] = None
+    load: Annotated[e.Load | None, typer.Option("--load", show_default=False)] = None
+    race: Annotated[e.Race | None, typer.Option("--contact", metavar="RACE", show_default="inner")] = None
+    M: Annotated[float | None, _moes("--M"), e.meaning("Moes load parameter, > 0")] = None
+    L: Annotated[float | None, _moes("--L"), e.meaning("Moes lubricant parameter, >= 0")] = None
+    kappa: Annotated[float | None, _moes("--kappa"), e.meaning("ellipse ratio a/b, 0.01 to 100")] = None
+    eta0: Annotated[e.Eta0 | None, _law("--eta0", show_default="0.04, or the oil's")] = None
+    alpha: Annotated[e.Alpha | None, _law("--alpha", show_default="2.2e-8, or the oil's")] = None
+    viscosity: Annotated[e.ViscosityLaw, _law("--viscosity", metavar="LAW")] = "roelands"
+    density: Annotated[e.DensityLaw, _law("--density", metavar="LAW")] = "dowson-higginson"
+
+    def _missing(self, name: str, beside: str = "") -> InputError:
+        """The error for an option that has to be given."""
+        field = type(self).model_fields[name]
+        words = "; ".join(part for part in (e.meaning_of(field), e.allowed_of(field)) if part)
+        return InputError(f"--{name}", None, f"given ({words}){beside}")
 
     @property
     def in_si(self) -> bool:
@@ -130,7 +97,7 @@ class Contact:
             return self._ball()
         for name, value in numbers.items():
             if value is None:
-                raise InputError(name, None, f"given ({MEANING[name]}), {BESIDE}")
+                raise self._missing(name[2:], f", {BESIDE}")
         laws = {name: getattr(self, name) for name in ("alpha", "eta0") if getattr(self, name) is not None}
         laws |= {"viscosity": self.viscosity, "density": self.density}
         return MoesPoint(M=self.M, L=self.L, kappa=self.kappa, **laws)  # type: ignore[arg-type]
@@ -148,14 +115,9 @@ class Contact:
     def _ball(self) -> OperatingPoint:
         from reduced_models.bearing.catalogue import catalogue_row
 
-        for name, quantity in (("--bearing", None), ("--rpm", "speed_rpm"), ("--load", "load")):
-            value = self._of_bearing.get(name)
-            if value is None:
-                raise InputError(name, None, f"given ({MEANING[name]})")
-            if quantity is not None:
-                INPUTS[quantity].require(name, require_positive(name, value))
-        race = self.race or "inner"
-        require_choice("--contact", race, RACES)
+        for name in ("bearing", "rpm", "load"):
+            if getattr(self, name) is None:
+                raise self._missing(name)
         try:
             _, row = catalogue_row(self.bearing or "")
         except InputError as error:
@@ -171,7 +133,7 @@ class Contact:
                 conformity=row.conformity,
                 speed_rpm=self.rpm,
                 load=most_loaded_ball(self.load or 0.0, row.balls),
-                race=race,
+                race=self.race or "inner",
             )
 
     def lubricant(self) -> Lubricant:
@@ -182,21 +144,11 @@ class Contact:
         InputError
             Given in no way, in part, or in both ways; an oil that the library refuses.
         """
-        grade, numbers = {"--oil": self.oil, "--temp": self.temp}, {"--eta0": self.eta0, "--alpha": self.alpha}
-        by_grade, by_numbers = (any(v is not None for v in way.values()) for way in (grade, numbers))
-        if by_grade and by_numbers:
-            extra = next(name for name, value in numbers.items() if value is not None)
-            raise InputError(
-                extra, numbers[extra], "left out where --oil or --temp is given: an oil has a grade or numbers"
-            )
-        for name, value in (numbers if by_numbers else grade).items():
-            if value is None:
-                raise InputError(name, None, "given: --oil and --temp, or --eta0 and --alpha in their place")
+        grade = None if self.oil is None else oil_grade(self.oil, "--oil")
+        names = {"iso_vg": "--oil", "temperature": "--temp"}
+        given = {"eta0": self.eta0, "alpha": self.alpha, "iso_vg": grade, "temperature": self.temp}
         laws = {"viscosity": self.viscosity, "density": self.density}
-        if by_numbers:
-            return Lubricant(self.eta0, self.alpha, **laws)  # type: ignore[arg-type]
-        with called(temperature="--temp"):
-            return Lubricant.iso_vg(oil_grade(self.oil or "", "--oil"), temperature=self.temp, **laws)  # type: ignore[arg-type]
+        return lubricant_of(given, laws, lambda name: names.get(name, f"--{name}"))
 
     @contextmanager
     def called(self) -> Iterator[None]:
@@ -277,28 +229,21 @@ class Contact:
         return f"ISO VG {oil_grade(self.oil, '--oil')} at {numeral(self.temp)} °C"
 
 
-@dataclass(frozen=True, kw_only=True)
-class Surfaces:
+class Surfaces(Options):
     """How rough ball and race are, for the lambda ratio: films are solved between smooth surfaces."""
 
+    panel: ClassVar[str | None] = _SI
     rq: Annotated[
-        float | None,
+        e.Roughness | None,
         typer.Option(
-            "--rq",
-            help="Roughness of ball and race together, µm: how many times higher the film is (lambda).",
-            rich_help_panel=_SI,
+            "--rq", help="Roughness of ball and race together, µm: how many times higher the film is (lambda)."
         ),
     ] = None
 
     def check(self, contact: Contact) -> None:
-        """Raise `InputError` for a roughness that is none, or at a point without a unit of length."""
-        if self.rq is None:
-            return
-        if not contact.in_si:
+        """Raise `InputError` for a roughness at a point without a unit of length."""
+        if self.rq is not None and not contact.in_si:
             raise InputError("--rq", self.rq, "left out: a point of --M --L --kappa has no unit of length")
-        low, high = RQ_UM
-        if not low <= self.rq <= high:
-            raise InputError("--rq", self.rq, f"between {low:g} and {high:g} um")
 
     def lambda_ratio(self, h_min: float) -> float | None:
         """Smallest film [m] over roughness; None where none was given."""

@@ -1,19 +1,23 @@
-"""Options that several subcommands share, in groups, and the inputs they stand for."""
+"""Options of subcommands in groups: pydantic models whose fields are declared as those of study files are."""
 
 from __future__ import annotations
 
 import functools
 import inspect
+import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import MISSING, dataclass, fields, is_dataclass
+from copy import copy
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated, Any, get_type_hints
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
 
 import typer
+from pydantic import ValidationError
+from typer.models import ParameterInfo
 
 from ehlcontact.checks.machine import require_threads
+from ehlcontact.cli.entries import Intervals, Section, allowed_of, meaning_of
 from ehlcontact.cli.output import (
     check_apart,
     check_file,
@@ -24,29 +28,39 @@ from ehlcontact.cli.output import (
     write_json,
     write_to,
 )
+from ehlcontact.cli.study.schema_errors import first_error
 from ehlcontact.errors import InputError
-from ehlcontact.solver.domain import Domain, check_intervals
+from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid as SolverGrid
 
-_GRID, _FILES = "Discretisation", "Results"
-Drawing = Callable[[Any, Path], object]  # a result into a file
 HDF5 = (".h5", ".hdf5")
 PICTURES = (".png", ".svg", ".pdf")
+Table = tuple[str, list[tuple[str, str, str]]]  # title; rows of quantity, value and unit
+
+
+class Options(Section):
+    """A group of options: a field has a `typer.Option` in its metadata, and help from its declaration."""
+
+    panel: ClassVar[str | None] = None  # heading in the help
 
 
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
-    """Let a command take groups of options: a parameter that is a dataclass becomes its fields for typer."""
+    """Let a command take groups of options: a parameter of a class of `Options` becomes its fields for typer."""
     parameters = inspect.signature(command, eval_str=True).parameters.values()
-    groups: dict[str, Any] = {p.name: p.annotation for p in parameters if is_dataclass(p.annotation)}
+    groups: dict[str, type[Options]] = {
+        p.name: p.annotation
+        for p in parameters
+        if isinstance(p.annotation, type) and issubclass(p.annotation, Options)
+    }
     shown: list[inspect.Parameter] = []
     for parameter in parameters:
         group = groups.get(parameter.name)
-        shown += [parameter.replace(kind=parameter.KEYWORD_ONLY)] if group is None else _options(group)
+        shown += [parameter.replace(kind=parameter.KEYWORD_ONLY)] if group is None else _parameters(group)
 
     @functools.wraps(command)
     def ungrouped(**given: Any) -> None:
         made = {
-            name: group(**{field.name: given.pop(field.name) for field in fields(group)})
+            name: group_of(group, {field: given.pop(field) for field in group.model_fields})
             for name, group in groups.items()
         }
         command(**made, **given)
@@ -56,14 +70,49 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
     return ungrouped
 
 
-def _options(group: Any) -> Iterator[inspect.Parameter]:
+def group_of(group: type[Options], values: Mapping[str, Any]) -> Options:
+    """The group with values that are checked.
+
+    Raises
+    ------
+    InputError
+        A value that its declaration does not allow, by the name of its field.
+    """
+    try:
+        return group.model_validate(values)
+    except ValidationError as error:
+        found = first_error(error, group)
+        name = found.field.partition(".")[0]
+        choices = _choices(get_type_hints(group)[name])
+        allowed = f"one of {', '.join(choices)}" if choices else found.allowed
+        raise InputError(name, found.value, allowed) from None
+
+
+def _parameters(group: type[Options]) -> Iterator[inspect.Parameter]:
     """The fields of a group as parameters of a command."""
-    kinds = get_type_hints(group, include_extras=True)
-    for field in fields(group):
-        default = inspect.Parameter.empty if field.default is MISSING else field.default
-        yield inspect.Parameter(
-            field.name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kinds[field.name]
-        )
+    kinds = get_type_hints(group)
+    for name, field in group.model_fields.items():
+        option = copy(next(rule for rule in field.metadata if isinstance(rule, ParameterInfo)))
+        if option.help is None:
+            words = "; ".join(part for part in (meaning_of(field), allowed_of(field)) if part).replace('"', "")
+            option.help = f"{words[0].upper()}{words[1:]}."
+        option.rich_help_panel = option.rich_help_panel or group.panel
+        default = inspect.Parameter.empty if field.is_required() else field.default
+        kind: Any = Annotated[_without_choices(kinds[name]), option]
+        yield inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kind)
+
+
+def _choices(kind: Any) -> tuple[str, ...]:
+    """Values of a `Literal`, also of one that may be left out."""
+    found = (get_args(one) for one in (kind, *get_args(kind)) if get_origin(one) is Literal)
+    return next(found, ())
+
+
+def _without_choices(kind: Any) -> Any:
+    """The type with text in place of a `Literal`: its values are checked by pydantic, not by the parser."""
+    if get_origin(kind) is Literal:
+        return str
+    return Union[tuple(map(_without_choices, get_args(kind)))] if _choices(kind) else kind  # noqa: UP007
 
 
 @contextmanager
@@ -75,34 +124,13 @@ def called(**options: str) -> Iterator[None]:
         raise InputError(options.get(error.field, error.field), error.value, error.allowed) from None
 
 
-Intervals = Annotated[int, typer.Option("--n", help="Intervals along X, a multiple of 16.", rich_help_panel=_GRID)]
-JsonTo = Annotated[
-    str | None,
-    typer.Option(
-        "--json",
-        metavar="FILE",
-        help="Write the result as JSON; - is stdout, with nothing else there.",
-        rich_help_panel=_FILES,
-    ),
-]
-FigureTo = Annotated[
-    Path | None,
-    typer.Option("--figure", metavar="FILE", help="Draw the result as PNG, SVG or PDF.", rich_help_panel=_FILES),
-]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Grid:
+class Grid(Options):
     """Where and how finely the film is solved, and by how many threads."""
 
+    panel: ClassVar[str | None] = "Discretisation"
     n: Annotated[
-        int | None,
-        typer.Option(
-            "--n",
-            show_default="what the film needs",
-            help="Intervals along X, a multiple of 16.",
-            rich_help_panel=_GRID,
-        ),
+        Intervals | None,
+        typer.Option("--n", show_default="what the film needs", help="Intervals along X, a multiple of 16."),
     ] = None
     domain: Annotated[
         tuple[float, float, float] | None,
@@ -111,7 +139,6 @@ class Grid:
             metavar="XA XB YMAX",
             help="Computed region [[XA, XB] x [-YMAX, YMAX]] in Hertz semi-axes; "
             "-4.5 1.5 3 unless the load rises.",
-            rich_help_panel=_GRID,
         ),
     ] = None
     threads: Annotated[
@@ -120,75 +147,143 @@ class Grid:
             "--threads",
             show_default="all cores",
             help="Threads that share the work; the result is the same for any number.",
-            rich_help_panel=_GRID,
         ),
     ] = None
 
     def chosen(self) -> dict[str, Any]:
-        """Check the options; ``grid`` and ``threads`` for a solver."""
-        if self.n is not None:
-            check_intervals(self.n)
+        """``grid`` and ``threads`` for a solver."""
         require_threads("threads", self.threads)
         with called(x_in="--domain XA", x_out="--domain XB", y_max="--domain YMAX"):
             domain = None if self.domain is None else Domain(*self.domain)
         return {"grid": SolverGrid(self.n, domain), "threads": self.threads}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Files:
-    """Where the result goes."""
+class StudyOptions(Options):
+    """A study, where its results go, and how much of the machine it takes."""
 
-    save: Annotated[
+    study_file: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study; see examples/.")]
+    output: Annotated[
         Path | None,
-        typer.Option("--save", metavar="FILE", help="Save the result as HDF5.", rich_help_panel=_FILES),
+        typer.Option("--output", "-o", metavar="DIR", help="Folder of the results; results/STUDY by default."),
     ] = None
-    figure: FigureTo = None
-    json_to: JsonTo = None
+    jobs: Annotated[int, typer.Option("--jobs", min=1, max=16, help="Computations side by side.")] = 2
 
-    def check(self, beside: Mapping[str, Path | None] = MappingProxyType({}), read: Path | None = None) -> None:
-        """Make sure, before a long solve, that all of them can be written, and that none replaces another.
+    @property
+    def folder(self) -> Path:
+        """Folder of the results."""
+        return Path("results") / self.study_file.stem if self.output is None else self.output
+
+    @property
+    def side_by_side(self) -> int:
+        """Computations side by side on this machine."""
+        return min(self.jobs, os.cpu_count() or 1)
+
+
+class Endings(NamedTuple):
+    """What the name of a file that is written may end in."""
+
+    names: tuple[str, ...]
+
+
+class Output(Options):
+    """Where the result of a command goes: JSON, and what a class below adds."""
+
+    panel: ClassVar[str | None] = "Results"
+    json_to: Annotated[
+        str | None,
+        typer.Option(
+            "--json", metavar="FILE", help="Write the result as JSON; - is stdout, with nothing else there."
+        ),
+    ] = None
+
+    def check(
+        self, *read: Path | None, beside: Mapping[str, tuple[Path | None, tuple[str, ...]]] = MappingProxyType({})
+    ) -> None:
+        """Make sure, before a long solve, that all files can be written, and that none replaces another.
 
         Parameters
         ----------
+        *read : Path or None
+            Files that the command reads.
         beside : mapping
-            Further options and the files that they have written.
-        read : Path, optional
-            A file that the command reads.
+            Further options, the files that they have written, and what their names may end in.
         """
-        check_file("--save", self.save, HDF5)
-        check_file("--figure", self.figure, PICTURES)
+        own = {
+            f"--{name}": (
+                getattr(self, name),
+                next(rule.names for rule in field.metadata if isinstance(rule, Endings)),
+            )
+            for name, field in type(self).model_fields.items()
+            if name != "json_to"
+        }
+        for option, (path, endings) in {**beside, **own}.items():
+            check_file(option, path, endings)
         check_json(self.json_to)
-        own = {"--save": self.save, "--figure": self.figure, "--json": self.json_to}
-        check_apart({**beside, **own}, (read,))
+        check_apart({name: path for name, (path, _) in {**beside, **own}.items()} | {"--json": self.json_to}, read)
 
     def deliver(
         self,
-        result: Any,
-        title: str,
-        rows: list[tuple[str, str, str]],
-        draw: Drawing | None,
-        about: Mapping[str, Any] = MappingProxyType({}),
+        document: Mapping[str, Any],
+        *shown: Table | Callable[[], object],
+        save: Any = None,
+        figure: Callable[[Path], object] | None = None,
     ) -> None:
-        """Save, draw (if there is anything), write and show the result, each whatever becomes of the others.
+        """Write and show the result, each part whatever becomes of the others.
 
-        `about` is what else its JSON says.
+        Parameters
+        ----------
+        document : mapping
+            The JSON.
+        *shown : tuple of str and list, or callable
+            Title and rows of a table; or what shows something else.
+        save : object, optional
+            Result or element for the file of ``--save``.
+        figure : callable, optional
+            What draws the figure of ``--figure`` into a file.
 
         Raises
         ------
         InputError
             One of the files could not be written.
         """
-
-        def figure(path: Path) -> None:
-            if draw is not None:
-                draw(result, path)
-
         deliver(
-            lambda: save_to("--save", self.save, result),
-            lambda: write_to("--figure", self.figure, figure),
-            lambda: write_json({**result.to_dict(), **about}, self.json_to),
-            lambda: show_table(title, rows, self.json_to),
+            lambda: save_to("--save", getattr(self, "save", None), save),
+            lambda: figure and write_to("--figure", getattr(self, "figure", None), figure),
+            lambda: write_json(document, self.json_to),
+            *(part if callable(part) else functools.partial(show_table, *part, self.json_to) for part in shown),
         )
+
+
+Save = Annotated[
+    Path | None, typer.Option("--save", metavar="FILE", help="Save the result as HDF5."), Endings(HDF5)
+]
+SaveElement = Annotated[
+    Path | None, typer.Option("--save", metavar="FILE", help="Save the element as JSON."), Endings((".json",))
+]
+FigureTo = Annotated[
+    Path | None,
+    typer.Option("--figure", metavar="FILE", help="Draw the result as PNG, SVG or PDF."),
+    Endings(PICTURES),
+]
+
+
+class ElementOutput(Output):
+    """JSON, and a file of the element."""
+
+    save: SaveElement = None
+
+
+class FigureOutput(Output):
+    """JSON, and a picture."""
+
+    figure: FigureTo = None
+
+
+class ResultOutput(Output):
+    """JSON, a picture, and a file of the result."""
+
+    save: Save = None
+    figure: FigureTo = None
 
 
 def domain_text(domain: Domain) -> str:

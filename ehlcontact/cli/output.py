@@ -1,4 +1,4 @@
-"""Tables, JSON and complaints; and the checks that nothing computed will be lost."""
+"""Tables, JSON and messages; checks of where they go; streams that are full, closed or of few characters."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ import math
 import os
 import sys
 import tempfile
-from collections.abc import Callable, Iterable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import numpy as np
 import typer
@@ -18,7 +18,6 @@ from rich.console import Console
 from rich.table import Table
 
 from ehlcontact.cli.numerals import spelled
-from ehlcontact.cli.streams import StdoutError, to_stderr
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_text
 
@@ -68,6 +67,12 @@ def check_file(field: str, path: Path | None, suffixes: tuple[str, ...] = ()) ->
     except OSError as error:
         raise InputError(field, str(path), f"a file that can be written ({error.strerror})") from None
     check_folder(field, path.parent, str(path))
+
+
+def check_new(field: str, path: Path, force: bool) -> None:
+    """Make sure that a file is not there yet, unless it may be replaced."""
+    if not force and path.exists():
+        raise InputError(field, str(path), "a new file, or replaced with --force")
 
 
 def check_folder(field: str, folder: Path, named: str | None = None) -> None:
@@ -230,3 +235,83 @@ def show_table(title: str, rows: Iterable[tuple[str, str, str]], json_to: str | 
     for row in rows:
         table.add_row(*(spelled(text, sys.stdout) for text in row))
     Console().print(table)
+
+
+class StdoutError(Exception):
+    """stdout took no more; the message says why."""
+
+    def __init__(self, error: OSError) -> None:
+        self.closed = isinstance(error, BrokenPipeError)
+        super().__init__(error.strerror or str(error))
+
+
+class _Watched:
+    """A stream whose failures are `StdoutError`: libraries for command lines take others for their own matter."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+        self.failure: StdoutError | None = None
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+    def write(self, text: str) -> int:
+        """Write what the encoding knows."""
+        try:
+            return self._stream.write(known(text, self._stream))
+        except OSError as error:
+            raise self._failure(error) from None
+
+    def flush(self) -> None:
+        """Write what is still held back."""
+        try:
+            self._stream.flush()
+        except OSError as error:
+            raise self._failure(error) from None
+
+    def _failure(self, error: OSError) -> StdoutError:
+        discard(self._stream)
+        self.failure = self.failure or StdoutError(error)
+        return self.failure
+
+
+@contextmanager
+def watched_stdout() -> Iterator[None]:
+    """Within the block stdout raises `StdoutError`, also for what it still holds back at the end."""
+    stream = sys.stdout
+    if stream is None:  # closed before we were started: nobody wants to know
+        yield
+        return
+    watched = _Watched(stream)
+    sys.stdout = watched
+    try:
+        yield
+        watched.flush()
+        if watched.failure:  # swallowed by a library that only tried what kind of stream it is
+            raise watched.failure
+    finally:
+        sys.stdout = stream
+
+
+def to_stderr(line: str) -> None:
+    """Write a line on stderr if anybody listens."""
+    if sys.stderr is not None:
+        try:
+            sys.stderr.write(known(line, sys.stderr) + "\n")
+            sys.stderr.flush()
+        except OSError:
+            discard(sys.stderr)
+
+
+def known(text: str, stream: TextIO) -> str:
+    """The text with the numbers of the characters that the stream's encoding does not know."""
+    encoding = stream.encoding or "utf-8"
+    return text.encode(encoding, "backslashreplace").decode(encoding)
+
+
+def discard(stream: TextIO) -> None:
+    """Let what the stream still holds go nowhere: Python would try once more when it ends, and fail."""
+    with suppress(OSError, ValueError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, stream.fileno())
+        os.close(nowhere)

@@ -15,7 +15,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
 from ehlcontact.cli.numerals import spelled
-from ehlcontact.cli.streams import to_stderr
+from ehlcontact.cli.output import to_stderr
 
 SPACING = 10.0  # seconds between lines, at least: what is done sooner needs none
 SHARE = 0.1  # of the work after which there is a line,

@@ -17,7 +17,7 @@ SLIPS = {
     ],
     "ball_diameter_mm = 7.94": [
         ("ball_diameter_mm = 0", "bearing.ball_diameter_mm = 0", "between 0.1 and 500 mm"),
-        ("ball_diameter_mm = 7940", "bearing.ball_diameter_mm = 7940.0", "between 0.1 and 500 mm"),
+        ("ball_diameter_mm = 7940", "bearing.ball_diameter_mm = 7940", "between 0.1 and 500 mm"),
         ("ball_diameter_mm = 7,94", "complete TOML", "line 9", "'ball_diameter_mm = 7,94'"),
         ("ball_diameter_mm = 7.94 mm", "complete TOML", "line 9", "'ball_diameter_mm = 7.94 mm'"),
         ("ball_diameter_mm =", "complete TOML", "line 9", "'ball_diameter_mm ='"),
@@ -48,7 +48,7 @@ SLIPS = {
             "bearing.pitch_diameter_mm = 1.537",
             "above bearing.ball_diameter_mm = 7.94",
         ),
-        ("pitch_diameter_mm = 39040", "bearing.pitch_diameter_mm = 39040.0", "between 0.5 and 10000 mm"),
+        ("pitch_diameter_mm = 39040", "bearing.pitch_diameter_mm = 39040", "between 0.5 and 10000 mm"),
         ("pitch_diameter_mm = 0.03904", "bearing.pitch_diameter_mm", "in m? then 39.04"),
         ("pitch_diameter_mm = 5", "bearing.pitch_diameter_mm", "5", "above bearing.ball_diameter_mm = 7.94"),
     ],

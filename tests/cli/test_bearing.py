@@ -145,7 +145,7 @@ def test_curves_pass_through_what_was_asked_for():
         ({NAME: SIZES.format(9, 0.0079)}, ("bearing.ball_diameter_mm", "in m? then 7.9 mm")),
         ({NAME: ""}, ("bearing.balls = None", "bearing.catalogue")),
         ({NAME: 'catalogue = "620"'}, ("bearing.catalogue = '620'", "nearest", "6205")),
-        ({"inner = 0.52": "inner = 0.5"}, ("bearing.conformity_inner = 0.5", "above 0.5")),
+        ({"inner = 0.52": "inner = 0.5"}, ("bearing.conformity_inner = 0.5", "between 0.501")),
         ({"inner = 0.52": "inner = 0.502"}, ("bearing.conformity_inner = 0.502", "outside the atlas")),
         ({"clearance_um": "clearance"}, ("bearing.clearance = 0.0", "clearance_um?")),
         ({"clearance_um = 0.0": "loss_factor = 0.3"}, ("bearing.loss_factor = 0.3", "at most 0.2")),

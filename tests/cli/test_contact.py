@@ -6,7 +6,7 @@ import pytest
 
 from ehlcontact import Grid, Lubricant, OperatingPoint, SimulationResult, impedance, load, solve_steady
 from ehlcontact.cli.contact import Contact
-from ehlcontact.cli.oils import oil_grade
+from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant.oil import GRADES

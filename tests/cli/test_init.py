@@ -7,7 +7,7 @@ import tomllib
 import pytest
 from pydantic import BaseModel
 
-from ehlcontact.cli.starter.meaning import MEANINGS, SECTIONS
+from ehlcontact.cli.entries import keys_of, meaning_of
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.schema import Study, load_study, study_of
 from ehlcontact.lubricant.oil import GRADES
@@ -33,11 +33,11 @@ def study(call, tmp_path):
     return made
 
 
-def test_every_entry_of_the_schema_is_explained_and_nothing_else():
+def test_every_entry_of_the_schema_is_explained():
     assert all(issubclass(model, BaseModel) for model in sections().values())
-    assert set(SECTIONS) == set(sections())
-    entries = {f"{name}.{key}" for name, model in sections().items() for key in model.model_fields}
-    assert set(MEANINGS) == entries | {"title"}
+    for name, model in sections().items():
+        assert model.__doc__, name
+        assert [key for key, field in keys_of(model).items() if not meaning_of(field)] == []
 
 
 def test_what_was_asked_for_is_what_the_study_says(study):
@@ -73,7 +73,7 @@ def test_lines_end_in_what_the_schema_allows(study):
         "race": '"inner" or "outer"',
         "n": "a multiple of 16 between 16 and 2048",
         "amplitude": "above 0 and below 1",
-        "temperature": "between 20 and 120",
+        "temperature": "between 20 and 120 C",
         "radial_load": "between 1e-06 and 1e+08 N",
     }.items():
         assert lines[key].endswith(words), lines[key]
@@ -132,8 +132,8 @@ def test_it_replaces_nothing_without_being_told(call, refused, tmp_path, monkeyp
         (("--bearing", "6999"), ("--bearing = '6999'", "6205", "balls = ...")),
         (("--oil", "olive"), ("--oil = 'olive'", "ISO VG 10")),
         (("--temp", "300"), ("--temp = 300.0", "between 20 and 120")),
-        (("--rpm", "0"), ("--rpm = 0.0", "> 0")),
-        (("--load", "-5"), ("--load = -5.0", "> 0")),
+        (("--rpm", "0"), ("--rpm = 0.0", "between 0.001")),
+        (("--load", "-5"), ("--load = -5.0", "between 1e-06")),
         (("--load", "1e7"), ("M", "between 0.1")),
         (("--load", "x"), ("--load = 'x'", "a number")),
     ],

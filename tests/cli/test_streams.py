@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from ehlcontact.cli.streams import StdoutError, watched_stdout
+from ehlcontact.cli.output import StdoutError, watched_stdout
 
 ROOT = Path(__file__).parents[2]
 ELEMENT = ("element", "--M", "2900", "--L", "19", "--kappa", "0.11")

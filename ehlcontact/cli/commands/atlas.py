@@ -10,37 +10,24 @@ import typer
 
 from ehlcontact.checks import require_integer
 from ehlcontact.cli import options as o
-from ehlcontact.cli.examples import epilog
-from ehlcontact.cli.output import (
-    check_apart,
-    check_file,
-    check_json,
-    complain,
-    deliver,
-    show_table,
-    write_json,
-)
+from ehlcontact.cli.output import complain
 from ehlcontact.cli.progress import progress
+from ehlcontact.cli.usage import epilog
 from ehlcontact.process.early_interrupt import INTERRUPTED
 
-NPZ = (".npz",)
+HELP = "Build the table of solved contacts that elements are taken from."
+group = typer.Typer(no_args_is_help=True, help=HELP)
 
 
-def register(app: typer.Typer) -> None:
-    """Add the group of subcommands."""
-    group = typer.Typer(
-        no_args_is_help=True, help="Build the table of solved contacts that elements are taken from."
-    )
-    group.command("build", epilog=epilog("atlas build"))(build)
-    group.callback()(_group)
-    app.add_typer(group, name="atlas")
-
-
+@group.callback(help=HELP)
 def _group() -> None:
-    """Build the table of solved contacts that elements are taken from."""
+    """Keep `build` a subcommand of its own."""
 
 
+@group.command("build", epilog=epilog("atlas build"))
+@o.grouped
 def build(
+    out: o.Output,
     output: Annotated[Path, typer.Option("-o", "--output", metavar="FILE", help="The atlas, npz.")] = Path(
         "atlas.npz"
     ),
@@ -57,16 +44,12 @@ def build(
     scheduler: Annotated[
         str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Solve on this Dask cluster instead.")
     ] = None,
-    json_to: o.JsonTo = None,
 ) -> None:
     """Solve the sample and write the atlas; stopped at any moment and started again, it goes on."""
     from reduced_models.atlas.build import build_atlas
 
-    check_file("--output", output, NPZ)
     kept = output.with_suffix(".jsonl") if work is None else work
-    check_file("--work", kept)
-    check_json(json_to)
-    check_apart({"--output": output, "--work": kept, "--json": json_to})
+    out.check(beside={"--output": (output, (".npz",)), "--work": (kept, ())})
     for name, value in (("--draws", draws), ("--light-draws", light_draws), ("--seed", seed)):
         require_integer(name, value, "a whole number >= 0", 0)
     count = (os.cpu_count() or 1) if processes is None else processes
@@ -86,4 +69,4 @@ def build(
         ("box", "", str(table.box)),
     ]
     document = {"output": str(output), "work": str(kept), **table.metadata}
-    deliver(lambda: write_json(document, json_to), lambda: show_table("atlas", rows, json_to))
+    out.deliver(document, ("atlas", rows))

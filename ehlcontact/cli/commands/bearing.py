@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,20 +13,12 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral, spelled
-from ehlcontact.cli.oils import OIL_HELP, oil_grade
-from ehlcontact.cli.output import (
-    STDOUT,
-    check_apart,
-    check_file,
-    check_json,
-    deliver,
-    show_table,
-    write_json,
-    write_to,
-)
+from ehlcontact.cli.output import STDOUT, show_table
 from ehlcontact.cli.progress import progress
+from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
@@ -93,56 +86,61 @@ class BearingReport:
         }
 
 
-def register(app: typer.Typer) -> None:
-    """Add the subcommand."""
-    app.command("bearing")(bearing)
+class BearingOptions(o.Options):
+    """What the bearing carries and runs in: in place of entries of its file, or beside its name."""
 
-
-def bearing(
-    source: Annotated[str, typer.Argument(metavar="NAME|FILE.toml", help="As 6205; or a file with dimensions.")],
-    load: Annotated[float | None, typer.Option("--load", help="Radial load, N; >= 0; a NAME needs it.")] = None,
+    load: Annotated[e.NotNegative | None, typer.Option("--load"), e.meaning("radial load, N; a NAME needs it")] = (
+        None
+    )
     speed: Annotated[
         list[float] | None,
-        typer.Option("--speed", "--rpm", help="Of the shaft, rev/min; once each; a NAME needs one."),
-    ] = None,
-    grade: Annotated[
-        int | None, typer.Option("--grade", help="ISO VG of the oil; without an oil: dry.", rich_help_panel=_OIL)
-    ] = None,
+        typer.Option("--speed", "--rpm"),
+        e.meaning("speed of the shaft, rev/min; once each; a NAME needs one"),
+    ] = None
+    grade: Annotated[e.Grade | None, typer.Option("--grade", rich_help_panel=_OIL)] = None
     oil: Annotated[
         str | None,
         typer.Option(
-            "--oil", metavar="GRADE", help=f"{OIL_HELP[:-1]}; the same as --grade.", rich_help_panel=_OIL
+            "--oil",
+            metavar="GRADE",
+            help='ISO grade of a mineral oil, as "ISO VG 68"; the same as --grade.',
+            rich_help_panel=_OIL,
         ),
-    ] = None,
-    temperature: Annotated[
-        float | None,
-        typer.Option("--temperature", "--temp", help="Of the oil, C; 20 to 120.", rich_help_panel=_OIL),
-    ] = None,
-    clearance: Annotated[
-        float | None,
-        typer.Option("--clearance", help="Radial internal, µm; below 0: preload.", rich_help_panel=_BEARING),
-    ] = None,
+    ] = None
+    temperature: Annotated[e.Temperature | None, typer.Option("--temperature", "--temp", rich_help_panel=_OIL)] = (
+        None
+    )
+    clearance: Annotated[e.Clearance | None, typer.Option("--clearance", rich_help_panel=_BEARING)] = None
     rq: Annotated[
-        float | None,
-        typer.Option("--rq", help="Roughness of ball and race together, µm.", rich_help_panel=_BEARING),
-    ] = None,
-    figure: o.FigureTo = None,
-    json_to: o.JsonTo = None,
+        e.Roughness | None,
+        typer.Option("--rq", rich_help_panel=_BEARING),
+        e.meaning("roughness of ball and race together"),
+    ] = None
+
+    def given(self) -> dict[str, Any]:
+        """Values by option; the grade by either of its two options."""
+        grade = self.grade
+        if self.oil is not None:
+            if grade is not None:
+                allowed = f"left out where --grade is given, here {grade}: both are the oil's grade"
+                raise InputError("--oil", self.oil, allowed)
+            grade = oil_grade(self.oil, "--oil")
+        values = {"--load": self.load, "--speed": self.speed or None, "--grade": grade}
+        values |= {"--temperature": self.temperature, "--clearance": self.clearance, "--rq": self.rq}
+        return values
+
+
+@o.grouped
+def bearing(
+    source: Annotated[str, typer.Argument(metavar="NAME|FILE.toml", help="As 6205; or a file with dimensions.")],
+    options: BearingOptions,
+    out: o.FigureOutput,
 ) -> None:
     """Look at a ball bearing: loads, films, lambda and rolling resistance, stiffness and damping over speed."""
     from ehlcontact.cli.study.bearing import load_job
 
-    check_file("--figure", figure, o.PICTURES)
-    check_json(json_to)
-    check_apart({"--figure": figure, "--json": json_to}, (Path(source),))
-    if oil is not None:
-        if grade is not None:
-            raise InputError(
-                "--oil", oil, f"left out where --grade is given, here {grade}: both are the oil's grade"
-            )
-        grade = oil_grade(oil, "--oil")
-    options = {"--load": load, "--speed": speed or None, "--grade": grade, "--temperature": temperature}
-    job = load_job(source, options | {"--clearance": clearance, "--rq": rq})
+    out.check(Path(source))
+    job = load_job(source, options.given())
     with progress("bearing"), job.called():
         report = _computed(job)
 
@@ -151,11 +149,7 @@ def bearing(
 
         draw_over_speed(report.states[len(report.states) // 2], report.coefficients, curve(report), path)
 
-    deliver(
-        lambda: write_to("--figure", figure, draw),
-        lambda: write_json(report.summary(), json_to),
-        lambda: _show(report, json_to),
-    )
+    out.deliver(report.summary(), partial(_show, report, out.json_to), figure=draw)
 
 
 def _computed(job: BearingJob) -> BearingReport:

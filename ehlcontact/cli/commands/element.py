@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -13,65 +12,57 @@ from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import Contact, Surfaces, frequency
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, save_to, show_table, write_json
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
     from reduced_models import AtlasAnswer
 
 
-def register(app: typer.Typer) -> None:
-    """Add the subcommand."""
-    app.command("element")(element)
+class Kind(o.Options):
+    """Which element, and for which frequency."""
 
-
-@o.grouped
-def element(
-    contact: Contact,
-    surfaces: Surfaces,
-    model: Annotated[str, typer.Option("--model", help="wide, memory or cubic.")] = "wide",
+    model: Annotated[str, typer.Option("--model", help="wide, memory or cubic.")] = "wide"
     Omega: Annotated[
         float | None,
         typer.Option(
             "--Omega",
             "--omega",
-            help="Of a cubic, which has to be told: the dimensionless angular frequency (unit of time 2a/u_sum) "
+            help="Of a cubic, which needs it: the dimensionless angular frequency (unit of time 2a/u_sum) "
             "that its damper is for. Both names mean the same: neither is in rad/s.",
         ),
-    ] = None,
+    ] = None
     hz: Annotated[
         float | None,
         typer.Option("--hz", show_default="that of the shaft", help="The same in Hz, of a bearing's contact."),
-    ] = None,
+    ] = None
     atlas: Annotated[
         Path | None,
         typer.Option("--atlas", metavar="FILE", help="An atlas; the library's own by default."),
-    ] = None,
-    save: Annotated[Path | None, typer.Option("--save", metavar="FILE", help="Save the element as JSON.")] = None,
-    json_to: o.JsonTo = None,
-) -> None:
+    ] = None
+
+
+@o.grouped
+def element(contact: Contact, surfaces: Surfaces, kind: Kind, out: o.ElementOutput) -> None:
     """Take a contact element from the atlas, in SI for a bearing: any load, any frequency, or one of each."""
     from reduced_models.atlas.atlas import MODELS, Atlas
 
-    require_choice("--model", model, MODELS)
+    require_choice("--model", kind.model, MODELS)
     point = contact.point()
-    at = frequency(contact, Omega, hz) if model == "cubic" or Omega is not None or hz is not None else {}
+    named = kind.model == "cubic" or kind.Omega is not None or kind.hz is not None
+    at = frequency(contact, kind.Omega, kind.hz) if named else {}
     if at is None:
         raise InputError("--Omega", None, "given with --model cubic: a damper without memory is for one frequency")
     surfaces.check(contact)
-    check_file("--save", save, (".json",))
-    check_json(json_to)
-    check_apart({"--save": save, "--json": json_to}, (atlas,))
-    table = Atlas(atlas)
+    out.check(kind.atlas)
+    table = Atlas(kind.atlas)
     with contact.called():
-        answer, made = table.at(point), table.element(point, model, **at)
+        answer, made = table.at(point), table.element(point, kind.model, **at)
     if said := contact.said:
         made = replace(made, source={**(made.source or {}), "contact": said})
     rough = () if surfaces.rq is None else surfaces.rows(answer.si.h_min)
     about = {} if surfaces.rq is None else surfaces.about(answer.si.h_min)
-    shown = partial(
-        show_table,
-        f"{model} element from the atlas, version {table.metadata['version']}",
+    shown = (
+        f"{kind.model} element from the atlas, version {table.metadata['version']}",
         [
             *contact.rows(point),
             *(_dimensionless(answer) if contact.rpm is None else _in_si(answer, contact.rpm)),
@@ -79,10 +70,8 @@ def element(
             *_damper(made),
             *_valid(made),
         ],
-        json_to,
     )
-    kept = partial(save_to, "--save", save, made)
-    deliver(kept, lambda: write_json({**made.to_dict(), **contact.about(point), **about}, json_to), shown)
+    out.deliver({**made.to_dict(), **contact.about(point), **about}, shown, save=made)
 
 
 def _dimensionless(answer: AtlasAnswer) -> list[tuple[str, str, str]]:

@@ -7,13 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ehlcontact.cli.output import check_file, say, write_to
-from ehlcontact.errors import InputError
-
-
-def register(app: typer.Typer) -> None:
-    """Add the subcommand."""
-    app.command("explore")(explore)
+from ehlcontact.cli.output import check_file, check_new, say, write_to
 
 
 def explore(
@@ -25,8 +19,7 @@ def explore(
     One file of 1.4 MB that needs no network: the atlas stands in it, and the browser computes what Python does.
     """
     check_file("--output", output, (".html", ".htm"))
-    if not force and output.exists():
-        raise InputError("--output", str(output), "a new file, or replaced with --force")
+    check_new("--output", output, force)
     from ehlcontact.cli.explorer import write_explorer
 
     write_to("--output", output, write_explorer)

@@ -8,16 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import (
-    USAGE,
-    check_apart,
-    check_file,
-    check_json,
-    complain,
-    deliver,
-    show_table,
-    write_json,
-)
+from ehlcontact.cli.output import USAGE, check_new, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.errors import InputError
 from ehlcontact.store import load
@@ -27,12 +18,9 @@ if TYPE_CHECKING:
     from fmu.system.check import SystemVerification
 
 
-def register(app: typer.Typer) -> None:
-    """Add the subcommand."""
-    app.command("export")(export)
-
-
+@o.grouped
 def export(
+    out: o.Output,
     file: Annotated[
         Path,
         typer.Argument(
@@ -69,7 +57,6 @@ def export(
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the file if there is one.")] = False,
-    json_to: o.JsonTo = None,
 ) -> None:
     """Export a contact element, or the rotor of a study, as an FMU or a system of FMUs, once it is verified."""
     if fmi not in (2, 3):
@@ -80,11 +67,8 @@ def export(
     if not study and output.suffix.lower() == ".ssp":
         allowed = "a file name ending in .fmu: a system (.ssp) is made of a study (.toml) with a rotor"
         raise InputError("--output", str(output), allowed)
-    check_file("--output", output, (".fmu", ".ssp") if study else (".fmu",))
-    check_json(json_to)
-    check_apart({"--output": output, "--json": json_to}, (file, *([contact] if contact else [])))
-    if not force and output.exists():
-        raise InputError("--output", str(output), "a new file, or replaced with --force")
+    out.check(file, contact, beside={"--output": (output, (".fmu", ".ssp") if study else (".fmu",))})
+    check_new("--output", output, force)
     from fmu import BuildError, VerificationError
     from fmu.binaries import choose
     from reduced_models import ContactElement
@@ -122,10 +106,7 @@ def export(
         ("binaries", str(len(built)), ", ".join(built)),
         *_advice(exported, found),
     ]
-    deliver(
-        lambda: write_json(document, json_to),
-        lambda: show_table(str(output), [*rows, *_rows(found, rotor=study)], json_to),
-    )
+    out.deliver(document, (str(output), [*rows, *_rows(found, rotor=study)]))
 
 
 def _exporter(system: bool) -> Any:

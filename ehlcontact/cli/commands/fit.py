@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,19 +11,15 @@ import typer
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, save_to, show_table, write_json
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
     from reduced_models import ElementFit, FitResult
 
 
-def register(app: typer.Typer) -> None:
-    """Add the subcommand."""
-    app.command("fit")(fit)
-
-
+@o.grouped
 def fit(
+    out: o.ElementOutput,
     files: Annotated[list[Path], typer.Argument(metavar="R.h5...", help="Results of `ehlcontact simulate`.")],
     model: Annotated[str, typer.Option("--model", help="linear, cubic, polynomial, power or memory.")] = "cubic",
     window: Annotated[
@@ -35,11 +30,9 @@ def fit(
             help="Part of T to fit; by default the last two thirds, of a ramp all.",
         ),
     ] = None,
-    save: Annotated[Path | None, typer.Option("--save", metavar="FILE", help="Save the element as JSON.")] = None,
     si: Annotated[
         bool, typer.Option("--si", help="Save it in N, m and s; of simulations of a bearing's contact.")
     ] = False,
-    json_to: o.JsonTo = None,
 ) -> None:
     """Fit a contact element to one or several simulations of the same contact."""
     from ehlcontact.store import load
@@ -52,9 +45,7 @@ def fit(
     require_choice("--model", model, MODELS)
     if model == MEMORY and window is not None:
         raise InputError("--window", window, "left out with --model memory, which takes whole records")
-    check_file("--save", save, (".json",))
-    check_json(json_to)
-    check_apart({"--save": save, "--json": json_to}, files)
+    out.check(*files)
     records = []
     for file in files:
         result = load(file, SimulationResult)
@@ -79,8 +70,7 @@ def fit(
         saved = saved.to_si(records[0].scales)
     rows = _coefficients(fitted) if isinstance(fitted, FitResult) else _memory(fitted)
     valid = fitted.valid
-    table = partial(
-        show_table,
+    table = (
         f"{model} element, {fitted.element.units}: static loads, dry approaches, 2a/u_sum",
         [
             *rows,
@@ -98,10 +88,8 @@ def fit(
                 f"|rate| <= {numeral(valid['rate'], 3)}",
             ),
         ],
-        json_to,
     )
-    kept = partial(save_to, "--save", save, saved)
-    deliver(kept, lambda: write_json(fitted.to_dict(), json_to), table)
+    out.deliver(fitted.to_dict(), table, save=saved)
 
 
 def _with_files(text: str, files: list[Path]) -> str:

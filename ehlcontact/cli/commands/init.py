@@ -2,76 +2,74 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
+from pydantic import Field
 
-from ehlcontact.checks import require_finite, require_positive
+from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import MEANING, known_bearings
+from ehlcontact.cli.contact import OIL_NAME, known_bearings
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.oils import OIL_HELP, TEMP_HELP, oil_grade
-from ehlcontact.cli.output import check_apart, check_file, check_json, deliver, say, write_json
-from ehlcontact.errors import InputError
+from ehlcontact.cli.output import check_new, say
+from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.files import write_text
 
 SEVERAL = "given several times, the study runs at all of them"
-RPM, LOAD = [3000.0], [100.0]  # of a study that nobody asked more of
 
 
-def register(app: typer.Typer) -> None:
-    """Add the subcommand."""
-    app.command("init")(init)
+class Wish(o.Options):
+    """What the study is about; in place of these options stand entries of the file afterwards."""
 
-
-def init(
-    file: Annotated[Path, typer.Argument(metavar="[FILE.toml]", help="Study file to write.")] = Path("study.toml"),
-    bearing: Annotated[
-        str,
-        typer.Option("--bearing", metavar="NAME", help=f"{MEANING['--bearing']}.", autocompletion=known_bearings),
-    ] = "6205",
-    oil: Annotated[str, typer.Option("--oil", metavar="GRADE", help=OIL_HELP)] = "ISO VG 68",
-    temp: Annotated[float, typer.Option("--temp", "--temperature", help=TEMP_HELP)] = 50.0,
-    rpm: Annotated[list[float], typer.Option("--rpm", help=f"{MEANING['--rpm']}; {SEVERAL}.")] = RPM,
-    load: Annotated[list[float], typer.Option("--load", help=f"{MEANING['--load']}; {SEVERAL}.")] = LOAD,
-    force: Annotated[bool, typer.Option("--force", help="Replace the file if there is one.")] = False,
-    json_to: o.JsonTo = None,
-) -> None:
-    """Write a study to begin with: every entry explained, defaults as comments, for `validate` and `run`."""
-    from ehlcontact.cli.starter.text import Wish, study_text
-
-    check_file("FILE.toml", file, (".toml",))
-    check_json(json_to)
-    check_apart({"FILE.toml": file, "--json": json_to})
-    if not force and file.exists():
-        raise InputError("FILE.toml", str(file), "a new file, or replaced with --force")
-    for option, values in (("--rpm", rpm), ("--load", load)):
-        for value in values:
-            require_positive(option, value)
-    require_finite("--temp", temp)
-    grade = oil_grade(oil, "--oil")
-    wish = Wish(bearing=bearing.strip().upper(), grade=grade, temperature=temp, rpm=tuple(rpm), load=tuple(load))
-    text = study_text(wish, file.name)
-    write_text(file, text, "FILE.toml")
-    oil, at = f"ISO VG {grade}", f"{numeral(temp)} °C, {_listed(load)} N at {_listed(rpm)} rpm"
-    about = {"bearing": wish.bearing, "oil": oil, "temperature": temp}
-    deliver(
-        lambda: write_json({"study": str(file), **about, **_numbers(rpm, load)}, json_to),
-        lambda: say(
-            f"{file}: {wish.bearing} in {oil} at {at}\n"
-            f"what it will do:  ehlcontact validate {file}\ndo it:            ehlcontact run {file}",
-            json_to,
-        ),
+    bearing: Annotated[e.Catalogue, typer.Option("--bearing", metavar="NAME", autocompletion=known_bearings)] = (
+        "6205"
+    )
+    oil: Annotated[str, OIL_NAME] = "ISO VG 68"
+    temp: Annotated[e.Temperature, typer.Option("--temp", "--temperature")] = 50.0
+    rpm: Annotated[list[e.Speed], typer.Option("--rpm"), e.meaning(f"speed of the shaft; {SEVERAL}")] = Field(
+        [3000.0]
+    )
+    load: Annotated[list[e.Load], typer.Option("--load"), e.meaning(f"radial load on the bearing; {SEVERAL}")] = (
+        Field([100.0])
     )
 
 
-def _listed(values: Sequence[float]) -> str:
-    return ", ".join(map(numeral, values))
+@o.grouped
+def init(
+    wish: Wish,
+    out: o.Output,
+    file: Annotated[Path, typer.Argument(metavar="[FILE.toml]", help="Study file to write.")] = Path("study.toml"),
+    force: Annotated[bool, typer.Option("--force", help="Replace the file if there is one.")] = False,
+) -> None:
+    """Write a study to begin with: every entry explained, defaults as comments, for `validate` and `run`."""
+    from ehlcontact.cli.starter import study_text
+
+    out.check(beside={"FILE.toml": (file, (".toml",))})
+    check_new("FILE.toml", file, force)
+    bearing, grade = wish.bearing.strip().upper(), oil_grade(wish.oil, "--oil")
+    entries = {
+        "bearing.catalogue": bearing,
+        "bearing.radial_load": _one_or_all(wish.load),
+        "bearing.speed_rpm": _one_or_all(wish.rpm),
+        "oil.iso_vg": grade,
+        "oil.temperature": float(wish.temp),
+    }
+    text = study_text({"title": f"study of a {bearing}", **entries}, file.name)
+    write_text(file, text, "FILE.toml")
+    oil, loads, speeds = f"ISO VG {grade}", *(", ".join(map(numeral, values)) for values in (wish.load, wish.rpm))
+    about = {"bearing": bearing, "oil": oil, "temperature": wish.temp}
+    numbers = {name: entries[f"bearing.{name}"] for name in ("speed_rpm", "radial_load")}
+    told = partial(
+        say,
+        f"{file}: {bearing} in {oil} at {numeral(wish.temp)} °C, {loads} N at {speeds} rpm\n"
+        f"what it will do:  ehlcontact validate {file}\ndo it:            ehlcontact run {file}",
+        out.json_to,
+    )
+    out.deliver({"study": str(file), **about, **numbers}, told)
 
 
-def _numbers(rpm: list[float], load: list[float]) -> dict[str, float | list[float]]:
-    """For JSON: a number where there is one, as in the file."""
-    given = {"speed_rpm": rpm, "radial_load": load}
-    return {name: values[0] if len(values) == 1 else values for name, values in given.items()}
+def _one_or_all(values: list[float]) -> float | list[float]:
+    """As the file has it: a list where there are several."""
+    return float(values[0]) if len(values) == 1 else [float(value) for value in values]

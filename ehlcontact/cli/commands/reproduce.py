@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, check_json, complain, prepare_folder, say, write_json
+from ehlcontact.cli.output import FAILED, complain, prepare_folder, say, write_json
 from ehlcontact.errors import InputError
 from ehlcontact.process.early_interrupt import INTERRUPTED
 from ehlcontact.solver.domain import check_intervals
@@ -16,12 +17,9 @@ from ehlcontact.solver.domain import check_intervals
 PAGE, DOCUMENT = "reproduction.html", "reproduction.json"
 
 
-def register(app: typer.Typer) -> None:
-    """Add the subcommand."""
-    app.command("reproduce")(reproduce)
-
-
+@o.grouped
 def reproduce(
+    out: o.Output,
     table: Annotated[
         list[int] | None, typer.Option("--table", metavar="N", help="Only these tables, 1 to 6; may be repeated.")
     ] = None,
@@ -32,8 +30,7 @@ def reproduce(
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="DIR", help="Folder of the simulations and the page.")
     ] = Path("results/reproduction"),
-    n: o.Intervals = 128,
-    json_to: o.JsonTo = None,
+    n: Annotated[int, typer.Option("--n", help="Intervals along X, a multiple of 16.")] = 128,
 ) -> None:
     """Make the tables and figures of Nonato and Cavalca (2010), ours beside theirs.
 
@@ -48,7 +45,7 @@ def reproduce(
     tables = _chosen("--table", table, tuple(TABLE_CASES), everything)
     figures = _chosen("--figure", figure, tuple(FIGURES), everything)
     check_intervals(n)
-    check_json(json_to)
+    out.check()
     prepare_folder(output)
 
     try:
@@ -58,8 +55,7 @@ def reproduce(
         raise typer.Exit(INTERRUPTED) from None
     page = write_reproduction(found, output / PAGE)
     write_json(found.to_dict(), str(output / DOCUMENT), "file")
-    write_json(found.to_dict(), json_to)
-    say(f"page: {page}", json_to)
+    out.deliver(found.to_dict(), partial(say, f"page: {page}", out.json_to))
     for name, why in found.failed.items():
         complain(f"{name}: {why}")
     if found.failed:

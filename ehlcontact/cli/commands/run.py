@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 import time
 from collections.abc import Sequence
@@ -20,8 +19,6 @@ from ehlcontact.cli.output import (
     FAILED,
     STDOUT,
     USAGE,
-    check_apart,
-    check_json,
     complain,
     prepare_folder,
     say,
@@ -41,23 +38,14 @@ if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
 
 
-def register(app: typer.Typer) -> None:
-    """Add the subcommand."""
-    app.command("run")(run)
-
-
+@o.grouped
 def run(
-    study_file: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="What to compute; see examples/.")],
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", metavar="DIR", help="Folder of the results; results/STUDY by default."),
-    ] = None,
-    jobs: Annotated[int, typer.Option("--jobs", min=1, max=16, help="Computations side by side.")] = 2,
+    out: o.Output,
+    options: o.StudyOptions,
     threads: Annotated[int, typer.Option("--threads", help="Threads of each, at most the cores.")] = 1,
     scheduler: Annotated[
         str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Solve the stages on this Dask cluster.")
     ] = None,
-    json_to: o.JsonTo = None,
 ) -> None:
     """Do a whole study: steady film, transients, elements, FMUs, rotor, report.
 
@@ -66,13 +54,12 @@ def run(
     """
     from ehlcontact.cli.study.points.lists import load_points, write_studies
 
-    folder = output if output is not None else Path("results") / study_file.stem
+    study_file, folder = options.study_file, options.folder
     points = load_points(study_file, folder)
     require_threads("threads", threads)
     for point in points:
         _require_room(point.study, study_file)
-    check_json(json_to)
-    check_apart({"--json": json_to}, (study_file,))
+    out.check(study_file)
     if scheduler is not None:
         from reduced_models.atlas.work import require_scheduler
 
@@ -86,9 +73,9 @@ def run(
     with alone_in(folder):
         write_studies(points, study_file, folder)
         journal = Journal(folder / LOG)
-        share = Share(min(jobs, os.cpu_count() or 1), threads, scheduler)
+        share = Share(options.side_by_side, threads, scheduler)
         board, seconds = _compute(points, folder, share, journal)
-        _tell(points, folder, board, seconds, json_to)
+        _tell(points, folder, board, seconds, out.json_to)
 
 
 def _require_room(study: Study, path: Path) -> None:

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from functools import partial
 from os.path import realpath
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import typer
 
-from ehlcontact.checks import require_positive
+from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import NO_TIME, Contact, Surfaces
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.output import FAILED, check_file, complain
+from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import OperatingPoint, Point
@@ -31,22 +31,17 @@ _MOTION, _TIME = "Motion (exactly one of --free, --harmonic, --ramp; of a bearin
 _RESTART = "Restart"
 
 
-def register(app: typer.Typer) -> None:
-    """Add the subcommand."""
-    app.command("simulate")(simulate)
-
-
-@dataclass(frozen=True, kw_only=True)
-class MotionOptions:
+class MotionOptions(o.Options):
     """What drives the contact."""
 
+    panel: ClassVar[str | None] = _MOTION
     free: Annotated[
         float | None,
-        typer.Option("--free", metavar="OMEGA_N", help="Free vibration, dimensionless.", rich_help_panel=_MOTION),
+        typer.Option("--free", metavar="OMEGA_N", help="Free vibration, dimensionless."),
     ] = None
     harmonic: Annotated[
         float | None,
-        typer.Option("--harmonic", metavar="OMEGA", help="Harmonic load, dimensionless.", rich_help_panel=_MOTION),
+        typer.Option("--harmonic", metavar="OMEGA", help="Harmonic load, dimensionless."),
     ] = None
     ramp: Annotated[
         tuple[float, float] | None,
@@ -54,25 +49,22 @@ class MotionOptions:
             "--ramp",
             metavar="RATIO DURATION",
             help="Load rising to RATIO times the static one in DURATION of T; needs --omega-n.",
-            rich_help_panel=_MOTION,
         ),
     ] = None
     free_hz: Annotated[
-        float | None,
+        e.Positive | None,
         typer.Option(
             "--free-hz",
             metavar="HZ",
             help="Of a bearing: free vibration of a mass whose small dry vibrations have this frequency, Hz.",
-            rich_help_panel=_MOTION,
         ),
     ] = None
     harmonic_hz: Annotated[
-        float | None,
+        e.Positive | None,
         typer.Option(
             "--harmonic-hz",
             metavar="HZ",
             help="Of a bearing: harmonic load of this frequency, Hz.",
-            rich_help_panel=_MOTION,
         ),
     ] = None
     Omega_n: Annotated[
@@ -81,23 +73,16 @@ class MotionOptions:
             "--Omega-n",
             "--omega-n",
             help="Dimensionless Omega_n of the bodies, for --ramp and --harmonic; both names mean the same.",
-            rich_help_panel=_MOTION,
         ),
     ] = None
     offset: Annotated[
         float | None,
-        typer.Option(
-            "--offset", help="Initial displacement in dry approaches, for --free.", rich_help_panel=_MOTION
-        ),
+        typer.Option("--offset", help="Initial displacement in dry approaches, for --free."),
     ] = None
-    rate: Annotated[
-        float | None, typer.Option("--rate", help="Initial rate du/dT, for --free.", rich_help_panel=_MOTION)
-    ] = None
+    rate: Annotated[float | None, typer.Option("--rate", help="Initial rate du/dT, for --free.")] = None
     amplitude: Annotated[
         float | None,
-        typer.Option(
-            "--amplitude", help="Of --harmonic, over the static load; 0.1 by default.", rich_help_panel=_MOTION
-        ),
+        typer.Option("--amplitude", help="Of --harmonic, over the static load; 0.1 by default."),
     ] = None
 
     def chosen(self, point: Point) -> Motion:
@@ -134,7 +119,6 @@ class MotionOptions:
 
     def _in_hz(self, name: str, hz: Any, point: OperatingPoint) -> Motion:
         """The motion of a frequency in Hz; whatever else is said of it is dimensionless here too."""
-        require_positive(name, hz)
         with o.called(Omega=f"{name}, dimensionless", Omega_n=f"{name}, as Omega_n dimensionless"):
             if name == "--free-hz":
                 Omega_n = FreeVibration.at(point, hz=hz).Omega_n
@@ -159,46 +143,41 @@ class MotionOptions:
                 raise InputError(name, value, f"left out with {chosen}: it belongs to {' or '.join(motions)}")
 
 
-@dataclass(frozen=True, kw_only=True)
-class TimeOptions:
+class TimeOptions(o.Options):
     """How long, and in which steps."""
 
+    panel: ClassVar[str | None] = _TIME
     until: Annotated[
-        float | None,
-        typer.Option("--until", help="End in T, unit 2a/u_sum; by default some periods.", rich_help_panel=_TIME),
+        e.Positive | None,
+        typer.Option("--until", help="End in T, unit 2a/u_sum; by default some periods."),
     ] = None
     until_ms: Annotated[
-        float | None,
-        typer.Option("--until-ms", help="The same of a bearing, in ms.", rich_help_panel=_TIME),
+        e.Positive | None,
+        typer.Option("--until-ms", help="The same of a bearing, in ms."),
     ] = None
     dt: Annotated[
-        float | None,
-        typer.Option("--dt", help="Step in T (1/80 period); with --error, the first.", rich_help_panel=_TIME),
+        e.Positive | None,
+        typer.Option("--dt", help="Step in T (1/80 period); with --error, the first."),
     ] = None
     error: Annotated[
-        float | None,
+        e.Positive | None,
         typer.Option(
             "--error",
             help="Control the step: local error of each. Over a run of bodies with inertia these "
             "add up to about its power 2/3.",
-            rich_help_panel=_TIME,
         ),
     ] = None
     tol: Annotated[
-        float | None,
+        e.Positive | None,
         typer.Option(
             "--tol",
             help="Residual at which a step counts as solved, over the central film at rest; by default 0.003, "
             "less for motions below 0.1, and with --error at most three times that.",
-            rich_help_panel=_TIME,
         ),
     ] = None
 
     def chosen(self, point: Point) -> TimeSteps:
-        """Check the options; the time steps that they stand for, in the unit of the point."""
-        for name in ("until", "dt", "error", "tol"):
-            if getattr(self, name) is not None:
-                require_positive(name, getattr(self, name))
+        """The time steps that the options stand for, in the unit of the point."""
         unit = point.scales.time if isinstance(point, OperatingPoint) else 1.0
         until, dt = (None if T is None else T * unit for T in (self._end(point), self.dt))
         with o.called(dt="--dt", local_error="--error"):
@@ -211,24 +190,20 @@ class TimeOptions:
             raise InputError("--until-ms", self.until_ms, "left out where --until is given: there is one end")
         if not isinstance(point, OperatingPoint):
             raise InputError("--until-ms", self.until_ms, "given as --until: this point has no unit of time")
-        return require_positive("--until-ms", self.until_ms) * 1e-3 / point.scales.time
+        return self.until_ms * 1e-3 / point.scales.time
 
 
-@dataclass(frozen=True, kw_only=True)
-class RestartOptions:
+class RestartOptions(o.Options):
     """Files that an interrupted run goes on from."""
 
+    panel: ClassVar[str | None] = _RESTART
     checkpoint: Annotated[
         Path | None,
-        typer.Option(
-            "--checkpoint", metavar="FILE", help="Keep a file to restart from.", rich_help_panel=_RESTART
-        ),
+        typer.Option("--checkpoint", metavar="FILE", help="Keep a file to restart from."),
     ] = None
     restart: Annotated[
         Path | None,
-        typer.Option(
-            "--restart", metavar="FILE", help="Go on from a checkpoint of this run.", rich_help_panel=_RESTART
-        ),
+        typer.Option("--restart", metavar="FILE", help="Go on from a checkpoint of this run."),
     ] = None
 
     @property
@@ -245,7 +220,7 @@ def simulate(
     motion: MotionOptions,
     time: TimeOptions,
     grid: o.Grid,
-    files: o.Files,
+    out: o.ResultOutput,
     restart: RestartOptions,
 ) -> None:
     """Simulate the transient contact under a motion; Ctrl-C keeps what was computed."""
@@ -255,8 +230,7 @@ def simulate(
     arguments = (point, motion.chosen(point))
     surfaces.check(contact)
     chosen, steps = grid.chosen(), time.chosen(point)
-    check_file("--checkpoint", restart.checkpoint, o.HDF5)
-    files.check({"--checkpoint": restart.checkpoint}, restart.other)
+    out.check(restart.other, beside={"--checkpoint": (restart.checkpoint, o.HDF5)})
     failure, unkept = "", None
     with progress("transient film") as update, o.called(dt="--dt", local_error="--error"):
         try:
@@ -272,19 +246,20 @@ def simulate(
         except CheckpointError as error:
             result, unkept = error.result, error
     # stopped before the first step, there is nothing to draw
-    rows, drawn = [*contact.rows(point), *_rows(result)], _draw if result.steps else None
+    drawn = partial(_draw, result) if result.steps else None
+    rows = [*contact.rows(point), *_rows(result)]
     about = contact.about(point)
     if result.scales is not None:
         rows += surfaces.rows(result.si.h_min.min())
         about |= surfaces.about(float(result.si.h_min.min()))
-    files.deliver(result, "transient film", rows, drawn, about)
+    out.deliver({**result.to_dict(), **about}, ("transient film", rows), save=result, figure=drawn)
     if result.reservation:
         complain(f"warning: {result.reservation}")
     if unkept is not None:
         raise unkept
     if not result.status.ok:
         message = failure or f"simulation {result.status} at T = {result.T[-1]:.6g}: {result.status.advice}"
-        kept = [f"partial result in {files.save}"] if files.save else []
+        kept = [f"partial result in {out.save}"] if out.save else []
         kept += [f"go on with --restart {restart.checkpoint}"] if restart.checkpoint else []
         complain("; ".join([message, *kept]))
         raise typer.Exit(INTERRUPTED if result.status is Status.INTERRUPTED else FAILED)

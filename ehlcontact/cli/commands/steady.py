@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 import typer
 
-from ehlcontact.checks import require_choice, require_positive
+from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import Contact, Surfaces
 from ehlcontact.cli.numerals import numeral
@@ -19,52 +19,33 @@ from ehlcontact.solver.domain import Domain
 if TYPE_CHECKING:
     from ehlcontact.results import SteadyResult
 
-_SOLVER = "Solver"
+
 WAVELENGTH, REFRACTIVE_INDEX = 600e-9, 1.5  # of the light [m] and of the oil: fringes in the figure
-Refine = Annotated[
-    bool,
-    typer.Option(
-        "--refine/--no-refine",
-        help="Without --n: a finer grid where the errors estimated are above 0.2 % of the dry approach, "
-        "1 % of the central and 3 % of the smallest film.",
-        rich_help_panel="Discretisation",
-    ),
-]
 
 
-def register(app: typer.Typer) -> None:
-    """Add the subcommand."""
-    app.command("steady")(steady)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Solving:
+class Solving(o.Options):
     """How it is solved, and how far."""
 
+    panel: ClassVar[str | None] = "Solver"
     method: Annotated[
         str,
         typer.Option(
             "--method",
             help="automatic, multigrid or newton: V cycles, Newton steps, or cycles and Newton where they fail.",
-            rich_help_panel=_SOLVER,
         ),
     ] = "automatic"
     tol: Annotated[
-        float,
-        typer.Option(
-            "--tol",
-            help="Largest change of the pressure still to come, over the Hertz pressure.",
-            rich_help_panel=_SOLVER,
-        ),
+        e.Positive,
+        typer.Option("--tol", help="Largest change of the pressure still to come, over the Hertz pressure."),
     ] = 1e-5
-
-    def chosen(self) -> dict[str, Any]:
-        """Check the options and call them as `ehlcontact.solve_steady` does."""
-        from ehlcontact.steady import METHODS
-
-        require_choice("--method", self.method, tuple(METHODS))
-        require_positive("--tol", self.tol)
-        return {"method": self.method, "tol": self.tol}
+    refine: Annotated[
+        bool,
+        typer.Option(
+            "--refine/--no-refine",
+            help="Without --n: a finer grid where the errors estimated are above 0.2 % of the dry approach, "
+            "1 % of the central and 3 % of the smallest film.",
+        ),
+    ] = True
 
 
 @o.grouped
@@ -73,30 +54,29 @@ def steady(
     surfaces: Surfaces,
     grid: o.Grid,
     solving: Solving,
-    files: o.Files,
-    refine: Refine = True,
+    out: o.ResultOutput,
 ) -> None:
     """Solve the steady film of a contact, in SI for a ball of a bearing."""
     from ehlcontact.steady import solve_steady
 
-    point, chosen = contact.solvable(), grid.chosen() | solving.chosen()
+    point, chosen = contact.solvable(), grid.chosen() | solving.model_dump()
     surfaces.check(contact)
-    files.check()
+    out.check()
     with progress("steady film") as update:
         result = solve_steady(
             point,
             **chosen,
-            refine=refine,
             throw=False,
             callback=lambda cycle, residual: update(cycle, None, f"cycle {cycle}, residual {residual:.1e}"),
         )
     rough = () if result.scales is None else surfaces.rows(result.si.h_min)
     about = contact.about(point) | ({} if result.scales is None else surfaces.about(result.si.h_min))
-    files.deliver(result, "steady film", [*contact.rows(point), *_rows(result), *rough], _draw, about)
+    table = "steady film", [*contact.rows(point), *_rows(result), *rough]
+    out.deliver({**result.to_dict(), **about}, table, save=result, figure=partial(_draw, result))
     if result.reservation:
         complain(f"warning: {result.reservation}")
     if not result.status.ok:
-        kept = f"; partial result in {files.save}" if files.save else ""
+        kept = f"; partial result in {out.save}" if out.save else ""
         complain(f"{result.status}: {result.status.advice}{kept}")
         raise typer.Exit(FAILED)
 

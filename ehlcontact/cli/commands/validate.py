@@ -2,56 +2,43 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
 from rich.console import Console
 from rich.table import Table
 
 from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral, spelled
-from ehlcontact.cli.output import STDOUT, check_apart, check_json, check_place, say, show_table, write_json
+from ehlcontact.cli.output import STDOUT, check_place, say, show_table
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.forecast import Forecast
     from ehlcontact.cli.study.points.lists import Point
 
 
-def register(app: typer.Typer) -> None:
-    """Add the subcommand."""
-    app.command("validate")(validate)
-
-
+@o.grouped
 def validate(
-    study_file: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="What `run` would compute.")],
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", metavar="DIR", help="Folder of the results; results/STUDY by default."),
-    ] = None,
-    jobs: Annotated[int, typer.Option("--jobs", min=1, max=16, help="Computations side by side.")] = 2,
-    json_to: o.JsonTo = None,
+    out: o.Output,
+    options: o.StudyOptions,
 ) -> None:
     """Check a study file and say what `run` will do with it, and about how long it takes. Nothing is solved."""
     from ehlcontact.cli.study.forecast import forecast
     from ehlcontact.cli.study.points.lists import load_points
 
-    folder = output if output is not None else Path("results") / study_file.stem
+    study_file, folder = options.study_file, options.folder
     points = load_points(study_file, folder)
-    check_json(json_to)
-    check_apart({"--json": json_to}, (study_file,))
+    out.check(study_file)
     check_place(folder)
-    found = [forecast(point.study, point.folder, min(jobs, os.cpu_count() or 1)) for point in points]
+    found = [forecast(point.study, point.folder, options.side_by_side) for point in points]
     if len(found) == 1:
-        write_json(found[0].to_dict(), json_to)
-        _show(found[0], json_to)
+        out.deliver(found[0].to_dict(), partial(_show, found[0], out.json_to))
         return
     document = whole(points, found, folder)
-    write_json(document, json_to)
-    _show_points(document, json_to)
+    out.deliver(document, partial(_show_points, document, out.json_to))
 
 
 def whole(points: Sequence[Point], found: Sequence[Forecast], folder: Path) -> dict[str, Any]:

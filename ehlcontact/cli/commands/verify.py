@@ -8,33 +8,27 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, check_apart, check_json, complain, deliver, show_table, write_json
+from ehlcontact.cli.output import FAILED, complain
 
 if TYPE_CHECKING:
     from fmu import ReferenceCheck
 
 
-def register(app: typer.Typer) -> None:
-    """Add the subcommand."""
-    app.command("verify")(verify)
-
-
+@o.grouped
 def verify(
     file: Annotated[Path, typer.Argument(metavar="X.fmu", help="FMU written by `export` or `run`.")],
-    json_to: o.JsonTo = None,
+    out: o.Output,
 ) -> None:
     """Check an FMU against the reference results inside it; no element is needed.
 
     Exit code 1 if it differs from them, or fmpy finds something in it; 2 if it cannot be read or has none.
     """
-    check_json(json_to)
-    check_apart({"--json": json_to}, (file,))
+    out.check(file)
     from fmu import verify_references
 
     with o.called(path="file"):
         found = verify_references(file)
-    document = {"fmu": str(file), **found.to_dict()}
-    deliver(lambda: write_json(document, json_to), lambda: show_table(str(file), _rows(found), json_to))
+    out.deliver({"fmu": str(file), **found.to_dict()}, (str(file), _rows(found)))
     for finding in found.findings:
         complain(f"{file}: {finding}")
     for one in found.interfaces:

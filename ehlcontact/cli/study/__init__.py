@@ -1,26 +1,26 @@
 """The study behind ``ehlcontact run``: a bearing and its oil in, elements, FMU, rotor and report out.
 
-===============  ======================================================================================
-module           responsibility
-===============  ======================================================================================
-``schema``       the study file: what may stand in it, and errors in one line
-``slips``        those errors, and guesses at what was meant
-``forecast``     what a study will do, and its cost, without doing it
-``stages``       the long computations, each a function of the study that leaves one file
-``worker``       one stage in its own process
-``runner``       stages side by side, with progress, resume and Ctrl-C
-``points``       its points, what is finished of each, and all of them together
-``reduction``    fits, element files, FMU
-``response``     the film's impedance down to the rotor's frequency, and the linear rotors on it
-``rotor``        the rotor turning with its unbalance, on full contacts and on elements, and its file
-``kick``         the rotor kicked, its decay and decrement
-``bode``         its response to unbalance over frequency
-``differences``  full films beside elements, and beside what there is without them
-``whole``        the rotor on two whole bearings, with film memory under every ball
-``whole_input``  the bearing that it takes, from the file
-``headline``     what was found, in one paragraph
-``results``      everything in numbers: ``results.json``
-``report``       ``report.html``
-``bearing``      the file of ``ehlcontact bearing``, and what its options change of it
-===============  ======================================================================================
+=================  ======================================================================================
+module             responsibility
+=================  ======================================================================================
+``schema``         the study file: what may stand in it, and errors in one line
+``schema_errors``  those errors, and guesses at what was meant
+``forecast``       what a study will do, and its cost, without doing it
+``stages``         the long computations, each a function of the study that leaves one file
+``worker``         one stage in its own process
+``runner``         stages side by side, with progress, resume and Ctrl-C
+``points``         its points, what is finished of each, and all of them together
+``reduction``      fits, element files, FMU
+``response``       the film's impedance down to the rotor's frequency, and the linear rotors on it
+``rotor``          the rotor turning with its unbalance, on full contacts and on elements, and its file
+``kick``           the rotor kicked, its decay and decrement
+``bode``           its response to unbalance over frequency
+``differences``    full films beside elements, and beside what there is without them
+``whole``          the rotor on two whole bearings, with film memory under every ball
+``whole_input``    the bearing that it takes, from the file
+``headline``       what was found, in one paragraph
+``results``        everything in numbers: ``results.json``
+``report``         ``report.html``
+``bearing``        the file of ``ehlcontact bearing``, and what its options change of it
+=================  ======================================================================================
 """

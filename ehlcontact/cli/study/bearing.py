@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -11,10 +10,12 @@ from typing import Annotated, Any
 
 from pydantic import Field, StrictBool, ValidationError
 
-from ehlcontact.cli.study.schema import Finite, NotNegative, Oil, Positive, Roughness, Section
-from ehlcontact.cli.study.slips import QUANTITIES, broken_line, first_error, in_other_kind
+from ehlcontact.cli import entries as e
+from ehlcontact.cli.entries import Section
+from ehlcontact.cli.study.schema import Oil
+from ehlcontact.cli.study.schema_errors import first_error, in_other_kind
+from ehlcontact.cli.toml import read_toml
 from ehlcontact.errors import InputError
-from ehlcontact.files import read_text
 from reduced_models import BallBearing
 
 OPTIONS = {
@@ -39,40 +40,38 @@ ENTRIES = {
 STUDY = ("free", "harmonic", "rotor", "solver")  # sections that only a study has
 NEEDED = ("balls", "ball_diameter_mm", "pitch_diameter_mm")  # of a bearing without a name
 
-Conformity = Annotated[float, Field(gt=0.5, le=10.0, allow_inf_nan=False)]
-
 
 class Bearing(Section):
     """A bearing of the catalogue, with other values where they are given; or its dimensions."""
 
     catalogue: str | None = None
     name: str | None = None
-    balls: Annotated[int, Field(ge=3, le=200, strict=True)] | None = None
-    ball_diameter_mm: Positive | None = None
-    pitch_diameter_mm: Positive | None = None
-    conformity_inner: Conformity | None = None
-    conformity_outer: Conformity | None = None
-    clearance_um: Finite | None = None  # below 0: preload
-    film_limit_um: Positive | None = None
-    loss_factor: NotNegative | None = None  # of rings and fits
+    balls: e.Balls | None = None
+    ball_diameter_mm: e.BallDiameter | None = None
+    pitch_diameter_mm: e.PitchDiameter | None = None
+    conformity_inner: e.Conformity | None = None
+    conformity_outer: e.Conformity | None = None
+    clearance_um: e.Clearance | None = None
+    film_limit_um: e.Positive | None = None
+    loss_factor: e.NotNegative | None = None  # of rings and fits
     ball_inertia: StrictBool | None = None  # balls vibrate between the rings
-    youngs_modulus: Positive | None = None
-    poisson_ratio: Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)] | None = None
+    youngs_modulus: e.YoungsModulus | None = None
+    poisson_ratio: e.PoissonRatio | None = None
 
 
 class Surface(Section):
     """Roughness for the lambda ratio: of ball and race, or of both together."""
 
-    rq_ball_um: Roughness | None = None
-    rq_race_um: Roughness | None = None
-    rq_um: Roughness | None = None
+    rq_ball_um: e.Roughness | None = None
+    rq_race_um: e.Roughness | None = None
+    rq_um: e.Roughness | None = None
 
 
 class Operation(Section):
     """What the bearing carries, and how fast the shaft turns."""
 
-    radial_load: NotNegative  # N, downwards
-    speed_rpm: Annotated[list[NotNegative], Field(min_length=1)]
+    radial_load: e.NotNegative  # N, downwards
+    speed_rpm: Annotated[list[e.NotNegative], Field(min_length=1)]
 
 
 class BearingFile(Section):
@@ -118,7 +117,7 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
     """
     given = frozenset(option for option, value in options.items() if value is not None)
     is_file = source.lower().endswith(".toml") or Path(source).is_file()
-    document = _read(source) if is_file else {"bearing": {"catalogue": source}}
+    document = read_toml(source, "file") if is_file else {"bearing": {"catalogue": source}}
     for option in given:
         section, _, key = OPTIONS[option].partition(".")
         entries = document.setdefault(section, {})
@@ -135,22 +134,8 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
     return BearingJob(bearing, found.operation.radial_load, speeds, origin, given)
 
 
-def _read(path: str) -> dict[str, Any]:
-    text = ""
-    try:
-        text = read_text(path)
-        return tomllib.loads(text)
-    except OSError as error:
-        raise InputError("file", path, f"a readable TOML file ({error.strerror})") from None
-    except (ValueError, RecursionError) as error:
-        raise InputError("file", path, f"complete TOML ({broken_line(text, error)})") from None
-
-
 def _bearing(found: BearingFile) -> BallBearing:
     b, surface = found.bearing, found.surface
-    for name in ("ball_diameter_mm", "pitch_diameter_mm", "youngs_modulus"):
-        if (value := getattr(b, name)) is not None:
-            QUANTITIES[f"bearing.{name}"].require(f"bearing.{name}", value)
     in_m = {"ball_diameter": (b.ball_diameter_mm, 1e-3), "pitch_diameter": (b.pitch_diameter_mm, 1e-3),
             "clearance": (b.clearance_um, 1e-6), "film_limit": (b.film_limit_um, 1e-6),
             "rq_ball": (surface.rq_ball_um, 1e-6), "rq_race": (surface.rq_race_um, 1e-6)}  # fmt: skip

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING
+from typing import Any
 
 from ehlcontact.cli.numerals import numeral, percent
 from ehlcontact.cli.study.differences import Events
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.reduction import CHOSEN, CONTACTS, DRY, FULL, MEMORY, UNDAMPED, WRONG
+from ehlcontact.cli.study.results import Findings
 from ehlcontact.cli.study.whole import NAMES
-
-if TYPE_CHECKING:
-    from ehlcontact.cli.study.results import Findings
 
 # Change by half the step, over a signal's standard deviation or the decrement, from which the headline tells it.
 STEP_TOLD = 0.01
+
+
+def document(found: Findings) -> dict[str, Any]:
+    """Content of ``results.json``: the sentences, and all numbers."""
+    said = {"status": "converged", "title": found.study.title, "answer": headline(found)}
+    return said | found.to_dict()
 
 
 def headline(found: Findings) -> str:

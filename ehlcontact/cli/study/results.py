@@ -13,7 +13,6 @@ import numpy as np
 
 from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.cli.study.differences import RotorFindings, compare_rotors
-from ehlcontact.cli.study.headline import headline
 from ehlcontact.cli.study.points.journal import versions
 from ehlcontact.cli.study.reduction import (
     CHOSEN,
@@ -190,18 +189,10 @@ class Findings:
         i, j = np.unravel_index(int(np.argmin(self.steady.H)), self.steady.H.shape)
         return {"X": float(self.steady.X[i]), "Y": float(self.steady.Y[j])}
 
-    @property
-    def answer(self) -> str:
-        """What the study found, in one paragraph."""
-        return headline(self)
-
     def to_dict(self) -> dict[str, Any]:
-        """Content of ``results.json``."""
+        """Numbers of ``results.json``."""
         keys = ("static_approach", "steps", "seconds")
         return {
-            "status": "converged",
-            "title": self.study.title,
-            "answer": self.answer,
             "operating_point": self.operating_point,
             "assumptions": self.assumptions.to_dict(),
             "steady": self.steady.to_dict(),

@@ -4,27 +4,34 @@ from __future__ import annotations
 
 import hashlib
 import json
-import tomllib
+import re
+from collections.abc import Callable, Mapping
 from math import pi
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError
 
-from ehlcontact.cli.contact import RQ_UM
+from ehlcontact.cli import entries as e
+from ehlcontact.cli.entries import Section, quantity_of
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.study.slips import ROTOR, broken_line, first_error, in_other_kind, inputs_of
+from ehlcontact.cli.study.schema_errors import first_error, in_other_kind, inputs_of
+from ehlcontact.cli.toml import read_toml
 from ehlcontact.errors import InputError
-from ehlcontact.files import read_text
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant import Lubricant
+from ehlcontact.lubricant.oil import GRADES
 from ehlcontact.point import OperatingPoint, require_solvable
 from ehlcontact.solver.domain import Domain
-from ehlcontact.transient.motion import FASTEST, SLOWEST, FreeVibration, HarmonicLoad
+from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
 from ehlcontact.version import __version__
 from reduced_models.bearing.catalogue import catalogue_row
 
 MOST_ECCENTRIC = 0.01  # m of the disc's centre of mass: balanced rotors have some 1e-6, and none runs with more
+BY_NUMBERS = ("eta0", "alpha")  # entries of an oil
+BY_GRADE = ("iso_vg", "temperature", "viscosity_index", "density_15")
+# As on the drum, and as people shorten it: "ISO VG 68", "VG68", "iso-vg 68", "68".
+_GRADE = re.compile(r"(?:(?:iso[\s_-]*)?vg[\s_-]*|iso[\s_-]*)?(\d{1,4})", re.IGNORECASE)
 ENTRIES = {  # as the library calls them
     "x_in": "solver.domain.0",
     "x_out": "solver.domain.1",
@@ -32,52 +39,40 @@ ENTRIES = {  # as the library calls them
     "conformity": "bearing.conformity",
 }
 
-Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
-Finite = Annotated[float, Field(allow_inf_nan=False)]
-Frequency = Annotated[float, Field(ge=SLOWEST, le=FASTEST, allow_inf_nan=False)]
-Grid = Annotated[int, Field(ge=16, le=2048, multiple_of=16, strict=True)]
-Steps = Annotated[int, Field(ge=20, le=2000, strict=True)]
-Amplitude = Annotated[float, Field(gt=0.0, lt=1.0, allow_inf_nan=False)]
-Roughness = Annotated[float, Field(ge=RQ_UM[0], le=RQ_UM[1], allow_inf_nan=False)]
-Periods = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
-
-
-class Section(BaseModel):
-    """A section of a file: unknown keys are refused."""
-
-    # strict: in a study `true` is no length of 1 mm, and "7.94" no number. A whole number is a number still.
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
-
 
 class Bearing(Section):
-    """A radial ball bearing, by its dimensions or its name; the contact is that of its most loaded ball."""
+    """The bearing, its load and speed; the contact is that of its most loaded ball.
 
-    catalogue: str | None = None  # other entries replace those of the catalogue
-    name: str = "ball bearing"
-    balls: Annotated[int, Field(ge=3, le=200, strict=True)]
-    ball_diameter_mm: Positive
-    pitch_diameter_mm: Positive
-    conformity: Annotated[float, Field(gt=0.5, le=10.0, allow_inf_nan=False)]
-    race: Literal["inner", "outer"] = "inner"
-    youngs_modulus: Positive = 2.06e11
-    poisson_ratio: Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)] = 0.3
-    radial_load: Positive  # N on this bearing
-    speed_rpm: Positive
+    Lists, as [1500.0, 3000.0], make a study of several points: every speed with every load.
+    """
+
+    catalogue: Annotated[
+        e.Catalogue | None, e.meaning("name in the catalogue, in place of the dimensions below")
+    ] = None
+    name: Annotated[str, e.meaning("as the report calls it")] = "ball bearing"
+    balls: e.Balls
+    ball_diameter_mm: e.BallDiameter
+    pitch_diameter_mm: e.PitchDiameter
+    conformity: e.Conformity
+    race: e.Race = "inner"
+    youngs_modulus: e.YoungsModulus = 2.06e11
+    poisson_ratio: e.PoissonRatio = 0.3
+    radial_load: Annotated[e.Load, e.meaning("radial load on this bearing, or a list")]
+    speed_rpm: Annotated[e.Speed, e.meaning("speed of the shaft, or a list")]
 
 
 class Oil(Section):
-    """Oil at the temperature of the inlet: its numbers, or its grade and that temperature."""
+    """The oil in the inlet of the contact: a grade and a temperature, or eta0 and alpha in their place."""
 
-    name: str = "oil"
-    eta0: Positive | None = None  # Pa s
-    alpha: Positive | None = None  # 1/Pa
-    iso_vg: Annotated[int, Field(strict=True)] | None = None
-    temperature: Finite | None = None  # C
-    viscosity_index: Finite | None = None
-    density_15: Finite | None = None  # kg/m3 at 15 C
-    viscosity: Literal["roelands", "barus"] = "roelands"
-    density: Literal["dowson-higginson", "incompressible"] = "dowson-higginson"
+    name: Annotated[str, e.meaning("as the report calls it; by its grade where left out")] = "oil"
+    eta0: e.Eta0 | None = None
+    alpha: e.Alpha | None = None
+    iso_vg: e.Grade | None = None
+    temperature: e.Temperature | None = None
+    viscosity_index: e.ViscosityIndex | None = None
+    density_15: e.Density15 | None = None
+    viscosity: e.ViscosityLaw = "roelands"
+    density: e.DensityLaw = "dowson-higginson"
 
     @property
     def label(self) -> str:
@@ -95,101 +90,164 @@ class Oil(Section):
         InputError
             Given in no way, in part, or in both ways; or an oil that the library refuses.
         """
-        numbers, grade = ("eta0", "alpha"), ("iso_vg", "temperature", "viscosity_index", "density_15")
-        given = [name for name in (*numbers, *grade) if getattr(self, name) is not None]
-        by_grade = any(name in grade for name in given)
-        if by_grade and any(name in numbers for name in given):
-            extra = next(name for name in given if name in grade)
-            allowed = "left out where eta0 or alpha are given: the oil is given by its numbers or by its grade"
-            raise InputError(f"oil.{extra}", getattr(self, extra), allowed)
-        missing = [name for name in (grade[:2] if by_grade else numbers) if name not in given]
-        if missing:
-            ways = "given: eta0 and alpha, or iso_vg and temperature in their place"
-            raise InputError(f"oil.{missing[0]}", None, ways)
+        given = {name: getattr(self, name) for name in (*BY_NUMBERS, *BY_GRADE)}
         laws = {"viscosity": self.viscosity, "density": self.density}
-        if not by_grade:
-            return Lubricant(self.eta0, self.alpha, **laws)  # type: ignore[arg-type]
-        try:
-            details = {name: getattr(self, name) for name in given if name != "iso_vg"}
-            return Lubricant.iso_vg(self.iso_vg, **details, **laws)  # type: ignore[arg-type]
-        except InputError as error:
-            raise InputError(f"oil.{error.field}", error.value, error.allowed) from None
+        return lubricant_of(given, laws, lambda name: f"oil.{name}")
+
+
+def lubricant_of(given: Mapping[str, Any], laws: Mapping[str, str], called: Callable[[str], str]) -> Lubricant:
+    """The oil of inputs: by its numbers, or by its grade and temperature.
+
+    Parameters
+    ----------
+    given : mapping
+        Inputs by their names in [oil]; None where one is left out.
+    laws : mapping
+        ``viscosity`` and ``density``.
+    called : callable
+        The user's name of an input, for messages.
+
+    Raises
+    ------
+    InputError
+        Given in no way, in part, or in both ways; or an oil that the library refuses.
+    """
+    numbers, grade = (
+        {n: given.get(n) for n in names if given.get(n) is not None} for names in (BY_NUMBERS, BY_GRADE)
+    )
+    ways = [" and ".join(map(called, names[:2])) for names in (BY_GRADE, BY_NUMBERS)]
+    if numbers and grade:
+        name, value = next(iter(grade.items()))
+        other = called(next(iter(numbers)))
+        allowed = f"left out where {other} is given: the oil is given by its numbers or by its grade"
+        raise InputError(called(name), value, allowed)
+    for name in BY_GRADE[:2] if grade else BY_NUMBERS:
+        if name not in grade and name not in numbers:
+            raise InputError(called(name), None, f"given: {ways[0]}, or {ways[1]} in their place")
+    if numbers:
+        return Lubricant(numbers["eta0"], numbers["alpha"], **laws)  # type: ignore[arg-type]
+    try:
+        return Lubricant.iso_vg(grade.pop("iso_vg"), **grade, **laws)  # type: ignore[arg-type]
+    except InputError as error:
+        raise InputError(called(error.field), error.value, error.allowed) from None
+
+
+def oil_grade(text: str, field: str) -> int:
+    """The grade in the name of an oil, 68 of "ISO VG 68"; `field` is what it was given as, for the message.
+
+    Raises
+    ------
+    InputError
+        Any other name, or a grade that the library does not have.
+    """
+    found = _GRADE.fullmatch(text.strip())
+    if found is None or int(found[1]) not in GRADES:
+        *most, last = map(str, GRADES)
+        raise InputError(field, text, f"ISO VG {', '.join(most)} or {last}; any other oil by its eta0 and alpha")
+    return int(found[1])
 
 
 class Surface(Section):
-    """Roughness of ball and race, for the lambda ratio alone: films are solved between smooth surfaces."""
+    """Roughness, for the lambda ratio alone: films are solved between smooth surfaces."""
 
-    rq_ball_um: Roughness | None = None
-    rq_race_um: Roughness | None = None
+    rq_ball_um: Annotated[e.Roughness | None, e.meaning("Rq of the balls; with rq_race_um or not at all")] = None
+    rq_race_um: Annotated[e.Roughness | None, e.meaning("Rq of the races")] = None
 
 
 class Solver(Section):
-    """Grids and region."""
+    """Grids and computed region. Finer ones take longer: `ehlcontact validate` says how long."""
 
-    n: Grid = 128  # of the steady film
-    n_transient: Grid = 128  # of every transient film
-    domain: Annotated[tuple[Finite, Finite, Finite], Field(strict=False)] = (-4.5, 1.5, 3.0)  # TOML has lists
+    n: Annotated[e.Intervals, e.meaning("intervals along rolling, steady film")] = 128
+    n_transient: Annotated[e.Intervals, e.meaning("intervals along rolling, every film in motion")] = 128
+    domain: Annotated[
+        tuple[e.Finite, e.Finite, e.Finite],
+        Field(
+            strict=False,
+            description="inlet, outlet and half width in semi-axes of the contact; damping depends on it a little",
+        ),
+    ] = (-4.5, 1.5, 3.0)
 
 
 class Free(Section):
-    """Free vibration of a mass on the contact, by its Omega_n or the frequency of small dry vibrations."""
+    """Free vibration of a mass on the contact, which a cubic element is fitted to."""
 
-    Omega_n: Frequency | None = None  # dimensionless; 2.56 where neither is given
-    hz: Positive | None = None
-    periods: Periods = 2.5
-    steps_per_period: Steps = 80
+    Omega_n: Annotated[
+        e.Frequency | None, e.meaning("of mass and dry contact, in u_sum/(2a); 2.56 where neither is given")
+    ] = None
+    hz: Annotated[e.Positive | None, e.meaning("Hz, in its place: the frequency of small dry vibrations")] = None
+    periods: e.Periods = 2.5
+    steps_per_period: e.Steps = 80
 
 
 class Harmonic(Section):
-    """Harmonic load in the band of the contact's own vibrations."""
+    """Harmonic load in the band of the contact's own vibrations, which another element is fitted to."""
 
-    Omega: Frequency | None = None  # dimensionless; pi where neither is given
-    hz: Positive | None = None
-    amplitude: Amplitude = 0.1
-    periods: Periods = 3.0
-    steps_per_period: Steps = 80
+    Omega: Annotated[e.Frequency | None, e.meaning("frequency, in u_sum/(2a); pi where neither is given")] = None
+    hz: Annotated[e.Positive | None, e.meaning("frequency in Hz, in its place")] = None
+    amplitude: Annotated[e.Share, e.meaning("over the static load")] = 0.1
+    periods: e.Periods = 3.0
+    steps_per_period: e.Steps = 80
 
 
 class Rotor(Section):
-    """Jeffcott rotor in two such bearings, and the harmonic load at its speed that its element is fitted to."""
+    """Jeffcott rotor in two such bearings: it turns with its unbalance, and decays freely after a kick."""
 
-    arrangement: Literal["vee", "vertical"] = "vee"
-    half_angle_deg: Annotated[float, Field(gt=0.0, lt=90.0, allow_inf_nan=False)] = 20.0
-    disc_mass: Positive = 2.0  # kg
-    journal_mass: Positive = 0.3  # kg, both journals
-    shaft_stiffness: Positive = 2e8  # N/m
-    shaft_damping: NotNegative = 60.0  # N s/m
-    disc_damping: NotNegative = 1.0  # N s/m
-    unbalance: Positive = 4e-5  # kg m
-    revolutions: Annotated[int, Field(ge=2, le=100, strict=True)] = 3  # from near the settled motion on
-    steps_per_revolution: Steps = 60
-    kick: Amplitude = 0.05  # swing of the contacts' load after it, in their load at rest
-    decay_periods: Annotated[float, Field(ge=4.0, le=100.0, allow_inf_nan=False)] = 8.0
-    decay_steps_per_period: Steps = 40
-    fit_amplitude: Amplitude = 0.25
-    fit_periods: Periods = 2.0
-    fit_steps_per_period: Steps = 40
+    arrangement: Annotated[
+        Literal["vee", "vertical"], e.meaning("balls that carry each journal: two at an angle, or one below")
+    ] = "vee"
+    half_angle_deg: Annotated[e.Finite, Field(gt=0.0, lt=90.0, description="degrees, of a vee")] = 20.0
+    disc_mass: Annotated[e.Mass, e.meaning("mass of the disc")] = 2.0
+    journal_mass: Annotated[e.Mass, e.meaning("mass of both journals together")] = 0.3
+    shaft_stiffness: Annotated[e.Stiffness, e.meaning("of the shaft between the bearings at the disc")] = 2e8
+    shaft_damping: Annotated[e.NotNegative, e.meaning("N s/m, of the shaft itself")] = 60.0
+    disc_damping: Annotated[e.NotNegative, e.meaning("N s/m, of the air about the disc")] = 1.0
+    unbalance: Annotated[e.Unbalance, e.meaning("mass times eccentricity")] = 4e-5
+    revolutions: Annotated[
+        e.Whole,
+        Field(ge=2, le=100, description="revolutions computed on full films, from near the settled motion on"),
+    ] = 3
+    steps_per_revolution: e.Steps = 60
+    kick: Annotated[e.Share, e.meaning("swing of the contacts' load after the kick, over their load at rest")] = (
+        0.05
+    )
+    decay_periods: Annotated[
+        e.Finite, Field(ge=4.0, le=100.0, description="periods of the vibration after the kick")
+    ] = 8.0
+    decay_steps_per_period: e.Steps = 40
+    fit_amplitude: Annotated[
+        e.Share, e.meaning("load at the rotor's speed that its element is fitted to, over the static load")
+    ] = 0.25
+    fit_periods: Annotated[e.Periods, e.meaning("periods of that load")] = 2.0
+    fit_steps_per_period: e.Steps = 40
 
 
 class WholeBearing(Section):
-    """The rotor on two whole bearings, two films with memory on every ball; left out, it is not run on them."""
+    """The same rotor on two whole bearings, a film with its memory under every ball: not without this section."""
 
-    conformity_other: Annotated[float, Field(gt=0.5, le=10.0, allow_inf_nan=False)] | None = None  # None: the same
-    clearance_um: Finite = 0.0  # radial internal clearance; below 0 the bearing is preloaded
-    revolutions: Annotated[int, Field(ge=10, le=1000, strict=True)] = 30  # the second half of them is shown
-    steps_per_revolution: Annotated[int, Field(ge=200, le=10000, strict=True)] = 500
+    conformity_other: Annotated[
+        e.Conformity | None, e.meaning("of the race that [bearing] is not about; the same where left out")
+    ] = None
+    clearance_um: e.Clearance = 0.0
+    revolutions: Annotated[
+        e.Whole, Field(ge=10, le=1000, description="revolutions computed; the second half of them is shown")
+    ] = 30
+    steps_per_revolution: Annotated[e.Whole, Field(ge=200, le=10000, description="time steps in each of them")] = (
+        500
+    )
 
 
 class Check(Section):
-    """Checks of the study's own numbers, which cost as much again and more; none unless they are switched on."""
+    """Checks of the study's own numbers: the error of its steps in time. They are done only if switched on."""
 
-    half_step: bool = False
+    half_step: Annotated[
+        bool, e.meaning("the rotor on full films again with half the step; the study takes about twice as long")
+    ] = False
 
 
 class Study(Section):
     """Everything that a study file says."""
 
-    title: str = "contact study"
+    title: Annotated[str, e.meaning("heads the report")] = "contact study"
     bearing: Bearing
     oil: Oil
     surface: Surface = Surface()
@@ -316,29 +374,11 @@ def load_study(path: Path) -> Study:
         No such file, not TOML, an unknown, missing or impossible entry, or a contact that the solvers are not made
         for; the line names file, field, value, allowed range and, where there is one, a likely slip.
     """
-    document = read_document(path)
+    document = read_toml(path, "study")
     try:
         return study_of(document)
     except InputError as error:
         raise InputError(f"{path}: {error.field}", error.value, error.allowed) from None
-
-
-def read_document(path: Path) -> dict[str, Any]:
-    """What a study file says, not checked yet.
-
-    Raises
-    ------
-    InputError
-        No such file, or not TOML.
-    """
-    text = ""
-    try:
-        text = read_text(path)
-        return tomllib.loads(text)
-    except OSError as error:
-        raise InputError("study", str(path), f"a readable TOML file ({error.strerror})") from None
-    except (ValueError, RecursionError) as error:
-        raise InputError("study", str(path), f"complete TOML ({broken_line(text, error)})") from None
 
 
 def study_of(document: dict[str, Any]) -> Study:
@@ -358,8 +398,6 @@ def study_of(document: dict[str, Any]) -> Study:
         raise in_other_kind(first_error(error, Study), document, ("operation",), "bearing") from None
     given = inputs_of(study)
     try:
-        for name, (value, quantity) in {**given, **inputs_of(study, ROTOR)}.items():
-            quantity.require(name, value)
         _require_together(study)
         for name in ("domain", "point", "roughness", "free_motion", "harmonic_motion", "rotor_motion"):
             getattr(study, name)  # made here once, so that what the library refuses is refused now
@@ -398,7 +436,8 @@ def _require_together(study: Study) -> None:
         allowed = f"above bearing.ball_diameter_mm = {bearing.ball_diameter_mm:g}"
         raise InputError("bearing.pitch_diameter_mm", bearing.pitch_diameter_mm, allowed)
     if not rotor.unbalance <= MOST_ECCENTRIC * rotor.disc_mass:
-        guess = ROTOR["rotor.unbalance"].slip(rotor.unbalance)
+        quantity = quantity_of(Rotor.model_fields["unbalance"])
+        guess = quantity.slip(rotor.unbalance) if quantity else ""
         allowed = (
             f"at most {MOST_ECCENTRIC * rotor.disc_mass:g} kg m, {1e3 * MOST_ECCENTRIC:g} mm times the disc's mass"
         )

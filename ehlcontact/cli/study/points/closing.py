@@ -31,6 +31,7 @@ class Closed(NamedTuple):
 
 def close(study: Study, folder: Path) -> Closed:
     """Make them, and write them to the folder."""
+    from ehlcontact.cli.study.headline import document
     from ehlcontact.cli.study.report import write_report
     from ehlcontact.cli.study.results import evaluate
 
@@ -38,7 +39,7 @@ def close(study: Study, folder: Path) -> Closed:
     try:
         with warnings.catch_warnings(record=True) as said:
             found = evaluate(study, folder, read_ledger(folder))
-            results = found.to_dict()
+            results = document(found)
             write_json(results, str(folder / RESULTS), "file")
             write_report(found, folder / REPORT)
     except KeyboardInterrupt:

@@ -8,9 +8,9 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from ehlcontact.cli.starter.toml import toml_of
-from ehlcontact.cli.study.schema import Study, read_document, study_of
-from ehlcontact.cli.study.slips import SEVERAL
+from ehlcontact.cli.study.schema import Study, study_of
+from ehlcontact.cli.study.schema_errors import SEVERAL
+from ehlcontact.cli.toml import read_toml, toml_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import read_text, write_text
 
@@ -60,7 +60,7 @@ def load_points(path: Path, folder: Path) -> tuple[Point, ...]:
     InputError
         As `load_study`; lists that are empty, name a number twice, or make too many points.
     """
-    document = read_document(path)
+    document = read_toml(path, "study")
     try:
         return points_of(document, folder)
     except InputError as error:

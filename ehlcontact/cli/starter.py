@@ -1,26 +1,25 @@
-"""The text of a study: values that are asked for, defaults of the schema as comments, what each entry may be."""
+"""The study file that ``ehlcontact init`` writes: every entry of the schema, explained, with its default.
+
+Meaning, range and default come from the schema. Values that were asked for, and grids that suit the film, are
+entries; all others are defaults, as comments.
+"""
 
 from __future__ import annotations
 
-import json
 import tomllib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from textwrap import wrap
-from typing import Any, Literal, get_args, get_origin
+from typing import Any
 
-from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from ehlcontact.cli.starter.meaning import MEANINGS, SECTIONS
-from ehlcontact.cli.starter.toml import toml_value
+from ehlcontact.cli.entries import allowed_of, keys_of, meaning_of
 from ehlcontact.cli.study.points.lists import points_of
 from ehlcontact.cli.study.schema import Study, catalogue_entries
-from ehlcontact.cli.study.slips import range_of
 from ehlcontact.cli.study.whole_input import require_whole_bearing
+from ehlcontact.cli.toml import toml_value
 from ehlcontact.errors import InputError
-from ehlcontact.lubricant.oil import DENSITIES, GRADES, INDICES, TEMPERATURES
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.solver.mesh import Purpose, mesh_for
@@ -28,14 +27,6 @@ from reduced_models.bearing.catalogue import catalogue_row
 
 WIDTH = 115  # characters of a line, as in the files of examples/
 COMMENT = 34  # of them before the comment
-# What the library takes where the schema leaves it to it.
-LIBRARY = {
-    "oil.iso_vg": ", ".join(map(str, GRADES)),
-    **{
-        f"oil.{key}": f"between {ends[0]:g} and {ends[1]:g}"
-        for key, ends in (("temperature", TEMPERATURES), ("viscosity_index", INDICES), ("density_15", DENSITIES))
-    },
-}
 # Entries of the file by the option that sets them.
 OPTIONS = {
     "bearing.catalogue": "--bearing",
@@ -51,39 +42,22 @@ HEAD = """\
 # A line that begins with # and a name shows the default: take the # away to change it. `name = ?` has none."""
 
 
-@dataclass(frozen=True)
-class Wish:
-    """What a study is asked to be about: catalogue name, ISO grade, C, speeds in rev/min, loads in N."""
-
-    bearing: str
-    grade: int
-    temperature: float
-    rpm: tuple[float, ...]
-    load: tuple[float, ...]
-
-
-def study_text(wish: Wish, name: str) -> str:
+def study_text(asked: Mapping[str, Any], name: str) -> str:
     """The file, which `load_study` takes as it is.
 
     Parameters
     ----------
-    wish : Wish
+    asked : mapping
+        Entries that the study is about, by ``section.key``; ``bearing.catalogue`` is among them.
     name : str
-        Of the file, for its first lines.
+        Name of the file, for its first lines.
 
     Raises
     ------
     InputError
-        What is asked for is no study; it names the option.
+        The entries are no study; it names the option that sets the entry.
     """
-    entries = {
-        "title": f"study of a {wish.bearing}",
-        "bearing.catalogue": wish.bearing,
-        "bearing.radial_load": _one_or_all(wish.load),
-        "bearing.speed_rpm": _one_or_all(wish.rpm),
-        "oil.iso_vg": wish.grade,
-        "oil.temperature": float(wish.temperature),
-    }
+    entries = dict(asked)
     try:
         studies = [point.study for point in points_of(tomllib.loads(_written(entries, name, "")), Path())]
         entries |= _fitting(studies)
@@ -97,11 +71,6 @@ def study_text(wish: Wish, name: str) -> str:
     except InputError as error:
         raise InputError(OPTIONS.get(error.field, error.field), error.value, error.allowed) from None
     return text
-
-
-def _one_or_all(values: Sequence[float]) -> float | list[float]:
-    """As the file says it: a list where there are several."""
-    return float(values[0]) if len(values) == 1 else [float(value) for value in values]
 
 
 def _fitting(studies: Sequence[Study]) -> dict[str, Any]:
@@ -133,17 +102,17 @@ def _written(entries: Mapping[str, Any], name: str, no_whole: str | None = None)
     lines = [HEAD.format(name=name), ""]
     for section, field in Study.model_fields.items():
         model = field.annotation
-        if not (isinstance(model, type) and issubclass(model, BaseModel)):
+        if not keys_of(model):
             lines.append(_line(section, field, entries, shown))
             continue
-        lines += ["", *_comment(SECTIONS[section])]
+        lines += ["", *_comment(" ".join((model.__doc__ or "").split()))]
         if section == "whole_bearing" and no_whole is not None:
             lines += [*_comment(f"Left out here: {no_whole}"), f"# [{section}]"]
         else:
             lines.append(f"[{section}]")
         if section == "bearing":
             lines += _comment(f"dimensions: {catalogue_row(entries['bearing.catalogue'])[1].source}")
-        lines += [_line(f"{section}.{key}", entry, entries, shown) for key, entry in model.model_fields.items()]
+        lines += [_line(f"{section}.{key}", entry, entries, shown) for key, entry in keys_of(model).items()]
     return "\n".join(lines) + "\n"
 
 
@@ -152,7 +121,8 @@ def _line(name: str, entry: FieldInfo, entries: Mapping[str, Any], shown: Mappin
     key = name.rpartition(".")[2]
     default = shown.get(name, None if entry.is_required() else entry.default)
     value = entries.get(name, default)
-    what = "; ".join(part for part in (MEANINGS[name], _allowed(name, entry)) if part)
+    allowed = allowed_of(entry).removeprefix("a finite number ")
+    what = "; ".join(part for part in (meaning_of(entry), allowed) if part)
     if name in entries and default is not None and name not in shown:
         what += (
             f" (default {toml_value(default)}{', too small for this film' if name.startswith('solver.') else ''})"
@@ -166,12 +136,3 @@ def _line(name: str, entry: FieldInfo, entries: Mapping[str, Any], shown: Mappin
 
 def _comment(text: str) -> list[str]:
     return [f"# {line}" for line in wrap(text, WIDTH - 2)]
-
-
-def _allowed(name: str, entry: FieldInfo) -> str:
-    """What the schema takes; empty where it takes any number or text."""
-    if get_origin(entry.annotation) is Literal:
-        return " or ".join(json.dumps(choice) for choice in get_args(entry.annotation))
-    if name in LIBRARY:
-        return LIBRARY[name]
-    return range_of(Study, name).removeprefix("a finite number ")

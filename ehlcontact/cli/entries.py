@@ -1,0 +1,165 @@
+"""Inputs of study files and of the command line: type, unit, range and meaning of each, declared once.
+
+An alias is the type of an entry of a file and of the option that sets the same quantity. Its metadata are
+pydantic's bounds and a description; and `Physical` for what has a unit, or `Allowed` for a range that the library
+checks. Messages, the file that ``ehlcontact init`` writes and ``--help`` are made of them.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin
+
+from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler
+from pydantic.fields import FieldInfo
+from pydantic_core import CoreSchema, PydanticCustomError
+from pydantic_core.core_schema import no_info_after_validator_function
+
+from ehlcontact.checks.admissible_range import INPUTS, Quantity
+from ehlcontact.lubricant.oil import DENSITIES, GRADES, INDICES, TEMPERATURES
+from ehlcontact.transient.motion import FASTEST, SLOWEST
+
+
+class Section(BaseModel):
+    """A section of a file, or a group of options: unknown keys are refused."""
+
+    # strict: in a study `true` is no length of 1 mm, and "7.94" no number. A whole number is a number still.
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+@dataclass(frozen=True, eq=False)  # by identity: a quantity holds a mapping, and metadata of a type are hashed
+class Physical:
+    """The physical quantity that an input is: its limits are checked; other units show in messages."""
+
+    quantity: Quantity
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Schema of the type itself, and then the limits."""
+        return no_info_after_validator_function(self._within, handler(source))
+
+    def _within(self, value: float) -> float:
+        low, high = self.quantity.limits
+        if not low <= value <= high:
+            raise PydanticCustomError("limits", "outside its limits")
+        return value
+
+
+class Allowed(NamedTuple):
+    """Range of an input that the library checks, in words."""
+
+    text: str
+
+
+def _between(ends: tuple[float, float], unit: str) -> Allowed:
+    return Allowed(f"between {ends[0]:g} and {ends[1]:g} {unit}")
+
+
+def meaning(text: str) -> Any:
+    """Description of an input, for its alias."""
+    return Field(description=text)
+
+
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Positive = Annotated[Finite, Field(gt=0.0)]
+NotNegative = Annotated[Finite, Field(ge=0.0)]
+Whole = Annotated[int, Field(strict=True)]
+Share = Annotated[Finite, Field(gt=0.0, lt=1.0)]
+
+# The bearing.
+Catalogue = Annotated[str, meaning("name of a deep-groove ball bearing in the library's catalogue, as 6205")]
+Balls = Annotated[Whole, Field(ge=3, le=200, description="number of balls")]
+BallDiameter = Annotated[Positive, Physical(INPUTS["ball_diameter"].in_unit("mm")), meaning("diameter of a ball")]
+PitchDiameter = Annotated[
+    Positive, Physical(INPUTS["pitch_diameter"].in_unit("mm")), meaning("circle through the centres of the balls")
+]
+Conformity = Annotated[
+    Finite, Field(gt=0.5, le=10.0), Physical(INPUTS["conformity"]), meaning("groove radius over ball diameter")
+]
+Race = Annotated[Literal["inner", "outer"], meaning("race of the contact")]
+YoungsModulus = Annotated[Positive, Physical(INPUTS["e1"]), meaning("Young's modulus of balls and rings")]
+PoissonRatio = Annotated[Finite, Field(ge=0.0, le=0.5, description="Poisson's ratio of balls and rings")]
+Clearance = Annotated[Finite, meaning("radial internal clearance, um; below 0 the bearing is preloaded")]
+Load = Annotated[Positive, Physical(INPUTS["load"]), meaning("radial load on the bearing")]
+Speed = Annotated[Positive, Physical(INPUTS["speed_rpm"]), meaning("speed of the shaft")]
+
+# The oil in the inlet of the contact.
+Eta0 = Annotated[Positive, Physical(INPUTS["eta0"]), meaning("viscosity at ambient pressure")]
+Alpha = Annotated[Positive, Physical(INPUTS["alpha"]), meaning("pressure-viscosity coefficient")]
+Grade = Annotated[
+    Whole, Allowed(", ".join(map(str, GRADES))), meaning("ISO VG grade of a mineral oil: mm2/s at 40 C")
+]
+Temperature = Annotated[Finite, _between(TEMPERATURES, "C"), meaning("temperature of the oil in the inlet")]
+ViscosityIndex = Annotated[Finite, _between(INDICES, ""), meaning("viscosity index of the grade; 95 if left out")]
+Density15 = Annotated[Finite, _between(DENSITIES, "kg/m3"), meaning("density at 15 C; 875 if left out")]
+ViscosityLaw = Annotated[Literal["roelands", "barus"], meaning("law of viscosity over pressure")]
+DensityLaw = Annotated[Literal["dowson-higginson", "incompressible"], meaning("law of density over pressure")]
+
+# Surfaces, grids and motions.
+Roughness = Annotated[Finite, Physical(Quantity("um", (1e-3, 100.0), (1e-3, 10.0), {"m": 1e6, "nm": 1e-3}))]
+Intervals = Annotated[Whole, Field(ge=16, le=2048, multiple_of=16)]
+Frequency = Annotated[Finite, Field(ge=SLOWEST, le=FASTEST)]  # dimensionless
+Steps = Annotated[Whole, Field(ge=20, le=2000, description="time steps in each of them")]
+Periods = Annotated[Finite, Field(ge=1.0, le=100.0, description="periods that are computed")]
+
+# The rotor: from a watch's balance to a power station's turbine.
+Mass = Annotated[Positive, Physical(Quantity("kg", (1e-6, 1e6), (1e-3, 1e5), {"g": 1e-3, "t": 1e3}))]
+Stiffness = Annotated[Positive, Physical(Quantity("N/m", (1.0, 1e13), (1e4, 1e10), {"N/mm": 1e3, "N/um": 1e6}))]
+Unbalance = Annotated[
+    Positive, Physical(Quantity("kg m", (1e-15, 1e4), (1e-8, 1e-3), {"kg mm": 1e-3, "g mm": 1e-6}))
+]
+
+
+def field_of(model: type[BaseModel], entry: str) -> FieldInfo | None:
+    """The declaration of an entry, ``section.key``, ``name`` or ``name.0`` of a list; None if there is none."""
+    name, _, key = entry.partition(".")
+    field = model.model_fields.get(name)
+    return field if field is None or not key or key.isdigit() else keys_of(field.annotation).get(key)
+
+
+def keys_of(section: Any) -> dict[str, FieldInfo]:
+    """Entries of a section; none of what is not one."""
+    return getattr(section, "model_fields", {})
+
+
+def rules_of(field: FieldInfo | None) -> Iterator[Any]:
+    """Metadata of an entry, also of one that may be left out."""
+    yield from getattr(field, "metadata", ())
+    for choice in get_args(getattr(field, "annotation", None)):
+        for rule in get_args(choice)[1:] if get_origin(choice) is Annotated else ():
+            yield rule
+            yield from getattr(rule, "metadata", ())
+
+
+def quantity_of(field: FieldInfo | None) -> Quantity | None:
+    """The physical quantity that an entry is, with its limits and unit."""
+    return next((rule.quantity for rule in rules_of(field) if isinstance(rule, Physical)), None)
+
+
+def meaning_of(field: FieldInfo) -> str:
+    """What an entry is, in words."""
+    own = (rule.description for rule in (field, *rules_of(field)) if getattr(rule, "description", None))
+    return next(own, "")
+
+
+def allowed_of(field: FieldInfo | None) -> str:
+    """All that an entry may be; empty where it takes any number or text."""
+    if (quantity := quantity_of(field)) is not None:
+        ends = quantity.limits
+        return f"between {ends[0]:g} and {ends[1]:g} {quantity.unit}".rstrip()
+    if words := next((rule.text for rule in rules_of(field) if isinstance(rule, Allowed)), ""):
+        return words.rstrip()
+    kind = getattr(field, "annotation", None)
+    for choice in (kind, *get_args(kind), *(part for one in get_args(kind) for part in get_args(one))):
+        if get_origin(choice) is Literal:
+            return " or ".join(json.dumps(name) for name in get_args(choice))
+    names = ("ge", "gt", "le", "lt", "multiple_of")
+    bounds = {name: getattr(rule, name) for rule in rules_of(field) for name in names if hasattr(rule, name)}
+    low, high = bounds.get("ge", bounds.get("gt")), bounds.get("le", bounds.get("lt"))
+    multiple = f"a multiple of {bounds['multiple_of']} " if "multiple_of" in bounds else ""
+    if low is None:
+        return ""
+    if high is None:
+        return f"a finite number {'>' if 'gt' in bounds else '>='} {low:g}"
+    return f"above {low:g} and below {high:g}" if "gt" in bounds else f"{multiple}between {low:g} and {high:g}"

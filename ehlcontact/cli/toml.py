@@ -1,0 +1,66 @@
+"""TOML: files of studies and bearings read, entries written with all their digits."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from reprlib import repr as shortened
+from typing import Any
+
+from ehlcontact.errors import InputError
+from ehlcontact.files import read_text
+
+
+def read_toml(path: Path | str, field: str) -> dict[str, Any]:
+    """Content of a TOML file; `field` is the name of the input that gives the file, for messages.
+
+    Raises
+    ------
+    InputError
+        No such file, or not TOML: with the line that the parser points to.
+    """
+    text = ""
+    try:
+        text = read_text(path)
+        return tomllib.loads(text)
+    except OSError as error:
+        raise InputError(field, str(path), f"a readable TOML file ({error.strerror})") from None
+    except (ValueError, RecursionError) as error:
+        raise InputError(field, str(path), f"complete TOML ({_broken_line(text, error)})") from None
+
+
+def _broken_line(text: str, error: Exception) -> str:
+    """Why it is no TOML, and the line that the parser points to."""
+    if isinstance(error, RecursionError):
+        return "nested too deeply"
+    if isinstance(error, UnicodeDecodeError):
+        return "text in UTF-8, which this is not"
+    reason = str(error)
+    found = re.search(r"at line (\d+)", reason)
+    lines = text.splitlines()
+    line = lines[int(found[1]) - 1].strip() if found and int(found[1]) <= len(lines) else ""
+    return f"{reason}: {shortened(line)}" if line else reason
+
+
+def toml_value(value: Any) -> str:
+    """A value of an entry in TOML, with all its digits."""
+    if isinstance(value, tuple | list):
+        return f"[{', '.join(map(toml_value, value))}]"
+    if isinstance(value, float):
+        short = f"{value:g}"
+        text = short if float(short) == value else repr(value)
+        return text if "." in text or "e" in text else f"{text}.0"
+    return json.dumps(value, ensure_ascii=False)
+
+
+def toml_of(entries: Mapping[str, Any]) -> str:
+    """A file of entries, and of sections with their entries."""
+    own = {key: value for key, value in entries.items() if not isinstance(value, Mapping)}
+    lines = [f"{key} = {toml_value(value)}" for key, value in own.items()]
+    for name, section in entries.items():
+        if name not in own:
+            lines += ["", f"[{name}]", *(f"{key} = {toml_value(value)}" for key, value in section.items())]
+    return "\n".join(lines) + "\n"
