@@ -10,6 +10,7 @@ room           responsibility
 ``output``     tables, JSON, messages, checks of where results go, streams
 ``usage``      what is wrong with a command line, in one line; examples
 ``numerals``   numbers for people: figures, exponents, characters of units
+``rows``       rows of tables: quantities of results in units that people use
 ``progress``   how far a computation is: bars on a terminal, now and then a line elsewhere
 ``page``       HTML pages that need no other file, from ``templates/``
 ``explorer``   the page of ``explore``: its data, and JavaScript from ``templates/explore/``

@@ -284,8 +284,3 @@ class ResultOutput(Output):
 
     save: Save = None
     figure: FigureTo = None
-
-
-def domain_text(domain: Domain) -> str:
-    """The region in words."""
-    return f"[{domain.x_in:g}, {domain.x_out:g}] x [-{domain.y_max:g}, {domain.y_max:g}] Hertz semi-axes"

@@ -104,7 +104,7 @@ def test_simulation_in_hz_and_its_element_in_si(call, refused, tmp_path):
     record, element = tmp_path / "r.h5", tmp_path / "e.json"
     motion = ("--harmonic-hz", "2e4", "--until-ms", "0.1", "--dt", "0.3")
     result = call("simulate", *options(), *COARSE, *motion, "--save", record)
-    assert result.code == 0 and "load of 20000 Hz" in result.out and "0.1 ms" in result.out
+    assert result.code == 0 and "20000 Hz" in result.out and "0.1 ms" in result.out
     stored = load(record)
     assert isinstance(stored, SimulationResult)
     assert stored.si.hz == pytest.approx(2e4) and stored.si.t[-1] == pytest.approx(1e-4)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,7 +13,10 @@ from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import Contact, Surfaces, frequency
 from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.rows import Row, in_unit, quantity_rows
 from ehlcontact.errors import InputError
+
+SHOWN = 0.05, 1.0, math.tau  # dimensionless frequencies of the atlas that the table shows
 
 if TYPE_CHECKING:
     from reduced_models import AtlasAnswer
@@ -65,7 +69,7 @@ def element(contact: Contact, surfaces: Surfaces, kind: Kind, out: o.ElementOutp
         f"{kind.model} element from the atlas, version {table.metadata['version']}",
         [
             *contact.rows(point),
-            *(_dimensionless(answer) if contact.rpm is None else _in_si(answer, contact.rpm)),
+            *_answer(answer, contact.rpm),
             *rough,
             *_damper(made),
             *_valid(made),
@@ -74,43 +78,28 @@ def element(contact: Contact, surfaces: Surfaces, kind: Kind, out: o.ElementOutp
     out.deliver({**made.to_dict(), **contact.about(point), **about}, shown, save=made)
 
 
-def _dimensionless(answer: AtlasAnswer) -> list[tuple[str, str, str]]:
-    error = answer.error
-    tangent = f"± {numeral(error['stiffness'][0], 1)} dimensionless, as C: time in 2a/u_sum"
-    return [
-        ("approach", f"{answer.approach:.5f}", f"± {numeral(error['approach'], 1)} of the dry Hertz approach"),
-        ("central film", f"{answer.h_central:.5f}", f"± {numeral(error['h_central'], 1)} likewise"),
-        ("minimum film", f"{answer.h_min:.5f}", f"± {numeral(error['h_min'], 1)} likewise"),
-        ("moment of pressure", f"{answer.moment:.5f}", f"± {numeral(error['moment'], 1)} of load times a"),
-        ("static tangent", f"{answer.stiffness[0]:.4f}", tangent),
-        *(
-            (f"C at Ω = {numeral(w, 3)}", f"{c:.5f}", f"± {numeral(bar, 1)}")
-            for w, c, bar in zip(answer.Omega, answer.damping, error["damping"], strict=True)
-            if w in (0.05, 1.0) or abs(w - 6.2832) < 1e-3
-        ),
-    ]
+def _answer(answer: AtlasAnswer, rpm: float | None) -> list[Row]:
+    """Approach, films and tangent with error bars; C at some frequencies, in SI at that of the shaft first."""
+    si, view = answer.scales is not None, answer if answer.scales is None else answer.si
 
+    def row(name: str, value: float, bar: float, unit: str, remark: str) -> Row:
+        unit = unit if si else ""
+        return name, in_unit(value, unit), f"± {in_unit(bar, unit, 1)}{remark}"
 
-def _in_si(answer: AtlasAnswer, rpm: float) -> list[tuple[str, str, str]]:
-    si, shaft = answer.si, answer.impedance(rpm=rpm).si
-    C, bar = float(shaft.damping[0]), float(shaft.error["damping"][0])
-
-    def row(name: str, value: float, bar: float, size: float, unit: str, of: str = "") -> tuple[str, str, str]:
-        return name, f"{numeral(size * value)} {unit}", f"± {numeral(size * bar, 1)} {unit}{of}"
-
-    return [
-        row("approach", si.approach, si.error["approach"], 1e6, "µm"),
-        row("central film", si.h_central, si.error["h_central"], 1e6, "µm"),
-        row("minimum film", si.h_min, si.error["h_min"], 1e6, "µm"),
-        row("moment of pressure", si.moment, si.error["moment"], 1e3, "N mm", ": the film's rolling resistance"),
-        row("static tangent", si.stiffness[0], si.error["stiffness"][0], 1e-6, "N/µm"),
-        row(f"C at {numeral(rpm / 60.0)} Hz", C, bar, 1.0, "N s/m", ": the shaft's own frequency"),
-        *(
-            row(f"C at {numeral(hz, 3)} Hz", c, bar, 1.0, "N s/m", f"; Ω = {numeral(w, 3)}")
-            for w, hz, c, bar in zip(answer.Omega, si.hz, si.damping, si.error["damping"], strict=True)
-            if w in (0.05, 1.0) or abs(w - 6.2832) < 1e-3
-        ),
-    ]
+    rows = quantity_rows(answer, dict.fromkeys(("approach", "h_central", "h_min", "moment"), ""), answer.error)
+    remark = "" if si else ", dimensionless, as C: time in 2a/u_sum"
+    rows.append(row("static tangent", view.stiffness[0], view.error["stiffness"][0], "N/m", remark))
+    if rpm is not None:
+        shaft, own = answer.impedance(rpm=rpm).si, ", the shaft's own frequency"
+        hz = f"C at {numeral(rpm / 60.0)} Hz"
+        rows.append(row(hz, shaft.damping[0], shaft.error["damping"][0], "N s/m", own))
+    names = [f"{numeral(hz, 3)} Hz" for hz in answer.si.hz] if si else [""] * len(answer.Omega)
+    every = zip(answer.Omega, names, view.damping, view.error["damping"], strict=True)
+    for w, hz, c, bar in every:
+        if w in SHOWN:
+            omega = f"Ω = {numeral(w, 3)}"
+            rows.append(row(f"C at {hz or omega}", c, bar, "N s/m", f", {omega}" if hz else ""))
+    return rows
 
 
 def _damper(made: Any) -> list[tuple[str, str, str]]:

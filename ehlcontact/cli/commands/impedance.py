@@ -10,6 +10,7 @@ from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import Contact, frequency
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.progress import progress
+from ehlcontact.cli.rows import Row, in_unit, run_rows
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
@@ -56,20 +57,19 @@ def impedance(contact: Contact, grid: o.Grid, frequencies: Frequencies, out: o.O
         [
             *contact.rows(point),
             *_rows(result),
-            ("grid", f"n = {result.n}", f"on {o.domain_text(result.domain)}"),
-            ("computed in", f"{numeral(result.seconds, 3)} s", ""),
+            *run_rows(result),
         ],
     )
     out.deliver({**result.to_dict(), **contact.about(point)}, table)
 
 
-def _rows(result: ImpedanceResult) -> list[tuple[str, str, str]]:
+def _rows(result: ImpedanceResult) -> list[Row]:
     if result.scales is None:
         triples = zip(result.Omega, result.stiffness, result.damping, strict=True)
         return [(f"Omega = {w:g}", f"K {k:.4f}", f"C {c:.5f}") for w, k, c in triples]
     si = result.si
     fours = zip(si.hz, result.Omega, si.stiffness, si.damping, strict=True)
     return [
-        (f"{numeral(f)} Hz", f"K {numeral(1e-6 * k)} N/µm", f"C {numeral(c)} N s/m; Omega = {numeral(w)}")
+        (f"{numeral(f)} Hz", f"K {in_unit(k, 'N/m')}", f"C {in_unit(c, 'N s/m')}; Omega = {numeral(w)}")
         for f, w, k, c in fours
     ]

@@ -15,6 +15,7 @@ from ehlcontact.cli.contact import NO_TIME, Contact, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
+from ehlcontact.cli.rows import Row, in_unit, quantity_rows, run_rows, share_text
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.process.early_interrupt import INTERRUPTED
@@ -277,54 +278,35 @@ def _draw(result: SimulationResult, path: Path) -> None:
     result.plot(path, film_wave(result), loop)
 
 
-def _rows(result: SimulationResult) -> list[tuple[str, str, str]]:
+def _rows(result: SimulationResult) -> list[Row]:
     settings = [(k, v) for k, v in result.motion.to_dict().items() if isinstance(v, float | int)]
-    steps = (
-        f"to T = {numeral(result.T[-1])} (unit 2a/u_sum), {result.cycles[1:].mean():.1f} cycles each"
-        if result.steps
-        else ""
-    )
+    steps = ""
+    if result.steps:
+        steps = f"to T = {numeral(result.T[-1])} (unit 2a/u_sum), {result.cycles[1:].mean():.1f} cycles each"
     return [
         ("motion", result.motion.kind, ", ".join(f"{k} {numeral(v)}" for k, v in settings) + "; dimensionless"),
-        *(_dimensionless(result) if result.scales is None else _in_si(result)),
+        *([] if result.scales is None else _in_si(result)),
+        *quantity_rows(result, {"static_approach": "", "approach": "", "force": "", "h_min": ""}),
         ("steps", f"{result.steps}", steps),
-        ("grid", f"n = {result.n}", f"on {o.domain_text(result.domain)}"),
         *_grid_error(result),
         ("tolerance", numeral(result.tol), "residual of a solved step, of the central film at rest"),
-        ("computed in", f"{numeral(result.seconds, 3)} s", ""),
-        ("status", str(result.status), ""),
+        *run_rows(result),
     ]
 
 
-def _grid_error(result: SimulationResult) -> list[tuple[str, str, str]]:
+def _in_si(result: SimulationResult) -> list[Row]:
+    """What only a motion in SI has."""
+    si = result.si
+    found = [
+        ("frequency of the load", si.hz, "Hz"),
+        ("mass of both bodies", si.mass, "kg"),
+        ("end", si.t[-1], "s"),
+    ]
+    return [(name, in_unit(value, unit), "") for name, value, unit in found if value is not None]
+
+
+def _grid_error(result: SimulationResult) -> list[Row]:
     if (error := result.film_error) is None:
         return []
-    central, smallest = (f"± {numeral(100.0 * e, 2)} %" for e in (error.h_central, error.h_min))
-    return [("error of the grid", central, f"of the central film at the start, {smallest} of the smallest")]
-
-
-def _dimensionless(result: SimulationResult) -> list[tuple[str, str, str]]:
-    return [
-        ("static approach", f"{result.static_approach:.5f}", "of the dry Hertz approach"),
-        ("approach", f"{result.approach.min():.4f} .. {result.approach.max():.4f}", "of the dry Hertz approach"),
-        ("force", f"{result.force.min():.4f} .. {result.force.max():.4f}", "of the static load"),
-        ("smallest film", f"{result.h_min.min():.5f}", "of the dry Hertz approach, anywhere and ever"),
-    ]
-
-
-def _in_si(result: SimulationResult) -> list[tuple[str, str, str]]:
-    si = result.si
-    approach = " .. ".join(numeral(1e6 * end, 5) for end in (si.approach.min(), si.approach.max()))
-    force = " .. ".join(numeral(end) for end in (si.force.min(), si.force.max()))
-    hertz = "" if si.hz is None else f"load of {numeral(si.hz)} Hz"
-    return [
-        (
-            "static approach",
-            f"{numeral(1e6 * si.static_approach, 5)} µm",
-            f"{result.static_approach:.5f} of the dry one",
-        ),
-        ("approach", f"{approach} µm", hertz),
-        ("force", f"{force} N", "" if si.mass is None else f"on bodies of {numeral(1e3 * si.mass)} g together"),
-        ("smallest film", f"{numeral(1e6 * si.h_min.min())} µm", "anywhere and ever"),
-        ("time", f"{numeral(1e3 * si.t[-1])} ms", ""),
-    ]
+    central, smallest = map(share_text, (error.h_central, error.h_min))
+    return [("error of the grid", central, f"at the start, in the centre; {smallest} for the smallest film")]

@@ -11,9 +11,9 @@ import typer
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import Contact, Surfaces
-from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
+from ehlcontact.cli.rows import Row, quantity_rows, run_rows, share_text
 from ehlcontact.solver.domain import Domain
 
 if TYPE_CHECKING:
@@ -89,50 +89,17 @@ def _draw(result: SteadyResult, path: Path) -> None:
     result.plot(path, *fringes)
 
 
-def _rows(result: SteadyResult) -> list[tuple[str, str, str]]:
-    shares = ["", ""]
-    if (error := result.error) is not None:
-        shares = [f", ± {numeral(100.0 * e, 2)} % of it" for e in (error.h_central, error.h_min)]
+def _rows(result: SteadyResult) -> list[Row]:
+    error = result.error
+    central, smallest = ("", "") if error is None else map(share_text, (error.h_central, error.h_min))
+    remarks = {"approach": "", "h_central": central, "h_min": smallest, "p_max": "", "moment": _left_out(result)}
     return [
-        *(_dimensionless(result, *shares) if result.scales is None else _in_si(result, *shares)),
+        *quantity_rows(result, remarks, None if error is None else {"approach": error.approach}),
         ("pressure to come", f"{result.pressure_error:.1e}", "of the Hertz pressure, by further cycles"),
         ("residual", f"{result.residual:.1e}", "over the dry start's"),
         ("load balance", f"{result.load_residual:.1e}", "over the load"),
         ("cycles", f"{result.cycles}", ""),
-        ("grid", f"n = {result.n}", f"on {o.domain_text(result.domain)}"),
-        ("computed in", f"{numeral(result.seconds, 3)} s", ""),
-        ("status", str(result.status), ""),
-    ]
-
-
-def _dimensionless(result: SteadyResult, central: str, smallest: str) -> list[tuple[str, str, str]]:
-    approach = "" if result.error is None else f", ± {numeral(result.error.approach, 1)}"
-    return [
-        ("approach", f"{result.approach:.5f}", f"of the dry Hertz approach{approach}"),
-        ("central film", f"{result.h_central:.5f}", f"of the dry Hertz approach{central}"),
-        ("minimum film", f"{result.h_min:.5f}", f"of the dry Hertz approach{smallest}"),
-        ("maximum pressure", f"{result.p_max:.4f}", "of the Hertz pressure"),
-        (
-            "moment of pressure",
-            f"{result.moment:.5f}",
-            f"of load times semi-axis a: the film's rolling resistance{_left_out(result)}",
-        ),
-    ]
-
-
-def _in_si(result: SteadyResult, central: str, smallest: str) -> list[tuple[str, str, str]]:
-    si = result.si
-    approach = "" if si.error is None else f", ± {numeral(1e6 * si.error.approach, 1)} µm"
-    return [
-        ("approach", f"{numeral(1e6 * si.approach, 5)} µm", f"{result.approach:.5f} of the dry one{approach}"),
-        ("central film", f"{numeral(1e6 * si.h_central)} µm", central.removeprefix(", ")),
-        ("minimum film", f"{numeral(1e6 * si.h_min)} µm", smallest.removeprefix(", ")),
-        ("maximum pressure", f"{numeral(1e-9 * si.p_max)} GPa", f"{numeral(result.p_max)} of the Hertz pressure"),
-        (
-            "moment of pressure",
-            f"{numeral(1e3 * si.moment)} N mm",
-            f"about the centre line: rolling resistance{_left_out(result)}",
-        ),
+        *run_rows(result),
     ]
 
 
@@ -141,4 +108,4 @@ def _left_out(result: SteadyResult) -> str:
     if result.domain.x_in <= Domain().x_in:
         return ""
     full = " ".join(f"{bound:g}" for bound in Domain().as_tuple())
-    return f", low for want of the oil before X = {result.domain.x_in:g} (with it: --domain {full})"
+    return f"low for want of the oil before X = {result.domain.x_in:g} (with it: --domain {full})"

@@ -14,6 +14,7 @@ from rich.table import Table
 from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral, spelled
 from ehlcontact.cli.output import STDOUT, check_place, say, show_table
+from ehlcontact.cli.rows import domain_text
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.forecast import Forecast
@@ -112,7 +113,7 @@ def _show(found: Forecast, json_to: str | None) -> None:
                 f"{numeral(found.study.bearing.speed_rpm)} rpm",
                 f"Ω = ω 2a/u_sum = {numeral(p['rotor_omega'], 3)}",
             ),
-            ("region", o.domain_text(domain), ""),
+            ("region", domain_text(domain), ""),
         ],
         json_to,
     )

@@ -1,0 +1,85 @@
+"""Rows of tables on a terminal: quantities of results, from their declarations, in the units that people use."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ehlcontact.cli.numerals import numeral
+from ehlcontact.quantities import quantities_of, words
+from ehlcontact.solver.domain import Domain
+
+Row = tuple[str, str, str]  # quantity, value with its unit, remark
+# Units of a table: size of one in SI units.
+UNITS = {
+    "m": ("µm", 1e-6),
+    "Pa": ("GPa", 1e9),
+    "N m": ("N mm", 1e-3),
+    "N/m": ("N/µm", 1e6),
+    "s": ("ms", 1e-3),
+    "kg": ("g", 1e-3),
+}
+# What a dimensionless value is measured in.
+SCALES = {
+    "delta_H": "of the dry Hertz approach",
+    "f0": "of the static load",
+    "p_h": "of the Hertz pressure",
+    "f0 a": "of load times semi-axis a",
+    "f0/delta_H": "of load over dry approach",
+    "f0/delta_H 2a/u_sum": "dimensionless: time in 2a/u_sum",
+}
+
+
+def in_unit(value: Any, unit: str, digits: int = 4) -> str:
+    """A value in SI in the unit of tables; smallest to largest of an array."""
+    shown, size = UNITS.get(unit, (unit, 1.0))
+    ends = np.unique([np.min(value), np.max(value)]) / size
+    return " ".join((" .. ".join(numeral(end, digits) for end in ends), shown)).rstrip()
+
+
+def quantity_rows(result: Any, remarks: Mapping[str, str], error: Mapping[str, float] | None = None) -> list[Row]:
+    """Rows of quantities of a result, in SI where it has scales, with the dimensionless value beside.
+
+    Parameters
+    ----------
+    result : QuantityTable
+    remarks : mapping
+        By the name of a quantity, what else there is to say about it.
+    error : mapping, optional
+        Dimensionless half widths of error bars, by the name of a quantity.
+    """
+    rows = []
+    for name, remark in remarks.items():
+        quantity, value, bar = quantities_of(type(result))[name], getattr(result, name), (error or {}).get(name)
+        kind = SCALES.get(quantity.moes, quantity.moes)
+        if result.scales is None:
+            shown, beside = in_unit(value, "", 5), kind
+            bars = "" if bar is None else f"± {numeral(bar, 1)}"
+        else:
+            shown = in_unit(quantity.in_si(value, result.scales), quantity.unit, 5)
+            beside = f"{in_unit(value, '', 4)} {kind}"
+            bars = "" if bar is None else f"± {in_unit(quantity.in_si(bar, result.scales), quantity.unit, 1)}"
+        rows.append((words(name), shown, ", ".join(filter(None, (beside, bars, remark)))))
+    return rows
+
+
+def share_text(error: float) -> str:
+    """Error bar of a film, a share of it, in per cent."""
+    return f"± {numeral(100.0 * error, 2)} % of it"
+
+
+def run_rows(result: Any) -> list[Row]:
+    """Grid, region and time of a computation, and its status where the result has one."""
+    status = getattr(result, "status", None)
+    return [
+        ("grid", f"n = {result.n}", f"on {domain_text(result.domain)}"),
+        ("computed in", f"{numeral(result.seconds, 3)} s", ""),
+        *([] if status is None else [("status", str(status), "")]),
+    ]
+
+
+def domain_text(domain: Domain) -> str:
+    """The region in words."""
+    return f"[{domain.x_in:g}, {domain.x_out:g}] x [-{domain.y_max:g}, {domain.y_max:g}] Hertz semi-axes"
