@@ -42,7 +42,7 @@ class Display:
     Parameters
     ----------
     rows : str
-        Dimensions of the rows of `to_pandas`.
+        Dimensions of the rows of `to_pandas`; without any it has one row.
     panels : tuple of str
         Of the figure: names of quantities that share axes.
     labels : mapping of str to tuple of str
@@ -119,11 +119,10 @@ class QuantityTable(Summary):
         rows = self._display().rows.split()
         at = [self._along(dim, sizes) for dim in rows]
         names = [self._head(dim) if dim in self._declared() else dim for dim in rows]
-        index = (
-            pandas.Index(at[0], name=names[0])
-            if len(rows) == 1
-            else pandas.MultiIndex.from_product(at, names=names)
-        )
+        if len(rows) > 1:
+            index = pandas.MultiIndex.from_product(at, names=names)
+        else:
+            index = pandas.Index(at[0], name=names[0]) if rows else [0]
         columns: dict[str, Array] = {}
         for name, base, array in self._columns():
             if name not in rows:
@@ -271,13 +270,13 @@ class QuantityTable(Summary):
         """Columns of one quantity over the rows; none where it is not over them, or is a field over them."""
         rows, dims = self._display().rows.split(), self._declared()[base].dims
         rest = [dim for dim in dims if dim not in rows]
-        if not set(dims) & set(rows) or any(self._coordinate(dim) for dim in rest):
+        if bool(rows) != bool(set(dims) & set(rows)) or any(self._coordinate(dim) for dim in rest):
             return {}
         order = [dims.index(dim) for dim in rows if dim in dims] + [dims.index(dim) for dim in rest]
         moved = array.transpose(order)
         ahead = tuple(sizes[dim] if dim in dims else 1 for dim in rows)
         shape = tuple(sizes[dim] for dim in rest)
-        full = np.broadcast_to(moved.reshape(*ahead, *shape), (*(sizes[dim] for dim in rows), *shape))
+        full = np.broadcast_to(moved.reshape((*ahead, *shape)), (*(sizes[dim] for dim in rows), *shape))
         flat = full.reshape(prod(sizes[dim] for dim in rows), -1)
         names = [of and f"_{of.replace(' ', '_')}" for of in self._pairs(rest, sizes)]
         return {self._head(name, of, base): flat[:, k].copy() for k, of in enumerate(names)}
@@ -386,10 +385,12 @@ class SIView(QuantityTable):
         return {name: one for name, (_, one) in self._found.items()}
 
     def _display(self) -> Display:
+        if not isinstance(self._result, QuantityTable):  # a contact, which has numbers only
+            return Display(rows="")
         return self._result._display().in_si({own: name for name, (own, _) in self._found.items()})
 
     def _about(self) -> dict[str, Any]:
-        return {**self._result._about(), "units": "SI"}
+        return {**QuantityTable._about(self._result), "units": "SI"}
 
     def _errors(self, errors: Any, scales: Scales) -> Any:
         """Errors of quantities in their units: bars by name, or an estimate, whose films are relative."""

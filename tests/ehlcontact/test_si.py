@@ -123,6 +123,9 @@ def test_full_contact_in_si():
     assert contact.force == pytest.approx(1.0, rel=1e-5)  # a film at rest, solved to 1e-5 of its pressure
     assert si.static_approach == contact.static_approach * S.length
     assert (si.h_central, si.h_min) == (contact.h_central * S.length, contact.h_min * S.length)
+    assert repr(si).startswith("FullContact in SI: force ")
+    pytest.importorskip("pandas")
+    assert si.to_pandas()["force [N]"].tolist() == [si.force] and si.to_pandas().attrs["M"] == contact.point.M
     with pytest.raises(InputError, match=r"^scales = None"):
         _ = FullContact(POINT.moes, grid=Grid(n=32)).si
 
