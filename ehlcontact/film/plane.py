@@ -184,6 +184,21 @@ def _snapshot(run: SimulationResult, T: float | None) -> int:
     return k
 
 
+def interpolated(film: Film, X: Array, Y: Array) -> Film:
+    """A film at other places, by cubic splines between its nodes; pressures are not negative.
+
+    Parameters
+    ----------
+    film : Film
+    X, Y : ndarray, shape (k,), (m,)
+        x/a and y/b, rising, within the film.
+    """
+    from scipy.interpolate import RectBivariateSpline
+
+    H, P = (RectBivariateSpline(film.X, film.Y, field)(X, Y) for field in (film.H, film.P))
+    return Film(X, Y, H, np.maximum(P, 0.0), film.scales)
+
+
 def _mirrored(field: Array) -> Array:
     """Both signs of Y from the half that was computed."""
     return np.concatenate([field[:, :0:-1], field], axis=1)

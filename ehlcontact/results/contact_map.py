@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.point import Scales
-from ehlcontact.results.picture import Array, Panel
+from ehlcontact.results.picture import Array, Panel, smooth
 
 REACH = 1.5  # semi-axes on either side of the centre that are shown
 DEEPEST = 2.5  # central films up to which the colours of a film go: beyond, the inlet would take all of them
@@ -50,7 +50,7 @@ class ContactMap:
         a, b = self.axes
         low, high = self.limits
         mesh = axes.pcolormesh(
-            self.x, y, field.T, cmap=self.colours, vmin=low, vmax=high, shading="nearest", rasterized=True
+            self.x, y, field.T, cmap=self.colours, vmin=low, vmax=high, shading=smooth(field), rasterized=True
         )
         beyond = "max" if field.max() > high else "neither"
         axes.figure.colorbar(mesh, ax=axes, label=self.labels[2], extend=beyond)

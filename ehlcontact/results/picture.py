@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 from textwrap import fill
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +25,7 @@ DECADE = 10.0  # largest over smallest value, beyond which an axis that may be i
 MOST_NAMED = 8  # lines that a legend names
 # Units of figures: what contacts have in a unit of the SI is far from 1
 SHOWN = {"m": ("µm", 1e6), "Pa": ("GPa", 1e-9), "N/m": ("N/µm", 1e-6)}
-GRID = {"color": "#dddddd", "linewidth": 0.6}
+GRID: dict[str, Any] = {"color": "#dddddd", "linewidth": 0.6}
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ class Panel:
             axes.tick_params(axis="x", labelrotation=45)
         axes.set(xlabel=x_label, ylabel=y_label)
         if self.bottom is not None:
-            axes.set_ylim(self.bottom, None)
+            axes.set_ylim(self.bottom, self.bottom + 1.05 * (axes.get_ylim()[1] - self.bottom))
         axes.grid(**GRID)
         axes.set_axisbelow(True)
         if 1 <= sum(bool(name) for name, *_ in self.lines) <= MOST_NAMED:
@@ -101,7 +101,7 @@ class Map:
             most = float(np.percentile(np.abs(field), 99.0))
             look = {"cmap": "RdBu_r", "vmin": -most, "vmax": most}
         # a film grows a hundredfold towards the inlet
-        mesh = axes.pcolormesh(x, y, field.T, shading="nearest", rasterized=True, **look)
+        mesh = axes.pcolormesh(x, y, field.T, shading=smooth(field), rasterized=True, **look)
         axes.figure.colorbar(mesh, ax=axes, label=label)
         axes.set(xlabel=x_label, ylabel=y_label)
 
@@ -119,6 +119,11 @@ def draw(title: str, panels: Sequence[Panel | Map], path: str | os.PathLike[str]
         panel.draw(figure.add_subplot(high, wide, k + 1))
     figure.suptitle(fill(title, 50 * wide), fontsize=10)
     return written(figure, path)
+
+
+def smooth(field: Array) -> Literal["gouraud", "nearest"]:
+    """Shading of a map: colours mixed between its nodes, where it has a value at each."""
+    return "gouraud" if np.isfinite(field).all() else "nearest"
 
 
 def far_apart(values: Array) -> bool:

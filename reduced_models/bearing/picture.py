@@ -61,7 +61,7 @@ def draw_over_speed(
     load_zone(figure.add_subplot(2, 2, 1, projection="polar"), state)
     films(figure.add_subplot(2, 2, 2), state)
     for place, name, unit, label in (
-        (3, "stiffness", 1e-6, "stiffness [N/um]"),
+        (3, "stiffness", 1e-6, "stiffness [N/µm]"),
         (4, "damping", 1.0, "damping [N s/m]"),
     ):
         axes = figure.add_subplot(2, 2, place)
@@ -117,9 +117,9 @@ def films(axes: Any, state: Any) -> None:
     turned = from_load(state)
     order = np.argsort(turned)
     if state.h_min is None:
-        shown, title = state.approach * 1e6, "approach of the surfaces [um]; below 0 a gap"
+        shown, title = state.approach * 1e6, "approach of the surfaces [µm]; below 0 a gap"
     else:
-        shown, title = state.h_min * 1e6, "smallest film [um]"
+        shown, title = state.h_min * 1e6, "smallest film [µm]"
         axes.set_yscale("log")
     for column, (race, colour) in enumerate((("inner race", INNER), ("outer race", OUTER))):
         axes.plot(turned[order], shown[order, column], "o-", color=colour, label=race)
@@ -175,8 +175,8 @@ def _orbit(axes: Any, run: Any, motion: Any, _: _Ends, colour: str) -> None:
     axes.set_aspect("equal", adjustable="datalim")
     axes.ticklabel_format(useOffset=False)
     axes.locator_params(nbins=6)
-    axes.set_xlabel("x [um]")
-    axes.set_ylabel("y [um]")
+    axes.set_xlabel("x [µm]")
+    axes.set_ylabel("y [µm]")
     axes.grid(**GRID)
 
 
@@ -200,7 +200,7 @@ def _spectrum(axes: Any, run: Any, motion: Any, ends: _Ends, _: str) -> None:
         axes.set_ylim(top / 10.0**DECADES, top)
     axes.set_xlim(0.0, most_hz)
     axes.set_xlabel("frequency [Hz]")
-    axes.set_ylabel("amplitude [um]")
+    axes.set_ylabel("amplitude [µm]")
     axes.grid(**GRID)
     axes.legend(frameon=False, fontsize=8)
 
@@ -225,7 +225,7 @@ def _waterfall(axes: Any, run: Any, motion: Any, ends: _Ends, _: str) -> None:
     mesh = axes.pcolormesh(
         hz[shown], over, level, vmin=most - SPREAD, vmax=most, cmap="viridis", shading="nearest", rasterized=True
     )
-    axes.figure.colorbar(mesh, ax=axes, label="lg(amplitude of y / um)")
+    axes.figure.colorbar(mesh, ax=axes, label="lg(amplitude of y / µm)")
     axes.plot(run.speed_rpm[middle] / 60.0, over, color="white", linewidth=0.8, linestyle="--")
     axes.annotate(
         "1x",
@@ -313,7 +313,7 @@ def draw_unbalance(response: Any, path: str | os.PathLike[str] | None) -> Any:
         above.semilogy(rpm, major[:, k] * MICRO, style, color=colour, linewidth=1.3, label=_place(response, k))
         phase = np.degrees(np.unwrap(np.angle(response.amplitude[:, x])))
         below.plot(rpm, phase, style, color=colour, linewidth=1.3)
-    above.set_ylabel("half axis of the orbit [um]")
+    above.set_ylabel("half axis of the orbit [µm]")
     above.legend(frameon=False, fontsize=8)
     below.set_ylabel("phase of x [degrees]")
     below.set_xlabel("speed [rev/min]")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from os.path import realpath
 from pathlib import Path
@@ -275,7 +276,9 @@ def _draw(result: SimulationResult, path: Path) -> None:
     loop = Panel(
         (shown.approach, ("mutual approach", units[0])), [("", shown.force, None)], ("contact force", units[1])
     )
-    result.plot(path, film_wave(result), loop)
+    wave = film_wave(result)
+    near = abs(wave.X) <= 1.1  # beyond, the film follows the approach at once
+    result.plot(path, replace(wave, X=wave.X[near], change=wave.change[:, near]), loop)
 
 
 def _rows(result: SimulationResult) -> list[Row]:

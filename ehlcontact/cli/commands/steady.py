@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
+import numpy as np
 import typer
 
 from ehlcontact.cli import entries as e
@@ -14,6 +15,7 @@ from ehlcontact.cli.contact import Contact, Surfaces
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row, quantity_rows, run_rows, share_text
+from ehlcontact.results.contact_map import REACH
 from ehlcontact.solver.domain import Domain
 
 if TYPE_CHECKING:
@@ -21,6 +23,16 @@ if TYPE_CHECKING:
 
 
 WAVELENGTH, REFRACTIVE_INDEX = 600e-9, 1.5  # of the light [m] and of the oil: fringes in the figure
+POINTS = 401  # of them along and across: a grid's own would show false ones
+Refine = Annotated[
+    bool,
+    typer.Option(
+        "--refine/--no-refine",
+        help="Without --n: a finer grid where the errors estimated are above 0.2 % of the dry approach, "
+        "1 % of the central and 3 % of the smallest film.",
+        rich_help_panel="Discretisation",
+    ),
+]
 
 
 class Solving(o.Options):
@@ -84,9 +96,14 @@ def steady(
 def _draw(result: SteadyResult, path: Path) -> None:
     """Draw the contact, and its fringes where there is a unit of length."""
     from ehlcontact.film import film_of, interferogram
+    from ehlcontact.film.plane import interpolated
 
-    fringes = [] if result.scales is None else [interferogram(film_of(result), WAVELENGTH, REFRACTIVE_INDEX)]
-    result.plot(path, *fringes)
+    if result.scales is None:
+        result.plot(path)
+        return
+    film = film_of(result)
+    X, Y = (np.linspace(max(-REACH, at[0]), min(REACH, at[-1]), POINTS) for at in (film.X, film.Y))
+    result.plot(path, interferogram(interpolated(film, X, Y), WAVELENGTH, REFRACTIVE_INDEX))
 
 
 def _rows(result: SteadyResult) -> list[Row]:

@@ -32,7 +32,7 @@ def impedance(
         (response.damping, [cubic.parameters["C1"] for cubic in found], "damping C [-]", "log"),
     )
     for col, (values, known, label, scale) in enumerate(panels, start=1):
-        cell = {"row": 1, "col": col}
+        cell: Any = {"row": 1, "col": col}
         dots: Any = {"mode": "markers", "marker": {"color": BLUE, "size": 5}}
         figure.add_scatter(x=Omega, y=values[moving], name="film", **dots, **cell)
         if Z is not None:

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import plotly.graph_objects as go
 from numpy.typing import NDArray
-from scipy.interpolate import RectBivariateSpline
 
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.plots.units import units_of
 from ehlcontact.film import Film
+from ehlcontact.film.plane import interpolated
 
 VIEW = (-1.8, 1.5, 1.5)  # along X from, to; across to: in semi-axes
 FLATTEST = 0.3  # height over width of a map with the surfaces moving upwards: a flatter one is stretched
@@ -34,9 +34,7 @@ def refined(film: Film, points: tuple[int, int], growth: float = 1.0) -> Film:
     first, last, across = (growth * edge for edge in VIEW)
     X = np.linspace(max(first, film.X[0]), min(last, film.X[-1]), points[0])
     across = min(across, film.Y[-1])
-    Y = np.linspace(-across, across, points[1])
-    H, P = (RectBivariateSpline(film.X, film.Y, field)(X, Y) for field in (film.H, film.P))
-    return Film(X, Y, H, np.maximum(P, 0.0), film.scales)  # the spline may swing below zero
+    return interpolated(film, X, np.linspace(-across, across, points[1]))
 
 
 def map_axes(
