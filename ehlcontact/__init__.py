@@ -19,7 +19,8 @@ room             responsibility
 ``film/``        the film to look at: maps, mid-planes, fringes, what the surfaces carry through
 ``store``        `save` and `load`: one file header, one way back, for every class
 ``files``        files written in one move; texts of any origin
-``process/``     processes that end with their parent, and on Ctrl-C; threads
+``executors``    executors of `concurrent.futures`: worker processes, or a Dask cluster
+``process/``     worker processes, Ctrl-C, threads
 ``checks/``      checks of inputs, and the box that the solvers are made for
 ``errors``       `InputError`, `ConvergenceError`
 ``status``       how a solve or a run ended, with advice

@@ -20,8 +20,7 @@ from __future__ import annotations
 import json
 import os
 import uuid
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from enum import Enum
 from importlib import import_module
@@ -35,7 +34,7 @@ import numpy as np
 
 from ehlcontact.checks import require_instance
 from ehlcontact.errors import InputError
-from ehlcontact.files import is_file, parse_json, read_text, write_bytes, write_text
+from ehlcontact.files import is_file, parse_json, read_text, write_bytes
 from ehlcontact.version import __version__
 
 HEADER = "header"  # its key in JSON, its attribute in HDF5
@@ -96,18 +95,26 @@ def save(record: Any, path: str | os.PathLike[str], field: str = "path") -> Path
     InputError
         No object that can be saved; the folder does not exist or cannot be written to.
     """
+    return write_bytes(path, content_of(record), field)
+
+
+def content_of(record: Any) -> bytes:
+    """Content of the file of a result, an element or a bearing; raises `InputError` for anything else."""
     entry = _classes.get(type(record).__name__)
     if entry is None or type(record) is not entry.cls:
         raise InputError("object to save", type(record).__name__, _wanted(object))
     header = {"class": type(record).__name__, "format": entry.number, "version": __version__}
     if hasattr(record, "from_dict"):
         document = {HEADER: header, **record.to_dict()}
-        return write_text(path, json.dumps(document, indent=2, allow_nan=False) + "\n", field)
-    with making(path, field) as file:
+        return (json.dumps(document, indent=2, allow_nan=False) + "\n").encode()
+    # In memory, because HDF5 cannot close what it cannot flush: on a full disk the process ends in a segmentation
+    # fault, whatever was caught. It costs the size of the file, twice for a moment.
+    with h5py.File(uuid.uuid4().hex, "w", driver="core", backing_store=False, libver=LAYOUT) as file:
         set_text(file, HEADER, json.dumps(header))
         for name, value in _tree(record).items():
             _put(file, name, value)
-    return Path(path)
+        file.flush()
+        return bytes(file.id.get_file_image())
 
 
 def load(path: str | os.PathLike[str], kind: type[T] = object, field: str = "file") -> T:  # type: ignore[assignment]
@@ -200,25 +207,6 @@ def _read_hdf5(path: str | os.PathLike[str]) -> tuple[Any, Any]:
     with h5py.File(path, "r") as file:
         header = parse_json(text_of(file, HEADER)) if HEADER in file.attrs else None
         return header, _content(file) if isinstance(header, dict) else None
-
-
-@contextmanager
-def making(path: str | os.PathLike[str], field: str) -> Iterator[h5py.File]:
-    """Give an empty HDF5 file in memory; its image is written to `path` in one move if nothing was raised.
-
-    In memory, because HDF5 cannot close what it cannot flush: on a full disk the process ends in a segmentation
-    fault, whatever was caught. It costs the size of the file, twice for a moment.
-
-    Raises
-    ------
-    InputError
-        The file cannot be written.
-    """
-    with h5py.File(uuid.uuid4().hex, "w", driver="core", backing_store=False, libver=LAYOUT) as file:
-        yield file
-        file.flush()
-        image = file.id.get_file_image()
-    write_bytes(path, image, field)
 
 
 def put(group: h5py.Group, name: str, value: np.ndarray) -> None:

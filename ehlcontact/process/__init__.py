@@ -4,7 +4,7 @@
 module              responsibility
 =================== ================================================================================
 ``early_interrupt`` Ctrl-C while the command line is being imported; imported before everything else
-``workers``         worker processes: they end with their parent and ignore Ctrl-C
+``worker``          worker process of an executor: tasks in, answers out, the end with its parent
 ``threads``         `Team`: threads that share the loops of a solve; their default number
 ``blas``            limit of BLAS to one thread during a solve
 ``memory``          memory that is still available to this process

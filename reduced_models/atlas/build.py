@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
 from dataclasses import asdict, replace
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -20,17 +20,19 @@ from scipy.optimize import nnls
 
 from ehlcontact import Domain, MoesPoint, __version__
 from ehlcontact.errors import InputError
+from ehlcontact.executors import executor_for, require_scheduler, results_of
 from ehlcontact.formulas import LIGHT_BLEND, LIGHT_LOAD
 from reduced_models.atlas import surface
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import FILM, OMEGAS, solve_point
 from reduced_models.atlas.table import AtlasTable, Box, Interpolation, OtherOil
-from reduced_models.atlas.work import Job, Solve, Solved, WorkFile, on_cluster, on_processes, require_scheduler
+from reduced_models.atlas.work import WorkFile
 from reduced_models.elements.film_response import DRY, WEIGHT_C, WEIGHT_K, FilterRates
 
 _Floats = NDArray[np.float64]
 Entry = Mapping[str, Any]
 Progress = Callable[[int, int], None]
+Solve = Callable[[MoesPoint], dict[str, Any]]
 
 DRAWS, LIGHT_DRAWS, SEED = 448, 256, 4
 BOX = Box(M=(1.0, 30000.0), L=(0.0, 30.0), kappa=(0.045, 1.0), p_hertz=4.1e9)
@@ -108,13 +110,12 @@ def build_atlas(
     if len(points) < FEWEST:  # told before they are solved
         allowed = f"at least {FEWEST}; draws = {draws} and light_draws = {light_draws} have too few in the box"
         raise InputError("points", len(points), allowed)
-    if scheduler is None:
-        run = partial(on_processes, solve, processes=processes)
-    else:
+    if scheduler is not None:
         require_scheduler(scheduler)
-        run = partial(on_cluster, solve, scheduler=scheduler)
     with WorkFile(work, settings(seed)) as file:
-        _solve_missing(file, points, run, progress)
+        if missing := {name: point for name, point in points.items() if name not in file.entries}:
+            with executor_for(processes, scheduler=scheduler) as executor:
+                _solve(file, missing, executor, solve, progress)
         entries = [file.entries[name] for name in points]
     made_by = {
         "command": f"ehlcontact atlas build --draws {draws} --light-draws {light_draws} --seed {seed}",
@@ -137,21 +138,21 @@ def settings(seed: int) -> dict[str, Any]:
     return dict(json.loads(json.dumps(found)))
 
 
-def _solve_missing(
+def _solve(
     file: WorkFile,
-    points: Mapping[str, MoesPoint],
-    run: Callable[[Sequence[Job]], Solved],
+    missing: Mapping[str, MoesPoint],
+    executor: Executor,
+    solve: Solve,
     progress: Progress | None,
 ) -> None:
-    """Solve the points that are missing in the work file with `run`, storing each when it is done."""
+    """Solve points and keep them in the work file as they come."""
+    total = len(file.entries) + len(missing)
     # Thin films take longest and are begun first, so that no process ends up with them alone.
-    jobs = [(name, point) for name, point in points.items() if name not in file.entries]
-    jobs.sort(key=lambda job: job[1].inlet_width)
-    found: Iterable[tuple[str, dict[str, Any]]] = run(jobs) if jobs else ()
-    for done, (name, entry) in enumerate(found, len(points) - len(jobs) + 1):
+    jobs = dict(sorted(missing.items(), key=lambda job: job[1].inlet_width))
+    for name, entry in results_of(executor, solve, jobs):
         file.add(name, entry)
         if progress is not None:
-            progress(done, len(points))
+            progress(len(file.entries), total)
 
 
 def assemble(entries: Sequence[Entry], made_by: Mapping[str, Any]) -> AtlasTable:

@@ -1,33 +1,21 @@
-"""The work of an atlas build: a file of solved points, safe against a kill at any moment, and who solves them."""
+"""Work file of an atlas build: solved points, safe against a kill at any moment."""
 
 from __future__ import annotations
 
 import json
-import multiprocessing
 import os
-import socket
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self, TypeVar
+from typing import Any, Self
 
-from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json
-from ehlcontact.point import MoesPoint
-from ehlcontact.process.workers import end_when, interrupts_held
 
-Job = tuple[str, MoesPoint]
 Entry = dict[str, Any]
-Solve = Callable[[MoesPoint], Entry]
-Work = TypeVar("Work")  # what one job is about: a point of an atlas, a stage of a study
-Solved = Iterator[tuple[str, Entry]]
 
 SCHEMA = "ehlcontact-atlas-work"
-ATTEMPTS = 3  # at a point whose worker dies
-CONNECT_SECONDS = 10
 
 
 class WorkFile:
@@ -118,101 +106,3 @@ class WorkFile:
 
 def _line(entry: Mapping[str, Any]) -> bytes:
     return json.dumps(entry, allow_nan=False).encode() + b"\n"
-
-
-def on_processes(solve: Solve, jobs: Sequence[Job], processes: int) -> Solved:
-    """Solve on so many processes of this machine; yields name and entry as they come.
-
-    A process that dies takes its points along: they are tried again by new ones, up to three times in all. All end
-    with their parent, and at once where nobody asks for their answers any more (Ctrl-C, a full disk).
-
-    Raises
-    ------
-    ConvergenceError
-        Processes keep dying.
-    """
-    left = dict(jobs)
-    for attempt in range(ATTEMPTS):
-        context = multiprocessing.get_context("spawn")
-        others = set(multiprocessing.active_children())
-        pool = ProcessPoolExecutor(processes, context, initializer=_follow_parent)
-        try:
-            with interrupts_held():
-                futures: dict[Future[Entry], str] = {
-                    pool.submit(solve, point): name for name, point in left.items()
-                }
-            for future in as_completed(futures):
-                entry = future.result()
-                del left[futures[future]]
-                yield futures[future], entry
-            return
-        except BrokenProcessPool:
-            if attempt == ATTEMPTS - 1:
-                message = f"processes died {ATTEMPTS} times (out of memory?); what was solved is kept"
-                raise ConvergenceError(message, None) from None
-        finally:
-            if left:
-                for process in set(multiprocessing.active_children()) - others:
-                    process.kill()
-            pool.shutdown(wait=True, cancel_futures=True)
-
-
-def _follow_parent() -> None:
-    """End with the parent, however that was: a killed build leaves nothing behind."""
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        end_when(parent.join)
-
-
-def require_scheduler(scheduler: str) -> None:
-    """Make sure that somebody listens there, before anything is made or begun.
-
-    A client of Dask that finds nobody goes on looking when it is thrown away: 20 s, and a traceback at the end.
-
-    Raises
-    ------
-    InputError
-        ``dask.distributed`` is not installed, no address, or nobody there.
-    """
-    try:
-        from distributed.comm import get_address_host_port
-    except ImportError:
-        raise InputError("--scheduler", scheduler, "used with dask: pip install 'ehlcontact[cluster]'") from None
-    try:
-        socket.create_connection(get_address_host_port(scheduler), CONNECT_SECONDS).close()
-    except (OSError, ValueError) as error:
-        reason = str(error) or type(error).__name__
-        raise InputError("--scheduler", scheduler, f"the address of a Dask scheduler ({reason})") from None
-
-
-def on_cluster(solve: Callable[[Work], Entry], jobs: Sequence[tuple[str, Work]], scheduler: str) -> Solved:
-    """Solve on the Dask cluster at that address; what a lost worker was at goes to another one.
-
-    Raises
-    ------
-    InputError
-        ``dask.distributed`` is not installed, or no scheduler answers there.
-    ConvergenceError
-        Workers keep dying at a point.
-    """
-    require_scheduler(scheduler)
-    import distributed
-
-    try:
-        client = distributed.Client(scheduler, timeout=CONNECT_SECONDS, set_as_default=False)
-    except (OSError, ValueError) as error:
-        reason = str(error) or type(error).__name__
-        raise InputError("--scheduler", scheduler, f"the address of a Dask scheduler ({reason})") from None
-    with client:
-        futures = {
-            client.submit(solve, work, key=f"ehlcontact-{name}-{os.getpid()}", retries=ATTEMPTS, pure=False): name
-            for name, work in jobs
-        }
-        finished = distributed.as_completed(futures, loop=client.loop, with_results=True)
-        try:
-            for future, entry in finished:
-                name = futures.pop(future)
-                future.release()
-                yield name, entry
-        except distributed.KilledWorker as error:
-            raise ConvergenceError(f"workers died: {error}; what was solved is kept", None) from None

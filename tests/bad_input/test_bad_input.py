@@ -31,7 +31,7 @@ from ehlcontact import (
     solve_steady,
 )
 from ehlcontact.cli import main
-from ehlcontact.cli.study.points.ledger import read_ledger
+from ehlcontact.cli.study.points.index import read_index
 from reduced_models import BallBearing, CubicContact
 
 ROOT = Path(__file__).parents[2]
@@ -187,11 +187,11 @@ def test_files_that_are_not_there(refused, place, kind, name):
     refused(files.COMMANDS[kind](files.missing(place, kind, name), place / "out"), ("must be",), place)
 
 
-def test_a_bad_ledger_is_no_ledger(tmp_path):
+def test_a_bad_index_is_no_index(tmp_path):
     """Of the folder of a study; its stages are made again."""
     for text in ("", "{", "[]", files.DEEP, '{"steady": {"status": "converged"}}', '{"steady": 3}', "\ud83d"):
         (tmp_path / "stages.json").write_bytes(text.encode("utf-8", "surrogatepass"))
-        assert read_ledger(tmp_path) == {}
+        assert read_index(tmp_path) == {}
 
 
 @pytest.mark.parametrize("name", CALLS)

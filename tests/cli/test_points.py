@@ -10,24 +10,26 @@ import subprocess
 import sys
 import threading
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from stub_tasks import StubTasks, Threads
 from tiny_study import STUDY
 
 from ehlcontact import Grid, InputError, load, solve_steady
 from ehlcontact.cli.study import runner
-from ehlcontact.cli.study.points import cluster
-from ehlcontact.cli.study.points.alone import alone_in
 from ehlcontact.cli.study.points.lists import MOST, load_points, points_of
+from ehlcontact.cli.study.points.lock import locked
 from ehlcontact.cli.study.points.summary import MEANINGS, UNITS
+from ehlcontact.cli.study.points.tasks import solve_stage
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import stage_named
+from ehlcontact.executors import ProcessExecutor
 
 PYTHON, ROOT = sys.executable, Path(__file__).parents[2]
-STUB = Path(__file__).with_name("stub_worker.py")
 NAMES = ["steady", "free", "harmonic"]
 TASKS = len(NAMES) + 1
 
@@ -44,24 +46,14 @@ def with_lists(speeds="[3000.0, 4000, 5000]", loads="20.0", **changes):
 
 
 @pytest.fixture
-def stub(tmp_path, monkeypatch):
-    """Workers that leave files at once; ``stub()`` is what they have done since it was asked last."""
-    home = tmp_path / "stub"
-    home.mkdir()
-    script = home / "python"
-    script.write_text(f"#!{sys.executable} -SE\n" + STUB.read_text())
-    script.chmod(0o755)
-    monkeypatch.setattr(sys, "executable", str(script))
+def stub(monkeypatch):
+    """Tasks that leave files at once; ``stub()`` is what was done since the last call."""
+    tasks = StubTasks()
     monkeypatch.setattr(runner, "STAGES", tuple(stage_named(name) for name in NAMES))
-
-    def calls():
-        file = home / "calls"
-        done = file.read_text().splitlines() if file.exists() else []
-        file.unlink(missing_ok=True)
-        return sorted(done)
-
-    calls.orders = home / "orders"
-    return calls
+    monkeypatch.setattr(runner, "solve_stage", tasks.solve_stage)
+    monkeypatch.setattr(runner, "finalise_point", tasks.finalise_point)
+    monkeypatch.setattr("ehlcontact.executors.ProcessExecutor", Threads)
+    return tasks
 
 
 @pytest.fixture(autouse=True)
@@ -242,7 +234,7 @@ def test_files_that_are_damaged_or_gone_are_made_again(run, stub):
 
 
 def test_points_that_fail_do_not_stop_the_others(run, stub):
-    stub.orders.write_text("4000rpm_20N free\n")
+    stub.orders = ["4000rpm_20N free"]
     found = run(with_lists(), "--json", "-")
     assert found.code == 1
     said = [line for line in found.err.splitlines() if "diverged" in line]
@@ -258,16 +250,16 @@ def test_points_that_fail_do_not_stop_the_others(run, stub):
     assert ",diverged," in row and ",,," in row
     page = (run.folder / "report.html").read_text()
     assert "2 of 3 points converged" in page and "use a finer grid" in page
-    stub.orders.write_text("")
+    stub.orders = []
     assert run(with_lists()).code == 0 and stub() == ["4000rpm_20N free", "4000rpm_20N report"]
 
 
 def test_fmus_that_fail_are_tried_again(run, stub):
-    stub.orders.write_text("4000rpm_20N report without FMU\n")
+    stub.orders = ["4000rpm_20N report without FMU"]
     found = run(with_lists())
     assert found.code == 1 and "4000rpm_20N: contact.fmu: differs from the element" in found.err
     stub()
-    stub.orders.write_text("")
+    stub.orders = []
     assert run(with_lists()).code == 0 and stub() == ["4000rpm_20N report"]
 
 
@@ -284,7 +276,7 @@ def test_the_log_tells_what_was_kept_and_solved(run, stub):
 
 def test_interrupted_at_random_moments_it_gives_the_same(run, stub):
     """Ctrl-C, seeded; the slow test does so with a real study, and with kill -9."""
-    stub.orders.write_text("slow")
+    stub.orders = ["slow"]
     started = time.monotonic()
     run(with_lists("[3000.0, 4000]"))
     took, expected = time.monotonic() - started, lasting(run.folder)
@@ -322,7 +314,7 @@ def test_a_summary_of_what_the_study_was_does_not_outlive_an_interrupt(run, stub
     two, everything = with_lists("[3000.0, 4000]"), {"summary.json", "summary.csv", "report.html"}
     assert run(two).code == 0 and over_all() == everything
     with monkeypatch.context() as patch:
-        patch.setattr(runner, "_side_by_side", stop)
+        patch.setattr(runner, "_run", stop)
         assert run(two).code == 130 and over_all() == everything  # nothing is to be done: it is true as it is
         assert run(with_lists("[3000.0, 5000]")).code == 130 and over_all() == set()
         assert (run.folder / "points" / "4000rpm_20N" / "steady.h5").is_file()
@@ -330,11 +322,11 @@ def test_a_summary_of_what_the_study_was_does_not_outlive_an_interrupt(run, stub
     assert log.count(" removed ") == 1 and "removed  summary.json, summary.csv" in log.replace("   ", "  ")
     assert run(two).code == 0 and over_all() == everything
     with monkeypatch.context() as patch:
-        patch.setattr(runner, "_side_by_side", stop)
+        patch.setattr(runner, "_run", stop)
         assert run(with_lists("[3000.0, 3500]")).code == 130 and over_all() == set()
     assert run(with_lists("[3000.0, 4000]")).code == 0
     with monkeypatch.context() as patch:  # fewer points, all of them done
-        patch.setattr(runner, "_side_by_side", stop)
+        patch.setattr(runner, "_run", stop)
         (run.folder / "summary.json").write_text("{}")
         assert run(two).code == 130 and not (run.folder / "summary.csv").exists()
 
@@ -342,7 +334,7 @@ def test_a_summary_of_what_the_study_was_does_not_outlive_an_interrupt(run, stub
 def test_two_runs_do_not_share_a_folder(run, stub):
     with_two = with_lists("[3000.0, 4000]")
     assert run(with_two).code == 0
-    with alone_in(run.folder):
+    with locked(run.folder):
         found = run(with_two)
     assert found.code == 2 and "one that no other run is at work in" in found.err
     assert run(with_two).code == 0
@@ -373,41 +365,46 @@ def test_init_writes_lists(call, tmp_path):
     assert points[0].study.solver.n == load_study(alone).solver.n
 
 
-def test_stages_of_a_cluster_are_those_of_this_machine(run, stub, monkeypatch):
-    """A cluster of one, in this process: workers get a document and give bytes; what is kept is not sent there."""
+@pytest.fixture
+def cluster(stub, monkeypatch):
+    """A cluster of one, in this process; gives the tasks that were sent there."""
     sent = []
 
-    def here(solve, jobs, scheduler):
-        for name, work in jobs:
-            sent.append(name)
-            yield name, solve(work)
+    class Cluster(Threads):
+        def submit(self, fn, /, *args, **kwargs):
+            sent.append(args[0])
+            return super().submit(fn, *args, **kwargs)
 
-    monkeypatch.setattr(cluster, "on_cluster", here)
-    for home in ("reduced_models.atlas.work", "ehlcontact.cli.study.points.cluster"):
-        monkeypatch.setattr(f"{home}.require_scheduler", lambda scheduler: None)
+    @contextmanager
+    def either(processes, threads=None, scheduler=None, report=None):
+        with (Threads if scheduler is None else Cluster)(processes) as executor:
+            yield executor
+
+    monkeypatch.setattr(runner, "executor_for", either)
+    monkeypatch.setattr("ehlcontact.executors.require_scheduler", lambda scheduler: None)
+    return sent
+
+
+def test_stages_of_a_cluster_are_those_of_this_machine(run, stub, cluster, monkeypatch):
+    """Workers get a document and give the content of a file; what is kept is not sent there."""
+    monkeypatch.setattr(runner, "solve_stage", solve_stage)
     monkeypatch.setattr(runner, "STAGES", (stage_named("steady"),))
     text = with_lists("[3000.0, 4000]")
     assert run(text, "--scheduler", "tcp://somewhere").code == 0
-    assert sent == ["3000rpm_20N-steady", "4000rpm_20N-steady"]
+    assert cluster == ["3000rpm_20N steady", "4000rpm_20N steady"]
     assert stub() == ["3000rpm_20N report", "4000rpm_20N report"]
     (run.folder / "s.toml").write_text(text)
     for point in load_points(run.folder / "s.toml", run.folder):
         ours = solve_steady(point.study.point, grid=Grid(n=32, domain=point.study.domain))
         assert load(point.folder / "steady.h5").h_min == ours.h_min
-    assert run(text, "--scheduler", "tcp://somewhere").code == 0 and len(sent) == 2
+    assert run(text, "--scheduler", "tcp://somewhere").code == 0 and len(cluster) == 2
 
 
-def test_a_stage_that_fails_on_a_cluster_is_told(run, stub, monkeypatch):
-    def nowhere(solve, jobs, scheduler):
-        for name, _ in jobs:
-            last = {"status": "diverged", "message": "The residual grows.", "seconds": 0.1}
-            yield name, {"last": last, "files": {"partial": b"some"}}
-
-    monkeypatch.setattr(cluster, "on_cluster", nowhere)
-    for home in ("reduced_models.atlas.work", "ehlcontact.cli.study.points.cluster"):
-        monkeypatch.setattr(f"{home}.require_scheduler", lambda scheduler: None)
+def test_a_stage_that_fails_on_a_cluster_is_told(run, stub, cluster):
+    stub.orders = ["3000rpm_20N free"]
     found = run(STUDY, "--scheduler", "tcp://somewhere")
-    assert found.code == 1 and "free: diverged: The residual grows." in found.err and stub() == []
+    assert found.code == 1 and "free: diverged: The residual grows" in found.err
+    assert sorted(cluster) == stub() == sorted(f"3000rpm_20N {name}" for name in NAMES)
     point = json.loads((run.folder / "summary.json").read_text())["points"][0]
     assert point["files"]["free vibration, as far as it went"] == "free.partial.h5"
     assert (run.folder / "free.partial.h5").read_bytes() == b"some"
@@ -419,17 +416,19 @@ def test_a_dask_cluster(run, stub, monkeypatch, tmp_path):
     pytest.importorskip("distributed")
     place = tmp_path / "scheduler.json"
     monkeypatch.setattr(runner, "STAGES", (stage_named("steady"), stage_named("free")))
+    monkeypatch.setattr(runner, "solve_stage", solve_stage)
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
     command = [PYTHON, "-m", "distributed.cli.dask_scheduler", "--port", "0", "--no-dashboard"]
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "env": environment}
     there = ["--host", "127.0.0.1", "--scheduler-file", str(place)]
     (tmp_path / "one.toml").write_text(STUDY)
-    here = [PYTHON, "-m", "ehlcontact.cli.study.worker", tmp_path / "one.toml", tmp_path, "free"]
+    (point,) = load_points(tmp_path / "one.toml", tmp_path)
     for _ in range(
         2
     ):  # where kernels are compiled, last digits may differ from where they are read from the cache
-        with subprocess.Popen(here, stdin=subprocess.PIPE, **quiet) as process:
-            assert process.wait() == 0
+        with ProcessExecutor(1, threads=1) as executor:
+            document = point.study.model_dump(exclude_unset=True, exclude_none=True)
+            (tmp_path / "free.h5").write_bytes(executor.submit(solve_stage, "", document, "free").result().content)
     ours = load(tmp_path / "free.h5")
     processes = [subprocess.Popen([*command, *there], **quiet)]
     try:

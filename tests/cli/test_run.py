@@ -20,9 +20,9 @@ from tiny_study import STUDY
 
 from ehlcontact import Status, assumptions, load
 from ehlcontact.cli.study import reduction, runner
-from ehlcontact.cli.study.points.journal import Journal
-from ehlcontact.cli.study.points.ledger import is_done, read_ledger
+from ehlcontact.cli.study.points.index import is_done, read_index
 from ehlcontact.cli.study.points.lists import load_points
+from ehlcontact.cli.study.points.log import Log
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import STAGES, stage_named
 from fmu import verify_references
@@ -32,10 +32,10 @@ PACKAGE_ROOT = Path(__file__).parents[2]
 
 
 def run_stages(folder, jobs=1):
-    """The stages of the study in a folder, which is its ledger then; nothing is made of them."""
+    """The stages of the study in a folder, and its index then; nothing is made of them."""
     points = load_points(folder / "study.toml", folder)
-    board = runner.run_points(points, folder, runner.Share(jobs), Journal(None), closing=False)
-    return board.ledgers[points[0].name]
+    done = runner.run_points(points, folder, runner.Share(jobs), Log(None), final=False)
+    return done.indices[points[0].name]
 
 
 def test_everything_is_there(finished):
@@ -137,20 +137,20 @@ def test_a_damaged_file_is_made_again(finished, tmp_path, capsys, monkeypatch, d
         del notes["steady"]["sha256"]
         (folder / "stages.json").write_text(json.dumps(notes))
     kept = (folder / "free.h5").stat().st_mtime_ns
-    ledger = run_stages(folder)
+    index = run_stages(folder)
     told = capsys.readouterr().err.splitlines()
     assert told[0] == f"ehlcontact: {file} is damaged: it is made again" and len(told) == 2
-    assert ledger["steady"]["status"] == "converged" and (folder / "free.h5").stat().st_mtime_ns == kept
+    assert index["steady"]["status"] == "converged" and (folder / "free.h5").stat().st_mtime_ns == kept
     assert load(file).approach == load(finished[1] / "steady.h5").approach
-    assert run_stages(folder) == ledger
+    assert run_stages(folder) == index
 
 
 @pytest.mark.parametrize(
     "text", ["", "{", "[]", "5", '{"steady": 5}', '{"steady": {"status": []}}', '{"sofa": {}}', "[" * 99999]
 )
-def test_a_ledger_that_cannot_be_read_is_none(text, tmp_path):
+def test_an_index_that_cannot_be_read_is_none(text, tmp_path):
     (tmp_path / "stages.json").write_text(text)
-    assert read_ledger(tmp_path) == {}
+    assert read_index(tmp_path) == {}
 
 
 def test_no_worker_outlives_a_run_that_is_killed(tmp_path):
@@ -170,33 +170,24 @@ def test_no_worker_outlives_a_run_that_is_killed(tmp_path):
     ]
     environment = os.environ | {"PYTHONPATH": str(PACKAGE_ROOT)}
     process = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, env=environment)
-    children, deadline = Path(f"/proc/{process.pid}/task/{process.pid}/children"), time.monotonic() + 50.0
-    if not children.parent.exists():
-        pytest.skip("no /proc here")
-    while not (pids := children.read_text().split()):
+    deadline = time.monotonic() + 50.0
+    while not (workers := children(process.pid)):
         assert time.monotonic() < deadline and process.poll() is None
         time.sleep(0.05)
     time.sleep(1.0)
     process.kill()
     process.wait()
-    while any(_runs(pid) for pid in pids):
+    while any(is_running(worker) for worker in workers):
         assert time.monotonic() < deadline
         time.sleep(0.05)
-
-
-def _runs(pid):
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except OSError:
-        return False
 
 
 def test_only_what_changed_is_computed_again(finished, tmp_path):
     _, folder = finished
     changed = tmp_path / "changed.toml"
     changed.write_text(STUDY.replace("unbalance = 8e-6", "unbalance = 9e-6"))
-    study, ledger = load_study(changed), read_ledger(folder)
-    kept = [stage.name for stage in STAGES if is_done(stage, study, folder, ledger)]
+    study, index = load_study(changed), read_index(folder)
+    kept = [stage.name for stage in STAGES if is_done(stage, study, folder, index)]
     assert kept == ["steady", "free", "harmonic"]
 
 
@@ -216,17 +207,17 @@ def test_ctrl_c_and_resume(finished, tmp_path):
         # a shell's background job passes on that it ignores Ctrl-C
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
-    ledger = folder / "stages.json"
-    before = json.loads(ledger.read_text())["harmonic"]
+    index = folder / "stages.json"
+    before = json.loads(index.read_text())["harmonic"]
     deadline = time.monotonic() + 50.0
-    while time.monotonic() < deadline and json.loads(ledger.read_text()).get("harmonic") in (None, before):
+    while time.monotonic() < deadline and json.loads(index.read_text()).get("harmonic") in (None, before):
         assert process.poll() is None, process.stderr.read()
         time.sleep(0.2)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=30)
     assert process.returncode == 130 and out == "" and "Traceback" not in err
     assert "resumes" in err.splitlines()[-1]
-    notes = json.loads(ledger.read_text())
+    notes = json.loads(index.read_text())
     assert notes["free"]["status"] == "interrupted" and notes["steady"]["status"] == "converged"
     assert load(folder / "free.partial.h5").steps > 10
 
@@ -301,10 +292,10 @@ def test_a_second_ctrl_c_waits_for_no_worker(monkeypatch, tmp_path):
     assert not any(is_running(int(pid)) for pid in (tmp_path / "pids").read_text().split())
     assert json.loads((tmp_path / "stages.json").read_text())["steady"]["status"] == Status.FAILED
 
-    def broken(*_):
+    def broken(*_, **__):
         raise ValueError("ours")
 
-    monkeypatch.setattr("queue.Queue.get", broken)
+    monkeypatch.setattr(runner, "wait", broken)
     monkeypatch.setattr(runner, "PATIENCE", 0.5)  # nobody presses again: they are killed when it ends
     (tmp_path / "pids").unlink()
     with pytest.raises(ValueError, match="ours"):

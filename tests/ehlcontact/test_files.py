@@ -10,7 +10,7 @@ import pytest
 from argument_groups import grouped
 
 from ehlcontact import HarmonicLoad, InputError, MoesPoint, files, save, simulate
-from ehlcontact.store import making, put, set_text, take, text_of
+from ehlcontact.store import LAYOUT, put, set_text, take, text_of
 
 POINT = MoesPoint(20, 5, 0.5)
 
@@ -65,15 +65,6 @@ def test_no_path_for_a_file(path, tmp_path, monkeypatch):
     assert "\n" not in str(caught.value) and names(tmp_path) == []
 
 
-def test_hdf5_on_a_disk_of_16_kb(full_disk):
-    """Written there by HDF5 itself, it took the process down when it ended."""
-    with pytest.raises(InputError, match="No space left"), making(full_disk / "r.h5", "save") as file:
-        file["x"] = np.zeros(100_000)
-    with making(full_disk / "small.h5", "save") as file:
-        file["x"] = np.zeros(10)
-    assert names(full_disk) == ["kept.txt", "small.h5"]
-
-
 def test_results_and_checkpoints_on_a_disk_of_16_kb(full_disk):
     options = dict(n=64, until=0.2, dt=0.1)
     with pytest.raises(InputError, match=r"^checkpoint = .*No space left"):
@@ -84,19 +75,10 @@ def test_results_and_checkpoints_on_a_disk_of_16_kb(full_disk):
     assert names(full_disk) == ["kept.txt"]
 
 
-def test_hdf5_that_is_not_finished_is_not_written(tmp_path):
-    path = tmp_path / "r.h5"
-    path.write_text("old")
-    with pytest.raises(KeyboardInterrupt), making(path, "save") as file:
-        file["x"] = np.zeros(3)
-        raise KeyboardInterrupt
-    assert path.read_text() == "old" and names(tmp_path) == ["r.h5"]
-
-
 def test_a_damaged_byte_is_told_or_does_not_matter(tmp_path):
     """Structure and arrays have checksums: HDF5 is never led astray, and no number is read that was not stored."""
     path, x, told = tmp_path / "r.h5", np.arange(200.0), 0
-    with making(path, "save") as file:
+    with h5py.File(path, "w", libver=LAYOUT) as file:
         put(file, "x", x)
         put(file, "y", x.reshape(2, 100))
         set_text(file, "t", "text" * 20)

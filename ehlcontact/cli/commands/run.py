@@ -24,15 +24,15 @@ from ehlcontact.cli.output import (
     say,
     write_json,
 )
-from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.errors import InputError
 from ehlcontact.files import remove_leftovers, write_text
 from ehlcontact.point import moes_point
 from ehlcontact.process.early_interrupt import INTERRUPTED
 
 if TYPE_CHECKING:
-    from ehlcontact.cli.study.points.board import Board
-    from ehlcontact.cli.study.points.journal import Journal
     from ehlcontact.cli.study.points.lists import Point
+    from ehlcontact.cli.study.points.log import Log
+    from ehlcontact.cli.study.points.scheduler import Scheduler
     from ehlcontact.cli.study.points.summary import Row
     from ehlcontact.cli.study.runner import Share
     from ehlcontact.cli.study.schema import Study
@@ -61,21 +61,21 @@ def run(
         _require_room(point.study, study_file)
     out.check(study_file)
     if scheduler is not None:
-        from reduced_models.atlas.work import require_scheduler
+        from ehlcontact.executors import require_scheduler
 
         require_scheduler(scheduler)
     prepare_folder(folder)
 
-    from ehlcontact.cli.study.points.alone import alone_in
-    from ehlcontact.cli.study.points.journal import LOG, Journal
+    from ehlcontact.cli.study.points.lock import locked
+    from ehlcontact.cli.study.points.log import LOG, Log
     from ehlcontact.cli.study.runner import Share
 
-    with alone_in(folder):
+    with locked(folder):
         write_studies(points, study_file, folder)
-        journal = Journal(folder / LOG)
+        log = Log(folder / LOG)
         share = Share(options.side_by_side, threads, scheduler)
-        board, seconds = _compute(points, folder, share, journal)
-        _tell(points, folder, board, seconds, out.json_to)
+        done, seconds = _compute(points, folder, share, log)
+        _tell(points, folder, done, seconds, out.json_to)
 
 
 def _require_room(study: Study, path: Path) -> None:
@@ -90,50 +90,46 @@ def _require_room(study: Study, path: Path) -> None:
             raise InputError(f"{path}: solver.{name}", error.value, error.allowed) from None
 
 
-def _compute(points: Sequence[Point], folder: Path, share: Share, journal: Journal) -> tuple[Board, float]:
+def _compute(points: Sequence[Point], folder: Path, share: Share, log: Log) -> tuple[Scheduler, float]:
     """Everything that is not done yet, and how long it took [s]."""
-    from ehlcontact.cli.study.points.board import StorageError
-    from ehlcontact.cli.study.points.journal import versions
+    from ehlcontact.cli.study.points.log import versions
+    from ehlcontact.cli.study.points.scheduler import StorageError
     from ehlcontact.cli.study.runner import run_points
 
     started = time.perf_counter()
-    where = share.scheduler or f"{share.jobs} side by side, threads of each: {share.threads}"
-    journal.line("run", f"{folder}, points: {len(points)}, {where}")
-    journal.line("versions", ", ".join(f"{name} {number}" for name, number in versions().items()))
+    where = share.cluster or f"{share.jobs} side by side, threads of each: {share.threads}"
+    log.line("run", f"{folder}, points: {len(points)}, {where}")
+    log.line("versions", ", ".join(f"{name} {number}" for name, number in versions().items()))
     try:
-        board = run_points(points, folder, share, journal)
+        done = run_points(points, folder, share, log)
     except StorageError as error:
-        journal.line("stopped", str(error))
+        log.line("stopped", str(error))
         complain(f"{error}; what was computed before is in {folder}, the same command resumes")
         raise typer.Exit(USAGE) from None
-    except ConvergenceError as error:  # of a cluster
-        journal.line("stopped", str(error))
-        complain(f"{error}; what was computed is in {folder}, the same command resumes")
-        raise typer.Exit(FAILED) from None
     except KeyboardInterrupt:
-        journal.line("stopped", "interrupted")
+        log.line("stopped", "interrupted")
         complain(f"interrupted; what was computed is in {folder}, the same command resumes")
         raise typer.Exit(INTERRUPTED) from None
-    return board, time.perf_counter() - started
+    return done, time.perf_counter() - started
 
 
-def _tell(points: Sequence[Point], folder: Path, board: Board, seconds: float, json_to: str | None) -> None:
+def _tell(points: Sequence[Point], folder: Path, done: Scheduler, seconds: float, json_to: str | None) -> None:
     """Summary, table and report of all points; what failed, by the exit code too."""
     from ehlcontact.cli.study.points import summary as s
-    from ehlcontact.cli.study.points.closing import REPORT, read_results
+    from ehlcontact.cli.study.points.finalise import REPORT, read_results
 
-    rows = [s.row_of(point, board.ledgers[point.name], folder) for point in points]
-    several, journal = len(rows) > 1, board.journal
-    run = {"seconds": seconds, "solved": board.solved, "kept": board.kept, "warnings": journal.warnings}
+    rows = [s.row_of(point, done.indices[point.name], folder) for point in points]
+    several, log = len(rows) > 1, done.log
+    run = {"seconds": seconds, "solved": done.solved, "kept": done.kept, "warnings": log.warnings}
     document = s.summary(rows, points[0].study_title, run)
     write_json(document, str(folder / s.SUMMARY), "file")
     write_text(folder / s.TABLE, s.table(rows), "file")
     failed = [(row, text) for row in rows for text in row.messages]
     for row, text in failed:
-        journal.warn(row.point.titled(f"{text}; what was reached is in {row.point.folder}"))
+        log.warn(row.point.titled(f"{text}; what was reached is in {row.point.folder}"))
     for row in rows:
         for text in row.faults:
-            journal.warn(row.point.titled(f"{text}; the rest is in {row.point.folder}"))
+            log.warn(row.point.titled(f"{text}; the rest is in {row.point.folder}"))
     if several:
         from ehlcontact.cli.study.points.page import write_overview
 
@@ -141,7 +137,7 @@ def _tell(points: Sequence[Point], folder: Path, board: Board, seconds: float, j
         _show(rows, json_to)
         write_json(document, json_to)
     elif failed:
-        write_json({"status": "not converged", "stages": board.ledgers[rows[0].point.name]}, json_to)
+        write_json({"status": "not converged", "stages": done.indices[rows[0].point.name]}, json_to)
     else:
         report = folder / REPORT
         write_json(read_results(folder), json_to)
@@ -152,10 +148,10 @@ def _tell(points: Sequence[Point], folder: Path, board: Board, seconds: float, j
         remove_leftovers(row.point.folder)
         remove_leftovers(row.point.folder / "elements")
     remove_leftovers(folder)
-    journal.line("done", f"{len(board.solved)} solved, {len(board.kept)} kept, {seconds:.1f} s")
+    log.line("done", f"{len(done.solved)} solved, {len(done.kept)} kept, {seconds:.1f} s")
     if failed or any(row.faults for row in rows):
         bad_input = not several and any(
-            board.ledgers[row.point.name].get("report", {}).get("bad_input") for row in rows
+            done.indices[row.point.name].get("report", {}).get("bad_input") for row in rows
         )
         raise typer.Exit(USAGE if bad_input else FAILED)
 

@@ -12,7 +12,7 @@ import numpy as np
 from scipy import fft
 
 from ehlcontact.checks.admissible_range import MEASURED
-from ehlcontact.cli.study.points.ledger import is_closed, is_done, read_ledger
+from ehlcontact.cli.study.points.index import is_done, is_final, read_index
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import Stage, stages_of
@@ -148,13 +148,13 @@ def forecast(study: Study, folder: Path, jobs: int) -> Forecast:
     jobs : int
         Computations side by side.
     """
-    conv, ledger = convolution_seconds(), read_ledger(folder)
+    conv, index = convolution_seconds(), read_index(folder)
     plans = []
     for stage in stages_of(study):
         mesh, contacts, steps, step = _work(stage.name, study)
         estimate = conv * stage_cost(stage.name, study)
-        plans.append(Plan(stage, mesh, contacts, steps, step, estimate, is_done(stage, study, folder, ledger)))
-    closed = all(plan.kept for plan in plans) and is_closed(study, folder, ledger)
+        plans.append(Plan(stage, mesh, contacts, steps, step, estimate, is_done(stage, study, folder, index)))
+    closed = all(plan.kept for plan in plans) and is_final(study, folder, index)
     return Forecast(study, folder, jobs, conv, tuple(plans), closed, tuple(cautions(study)))
 
 

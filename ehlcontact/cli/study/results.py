@@ -13,7 +13,7 @@ import numpy as np
 
 from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.cli.study.differences import RotorFindings, compare_rotors
-from ehlcontact.cli.study.points.journal import versions
+from ehlcontact.cli.study.points.log import versions
 from ehlcontact.cli.study.reduction import (
     CHOSEN,
     CONTACTS,
@@ -225,7 +225,7 @@ class Findings:
         }
 
 
-def evaluate(study: Study, folder: Path, ledger: Mapping[str, Mapping[str, Any]]) -> Findings:
+def evaluate(study: Study, folder: Path, index: Mapping[str, Mapping[str, Any]]) -> Findings:
     """Reduce, export and compare what the stages left in the folder; files are written on the way."""
     started = time.perf_counter()
     steady = load(folder / "steady.h5", SteadyResult)
@@ -244,7 +244,7 @@ def evaluate(study: Study, folder: Path, ledger: Mapping[str, Mapping[str, Any]]
     exported_film = None if film is None else export_fmu(film, folder / "contact_film.fmu")
     rotors = compare_rotors(study, response, reduction.rotor_elements, folder)
     computed = {stage.name for stage in stages_of(study)}
-    seconds = {name: float(note["seconds"]) for name, note in ledger.items() if name in computed}
+    seconds = {name: float(note["seconds"]) for name, note in index.items() if name in computed}
     seconds["elements, FMUs, reduced rotors"] = time.perf_counter() - started
     started = time.perf_counter()
     whole = run_whole(study, folder)

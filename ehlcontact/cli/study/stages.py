@@ -1,4 +1,4 @@
-"""The long computations of a study, each a function of the study alone that leaves one HDF5 file."""
+"""The long computations of a study, each a function of the study alone with one result."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ehlcontact.cli.study.schema import Study
-from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.errors import ConvergenceError
 from ehlcontact.solver.grid import Grid
 from ehlcontact.status import Status
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
@@ -23,7 +23,6 @@ class Outcome(NamedTuple):
 
     status: Status
     message: str = ""
-    stored: bool = True  # unless there was no room for it: then there is none for others
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,9 +47,9 @@ class Stage:
         """Where a result stands that did not get to its end."""
         return folder / f"{self.name}.partial.h5"
 
-    def run(self, study: Study, folder: Path, update: Update) -> Outcome:
-        """Compute and save; a result that is not converged goes to the partial file."""
-        from ehlcontact.store import save
+    def run(self, study: Study, update: Update) -> tuple[Outcome, bytes | None]:
+        """Compute; give how it ended and the content of the file, also of a result that is not converged."""
+        from ehlcontact.store import content_of
 
         try:
             result = self.compute(study, update)
@@ -58,16 +57,9 @@ class Stage:
         except ConvergenceError as error:
             result, outcome = error.result, Outcome(Status.FAILED, str(error))
         except KeyboardInterrupt:
-            return Outcome(Status.INTERRUPTED, "stopped before anything could be kept")
-        try:
-            if outcome.status.ok:
-                save(result, self.file(folder))
-                self.partial(folder).unlink(missing_ok=True)
-            elif hasattr(result, "force"):  # not a single failed step, but a result
-                save(result, self.partial(folder))
-        except InputError as error:
-            return Outcome(Status.FAILED, str(error), stored=False)
-        return outcome
+            return Outcome(Status.INTERRUPTED, "stopped before anything could be kept"), None
+        # not a single failed step, but a result
+        return outcome, content_of(result) if outcome.status.ok or hasattr(result, "force") else None
 
 
 def _steady(study: Study, update: Update) -> Any:

@@ -256,7 +256,7 @@ def _start(command, environment):
 
 def test_no_cluster_at_the_address(tmp_path, monkeypatch):
     pytest.importorskip("distributed")
-    monkeypatch.setattr("reduced_models.atlas.work.CONNECT_SECONDS", 0.5)
+    monkeypatch.setattr("ehlcontact.executors.CONNECT_SECONDS", 0.5)
     with pytest.raises(InputError, match="--scheduler"):
         build_atlas(
             tmp_path / "a.npz", tmp_path / "w.jsonl", 20, 2, scheduler="tcp://127.0.0.1:1", solve=atlas_stub.solve

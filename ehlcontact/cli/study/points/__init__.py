@@ -1,16 +1,16 @@
-"""A study of one point or of several: what its lists stand for, what is finished of each, and all points together.
+"""Studies of one point or of several: points, tasks, what is computed already, results over all points.
 
-============  ======================================================================================
-module        responsibility
-============  ======================================================================================
-``lists``     the points of a study file, each a study of its own with a folder of its own
-``ledger``    what is finished: notes by content, and files that are what they were
-``board``     what is to do for all points, how far it is, and what is noted of it
-``closing``   what is made of a point's stages: elements, FMUs, rotors, results and report
-``alone``     one run at a time in a folder
-``cluster``   stages solved by a Dask cluster
-``journal``   ``run.log``
-``summary``   ``summary.json`` and ``summary.csv``: every point in numbers, with units and files
-``page``      the report over several points
-============  ======================================================================================
+============== ======================================================================================
+module         responsibility
+============== ======================================================================================
+``lists``      points of a study file, each a study of its own with a folder of its own
+``scheduler``  tasks of all points: what is to do, what runs, what is done
+``tasks``      what a worker does: solve a stage, finalise a point
+``finalise``   elements, FMUs, rotors, results and report from the stages of a point
+``index``      ``stages.json``: what is computed in a folder, by hashes of inputs and of files
+``lock``       one run at a time in a folder
+``log``        ``run.log``
+``summary``    ``summary.json`` and ``summary.csv``: every point in numbers, with units and files
+``page``       report over several points
+============== ======================================================================================
 """

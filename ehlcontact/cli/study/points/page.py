@@ -10,7 +10,7 @@ from typing import Any
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.page import write_page
 from ehlcontact.cli.plots.points import draw_points
-from ehlcontact.cli.study.points.closing import REPORT
+from ehlcontact.cli.study.points.finalise import REPORT
 from ehlcontact.cli.study.points.summary import PICTURE, Row
 
 # Columns of the table for people: head, number, factor, figures.

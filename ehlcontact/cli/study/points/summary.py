@@ -16,10 +16,10 @@ from typing import Any
 
 from ehlcontact.cli.output import plain
 from ehlcontact.cli.study.forecast import cautions
-from ehlcontact.cli.study.points.closing import REPORT, faults, products, read_results
-from ehlcontact.cli.study.points.journal import LOG, versions
-from ehlcontact.cli.study.points.ledger import CLOSING, Note
+from ehlcontact.cli.study.points.finalise import REPORT, faults, products, read_results
+from ehlcontact.cli.study.points.index import FINALISE, Note
 from ehlcontact.cli.study.points.lists import STUDY_FILE, Point
+from ehlcontact.cli.study.points.log import LOG, versions
 from ehlcontact.cli.study.stages import stages_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json, read_text
@@ -89,14 +89,14 @@ class Row:
         }
 
 
-def row_of(point: Point, ledger: Mapping[str, Note], root: Path) -> Row:
+def row_of(point: Point, index: Mapping[str, Note], root: Path) -> Row:
     """What the folder of a point holds."""
     computed = stages_of(point.study)
-    names = [*(stage.name for stage in computed), CLOSING]
-    stages = {name: ledger[name]["status"] for name in names if name in ledger}
+    names = [*(stage.name for stage in computed), FINALISE]
+    stages = {name: index[name]["status"] for name in names if name in index}
     lacking = [name for name, status in stages.items() if status != Status.CONVERGED]
-    closed = stages.get(CLOSING) == Status.CONVERGED
-    results = read_results(point.folder) if closed else None
+    final = stages.get(FINALISE) == Status.CONVERGED
+    results = read_results(point.folder) if final else None
     made = {"study": STUDY_FILE} | ({} if results is None else products(results))
     made |= {
         stage.title: stage.file(Path()).name for stage in computed if stages.get(stage.name) == Status.CONVERGED
@@ -110,12 +110,12 @@ def row_of(point: Point, ledger: Mapping[str, Note], root: Path) -> Row:
     broken = () if results is None else tuple(faults(results))
     return Row(
         point=point,
-        status=str(Status.CONVERGED) if closed else _worst(stages, lacking),
-        messages=tuple(f"{name}: {stages[name]}: {ledger[name]['message']}" for name in lacking),
+        status=str(Status.CONVERGED) if final else _worst(stages, lacking),
+        messages=tuple(f"{name}: {stages[name]}: {index[name]['message']}" for name in lacking),
         warnings=(
             *cautions(point.study),
             *_outside(results),
-            *ledger.get(CLOSING, {}).get("warnings", ()),
+            *index.get(FINALISE, {}).get("warnings", ()),
             *broken,
         ),
         numbers=_numbers(point, results),

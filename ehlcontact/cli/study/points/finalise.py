@@ -1,4 +1,4 @@
-"""What is made of a point's stages, in the end: fits, elements, FMUs, reduced rotors, results and report."""
+"""Finalisation of a point: fits, elements, FMUs, reduced rotors, results and report from its stages."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ehlcontact.cli.output import one_line, write_json
-from ehlcontact.cli.study.points.ledger import checksum, read_ledger
+from ehlcontact.cli.study.points.index import checksum, read_index
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import parse_json, read_text
@@ -18,8 +18,8 @@ RESULTS, REPORT = "results.json", "report.html"
 TITLE = "elements, FMUs, rotors, report"
 
 
-class Closed(NamedTuple):
-    """How that ended."""
+class Final(NamedTuple):
+    """How the finalisation ended."""
 
     status: Status
     message: str = ""
@@ -29,8 +29,8 @@ class Closed(NamedTuple):
     files: Mapping[str, str | None] = {}  # checksums, by where they are in the folder
 
 
-def close(study: Study, folder: Path) -> Closed:
-    """Make them, and write them to the folder."""
+def finalise(study: Study, folder: Path) -> Final:
+    """Make all of it, and write it to the folder."""
     from ehlcontact.cli.study.headline import document
     from ehlcontact.cli.study.report import write_report
     from ehlcontact.cli.study.results import evaluate
@@ -38,23 +38,23 @@ def close(study: Study, folder: Path) -> Closed:
     said: list[warnings.WarningMessage]
     try:
         with warnings.catch_warnings(record=True) as said:
-            found = evaluate(study, folder, read_ledger(folder))
+            found = evaluate(study, folder, read_index(folder))
             results = document(found)
             write_json(results, str(folder / RESULTS), "file")
             write_report(found, folder / REPORT)
     except KeyboardInterrupt:
-        return Closed(Status.INTERRUPTED, "stopped before it was done")
+        return Final(Status.INTERRUPTED, "stopped before it was done")
     except InputError as error:
-        return Closed(Status.FAILED, str(error), bad_input=True)
+        return Final(Status.FAILED, str(error), bad_input=True)
     except ConvergenceError as error:
-        return Closed(Status.FAILED, str(error))
+        return Final(Status.FAILED, str(error))
     told = tuple(dict.fromkeys(one_line(str(one.message)) for one in said))
     files = {name: checksum(folder / name) for name in products(results).values()}
-    return Closed(Status.CONVERGED, "", not faults(results), told, files=files)
+    return Final(Status.CONVERGED, "", not faults(results), told, files=files)
 
 
 def read_results(folder: Path) -> dict[str, Any]:
-    """``results.json``, which `close` has written."""
+    """``results.json``, which `finalise` has written."""
     found = parse_json(read_text(folder / RESULTS))
     assert isinstance(found, dict)
     return found

@@ -1,7 +1,6 @@
-"""What is finished in a folder: noted in ``stages.json`` with what it depends on and checksums of its files.
+"""Index of what is computed in the folder of a point: ``stages.json``, with hashes of inputs and of files.
 
-A note holds for whoever has the same contents: a stage that another point of the study, or the study before it had
-lists, has finished is copied and not solved again.
+A stage with the same inputs that another point of the study has computed is copied, not solved again.
 """
 
 from __future__ import annotations
@@ -18,32 +17,33 @@ from ehlcontact.cli.study.stages import STAGES, Stage, stages_of
 from ehlcontact.files import parse_json, read_text, replacing
 from ehlcontact.status import Status
 
-LEDGER, CLOSING = "stages.json", "report"  # and the entry of what is made of all stages
+INDEX = "stages.json"
+FINALISE = "report"  # its entry of what is made of all stages
 
 Note = Mapping[str, Any]
-Ledger = dict[str, dict[str, Any]]
+Index = dict[str, dict[str, Any]]
 
 
-def read_ledger(folder: Path) -> Ledger:
-    """What earlier runs finished here; nothing where there was none or its notes are unreadable."""
+def read_index(folder: Path) -> Index:
+    """Entries of earlier runs; none where there is no index, or none that can be read."""
     try:
-        found = parse_json(read_text(folder / LEDGER))
+        found = parse_json(read_text(folder / INDEX))
     except (OSError, ValueError):
         return {}
     notes = found if isinstance(found, dict) else {}
-    names = [*(stage.name for stage in STAGES), CLOSING]
+    names = [*(stage.name for stage in STAGES), FINALISE]
     return {name: notes[name] for name in names if _is_note(notes.get(name))}
 
 
-def write_ledger(ledger: Ledger, folder: Path) -> None:
-    """Keep it, in one move.
+def write_index(index: Index, folder: Path) -> None:
+    """Write the index in one move.
 
     Raises
     ------
     InputError
         There is no room.
     """
-    write_json(ledger, str(folder / LEDGER), "file")
+    write_json(index, str(folder / INDEX), "file")
 
 
 def _is_note(note: Any) -> bool:
@@ -53,9 +53,9 @@ def _is_note(note: Any) -> bool:
     return all(isinstance(note.get(key), str) for key in texts)
 
 
-def is_done(stage: Stage, study: Study, folder: Path, ledger: Mapping[str, Note]) -> bool:
+def is_done(stage: Stage, study: Study, folder: Path, index: Mapping[str, Note]) -> bool:
     """Whether the stage's file is there, converged, and belongs to this study."""
-    return _holds(stage, study, ledger.get(stage.name, {})) and stage.file(folder).is_file()
+    return _holds(stage, study, index.get(stage.name, {})) and stage.file(folder).is_file()
 
 
 def _holds(stage: Stage, study: Study, note: Note) -> bool:
@@ -87,7 +87,7 @@ def adopted(stage: Stage, study: Study, folder: Path, others: Iterable[Path]) ->
         There is no room for the copy.
     """
     for other in others:
-        note = read_ledger(other).get(stage.name, {})
+        note = read_index(other).get(stage.name, {})
         if other != folder and _holds(stage, study, note) and is_sound(stage, other, note):
             with replacing(stage.file(folder), "file") as temporary:
                 shutil.copyfile(stage.file(other), temporary)
@@ -95,17 +95,17 @@ def adopted(stage: Stage, study: Study, folder: Path, others: Iterable[Path]) ->
     return None
 
 
-def closing_fingerprint(study: Study, ledger: Mapping[str, Note]) -> str:
+def final_fingerprint(study: Study, index: Mapping[str, Note]) -> str:
     """Hash of what results and report are made of: the whole study, names and all, and the files of its stages."""
-    files = {stage.name: ledger.get(stage.name, {}).get("sha256") for stage in stages_of(study)}
+    files = {stage.name: index.get(stage.name, {}).get("sha256") for stage in stages_of(study)}
     text = f"{study.model_dump_json(exclude_none=True)} {study.fingerprint()} {sorted(files.items())}"
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-def is_closed(study: Study, folder: Path, ledger: Mapping[str, Note]) -> bool:
+def is_final(study: Study, folder: Path, index: Mapping[str, Note]) -> bool:
     """Whether results, report, elements and FMUs are all there, as they were written, and of this study."""
-    note = ledger.get(CLOSING, {})
+    note = index.get(FINALISE, {})
     files = note.get("files")
-    if not isinstance(files, dict) or note.get("fingerprint") != closing_fingerprint(study, ledger):
+    if not isinstance(files, dict) or note.get("fingerprint") != final_fingerprint(study, index):
         return False
     return bool(note.get("whole")) and all(checksum(folder / name) == kept for name, kept in files.items())

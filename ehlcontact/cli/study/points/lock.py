@@ -1,4 +1,4 @@
-"""One run at a time in a folder: two would do the same work and write the same files."""
+"""Lock of a folder: one run at a time."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from ehlcontact.errors import InputError
 
 try:
     import fcntl
-except ImportError:  # Windows opens no folders: there nothing is held
+except ImportError:  # Windows opens no folders: there nothing is locked
     fcntl = None  # type: ignore[assignment]
 
 
 @contextmanager
-def alone_in(folder: Path) -> Iterator[None]:
-    """Hold a folder that is there; a process that ends in whatever way lets it go.
+def locked(folder: Path) -> Iterator[None]:
+    """Lock a folder for the block; the end of the process, however it comes, releases it.
 
     Raises
     ------
     InputError
-        Another process holds it.
+        Another process has locked it.
     """
     if fcntl is None:
         yield

@@ -1,4 +1,4 @@
-"""``run.log``: when what was begun, kept, solved and complained of, with the versions that did it."""
+"""``run.log``: tasks that were begun, kept and solved, warnings, and versions, each with its time."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ LOG = "run.log"
 LIBRARIES = ("numpy", "scipy", "numba", "h5py", "fmpy")
 
 
-class Journal:
-    """Lines at the end of a file, each on the disk before the next; a disk that is full costs the line alone.
+class Log:
+    """Lines appended to a file, each on the disk before the next; a full disk loses the line, not the run.
 
     Parameters
     ----------
     path : Path or None
-        None keeps no journal.
+        None writes nothing.
     """
 
     def __init__(self, path: Path | None) -> None:
@@ -31,20 +31,20 @@ class Journal:
         self.warnings: list[str] = []
 
     def line(self, kind: str, text: str) -> None:
-        """One line: when, what kind of news, and what."""
+        """Append a line: time, kind, text."""
         if self.path is not None:
             now = datetime.now().astimezone().isoformat(timespec="seconds")
             with suppress(OSError), self.path.open("a", encoding="utf-8") as stream:
                 stream.write(f"{now}  {kind:<9} {one_line(text)}\n")
 
     def warn(self, text: str) -> None:
-        """Say it on stderr too."""
+        """Append a warning, and write it to stderr too."""
         self.warnings.append(one_line(text))
         self.line("warning", text)
         complain(text)
 
 
 def versions() -> dict[str, str]:
-    """Software that the numbers come from."""
+    """Versions of the software that computes."""
     found: Mapping[str, str] = {name: version(name) for name in LIBRARIES}
     return {"ehlcontact": __version__, "python": platform.python_version(), **found, "platform": sys.platform}

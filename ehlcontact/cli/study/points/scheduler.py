@@ -1,0 +1,235 @@
+"""Scheduler of a study: tasks of all points, in what order they can run, how far they are, how they ended."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ehlcontact.cli.progress import Progressing
+from ehlcontact.cli.study.forecast import closing_cost, stage_cost
+from ehlcontact.cli.study.points.finalise import TITLE
+from ehlcontact.cli.study.points.index import (
+    FINALISE,
+    Index,
+    adopted,
+    checksum,
+    final_fingerprint,
+    is_done,
+    is_final,
+    is_sound,
+    read_index,
+    write_index,
+)
+from ehlcontact.cli.study.points.lists import POINTS, Point
+from ehlcontact.cli.study.points.log import Log
+from ehlcontact.cli.study.points.tasks import Answer
+from ehlcontact.cli.study.stages import Stage
+from ehlcontact.errors import InputError
+from ehlcontact.files import write_bytes
+from ehlcontact.status import Status
+
+FORESEEN = 0.02  # share of the work from which the time left is shown: before it kernels may be compiled
+
+
+class StorageError(Exception):
+    """The result of a stage could not be written; the message has which, where and why."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """A stage of a point, or, without one, the finalisation of the point."""
+
+    point: Point
+    stage: Stage | None
+
+    @property
+    def name(self) -> str:
+        """Name in the index."""
+        return FINALISE if self.stage is None else self.stage.name
+
+    @property
+    def key(self) -> str:
+        """Name among all tasks of the study."""
+        return f"{self.point.name} {self.name}"
+
+    @property
+    def title(self) -> str:
+        """Name for people."""
+        return self.point.titled(TITLE if self.stage is None else self.stage.title)
+
+    @property
+    def cost(self) -> float:
+        """Estimated, in convolutions."""
+        study = self.point.study
+        return closing_cost(study) if self.stage is None else stage_cost(self.stage.name, study)
+
+
+class Scheduler:
+    """Tasks of all points.
+
+    Parameters
+    ----------
+    points : sequence of Point
+    stages : sequence of Stage
+        The longest first.
+    root : Path
+        Folder of the study: stages with the same inputs are looked for there and in the folders of points.
+    log : Log
+    final : bool
+        Whether points are finalised.
+    """
+
+    def __init__(
+        self, points: Sequence[Point], stages: Sequence[Stage], root: Path, log: Log, *, final: bool = True
+    ) -> None:
+        self.indices: dict[str, Index] = {point.name: read_index(point.folder) for point in points}
+        self.log = log
+        self.todo: list[Task] = []
+        self.solved: list[str] = []
+        self.kept: list[str] = []
+        self._shown: Progressing | None = None
+        self._bars: dict[Task | None, Any] = {}
+        others = [root, *sorted(path for path in (root / POINTS).glob("*") if path.is_dir())]
+        for point in points:
+            self._look(point, stages, others, final)
+        self._tasks = {task.key: task for task in self.todo}
+        self._costs = {task: task.cost for task in self.todo}
+        self._shares = dict.fromkeys(self.todo, 0.0)
+        self._open = {point.name: {task.name for task in self.todo if task.point is point} for point in points}
+
+    def _look(self, point: Point, stages: Sequence[Stage], others: Iterable[Path], final: bool) -> None:
+        """Enter the tasks that a point lacks, and log those that it has."""
+        index, lacking = self.indices[point.name], []
+        for stage in (stage for stage in stages if stage.wanted(point.study)):
+            if self._has(point, stage, others):
+                self._keep(Task(point, stage))
+            else:
+                index.pop(stage.name, None)
+                lacking.append(Task(point, stage))
+        if final and (lacking or not is_final(point.study, point.folder, index)):
+            index.pop(FINALISE, None)
+            lacking.append(Task(point, None))
+        elif final:
+            self._keep(Task(point, None))
+        self.todo += lacking
+
+    def _has(self, point: Point, stage: Stage, others: Iterable[Path]) -> bool:
+        """Whether a stage is computed, in the folder of its point or in another one, from which it is copied."""
+        study, folder, index = point.study, point.folder, self.indices[point.name]
+        if is_done(stage, study, folder, index):
+            if is_sound(stage, folder, index[stage.name]):
+                return True
+            self.log.warn(f"{stage.file(folder)} is damaged: it is made again")
+        entry = adopted(stage, study, folder, others)
+        if entry is None:
+            return False
+        index[stage.name] = entry
+        write_index(index, folder)
+        return True
+
+    def _keep(self, task: Task) -> None:
+        self.kept.append(task.key)
+        self.log.line("kept", task.title)
+
+    def show(self, shown: Progressing) -> None:
+        """Show progress there from now on, that of the whole study first."""
+        self._shown = shown
+        if len(self.todo) > 1:
+            self._bars[None] = shown.add("whole study")
+            self._show_whole()
+
+    def take(self) -> Task | None:
+        """Remove and return the next task that can begin: finalisation waits for all stages of its point."""
+        for task in self.todo:
+            if task.stage is not None or self._open[task.point.name] == {FINALISE}:
+                self.todo.remove(task)
+                return task
+        return None
+
+    def begin(self, task: Task) -> None:
+        """Log and show that a task begins."""
+        if self._shown is not None:
+            self._bars[task] = self._shown.add(task.title)
+        self.log.line("begun", task.title)
+
+    def report(self, args: tuple[Any, ...], value: tuple[float, float] | None) -> None:
+        """Show progress: (done, total) of the task whose key is the first of `args`; None while it is compiled."""
+        task = self._tasks[args[0]]
+        if value is not None:
+            done, total = value
+            self._shares[task] = min(1.0, done / total) if total else 0.0
+        if self._shown is not None:
+            if value is None:
+                self._shown.compiling(self._bars[task])
+            else:
+                self._shown.update(self._bars[task], *value)
+                self._show_whole()
+
+    def _show_whole(self) -> None:
+        """Show progress of the whole study, by the estimated costs of all tasks."""
+        if self._shown is not None and None in self._bars:
+            cost = sum(self._costs.values())
+            share = sum(self._costs[task] * done for task, done in self._shares.items()) / cost
+            ready = sum(1 for done in self._shares.values() if done == 1.0)
+            note = f"{ready} of {len(self._costs)} tasks done"
+            self._shown.update(self._bars[None], share, 1.0 if share >= FORESEEN else None, note)
+
+    def end(self, task: Task, answer: Answer) -> None:
+        """Write the file of a stage, and enter in the index how the task ended.
+
+        Raises
+        ------
+        StorageError
+            There is no room for the file.
+        InputError
+            There is no room for the index.
+        """
+        point, index, entry = task.point, self.indices[task.point.name], answer.entry
+        full = "" if task.stage is None or answer.content is None else _write(task.stage, point, answer)
+        if full:
+            entry = entry | {"status": str(Status.FAILED), "message": full}
+        done = entry["status"] == Status.CONVERGED
+        self._show_end(task, entry, done)
+        if task.stage is None:
+            index[FINALISE] = entry | {"fingerprint": final_fingerprint(point.study, index)}
+            for text in entry.get("warnings", ()):
+                self.log.warn(point.titled(f"warning: {text}"))
+        else:
+            index[task.name] = entry | {"fingerprint": point.study.fingerprint(*task.stage.sections)}
+            if done:
+                index[task.name]["sha256"] = checksum(task.stage.file(point.folder))
+        write_index(index, point.folder)
+        self._open[point.name].discard(task.name)
+        if done:
+            self.solved.append(task.key)
+        else:  # a point is not finalised where a stage is missing
+            self.todo = [other for other in self.todo if other.point is not point or other.stage is not None]
+        if full:
+            raise StorageError(full)
+
+    def _show_end(self, task: Task, entry: dict[str, Any], done: bool) -> None:
+        self._shares[task] = 1.0
+        text = f"{task.title}: {'done' if done else entry['status']}, {entry['seconds']:.1f} s"
+        if self._shown is not None and task in self._bars:
+            self._shown.end(self._bars.pop(task), text)
+            self._show_whole()
+        self.log.line("solved" if done else "ended", text if done else f"{text}: {entry['message']}")
+
+    def finish(self) -> None:
+        """Remove the progress of the whole study."""
+        if self._shown is not None and None in self._bars:
+            self._shown.end(self._bars.pop(None))
+
+
+def _write(stage: Stage, point: Point, answer: Answer) -> str:
+    """Write the file of a stage, of a converged result or of a partial one; why that failed, or empty."""
+    done = answer.entry["status"] == Status.CONVERGED
+    try:
+        write_bytes((stage.file if done else stage.partial)(point.folder), answer.content or b"", "file")
+        if done:
+            stage.partial(point.folder).unlink(missing_ok=True)
+    except InputError as error:
+        return str(error)
+    return ""
