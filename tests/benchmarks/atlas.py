@@ -21,10 +21,11 @@ import numpy as np
 from scipy.stats import qmc
 
 from ehlcontact import Domain, Grid, MoesPoint, impedance
+from ehlcontact.executors import executor_for, results_of
 from reduced_models import Atlas
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.solve import OMEGAS, solve_point
-from reduced_models.atlas.work import WorkFile, on_processes
+from reduced_models.atlas.work import WorkFile
 
 NAMES = ("approach", "h_central", "h_min", "moment")
 
@@ -118,10 +119,11 @@ def main():
     settings = {"seed": asked.seed, "box": json.loads(json.dumps(atlas.box.to_dict())), "omega": list(OMEGAS)}
     with WorkFile(asked.work, settings) as file:
         jobs = sorted(points.items(), key=lambda job: job[1].inlet_width)
-        left = [job for job in jobs if job[0] not in file.entries]
-        for done, (name, entry) in enumerate(on_processes(solve_point, left, asked.processes) if left else (), 1):
-            file.add(name, entry)
-            sys.stderr.write(f"{done} of {len(left)}\n")
+        left = {name: point for name, point in jobs if name not in file.entries}
+        with executor_for(asked.processes) as executor:
+            for done, (name, entry) in enumerate(results_of(executor, solve_point, left), 1):
+                file.add(name, entry)
+                sys.stderr.write(f"{done} of {len(left)}\n")
         entries = [file.entries[name] for name in points]
     solved = [entry for entry in entries if entry["status"] == "converged"]
     result = table(rows_of(atlas, solved))
