@@ -7,7 +7,6 @@ module             responsibility
 ``schema_errors``  those errors, and guesses at what was meant
 ``forecast``       what a study will do, and its cost, without doing it
 ``stages``         the long computations, each a function of the study that leaves one file
-``worker``         one stage in its own process
 ``runner``         stages side by side, with progress, resume and Ctrl-C
 ``points``         its points, what is finished of each, and all of them together
 ``reduction``      fits, element files, FMU
