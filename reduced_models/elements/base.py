@@ -24,6 +24,7 @@ from ehlcontact.checks.frequency import (
 from ehlcontact.errors import InputError
 from ehlcontact.point import Point, Scales
 from reduced_models.elements.design_point import DesignPoint, known_scale, require_own_scales
+from reduced_models.elements.small_motion import StateSpace
 from reduced_models.elements.summary import ElementSummary
 from reduced_models.elements.validity import UNITS, Band, OutsideValidityWarning, Validity, numbers
 
@@ -80,7 +81,8 @@ class ContactElement(ElementSummary, _Common, ABC):
         require_choice("units", self.units, UNITS)
         self._check_coefficients()
         validity = Validity((self.low, self.high), self.rate, self.load_range, self.omega_range)
-        for name, value in {**validity.fields(), "validity": validity, **_watch(validity)}.items():
+        fresh = {"validity": validity, "_told": set(), "_reach": validity.reach}
+        for name, value in {**validity.fields(), **fresh}.items():
             object.__setattr__(self, name, value)
 
     def _check_coefficients(self) -> None:
@@ -125,7 +127,7 @@ class ContactElement(ElementSummary, _Common, ABC):
     def continuous(
         self, states: NDArray[np.float64], approach: float, rate: float
     ) -> tuple[float, NDArray[np.float64]]:
-        """As `state_rates`, for integrators that try where they do not go: nobody is told of leaving the box."""
+        """As `state_rates`, without a warning outside the validity box: for the trial points of an integrator."""
 
     def state_rates(
         self, states: NDArray[np.float64], approach: float, rate: float
@@ -134,6 +136,15 @@ class ContactElement(ElementSummary, _Common, ABC):
         force, rates = self.continuous(states, approach, rate)
         self._watch(approach, rate, force)
         return force, rates
+
+    @abstractmethod
+    def state_space(self, load: float | None = None) -> StateSpace:
+        """Linear law about rest under `load`, from approach and rate to the force, in the units of the element."""
+
+    @property
+    def _state_names(self) -> list[str]:
+        """Of the states in continuous time."""
+        return []
 
     @abstractmethod
     def rate_under(self, states: NDArray[np.float64], approach: float, force: float) -> float:
@@ -211,6 +222,35 @@ class ContactElement(ElementSummary, _Common, ABC):
     @abstractmethod
     def _response(self, w: NDArray[np.float64], load: float | None = None) -> NDArray[np.complex128]:
         """As `impedance`, at angular frequencies in the units of the element (Omega or rad/s), shape (k,)."""
+
+    def to_control(self, name: str = "contact") -> Any:
+        """Nonlinear python-control system with inputs u, v, output F and the states of `state_rates`.
+
+        ``control.linearize`` differentiates with an absolute step of 1e-6 by default: give it 1e-9 m for an
+        element in SI, or use `to_ss`, which is exact.
+        """
+        import control
+
+        def update(t: float, x: NDArray[np.float64], inputs: NDArray[np.float64], params: object) -> Any:
+            return self.state_rates(np.asarray(x), float(inputs[0]), float(inputs[1]))[1]
+
+        def output(t: float, x: NDArray[np.float64], inputs: NDArray[np.float64], params: object) -> Any:
+            return np.array([self.state_rates(np.asarray(x), float(inputs[0]), float(inputs[1]))[0]])
+
+        return control.nlsys(update if self.state_count else None, output, **self._signals(name))
+
+    def to_ss(self, load: float | None = None, name: str = "contact") -> Any:
+        """Exact python-control ``StateSpace`` about rest under `load`, by default that the element was made at.
+
+        Inputs u, v, output F and states are those of `to_control`, as differences from rest.
+        """
+        import control
+
+        return control.ss(*self.state_space(load), **self._signals(name))
+
+    def _signals(self, name: str) -> dict[str, Any]:
+        states = {"states": self._state_names} if self.state_count else {}
+        return {"inputs": ["u", "v"], "outputs": ["F"], "name": name, **states}
 
     def is_valid(
         self, approach: ArrayLike, rate: ArrayLike = 0.0, **frequency: Unpack[Frequency]
@@ -371,8 +411,3 @@ class ContactElement(ElementSummary, _Common, ABC):
     def _read_coefficients(cls, entries: Mapping[str, Any]) -> dict[str, Any]:
         """Coefficients of the class, as arguments of its constructor, from `to_dict`."""
         return numbers("parameters", entries["parameters"], cls.parameter_names)
-
-
-def _watch(validity: Validity) -> dict[str, Any]:
-    """What a fresh element remembers of what it has told."""
-    return {"_told": set(), "_reach": validity.reach}

@@ -30,7 +30,7 @@ from reduced_models.elements.film_law import (
     static_forces,
 )
 from reduced_models.elements.film_response import DRY, FilterRates
-from reduced_models.elements.small_motion import SmallMotion
+from reduced_models.elements.small_motion import SmallMotion, StateSpace
 from reduced_models.elements.validity import numbers
 
 _Floats = NDArray[np.float64]
@@ -227,43 +227,20 @@ class FilmContact(ContactElement):
         force = film_rates(self.law, states, approach / length, rate / length * time, rates)
         return float(force) * f, rates / time
 
-    def rate_at(self, states: _Floats, approach: float, force: float) -> float:
+    def rate_under(self, states: _Floats, approach: float, force: float) -> float:
         """Rate at which the contact carries `force` > 0: the motion without inertia."""
         f, length, time = self._units
         return float(film_rate(self.law, states, approach / length, force / f)) * length / time
-
-    def rate_under(self, states: _Floats, approach: float, force: float) -> float:
-        """As `rate_at`: the name that elements without memory have too."""
-        return self.rate_at(states, approach, force)
-
-    def to_control(self, name: str = "contact") -> Any:
-        """Nonlinear python-control system with inputs u, v, output F and the film's states (continuous time)."""
-        import control
-
-        def update(t: float, x: _Floats, inputs: _Floats, params: object) -> _Floats:
-            return self.state_rates(np.asarray(x), float(inputs[0]), float(inputs[1]))[1]
-
-        def output(t: float, x: _Floats, inputs: _Floats, params: object) -> _Floats:
-            return np.array([self.state_rates(np.asarray(x), float(inputs[0]), float(inputs[1]))[0]])
-
-        names = {"inputs": ["u", "v"], "outputs": ["F"], "states": self._state_names, "name": name}
-        return control.nlsys(update, output, **names)
 
     @property
     def _state_names(self) -> list[str]:
         return ["s", "y", *(f"q{k}" for k in range(1, self.lags + 1))]
 
-    def to_ss(self, load: float | None = None, name: str = "contact") -> Any:
-        """Exact python-control ``StateSpace`` about rest under `load`, its reference load by default.
-
-        Inputs u, v, output F and states are those of `to_control`, as differences from rest.
-        """
-        import control
-
+    def state_space(self, load: float | None = None) -> StateSpace:
+        """Linear law about rest under `load`; states s, y, q1 ... are those of `state_rates`."""
         A, fed, C, D = self.small_motion(load).state_space()
-        unit = self._units[1]  # states are films in units of the reference approach
-        names = {"inputs": ["u", "v"], "outputs": ["F"], "states": self._state_names, "name": name}
-        return control.ss(A, fed / unit, C * unit, D, **names)
+        unit = self._units[1]
+        return StateSpace(A, fed / unit, C * unit, D)
 
     def _si_coefficients(self, scales: Scales) -> dict[str, Any]:
         return {"scales": scales}  # the coefficients stay dimensionless

@@ -28,6 +28,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_exact
 from ehlcontact.point import Scales
 from reduced_models.elements.base import ContactElement
+from reduced_models.elements.small_motion import StateSpace
 
 _Floats = NDArray[np.float64]
 
@@ -287,11 +288,16 @@ class MemorylessContact(ContactElement):
             raise InputError(f"damping at approach {approach:g}", damping, "> 0 for a motion without inertia")
         return (force - spring) / damping
 
+    def state_space(self, load: float | None = None) -> StateSpace:
+        """Linear law about rest under `load`, without states: F = K u + C u'."""
+        u = self.approach_at(self._static_load(load))
+        through = np.array([[self.spring_tangent(u), float(self._parts(u)[1])]])
+        return StateSpace(np.zeros((0, 0)), np.zeros((0, 2)), np.zeros((1, 0)), through)
+
     def _response(self, w: _Floats, load: float | None = None) -> NDArray[np.complex128]:
         """As `impedance`, at angular frequencies in the units of the element, shape (k,): one K, one C."""
-        u = self.approach_at(self._static_load(load))
-        spring, damper = self.spring_tangent(u), float(self._parts(u)[1])
-        return np.asarray(spring + 1j * w * damper)
+        K, C = self.state_space(load).D[0].tolist()
+        return np.asarray(K + 1j * w * C)
 
     @property
     def state_count(self) -> int:
@@ -327,31 +333,6 @@ class MemorylessContact(ContactElement):
 
     def restore_state(self, state: object) -> None:
         """Nothing to restore."""
-
-    def to_control(self, name: str = "contact") -> Any:
-        """Static python-control system with inputs u, v and output F.
-
-        ``control.linearize`` differentiates with an absolute step of 1e-6 by default: give it 1e-9 m for an
-        element in SI, or use `stiffness` and `damping`, which are exact.
-        """
-        import control
-
-        def output(t: float, x: _Floats, inputs: _Floats, params: object) -> _Floats:
-            return np.array([self.advance(0.0, inputs[0], inputs[1])])
-
-        return control.nlsys(None, output, inputs=["u", "v"], outputs=["F"], name=name)
-
-    def to_ss(self, load: float | None = None, name: str = "contact") -> Any:
-        """Exact python-control ``StateSpace`` about rest under `load`, without states: F = K u + C v.
-
-        Inputs and output are those of `to_control`, as differences from rest.
-        """
-        import control
-
-        Z = complex(self._response(np.ones(1), load)[0])
-        through = np.array([[Z.real, Z.imag]])
-        none = np.zeros((0, 0)), np.zeros((0, 2)), np.zeros((1, 0))
-        return control.ss(*none, through, inputs=["u", "v"], outputs=["F"], name=name)
 
     def _value(self, index: int, approach: ArrayLike, rate: ArrayLike) -> float | _Floats:
         if isinstance(approach, float) and isinstance(rate, float):
