@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.jit import jit_exact_loop, jit_exact_node
 from reduced_models.bearing.loss import Loss, Seat, seat_of
-from reduced_models.bearing.race_table import curve, film_cutoff
+from reduced_models.bearing.race_table import curve, film_cutoff, gain
 from reduced_models.elements.film_filters import (
     CHAIN,
     DIRECT,
@@ -87,37 +87,29 @@ def _lag(old, start, rate, span):
 
 
 @jit_exact_node
-def _weigh(law, speed_row, row, work, c):
-    """Sums of the gains of `row` and of the next over all filters."""
-    gains, speed, weight = law.gains, speed_row[0], speed_row[1]
-    other = speed + 1 if weight > 0.0 else speed
-    held, ends, humps, lags = 0.0, 0.0, 0.0, gains.shape[2] - DIRECT
+def _weigh(law, speed_row, node, work, c):
+    """Sums of the gains of `node` and of the next over all filters."""
+    held, ends, humps, lags = 0.0, 0.0, 0.0, law.gains.shape[2] - DIRECT
     next_held, next_ends, next_humps = 0.0, 0.0, 0.0
     for j in range(lags):
-        gain, after = gains[speed, row, DIRECT + j], gains[speed, row + 1, DIRECT + j]
-        if weight > 0.0:
-            gain += weight * (gains[other, row, DIRECT + j] - gain)
-            after += weight * (gains[other, row + 1, DIRECT + j] - after)
+        here, after = gain(law, speed_row, node, DIRECT + j), gain(law, speed_row, node + 1, DIRECT + j)
         holds, end, hump = work[c, HELD + j], work[c, HELD + lags + j], work[c, HELD + 2 * lags + j]
-        held, next_held = held + gain * holds, next_held + after * holds
-        ends, next_ends = ends + gain * end, next_ends + after * end
-        humps, next_humps = humps + gain * hump, next_humps + after * hump
-    _add(gains, (speed, other, weight, row), work, c, ROW, (held, ends, humps))
-    _add(gains, (speed, other, weight, row + 1), work, c, NEXT, (next_held, next_ends, next_humps))
+        held, next_held = held + here * holds, next_held + after * holds
+        ends, next_ends = ends + here * end, next_ends + after * end
+        humps, next_humps = humps + here * hump, next_humps + after * hump
+    _add(law, speed_row, node, work, c, ROW, (held, ends, humps))
+    _add(law, speed_row, node + 1, work, c, NEXT, (next_held, next_ends, next_humps))
 
 
 @jit_exact_node
-def _add(gains, of, work, c, at, chain):
-    """Sums of one row from those of its chain."""
-    speed, other, weight, row = of
+def _add(law, speed_row, node, work, c, at, chain):
+    """Sums of one node from those of its chain."""
     held, ends, humps = chain
-    viscous = gains[speed, row, 0] + weight * (gains[other, row, 0] - gains[speed, row, 0])
-    inlet = gains[speed, row, 1] + weight * (gains[other, row, 1] - gains[speed, row, 1]) + ends
-    fast = gains[speed, row, 2] + weight * (gains[other, row, 2] - gains[speed, row, 2])
+    inlet, fast = gain(law, speed_row, node, 1) + ends, gain(law, speed_row, node, 2)
     for k in range(3):
         work[c, at + k] = inlet * work[c, S + k] + fast * work[c, Y + k] + humps * work[c, HUMP + k]
     work[c, at] += held
-    work[c, at + 1] += viscous
+    work[c, at + 1] += gain(law, speed_row, node, 0)
 
 
 @jit_exact_node

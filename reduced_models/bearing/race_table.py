@@ -183,6 +183,16 @@ def _at(u, law, row, k):
 
 
 @jit_exact_node
+def gain(law, speed_row, node, k):
+    """Gain `k` at a node of the load, between two speeds."""
+    row, weight = speed_row
+    found = law.gains[row, node, k]
+    if weight > 0.0:
+        found += weight * (law.gains[row + 1, node, k] - found)
+    return found
+
+
+@jit_exact_node
 def film_cutoff(u, cutoff_gap):
     """Share of its force that a film carries at approach `u`, and its slope."""
     gap = -u / cutoff_gap

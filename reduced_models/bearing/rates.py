@@ -14,7 +14,7 @@ from math import log, nan, sqrt
 import numpy as np
 
 from ehlcontact.jit import jit_exact
-from reduced_models.bearing.race_table import curve, film_cutoff
+from reduced_models.bearing.race_table import curve, film_cutoff, gain
 from reduced_models.elements.film_filters import filter_rates
 
 SMALL_STEP = 1e-14  # of the rates, that ends the search for w': rounding
@@ -32,16 +32,12 @@ def _held(law, transit, speed_row, u, states, first):
     weight = min(max((x - law.x[row]) / (law.x[row + 1] - law.x[row]), 0.0), 1.0)
     film, dashpot = g, 0.0
     for j in range(law.gains.shape[2]):
-        gain = law.gains[speed_row[0], row, j] + weight * (
-            law.gains[speed_row[0], row + 1, j] - law.gains[speed_row[0], row, j]
-        )
-        if speed_row[1] > 0.0:
-            low, high = law.gains[speed_row[0] + 1, row, j], law.gains[speed_row[0] + 1, row + 1, j]
-            gain += speed_row[1] * (low + weight * (high - low) - gain)
+        low, high = gain(law, speed_row, row, j), gain(law, speed_row, row + 1, j)
+        here = low + weight * (high - low)
         if j == 0:
-            dashpot = gain * tau
+            dashpot = here * tau
         else:
-            film += gain * states[first + j - 1]
+            film += here * states[first + j - 1]
     return film, dashpot, law.kn * film_cutoff(u, law.cutoff_gap)[0], tau
 
 

@@ -155,11 +155,18 @@ def _between(x, law):
 
 
 @jit_exact
+def _gain(k, law, between):
+    """Gain `k` at the load."""
+    row, after, weight, _ = between
+    return law.gains[row, k] * (1.0 - weight) + law.gains[after, k] * weight
+
+
+@jit_exact
 def _weighed(k, q, law, between, x_u):
     """Filter `k` times its gain at the load, whose ln F has the slope `x_u`."""
-    row, after, weight, per_x = between
-    below, above = law.gains[row, k], law.gains[after, k]
-    return times(Jet(below * (1.0 - weight) + above * weight, (above - below) * per_x * x_u, 0.0), q)
+    row, after, _, per_x = between
+    slope = (law.gains[after, k] - law.gains[row, k]) * per_x * x_u
+    return times(Jet(_gain(k, law, between), slope, 0.0), q)
 
 
 @jit_exact
@@ -234,19 +241,11 @@ def film_drive(law, T, u, v, force):
 
 
 @jit_exact
-def _gain(law, x, k):
-    """Gain k at x = ln F."""
-    if law.gain_x.size == 1:
-        return law.gains[0, k]
-    return np.interp(x, law.gain_x, np.ascontiguousarray(law.gains[:, k]))
-
-
-@jit_exact
-def _remembered(law, x, states):
+def _remembered(law, between, states):
     """Film that the states add."""
     film = 0.0
     for k in range(states.size):
-        film += _gain(law, x, k + 1) * states[k]
+        film += _gain(k + 1, law, between) * states[k]
     return film
 
 
@@ -256,7 +255,8 @@ def film_rates(law, states, u, v, rates):
     x, g, _ = static(u, law)
     theta = sqrt(g)
     filter_rates(law, law.inlet_saturation, theta, v, states, rates)
-    w = g + _gain(law, x, 0) * (theta * v) + _remembered(law, x, states)
+    between = _between(x, law)
+    w = g + _gain(0, law, between) * (theta * v) + _remembered(law, between, states)
     return w * sqrt(w) if w > 0.0 else 0.0
 
 
@@ -264,7 +264,8 @@ def film_rates(law, states, u, v, rates):
 def film_rate(law, states, u, force):
     """Rate at which the contact carries `force` > 0 at approach `u`."""
     x, g, _ = static(u, law)
-    return (force ** (2.0 / 3.0) - g - _remembered(law, x, states)) / (_gain(law, x, 0) * sqrt(g))
+    between = _between(x, law)
+    return (force ** (2.0 / 3.0) - g - _remembered(law, between, states)) / (_gain(0, law, between) * sqrt(g))
 
 
 @jit_exact

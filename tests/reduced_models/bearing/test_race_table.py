@@ -126,7 +126,7 @@ def test_compiled_and_plain_are_twins(film, monkeypatch):
     kernel = film.kernel(3000.0)
     at_speed = speed_state(kernel, 3000.0 * RADIANS)
     names = {
-        table_room: ("_at", "curve", "film_cutoff"),
+        table_room: ("_at", "curve", "film_cutoff", "gain"),
         contact_room: ("_lag", "_weigh", "_add", "begin", "press", "accept", "curve", "film_cutoff"),
         balls_room: ("_ball", "begin_step", "press_balls", "accept_balls", "begin", "press", "accept"),
     }
