@@ -13,6 +13,7 @@
 | modes | its damped vibrations, exact with film memory |
 | campbell | `campbell`: modes over the speed, critical speeds |
 | unbalance | `unbalance_response`: amplitudes over the speed |
+| picture | figures: orbits, spectra, waterfalls, Campbell diagram, unbalance response |
 | control | python-control: `rotor_to_control`, and the state space of a linearised rotor |
 | ross | rotors of ROSS on our bearings: `from_ross`, `RossCallback` |
 | contact | the protocol every contact obeys; `ScaledContact` shows a dimensionless one in SI; all as one force |

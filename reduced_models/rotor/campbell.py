@@ -170,7 +170,7 @@ class Campbell(QuantityTable):
         InputError
             The file cannot be written.
         """
-        from reduced_models.bearing.picture import draw_campbell
+        from reduced_models.rotor.picture import draw_campbell
 
         return draw_campbell(self, path)
 

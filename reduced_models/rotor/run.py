@@ -129,7 +129,7 @@ class BearingRun(Summary, Tabled):
         InputError
             Another kind, a run of fewer than 16 steps, a node that is not there, or the file cannot be written.
         """
-        from reduced_models.bearing.picture import draw_run
+        from reduced_models.rotor.picture import draw_run
 
         if kind not in KINDS:
             raise InputError("kind", kind, f"one of {', '.join(KINDS)}")

@@ -122,7 +122,7 @@ class UnbalanceResponse(Summary, Tabled):
         InputError
             The file cannot be written.
         """
-        from reduced_models.bearing.picture import draw_unbalance
+        from reduced_models.rotor.picture import draw_unbalance
 
         return draw_unbalance(self, path)
 

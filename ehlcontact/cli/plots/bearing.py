@@ -24,7 +24,9 @@ from ehlcontact.cli.plots.style import (
     running,
     vertical,
 )
-from reduced_models.bearing.picture import COLOURS, from_load
+from ehlcontact.results.picture import COLOURS
+from reduced_models.bearing.picture import from_load
+from reduced_models.rotor.picture import whirl_name
 
 LOOKS: dict[str, dict[str, Any]] = {
     "memory": {"color": BLUE},
@@ -42,7 +44,6 @@ TURNS = 5.0  # of the shaft, on the orbits
 BAR = 0.5  # width of a bar over the angle between two balls
 ROOM = 1.25  # radius of the load zone over its longest bar
 RACES = (("inner race", BLUE, 0.6), ("outer race", ORANGE, 1.0))  # name, colour, width of a bar
-STRAIGHT = 0.1  # |whirl| below which a mode is called so
 
 Names = Mapping[str, str]
 
@@ -213,7 +214,7 @@ def campbell(diagram: Any) -> go.Figure:
     dashes = "solid", "dash", "dot"
     for k in range(hz.shape[1]):
         line = {"color": COLOURS[k % len(COLOURS)], "dash": dashes[k // len(COLOURS) % 3]}
-        name = f"{k + 1} {_whirl(float(diagram.whirl[-1, k]))}"
+        name = f"{k + 1} {whirl_name(float(diagram.whirl[-1, k]))}"
         for row, values in ((1, hz), (2, diagram.decrement)):
             figure.add_scatter(x=rpm, y=values[:, k], line=line, name=name, row=row, col=1)
     once: Any = {"color": GREY, "width": 1.2, "dash": "dashdot"}
@@ -228,9 +229,3 @@ def campbell(diagram: Any) -> go.Figure:
     label_axes(figure, "speed [rev/min]", "decrement", 2, type=scale)
     figure.update_xaxes(range=[float(rpm.min()), float(rpm.max())])
     return figure
-
-
-def _whirl(whirl: float) -> str:
-    if abs(whirl) < STRAIGHT:
-        return "straight"
-    return "forward" if whirl > 0.0 else "backward"
