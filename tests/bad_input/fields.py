@@ -34,6 +34,7 @@ NOT_POSITIVE = (0.0, -1.0, NAN, INF, True, None, "two", [1.0, 2.0], 1j)
 NO_SHARE = (-0.1, 0.51, NAN, INF, True, None, "steel")  # Poisson's ratio
 NO_SCATTER = (-0.1, NAN, True, "0.1")
 NO_GRID = (0, -16, 8, 15, 33, 40, 100, 2064, 4096, 32.0, 64.5, NAN, INF, True, "x", [16])
+NO_THREADS = (0, -1, 1.0, "2", True, 9999)
 POINT, GEOMETRY = MoesPoint(200, 10, 0.5), Geometry(0.01, 0.02)
 T = np.linspace(0.0, 2.0, 9)
 
@@ -167,7 +168,11 @@ FIELDS = [  # function, good arguments, bad values of some
     ),
     (TimeSteps, {"until": 1.0, "dt": 0.1}, {"periods": [2.0], "steps_per_period": [80]}),
     (KeepSettings, {}, {"snapshots": [(-1.0,), (0.5, NAN), 0.5], "checkpoint_every": [-1.0, NAN]}),
-    (RunSettings, {}, {"threads": [0, 2.0, 9999]}),
+    (RunSettings, {}, {"threads": NO_THREADS}),
+    (solve_steady, {"point": POINT, "grid": Grid(n=64)}, {"threads": NO_THREADS}),
+    (impedance, {"point": POINT, "Omega": [0.0]}, {"threads": NO_THREADS}),
+    (FullContact, {"point": POINT}, {"threads": NO_THREADS}),
+    (Grid, {}, {"deflection": ["", "FFT", None, 3]}),
     (run_until_1, {}, {"dt": [2.0, 1e-9], "snapshots": [(1.5,)]}),
     (tabulated, {}, {"periods": [2.0], "steps_per_period": [80]}),
     (FreeVibration, {}, {"Omega_n": NOT_POSITIVE}),

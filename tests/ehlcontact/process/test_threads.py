@@ -17,14 +17,10 @@ from argument_groups import grouped
 from threadpoolctl import threadpool_limits
 
 from ehlcontact import (
-    FreeVibration,
     FullContact,
     Grid,
     HarmonicLoad,
-    InputError,
     MoesPoint,
-    RunSettings,
-    TimeSteps,
     impedance,
     simulate,
     solve_steady,
@@ -232,27 +228,6 @@ def test_cores_of_this_process():
         )
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
         assert done.stdout == "1\n"
-
-
-CALLS = {
-    "film": lambda threads: solve_steady(POINT, grid=Grid(n=64), threads=threads),
-    "run": lambda threads: simulate(
-        POINT,
-        FreeVibration(Omega_n=5.13),
-        grid=Grid(n=32),
-        time=TimeSteps(until=0.1),
-        run=RunSettings(threads=threads),
-    ),
-    "response": lambda threads: impedance(POINT, Omega=[0.0], grid=Grid(n=32), threads=threads),
-    "contact": lambda threads: FullContact(POINT, grid=Grid(n=32), threads=threads),
-}
-
-
-@pytest.mark.parametrize("call", CALLS)
-@pytest.mark.parametrize("threads", [0, -1, 1.0, "2", True, cores() + 1])
-def test_refused(call, threads):
-    with pytest.raises(InputError, match=f"threads = .*: must be a whole number from 1 to {cores()}, the cores"):
-        CALLS[call](threads)
 
 
 @pytest.mark.parametrize("threads", [2, 3])

@@ -6,7 +6,6 @@ import subprocess
 import sys
 from dataclasses import fields, replace
 
-import h5py
 import numpy as np
 import pytest
 from argument_groups import grouped
@@ -30,7 +29,6 @@ from ehlcontact import (
     TimeSteps,
     Waviness,
     load,
-    save,
     simulate,
 )
 from ehlcontact.transient import checkpoint
@@ -280,28 +278,6 @@ def test_a_checkpoint_that_cannot_be_written_later_is_told_and_the_run_goes_on(t
     assert load(path, Checkpoint).record.T == 0.1
 
 
-@pytest.mark.parametrize(
-    ("name", "change"),
-    [
-        ("record/film", lambda old: old[:, :-1]),
-        ("record/numbers", lambda old: old[:0]),
-        ("record/numbers", lambda old: np.full_like(old, np.nan)),
-        ("record/snapshot_T", lambda old: np.zeros(3)),
-        ("film/P", lambda old: old[:1]),
-        ("film/mass", lambda old: old * np.inf),
-        ("film/factors/lu/0", lambda old: old[:-1]),
-    ],
-)
-def test_arrays_that_do_not_fit(stopped, tmp_path, name, change):
-    path = shutil.copy(stopped[0], tmp_path / "c.h5")
-    with h5py.File(path, "a") as file, np.errstate(invalid="ignore"):
-        new = change(file[name][...])
-        del file[name]
-        file[name] = new
-    with pytest.raises(InputError, match=r"^restart = .*checkpoint of `simulate`"):
-        simulate(**grouped(**stopped[1], restart=path))
-
-
 @pytest.fixture(scope="module")
 def stopped(tmp_path_factory):
     """Checkpoint of a free vibration over a dent, at T = 0.2, and the arguments of its run."""
@@ -353,35 +329,6 @@ def test_end_before_the_checkpoint(stopped):
     path, arguments = stopped
     with pytest.raises(InputError, match=r"^until = 0\.1: must be at least 0\.2"):
         simulate(**grouped(**(arguments | dict(until=0.1)), restart=path))
-
-
-def test_checkpoint_of_another_version(stopped, tmp_path):
-    path = shutil.copy(stopped[0], tmp_path / "c.h5")
-    with h5py.File(path, "a") as file:
-        file.attrs["version"] = '"0.0.1"'
-    with pytest.raises(InputError, match=r"its version is 0\.0\.1, asked for is "):
-        simulate(**grouped(**stopped[1], restart=path))
-
-
-@pytest.mark.parametrize("part", [0.0, 0.02, 0.5, 0.9, 0.999])
-def test_truncated_checkpoint(stopped, tmp_path, part):
-    data = stopped[0].read_bytes()
-    path = tmp_path / "cut.h5"
-    path.write_bytes(data[: int(part * len(data))])
-    with pytest.raises(InputError, match=r"^restart = '.*cut\.h5': must be .*checkpoint") as caught:
-        simulate(**grouped(**stopped[1], restart=path))
-    assert "\n" not in str(caught.value)
-
-
-def test_files_that_are_no_checkpoint(stopped, tmp_path):
-    save(
-        simulate(POINT, HarmonicLoad(Omega=3.0), grid=Grid(n=N), time=TimeSteps(until=0.1, dt=0.05)),
-        tmp_path / "result.h5",
-    )
-    (tmp_path / "text.h5").write_text("T,u\n0,1\n")
-    for name in ("result.h5", "text.h5", "missing.h5", "."):
-        with pytest.raises(InputError, match=r"^restart = .*: must be .*checkpoint of `simulate`"):
-            simulate(**grouped(**stopped[1], restart=tmp_path / name))
 
 
 def test_a_checkpoint_is_no_result(stopped):
