@@ -18,7 +18,6 @@ class Status(StrEnum):
     STEP_TOO_SMALL = "step_too_small"
     INTERRUPTED = "interrupted"
     FAILED = "failed"
-    NOT_CONVERGED = "failed"  # what rotors called it: the name for `FAILED` in programs written before
 
     @property
     def advice(self) -> str:

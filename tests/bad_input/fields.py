@@ -162,7 +162,7 @@ FIELDS = [  # function, good arguments, bad values of some
             "dt": [-0.1, INF],
             "periods": [0.0],
             "steps_per_period": [-80],
-            "local_error": [0.0, 1e-9, 0.5],
+            "local_error": [0.0, -1e-3, 1e-9, 0.2, 0.5, NAN, INF, True, "small"],
             "tol": [0.0, NAN, "1e-3"],
         },
     ),

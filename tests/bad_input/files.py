@@ -246,6 +246,8 @@ BAD = {
         "not converged": attribute("status", '"stagnated"'),
         "impossible point": attribute("point", '{"M": -1, "L": 5, "kappa": 0.5}'),
         "half a point": attribute("point", '{"M": 20}'),
+        "a point that breaks off": attribute("point", "{"),
+        "half of the scales": attribute("scales", '{"force": 1}'),
         "unknown motion": attribute("motion", '{"kind": "waltz"}'),
         "domain in words": attribute("domain", '"wide"'),
         "another n": attribute("n", "48"),

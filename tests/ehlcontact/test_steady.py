@@ -319,3 +319,15 @@ def test_interrupted_steady_solve_keeps_what_it_has():
 
     result = solve_steady(POINT, grid=Grid(n=32), callback=stop)
     assert str(result.status) == "interrupted" and result.cycles == 2
+
+
+@pytest.mark.parametrize("status", list(Status))
+def test_each_status_has_advice_in_one_sentence(status):
+    assert status.advice.endswith(".")
+    assert "\n" not in status.advice
+    assert status.ok == (status is Status.CONVERGED)
+
+
+def test_status_reads_back_from_text():
+    assert Status(str(Status.STAGNATED)) is Status.STAGNATED
+    assert f"{Status.MAX_CYCLES}" == "max_cycles"

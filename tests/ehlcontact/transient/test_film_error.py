@@ -1,7 +1,6 @@
 """The error of the grid of a run: that of the film it starts from, said as a steady film says it."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -121,12 +120,6 @@ def test_it_is_kept_in_files_and_not_found_again_by_a_restart(tmp_path, monkeypa
         np.testing.assert_array_equal(getattr(resumed, field), getattr(whole, field))
     again = load(save(whole, tmp_path / "result.h5"))
     assert (again.film_error, again.reservation) == (whole.film_error, whole.reservation)
-
-
-def test_old_files_have_none():
-    old = load(Path(__file__).parents[2] / "data" / "simulation.h5")
-    assert old.film_error is None and old.reservation == ""
-    assert old.to_dict()["film_error"] is None
 
 
 def test_a_start_that_fails_has_none():
