@@ -1,33 +1,34 @@
 """Transient elastohydrodynamic (EHL) rolling point contacts.
 
-================ ===========================================================================================
-room             responsibility
-================ ===========================================================================================
-``point``        inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
-``lubricant/``   `Lubricant`, from its numbers or its grade; the laws of viscosity and density
-``hertz``        dry elliptic contact
-``formulas``     published film and approach formulas: grids are chosen from them, results compared with them
-``solver/``      one film at one instant: mesh, equations, multigrid, Newton
-``steady``       `solve_steady`
-``impedance``    `impedance`: K and C over frequency from the linearised steady state
-``transient/``   one film through time: motions, surfaces, `simulate`, `FullContact`
-``assumptions/`` what every solve assumes, and the numbers that tell when it matters
-``quantities``   units, scales and dimensions of quantities, declared once in the annotations of results
-``results/``     results of a steady solve and of an impedance; tables, SI values and figures of all results
-``origin``       where numbers come from: what all results have in common
-``version``      of the distribution
-``film/``        the film to look at: maps, mid-planes, fringes, what the surfaces carry through
-``store``        `save` and `load`: one file header, one way back, for every class
-``files``        files written in one move; texts of any origin
-``executors``    executors of `concurrent.futures`: worker processes, or a Dask cluster
-``process/``     worker processes, Ctrl-C, threads
-``checks/``      checks of inputs, and the box that the solvers are made for
-``errors``       `InputError`, `ConvergenceError`
-``status``       how a solve or a run ended, with advice
-``summary``      `Summary`: what results and elements show at the prompt and in notebooks
-``jit``          the numba decorators of the library
-``cli/``         the command line; stands above all packages
-================ ===========================================================================================
+================= ==========================================================================================
+room              responsibility
+================= ==========================================================================================
+``point``         inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
+``lubricant/``    `Lubricant`, from its numbers or its grade; the laws of viscosity and density
+``hertz``         dry elliptic contact
+``formulas``      published film and approach formulas: grids are chosen from them, results compared with them
+``solver/``       one film at one instant: mesh, equations, multigrid, Newton
+``steady``        `solve_steady`
+``impedance``     `impedance`: K and C over frequency from the linearised steady state
+``transient/``    one film through time: motions, surfaces, `simulate`, `FullContact`
+``assumptions/``  what every solve assumes, and the numbers that tell when it matters
+``quantities``    units, scales and dimensions of quantities, declared once in the annotations of results
+``results/``      results of a steady solve and of an impedance; tables, SI values and figures of all results
+``origin``        where numbers come from: what all results have in common
+``version``       of the distribution
+``film/``         the film to look at: maps, mid-planes, fringes, what the surfaces carry through
+``store``         `save` and `load`: one file header, one way back, for every class
+``content_store`` `ContentStore`: what is computed, found by the hash of its inputs
+``files``         files written in one move; texts of any origin
+``executors``     executors of `concurrent.futures`: worker processes, or a Dask cluster
+``process/``      worker processes, Ctrl-C, threads
+``checks/``       checks of inputs, and the box that the solvers are made for
+``errors``        `InputError`, `ConvergenceError`
+``status``        how a solve or a run ended, with advice
+``summary``       `Summary`: what results and elements show at the prompt and in notebooks
+``jit``           the numba decorators of the library
+``cli/``          the command line; stands above all packages
+================= ==========================================================================================
 """
 
 from ehlcontact import process as process  # first: it guards the imports of the command line against Ctrl-C

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import time
 from dataclasses import replace
@@ -11,10 +12,10 @@ from typing import Any
 import numpy as np
 
 from ehlcontact import Domain, MoesPoint
-from reduced_models.atlas.build import SEED, settings
+from ehlcontact.content_store import ContentStore, key_of
+from reduced_models.atlas.build import SEED
 from reduced_models.atlas.sample import sample_points
-from reduced_models.atlas.solve import OMEGAS
-from reduced_models.atlas.work import WorkFile
+from reduced_models.atlas.solve import OMEGAS, solve_point
 
 PAUSE = 0.05
 
@@ -34,10 +35,11 @@ def solve(point: MoesPoint) -> dict[str, Any]:
 
 
 def prefill(work: Path, draws: int, light_draws: int, seed: int = SEED) -> None:
-    """Work file of a build that has nothing left to solve."""
-    with WorkFile(work, settings(seed)) as file:
-        for name, point in sample_points(draws, light_draws, seed).items():
-            file.add(name, solve(point))
+    """Folder of a build with `solve_point` that has nothing left to solve."""
+    store = ContentStore(work, "work folder")
+    for point in sample_points(draws, light_draws, seed).values():
+        key = key_of([solve_point.__module__, solve_point.__qualname__, point.to_dict()])
+        store.put(key, json.dumps(solve(point)).encode())
 
 
 def solve_slowly(point: MoesPoint) -> dict[str, Any]:

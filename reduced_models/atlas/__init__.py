@@ -12,6 +12,6 @@
 | sample | the points of a build |
 | mesh | grids of a point, by the width of its inlet |
 | solve | one of them solved |
-| work | the file of solved points, and the processes or the cluster that solve them |
+| work | points solved by an executor, and kept in a store by content |
 | tune | how the numbers of a build were found |
 """

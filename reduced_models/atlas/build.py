@@ -6,10 +6,8 @@ into the file of the atlas and are read from there.
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Executor
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -20,19 +18,18 @@ from scipy.optimize import nnls
 
 from ehlcontact import Domain, MoesPoint, __version__
 from ehlcontact.errors import InputError
-from ehlcontact.executors import executor_for, require_scheduler, results_of
+from ehlcontact.executors import require_scheduler
 from ehlcontact.formulas import LIGHT_BLEND, LIGHT_LOAD
 from reduced_models.atlas import surface
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import FILM, OMEGAS, solve_point
 from reduced_models.atlas.table import AtlasTable, Box, Interpolation, OtherOil
-from reduced_models.atlas.work import WorkFile
+from reduced_models.atlas.work import Solve, solve_points
 from reduced_models.elements.film_response import DRY, WEIGHT_C, WEIGHT_K, FilterRates
 
 _Floats = NDArray[np.float64]
 Entry = Mapping[str, Any]
 Progress = Callable[[int, int], None]
-Solve = Callable[[MoesPoint], dict[str, Any]]
 
 DRAWS, LIGHT_DRAWS, SEED = 448, 256, 4
 BOX = Box(M=(1.0, 30000.0), L=(0.0, 30.0), kappa=(0.045, 1.0), p_hertz=4.1e9)
@@ -87,7 +84,7 @@ def build_atlas(
     output : Path
         The atlas.
     work : Path
-        Work file, made if it does not exist.
+        Folder of solved points, made if it does not exist.
     draws, light_draws : int
         Over the box, and over its light loads; see `reduced_models.atlas.sample.sample_points`.
     seed : int
@@ -104,7 +101,7 @@ def build_atlas(
     Raises
     ------
     InputError
-        A work file of other settings, no scheduler at that address, or too few points that converged.
+        No folder, no scheduler at that address, or too few points that converged.
     """
     points = sample_points(draws, light_draws, seed)
     if len(points) < FEWEST:  # told before they are solved
@@ -112,47 +109,15 @@ def build_atlas(
         raise InputError("points", len(points), allowed)
     if scheduler is not None:
         require_scheduler(scheduler)
-    with WorkFile(work, settings(seed)) as file:
-        if missing := {name: point for name, point in points.items() if name not in file.entries}:
-            with executor_for(processes, scheduler=scheduler) as executor:
-                _solve(file, missing, executor, solve, progress)
-        entries = [file.entries[name] for name in points]
+    entries = solve_points(points, work, solve, processes=processes, scheduler=scheduler, progress=progress)
     made_by = {
         "command": f"ehlcontact atlas build --draws {draws} --light-draws {light_draws} --seed {seed}",
         "version": __version__,
         "sampled": SAMPLED.to_dict(),
     }
-    try:
-        table = assemble(entries, made_by)
-    except InputError:
-        raise
-    except (KeyError, TypeError, ValueError, IndexError) as error:
-        raise InputError("work file", str(work), f"one with complete entries ({error!r})") from None
+    table = assemble(entries, made_by)
     table.save(output)
     return table
-
-
-def settings(seed: int) -> dict[str, Any]:
-    """Settings common to all entries of a work file, in JSON types."""
-    found = {"seed": seed, "box": SAMPLED.to_dict(), "omega": list(OMEGAS), "version": __version__}
-    return dict(json.loads(json.dumps(found)))
-
-
-def _solve(
-    file: WorkFile,
-    missing: Mapping[str, MoesPoint],
-    executor: Executor,
-    solve: Solve,
-    progress: Progress | None,
-) -> None:
-    """Solve points and keep them in the work file as they come."""
-    total = len(file.entries) + len(missing)
-    # Thin films take longest and are begun first, so that no process ends up with them alone.
-    jobs = dict(sorted(missing.items(), key=lambda job: job[1].inlet_width))
-    for name, entry in results_of(executor, solve, jobs):
-        file.add(name, entry)
-        if progress is not None:
-            progress(len(file.entries), total)
 
 
 def assemble(entries: Sequence[Entry], made_by: Mapping[str, Any]) -> AtlasTable:

@@ -1,108 +1,67 @@
-"""Work file of an atlas build: solved points, safe against a kill at any moment."""
+"""Work of an atlas build: points are solved by an executor, and kept in a store by content as they come."""
 
 from __future__ import annotations
 
 import json
-import os
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
-from ehlcontact.errors import InputError
+from ehlcontact.content_store import ContentStore, key_of
+from ehlcontact.executors import executor_for, results_of
 from ehlcontact.files import parse_json
+from ehlcontact.point import MoesPoint
 
-Entry = dict[str, Any]
-
-SCHEMA = "ehlcontact-atlas-work"
+Solve = Callable[[MoesPoint], dict[str, Any]]
 
 
-class WorkFile:
-    """One JSON line per solved point under a header line; opened again it goes on where it ended.
-
-    A line that a kill cut short is dropped. Use as a context manager.
+def solve_points(
+    points: Mapping[str, MoesPoint],
+    folder: Path,
+    solve: Solve,
+    *,
+    processes: int = 1,
+    scheduler: str | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[dict[str, Any]]:
+    """Entries of all points, in their order; those that the folder holds are not solved again.
 
     Parameters
     ----------
-    path : Path
-        Made if it does not exist.
-    settings : mapping
-        What makes entries comparable; a file with others is refused.
+    points : mapping
+        By name.
+    folder : Path
+        Of the store; made if it does not exist.
+    solve : callable
+        Gives the entry of a point; JSON must be able to hold it, and workers find the function by its name.
+    processes : int
+        Of this machine.
+    scheduler : str, optional
+        Address of a Dask scheduler, whose workers solve instead.
+    progress : callable, optional
+        Called with the numbers of points done and in all.
 
     Raises
     ------
     InputError
-        The file cannot be written, is no work file, or was begun with other settings.
+        The folder cannot be written to; no scheduler at that address.
+    ConvergenceError
+        Workers keep dying.
     """
-
-    def __init__(self, path: Path, settings: Mapping[str, Any]) -> None:
-        self.path, self.entries = path, dict[str, Entry]()
-        header = {"schema": SCHEMA, **settings}
-        with self._refusing():
-            self._stream = path.open("a+b", buffering=0)  # nothing is left behind that is written later
-        try:
-            with self._refusing():
-                self._read(header)
-        except InputError:
-            self._stream.close()
-            raise
-
-    @contextmanager
-    def _refusing(self) -> Iterator[None]:
-        try:
-            yield
-        except OSError as error:
-            reason = f"a file that can be written ({error.strerror}); what it holds stays"
-            raise InputError("work file", str(self.path), reason) from None
-
-    def _read(self, header: dict[str, Any]) -> None:
-        self._stream.seek(0)
-        *whole, torn = self._stream.readall().split(b"\n")
-        try:
-            lines = [parse_json(line) for line in whole]
-            found = lines[0] if lines else None
-            begun = found is not None or _line(header).startswith(torn)  # a file of others ends without a line
-            if not begun or (found is not None and (not isinstance(found, dict) or found.get("schema") != SCHEMA)):
-                raise ValueError("no header")
-            self.entries = {line["point"]: line for line in lines[1:]}
-            if not all(isinstance(name, str) for name in self.entries):
-                raise ValueError("an entry without a point")
-        except (ValueError, KeyError, TypeError) as error:
-            raise InputError("work file", str(self.path), f"a work file of an atlas build ({error})") from None
-        if found is not None and found != header:
-            differing = sorted(k for k in {*found, *header} if found.get(k) != header.get(k))
-            allowed = f"begun with the same {', '.join(differing)}: {[header.get(k) for k in differing]}"
-            raise InputError("work file", f"{self.path} ({[found.get(k) for k in differing]})", allowed)
-        if torn:
-            self._stream.truncate(sum(len(line) + 1 for line in whole))
-        if found is None:
-            self._write(header)
-
-    def add(self, name: str, entry: Mapping[str, Any]) -> None:
-        """Keep the entry of a point, on the disk when this returns; one that is there already stays."""
-        if name not in self.entries:
-            self.entries[name] = {"point": name, **entry}
-            self._write(self.entries[name])
-
-    def _write(self, line: Mapping[str, Any]) -> None:
-        size = self._stream.seek(0, os.SEEK_END)
-        with self._refusing():
-            try:
-                rest = _line(line)
-                while rest:  # a disk that becomes full takes part of it
-                    rest = rest[self._stream.write(rest) :]
-                os.fsync(self._stream.fileno())
-            except OSError:
-                self._stream.truncate(size)  # no torn line before the next one
-                raise
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: type[BaseException] | BaseException | TracebackType | None) -> None:
-        self._stream.close()
-
-
-def _line(entry: Mapping[str, Any]) -> bytes:
-    return json.dumps(entry, allow_nan=False).encode() + b"\n"
+    store = ContentStore(folder, "work folder")
+    keys = {
+        name: key_of([solve.__module__, solve.__qualname__, point.to_dict()]) for name, point in points.items()
+    }
+    entries = {name: parse_json(content) for name, key in keys.items() if (content := store.get(key)) is not None}
+    # Thin films take longest and are begun first, so that no process ends up with them alone.
+    missing = dict(sorted(points.items(), key=lambda item: item[1].inlet_width))
+    missing = {name: point for name, point in missing.items() if name not in entries}
+    if missing:
+        with executor_for(processes, scheduler=scheduler) as executor:
+            for name, entry in results_of(executor, solve, missing):
+                content = json.dumps(entry, allow_nan=False).encode()
+                store.put(keys[name], content)
+                entries[name] = parse_json(content)
+                if progress is not None:
+                    progress(len(entries), len(points))
+    return [{"point": name, **entries[name]} for name in points]

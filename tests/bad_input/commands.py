@@ -347,7 +347,7 @@ COMMANDS = [
     ((*ATLAS, "--seed", "1.5"), ("--seed = '1.5'", "whole number")),
     ((*ATLAS, "--processes", "0"), ("--processes = 0", "> 0")),
     ((*ATLAS, "--work", "new.npz"), ("--work = 'new.npz'", "another file", "for --output")),
-    ((*ATLAS, "--work", STUDY), ("work file = 'study.toml'", "work file of an atlas build")),
+    ((*ATLAS, "--work", STUDY), ("work folder = 'study.toml'", "a folder that can be written to")),
     ((*ATLAS, "--scheduler", "nowhere"), ("--scheduler = 'nowhere'", "address of a Dask scheduler")),
     ((*ATLAS, "--scheduler", "tcp://127.0.0.1:1"), ("--scheduler", "refused")),
     # bearing

@@ -6,7 +6,6 @@ import os
 import zipfile
 from pathlib import Path
 
-import atlas_stub
 import h5py
 import numpy as np
 from argument_groups import grouped
@@ -29,9 +28,6 @@ COMMANDS = {  # what reads a kind of file: arguments for its name and for a fold
     "element": lambda file, out: ("export", file, "-o", out / "kept.fmu", "--force"),
     "study": lambda file, out: ("run", file, "-o", out / "new"),
     "atlas": lambda file, out: ("element", *POINT, "--atlas", file, "--save", out / "kept.json"),
-    "work": lambda file, out: (
-        *("atlas", "build", "-o", out / "kept.npz", "--work", file, "--draws", "12", "--light-draws", "12"),
-    ),
 }
 SUFFIX = {
     "result": ".h5",
@@ -39,7 +35,6 @@ SUFFIX = {
     "element": ".json",
     "study": ".toml",
     "atlas": ".npz",
-    "work": ".jsonl",
 }
 
 
@@ -54,7 +49,6 @@ def make_good(folder):
     save(CubicContact(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0), folder / "element")
     (folder / "study").write_text(STUDY)
     (folder / "atlas").write_bytes(SHIPPED.read_bytes())
-    atlas_stub.prefill(folder / "work", 12, 12)
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
@@ -170,17 +164,6 @@ def header(change):
     return lambda array: np.array(change(json.loads(str(array))))
 
 
-def line(number, change):
-    """A work file with one line changed."""
-
-    def made(good):
-        lines = good.decode().splitlines()
-        lines[number] = change(lines[number])
-        return "\n".join([*lines, ""]).encode()
-
-    return made
-
-
 def zipped(good):
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as file:
@@ -194,7 +177,7 @@ def stored(value, **options):
     return stream.getvalue()
 
 
-ANY = {  # of any kind; a study may not be empty, an empty work file is a new one
+ANY = {  # of any kind; a study may not be empty
     "binary": lambda good: bytes(range(256)) * 8,
     "utf-16": lambda good: "[a]\nb = 1\n".encode("utf-16"),
     "a picture": lambda good: b"\x89PNG\r\n\x1a\n" + bytes(100),
@@ -336,29 +319,9 @@ BAD = {
         "no numbers": atlas(damping=lambda old: old * np.nan),
         "words": atlas(damping=lambda old: old.astype(str).astype("U8")[:, :2]),
     },
-    "work": {
-        "text without an end": content("work", "my notes"),
-        "JSON without an end": content("work", '{"schema": "ehlcontact-element"}'),
-        "header of others": line(0, lambda old: '{"schema": "soup"}'),
-        "header that is a list": line(0, lambda old: "[]"),
-        "another seed": line(0, lambda old: old.replace('"seed": 4', '"seed": 5')),
-        "another version": line(0, lambda old: json.dumps(json.loads(old) | {"version": "0.0.1"})),
-        "a spoilt line": line(5, lambda old: old[:-9]),
-        "a list for a line": line(5, lambda old: "[1]"),
-        "a deep line": line(5, lambda old: DEEP),
-        "a point without a name": line(5, lambda old: json.dumps(json.loads(old) | {"point": None})),
-        "a point without an answer": line(
-            5, lambda old: '{"point": ' + json.dumps(json.loads(old)["point"]) + "}"
-        ),
-        "an answer in words": line(6, lambda old: json.dumps(json.loads(old) | {"stiffness": "soft"})),
-        "a status of others": line(6, lambda old: json.dumps(json.loads(old) | {"status": ["converged"]})),
-        "HDF5": of("result"),
-    },
 }
 for kind, table in BAD.items():
-    table |= {
-        name: made for name, made in ANY.items() if (kind, name) not in {("work", "half"), ("study", "half")}
-    }
+    table |= {name: made for name, made in ANY.items() if (kind, name) not in {("study", "half")}}
 MISSING = ("missing", "a folder", "too long", "below a file", "not text")
 
 

@@ -182,8 +182,6 @@ def test_files(refused, sound, place, kind, name):
 @pytest.mark.parametrize("kind", files.COMMANDS)
 @pytest.mark.parametrize("name", files.MISSING)
 def test_files_that_are_not_there(refused, place, kind, name):
-    if kind == "work" and name in ("missing", "not text"):
-        pytest.skip("a new work file")
     refused(files.COMMANDS[kind](files.missing(place, kind, name), place / "out"), ("must be",), place)
 
 

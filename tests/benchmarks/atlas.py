@@ -1,9 +1,9 @@
 """The atlas against solves at points it has never seen.
 
-    python tests/benchmarks/atlas.py --work held-out.jsonl --points 100 --seed 11 --processes 2
+    python tests/benchmarks/atlas.py --work held-out --points 100 --seed 11 --processes 2
 
 Sobol points even over its box (M and kappa in their logarithm) are solved as a build solves its own, on meshes as
-fine, and kept in a file from which a stopped run goes on. Points whose film is too thin for any mesh of a table
+fine, and kept in a folder from which a stopped run goes on. Points whose film is too thin for any mesh of a table
 are counted and left out; where the film asked for the region near the contact alone, damping is not compared,
 since the atlas speaks of the default region. Beside the errors stand the shares that lie within the error bars.
 With ``--between``, K and C at frequencies between those of the atlas too, at every tenth point.
@@ -21,11 +21,10 @@ import numpy as np
 from scipy.stats import qmc
 
 from ehlcontact import Domain, Grid, MoesPoint, impedance
-from ehlcontact.executors import executor_for, results_of
 from reduced_models import Atlas
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.solve import OMEGAS, solve_point
-from reduced_models.atlas.work import WorkFile
+from reduced_models.atlas.work import solve_points
 
 NAMES = ("approach", "h_central", "h_min", "moment")
 
@@ -116,15 +115,13 @@ def main():
     asked = parser.parse_args()
     atlas = Atlas(asked.atlas)
     points = held_out(atlas, asked.points, asked.seed)
-    settings = {"seed": asked.seed, "box": json.loads(json.dumps(atlas.box.to_dict())), "omega": list(OMEGAS)}
-    with WorkFile(asked.work, settings) as file:
-        jobs = sorted(points.items(), key=lambda job: job[1].inlet_width)
-        left = {name: point for name, point in jobs if name not in file.entries}
-        with executor_for(asked.processes) as executor:
-            for done, (name, entry) in enumerate(results_of(executor, solve_point, left), 1):
-                file.add(name, entry)
-                sys.stderr.write(f"{done} of {len(left)}\n")
-        entries = [file.entries[name] for name in points]
+    entries = solve_points(
+        points,
+        asked.work,
+        solve_point,
+        processes=asked.processes,
+        progress=lambda done, of: sys.stderr.write(f"{done} of {of}\n"),
+    )
     solved = [entry for entry in entries if entry["status"] == "converged"]
     result = table(rows_of(atlas, solved))
     sys.stdout.write(f"{len(solved)} of {len(entries)} points solved\n")

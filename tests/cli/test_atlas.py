@@ -46,7 +46,7 @@ def test_element_refuses(refused, arguments, words):
 
 def test_build_from_points_that_are_solved(call, tmp_path):
     """Nothing is left to solve, so the atlas comes at once; its own command is inside."""
-    work, output = tmp_path / "w.jsonl", tmp_path / "a.npz"
+    work, output = tmp_path / "work", tmp_path / "a.npz"
     atlas_stub.prefill(work, 24, 24)
     size = ("--draws", "24", "--light-draws", "24")
     result = call("atlas", "build", "-o", output, "--work", work, *size, "--json", "-")
@@ -73,7 +73,8 @@ def test_build_refuses(refused, tmp_path, monkeypatch, arguments, words):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_work_file_of_another_seed_is_refused(refused, tmp_path):
-    work = tmp_path / "w.jsonl"
-    atlas_stub.prefill(work, 2, 2)
-    refused(("work file", "seed"), "atlas", "build", "-o", tmp_path / "a.npz", "--work", work, "--seed", "5")
+def test_work_in_a_file_is_refused(refused, tmp_path):
+    work = tmp_path / "work"
+    work.write_text("my notes")
+    refused(("work folder", "File exists"), "atlas", "build", "-o", tmp_path / "a.npz", "--work", work)
+    assert work.read_text() == "my notes"

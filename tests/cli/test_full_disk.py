@@ -73,9 +73,6 @@ def test_fmu_atlas_and_report(call, refused, no_room, tmp_path):
     refused(("x.fmu", "No space left"), "export", tmp_path / "e.json", "-o", tmp_path / "x.fmu", "--force")
     refused(("y.fmu", "No space left"), "export", tmp_path / "e.json", "-o", tmp_path / "y.fmu")
     assert (tmp_path / "x.fmu").read_bytes() == before and zipfile.is_zipfile(tmp_path / "x.fmu")
-    work = tmp_path / "w.jsonl"
-    refused(("work file", "No space left", "stays"), "atlas", "build", "-o", tmp_path / "a.npz", "--work", work)
-    assert work.read_bytes() == b""  # no torn line
 
 
 def test_the_last_checkpoint_is_told_and_the_run_kept(call, point, tmp_path, monkeypatch):

@@ -10,7 +10,7 @@ import typer
 
 from ehlcontact.checks import require_integer
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import complain
+from ehlcontact.cli.output import check_apart, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.usage import epilog
 from ehlcontact.process.early_interrupt import INTERRUPTED
@@ -33,7 +33,7 @@ def build(
     ),
     work: Annotated[
         Path | None,
-        typer.Option("--work", metavar="FILE", help="Solved points, one line each; FILE.jsonl of the output."),
+        typer.Option("--work", metavar="FOLDER", help="Solved points; by default as the output, ending in .work."),
     ] = None,
     draws: Annotated[int, typer.Option("--draws", help="Sample points over the box.")] = 448,
     light_draws: Annotated[int, typer.Option("--light-draws", help="More of them at light loads.")] = 256,
@@ -48,8 +48,9 @@ def build(
     """Solve the sample and write the atlas; stopped at any moment and started again, it goes on."""
     from reduced_models.atlas.build import build_atlas
 
-    kept = output.with_suffix(".jsonl") if work is None else work
-    out.check(beside={"--output": (output, (".npz",)), "--work": (kept, ())})
+    kept = output.with_suffix(".work") if work is None else work
+    out.check(beside={"--output": (output, (".npz",))})
+    check_apart({"--output": output, "--work": kept})
     for name, value in (("--draws", draws), ("--light-draws", light_draws), ("--seed", seed)):
         require_integer(name, value, "a whole number >= 0", 0)
     count = (os.cpu_count() or 1) if processes is None else processes

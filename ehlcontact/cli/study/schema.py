@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import re
 from collections.abc import Callable, Mapping
 from math import pi
@@ -17,6 +15,7 @@ from ehlcontact.cli.entries import Section, quantity_of
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.study.schema_errors import first_error, in_other_kind, inputs_of
 from ehlcontact.cli.toml import read_toml
+from ehlcontact.content_store import key_of
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant import Lubricant
@@ -24,7 +23,6 @@ from ehlcontact.lubricant.oil import GRADES
 from ehlcontact.point import OperatingPoint, require_solvable
 from ehlcontact.solver.domain import Domain
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
-from ehlcontact.version import __version__
 from reduced_models.bearing.catalogue import catalogue_row
 
 MOST_ECCENTRIC = 0.01  # m of the disc's centre of mass: balanced rotors have some 1e-6, and none runs with more
@@ -353,9 +351,7 @@ class Study(Section):
             dump[section][name] = value
         for section, key in (("bearing", "catalogue"), ("bearing", "name"), ("oil", "name")):
             dump[section].pop(key, None)
-        content = {name: dump[name] for name in ("bearing", "oil", *sections)}
-        text = json.dumps([__version__, content], sort_keys=True)
-        return hashlib.sha256(text.encode()).hexdigest()[:16]
+        return key_of({name: dump[name] for name in ("bearing", "oil", *sections)})
 
 
 def _once(section: str, name: str, *given: float | None) -> None:

@@ -13,12 +13,13 @@ import numpy as np
 import pytest
 
 from ehlcontact import Domain, InputError, MoesPoint
+from ehlcontact.content_store import ContentStore
 from reduced_models.atlas.build import BOX, RATES, assemble, build_atlas, smooth_gains
 from reduced_models.atlas.mesh import GRIDS, LIGHT_INTERVALS, impedance_grid
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import OMEGAS, solve_point
 from reduced_models.atlas.table import AtlasTable
-from reduced_models.atlas.work import WorkFile
+from reduced_models.atlas.work import solve_points
 from reduced_models.elements.film_response import DRY
 
 DRAWS, LIGHT = 24, 24
@@ -30,7 +31,7 @@ from atlas_stub import solve_slowly
 from reduced_models.atlas.build import build_atlas
 if __name__ == "__main__":
     folder = Path(sys.argv[1])
-    build_atlas(folder / "a.npz", folder / "a.jsonl", {DRAWS}, {LIGHT}, processes=2, solve=solve_slowly)
+    build_atlas(folder / "a.npz", folder / "work", {DRAWS}, {LIGHT}, processes=2, solve=solve_slowly)
 """
 
 
@@ -83,39 +84,35 @@ def test_too_thin_a_film_is_left_out_at_once():
     assert entry["status"] == "unresolved" and "approach" not in entry
 
 
-def test_torn_line_is_dropped_and_the_rest_kept(tmp_path):
-    path, settings = tmp_path / "w.jsonl", {"seed": 1}
-    with WorkFile(path, settings) as file:
-        file.add("a", {"x": 1.0})
-        file.add("b", {"x": 2.0})
-    whole = path.read_bytes()
-    for cut in range(len(whole) - 1, len(whole) - 15, -1):
-        path.write_bytes(whole[:cut])
-        with WorkFile(path, settings) as file:
-            assert list(file.entries) == ["a"]
-            file.add("b", {"x": 2.0})
-        assert path.read_bytes() == whole
+def test_damaged_entries_are_solved_again(tmp_path):
+    """And sound ones are not, whatever else lies in the folder."""
+    points = sample_points(DRAWS, LIGHT, 1)
+    first = solve_points(points, tmp_path, atlas_stub.solve)
+    files = sorted(tmp_path.iterdir())
+    before = [path.read_bytes() for path in files]
+    files[0].write_bytes(before[0][:-5])
+    files[1].write_bytes(b"")
+    (tmp_path / "notes.txt").write_text("mine")
+    solved = []
+    again = solve_points(points, tmp_path, atlas_stub.solve, progress=lambda done, of: solved.append((done, of)))
+    assert again == first and [path.read_bytes() for path in files] == before
+    assert solved == [(len(points) - 1, len(points)), (len(points), len(points))]
+    more = solve_points(sample_points(DRAWS + 8, LIGHT, 1), tmp_path, atlas_stub.solve)
+    assert len(more) > len(first)
 
 
-@pytest.mark.parametrize(
-    ("content", "settings", "word"),
-    [
-        ('{"schema": "other"}\n', {"seed": 1}, "work file"),
-        ("text\n", {"seed": 1}, "work file"),
-        (None, {"seed": 2}, "seed"),
-    ],
-)
-def test_other_work_files_are_refused(tmp_path, content, settings, word):
-    path = tmp_path / "w.jsonl"
-    if content is None:
-        with WorkFile(path, {"seed": 1}):
-            pass
-    else:
-        path.write_text(content)
-    before = path.read_bytes()
-    with pytest.raises(InputError, match=word):
-        WorkFile(path, settings)
-    assert path.read_bytes() == before
+def test_a_full_disk_keeps_what_was_solved(tmp_path, monkeypatch):
+    put, points = ContentStore.put, sample_points(DRAWS, LIGHT, 1)
+
+    def full(self, key, content):
+        if len(list(tmp_path.iterdir())) == 3:
+            raise InputError("work folder", str(tmp_path), "a file that can be written (No space left on device)")
+        put(self, key, content)
+
+    monkeypatch.setattr(ContentStore, "put", full)
+    with pytest.raises(InputError, match="No space left"):
+        solve_points(points, tmp_path, atlas_stub.solve)
+    assert len(list(tmp_path.iterdir())) == 3
 
 
 def test_too_few_converged_points_make_no_atlas(entries):
@@ -181,30 +178,28 @@ def test_gains_reproduce_an_impedance_of_the_filters():
 
 @pytest.mark.slow
 def test_killed_build_goes_on_and_ends_the_same(tmp_path):
-    """kill -9 twice, once leaving a torn line: byte for byte the atlas of an undisturbed build."""
+    """kill -9 twice: byte for byte the atlas of an undisturbed build."""
     script = tmp_path / "build.py"
     script.write_text(BUILD)
     environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(TESTS), str(TESTS.parent)])}
     disturbed, calm = tmp_path / "disturbed", tmp_path / "calm"
     disturbed.mkdir(), calm.mkdir()
-    work = disturbed / "a.jsonl"
+    work = disturbed / "work"
     for least in (5, 15):
         process = subprocess.Popen([sys.executable, str(script), str(disturbed)], env=environment)
         deadline = time.monotonic() + 60.0
-        while not work.exists() or work.read_bytes().count(b"\n") <= least:
+        while not work.exists() or len(list(work.iterdir())) <= least:
             assert process.poll() is None and time.monotonic() < deadline
             time.sleep(0.01)
         process.kill()
         process.wait()
         assert not (disturbed / "a.npz").exists()
-    with work.open("ab") as stream:
-        stream.write(b'{"point": "all-3", "M": 12')
-    kept = work.read_bytes().count(b"\n")
+    kept = {path.name for path in work.iterdir() if path.suffix != ".tmp"}
     for folder in (disturbed, calm):
         subprocess.run([sys.executable, str(script), str(folder)], env=environment, check=True)
     assert (disturbed / "a.npz").read_bytes() == (calm / "a.npz").read_bytes()
-    assert work.read_bytes().count(b"\n") > kept
-    assert sorted(work.read_bytes().splitlines()) == sorted((calm / "a.jsonl").read_bytes().splitlines())
+    files = {path.name: path.read_bytes() for path in work.iterdir() if path.suffix != ".tmp"}
+    assert kept < set(files) and files == {path.name: path.read_bytes() for path in (calm / "work").iterdir()}
 
 
 @pytest.mark.slow
@@ -233,7 +228,7 @@ def test_dask_cluster_with_a_worker_killed_in_mid_run(tmp_path):
 
         build_atlas(
             tmp_path / "dask.npz",
-            tmp_path / "dask.jsonl",
+            tmp_path / "dask",
             DRAWS,
             LIGHT,
             scheduler=scheduler,
@@ -246,7 +241,7 @@ def test_dask_cluster_with_a_worker_killed_in_mid_run(tmp_path):
         for process in processes:
             process.kill()
             process.wait()
-    build_atlas(tmp_path / "here.npz", tmp_path / "here.jsonl", DRAWS, LIGHT, solve=atlas_stub.solve)
+    build_atlas(tmp_path / "here.npz", tmp_path / "here", DRAWS, LIGHT, solve=atlas_stub.solve)
     assert (tmp_path / "dask.npz").read_bytes() == (tmp_path / "here.npz").read_bytes()
 
 
@@ -259,5 +254,5 @@ def test_no_cluster_at_the_address(tmp_path, monkeypatch):
     monkeypatch.setattr("ehlcontact.executors.CONNECT_SECONDS", 0.5)
     with pytest.raises(InputError, match="--scheduler"):
         build_atlas(
-            tmp_path / "a.npz", tmp_path / "w.jsonl", 20, 2, scheduler="tcp://127.0.0.1:1", solve=atlas_stub.solve
+            tmp_path / "a.npz", tmp_path / "work", 20, 2, scheduler="tcp://127.0.0.1:1", solve=atlas_stub.solve
         )

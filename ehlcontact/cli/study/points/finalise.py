@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ehlcontact.cli.output import one_line, write_json
-from ehlcontact.cli.study.points.index import checksum, read_index
+from ehlcontact.cli.study.points.index import read_index
 from ehlcontact.cli.study.schema import Study
+from ehlcontact.content_store import checksum
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import parse_json, read_text
 from ehlcontact.status import Status

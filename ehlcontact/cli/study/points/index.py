@@ -5,7 +5,6 @@ A stage with the same inputs that another point of the study has computed is cop
 
 from __future__ import annotations
 
-import hashlib
 import shutil
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -14,6 +13,7 @@ from typing import Any
 from ehlcontact.cli.output import write_json
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import STAGES, Stage, stages_of
+from ehlcontact.content_store import checksum, key_of
 from ehlcontact.files import parse_json, read_text, replacing
 from ehlcontact.status import Status
 
@@ -69,15 +69,6 @@ def is_sound(stage: Stage, folder: Path, note: Note) -> bool:
     return bool(note.get("sha256") == checksum(stage.file(folder)))
 
 
-def checksum(path: Path) -> str | None:
-    """SHA-256 of a file, None where it cannot be read."""
-    try:
-        with path.open("rb") as stream:
-            return hashlib.file_digest(stream, "sha256").hexdigest()
-    except OSError:
-        return None
-
-
 def adopted(stage: Stage, study: Study, folder: Path, others: Iterable[Path]) -> dict[str, Any] | None:
     """The note of another folder whose file is this stage's, copied here; None where there is none.
 
@@ -98,8 +89,7 @@ def adopted(stage: Stage, study: Study, folder: Path, others: Iterable[Path]) ->
 def final_fingerprint(study: Study, index: Mapping[str, Note]) -> str:
     """Hash of what results and report are made of: the whole study, names and all, and the files of its stages."""
     files = {stage.name: index.get(stage.name, {}).get("sha256") for stage in stages_of(study)}
-    text = f"{study.model_dump_json(exclude_none=True)} {study.fingerprint()} {sorted(files.items())}"
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
+    return key_of([study.model_dump(mode="json", exclude_none=True), study.fingerprint(), files])
 
 
 def is_final(study: Study, folder: Path, index: Mapping[str, Note]) -> bool:

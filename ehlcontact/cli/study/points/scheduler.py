@@ -14,7 +14,6 @@ from ehlcontact.cli.study.points.index import (
     FINALISE,
     Index,
     adopted,
-    checksum,
     final_fingerprint,
     is_done,
     is_final,
@@ -26,6 +25,7 @@ from ehlcontact.cli.study.points.lists import POINTS, Point
 from ehlcontact.cli.study.points.log import Log
 from ehlcontact.cli.study.points.tasks import Answer
 from ehlcontact.cli.study.stages import Stage
+from ehlcontact.content_store import checksum
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_bytes
 from ehlcontact.status import Status
