@@ -23,7 +23,6 @@ from ehlcontact import (
     PrescribedLoad,
     RampLoad,
     Roughness,
-    RunSettings,
     TimeSteps,
     TransverseRidge,
     Waviness,
@@ -77,12 +76,6 @@ def cubic(**changes):
 
 CALLS = {
     # operating points
-    "M in words": (lambda: MoesPoint("200", 10, 0.5), ("M", "a finite number > 0")),
-    "M of an array": (lambda: MoesPoint(np.array([200.0]), 10, 0.5), ("M", "a finite number > 0")),
-    "M complex": (lambda: MoesPoint(200 + 0j, 10, 0.5), ("M", "a finite number > 0")),
-    "M None": (lambda: MoesPoint(None, 10, 0.5), ("M", "a finite number > 0")),
-    "L below 0": (lambda: MoesPoint(200, -10, 0.5), ("L", "a finite number >= 0")),
-    "kappa nan": (lambda: MoesPoint(200, 10, float("nan")), ("kappa", "a finite number")),
     "kappa of Ry/Rx": (lambda: solve_steady(MoesPoint(200, 10, 12.0)), ("kappa", "between 0.04 and 8, what the")),
     "M of newtons": (lambda: solve_steady(MoesPoint(1e6, 10, 0.5)), ("M", "between 0.1 and 60000, what the")),
     "L of a soft oil": (lambda: solve_steady(MoesPoint(200, 60, 0.5)), ("L", "between 0 and 40, what the")),
@@ -107,12 +100,10 @@ CALLS = {
         lambda: Geometry(4.0, 20.0),
         ("radius_x", "between 1e-05 and 1 m (in mm?", "in mm? then 0.004 m"),
     ),
-    "radius below 0": (lambda: Geometry(-0.004, 0.02), ("radius_x", "a finite number > 0")),
     "E in GPa": (
         lambda: Geometry(0.004, 0.02, e1=206.0),
         ("e1", "between 1e+06 and 2e+12 Pa (in", "in GPa? then 2.06e+11 Pa"),
     ),
-    "nu in %": (lambda: Geometry(0.004, 0.02, nu2=30), ("nu2", "between 0 and 0.5")),
     "nearly a line": (lambda: Geometry(0.004, 900.0), ("radius_x/radius_y", "such that 1e-3 < kappa < 1e3")),
     "ball in mm": (
         lambda: bearing(ball_diameter=7.94),
@@ -132,12 +123,8 @@ CALLS = {
         ("conformity", "above 0.5 (a tighter groove", "in %? then 0.52"),
     ),
     "conformity of the radius": (lambda: bearing(conformity=0.5), ("conformity", "above 0.5 (a tighter groove")),
-    "speed None": (lambda: bearing(speed_rpm=None), ("speed_rpm", "a finite number > 0")),
-    "speed backwards": (lambda: bearing(speed_rpm=-3000.0), ("speed_rpm", "a finite number > 0")),
-    "no load": (lambda: bearing(load=0.0), ("load", "a finite number > 0")),
     "load in GN": (lambda: solved(load=3.4e7), ("M", "between 0.1 and 60000, what the")),
     "load in MN": (lambda: solved(load=3.4e4), ("M", "between 0.1 and 60000, what the")),
-    "race": (lambda: bearing(race="both"), ("race", "one of inner, outer")),
     "eta0 in mPa s, SI": (
         lambda: bearing(Lubricant(36.7, 2e-8)),
         ("eta0", "between 0.0001 and 5 Pa s (in", "in mPa s? then 0.0367 Pa s"),
@@ -170,41 +157,16 @@ CALLS = {
     ),
     # regions, grids, motions
     "region inside out": (lambda: Domain(1.5, -4.5, 3.0), ("x_in", "between -100 and -1.2 (left of")),
-    "region in words": (lambda: Domain("-4.5", 1.5, 3.0), ("x_in", "a finite number")),
-    "region a list": (
-        lambda: solve_steady(point(), grid=Grid(domain=[-4.5, 1.5, 3.0])),
-        ("domain", "a Domain(x_in, x_out, y_max)"),
-    ),
-    "no threads": (lambda: solve_steady(point(), threads=0), ("threads", "a whole number from 1 to")),
-    "threads of a float": (lambda: FullContact(point(), threads=2.0), ("threads", "a whole number from 1 to")),
-    "more threads than cores": (
-        lambda: simulate(point(), FreeVibration(Omega_n=5.0), run=RunSettings(threads=9999)),
-        ("threads", "a whole number from 1 to"),
-    ),
-    "threads below 0": (
-        lambda: impedance(point(), Omega=1.0, threads=-1),
-        ("threads", "a whole number from 1 to"),
-    ),
-    "n odd": (lambda: solve_steady(point(), grid=Grid(n=100)), ("n", "a multiple of 16 between 16 and")),
-    "n of a float": (
-        lambda: simulate(point(), FreeVibration(Omega_n=5.0), grid=Grid(n=64.0)),
-        ("n", "a multiple of 16 between 16 and"),
-    ),
-    "tol 0": (lambda: solve_steady(point(), tol=0.0), ("tol", "a finite number > 0")),
-    "no motion": (lambda: simulate(point(), None), ("motion", "a motion such as FreeVibration or")),
     "motion before the point": (
         lambda: simulate(FreeVibration(Omega_n=5.0), point()),
         ("motion", "a motion such as FreeVibration or"),
     ),
-    "Omega_n 0": (lambda: FreeVibration(Omega_n=0.0), ("Omega_n", "a finite number > 0")),
     "Omega_n in rad/s of a bearing": (
         lambda: simulate(point(), FreeVibration(Omega_n=3e5)),
         ("Omega_n", "between 1e-06 and 1000 (in units", "in units of u_sum/(2a"),
     ),
-    "amplitude 1": (lambda: HarmonicLoad(Omega=3.0, amplitude=1.0), ("amplitude", "above 0 and below 1 (")),
     "amplitude in %": (lambda: HarmonicLoad(Omega=3.0, amplitude=10.0), ("amplitude", "above 0 and below 1 (")),
     "ramp to nothing": (lambda: RampLoad(0.0, 1.0, Omega_n=2.4), ("ratio", "a finite number > 0")),
-    "ramp at once": (lambda: RampLoad(3.0, 0.0, Omega_n=2.4), ("duration", "a finite number > 0")),
     "times that fall": (lambda: PrescribedLoad([0.0, 2.0, 1.0, 3.0], [1.0] * 4), ("T[2]", "above T[1] = 2.0")),
     "loads that pull": (
         lambda: PrescribedLoad([0.0, 1.0, 2.0, 3.0], [1.0, 1.0, -1.0, 1.0]),
@@ -248,12 +210,10 @@ CALLS = {
     ),
     "waves of no length": (lambda: Waviness(0.1, 0.0), ("wavelength", "a finite number > 0")),
     "frequency below 0": (lambda: impedance(point(), Omega=[-1.0]), ("Omega", "finite, >= 0 and <= 200")),
-    "frequency nan": (lambda: impedance(point(), Omega=[float("nan")]), ("Omega", "finite, >= 0 and <= 200")),
     "frequency without its unit": (
         lambda: impedance(point(), [50.0]),
         ("frequency", "Omega (dimensionless), omega (rad/s), hz or rpm"),
     ),
-    "no frequency": (lambda: impedance(point(), Omega=[]), ("Omega", "a flat list of at least one")),
     "full contact backwards": (
         lambda: full_contact().advance(-1.0, 0.8, 0.0),
         ("dt", "a finite number > 0"),

@@ -66,7 +66,7 @@ FIELDS = [  # function, good arguments, bad values of some
         MoesPoint,
         {"M": 200.0, "L": 10.0, "kappa": 0.5},
         {
-            "M": [*NOT_POSITIVE, np.bool_(True)],
+            "M": [*NOT_POSITIVE, np.bool_(True), "200", np.array([200.0])],
             "L": [-1.0, NAN, None, False],
             "kappa": [*NOT_POSITIVE, 0.009, 101.0],
             "alpha": NOT_POSITIVE,
@@ -95,8 +95,8 @@ FIELDS = [  # function, good arguments, bad values of some
             "ball_diameter": [0.0, NAN, True],
             "pitch_diameter": [-0.04, 7.94e-3, None],
             "conformity": [0.5, 0.0, 11.0, NAN, "0.52"],
-            "race": ["middle", 1, ["inner"]],
-            "speed_rpm": [0.0, -3000.0, INF],
+            "race": ["middle", "both", 1, ["inner"]],
+            "speed_rpm": [0.0, -3000.0, INF, None],
             "load": [0.0, "heavy"],
             "e1": [0.0],
             "nu2": [0.51],
@@ -138,7 +138,7 @@ FIELDS = [  # function, good arguments, bad values of some
             "max_cycles": [-1, "a"],
         },
     ),
-    (impedance, {"point": POINT, "Omega": [1.0]}, {"grid": [64], "Omega": [[], [-1.0]]}),
+    (impedance, {"point": POINT, "Omega": [1.0]}, {"grid": [64], "Omega": [[], [-1.0], [NAN]]}),
     (FullContact, {"point": POINT}, {"grid": [64], "largest_load": [0.0, NAN], "tol": [-1.0], "point": [3]}),
     (
         simulate,

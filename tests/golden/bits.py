@@ -197,7 +197,7 @@ def records() -> Leaves:
         "dent": (PAPER, HarmonicLoad(Omega=np.pi), {"n": 64, "until": 0.5, "surface": Dent(0.05, 0.8, speed=1.2)}),
         "waves": (PAPER, HarmonicLoad(Omega=np.pi), {"n": 64, "until": 0.5, "surface": Waviness(0.01, 0.8)}),
         "narrow": (NARROW, FreeVibration(Omega_n=5.13), {"until": 0.2, "snapshots": (0.1,)}),
-        "SI": (BEARING, FreeVibration(Omega_n=BEARING.Omega_n(0.5)), {"n": 64, "until": 1.0}),
+        "SI": (BEARING, FreeVibration(Omega_n=BEARING.Omega_n(0.5)), {"n": 64, "until": BEARING.scales.time}),
         "failing": (PAPER, RampLoad(60.0, 0.3, Omega_n=5.13), {"n": 32, "until": 0.5, "throw": False}),
     }
     for name, (point, motion, options) in cases.items():

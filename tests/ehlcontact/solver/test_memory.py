@@ -61,7 +61,7 @@ def free(monkeypatch):
     ("what", "n", "kappa"),
     [
         ("cycles", 512, 0.5),
-        ("cycles", 512, 0.05),
+        pytest.param("cycles", 512, 0.05, marks=pytest.mark.slow),
         ("newton", 256, 0.5),
         pytest.param("impedance", 256, 0.5, marks=pytest.mark.slow),
         pytest.param("cycles", 1024, 0.5, marks=pytest.mark.slow),

@@ -236,6 +236,7 @@ def test_a_beam_bends_under_its_own_weight(dry):
     assert rotor.load.reshape(-1, 4)[:, 1].sum() == pytest.approx(-w, rel=1e-12)
 
 
+@pytest.mark.slow  # `tests/examples` has a run-up and a coast-down that enclose the critical speeds
 def test_run_up_and_coast_down_of_an_overhung_rotor(film):
     """Two kinds of bearing and a disc beyond them: its swing peaks after the crossing, on the way up and down."""
     other = BallBearing.catalogue("6204", oil=film.oil)
