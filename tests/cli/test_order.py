@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlcontact.cli.paper.order import SEEN, limit
+from ehlcontact.cli.paper.tables import SEEN, limit
 
 
 def on_grids(value, error, order):

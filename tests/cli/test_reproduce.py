@@ -3,18 +3,17 @@
 import json
 import re
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from argument_groups import grouped
 
 from ehlcontact import InputError, Status, load
 from ehlcontact.cli.page import cell
 from ehlcontact.cli.paper import runs
 from ehlcontact.cli.paper.data import paper_fits, paper_sensitivity
 from ehlcontact.cli.paper.figures import FIGURES
-from ehlcontact.cli.paper.order import limit
-from ehlcontact.cli.paper.table import EQUATION_13, SIGNED
+from ehlcontact.cli.paper.tables import EQUATION_13, SIGNED, limit
 from reduced_models import OutsideValidityWarning
 
 
@@ -94,8 +93,8 @@ def test_a_damaged_or_foreign_file_is_computed_again(call, folder, monkeypatch):
     asked = []
 
     def simulate(point, motion, **options):
-        asked.append(options["n"])
-        raise InputError("n", options["n"], "asked for")
+        asked.append(options["grid"].n)
+        raise InputError("n", options["grid"].n, "asked for")
 
     monkeypatch.setattr(runs, "simulate", simulate)
     file = folder / "case_2_n64.h5"
@@ -113,7 +112,7 @@ def test_interrupt_keeps_what_is_finished(call, tmp_path, monkeypatch):
     def interrupted(*arguments, **options):
         if done:
             raise KeyboardInterrupt
-        done.append(simulate(*arguments, **grouped(**options)))
+        done.append(simulate(*arguments, **options))
         return done[0]
 
     monkeypatch.setattr(runs, "simulate", interrupted)
@@ -127,7 +126,7 @@ def test_a_case_that_fails_is_told_and_the_page_is_made_without_it(call, tmp_pat
     simulate = runs.simulate
 
     def short_of_breath(point, motion, **options):
-        return simulate(point, motion, **grouped(**(options | {"tol": 1e-14})))
+        return simulate(point, motion, **(options | {"time": replace(options["time"], tol=1e-14)}))
 
     monkeypatch.setattr(runs, "simulate", short_of_breath)
     result = call("reproduce", "--table", "3", "--figure", "6", "-o", tmp_path, "--n", "32", "--json", "-")

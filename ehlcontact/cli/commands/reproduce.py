@@ -39,7 +39,7 @@ def reproduce(
     from ehlcontact.cli.paper.figures import FIGURES
     from ehlcontact.cli.paper.page import reproduce as make
     from ehlcontact.cli.paper.page import write_reproduction
-    from ehlcontact.cli.paper.table import TABLE_CASES
+    from ehlcontact.cli.paper.tables import TABLE_CASES
 
     everything = not table and not figure
     tables = _chosen("--table", table, tuple(TABLE_CASES), everything)

@@ -6,15 +6,9 @@ module        responsibility
 ``data``      what the paper printed: numbers of its tables and text, from the CSV files here
 ``runs``      its simulations, each kept in one file, so that an interrupted run resumes
 ``fits``      records and elements of the cases, and reduced models integrated over them
-``order``     whether grids show the order in the mesh, and the limit that follows
-``table``     what a table is, and which simulations each takes
-``linear``    Tables 1 and 4
-``removal``   Table 2
-``cubic``     Tables 3, 5 and 6
-``tables``    any of them by its number
-``pictures``  its figures, made with plotly
-``numbers``   what stands in numbers beside them
-``figures``   what each figure needs, shows and says
+``tables``    Tables 1 to 6, and the limits that three grids show
+``pictures``  the figures, made with plotly
+``figures``   what each figure needs, shows and says, and the numbers beside it
 ``page``      one HTML page and one JSON document
 ============  ========================================================================================
 

@@ -1,13 +1,115 @@
-"""What each figure of the paper needs, shows and says."""
+"""What each figure of the paper needs, shows and says, and the numbers beside it."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
-from ehlcontact.cli.paper import numbers as n
+import numpy as np
+from scipy.signal import find_peaks
+
 from ehlcontact.cli.paper import pictures as p
-from ehlcontact.cli.paper.data import FIRST_VALLEY
+from ehlcontact.cli.paper.data import FIRST_VALLEY, paper_films, paper_fits
+from ehlcontact.cli.paper.fits import Fits
 from ehlcontact.cli.paper.runs import CASES, FREE, HARMONIC
+from ehlcontact.formulas import wijnant_approach
+
+Numbers = Callable[[Fits], dict[str, Any]]
+OUTSIDE = (0.5, 1.0, 1.5, 2.5)  # approaches at which springs are compared in numbers
+TURN = 0.2  # of its range that a film has to turn by
+
+
+def integrated(table: int, *cases: str) -> Numbers:
+    """How far the cubic elements of the cases are from the full approach, and RK2(3) from Radau."""
+    return lambda fits: {
+        _named(whose, case): fits.difference(element, case)
+        for whose, elements in p.elements_of(fits, cases, table).items()
+        for case, element in elements.items()
+    }
+
+
+def rms(table: int, *cases: str) -> Numbers:
+    """How far the forces of the elements are from the full film's."""
+
+    def numbers(fits: Fits) -> dict[str, Any]:
+        values: dict[str, Any] = {}
+        for case in cases:
+            theirs = fits.theirs(table, case)
+            ours = fits.fit(case, theirs.kind)
+            values[_named("the paper's", case)] = {"force_rms": fits.rms(theirs, case)}
+            values[_named("our", case)] = {"force_rms": None if ours is None else ours.rms}
+        return values
+
+    return numbers
+
+
+def both(first: Numbers, second: Numbers) -> Numbers:
+    """Numbers of the same rows, side by side."""
+
+    def numbers(fits: Fits) -> dict[str, Any]:
+        left, right = first(fits), second(fits)
+        return {name: left.get(name, {}) | right.get(name, {}) for name in (*left, *(set(right) - set(left)))}
+
+    return numbers
+
+
+def _named(whose: str, case: str) -> str:
+    """Whose element of which case."""
+    return f"{whose} element, {f'case {case}' if case.isdecimal() else case}"
+
+
+def swapped_numbers(motion: str, cases: Sequence[str], table: int) -> Numbers:
+    """How far elements of several cases are from the full approach under the motion of one of them."""
+    return lambda fits: {
+        _named(whose, case): fits.difference(element, motion)
+        for whose, elements in p.elements_of(fits, cases, table, motion).items()
+        for case, element in elements.items()
+    }
+
+
+def spring_numbers(fits: Fits) -> dict[str, Any]:
+    """Spring forces in and outside the fitted interval: polynomials and our elements."""
+    values: dict[str, Any] = {}
+    for case in HARMONIC:
+        theirs = paper_fits()[5, case].cubic.parameters
+        values[f"the paper's polynomial, case {case}"] = _at(partial(p.polynomial, theirs))
+    for case, found in p.cubics_of(fits, HARMONIC).items():
+        values[f"our polynomial, case {case}"] = _at(partial(p.polynomial, found.parameters))
+        values[f"our element, case {case}"] = _at(found.element.spring)
+    return values
+
+
+def _at(spring: Callable[[float], Any]) -> dict[str, float]:
+    return {f"f({u:g})": float(spring(u)) for u in OUTSIDE}
+
+
+def static_numbers(fits: Fits) -> dict[str, Any]:
+    """Approaches at rest and what the formula has for them."""
+    return {
+        f"M = {M:g}, L = {L:g}": {"our u": found.approach, "Wijnant's u": wijnant_approach(M, L, 1.0)}
+        for (M, L), found in fits.runs.static.items()
+    }
+
+
+def films_at_rest(fits: Fits) -> dict[str, Any]:
+    """Minimum over central film before the ramp: the paper's two, and ours."""
+    run = fits.runs.cases["validation", fits.runs.n]
+    theirs = {f"the paper's, {source}": {"h_min/h_c at rest": ratio} for source, ratio in paper_films().items()}
+    return theirs | {"ours": {"h_min/h_c at rest": float(run.h_min[0] / run.h_central[0])}}
+
+
+def first_turns(fits: Fits) -> dict[str, Any]:
+    """When the central film first turns for good."""
+    run = fits.runs.cases["2", fits.runs.n]
+    depth = TURN * float(np.ptp(run.h_central))
+    turns = {
+        name: find_peaks(sign * run.h_central, prominence=depth)[0] for name, sign in (("peak", 1), ("valley", -1))
+    }
+    ours = {f"first {name}, T": float(run.T[at[0]]) if at.size else None for name, at in turns.items()}
+    return {"the paper's text": {"first peak, T": None, "first valley, T": FIRST_VALLEY}, "ours": ours}
+
 
 # What several captions say.
 FRINGES = f"{p.FRINGES_AT_REST} fringes to the central film at rest"
@@ -27,7 +129,7 @@ class PaperFigure:
     caption: str
     theirs: str  # what of the paper's figure is shown, and what is not
     draw: p.Draw
-    numbers: n.Numbers = lambda fits: {}
+    numbers: Numbers = lambda fits: {}
 
 
 FIGURES = {
@@ -40,7 +142,7 @@ FIGURES = {
             "solves; lines: Wijnant's formula.",
             "its lines are this formula; its points are a picture only, and not shown.",
             p.static,
-            n.static_numbers,
+            static_numbers,
         ),
         PaperFigure(
             4,
@@ -49,7 +151,7 @@ FIGURES = {
             "its fringes are pictures only, and not shown. Its text gives the film at rest in micrometres, for "
             "scales that it does not state: only ratios compare.",
             p.fringes("validation"),
-            n.films_at_rest,
+            films_at_rest,
         ),
         PaperFigure(
             5,
@@ -63,9 +165,9 @@ FIGURES = {
             ("2",),
             f"Central and minimum film, {CASES['2'].title}.",
             f"{CURVES} Its text sees the first valley of the central film close to T = {FIRST_VALLEY:g}; a turn "
-            f"counts here if its height is {100 * n.TURN:.0f} % of the film's range.",
+            f"counts here if its height is {100 * TURN:.0f} % of the film's range.",
             p.film("2"),
-            n.first_turns,
+            first_turns,
         ),
         PaperFigure(
             7,
@@ -80,7 +182,7 @@ FIGURES = {
             "Linear element: force, and acceleration that follows from it.",
             ELEMENT.format(1),
             p.force_and_acceleration(1, "2"),
-            n.rms(1, "2"),
+            rms(1, "2"),
         ),
         PaperFigure(
             9,
@@ -88,7 +190,7 @@ FIGURES = {
             "Cubic element: force, and acceleration that follows from it.",
             ELEMENT.format(3),
             p.force_and_acceleration(3, "2"),
-            n.rms(3, "2"),
+            rms(3, "2"),
         ),
         PaperFigure(
             10,
@@ -96,7 +198,7 @@ FIGURES = {
             f"Cubic elements: approach, {INTEGRATED}.",
             ELEMENT.format(3),
             p.of_cases(p.reduced, 3, "2", "3"),
-            n.integrated(3, "2", "3"),
+            integrated(3, "2", "3"),
         ),
         PaperFigure(
             11,
@@ -113,7 +215,7 @@ FIGURES = {
             p.fringes("5"),
         ),
         PaperFigure(
-            13, ("5",), "Linear element: force.", ELEMENT.format(4), p.of_cases(p.force, 4, "5"), n.rms(4, "5")
+            13, ("5",), "Linear element: force.", ELEMENT.format(4), p.of_cases(p.force, 4, "5"), rms(4, "5")
         ),
         PaperFigure(
             14,
@@ -121,7 +223,7 @@ FIGURES = {
             "Cubic elements: force.",
             ELEMENT.format(5),
             p.of_cases(p.force, 5, "4", "5"),
-            n.rms(5, "4", "5"),
+            rms(5, "4", "5"),
         ),
         PaperFigure(
             15,
@@ -129,7 +231,7 @@ FIGURES = {
             f"Cubic elements: approach, {INTEGRATED}.",
             ELEMENT.format(5),
             p.of_cases(p.reduced, 5, "4", "5"),
-            n.integrated(5, "4", "5"),
+            integrated(5, "4", "5"),
         ),
         PaperFigure(
             16,
@@ -138,7 +240,7 @@ FIGURES = {
             "elements (dashed).",
             "left, the coefficients of Table 5.",
             p.springs,
-            n.spring_numbers,
+            spring_numbers,
         ),
         PaperFigure(
             17,
@@ -146,7 +248,7 @@ FIGURES = {
             f"Elements of cases 4, 5 and 6 under the load of case 4: approach, {INTEGRATED}.",
             "left, the elements of Table 5.",
             p.swapped("4", HARMONIC, 5),
-            n.swapped("4", HARMONIC, 5),
+            swapped_numbers("4", HARMONIC, 5),
         ),
         PaperFigure(
             18,
@@ -154,7 +256,7 @@ FIGURES = {
             f"Elements of cases 1, 2 and 3 on the mass of case 3: approach, {INTEGRATED}.",
             "left, the elements of Table 3.",
             p.swapped("3", FREE, 3),
-            n.swapped("3", FREE, 3),
+            swapped_numbers("3", FREE, 3),
         ),
         PaperFigure(
             19,
@@ -162,7 +264,7 @@ FIGURES = {
             f"Cubic element of the load ramp: force, and approach {INTEGRATED}.",
             ELEMENT.format(6),
             p.force_and_approach(6, "validation"),
-            n.both(n.rms(6, "validation"), n.integrated(6, "validation")),
+            both(rms(6, "validation"), integrated(6, "validation")),
         ),
     )
 }

@@ -13,8 +13,7 @@ from ehlcontact.cli.paper.data import CITATION
 from ehlcontact.cli.paper.figures import ELEMENTS_OF, FIGURES, PaperFigure
 from ehlcontact.cli.paper.fits import Fits
 from ehlcontact.cli.paper.runs import POINT, VALIDATION_POINT, compute
-from ehlcontact.cli.paper.table import EXTRAPOLATED, TABLE_CASES, Table
-from ehlcontact.cli.paper.tables import make_table
+from ehlcontact.cli.paper.tables import EXTRAPOLATED, TABLE_CASES, Table, make_table
 from ehlcontact.version import __version__
 
 LABELS = {

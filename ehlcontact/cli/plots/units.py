@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from ehlcontact import quantities as q
 from ehlcontact.point import Scales
 
 
-class Quantity(NamedTuple):
+class Axis(NamedTuple):
     """Factor from the dimensionless number to the one on the axis, and the axis's name."""
 
     factor: float
@@ -19,38 +20,32 @@ class Quantity(NamedTuple):
 
 
 class Units(NamedTuple):
-    """Quantities of one contact."""
+    """Axes of one contact."""
 
-    x: Quantity  # along rolling
-    y: Quantity  # across
-    time: Quantity
-    approach: Quantity
-    film: Quantity
-    force: Quantity
-    pressure: Quantity
+    x: Axis  # along rolling
+    y: Axis  # across
+    time: Axis
+    approach: Axis
+    film: Axis
+    force: Axis
+    pressure: Axis
 
 
-DIMENSIONLESS = Units(
-    x=Quantity(1.0, "X = x/a along rolling"),
-    y=Quantity(1.0, "Y = y/b across"),
-    time=Quantity(1.0, "time T = u_sum t/(2a)"),
-    approach=Quantity(1.0, "approach u"),
-    film=Quantity(1.0, "film H [dry approach]"),
-    force=Quantity(1.0, "force f/f0"),
-    pressure=Quantity(1.0, "pressure p/p_h"),
-)
+# Of an axis: what it shows, in which part of the SI unit, its label with a unit of length and without one.
+_AXES = {
+    "x": (q.ALONG, 1e3, "x along rolling [mm]", "X = x/a along rolling"),
+    "y": (q.ACROSS, 1e3, "y across [mm]", "Y = y/b across"),
+    "time": (q.TIME, 1e3, "time [ms]", "time T = u_sum t/(2a)"),
+    "approach": (q.LENGTH, 1e6, "approach [µm]", "approach u"),
+    "film": (q.LENGTH, 1e6, "film [µm]", "film H [dry approach]"),
+    "force": (q.FORCE, 1.0, "force [N]", "force f/f0"),
+    "pressure": (q.PRESSURE, 1e-9, "pressure [GPa]", "pressure p/p_h"),
+}
 
 
 def units_of(scales: Scales | None) -> Units:
     """Millimetres, milliseconds, micrometres, newtons and gigapascals where there are `scales`."""
-    if scales is None:
-        return DIMENSIONLESS
-    return Units(
-        x=Quantity(scales.a * 1e3, "x along rolling [mm]"),
-        y=Quantity(scales.b * 1e3, "y across [mm]"),
-        time=Quantity(scales.time * 1e3, "time [ms]"),
-        approach=Quantity(scales.length * 1e6, "approach [µm]"),
-        film=Quantity(scales.length * 1e6, "film [µm]"),
-        force=Quantity(scales.force, "force [N]"),
-        pressure=Quantity(scales.pressure * 1e-9, "pressure [GPa]"),
-    )
+    found = {}
+    for name, (quantity, part, label, plain) in _AXES.items():
+        found[name] = Axis(1.0, plain) if scales is None else Axis(part * quantity.in_si(1.0, scales), label)
+    return Units(**found)
