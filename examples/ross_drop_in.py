@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ehlcontact import Lubricant
-from reduced_models import BallBearing, BearingRun, from_ross, simulate_on_bearings
+from reduced_models import BallBearing, RotorResult, from_ross, simulate_rotor
 
 RPM, NODES, DISC, LOAD = 3000.0, (1, 5), 3, 500.0  # rev/min; nodes of the bearings and of the disc; N on a bearing
 BESIDE, UNBALANCE = {DISC: (0.0, -648.0)}, 3.4e-4  # N beside the weight of 352 N, a belt, say; kg m
@@ -53,10 +53,10 @@ def first_mode(model: Any) -> tuple[float, float]:
     return float(modal.wn[0] / (2.0 * np.pi)), float(modal.log_dec[0])
 
 
-def over_time(held: BallBearing, seconds: float = 0.2) -> BearingRun:
+def over_time(held: BallBearing, seconds: float = 0.2) -> RotorResult:
     """The same shaft on the bearings themselves: every ball and every film, from equilibrium."""
     on_balls = from_ross(rotor(), dict.fromkeys(NODES, held), loads=BESIDE, unbalances={DISC: UNBALANCE})
-    return simulate_on_bearings(on_balls, speed_rpm=RPM, dt=2e-5, until=seconds)
+    return simulate_rotor(on_balls, speed_rpm=RPM, dt=2e-5, until=seconds)
 
 
 def main(picture: str = "ross_drop_in.png", seconds: float = 0.2) -> None:

@@ -15,12 +15,12 @@ from ehlcontact import Lubricant
 from reduced_models import (
     BallBearing,
     BearingMount,
-    BearingRun,
     Rotor,
+    RotorResult,
     SpeedProfile,
     Unbalance,
     campbell,
-    simulate_on_bearings,
+    simulate_rotor,
 )
 
 MASSES = np.array([1.0, 40.0, 1.0])  # kg, of journal, disc, journal
@@ -46,16 +46,13 @@ def critical_speeds(line: Rotor) -> list[float]:
     return [found.speed_rpm for found in campbell(line, np.linspace(*RANGE, 6), count=2).critical_speeds()]
 
 
-def runs(line: Rotor, seconds: float) -> dict[str, BearingRun]:
+def runs(line: Rotor, seconds: float) -> dict[str, RotorResult]:
     """Speeding up and slowing down, in so many seconds each."""
     courses = {"up": SpeedProfile.ramp(*RANGE, seconds), "down": SpeedProfile.ramp(*RANGE[::-1], seconds)}
-    return {
-        way: simulate_on_bearings(line, speed_rpm=course, dt=5e-5, until=seconds)
-        for way, course in courses.items()
-    }
+    return {way: simulate_rotor(line, speed_rpm=course, dt=5e-5, until=seconds) for way, course in courses.items()}
 
 
-def swing(run: BearingRun) -> tuple[np.ndarray, np.ndarray]:
+def swing(run: RotorResult) -> tuple[np.ndarray, np.ndarray]:
     """Speed [rev/min] and swing of the disc [m] in every full turn: half the way back and forth."""
     turns = np.cumsum(run.speed_rpm[:-1] / 60.0 * np.diff(run.t)).astype(int)
     starts = np.flatnonzero(np.diff(turns, prepend=-1))
@@ -64,7 +61,7 @@ def swing(run: BearingRun) -> tuple[np.ndarray, np.ndarray]:
     return run.speed_rpm[starts[:-1]], size[:-1]
 
 
-def most(run: BearingRun, crossings: list[float]) -> float:
+def most(run: RotorResult, crossings: list[float]) -> float:
     """Speed [rev/min] of most swing near the crossings; further on the disc still rings."""
     speed, size = swing(run)
     near = np.abs(speed / np.mean(crossings) - 1.0) < 0.1

@@ -67,7 +67,7 @@ def write_explorer(path: Path) -> Path:
         The file cannot be written.
     """
     from ehlcontact.cli.page import write_page
-    from ehlcontact.cli.study.whole import USUAL_DAMPING
+    from ehlcontact.cli.study.bearing_rotor import USUAL_DAMPING
 
     usual = MineralOil(GRADES[0], 40.0)  # what is left out is as in `Lubricant.iso_vg`
     content: dict[str, Any] = {"script": script(), "version": __version__, "ratio": USUAL_DAMPING}

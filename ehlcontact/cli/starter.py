@@ -17,7 +17,7 @@ from pydantic.fields import FieldInfo
 from ehlcontact.cli.entries import allowed_of, keys_of, meaning_of
 from ehlcontact.cli.study.points.lists import points_of
 from ehlcontact.cli.study.schema import Study, catalogue_entries
-from ehlcontact.cli.study.whole_input import require_whole_bearing
+from ehlcontact.cli.study.whole_bearing import require_whole_bearing
 from ehlcontact.cli.toml import toml_value
 from ehlcontact.errors import InputError
 from ehlcontact.solver.domain import Domain

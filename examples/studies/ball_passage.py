@@ -21,18 +21,18 @@ import numpy as np
 from ehlcontact import Lubricant
 from reduced_models import (
     BallBearing,
-    BearingRun,
     Campbell,
     CriticalSpeed,
     Disc,
     Rotor,
+    RotorResult,
     Shaft,
     SpeedProfile,
     Support,
     campbell,
     linearise,
     rotor_on_bearings,
-    simulate_on_bearings,
+    simulate_rotor,
 )
 
 STEEL = {"youngs_modulus": 211e9, "poisson_ratio": 0.2993, "density": 7810.0}
@@ -79,9 +79,9 @@ def courses() -> tuple[SpeedProfile, SpeedProfile]:
     return SpeedProfile.ramp(*RANGE, SECONDS), SpeedProfile.ramp(*RANGE[::-1], SECONDS)
 
 
-def run(held: BallBearing, course: SpeedProfile, dt: float = DT) -> BearingRun:
+def run(held: BallBearing, course: SpeedProfile, dt: float = DT) -> RotorResult:
     """The rotor along a course."""
-    return simulate_on_bearings(rotor(held), speed_rpm=course, dt=dt, until=SECONDS)
+    return simulate_rotor(rotor(held), speed_rpm=course, dt=dt, until=SECONDS)
 
 
 def tracked(signal: np.ndarray, angle: np.ndarray) -> np.ndarray:
@@ -105,7 +105,7 @@ def oscillator(diagram: Campbell, mode: int, speed_rpm: np.ndarray, angle: np.nd
     return moved
 
 
-def peaks(held: BallBearing, diagram: Campbell, runs: tuple[BearingRun, BearingRun]) -> list[Peak]:
+def peaks(held: BallBearing, diagram: Campbell, runs: tuple[RotorResult, RotorResult]) -> list[Peak]:
     """All crossings of the ball passage and of twice it, each in the motion of its own mode."""
     line, found = rotor(held), []
     for passages in (1, 2):
@@ -135,7 +135,7 @@ def shape_of(line: Rotor, crossing: CriticalSpeed) -> np.ndarray:
     return np.asarray(nearest.shape.real)
 
 
-def picture(path: Path, held: BallBearing, diagram: Campbell, runs: tuple[BearingRun, BearingRun]) -> Any:
+def picture(path: Path, held: BallBearing, diagram: Campbell, runs: tuple[RotorResult, RotorResult]) -> Any:
     """Waterfall of the run-up with the modes of the diagram; amplitudes of the modes up and down."""
     from matplotlib.figure import Figure
 

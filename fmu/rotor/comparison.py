@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fmu.comparison import END, Comparison, difference
 from fmu.rotor.model import RotorModel
-from fmu.rotor.twin import Felt, accelerations, felt_by, load_size
+from fmu.rotor.reference_rotor import Felt, accelerations, felt_by, load_size
 from fmu.spec import ModelSpec
 
 _Floats = NDArray[np.float64]

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from fmu.comparison import END
 from fmu.references.series import References, Trial
 from fmu.rotor.model import RotorModel
-from fmu.rotor.twin import accelerations, felt_by
+from fmu.rotor.reference_rotor import accelerations, felt_by
 from fmu.spec import ModelSpec
 
 _Floats = NDArray[np.float64]

@@ -154,7 +154,7 @@ def ring_equilibrium(balls: Balls, at_speed: SpeedState, load: _Floats, angle: f
         No balance was found.
     """
     still = StaticBalls(balls, at_speed, angle)
-    q = np.zeros(2) if not load.any() else equilibrium(still, load)  # type: ignore[arg-type]
+    q = np.zeros(2) if not load.any() else equilibrium(still, load)
     stiffness = still.tangent(q)
     if not np.linalg.det(stiffness) > SEATED * np.trace(stiffness) ** 2:
         allowed = "one that presses balls on both sides of its direction; or preload the bearing (clearance < 0)"

@@ -13,7 +13,8 @@ from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from reduced_models.rotor.beam import matrices
 from reduced_models.rotor.parts import Disc, Shaft, Support
-from reduced_models.rotor.rotor import BearingMount, Rotor, Unbalance
+from reduced_models.rotor.rotor import Rotor, Unbalance
+from reduced_models.rotor.supports import BearingMount
 
 _Floats = NDArray[np.float64]
 
@@ -31,7 +32,7 @@ def rotor_on_bearings(
 ) -> Rotor:
     """Jeffcott's rotor and its relatives on ball bearings, which may differ: discs anywhere, beyond a bearing too.
 
-    For `simulate_on_bearings`, at one speed or along a `SpeedProfile`, and for `linearise`, `campbell` and
+    For `simulate_rotor`, at one speed or along a `SpeedProfile`, and for `linearise`, `campbell` and
     `unbalance_response`. Where discs and bearings are among the degrees of freedom, ``nodes`` of the rotor says:
     "disc" (or "disc 0", "disc 1", ...), "bearing 0", ..., "housing 0", ...
 
@@ -108,20 +109,20 @@ class _Assembly:
         whole = np.zeros((len(self.M), kept.size))
         whole[kept], whole[left] = np.eye(kept.size), follow
         M, C, K, G = (np.asarray(whole.T @ matrix @ whole) for matrix in (self.M, self.C, self.K, self.G))
-        pairs = {name: (new[at], new[at + 1]) for name, at in self._places().items()}
+        nodes = {name: {"x": new[at], "y": new[at + 1]} for name, at in self._places().items()}
         return Rotor(
             mass=M,
             stiffness=0.5 * (K + K.T),
             damping=C,
             gyroscopic=G,
             load=whole.T @ self.load,
-            mounts=tuple(self._mount(k, support, pairs) for k, support in enumerate(self.supports)),
+            mounts=tuple(self._mount(k, support, nodes) for k, support in enumerate(self.supports)),
             unbalances=tuple(
                 Unbalance(x=new[at], y=new[at + 1], amount=disc.unbalance, phase=disc.phase)
                 for disc, at in ((disc, self._at(disc.position)) for disc in self.discs)
                 if disc.unbalance > 0.0
             ),
-            nodes=pairs,
+            nodes=nodes,
         )
 
     def _at(self, position: float) -> int:
@@ -135,10 +136,12 @@ class _Assembly:
         return found | {name: self._at(disc.position) for name, disc in zip(named, self.discs, strict=True)}
 
     @staticmethod
-    def _mount(k: int, support: Support, pairs: dict[str, tuple[int, int]]) -> BearingMount:
-        x, y = pairs[f"bearing {k}"]
-        housing = pairs.get(f"housing {k}")
-        return BearingMount(bearing=support.bearing, x=x, y=y, housing=housing, cage_angle=support.cage_angle)
+    def _mount(k: int, support: Support, nodes: dict[str, dict[str, int]]) -> BearingMount:
+        housing = nodes.get(f"housing {k}")
+        pair = None if housing is None else (housing["x"], housing["y"])
+        return BearingMount(
+            bearing=support.bearing, housing=pair, cage_angle=support.cage_angle, **nodes[f"bearing {k}"]
+        )
 
     def _add_shaft(self) -> None:
         for k, piece in enumerate(self.shaft.pieces(self.stations)):

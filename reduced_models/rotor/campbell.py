@@ -20,7 +20,7 @@ from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import span
 from reduced_models.rotor.linearise import SHOWN, linearise
-from reduced_models.rotor.modes import WhirlMode, unlike
+from reduced_models.rotor.modes import RotorMode, unlike
 from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
@@ -43,7 +43,7 @@ class CriticalSpeed:
     decrement : float
         Logarithmic, of the mode there.
     whirl : float
-        As in `WhirlMode`; an unbalance hardly excites one near -1.
+        As in `RotorMode`; an unbalance hardly excites one near -1.
     """
 
     speed_rpm: float
@@ -203,7 +203,7 @@ def campbell(rotor: Rotor, speeds_rpm: ArrayLike, *, count: int = SHOWN, passage
     """
     speeds = as_column("speeds_rpm", speeds_rpm, increasing=True)
     count = require_integer("count", count, "a whole number >= 1", 1)
-    rows: list[list[WhirlMode]] = []
+    rows: list[list[RotorMode]] = []
     for speed in speeds.tolist():
         found = list(linearise(rotor, speed, passage=passage).modes(count + BESIDE))
         if rows and len(found) < len(rows[-1]):
@@ -214,7 +214,7 @@ def campbell(rotor: Rotor, speeds_rpm: ArrayLike, *, count: int = SHOWN, passage
     return Campbell(speed_rpm=speeds, omega=modes[..., 0], growth=modes[..., 1], whirl=modes[..., 2])
 
 
-def _followed(before: list[WhirlMode], found: list[WhirlMode]) -> list[WhirlMode]:
+def _followed(before: list[RotorMode], found: list[RotorMode]) -> list[RotorMode]:
     """Of the modes `found`, those that continue the ones before, in their order."""
     values, shapes = np.array([m.eigenvalue for m in found]), np.array([m.shape for m in found]).T
     cost = [unlike(old.eigenvalue, old.shape, values, shapes) for old in before]

@@ -16,7 +16,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.results.picture import Panel, draw
 from ehlcontact.results.table import frame_of
 from ehlcontact.summary import Summary
-from reduced_models.rotor.simulate import RotorResult
+from reduced_models.rotor.result import RotorResult
 
 _Floats = NDArray[np.float64]
 
@@ -74,23 +74,23 @@ class Comparison(Summary):
 
     @property
     def displacement(self) -> float | None:
-        """Largest `rms_over_std` of the disc and journal signals."""
-        return self._worst(("disc", "journal"), "rms_over_std")
+        """Largest `rms_over_std` of the nodes."""
+        return self._worst(False, "rms_over_std")
 
     @property
     def force(self) -> float | None:
         """Largest `rms_over_std` of the contact forces."""
-        return self._worst(("force",), "rms_over_std")
+        return self._worst(True, "rms_over_std")
 
     @property
     def displacement_vibration(self) -> float | None:
-        """Largest `vibration_over_std` of the disc and journal signals: without another place of rest."""
-        return self._worst(("disc", "journal"), "vibration_over_std")
+        """Largest `vibration_over_std` of the nodes: without another place of rest."""
+        return self._worst(False, "vibration_over_std")
 
     @property
     def force_vibration(self) -> float | None:
         """Largest `vibration_over_std` of the contact forces."""
-        return self._worst(("force",), "vibration_over_std")
+        return self._worst(True, "vibration_over_std")
 
     def _summary_lines(self) -> list[str]:
         shares = {"displacements": self.displacement, "contact forces": self.force}
@@ -135,8 +135,11 @@ class Comparison(Summary):
             "signals": {name: asdict(signal) for name, signal in self.signals.items()},
         }
 
-    def _worst(self, prefixes: tuple[str, ...], figure: str) -> float | None:
-        figures = [getattr(signal, figure) for name, signal in self.signals.items() if name.startswith(prefixes)]
+    def _worst(self, forces: bool, figure: str) -> float | None:
+        """Largest figure of the forces, or of the displacements of nodes."""
+        approaches = (name for name in self.signals if name.startswith("approach_"))
+        chosen = {name for name in self.signals if name.startswith("force_") == forces} - set(approaches)
+        figures = [getattr(self.signals[name], figure) for name in chosen]
         return max((value for value in figures if value is not None), default=None)
 
 
@@ -174,12 +177,12 @@ def compare(full: RotorResult, reduced: RotorResult, *, discard: float = 0.0) ->
 
 
 def _signals(result: RotorResult) -> Iterator[tuple[str, _Floats]]:
-    for body in ("disc", "journal"):
+    for node in result.nodes:
         for axis, letter in enumerate("xy"):
-            yield f"{body}_{letter}", getattr(result, body)[:, axis]
+            yield f"{node.replace(' ', '_')}_{letter}", result.node(node)[:, axis]
     for name in ("approach", "force"):
-        for i, values in enumerate(getattr(result, name).T, start=1):
-            yield f"{name}_{i}", values
+        for column, values in zip(result.columns, getattr(result, name).T, strict=True):
+            yield f"{name}_{column.removeprefix('contact ').replace(' ', '_')}", values
 
 
 def _difference(full: _Floats, reduced: _Floats) -> SignalDifference:

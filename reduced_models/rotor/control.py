@@ -18,30 +18,42 @@ from ehlcontact.errors import InputError
 from reduced_models.bearing.balls import Balls, SpeedState, begin_rest, directions, films_of, press_balls
 from reduced_models.bearing.contact import PLACE
 from reduced_models.bearing.equilibrium import StaticBalls
+from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.rates import bearing_rates
 from reduced_models.bearing.state_space import PER_METRE, bearing_system
 from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.small_motion import FILTERS, StateSpace
-from reduced_models.rotor.linearise import LinearisedRotor, Signals
-from reduced_models.rotor.modes import Matrices
-from reduced_models.rotor.rotor import BearingMount, Rotor
+from reduced_models.rotor.rotor import Matrices, Rotor
+from reduced_models.rotor.step import active_mounts, geometry_of
+from reduced_models.rotor.supports import BearingMount
 
 _Floats = NDArray[np.float64]
+
+Signals = Mapping[str, int] | Sequence[int] | None
 
 UNIT = 1e-6  # m, of the states
 
 
-def linear_block(at: LinearisedRotor, inputs: Signals, outputs: Signals, name: str) -> Any:
-    """`LinearisedRotor.to_control`."""
+def rings_of(rotor: Rotor) -> _Floats:
+    """Motions of the rings of ball bearings, shape (2 bearings, N); `InputError` for a rotor on contacts."""
+    if active_mounts(rotor)[0]:
+        raise InputError("mounts", "with contacts", "ball bearings or linear bearings, for python-control")
+    return geometry_of(rotor)[0]
+
+
+def linear_block(
+    rotor: Rotor, omega: float, about: Sequence[SmallBalls], inputs: Signals, outputs: Signals, name: str
+) -> Any:
+    """`LinearRotor.to_control`: of a rotor at a speed [rad/s], `about` what it finds in its ball bearings."""
     import control
 
-    size = at.rotor.size
+    size = rotor.size
     ins, outs = _signals("inputs", inputs, "F", size), _signals("outputs", outputs, "q", size)
-    A, driven = rotor_system(at.matrices, at.rotor.rings, [bearing_system(balls) for balls in at.balls])
+    A, driven = rotor_system(rotor.matrices(omega), rings_of(rotor), [bearing_system(balls) for balls in about])
     C = np.zeros((len(outs), len(A)))
     C[range(len(outs)), list(outs.values())] = UNIT
     shapes = []
-    for b in at.balls:
+    for b in about:
         inner, outer = (0 if c.rates is None else c.rates.lags for c in (b.inner, b.outer))
         shapes.append(_Shape(len(b.normals), inner, outer, b.loss.gains.size, b.inertia))
     return control.ss(
@@ -180,7 +192,7 @@ class _Ring:
     """One bearing: its balls about rest, with the ring at `r`."""
 
     def __init__(self, mount: BearingMount, speed: float, r: _Floats, cage_turns: bool) -> None:
-        bearing = mount.bearing
+        bearing = mount.ball_bearing
         self.balls: Balls = bearing.kernel(bearing.speed(speed))
         self._laws: SpeedState = bearing.speed_state(speed)
         self._at_speed = self._laws if cage_turns else self._laws._replace(cage=0.0)
@@ -216,14 +228,14 @@ class _Motion:
     """Rates of all states, which are differences from rest [m]."""
 
     def __init__(self, rotor: Rotor, speed: float, cage_turns: bool) -> None:
-        self._rest, self._to_rings = rotor.equilibrium(speed), rotor.rings
+        self._rest, self._to_rings = rotor.equilibrium(speed), rings_of(rotor)
         self._r = self._to_rings @ self._rest
         self._size = rotor.size
         self._inverse = np.linalg.inv(rotor.mass)
-        self._damping = rotor.damping + speed * np.pi / 30.0 * rotor.gyroscopic
-        self._stiffness = rotor.stiffness
+        _, self._damping, self._stiffness = rotor.matrices(speed * np.pi / 30.0)
         self.rings = [
-            _Ring(mount, speed, self._r[2 * b : 2 * b + 2], cage_turns) for b, mount in enumerate(rotor.mounts)
+            _Ring(mount, speed, self._r[2 * b : 2 * b + 2], cage_turns)
+            for b, mount in enumerate(active_mounts(rotor)[1])
         ]
 
     def rates(self, t: float, x: _Floats, force: _Floats) -> _Floats:

@@ -1,63 +1,121 @@
-"""Contacts with a static law, as springs on a journal."""
+"""Static equilibrium of a rotor on its supports, films as at a speed."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError
+from ehlcontact.errors import ConvergenceError, InputError
+from reduced_models.bearing.equilibrium import StaticBalls
+from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.rotor.contact import has_tangents
+from reduced_models.rotor.supports import BearingMount, ContactMount, is_ball_bearing
+
+if TYPE_CHECKING:
+    from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
 
+GUESS = 1e8  # N/m, springs in place of the supports from which the search starts
+OPEN = 1.0  # N/m, beside the slopes of a support that is open in some direction
+# Imbalance over the load that ends the search: with balls, which are balanced to first order in 1e-7, and without
+BALANCED_BALLS, BALANCED = 1e-10, 1e-12
+BY_ROUNDING = 1e-9  # imbalance over the load that is accepted where steps no longer help
+MOST_STEPS, MOST_HALVINGS = 60, 30  # of the search
 
-@dataclass(frozen=True, eq=False)
-class StaticContacts:
-    """Contacts of all bearings, as one force on a journal along the directions that move.
 
-    Parameters
-    ----------
-    contacts : sequence
-        In SI, with `TangentContact`'s ``spring`` and ``spring_tangent``; their states stay.
-    normals : ndarray, shape (contacts, directions)
-        Unit vectors from the journal to the contacts.
-    offsets : ndarray, shape (contacts,)
-        Approaches with the journal at the origin [m].
-    bearings : int
-        How many times each contact is there.
+class StaticSupport(Protocol):
+    """A support at rest: force and its derivative over its motion."""
+
+    def force(self, r: _Floats) -> _Floats:
+        """What it carries, shape (directions,) [N]."""
+
+    def tangent(self, r: _Floats) -> _Floats:
+        """Its derivative, shape (directions, directions) [N/m]."""
+
+
+class StaticContact:
+    """A contact at rest, or several alike, after its static law; its state stays."""
+
+    def __init__(self, mount: ContactMount) -> None:
+        if not has_tangents(mount.contact):
+            allowed = "reduced elements, or start from rotor.state_at(approaches)"
+            raise InputError("contacts", "without static law", allowed)
+        self._contact, self._offset, self._count = mount.contact, mount.offset, mount.count
+
+    def force(self, r: _Floats) -> _Floats:
+        """What it carries, shape (1,) [N]."""
+        return np.array([self._count * self._contact.spring(float(r[0]) + self._offset)])
+
+    def tangent(self, r: _Floats) -> _Floats:
+        """Its derivative, shape (1, 1) [N/m]."""
+        return np.array([[self._count * self._contact.spring_tangent(float(r[0]) + self._offset)]])
+
+
+def static_supports(rotor: Rotor, speed_rpm: float) -> list[tuple[slice, StaticSupport]]:
+    """Every support that is not linear, with its place among the directions of all supports.
 
     Raises
     ------
     InputError
-        Wrong number of contacts, or one without a static law.
+        A speed that a bearing does not take, a contact without static law.
     """
+    found: list[tuple[slice, StaticSupport]] = []
+    for columns, mount in zip(rotor.support_columns, rotor.mounts, strict=True):
+        if isinstance(mount, ContactMount):
+            found.append((columns, StaticContact(mount)))
+        elif is_ball_bearing(mount):
+            bearing = mount.ball_bearing
+            kernel, state = bearing.kernel(bearing.speed(speed_rpm)), bearing.speed_state(speed_rpm)
+            found.append((columns, StaticBalls(kernel, state, mount.cage_angle)))
+    return found
 
-    contacts: Sequence[Any]
-    normals: _Floats
-    offsets: _Floats
-    bearings: int
 
-    def __post_init__(self) -> None:
-        if len(self.contacts) != self.offsets.size:
-            raise InputError("contacts", len(self.contacts), f"one per mount, {self.offsets.size}")
-        if not all(has_tangents(contact) for contact in self.contacts):
-            raise InputError(
-                "contacts", "without static law", "reduced elements, or start from rotor.state_at(approaches)"
-            )
+def equilibrium(rotor: Rotor, speed_rpm: float) -> _Floats:
+    """Displacements, shape (N,), at which supports and stiffness carry the load: see `Rotor.equilibrium`."""
+    supports, rows = static_supports(rotor, speed_rpm), rotor.support_rows
+    load, (_, _, stiffness) = rotor.load, rotor.matrices(speed_rpm * RADIANS)
 
-    def force(self, q: _Floats) -> _Floats:
-        """What they carry with the journal at `q`, shape (directions,) [N]."""
-        forces = [c.spring(u) for c, u in zip(self.contacts, self._approaches(q), strict=True)]
-        return np.asarray(self.bearings * self.normals.T @ np.array(forces))
+    def imbalance(q: _Floats) -> _Floats:
+        r, forces = rows @ q, np.zeros(len(rows))
+        for columns, support in supports:
+            forces[columns] = support.force(r[columns])
+        return np.asarray(stiffness @ q + rows.T @ forces - load)
 
-    def tangent(self, q: _Floats) -> _Floats:
-        """Its derivative, shape (directions, directions) [N/m]."""
-        stiffness = [c.spring_tangent(u) for c, u in zip(self.contacts, self._approaches(q), strict=True)]
-        return np.asarray(self.bearings * (self.normals.T * np.array(stiffness)) @ self.normals)
+    allowed = BALANCED_BALLS if any(isinstance(mount, BearingMount) for mount in rotor.mounts) else BALANCED
+    loose = _across(rotor)  # springs in both directions where a rotor stands on contacts
+    offsets = np.array([getattr(mount, "offset", 0.0) for mount in rotor.mounts for _ in mount.directions])
+    springs = stiffness + GUESS * (rows.T @ rows) + GUESS * loose
+    q: _Floats = np.asarray(np.linalg.solve(springs, load - GUESS * rows.T @ offsets), np.float64)
+    residual, size = imbalance(q), float(np.linalg.norm(load))
+    for _ in range(MOST_STEPS):
+        if np.linalg.norm(residual) <= allowed * max(size, 1.0):
+            return q
+        r, slopes = rows @ q, np.zeros((len(rows), len(rows)))
+        for columns, support in supports:
+            slopes[columns, columns] = support.tangent(r[columns]) + OPEN * np.eye(columns.stop - columns.start)
+        step = np.linalg.solve(stiffness + rows.T @ slopes @ rows + OPEN * loose, -residual)
+        for _ in range(MOST_HALVINGS):
+            new = imbalance(q + step)
+            if np.linalg.norm(new) < np.linalg.norm(residual):
+                break
+            step *= 0.5
+        else:
+            if np.linalg.norm(residual) <= BY_ROUNDING * max(size, 1.0):
+                return q
+        q, residual = q + step, imbalance(q + step)
+    raise ConvergenceError(
+        f"no equilibrium: the supports do not hold {np.linalg.norm(residual):.3g} N of {size:.3g} N", q
+    )
 
-    def _approaches(self, q: _Floats) -> list[float]:
-        return (self.normals @ q + self.offsets).tolist()
+
+def _across(rotor: Rotor) -> _Floats:
+    """Unit springs at the degrees of freedom of contacts, shape (N, N): a contact alone holds one direction."""
+    held = np.zeros((rotor.size, rotor.size))
+    for mount in rotor.mounts:
+        if isinstance(mount, ContactMount):
+            at = [place for place in mount.ends[0] if place is not None]
+            held[at, at] = 1.0
+    return held

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import as_column, require_positive
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.validity import MARGIN, OCTAVE, Band, OutsideValidityWarning, Validity, frequency_of
-from reduced_models.rotor.simulate import RotorResult
+from reduced_models.rotor.result import RotorResult
 
 _Floats = NDArray[np.float64]
 

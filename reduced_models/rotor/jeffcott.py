@@ -1,4 +1,4 @@
-"""A Jeffcott rotor on contacts: disc, elastic shaft, journal, and where the contacts sit. SI units.
+"""Jeffcott rotor on contacts: its parameters, and the `Rotor` that it is. SI units.
 
 Four degrees of freedom: disc (x, y) and journal (x, y), y upwards. Both bearings are taken as identical and
 move as one, so one journal stands for both: its mass is that of the two journals, and the contacts of one
@@ -11,7 +11,7 @@ bearing push on it ``bearings`` times.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, pi, sin
 from typing import Any, Self
 
@@ -22,59 +22,22 @@ from scipy.linalg import lstsq
 from ehlcontact.checks import (
     as_column,
     require_choice,
-    require_finite,
     require_integer,
     require_nonnegative,
     require_positive,
 )
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.point import Point, moes_point
+from ehlcontact.point import Point
 from ehlcontact.summary import Summary
-from reduced_models.bearing.equilibrium import equilibrium
-from reduced_models.rotor.equilibrium import StaticContacts
+from reduced_models.rotor.rotor import Rotor, Unbalance
+from reduced_models.rotor.supports import ContactMount
 
 _Floats = NDArray[np.float64]
 
+BODIES = ("disc", "journal")
 DOWN = -pi / 2.0  # direction of gravity [rad]
 REACHED = 1e-9  # distance from wanted approaches, over the largest, that rounding may leave
-
-
-@fields_take(angle="rad", offset="m")
-@dataclass(frozen=True, slots=True)
-class ContactMount:
-    """Where a contact sits: approach = n . q_journal + offset, n = (cos angle, sin angle).
-
-    Parameters
-    ----------
-    angle : float
-        Direction from the journal centre to the contact [rad]; -pi/2 is below.
-    offset : float
-        Approach with the journal at the origin [m].
-    point : OperatingPoint or MoesPoint, optional
-        The contact that sits there: an element made for another speed, oil or shape then says so.
-
-    Raises
-    ------
-    InputError
-        Not finite, an angle beyond one turn (given in degrees?), or no operating point.
-    """
-
-    angle: float
-    offset: float = 0.0
-    point: Point | None = None
-
-    def __post_init__(self) -> None:
-        if self.point is not None:
-            moes_point(self.point)
-        if abs(require_finite("angle", self.angle)) > 2.0 * pi:
-            raise InputError("angle", self.angle, "between -2 pi and 2 pi; angles are in radians")
-        require_finite("offset", self.offset)
-
-    @property
-    def normal(self) -> _Floats:
-        """Unit vector from the journal to the contact, shape (2,)."""
-        return np.array([cos(self.angle), sin(self.angle)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -275,10 +238,8 @@ class JeffcottRotor(Summary):
 
     def rest_state(self, position: _Floats) -> RotorState:
         """State at rest with the journal at `position` (moving directions only) and the shaft bent."""
-        journal, disc = np.zeros(2), np.zeros(2)
-        journal[list(self.axes)] = position
-        disc[list(self.axes)] = position + self.disc_load / self.shaft_stiffness
-        return RotorState(disc, journal, np.zeros(2), np.zeros(2))
+        q = np.concatenate([position + self.disc_load / self.shaft_stiffness, position])
+        return self._state(q, np.zeros_like(q))
 
     def static_forces(self) -> _Floats:
         """Force on every contact under the static load, where equilibrium alone decides it [N].
@@ -296,6 +257,55 @@ class JeffcottRotor(Summary):
         if np.any(forces <= 0.0) or not np.allclose(carried, self.static_load, rtol=1e-9, atol=1e-9):
             raise InputError("static load", self.static_load.tolist(), "carried by pushing contacts")
         return forces
+
+    @property
+    def nodes(self) -> dict[str, dict[str, int]]:
+        """Degrees of freedom of disc and journal by direction, in the order of `matrices`."""
+        size, names = len(self.axes), ["xy"[axis] for axis in self.axes]
+        return {body: {name: k * size + i for i, name in enumerate(names)} for k, body in enumerate(BODIES)}
+
+    def on(self, contacts: Sequence[Any]) -> Rotor:
+        """The rotor on contacts, as `Rotor`.
+
+        Parameters
+        ----------
+        contacts : sequence
+            One per mount, in SI: elements, full films in `ScaledContact`, or impedances for linear responses.
+
+        Raises
+        ------
+        InputError
+            Not one contact per mount.
+        """
+        if len(contacts) != len(self.mounts):
+            raise InputError("contacts", len(contacts), f"one per mount, {len(self.mounts)}")
+        M, C, K = self.matrices()
+        disc, journal = (self.nodes[body] for body in BODIES)
+        places: dict[str, Any] = {"x": journal.get("x"), "y": journal.get("y"), "count": self.bearings}
+        turning = Unbalance(x=disc.get("x"), y=disc.get("y"), amount=self.unbalance)
+        return Rotor(
+            mass=M,
+            damping=C,
+            stiffness=K,
+            mounts=tuple(
+                replace(mount, contact=contact, **places)
+                for mount, contact in zip(self.mounts, contacts, strict=True)
+            ),
+            load=np.concatenate([self.disc_load, self.static_load - self.disc_load]),
+            unbalances=(turning,) if self.unbalance > 0.0 else (),
+            nodes=self.nodes,
+        )
+
+    def motion(self, state: RotorState) -> tuple[_Floats, _Floats]:
+        """Displacements and velocities of a state, in the order of `matrices`."""
+        axes = list(self.axes)
+        q = np.concatenate([state.disc[axes], state.journal[axes]])
+        return q, np.concatenate([state.disc_velocity[axes], state.journal_velocity[axes]])
+
+    def _state(self, q: _Floats, v: _Floats) -> RotorState:
+        planes = np.zeros((4, 2))
+        planes[:, list(self.axes)] = np.concatenate([q, v]).reshape(4, -1)
+        return RotorState(*planes)
 
     def check(self, contacts: Sequence[Any], *, stacklevel: int = 2) -> None:
         """Let elements warn, once each, whose band does not hold this speed, or that were made for other contacts.
@@ -324,8 +334,10 @@ class JeffcottRotor(Summary):
             The contacts do not stand against the load; ``result`` is the last state.
         """
         self.check(contacts, stacklevel=3)
-        carrying = StaticContacts(contacts, self.normals, self.offsets, self.bearings)
+        if not self.static_load.any():
+            raise InputError("static load", 0.0, "different from zero to press the contacts")
         try:
-            return self.rest_state(equilibrium(carrying, self.static_load))
+            q = self.on(contacts).equilibrium()
         except ConvergenceError as error:
-            raise ConvergenceError(str(error), self.rest_state(error.result)) from None
+            raise ConvergenceError(str(error), self._state(error.result, np.zeros_like(error.result))) from None
+        return self._state(q, np.zeros_like(q))

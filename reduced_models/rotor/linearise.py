@@ -1,54 +1,72 @@
-"""A rotor on ball bearings about rest at one speed: modes, responses, stability."""
+"""A rotor about rest at one speed: modes, responses, stability."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Unpack
+from typing import Any, Protocol, Unpack
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import require_instance, require_integer, require_nonnegative
+from ehlcontact.checks import as_column, require_integer, require_nonnegative
 from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
 from ehlcontact.checks.quantity import takes
-from ehlcontact.errors import ConvergenceError
+from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.summary import Summary
 from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.elements.base import ContactElement
+from reduced_models.rotor.contact import ScaledContact
+from reduced_models.rotor.control import Signals, linear_block
+from reduced_models.rotor.impedance import ContactImpedance, impedance_about
+from reduced_models.rotor.jeffcott import JeffcottRotor
 from reduced_models.rotor.modes import (
     CANDIDATES,
-    Matrices,
-    WhirlMode,
+    CLOSED,
+    CLOSED_BY_STEPS,
+    RotorMode,
     close,
     eigenvectors,
     is_new,
-    shaped,
     unlike,
+    whirl_of,
 )
-from reduced_models.rotor.rotor import Rotor
+from reduced_models.rotor.nodes import flat_nodes
+from reduced_models.rotor.rotor import Matrices, Rotor
+from reduced_models.rotor.step import active_mounts, geometry_of
+from reduced_models.rotor.supports import BearingMount, ContactMount
+from reduced_models.rotor.unbalance import UnbalanceResponse
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
-Signals = Mapping[str, int] | Sequence[int] | None
 
-SHOWN = 8  # modes, unless another number is asked for
-SLOW = 1e-3  # rad/s, stands for rest where damping is asked for: films forget in less than a second
+SHOWN = 8  # modes, unless another number is given
+SLOW = 1e-3  # rad/s, stands for rest where damping is computed: films forget in less than a second
 FREE = 1e-9  # of the largest stiffness, what rounding leaves where a rotor is free
 UNLOADED = 1e-9  # of its heaviest ball, the load of a preloaded bearing that is the rounding of none
+VERTICAL = 0.5  # share of the motion of a mode from which it counts as vertical
+
+
+class LinearSupport(Protocol):
+    """What a small vibration finds in a support."""
+
+    def impedance(self, s: complex) -> _Complex:
+        """Forces over its motions, shape (directions, directions) [N/m], at s [1/s] of exp(s t)."""
 
 
 @dataclass(frozen=True, eq=False)
-class LinearisedRotor(Summary):
-    """A rotor about rest under its load, `linearise` makes it.
+class LinearRotor(Summary):
+    """A rotor about rest under its load, made by `linearise`.
 
-    Films are those of the speed and remember. Balls stand still while the rotor vibrates, at the angle of their
-    mount or, over a ball passage, at all positions of the cage: then the impedance of a bearing is the mean of
-    those, each with the ring where the bearing's share of the load puts it. That bearings change while the rotor
-    vibrates is left out: a mode across the load of the beam in the tests, where stiffness changes by a quarter as
-    balls pass, has 0.7 % more decrement and 0.2 % less frequency by that; one along the load nothing.
+    Ball bearings are exact at complex frequencies, the memory of their films included; contacts have the impedance
+    of the frequency. Films are those of the speed. Balls stand still while the rotor vibrates, at the angle of
+    their mount or, over a ball passage, at all positions of the cage: then the impedance of a bearing is the mean
+    of those, each with the ring where the bearing's share of the load puts it. That bearings change while the
+    rotor vibrates is left out: a mode across the load of the beam in the tests, where stiffness changes by a
+    quarter as balls pass, has 0.7 % more decrement and 0.2 % less frequency by that; one along the load nothing.
 
     Attributes
     ----------
@@ -58,11 +76,13 @@ class LinearisedRotor(Summary):
     passage : bool
         Mean over a ball passage, or at the angles of the mounts.
     rest : ndarray, shape (N,)
-        Displacements at rest, balls at the angles of the mounts [m].
-    loads : ndarray, shape (bearings, 2)
+        Displacements at rest, balls at the angles of the mounts [m]; 0 where contacts are impedances alone.
+    loads : ndarray, shape (ball bearings, 2)
         Forces on the inner rings at rest [N].
+    contacts : tuple
+        What a small vibration finds in each contact.
     balls : tuple
-        What a small vibration finds in each bearing.
+        What it finds in each ball bearing.
     """
 
     rotor: Rotor
@@ -70,29 +90,34 @@ class LinearisedRotor(Summary):
     passage: bool
     rest: _Floats
     loads: _Floats
+    contacts: tuple[ContactImpedance, ...]
     balls: tuple[SmallBalls, ...]
+
+    def _summary_lines(self) -> list[str]:
+        return [f"about rest at {self.speed_rpm:.5g} rev/min", *self.rotor._summary_lines()]
 
     @cached_property
     def matrices(self) -> Matrices:
-        """Mass, damping with the gyroscopic part, and stiffness, without the bearings."""
-        rotor = self.rotor
-        return rotor.mass, rotor.damping + self.speed_rpm * RADIANS * rotor.gyroscopic, rotor.stiffness
+        """Mass, damping with the gyroscopic part, and stiffness; linear bearings are in them."""
+        return self.rotor.matrices(self.speed_rpm * RADIANS)
 
-    def bearing_impedance(self, s: complex) -> _Complex:
-        """What the bearings add to the dynamic stiffness, shape (N, N) [N/m], at s [1/s] of exp(s t)."""
-        rings = self._rings
-        Z = np.zeros((len(rings), len(rings)), complex)
-        for b, balls in enumerate(self.balls):
-            at = slice(2 * b, 2 * b + 2)
-            Z[at, at] = balls.impedance(s)
-        return np.asarray(rings.T @ Z @ rings)
+    def support_impedance(self, s: complex) -> _Complex:
+        """Part of contacts and ball bearings in `dynamic_stiffness`, shape (N, N) [N/m], at s [1/s]."""
+        rows = self._rows
+        Z, at = np.zeros((len(rows), len(rows)), complex), 0
+        supports: tuple[LinearSupport, ...] = (*self.contacts, *self.balls)
+        for support in supports:
+            found = support.impedance(s)
+            here = slice(at, at + len(found))
+            Z[here, here], at = found, here.stop
+        return np.asarray(rows.T @ Z @ rows)
 
     def dynamic_stiffness(self, s: complex) -> _Complex:
         """Forces over displacements, shape (N, N), at s [1/s] of exp(s t)."""
         M, C, K = self.matrices
-        return np.asarray(s * s * M + s * C + K + self.bearing_impedance(s))
+        return np.asarray(s * s * M + s * C + K + self.support_impedance(s))
 
-    def modes(self, count: int | None = SHOWN) -> tuple[WhirlMode, ...]:
+    def modes(self, count: int | None = SHOWN) -> tuple[RotorMode, ...]:
         """Modes that oscillate, the slowest first; None: all.
 
         Raises
@@ -102,14 +127,20 @@ class LinearisedRotor(Summary):
         """
         if count is not None:
             require_integer("count", count, "a whole number >= 1", 1)
-        undamped = self.bearing_impedance(SLOW)  # at a real s, real
+        undamped = self.support_impedance(SLOW)  # at a real s, real
         values, vectors = eigenvectors(self.matrices, undamped, SLOW)
         found: list[tuple[complex, _Complex]] = []
         for s, q in zip(values[:count], vectors.T[:count], strict=True):
             found += self._root(complex(s), q, found)
-        pairs = [(m.x, m.y) for m in self.rotor.mounts] + [(u.x, u.y) for u in self.rotor.unbalances]
-        modes = [shaped(s, q, pairs) for s, q in found if s.imag > 0.0]
+        modes = [self._mode(s, q) for s, q in found if s.imag > 0.0]
         return tuple(sorted(modes, key=lambda mode: mode.omega))
+
+    def slowest(self) -> dict[str, RotorMode]:
+        """The slowest mode along each direction, "x" or "y", by the larger share of its motion."""
+        found: dict[str, RotorMode] = {}
+        for mode in self.modes(None):
+            found.setdefault("y" if mode.vertical_share >= VERTICAL else "x", mode)
+        return found
 
     @property
     def growth(self) -> float:
@@ -120,7 +151,7 @@ class LinearisedRotor(Summary):
     def stable(self) -> bool:
         """Whether all vibrations die away, and no direction has a negative static stiffness."""
         _, _, K = self.matrices
-        static = K + self.bearing_impedance(SLOW).real
+        static = K + self.support_impedance(SLOW).real
         slopes = np.linalg.eigvalsh(0.5 * (static + static.T))
         return self.growth < 0.0 and bool(slopes[0] > -FREE * slopes[-1])
 
@@ -137,20 +168,38 @@ class LinearisedRotor(Summary):
         return np.array([np.linalg.inv(self.dynamic_stiffness(1j * one)) for one in w.tolist()])
 
     @by_name(1)
-    def unbalance_response(self, **frequency: Unpack[Frequency]) -> _Complex:
-        """Complex amplitudes [m], shape (k, N), of q(t) = Re(q exp(i w t)); the angle of the shaft is w t.
+    def unbalance_response(self, **frequency: Unpack[Frequency]) -> UnbalanceResponse:
+        """Response over the rate at which the unbalances turn.
 
         Parameters
         ----------
         **frequency
-            At which the unbalances turn, films, cage and gyroscopic forces being those of `speed_rpm` all the
-            same: exactly one of omega [rad/s], hz and rpm, shape (k,).
+            At which they turn, films, cage and gyroscopic forces being those of `speed_rpm` all the same: exactly
+            one of omega [rad/s], hz and rpm, shape (k,).
         """
         w = radians_per_second(None, **frequency)
-        out = np.zeros((w.size, self.rotor.size), complex)
-        for k, one in enumerate(w.tolist()):
-            out[k] = np.linalg.solve(self.dynamic_stiffness(1j * one), one * one * self._turning)
-        return out
+        return UnbalanceResponse.of(
+            self.rotor, w / RADIANS, np.array([self._unbalanced(one) for one in w.tolist()])
+        )
+
+    def orbit(self, rest: ArrayLike | None = None) -> tuple[_Floats, _Floats]:
+        """Displacements and velocities at t = 0 of the settled motion under the unbalances at the rotor's speed.
+
+        Parameters
+        ----------
+        rest : array_like, shape (N,), optional
+            Displacements about which it moves, by default those at rest.
+        """
+        w = self.speed_rpm * RADIANS
+        q = self._unbalanced(w)
+        about = self.rest if rest is None else as_column("rest", rest, size=self.rotor.size)
+        return about + q.real, (1j * w * q).real
+
+    def motion(self, t: ArrayLike) -> _Floats:
+        """Displacements of that motion over times [s], shape (k, N)."""
+        w = self.speed_rpm * RADIANS
+        turned = np.exp(1j * w * np.atleast_1d(np.asarray(t, float)))[:, None]
+        return np.asarray(self.rest + np.real(turned * self._unbalanced(w)))
 
     def to_control(self, inputs: Signals = None, outputs: Signals = None, name: str = "rotor") -> Any:
         """Exact python-control ``StateSpace``, films' memory included, from forces [N] to displacements [m].
@@ -170,30 +219,44 @@ class LinearisedRotor(Summary):
         InputError
             A degree of freedom that is not there.
         """
-        from reduced_models.rotor.control import linear_block
-
-        return linear_block(self, inputs, outputs, name)
+        return linear_block(self.rotor, self.speed_rpm * RADIANS, self.balls, inputs, outputs, name)
 
     @cached_property
-    def _rings(self) -> _Floats:
-        return self.rotor.rings
+    def _rows(self) -> _Floats:
+        """Motions of contacts and ball bearings from those of the rotor."""
+        points, normals, _ = geometry_of(self.rotor)
+        return np.asarray(normals @ points)
 
     @cached_property
     def _turning(self) -> _Complex:
         force = np.zeros(self.rotor.size, complex)
         for unbalance in self.rotor.unbalances:
-            force[[unbalance.x, unbalance.y]] += (
-                unbalance.amount * np.exp(1j * unbalance.phase) * np.array([1.0, -1j])
-            )
+            amplitude = unbalance.amount * np.exp(1j * unbalance.phase)
+            for place, share in ((unbalance.x, 1.0), (unbalance.y, -1j)):
+                if place is not None:
+                    force[place] += amplitude * share
         return force
+
+    def _unbalanced(self, omega: float) -> _Complex:
+        """Complex amplitudes, shape (N,), of q(t) = Re(q exp(i w t)); the angle of the shaft is w t."""
+        return np.asarray(np.linalg.solve(self.dynamic_stiffness(1j * omega), omega * omega * self._turning))
+
+    def _mode(self, s: complex, q: _Complex) -> RotorMode:
+        shape = q / q[np.argmax(np.abs(q))]
+        K, held = self.matrices[2], self.support_impedance(1j * s.imag).real
+        in_supports, in_shaft = (float(np.real(shape.conj() @ part @ shape)) for part in (held, K))
+        pairs = [*(m.ends[0] for m in self.rotor.mounts), *((u.x, u.y) for u in self.rotor.unbalances)]
+        share = in_supports / (in_supports + in_shaft)
+        return RotorMode(s, shape, whirl_of(shape, pairs), share, *flat_nodes(self.rotor.nodes))
 
     def _root(
         self, s: complex, q: _Complex, found: list[tuple[complex, _Complex]]
     ) -> list[tuple[complex, _Complex]]:
         """The root near a mode without damping, none of those found; nothing where damping leaves fewer modes."""
-        values, vectors = eigenvectors(self.matrices, self.bearing_impedance(1j * s.imag), s.imag)
+        values, vectors = eigenvectors(self.matrices, self.support_impedance(1j * s.imag), s.imag)
+        closed = CLOSED_BY_STEPS if self.contacts else CLOSED
         for k in np.argsort(unlike(s, q, values, vectors))[:CANDIDATES].tolist():
-            root, shape = close(self.dynamic_stiffness, complex(values[k]), vectors[:, k])
+            root, shape = close(self.dynamic_stiffness, complex(values[k]), vectors[:, k], closed)
             if is_new(root, shape, found):
                 return [(root, shape)]
         if len(values) < self.rotor.size:
@@ -202,37 +265,117 @@ class LinearisedRotor(Summary):
 
 
 @takes(speed_rpm="rev/min")
-def linearise(rotor: Rotor, speed_rpm: float, *, passage: bool = True) -> LinearisedRotor:
-    """Linearise a rotor on ball bearings about rest under its load.
+def linearise(
+    rotor: Rotor | JeffcottRotor,
+    speed_rpm: float | None = None,
+    *,
+    contacts: Sequence[Any] | None = None,
+    passage: bool = True,
+) -> LinearRotor:
+    """Linearise a rotor about rest under its load.
 
     Parameters
     ----------
-    rotor : Rotor
-    speed_rpm : float
-        Of the shaft, for films, centrifugal and gyroscopic forces.
+    rotor : Rotor or JeffcottRotor
+    speed_rpm : float, optional
+        Of the shaft, for films, centrifugal and gyroscopic forces; by default that of a `JeffcottRotor`.
+    contacts : sequence, optional
+        Of a `JeffcottRotor`, one per mount: elements in SI, or impedances over omega [rad/s] to N/m, as
+        `film_impedance` and `impedance_about` make them.
     passage : bool
-        Bearings as means over a ball passage (as in `BallBearing.coefficients`, the load of a bearing being that
-        with the balls as mounted); or with the balls as mounted.
+        Ball bearings as means over a ball passage (as in `BallBearing.coefficients`, the load of a bearing being
+        that with the balls as mounted); or with the balls as mounted.
 
     Raises
     ------
     InputError
-        A speed or a load that a bearing does not take.
+        A speed or a load that a bearing does not take, a contact without impedance, a wrong number of them.
     ConvergenceError
-        The bearings do not hold the rotor.
+        The supports do not hold the rotor.
     """
-    require_instance("rotor", rotor, Rotor, "a Rotor")
+    if isinstance(rotor, JeffcottRotor):
+        speed_rpm = rotor.speed_rpm if speed_rpm is None else speed_rpm
+        rotor = rotor.on([] if contacts is None else contacts)
+    elif not isinstance(rotor, Rotor):
+        raise InputError("rotor", type(rotor).__name__, "a Rotor or JeffcottRotor")
+    elif contacts is not None:
+        raise InputError("contacts", len(contacts), "left out: those of a Rotor are in its mounts")
+    if speed_rpm is None:
+        raise InputError("speed_rpm", None, "given: that of the shaft")
     speed = require_nonnegative("speed_rpm", speed_rpm)
-    rest = rotor.equilibrium(speed)
-    rings, loads, balls = rotor.rings @ rest, [], []
-    for b, mount in enumerate(rotor.mounts):
-        bearing, ring = mount.bearing, rings[2 * b : 2 * b + 2]
-        kernel, at_speed = bearing.kernel(bearing.speed(speed)), bearing.speed_state(speed)
-        held = StaticBalls(kernel, at_speed, mount.cage_angle)
-        force = held.force(ring)
-        if np.linalg.norm(force) < UNLOADED * held.films.force.max():
-            force = np.zeros(2)
-        found = bearing.standings(force, speed, None if passage else mount.cage_angle)
-        loads.append(force)
-        balls.append(SmallBalls.of(kernel, at_speed, found))
-    return LinearisedRotor(rotor, speed, passage, rest, np.array(loads), tuple(balls))
+    mounted, bearings = active_mounts(rotor)
+    known = all(_is_impedance(mount.contact) for mount in mounted)
+    rest = np.zeros(rotor.size) if mounted and known and not bearings else rotor.equilibrium(speed)
+    points, normals, _ = geometry_of(rotor)
+    r = normals @ (points @ rest)
+    found = [_linear_bearing(m, speed, r[k : k + 2], passage) for k, m in zip(
+        range(len(mounted), r.size, 2), bearings, strict=True
+    )]  # fmt: skip
+    return LinearRotor(
+        rotor,
+        speed,
+        passage,
+        rest,
+        np.array([load for load, _ in found]).reshape(-1, 2),
+        tuple(_linear_contact(mount, float(u) + mount.offset) for mount, u in zip(mounted, r, strict=False)),
+        tuple(balls for _, balls in found),
+    )
+
+
+def _is_impedance(contact: object) -> bool:
+    return callable(contact) and not isinstance(contact, ContactElement)
+
+
+def _linear_contact(mount: ContactMount, approach: float) -> ContactImpedance:
+    """A contact about the approach at which it rests."""
+    contact = mount.contact
+    if isinstance(contact, ScaledContact) and isinstance(contact.contact, ContactElement):
+        contact = contact.contact.to_si(contact.scales)
+    if isinstance(contact, ContactElement):
+        return ContactImpedance(impedance_about(contact, float(contact.spring(approach))), mount.count)
+    if not _is_impedance(contact):
+        raise InputError(
+            "contacts", type(contact).__name__, "elements, or impedances over omega: see film_impedance"
+        )
+    return ContactImpedance(contact, mount.count)
+
+
+def _linear_bearing(mount: BearingMount, speed: float, ring: _Floats, passage: bool) -> tuple[_Floats, SmallBalls]:
+    """Force on the inner ring at rest, and what a small vibration finds in the bearing."""
+    bearing = mount.ball_bearing
+    kernel, state = bearing.kernel(bearing.speed(speed)), bearing.speed_state(speed)
+    held = StaticBalls(kernel, state, mount.cage_angle)
+    force = held.force(ring)
+    if np.linalg.norm(force) < UNLOADED * held.films.force.max():
+        force = np.zeros(2)
+    at_angles = bearing.standings(force, speed, None if passage else mount.cage_angle)
+    return force, SmallBalls.of(kernel, state, at_angles)
+
+
+@takes(speeds_rpm="rev/min")
+def unbalance_response(rotor: Rotor, speeds_rpm: ArrayLike, *, passage: bool = True) -> UnbalanceResponse:
+    """Steady response of a rotor to its unbalances, at increasing speeds, films those of each.
+
+    Nothing is known between the speeds: a peak is as wide as decrement/pi of its speed, for films and steel often
+    less than a thousandth, so set speeds that close about those of `Campbell.critical_speeds`.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    speeds_rpm : array_like, shape (k,)
+        In rev/min, > 0.
+    passage : bool
+        Ball bearings as means over a ball passage, as in `linearise`.
+
+    Raises
+    ------
+    InputError
+        A rotor without unbalance, a speed that a bearing does not take.
+    """
+    speeds = as_column("speeds_rpm", speeds_rpm, increasing=True)
+    if not rotor.unbalances:
+        raise InputError("unbalances", (), "at least one Unbalance")
+    if speeds[0] <= 0.0:
+        raise InputError("speeds_rpm[0]", float(speeds[0]), "> 0")
+    found = [linearise(rotor, s, passage=passage)._unbalanced(s * RADIANS) for s in speeds.tolist()]
+    return UnbalanceResponse.of(rotor, speeds, np.array(found))

@@ -1,17 +1,19 @@
-"""Damped vibrations of a rotor whose bearings remember: roots of T(s) q = 0 with T(s) exact at complex s.
+"""Damped vibrations of a rotor on supports with memory: roots of T(s) q = 0.
 
     T(s) = s^2 M + s (C + omega G) + K + B^T Z(s) B
 
 Each is found from the eigenvectors of the matrices that the bearings have at a frequency, first 0 (without their
 damping, which may be large there), then its own, and closed by Newton's method on (q, s) together: what memory and
-damping make of Z off the imaginary axis is in. What was found already is not taken again: the next best is tried.
+damping make of Z off the imaginary axis is in. Where Z is known on that axis alone, K and C of the mode's own
+frequency stand for it, K + s C: exact where it is hardly damped, and to first order in the damping otherwise. A
+root found already is not taken again: the next best is tried.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import hypot, pi
+from math import hypot, inf, pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,12 +21,16 @@ from scipy import linalg
 
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.summary import Summary
+from reduced_models.rotor.nodes import ByNode
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 Matrices = tuple[_Floats, _Floats, _Floats]
 
 CLOSED = 1e-8  # relative change of an eigenvalue that ends Newton's method: what it leaves is of its square
+# Likewise where Z is known on the imaginary axis alone: its change with the frequency is no part of the slopes, so
+# what is left falls by a factor only
+CLOSED_BY_STEPS = 1e-12
 MOST_ROUNDS = 50  # of it: five, in a rotor whose bearings damp it little
 PROBE = 1e-5  # of |s|: difference quotients of Z, which only steer Newton's method
 SAME = 1e-6  # relative difference of eigenvalues that may be one
@@ -35,7 +41,7 @@ NO_OSCILLATION = 1e-7  # of the fastest mode: below, a frequency is the rounding
 
 
 @dataclass(frozen=True, eq=False)
-class WhirlMode(Summary):
+class RotorMode(Summary, ByNode):
     """One damped vibration of a rotor.
 
     Attributes
@@ -46,15 +52,27 @@ class WhirlMode(Summary):
         Complex displacements, the largest 1.
     whirl : float
         1: nodes circle with the shaft (from x to y); -1: against it; 0: they move on straight lines. Mean over
-        the nodes of bearings and unbalances, weighed by their squared displacements.
+        the nodes of supports and unbalances, weighed by their squared displacements.
+    support_share : float
+        Of the strain energy, in the supports that are not linear; the rest bends the shaft.
+    names : tuple of str
+        Names of degrees of freedom, as "disc x".
+    places : ndarray, shape (len(names),)
+        Those degrees of freedom.
     """
 
     eigenvalue: complex
     shape: _Complex
     whirl: float
+    support_share: float
+    names: tuple[str, ...]
+    places: NDArray[np.int64]
 
     def _summary_lines(self) -> list[str]:
-        return [f"{self.hz:.5g} Hz, logarithmic decrement {self.decrement:.4g}, whirl {self.whirl:.3g}"]
+        return [
+            f"{self.hz:.5g} Hz, logarithmic decrement {self.decrement:.4g}, whirl {self.whirl:.3g}",
+            f"{100.0 * self.support_share:.3g} % of the strain energy in the supports",
+        ]
 
     @property
     def omega(self) -> float:
@@ -76,6 +94,28 @@ class WhirlMode(Summary):
         """Share of critical damping."""
         return -self.eigenvalue.real / hypot(self.eigenvalue.real, self.eigenvalue.imag)
 
+    @property
+    def vertical_share(self) -> float:
+        """Share of the squared displacements of the named nodes across the shaft that is along y."""
+        found = {at[direction]: direction for at in self.nodes.values() for direction in "xy" if direction in at}
+        squares = {place: float(np.abs(self.shape[place]) ** 2) for place in found}
+        up = sum(square for place, square in squares.items() if found[place] == "y")
+        return up / sum(squares.values())
+
+    def node(self, name: str) -> _Complex:
+        """Complex displacements x, y of a node, shape (2,)."""
+        return self._node(self.shape, name)
+
+    @property
+    def disc(self) -> _Complex:
+        """Complex displacements x, y of the node "disc", shape (2,)."""
+        return self.node("disc")
+
+    @property
+    def journal(self) -> _Complex:
+        """Complex displacements x, y of the node "journal", shape (2,)."""
+        return self.node("journal")
+
 
 def eigenvectors(matrices: Matrices, impedance: _Complex, omega: float) -> tuple[_Complex, _Complex]:
     """Vibrations with K + i w C of the bearings frozen, slowest first: eigenvalues, vectors as columns."""
@@ -92,10 +132,13 @@ def eigenvectors(matrices: Matrices, impedance: _Complex, omega: float) -> tuple
     return values[order], vectors[:size, order]
 
 
-def close(dynamic: Callable[[complex], _Complex], s: complex, q: _Complex) -> tuple[complex, _Complex]:
+def close(
+    dynamic: Callable[[complex], _Complex], s: complex, q: _Complex, closed: float = CLOSED
+) -> tuple[complex, _Complex]:
     """Newton's method for T(s) q = 0 from near a root; `dynamic` gives T."""
     size, fixed = len(q), q.conj() / np.vdot(q, q)
     system, residual = np.zeros((size + 1, size + 1), complex), np.zeros(size + 1, complex)
+    moved = inf
     for _ in range(MOST_ROUNDS):
         step = PROBE * abs(s)
         T = dynamic(s)
@@ -104,7 +147,9 @@ def close(dynamic: Callable[[complex], _Complex], s: complex, q: _Complex) -> tu
         residual[:size] = T @ q
         change = np.linalg.solve(system, -residual)
         q, s = q + change[:size], s + complex(change[size])
-        if abs(change[size]) <= CLOSED * abs(s):
+        moved, last = abs(change[size]), moved
+        by_rounding = 0.5 * last <= moved <= CLOSED * abs(s)
+        if moved <= closed * abs(s) or by_rounding:
             return s, q
     raise ConvergenceError(f"mode near {s.imag / (2.0 * pi):.4g} Hz not found", None)
 
@@ -123,9 +168,10 @@ def is_new(s: complex, q: _Complex, found: Sequence[tuple[complex, _Complex]]) -
     return bool(np.linalg.svd(shapes, compute_uv=False)[-1] > NEW) if len(shapes) <= q.size else False
 
 
-def shaped(s: complex, q: _Complex, pairs: list[tuple[int, int]]) -> WhirlMode:
-    """A mode from its eigenvector; `pairs` are the degrees of freedom x, y of nodes."""
-    q = q / q[np.argmax(np.abs(q))]
-    x, y = (q[[pair[k] for pair in pairs]] for k in range(2))
+def whirl_of(q: _Complex, pairs: Sequence[tuple[int | None, ...]]) -> float:
+    """Sense of rotation of a shape, from -1 to 1; `pairs` are the degrees of freedom x, y of nodes."""
+    moving = np.append(q, 0.0)  # what does not move that way
+    places = np.array([[-1 if place is None else place for place in pair] for pair in pairs])
+    x, y = moving[places[:, 0]], moving[places[:, 1]]
     squares = float((np.abs(x) ** 2 + np.abs(y) ** 2).sum())
-    return WhirlMode(s, q, -2.0 * float((x.conj() * y).imag.sum()) / squares if squares > 0.0 else 0.0)
+    return -2.0 * float((x.conj() * y).imag.sum()) / squares if squares > 0.0 else 0.0

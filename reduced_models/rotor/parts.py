@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from ehlcontact.checks import (
     as_column,
     require_finite,
-    require_instance,
     require_integer,
     require_nonnegative,
     require_positive,
@@ -25,7 +24,8 @@ from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary, span
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.rotor.beam import Piece
-from reduced_models.rotor.rotor import BearingMount, Unbalance
+from reduced_models.rotor.rotor import Unbalance
+from reduced_models.rotor.supports import BearingMount, LinearBearing, require_bearing
 
 _Floats = NDArray[np.float64]
 
@@ -239,13 +239,13 @@ class Disc(Summary):
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Support(Summary):
-    """A ball bearing under the shaft, on the ground or in a housing on springs.
+    """A bearing under the shaft, on the ground or in a housing on springs.
 
     Parameters
     ----------
     position : float
         In m.
-    bearing : BallBearing
+    bearing : BallBearing or LinearBearing
     cage_angle : float
         Of the first ball at the start [rad].
     journal_mass : float
@@ -257,7 +257,7 @@ class Support(Summary):
     """
 
     position: float
-    bearing: BallBearing
+    bearing: BallBearing | LinearBearing
     cage_angle: float = -pi / 2.0
     journal_mass: float = 0.0
     housing_mass: float | None = None
@@ -273,7 +273,7 @@ class Support(Summary):
 
     def __post_init__(self) -> None:
         require_finite("position", self.position)
-        require_instance("bearing", self.bearing, BallBearing, "a BallBearing")
+        require_bearing("bearing", self.bearing)
         BearingMount(bearing=self.bearing, x=0, y=1, cage_angle=self.cage_angle)
         require_nonnegative("journal_mass", self.journal_mass)
         if (self.housing_mass is None) != (self.housing_stiffness is None):

@@ -33,7 +33,7 @@ def draw_run(
     most_hz: _Ends,
     shown: list[tuple[str, Any]],
 ) -> Any:
-    """Orbits, spectra or waterfalls of motions of a `BearingRun` side by side, under their titles."""
+    """Orbits, spectra or waterfalls of motions of a `RotorResult` side by side, under their titles."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(max(4.6 * len(shown), SIZE[0]), SIZE[1]), layout="constrained")
@@ -190,7 +190,8 @@ def draw_unbalance(response: Any, path: str | os.PathLike[str] | None) -> Any:
     """Largest displacement on the orbit of every node over the speed, and phases of x."""
     speed = response.speed_rpm, ("speed", "rev/min")
     names = [_place(response, k) for k in range(len(response.nodes))]
-    phases = np.degrees(np.unwrap(np.angle(response.amplitude[:, response.nodes[:, 0]]), axis=0))
+    across = np.where(response.nodes[:, 0] < 0, response.nodes[:, 1], response.nodes[:, 0])  # y where x is held
+    phases = np.degrees(np.unwrap(np.angle(response.amplitude[:, across]), axis=0))
     half_axes = [(name, response.major[:, k], None) for k, name in enumerate(names)]
     behind = [(name, phases[:, k], None) for k, name in enumerate(names)]
     panels = (

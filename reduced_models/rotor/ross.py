@@ -19,7 +19,9 @@ from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.motion import BearingMotion
 from reduced_models.bearing.ross import import_ross, ross_entries
-from reduced_models.rotor.rotor import BearingMount, Rotor, Unbalance
+from reduced_models.rotor.rotor import Rotor, Unbalance
+from reduced_models.rotor.step import active_mounts
+from reduced_models.rotor.supports import BearingMount
 
 _Floats = NDArray[np.float64]
 
@@ -41,7 +43,7 @@ def from_ross(
     gravity: bool = True,
     replace: bool = False,
 ) -> Rotor:
-    """Bending of a rotor of ROSS on ball bearings, for `simulate_on_bearings`.
+    """Bending of a rotor of ROSS on ball bearings, for `simulate_rotor`.
 
     Degrees of freedom 4 n to 4 n + 3 of the result are x, y and the turns about them of node n of the shaft. What
     ROSS has for a changing speed beside the gyroscopic matrix (`Ksdt`) is left out.
@@ -115,7 +117,7 @@ class RossCallback:
         found = force.rotor.run_time_response(force.speed, F, t, method="newmark", add_to_RHS=force)
         displacement = force.rest + found.yout
 
-    Steps have one length. `simulate_on_bearings` does the same with forces at the end of the step.
+    Steps have one length. `simulate_rotor` does the same with forces at the end of the step.
 
     Parameters
     ----------
@@ -150,9 +152,9 @@ class RossCallback:
         rest = ours.equilibrium(speed_rpm)
         reaction = ours.load - ours.stiffness @ rest
         self._linear, elements = [], {}
-        for mount, (node, linked) in zip(ours.mounts, nodes.items(), strict=True):
+        for mount, (node, linked) in zip(active_mounts(ours)[1], nodes.items(), strict=True):
             force = reaction[[mount.x, mount.y]]
-            found = mount.bearing.coefficients(force, speed_rpm=speed_rpm, rpm=speed_rpm)
+            found = mount.ball_bearing.coefficients(force, speed_rpm=speed_rpm, rpm=speed_rpm)
             elements[node] = ross.BearingElement(
                 n=node, n_link=linked, **ross_entries(found.stiffness, found.damping)
             )
@@ -212,7 +214,8 @@ class RossCallback:
         held = self._rings @ self.rest
         self._step, self._dt, self._forces = step, dt, [np.zeros(0)]
         self._motions = [
-            BearingMotion(m.bearing.kernel(self._rpm), self._rpm, dt, m.cage_angle) for m in self._ours.mounts
+            BearingMotion(m.ball_bearing.kernel(self._rpm), self._rpm, dt, m.cage_angle)
+            for m in active_mounts(self._ours)[1]
         ]
         self._still = [motion.rest(held[2 * b : 2 * b + 2]) for b, motion in enumerate(self._motions)]
 

@@ -1,14 +1,16 @@
-"""Any linear rotor on ball bearings: its matrices, where the bearings sit, what loads it.
+"""A linear rotor on supports: its matrices, its supports, what loads it.
 
     M q'' + (C + omega G) q' + K q + B^T F(B q, B q') = load + unbalance
 
-Where the matrices come from does not matter: own beams, ROSS, a reduction that keeps the nodes of the bearings.
+Where the matrices come from does not matter: `JeffcottRotor`, shaft and discs, ROSS, a reduction that keeps the
+degrees of freedom of the supports.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 from math import pi
 from types import MappingProxyType
 from typing import Any
@@ -16,63 +18,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import (
-    as_column,
-    as_rows,
-    require_finite,
-    require_instance,
-    require_integer,
-)
+from ehlcontact.checks import as_column, as_rows, require_finite, require_instance, require_integer
 from ehlcontact.checks.quantity import fields_take
-from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary
-from reduced_models.bearing.ball_bearing import BallBearing
-from reduced_models.bearing.equilibrium import StaticBalls
+from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.rotor.equilibrium import equilibrium
+from reduced_models.rotor.supports import BearingMount, ContactMount, is_ball_bearing
 
 _Floats = NDArray[np.float64]
-
-GUESS = 1e8  # N/m, springs in place of the bearings from which the search for the equilibrium starts
-SUPPORT = 1.0  # N/m, beside the slopes of a bearing that is open in some direction
-BALANCED = 1e-10  # imbalance over the load that ends it
-MOST_STEPS, MOST_HALVINGS = 60, 30  # of that search
+Matrices = tuple[_Floats, _Floats, _Floats]
+Mount = BearingMount | ContactMount
 
 
-@fields_take(cage_angle="rad")
-@dataclass(frozen=True, kw_only=True)
-class BearingMount(Summary):
-    """A bearing between two degrees of freedom of the shaft and the ground, or those of a housing.
+class _Nodes(dict[str, Mapping[str, int]]):
+    """Degrees of freedom by node; the error for a name that is missing lists those that exist."""
 
-    Parameters
-    ----------
-    bearing : BallBearing
-    x, y : int
-        Degrees of freedom of the shaft.
-    housing : (int, int), optional
-        Those of the housing, which the outer ring moves with.
-    cage_angle : float
-        Of the first ball at the start [rad].
-    """
-
-    bearing: BallBearing
-    x: int
-    y: int
-    housing: tuple[int, int] | None = None
-    cage_angle: float = -pi / 2.0
-
-    def _summary_lines(self) -> list[str]:
-        on = "the ground" if self.housing is None else f"a housing at {self.housing[0]}, {self.housing[1]}"
-        return [f"{self.bearing.name or 'ball bearing'} at degrees of freedom {self.x}, {self.y}, on {on}"]
-
-    def __post_init__(self) -> None:
-        require_instance("bearing", self.bearing, BallBearing, "a BallBearing")
-        if abs(require_finite("cage_angle", self.cage_angle)) > 2.0 * pi:
-            raise InputError("cage_angle", self.cage_angle, "between -2 pi and 2 pi; angles are in radians")
-
-
-class _Names(dict[str, tuple[int, int]]):
-    """Degrees of freedom by name; a name that is not there is told with those that are."""
-
-    def __missing__(self, name: object) -> tuple[int, int]:
+    def __missing__(self, name: object) -> Mapping[str, int]:
         raise InputError("node", name, f"one of {', '.join(self)}" if self else "none: the rotor has no names")
 
 
@@ -83,16 +45,16 @@ class Unbalance:
 
     Parameters
     ----------
-    x, y : int
-        The two degrees of freedom, across the shaft.
+    x, y : int or None
+        The two degrees of freedom, across the shaft; None: it does not move that way.
     amount : float
         Mass times eccentricity [kg m].
     phase : float
         Ahead of the angle of the shaft [rad].
     """
 
-    x: int
-    y: int
+    x: int | None
+    y: int | None
     amount: float
     phase: float = 0.0
 
@@ -104,20 +66,21 @@ class Unbalance:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Rotor(Summary):
-    """A linear rotor on ball bearings, SI units.
+    """A linear rotor on supports, SI units.
 
     Parameters
     ----------
     mass, stiffness : array_like, shape (N, N)
-        Without the bearings; the stiffness may leave the rotor free.
+        Without the supports; the stiffness may leave the rotor free.
     damping, gyroscopic : array_like, shape (N, N), optional
         The damping force is ``(damping + omega gyroscopic) q'`` at the speed omega [rad/s].
-    mounts : tuple of BearingMount
+    mounts : tuple of BearingMount or ContactMount
+        Its supports.
     load : array_like, shape (N,), optional
         Constant forces [N], weight for one.
     unbalances : tuple of Unbalance
-    nodes : mapping of str to (int, int), optional
-        Names for degrees of freedom x, y, as "disc".
+    nodes : mapping of str to mapping of str to int, optional
+        Degrees of freedom by node and direction, as ``{"disc": {"x": 4, "y": 5}}``.
 
     Raises
     ------
@@ -127,18 +90,21 @@ class Rotor(Summary):
 
     mass: _Floats
     stiffness: _Floats
-    mounts: tuple[BearingMount, ...]
+    mounts: tuple[Mount, ...]
     damping: _Floats = None  # type: ignore[assignment]
     gyroscopic: _Floats = None  # type: ignore[assignment]
     load: _Floats = None  # type: ignore[assignment]
     unbalances: tuple[Unbalance, ...] = ()
-    nodes: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+    nodes: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
 
     def _summary_lines(self) -> list[str]:
-        bearings = ", ".join(mount.bearing.name or "ball bearing" for mount in self.mounts)
+        bearings = [m.bearing.name or "ball bearing" for m in self.mounts if isinstance(m, BearingMount)]
+        contacts = [m for m in self.mounts if isinstance(m, ContactMount)]
+        on = [f"{len(bearings)} bearings: {', '.join(bearings)}"] if bearings else []
+        on += [f"{len(contacts)} contacts"] if contacts else []
         amounts = ", ".join(f"{1e6 * abs(unbalance.amount):.4g}" for unbalance in self.unbalances)
         return [
-            f"{len(self.mass)} degrees of freedom on {len(self.mounts)} bearings: {bearings}",
+            f"{len(self.mass)} degrees of freedom on {' and '.join(on)}",
             f"nodes {', '.join(self.nodes)}" if self.nodes else "nodes without names",
             f"unbalances {amounts} g mm" if amounts else "no unbalance",
         ]
@@ -159,32 +125,38 @@ class Rotor(Summary):
         object.__setattr__(self, "load", load)
         object.__setattr__(self, "mounts", tuple(self.mounts))
         object.__setattr__(self, "unbalances", tuple(self.unbalances))
-        if not self.mounts:
-            raise InputError("mounts", (), "at least one BearingMount")
-        taken: list[tuple[int, int]] = []
-        for i, mount in enumerate(self.mounts):
-            require_instance(f"mounts[{i}]", mount, BearingMount, "a BearingMount")
-            ends = [(mount.x, mount.y), *([mount.housing] if mount.housing is not None else [])]
-            for x, y in ends:
-                self._require_there(f"mounts[{i}]", (x, y))
-            if ends[0] in taken:
-                raise InputError(f"mounts[{i}]", ends[0], "at degrees of freedom that no other bearing has")
-            taken.append(ends[0])
+        self._check_mounts()
         for i, unbalance in enumerate(self.unbalances):
             self._require_there(f"unbalances[{i}]", (unbalance.x, unbalance.y))
-        object.__setattr__(
-            self, "nodes", MappingProxyType(_Names((k, (at[0], at[1])) for k, at in self.nodes.items()))
-        )
-        for name, pair in self.nodes.items():
-            self._require_there(f"nodes[{name!r}]", pair)
+        named = {name: MappingProxyType(dict(at)) for name, at in self.nodes.items()}
+        object.__setattr__(self, "nodes", MappingProxyType(_Nodes(named)))
+        for name, at in named.items():
+            self._require_there(f"nodes[{name!r}]", tuple(at.values()))
 
-    def _require_there(self, field: str, pair: Any) -> None:
+    def _check_mounts(self) -> None:
+        if not self.mounts:
+            raise InputError("mounts", (), "at least one support")
+        taken: list[tuple[int | None, ...]] = []
+        for i, mount in enumerate(self.mounts):
+            require_instance(f"mounts[{i}]", mount, Mount, "a BearingMount or ContactMount")
+            for end in mount.ends:
+                self._require_there(f"mounts[{i}]", end)
+            if isinstance(mount, BearingMount):
+                if mount.ends[0] in taken:
+                    raise InputError(
+                        f"mounts[{i}]", mount.ends[0], "at degrees of freedom that no other bearing has"
+                    )
+                taken.append(mount.ends[0])
+
+    def _require_there(self, field: str, places: tuple[Any, ...]) -> None:
+        """Raise `InputError` for degrees of freedom that do not exist, or of which two are one."""
         allowed = f"two different degrees of freedom from 0 to {self.size - 1}"
-        for value in pair:
+        given = [place for place in places if place is not None]
+        for value in given:
             if require_integer(field, value, allowed, 0) >= self.size:
-                raise InputError(field, pair, allowed)
-        if pair[0] == pair[1]:
-            raise InputError(field, pair, allowed)
+                raise InputError(field, places, allowed)
+        if len(set(given)) < max(len(given), 1):
+            raise InputError(field, places, allowed)
 
     @property
     def size(self) -> int:
@@ -192,15 +164,26 @@ class Rotor(Summary):
         return len(self.mass)
 
     @property
-    def rings(self) -> _Floats:
-        """Displacements of the inner rings against the outer ones from those of the rotor, (2 bearings, N)."""
-        rows = np.zeros((2 * len(self.mounts), self.size))
-        for b, mount in enumerate(self.mounts):
-            rows[2 * b, mount.x] = rows[2 * b + 1, mount.y] = 1.0
-            if mount.housing is not None:
-                rows[2 * b, mount.housing[0]] -= 1.0
-                rows[2 * b + 1, mount.housing[1]] -= 1.0
-        return rows
+    def support_rows(self) -> _Floats:
+        """Motions of all supports from the displacements of the rotor, shape (directions of all supports, N)."""
+        return np.concatenate([mount.rows(self.size) for mount in self.mounts])
+
+    @property
+    def support_columns(self) -> tuple[slice, ...]:
+        """Where the directions of each support are among those of all."""
+        ends = np.cumsum([0, *(len(mount.directions) for mount in self.mounts)]).tolist()
+        return tuple(slice(first, end) for first, end in pairwise(ends))
+
+    def matrices(self, omega: float) -> Matrices:
+        """Mass, damping with the gyroscopic part, and stiffness at a speed [rad/s], linear bearings added."""
+        damping = self.damping + omega * self.gyroscopic
+        stiffness = self.stiffness
+        for mount in self.mounts:
+            if isinstance(mount, BearingMount) and not is_ball_bearing(mount):
+                rows = mount.rows(self.size)
+                K, C = mount.bearing.at(omega / RADIANS)  # type: ignore[union-attr]
+                stiffness, damping = stiffness + rows.T @ K @ rows, damping + rows.T @ C @ rows
+        return self.mass, damping, stiffness
 
     def equilibrium(self, speed_rpm: float = 0.0) -> _Floats:
         """Displacements at rest under the load, films as at a speed, shape (N,) [m].
@@ -208,40 +191,8 @@ class Rotor(Summary):
         Raises
         ------
         InputError
-            A speed that a bearing does not take.
+            A speed that a bearing does not take, a contact without static law.
         ConvergenceError
-            The bearings do not hold it.
+            The supports do not hold it; ``result`` is the last displacement.
         """
-        to_rings, load = self.rings, self.load
-        held = [
-            StaticBalls(
-                m.bearing.kernel(m.bearing.speed(speed_rpm)), m.bearing.speed_state(speed_rpm), m.cage_angle
-            )
-            for m in self.mounts
-        ]
-
-        def imbalance(q: _Floats) -> _Floats:
-            r = to_rings @ q
-            forces = np.concatenate([ring.force(r[2 * b : 2 * b + 2]) for b, ring in enumerate(held)])
-            return np.asarray(self.stiffness @ q + to_rings.T @ forces - load)
-
-        springs = self.stiffness + GUESS * to_rings.T @ to_rings
-        q: _Floats = np.asarray(np.linalg.solve(springs, load), np.float64)
-        residual, size = imbalance(q), float(np.linalg.norm(load))
-        for _ in range(MOST_STEPS):
-            if np.linalg.norm(residual) <= BALANCED * max(size, 1.0):
-                return q
-            r, slopes = to_rings @ q, np.zeros((len(to_rings), len(to_rings)))
-            for b, ring in enumerate(held):
-                at = slice(2 * b, 2 * b + 2)
-                slopes[at, at] = ring.tangent(r[at]) + SUPPORT * np.eye(2)
-            step = np.linalg.solve(self.stiffness + to_rings.T @ slopes @ to_rings, -residual)
-            for _ in range(MOST_HALVINGS):
-                new = imbalance(q + step)
-                if np.linalg.norm(new) < np.linalg.norm(residual):
-                    break
-                step *= 0.5
-            q, residual = q + step, imbalance(q + step)
-        raise ConvergenceError(
-            f"no equilibrium: {np.linalg.norm(residual):.3g} N of {size:.3g} N are not carried", q
-        )
+        return equilibrium(self, speed_rpm)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,8 @@ from reduced_models.elements.base import ContactElement
 from reduced_models.elements.validity import OutsideValidityWarning
 from reduced_models.rotor.decay import STILL
 from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
-from reduced_models.rotor.simulate import RotorResult, simulate_rotor
+from reduced_models.rotor.result import RotorResult
+from reduced_models.rotor.simulate import simulate_rotor
 
 _Floats = NDArray[np.float64]
 
@@ -97,7 +98,7 @@ class Settling:
 def settling(result: RotorResult, *, limit: float = SETTLED) -> Settling:
     """Compare successive revolutions of a run at constant speed.
 
-    The change of a revolution is the largest, over displacements of disc and journal and forces of all contacts,
+    The change of a revolution is the largest, over all displacements and forces,
     of the RMS difference from the revolution before over the standard deviation of the signal in the revolution.
 
     Parameters
@@ -130,23 +131,15 @@ def steps_per_revolution(result: RotorResult) -> int:
     Raises
     ------
     InputError
-        No speed, or no whole number.
+        No speed, a speed that changes, or no whole number.
     """
-    if result.rotor.speed_rpm == 0.0 or result.t.size < 2:
-        raise InputError("run", f"{result.t.size} times at {result.rotor.speed_rpm:g} rpm", "of a turning rotor")
-    steps = 60.0 / result.rotor.speed_rpm / float(result.t[1] - result.t[0])
+    speed = float(result.speed_rpm[0])
+    if speed == 0.0 or result.t.size < 2 or np.ptp(result.speed_rpm) > 0.0:
+        raise InputError("run", f"{result.t.size} times at {speed:g} rpm", "of a turning rotor, at one speed")
+    steps = 60.0 / speed / float(result.t[1] - result.t[0])
     if abs(steps - round(steps)) > 1e-6 * steps:
         raise InputError("steps per revolution", steps, "a whole number")
     return round(steps)
-
-
-def part_of(result: RotorResult, first: int, last: int | None = None, *, keep_time: bool = True) -> RotorResult:
-    """Samples `first` to `last` of a run, both included; with ``keep_time=False`` their time starts at 0."""
-    end = None if last is None else last + 1
-    cut = {name: v[first:end].copy() for name, v in vars(result).items() if isinstance(v, np.ndarray)}
-    if not keep_time:
-        cut["t"] = cut["t"] - cut["t"][0]
-    return replace(result, **cut)  # type: ignore[arg-type]
 
 
 def run_until_settled(
@@ -155,7 +148,7 @@ def run_until_settled(
     *,
     steps: int,
     revolutions: int,
-    start: RotorState,
+    start: RotorState | tuple[_Floats, _Floats],
     tolerance: float = 1e-6,
 ) -> RotorResult:
     """Let a rotor on elements turn until it has settled, and return its last revolutions, from t = 0 on.
@@ -171,8 +164,8 @@ def run_until_settled(
         In a revolution.
     revolutions : int
         Returned; settled if they could be, which `settling` tells.
-    start : RotorState
-        Near the settled motion, as of `LinearRotor.orbit_state`.
+    start : RotorState or (ndarray, ndarray)
+        Near the settled motion, as of `LinearRotor.orbit`.
     tolerance : float
         Of `simulate_rotor`.
 
@@ -184,10 +177,12 @@ def run_until_settled(
     require_integer("steps", steps, "a whole number >= 8", 8)
     require_integer("revolutions", revolutions, "a whole number >= 1", 1)
     contacts = [element.copy() for element in elements]
-    for contact, approach in zip(contacts, rotor.approaches(start.journal).tolist(), strict=True):
+    state = rotor.motion(start) if isinstance(start, RotorState) else start
+    approaches = rotor.on(contacts).support_rows @ state[0] + rotor.offsets
+    for contact, approach in zip(contacts, approaches.tolist(), strict=True):
         contact.rest(approach)
     dt = 60.0 / rotor.speed_rpm / steps
-    turns, state, done = max(FIRST_REVOLUTIONS, revolutions + 1), start, 0
+    turns, done = max(FIRST_REVOLUTIONS, revolutions + 1), 0
     while True:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", OutsideValidityWarning)
@@ -197,15 +192,10 @@ def run_until_settled(
         done += turns
         change = settling(run).last_change
         if done >= MOST_REVOLUTIONS or (change is not None and change <= QUIET):
-            return part_of(run, run.t.size - 1 - revolutions * steps, keep_time=False)
-        state, turns = end_of(run), max(done, revolutions + 1)
-
-
-def end_of(result: RotorResult) -> RotorState:
-    """State at the end of a run."""
-    return RotorState(result.disc[-1], result.journal[-1], result.disc_velocity[-1], result.journal_velocity[-1])
+            return run.part(run.t.size - 1 - revolutions * steps, keep_time=False)
+        state, turns = (run.displacement[-1], run.velocity[-1]), max(done, revolutions + 1)
 
 
 def _signals(result: RotorResult) -> _Floats:
-    """Displacements of both bodies and forces of all contacts, shape (N, signals)."""
-    return np.hstack([result.disc, result.journal, result.force])
+    """Displacements and forces, shape (N, signals)."""
+    return np.hstack([result.displacement, result.force])

@@ -94,5 +94,7 @@ def turning_forces(rotor: Rotor, omega: _Floats, angle: _Floats, rise: _Floats) 
         c, s = np.cos(angle + u.phase), np.sin(angle + u.phase)
         forces[:, 2 * i] = u.amount * (omega**2 * c + rise * s)
         forces[:, 2 * i + 1] = u.amount * (omega**2 * s - rise * c)
-        at[u.x, 2 * i] = at[u.y, 2 * i + 1] = 1.0
+        for k, place in enumerate((u.x, u.y)):
+            if place is not None:
+                at[place, 2 * i + k] = 1.0
     return forces, at

@@ -3,65 +3,55 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, replace
-from typing import Any, ClassVar
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Any, ClassVar, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column
-from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
-from ehlcontact.results.layout import Layout, Tabled
+from ehlcontact.quantities import LENGTH, SPEED, Quantity
+from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
-from ehlcontact.summary import Summary, span
-from reduced_models.rotor.linearise import linearise
+from ehlcontact.summary import span
 from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
+MIXED = Quantity("m, or rad where it turns")
+
 
 @stored("unbalance response")
 @dataclass(frozen=True, eq=False, kw_only=True)
-class UnbalanceResponse(Summary, Tabled):
-    """Amplitudes over the speed, about rest: q(t) = cosine cos(w t) + sine sin(w t), the shaft's angle being w t.
+class UnbalanceResponse(QuantityTable):
+    """Response to unbalance over the rate at which it turns: q(t) = cosine cos(w t) + sine sin(w t) about rest.
 
-    They are linear in the unbalance, however large; what a ring does that moves as far as its balls are pressed in
-    by the load is for `simulate_on_bearings`.
+    The angle of the shaft is w t. Amplitudes are linear in the unbalance, however large; what a ring does that
+    moves as far as its balls are pressed in by the load is for `simulate_rotor`.
 
     Attributes
     ----------
     speed_rpm : ndarray, shape (k,)
-        In rev/min.
+        Rate at which the unbalances turn [rev/min].
     cosine, sine : ndarray, shape (k, N)
         Of all degrees of freedom [m], or rad where they turn.
     nodes : ndarray, shape (n, 2)
-        Degrees of freedom x, y of the nodes with bearings and unbalances.
+        Degrees of freedom x, y of the nodes with supports and unbalances; -1: it does not move that way.
     names : tuple of str
         Of those nodes, "" where the rotor has none.
     """
 
-    speed_rpm: _Floats
-    cosine: _Floats
-    sine: _Floats
+    speed_rpm: Annotated[_Floats, SPEED.over("speed_rpm")]
+    cosine: Annotated[_Floats, MIXED.over("speed_rpm dof")]
+    sine: Annotated[_Floats, MIXED.over("speed_rpm dof")]
     nodes: NDArray[np.int64]
-    names: tuple[str, ...] = ()
+    names: tuple[str, ...] = field(default=())
 
-    LAYOUT: ClassVar[Layout] = Layout(
-        rows="speed_rpm",
-        panels=(),
-        quantities={
-            "speed_rpm": ("rev/min", "speed_rpm"),
-            "major": ("m", "speed_rpm node"),
-            "cosine": ("m, or rad where it turns", "speed_rpm dof"),
-            "sine": ("m, or rad where it turns", "speed_rpm dof"),
-        },
-        first=0,
-    )
+    DISPLAY: ClassVar[Display] = Display(rows="speed_rpm", first=0)
 
-    def _layout(self) -> Layout:
-        return replace(self.LAYOUT, labels={"node": tuple(map(self._name, range(len(self.nodes))))})
+    def _display(self) -> Display:
+        return replace(self.DISPLAY, labels={"node": tuple(map(self._name, range(len(self.nodes))))})
 
     def _name(self, node: int) -> str:
         return next(iter(self.names[node : node + 1]), "") or f"node {node}"
@@ -80,7 +70,7 @@ class UnbalanceResponse(Summary, Tabled):
         table = frame[[head for head in frame.columns if head.startswith("major")]].copy()
         for node, places in enumerate(self.nodes.tolist()):
             of = self._name(node).replace(" ", "_")
-            for axis, k in zip("xy", places, strict=True):
+            for axis, k in ((axis, k) for axis, k in zip("xy", places, strict=True) if k >= 0):
                 table[f"cosine_{of}_{axis} [m]"] = self.cosine[:, k]
                 table[f"sine_{of}_{axis} [m]"] = self.sine[:, k]
         table.attrs.update(frame.attrs)
@@ -95,15 +85,30 @@ class UnbalanceResponse(Summary, Tabled):
             f"at {self.speed_rpm[largest[0]]:.5g} rev/min",
         ]
 
+    @classmethod
+    def of(cls, rotor: Rotor, speeds_rpm: _Floats, amplitude: _Complex) -> Self:
+        """From complex amplitudes, shape (k, N)."""
+        pairs = [*(mount.ends[0] for mount in rotor.mounts), *((u.x, u.y) for u in rotor.unbalances)]
+        places = list(dict.fromkeys((-1 if x is None else x, -1 if y is None else y) for x, y in pairs))
+        known = {(at.get("x", -1), at.get("y", -1)): name for name, at in rotor.nodes.items()}
+        return cls(
+            speed_rpm=speeds_rpm,
+            cosine=amplitude.real.copy(),
+            sine=-amplitude.imag,
+            nodes=np.array(places, np.int64),
+            names=tuple(known.get(pair, "") for pair in places),
+        )
+
     @property
     def amplitude(self) -> _Complex:
         """Complex amplitudes, shape (k, N): q(t) = Re(amplitude exp(i w t))."""
         return np.asarray(self.cosine - 1j * self.sine)
 
     @property
-    def major(self) -> _Floats:
+    def major(self) -> Annotated[_Floats, LENGTH.over("speed_rpm node")]:
         """Larger half axis of the orbits of the nodes, shape (k, n) [m]."""
-        x, y = self.amplitude[:, self.nodes[:, 0]], self.amplitude[:, self.nodes[:, 1]]
+        moving = np.column_stack([self.amplitude, np.zeros(len(self.speed_rpm))])  # -1: does not move that way
+        x, y = moving[:, self.nodes[:, 0]], moving[:, self.nodes[:, 1]]
         return np.asarray(0.5 * (np.abs(x + 1j * y) + np.abs(x - 1j * y)))  # forward and backward circle
 
     def peaks(self, node: int = 0) -> _Floats:
@@ -125,37 +130,3 @@ class UnbalanceResponse(Summary, Tabled):
         from reduced_models.rotor.picture import draw_unbalance
 
         return draw_unbalance(self, path)
-
-
-@takes(speeds_rpm="rev/min")
-def unbalance_response(rotor: Rotor, speeds_rpm: ArrayLike, *, passage: bool = True) -> UnbalanceResponse:
-    """Steady response of a rotor on ball bearings to its unbalances, at increasing speeds, films those of each.
-
-    Nothing is known between the speeds: a peak is as wide as decrement/pi of its speed, for films and steel often
-    less than a thousandth, so set speeds that close about those of `Campbell.critical_speeds`.
-
-    Parameters
-    ----------
-    rotor : Rotor
-    speeds_rpm : array_like, shape (k,)
-        In rev/min, > 0.
-    passage : bool
-        Bearings as means over a ball passage, as in `linearise`.
-
-    Raises
-    ------
-    InputError
-        A rotor without unbalance, a speed that a bearing does not take.
-    """
-    speeds = as_column("speeds_rpm", speeds_rpm, increasing=True)
-    if not rotor.unbalances:
-        raise InputError("unbalances", (), "at least one Unbalance")
-    if speeds[0] <= 0.0:
-        raise InputError("speeds_rpm[0]", float(speeds[0]), "> 0")
-    found = [linearise(rotor, s, passage=passage).unbalance_response(rpm=s)[0] for s in speeds.tolist()]
-    places = list(dict.fromkeys([(m.x, m.y) for m in rotor.mounts] + [(u.x, u.y) for u in rotor.unbalances]))
-    known = {pair: name for name, pair in rotor.nodes.items()}
-    q, names = np.array(found), tuple(known.get(pair, "") for pair in places)
-    return UnbalanceResponse(
-        speed_rpm=speeds, cosine=q.real.copy(), sine=-q.imag, nodes=np.array(places, np.int64), names=names
-    )

@@ -84,18 +84,18 @@ def test_spectrum_shows_amplitudes():
     """Of a run with known ones, over its settled part: 3 um twice a revolution, 7 N once, whatever the means."""
     from ehlcontact import Status
     from ehlcontact.cli.plots.rotor import spectrum
-    from reduced_models import JeffcottRotor, RotorResult, Settling
+    from reduced_models import RotorResult, Settling
 
-    rotor = JeffcottRotor.vertical(disc_mass=1.0, journal_mass=0.1, shaft_stiffness=1e6, speed_rpm=3000.0)
     t = np.arange(3 * 40 + 1) / 2000.0
     turned = 2.0 * np.pi * 50.0 * t
     start = 1.0 + (t <= 0.02)  # the first of three revolutions is not settled
     moved = np.column_stack([np.zeros(t.size), 1e-6 * start * (20.0 + 3.0 * np.sin(2.0 * turned))])
     force = (100.0 + 7.0 * start * np.cos(turned))[:, None]
     still, once = np.zeros((t.size, 2)), np.zeros((t.size, 1))
-    known = {"t": t, "disc": moved, "journal": moved, "force": force, "iterations": np.ones(t.size)}
-    unknown = {"disc_velocity": still, "journal_velocity": still, "approach": once, "rate": once}
-    run = RotorResult(**known, **unknown, status=Status.CONVERGED, rotor=rotor)
+    known = {"t": t, "displacement": moved, "force": force, "iterations": np.ones(t.size)}
+    unknown = {"velocity": still, "approach": once, "rate": once, "largest_load": np.zeros((0, 2))}
+    places = {"columns": ("contact 1",), "names": ("disc x", "disc y"), "places": np.array([0, 1])}
+    run = RotorResult(**known, **unknown, **places, speed_rpm=np.full(t.size, 3000.0), status=Status.CONVERGED)
     figure = spectrum({"full": run}, Settling((0.5, 0.0), 0.01), {"full": "full film"})
     displacement, load = (np.array([trace.x, trace.y]) for trace in figure.data)
     for (hz, amplitude), (where, size) in ((displacement, (100.0, 3.0)), (load, (50.0, 7.0))):

@@ -10,7 +10,7 @@ from page_numbers import blocks_of, is_shown, numbers_of, unknown_numbers
 from tiny_study import STUDY
 
 from ehlcontact import Lubricant, load, store
-from reduced_models import BallBearing, BearingRun, ContactRecord, fit
+from reduced_models import BallBearing, ContactRecord, RotorResult, fit
 
 # Two balls, another grid for the steady film, and a swing so wild that the run has not settled.
 WILD = {
@@ -213,7 +213,7 @@ def test_whole_bearings(made, results):
     passage = 0.5 * bearing["balls"] * hz * (1.0 - ratio)
     assert found["ball_passage_hz"] == pytest.approx(passage, rel=1e-9) and found["failed"] == {}
     for name in ("memory", "dry"):
-        run, row = store.load(made[1] / f"on_bearings_{name}.h5", BearingRun), found["runs"][name]
+        run, row = store.load(made[1] / f"on_bearings_{name}.h5", RotorResult), found["runs"][name]
         first = asked["revolutions"] // 2 * asked["steps_per_revolution"]
         t, ring, disc = run.t[first:], run.ring[first:, 0], run.displacement[first:, 2:4]
         waves = np.exp(2j * np.pi * t[:, None] * np.array([hz, 2.0 * hz, passage, 2.0 * passage]))

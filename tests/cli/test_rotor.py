@@ -7,7 +7,6 @@ from math import pi
 from pathlib import Path
 from types import SimpleNamespace
 
-import h5py
 import numpy as np
 import pytest
 from scipy.optimize import curve_fit
@@ -36,8 +35,8 @@ def found(finished):
 
 
 def stored(folder, name):
-    with h5py.File(folder / f"{name}.h5") as file:
-        return {key: file[key][...] for key in ("t", "journal", "force", "disc")}
+    run = load(folder / f"{name}.h5", RotorResult)
+    return {key: getattr(run, key) for key in ("t", "journal", "force", "disc")}
 
 
 def test_all_contacts_are_compared(results):

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from tiny_study import STUDY
 
+from ehlcontact.cli.study.bearing_rotor import run_whole, whole_rotor
 from ehlcontact.cli.study.forecast import WHOLE, WHOLE_STEP, forecast
 from ehlcontact.cli.study.headline import whole as sentence
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import STAGES
-from ehlcontact.cli.study.whole import run_whole, whole_rotor
-from ehlcontact.cli.study.whole_input import whole_bearing
+from ehlcontact.cli.study.whole_bearing import whole_bearing
 
 PLAIN = STUDY[: STUDY.index("[whole_bearing]")]
 
@@ -70,14 +70,14 @@ def test_what_is_no_whole_bearing(refused, tmp_path, words, old, new):
 
 def test_a_rotor_that_no_bearing_holds_costs_no_study(tmp_path, monkeypatch):
     """The ring is thrown out of its bearing: the others are there, and it is told why."""
-    from ehlcontact.cli.study import whole
+    from ehlcontact.cli.study import bearing_rotor
 
-    original = whole.simulate_on_bearings
+    original = bearing_rotor.simulate_rotor
 
     def wild(rotor, *, start, **others):
         return original(rotor, start=(start[0], start[1] + 50.0), **others)
 
-    monkeypatch.setattr(whole, "simulate_on_bearings", wild)
+    monkeypatch.setattr(bearing_rotor, "simulate_rotor", wild)
     found = run_whole(load_study(study(tmp_path)), tmp_path)
     assert set(found.failed) == {"memory", "dry"} and set(found.ran) == {"constant", "usual"}
     assert "has left it" in found.failed["dry"]

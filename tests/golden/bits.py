@@ -63,7 +63,6 @@ from reduced_models import (
     Disc,
     JeffcottRotor,
     LinearContact,
-    LinearRotor,
     PolynomialContact,
     PowerLawContact,
     ScaledContact,
@@ -80,7 +79,6 @@ from reduced_models import (
     log_decrement,
     rotor_on_bearings,
     sensitivity,
-    simulate_on_bearings,
     simulate_oscillator,
     simulate_rotor,
     unbalance_response,
@@ -401,8 +399,8 @@ def motions() -> Leaves:
         ("elements", VEE, [impedance_about(wide, rest) for rest in VEE.static_forces()]),
         ("full films", UPRIGHT, [film]),
     ):
-        linear = LinearRotor(rotor, films)
-        modes = [[mode.omega, mode.decrement, mode.contact_share] for mode in linear.modes()]
+        linear = linearise(rotor, contacts=films)
+        modes = [[mode.omega, mode.decrement, mode.support_share] for mode in linear.modes()]
         yield f"linear on {name}.modes", np.array(modes)
         yield f"linear on {name}.unbalance", linear.unbalance_response(rpm=[500.0, 3000.0, 9000.0])
     # twice until it differs from the run before by rounding at most
@@ -458,10 +456,10 @@ def bearing_rotors() -> Leaves:
         yield from named(name, rotor, "mass stiffness load")
         yield f"{name}.equilibrium", rotor.equilibrium(3000.0)
         for course, at_speed in {"constant": 3000.0, "run-up": speeds}.items():
-            run = simulate_on_bearings(rotor, speed_rpm=at_speed, dt=1e-5, until=0.02)
+            run = simulate_rotor(rotor, speed_rpm=at_speed, dt=1e-5, until=0.02)
             yield from named(f"{name} {course}", run, history)
         moved = rotor.equilibrium(3000.0) + 1e-7, np.zeros(rotor.size)
-        run = simulate_on_bearings(rotor, speed_rpm=3000.0, dt=1e-5, until=0.01, start=moved)
+        run = simulate_rotor(rotor, speed_rpm=3000.0, dt=1e-5, until=0.01, start=moved)
         yield from named(f"{name} pushed", run, history)
         for passage in (True, False):
             small = linearise(rotor, 3000.0, passage=passage)

@@ -1,6 +1,6 @@
 """Ball bearings in a page: load zone, films, Campbell diagram, and the rotor on whole bearings.
 
-`found` is what `cli.study.whole` found.
+`found` is what `cli.study.bearing_rotor` found.
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ from ehlcontact.cli.plots.style import (
     vertical,
 )
 from reduced_models import Decrement, RotorResult, Settling
-from reduced_models.rotor.settled import part_of, steps_per_revolution
+from reduced_models.rotor.settled import steps_per_revolution
 
 MICRO = "\N{MICRO SIGN}m"
 # How each contact is drawn, wherever it is.
@@ -50,7 +50,7 @@ def settled_part(run: RotorResult, how: Settling) -> tuple[RotorResult, bool]:
     first = how.settled_from
     whole = (run.t.size - 1) // steps * steps
     begin = whole - steps if first is None else first * steps
-    return part_of(run, begin, whole), first is not None
+    return run.part(begin, whole), first is not None
 
 
 def orbit(runs: Mapping[str, RotorResult], how: Settling, names: Names) -> go.Figure:
@@ -58,7 +58,7 @@ def orbit(runs: Mapping[str, RotorResult], how: Settling, names: Names) -> go.Fi
 
     Of a rotor that moves only up and down, velocity against displacement.
     """
-    planar = len(runs["full"].rotor.axes) == 2
+    planar = "x" in runs["full"].nodes["disc"]
     figure = grid(1, 2, heights=[360], titles=["disc", "journal"])
     labels = (f"x [{MICRO}]", f"y [{MICRO}]") if planar else (f"displacement y [{MICRO}]", "velocity [mm/s]")
     for col, body in ((1, "disc"), (2, "journal")):
@@ -124,7 +124,7 @@ def spectrum(runs: Mapping[str, RotorResult], how: Settling, names: Names) -> go
         (f"disc y [{MICRO}]", lambda run: run.disc[:, 1] * 1e6),
         ("force of contact 1 [N]", lambda run: run.force[:, 0]),
     )
-    speed = runs["full"].rotor.speed_rpm / 60.0
+    speed = float(runs["full"].speed_rpm[0]) / 60.0
     for col, (label, signal) in enumerate(pairs, start=1):
         highest = 0.0
         for name in [name for name in DRAWN if name in runs]:

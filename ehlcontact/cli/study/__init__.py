@@ -12,11 +12,11 @@ module             responsibility
 ``reduction``      fits, element files, FMU
 ``response``       the film's impedance down to the rotor's frequency, and the linear rotors on it
 ``rotor``          the rotor turning with its unbalance, on full contacts and on elements, and its file
-``kick``           the rotor kicked, its decay and decrement
+``free_decay``     the rotor after a kick: its decay and decrement
 ``bode``           its response to unbalance over frequency
 ``differences``    full films beside elements, and beside what there is without them
-``whole``          the rotor on two whole bearings, with film memory under every ball
-``whole_input``    the bearing that it takes, from the file
+``bearing_rotor``  the rotor on two whole bearings, with film memory under every ball
+``whole_bearing``  the bearing that it takes, from the file
 ``headline``       what was found, in one paragraph
 ``results``        everything in numbers: ``results.json``
 ``report``         ``report.html``

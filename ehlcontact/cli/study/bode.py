@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.cli.study.response import VERTICAL
 from reduced_models import LinearRotor, RotorMode
 
 SPAN = (0.3, 1.7)  # of the slowest resonance, and of the fastest shown, at the ends of the frequencies
@@ -58,31 +57,22 @@ class Bode:
         }
 
 
-def bode(rotors: Mapping[str, LinearRotor]) -> Bode:
-    """Respond over frequencies that show the slowest mode of every direction of every rotor."""
-    slowest = {name: _slowest(linear) for name, linear in rotors.items()}
+def bode(rotors: Mapping[str, LinearRotor], eccentricity: float) -> Bode:
+    """Response over frequencies that show the slowest mode of every direction of every rotor."""
+    slowest = {name: linear.slowest() for name, linear in rotors.items()}
     modes = [mode for by_direction in slowest.values() for mode in by_direction.values()]
     hz = _frequencies(modes)
-    rotor = next(iter(rotors.values())).rotor
-    eccentricity = rotor.unbalance / rotor.disc_mass
-    directions = ["xy"[axis] for axis in rotor.axes]
-    curves: dict[str, dict[str, NDArray[np.complex128]]] = {direction: {} for direction in directions}
-    peaks: dict[str, dict[str, Resonance]] = {direction: {} for direction in directions}
+    disc = next(iter(rotors.values())).rotor.nodes["disc"]
+    curves: dict[str, dict[str, NDArray[np.complex128]]] = {direction: {} for direction in disc}
+    peaks: dict[str, dict[str, Resonance]] = {direction: {} for direction in disc}
     for name, linear in rotors.items():
-        amplitudes = linear.unbalance_response(hz=hz) / eccentricity
-        for column, direction in enumerate(directions):
+        amplitudes = linear.unbalance_response(hz=hz).amplitude / eccentricity
+        for direction, column in disc.items():
             curve = amplitudes[:, column]
             curves[direction][name] = curve
             if direction in slowest[name]:
                 peaks[direction][name] = _peak(hz, np.abs(curve), slowest[name][direction])
     return Bode(hz, curves, peaks)
-
-
-def _slowest(linear: LinearRotor) -> dict[str, RotorMode]:
-    found: dict[str, RotorMode] = {}
-    for mode in linear.modes():
-        found.setdefault("y" if mode.vertical_share >= VERTICAL else "x", mode)
-    return found
 
 
 def _frequencies(modes: list[RotorMode]) -> NDArray[np.float64]:

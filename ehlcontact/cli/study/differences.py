@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from ehlcontact import store
 from ehlcontact.cli.study.bode import Bode, bode
-from ehlcontact.cli.study.kick import decrement_of, kicked_mode, run_decay_reduced
+from ehlcontact.cli.study.free_decay import decrement_of, kicked_mode, run_decay_reduced
 from ehlcontact.cli.study.reduction import CHOSEN, DRY, FULL, UNDAMPED
 from ehlcontact.cli.study.response import linear_rotors, mode_numbers
 from ehlcontact.cli.study.rotor import build_rotor, run_reduced
@@ -177,7 +177,7 @@ def compare_rotors(
         decay=_decay(study, mode, ran, response, folder),
         linear=linear,
         kicked={name: _nearest(one, mode) for name, one in linear.items()},
-        bode=bode(linear),
+        bode=bode(linear, study.rotor.unbalance / study.rotor.disc_mass),
         failed=failed,
     )
 
@@ -248,7 +248,7 @@ def _decay(
 
 
 def _events(ran: _Ran, run: RotorResult, load: float) -> tuple[ContactEvents, ...]:
-    return contact_events(run, load, [ran.element] * len(run.rotor.mounts))
+    return contact_events(run, load, [ran.element] * run.force.shape[1])
 
 
 def _nearest(linear: LinearRotor, mode: RotorMode) -> RotorMode:

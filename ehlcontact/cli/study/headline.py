@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ehlcontact.cli.numerals import numeral, percent
+from ehlcontact.cli.study.bearing_rotor import NAMES
 from ehlcontact.cli.study.differences import Events
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.reduction import CHOSEN, CONTACTS, DRY, FULL, MEMORY, UNDAMPED, WRONG
 from ehlcontact.cli.study.results import Findings
-from ehlcontact.cli.study.whole import NAMES
 
 # Change by half the step, over a signal's standard deviation or the decrement, from which the headline tells it.
 STEP_TOLD = 0.01

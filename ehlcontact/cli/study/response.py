@@ -12,12 +12,19 @@ from ehlcontact.errors import ConvergenceError
 from ehlcontact.impedance import impedance
 from ehlcontact.results import ImpedanceResult
 from ehlcontact.solver.grid import Grid
-from reduced_models import ContactElement, JeffcottRotor, LinearRotor, RotorMode, film_impedance, impedance_about
+from reduced_models import (
+    ContactElement,
+    JeffcottRotor,
+    LinearRotor,
+    RotorMode,
+    film_impedance,
+    impedance_about,
+    linearise,
+)
 from reduced_models.fitting.memory import OMEGAS
-from reduced_models.rotor.linear import Impedance
+from reduced_models.rotor.impedance import Impedance
 
 BELOW = 0.5  # of the rotor's frequency: the lowest one solved, but for rest
-VERTICAL = 0.5  # share of the motion of a mode from which it counts as vertical
 
 
 def film_response(study: Study) -> ImpedanceResult:
@@ -46,7 +53,7 @@ def at_rotor_speed(study: Study, response: ImpedanceResult) -> complex:
 
 def linear_rotor(rotor: JeffcottRotor, impedance_of_one: Impedance) -> LinearRotor:
     """The rotor with this impedance in every contact."""
-    return LinearRotor(rotor, [impedance_of_one] * len(rotor.mounts))
+    return linearise(rotor, contacts=[impedance_of_one] * len(rotor.mounts))
 
 
 def linear_rotors(
@@ -66,10 +73,10 @@ def bounce(linear: LinearRotor) -> RotorMode:
     ConvergenceError
         None oscillates.
     """
-    for mode in linear.modes():
-        if mode.vertical_share >= VERTICAL:
-            return mode
-    raise ConvergenceError("no vertical mode of this rotor oscillates: it is damped too much", None)
+    found = linear.slowest().get("y")
+    if found is None:
+        raise ConvergenceError("no vertical mode of this rotor oscillates: it is damped too much", None)
+    return found
 
 
 def mode_numbers(linear: LinearRotor) -> list[dict[str, Any]]:
@@ -79,7 +86,7 @@ def mode_numbers(linear: LinearRotor) -> list[dict[str, Any]]:
             "hz": mode.hz,
             "decrement": mode.decrement,
             "vertical_share": mode.vertical_share,
-            "contact_share": mode.contact_share,
+            "contact_share": mode.support_share,
         }
         for mode in linear.modes()
     ]

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.assumptions import Assumptions, assumptions
+from ehlcontact.cli.study.bearing_rotor import WholeFindings, run_whole
 from ehlcontact.cli.study.differences import RotorFindings, compare_rotors
 from ehlcontact.cli.study.points.log import versions
 from ehlcontact.cli.study.reduction import (
@@ -28,7 +29,6 @@ from ehlcontact.cli.study.reduction import (
 from ehlcontact.cli.study.response import at_rotor_speed, film_response
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import stages_of
-from ehlcontact.cli.study.whole import WholeFindings, run_whole
 from ehlcontact.errors import InputError
 from ehlcontact.results import SteadyResult
 from ehlcontact.store import load

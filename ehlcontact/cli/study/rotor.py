@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlcontact.cli.study.response import at_rotor_speed, film_response, linear_rotor
+from ehlcontact.cli.study.response import at_rotor_speed, film_response
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.results import ImpedanceResult
@@ -24,12 +24,11 @@ from reduced_models import (
     RotorResult,
     RotorState,
     ScaledContact,
-    impedance_about,
+    linearise,
     local_contact,
-    run_until_settled,
     simulate_rotor,
 )
-from reduced_models.rotor.settled import end_of
+from reduced_models.rotor.settled import run_until_settled
 
 # Of the force balance on full films: at a third of it they take 2 to 3 solves per step in place of 2, and at ten
 # times as much the journal's velocity under a light unbalance shows it.
@@ -85,11 +84,11 @@ def run_full(study: Study, halvings: int, callback: Callable[[int, int], None]) 
     """Rotor with the whole film in every contact, from near its settled motion on."""
     rotor = build_rotor(study)
     contacts = full_contacts(study, rotor)
-    start = rest_of(rotor, contacts)
+    start: Any = rest_of(rotor, contacts)
     try:
         orbit = first_orbit(study, rotor, halvings)
         _lead(contacts, orbit, study.point.scales.time)
-        start = end_of(orbit)
+        start = orbit.displacement[-1], orbit.velocity[-1]
     except ConvergenceError as error:  # a motion so wild that no element, or no film, follows it: then from rest
         if getattr(error.result, "status", None) is Status.INTERRUPTED:
             raise KeyboardInterrupt from None
@@ -129,14 +128,14 @@ def _settled(
     study: Study, rotor: JeffcottRotor, element: ContactElement, halvings: int, revolutions: int
 ) -> RotorResult:
     elements = [element.copy() for _ in rotor.mounts]
-    linear = linear_rotor(rotor, impedance_about(element, study.ball_load))
+    linear = linearise(rotor, contacts=elements)
     with told_elsewhere():
         return run_until_settled(
             rotor,
             elements,
             steps=study.rotor.steps_per_revolution * 2**halvings,
             revolutions=revolutions,
-            start=linear.orbit_state(rotor.static_equilibrium(elements)),
+            start=linear.orbit(),
             tolerance=EXACT,
         )
 

@@ -399,7 +399,7 @@ def study_of(document: dict[str, Any]) -> Study:
             getattr(study, name)  # made here once, so that what the library refuses is refused now
         require_solvable(study.point, study.largest_load, given)
         if "whole_bearing" in study.model_fields_set:
-            from ehlcontact.cli.study.whole_input import require_whole_bearing
+            from ehlcontact.cli.study.whole_bearing import require_whole_bearing
 
             require_whole_bearing(study)
     except InputError as error:

@@ -129,13 +129,13 @@ def _rotor_half_step(study: Study, update: Update) -> Any:
 
 
 def _decay(study: Study, update: Update) -> Any:
-    from ehlcontact.cli.study.kick import run_decay_full
+    from ehlcontact.cli.study.free_decay import run_decay_full
 
     return run_decay_full(study, 0, update)
 
 
 def _decay_half_step(study: Study, update: Update) -> Any:
-    from ehlcontact.cli.study.kick import run_decay_full
+    from ehlcontact.cli.study.free_decay import run_decay_full
 
     return run_decay_full(study, 1, update)
 

@@ -26,8 +26,6 @@ def motion_of() -> Callable[..., np.ndarray]:
     """Positions and velocities of a `RotorResult`, shape (N, 2 freedoms)."""
 
     def stacked(result: Any) -> np.ndarray:
-        axes = list(result.rotor.axes)
-        parts = (result.disc, result.journal, result.disc_velocity, result.journal_velocity)
-        return np.hstack([part[:, axes] for part in parts])
+        return np.hstack([result.displacement, result.velocity])
 
     return stacked

@@ -14,7 +14,7 @@ from reduced_models import (
     Rotor,
     linearise,
     rotor_to_control,
-    simulate_on_bearings,
+    simulate_rotor,
 )
 from reduced_models.bearing.balls import speed_state
 from reduced_models.bearing.contact import PLACE
@@ -55,7 +55,7 @@ def test_against_scipy():
     exact = solve_ivp(rates, (0.0, 1e-3), first, method="DOP853", rtol=1e-9, atol=1e-15, t_eval=[5e-4, 1e-3])
     errors = []
     for dt in (1e-6, 5e-7):
-        run = simulate_on_bearings(rotor, speed_rpm=RPM, dt=dt, until=1e-3, start=start)
+        run = simulate_rotor(rotor, speed_rpm=RPM, dt=dt, until=1e-3, start=start)
         at = run.displacement[[round(5e-4 / dt), round(1e-3 / dt)]]
         errors.append(np.abs(at.T - exact.y[:2]).max() / np.ptp(run.displacement, axis=0).max())
     assert errors[0] < 1e-5

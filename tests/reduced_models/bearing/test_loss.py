@@ -16,7 +16,7 @@ from reduced_models import (
     linearise,
     log_decrement,
     rotor_to_control,
-    simulate_on_bearings,
+    simulate_rotor,
 )
 from reduced_models.bearing import loss as loss_room
 from reduced_models.bearing.balls import speed_state
@@ -126,7 +126,7 @@ def test_a_block_dies_away_with_pi_times_the_loss_factor(factor):
     expected = 2.0 * pi * np.tan(pi / (2.0 - power) - 0.5 * pi)
     assert mode.decrement == pytest.approx(expected, rel=5e-3) == pytest.approx(pi * factor, rel=0.02)
     rest = rotor.equilibrium(0.0)
-    run = simulate_on_bearings(
+    run = simulate_rotor(
         rotor, speed_rpm=0.0, dt=1e-5, until=0.03, start=(rest + np.array([0.0, 1e-9]), np.zeros(2)), rho_inf=1.0
     )
     seen = log_decrement(run.t, run.displacement[:, 1] - rest[1], omega=mode.omega)

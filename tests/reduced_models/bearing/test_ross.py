@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, RossCallback, from_ross, simulate_on_bearings
+from reduced_models import BallBearing, RossCallback, from_ross, simulate_rotor
 
 RPM, NODES, DISC = 3000.0, (1, 5), 3
 SPEED = RPM * np.pi / 30.0
@@ -119,8 +119,8 @@ def test_its_weight_hangs_downwards_beside_other_loads(program, film):
     assert rotor.size == 28
     np.testing.assert_allclose(rotor.load[1::4].sum(), -9.80665 * mass - 648.0, rtol=1e-9)
     assert rotor.unbalances[0].amount == 1e-4 and rotor.unbalances[0].phase == 0.5
-    run = simulate_on_bearings(rotor, speed_rpm=RPM, dt=1e-4, until=1e-4)
-    np.testing.assert_allclose(run.force[0, :, 1], [-500.0, -500.0], atol=1.0)
+    run = simulate_rotor(rotor, speed_rpm=RPM, dt=1e-4, until=1e-4)
+    np.testing.assert_allclose(run.ring_force[0, :, 1], [-500.0, -500.0], atol=1.0)
     assert not from_ross(bare, {1: film, 5: film}, gravity=False).load.any()
 
 
@@ -150,7 +150,9 @@ def test_a_linked_node_is_the_housing(program, film):
     assert rotor.size == 32 and [m.housing for m in rotor.mounts] == [(28, 29), (30, 31)]
     q = rotor.equilibrium(RPM)
     rigid = from_ross(program.rotor(), {1: film, 5: film}, loads=MORE)
-    np.testing.assert_allclose((rotor.rings @ q)[1::2], (rigid.rings @ rigid.equilibrium(RPM))[1::2], rtol=1e-4)
+    np.testing.assert_allclose(
+        (rotor.support_rows @ q)[1::2], (rigid.support_rows @ rigid.equilibrium(RPM))[1::2], rtol=1e-4
+    )
     np.testing.assert_allclose(q[[29, 31]], -(500.0 + 5.0 * 9.81) / 5e7, rtol=2e-3)
     force = RossCallback(whole, {1: film, 5: film}, speed_rpm=RPM, replace=True, loads=MORE)
     np.testing.assert_allclose(force.rest[[7, 43]], q[[5, 29]], rtol=1e-9)
@@ -168,7 +170,7 @@ def unbalanced(program, film):
     rotor = from_ross(
         program.rotor(), dict.fromkeys(NODES, film), speed_rpm=RPM, loads=MORE, unbalances={DISC: 3.4e-4}
     )
-    return force, t, F, simulate_on_bearings(rotor, speed_rpm=RPM, dt=5e-5, until=t[-1])
+    return force, t, F, simulate_rotor(rotor, speed_rpm=RPM, dt=5e-5, until=t[-1])
 
 
 def test_the_residual_form_in_their_steps_is_our_run(unbalanced):
@@ -184,7 +186,7 @@ def test_the_residual_form_in_their_steps_is_our_run(unbalanced):
     np.testing.assert_allclose(y[:, 6 * DISC], run.displacement[:, 4 * DISC], atol=0.01 * swing)
     assert force.force.shape == (t.size - 1, 2, 2)
     np.testing.assert_allclose(
-        force.force[1:, 0, 1], run.force[1:-1, 0, 1], atol=0.03 * np.ptp(run.force[:, 0, 1])
+        force.force[1:, 0, 1], run.ring_force[1:-1, 0, 1], atol=0.03 * np.ptp(run.ring_force[:, 0, 1])
     )
     again = force.rotor.run_time_response(force.speed, F, t, method="newmark", add_to_RHS=force)
     np.testing.assert_array_equal(again.yout, found.yout)

@@ -27,7 +27,7 @@ def built(dry, shaft, ends, discs=(), **supports):
 
 def whirling(rotor, omega, stiff=1e13):
     """Angular frequencies, forward above 0 and backward below, with the shaft pinned at its bearings."""
-    K = rotor.stiffness + stiff * rotor.rings.T @ rotor.rings
+    K = rotor.stiffness + stiff * rotor.support_rows.T @ rotor.support_rows
     # along z = x + i y, all that is round: M z'' - i omega g z' + k z of half the matrices
     size = rotor.size
     A = np.zeros((2 * size, 2 * size))
@@ -92,7 +92,11 @@ def test_against_the_beams_of_the_tests(dry):
     rotor = built(dry, shaft, (0.05, 0.25), [disc])
     for one, other in ((rotor.mass, M), (rotor.stiffness, K), (rotor.gyroscopic, G)):
         np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-10 * np.abs(other).max())
-    assert rotor.nodes == {"bearing 0": (4, 5), "bearing 1": (20, 21), "disc": (12, 13)}
+    assert rotor.nodes == {
+        "bearing 0": {"x": 4, "y": 5},
+        "bearing 1": {"x": 20, "y": 21},
+        "disc": {"x": 12, "y": 13},
+    }
 
 
 def cowper(nu, bore):
@@ -120,7 +124,7 @@ def test_against_ross(dry, sections, monkeypatch):
     shaft = Shaft(length=lengths, diameter=outer, bore=bore, elements=1, **STEEL)
     disc = Disc.cylinder(position=0.1, diameter=0.28, width=0.07, bore=0.04, density=7810.0)
     rotor = built(dry, shaft, (0.0, 0.3), [disc])
-    bearings = 1e7 * rotor.rings.T @ rotor.rings
+    bearings = 1e7 * rotor.support_rows.T @ rotor.support_rows
     for ours, whole in (
         (rotor.mass, theirs.M(0.0)),
         (rotor.stiffness + bearings, theirs.K(0.0)),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, linearise, rotor_to_control, simulate_on_bearings
+from reduced_models import BallBearing, linearise, rotor_to_control, simulate_rotor
 from reduced_models.bearing import ball_bearing
 
 control = pytest.importorskip("control")
@@ -130,7 +130,7 @@ def test_block_in_time_is_the_run(film, block):
     # the run is pushed by its load, from the block's rest
     start = rotor.equilibrium(RPM), np.zeros(2)
     pushed = block(film, damping=500.0 * np.eye(2), unbalances=(), load=np.array([20.0, -300.0]))
-    run = simulate_on_bearings(pushed, speed_rpm=RPM, dt=1e-6, until=0.004, start=start)
+    run = simulate_rotor(pushed, speed_rpm=RPM, dt=1e-6, until=0.004, start=start)
     expected = (run.displacement[::50] - start[0]).T
     np.testing.assert_allclose(seen.outputs, expected, rtol=0.0, atol=0.01 * np.ptp(expected))
 

@@ -25,7 +25,7 @@ def test_a_run_equals_itself(run):
 
 
 def test_figures_follow_their_definitions(run):
-    other = replace(run, force=run.force + 3.0, journal=run.journal * 1.01)
+    other = replace(run, force=run.force + 3.0, displacement=run.displacement * [1.0, 1.01])
     result = compare(run, other, discard=0.005)
     kept = run.t >= 0.005 - 1e-12
     force = run.force[kept, 0]
@@ -49,7 +49,7 @@ def test_figures_follow_their_definitions(run):
 def test_other_times_are_interpolated_and_the_overlap_counts(run):
     coarse = replace(
         run,
-        **{n: getattr(run, n)[:301:2] for n in ("t", "disc", "journal", "approach", "force")},
+        **{n: getattr(run, n)[:301:2] for n in ("t", "displacement", "approach", "force")},
     )
     result = compare(run, coarse)
     assert result.t_end == pytest.approx(run.t[300]) and result.samples == 301

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from reduced_models import Contact, OutsideValidityWarning, ScaledContact, has_tangents
+from reduced_models import OutsideValidityWarning, ScaledContact
+from reduced_models.rotor.contact import Contact, has_tangents
 
 
 def test_scaled_contact_is_to_si(cubic, scales):

@@ -7,7 +7,7 @@ import pytest
 from rotor_twins import C, K, one_mass, spring
 
 from ehlcontact import InputError
-from reduced_models import LinearRotor, RotorState, log_decrement, simulate_rotor
+from reduced_models import RotorState, linearise, log_decrement, simulate_rotor
 from reduced_models.elements.polynomial import LinearContact
 
 
@@ -50,7 +50,7 @@ def test_decay_of_a_rotor_is_that_of_its_mode():
     """One mass on a linear contact, kicked and integrated, against the eigenvalue."""
     element = LinearContact(K, C, low=1e-8, high=1e-4, units="SI")
     rotor = one_mass(unbalance=0.0)
-    mode = LinearRotor(rotor, [spring]).modes()[0]
+    mode = linearise(rotor, contacts=[spring]).modes()[0]
     rest = rotor.static_equilibrium([element])
     speed = 1e-3 * np.array([0.0, 1.0])
     run = simulate_rotor(

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from rotor_twins import one_mass
 
 from ehlcontact import Status
 from reduced_models import CubicContact, RotorResult, contact_events
@@ -27,8 +26,19 @@ def run_of(approach, rate, force):
     plane = np.zeros((n, 2))
     columns = [np.asarray(values, float).reshape(n, -1) for values in (approach, rate, force)]
     t = np.arange(n) * 1e-4
+    approaches, rates, forces = columns
     return RotorResult(
-        t, plane, plane, plane, plane, *columns, np.ones(n, dtype=int), Status.CONVERGED, one_mass()
+        t=t,
+        speed_rpm=np.full(n, 3000.0),
+        displacement=plane,
+        velocity=plane,
+        approach=approaches,
+        rate=rates,
+        force=forces,
+        iterations=np.ones(n, dtype=int),
+        largest_load=np.zeros((0, 2)),
+        status=Status.CONVERGED,
+        columns=tuple(f"contact {i + 1}" for i in range(forces.shape[1])),
     )
 
 

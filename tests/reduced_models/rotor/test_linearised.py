@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, BearingMount, Rotor, linearise, log_decrement, simulate_on_bearings
+from reduced_models import BallBearing, BearingMount, Rotor, linearise, log_decrement, simulate_rotor
 from reduced_models.rotor.modes import is_new
 
 RPM = 3000.0
@@ -98,8 +98,8 @@ def test_free_decay_in_time_is_that_of_the_first_mode(film, beam):
     at = linearise(rotor, RPM, passage=False)
     mode = at.modes(1)[0]
     start = at.rest + (mode.shape * 2e-8).real, (mode.eigenvalue * mode.shape * 2e-8).real
-    run = simulate_on_bearings(rotor, speed_rpm=RPM, dt=1e-5, until=0.2, start=start, rho_inf=1.0)
-    free = simulate_on_bearings(rotor, speed_rpm=RPM, dt=1e-5, until=0.2, rho_inf=1.0)
+    run = simulate_rotor(rotor, speed_rpm=RPM, dt=1e-5, until=0.2, start=start, rho_inf=1.0)
+    free = simulate_rotor(rotor, speed_rpm=RPM, dt=1e-5, until=0.2, rho_inf=1.0)
     moved = (run.displacement - free.displacement)[:, DISC]
     seen = log_decrement(run.t, moved, omega=mode.omega)
     assert seen.hz == pytest.approx(mode.hz, rel=1e-4)
@@ -110,12 +110,12 @@ def test_unbalance_response_in_time(film, block):
     """Balls standing still: the steady circle of a run."""
     rotor = block(StillBearing.catalogue("6205", oil=film.oil), damping=2e3 * np.eye(2))
     at = linearise(rotor, RPM, passage=False)
-    run = simulate_on_bearings(rotor, speed_rpm=RPM, dt=1e-5, until=0.1)
+    run = simulate_rotor(rotor, speed_rpm=RPM, dt=1e-5, until=0.1)
     at_speed = run.t >= 0.06  # two turns
     t = run.t[at_speed][:-1]
     swing = run.displacement[at_speed][:-1]
     seen = 2.0 * np.mean((swing - swing.mean(axis=0)) * np.exp(-1j * RPM * pi / 30.0 * t)[:, None], axis=0)
-    expected = at.unbalance_response(rpm=RPM)[0]
+    expected = at.unbalance_response(rpm=RPM).amplitude[0]
     np.testing.assert_allclose(seen, expected, rtol=0.0, atol=2e-3 * np.abs(expected).max())
 
 
@@ -144,7 +144,7 @@ def test_whirl_tells_the_direction(block):
     """A preloaded bearing and a gyroscopic block: of exp(i w t) (1, -i), a circle from x to y, w is known."""
     tight, turning = BallBearing.catalogue("6205", clearance=-2e-5), 20000.0 * pi / 30.0
     at = linearise(block(tight, gyroscopic=np.array([[0.0, 2.0], [-2.0, 0.0]]), load=np.zeros(2)), 20000.0)
-    stiff = at.bearing_impedance(1j).real
+    stiff = at.support_impedance(1j).real
     np.testing.assert_allclose(stiff, stiff[0, 0] * np.eye(2), atol=1e-3 * stiff[0, 0])
     # 2 (-w^2 + w turning) + stiff = 0 of M q'' + turning G q' + K q
     forward = 0.5 * turning + np.sqrt(0.25 * turning**2 + 0.5 * stiff[0, 0])
@@ -163,7 +163,7 @@ def test_stability(dry, film, block):
     assert not linearise(block(film, stiffness=speed_row), RPM).stable
     assert linearise(block(film, stiffness=speed_row), RPM).growth > 100.0
     at = linearise(block(film), RPM)
-    pulled = block(film, stiffness=np.diag([-2.0 * at.bearing_impedance(1e-3).real[0, 0], 0.0]))
+    pulled = block(film, stiffness=np.diag([-2.0 * at.support_impedance(1e-3).real[0, 0], 0.0]))
     assert not linearise(pulled, RPM).stable  # no vibration grows, it just falls to the side
 
 

@@ -12,13 +12,13 @@ from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import (
     BallBearing,
     BearingMount,
-    BearingRun,
     OutsideValidityWarning,
     Rotor,
+    RotorResult,
     SpeedProfile,
     Unbalance,
     log_decrement,
-    simulate_on_bearings,
+    simulate_rotor,
 )
 from reduced_models.rotor.speed_profile import turning_forces
 
@@ -49,8 +49,8 @@ def test_at_rest_all_forces_balance(film):
     alone = film.equilibrium((0.0, -500.0), speed_rpm=RPM, cage_angle=-pi / 2.0)
     for n in NODES:
         np.testing.assert_allclose(q[4 * n : 4 * n + 2], alone.displacement, atol=1e-14)
-    run = simulate_on_bearings(rotor, speed_rpm=RPM, dt=DT, until=DT)
-    np.testing.assert_allclose(run.force[0], [[0.0, -500.0]] * 2, atol=1e-6)
+    run = simulate_rotor(rotor, speed_rpm=RPM, dt=DT, until=DT)
+    np.testing.assert_allclose(run.ring_force[0], [[0.0, -500.0]] * 2, atol=1e-6)
     np.testing.assert_allclose(run.displacement[0], q, atol=1e-15)
 
 
@@ -73,7 +73,7 @@ def test_against_scipy():
     exact = solve_ivp(rates, (0.0, 0.02), np.concatenate(start), rtol=1e-9, atol=1e-14, t_eval=[0.01, 0.02])
     errors = []
     for dt in (5e-6, 2.5e-6):
-        run = simulate_on_bearings(rotor, speed_rpm=RPM, dt=dt, until=0.02, start=start)
+        run = simulate_rotor(rotor, speed_rpm=RPM, dt=dt, until=0.02, start=start)
         at = run.displacement[[round(0.01 / dt), round(0.02 / dt)]]
         errors.append(np.abs(at.T - exact.y[:2]).max() / np.ptp(run.displacement, axis=0).max())
     assert errors[0] < 2e-3
@@ -86,10 +86,10 @@ def test_second_order_with_films_at_lift_off(oil):
     rotor = block(loose, unbalances=(Unbalance(x=0, y=1, amount=4e-3),))
     ends = []
     for dt in (2e-5, 1e-5, 5e-6, 6.25e-7):
-        run = simulate_on_bearings(rotor, speed_rpm=RPM, dt=dt, until=0.006, rho_inf=0.8)
+        run = simulate_rotor(rotor, speed_rpm=RPM, dt=dt, until=0.006, rho_inf=0.8)
         ends.append(run.displacement[:: round(2e-5 / dt)])
-    assert run.force[:, 0, 1].max() > 400.0  # thrown to the top
-    assert run.force[:, 0, 1].min() < -400.0
+    assert run.ring_force[:, 0, 1].max() > 400.0  # thrown to the top
+    assert run.ring_force[:, 0, 1].min() < -400.0
     errors = [np.sqrt(np.mean((end - ends[-1]) ** 2)) for end in ends[:-1]]
     assert errors[0] < 0.015 * ends[-1].std()
     assert errors[1] < 0.27 * errors[0] and errors[2] < 0.27 * errors[1]
@@ -115,7 +115,7 @@ def test_free_decay_is_that_of_the_matrices(film):
     mode, rest = vectors[:size, first] / vectors[DISC, first] * 2e-8, rotor.equilibrium(RPM)
     moving = (rest + mode.real, (values[first] * mode).real), (rest, np.zeros(size))
     with_it, without = (
-        simulate_on_bearings(rotor, speed_rpm=RPM, dt=DT, until=0.3, start=start).displacement for start in moving
+        simulate_rotor(rotor, speed_rpm=RPM, dt=DT, until=0.3, start=start).displacement for start in moving
     )
     seen = log_decrement(DT * np.arange(len(with_it)), (with_it - without)[:, DISC], omega=2.0 * pi * hz)
     assert seen.hz == pytest.approx(hz, rel=1e-3)
@@ -125,12 +125,12 @@ def test_free_decay_is_that_of_the_matrices(film):
 def test_energy_is_kept(film):
     """What unbalance and load put in is stored or taken by the bearings, to 1e-3 of the input."""
     rotor = beam(film, unbalance=3e-4)
-    run = simulate_on_bearings(rotor, speed_rpm=RPM, dt=5e-6, until=0.04, rho_inf=1.0)
+    run = simulate_rotor(rotor, speed_rpm=RPM, dt=5e-6, until=0.04, rho_inf=1.0)
     q, v, omega = run.displacement, run.velocity, RPM * pi / 30.0
     swing = 3e-4 * omega**2 * np.column_stack([np.cos(omega * run.t), np.sin(omega * run.t)])
     power = np.einsum("ij,ij->i", swing, v[:, DISC : DISC + 2]) + v @ rotor.load
     at_rings = np.concatenate([v[:, 4 * n : 4 * n + 2] for n in NODES], axis=1)
-    taken = np.einsum("ij,ij->i", run.force.reshape(len(q), -1), at_rings)
+    taken = np.einsum("ij,ij->i", run.force, at_rings)
     stored = 0.5 * np.einsum("ij,jk,ik->i", v, M, v) + 0.5 * np.einsum("ij,jk,ik->i", q, K, q)
     sums = [np.sum(0.5 * (p[1:] + p[:-1])) * 5e-6 for p in (power, taken, np.abs(power))]
     assert abs(sums[0] - sums[1] - (stored[-1] - stored[0])) < 1e-3 * sums[2]
@@ -140,14 +140,14 @@ def test_mean_deflection_does_not_depend_on_the_step(film):
     rotor = beam(film, unbalance=1e-4)
     means = []
     for dt in (1e-4, 2e-5, 1e-5):
-        run = simulate_on_bearings(rotor, speed_rpm=RPM, dt=dt, until=0.2)
+        run = simulate_rotor(rotor, speed_rpm=RPM, dt=dt, until=0.2)
         means.append(run.ring[run.t >= 0.1, :, 1].mean())
     np.testing.assert_allclose(means, means[-1], rtol=1e-3)
 
 
 def test_balls_are_heard_as_they_pass(film):
     """Without unbalance the ring swings at the number of balls times the cage's frequency, 179.2 Hz."""
-    run = simulate_on_bearings(beam(film), speed_rpm=RPM, dt=5e-5, until=0.8)
+    run = simulate_rotor(beam(film), speed_rpm=RPM, dt=5e-5, until=0.8)
     y = run.ring[run.t >= 0.3, 0, 1]
     heard = np.abs(np.fft.rfft((y - y.mean()) * np.hanning(y.size)))
     hz = np.fft.rfftfreq(y.size, 5e-5)[np.argmax(heard)]
@@ -156,20 +156,20 @@ def test_balls_are_heard_as_they_pass(film):
 
 
 def test_files_of_runs(film, tmp_path):
-    run = simulate_on_bearings(block(film), speed_rpm=RPM, dt=DT, until=0.002)
-    again = load(save(run, tmp_path / "run.h5"), BearingRun)
+    run = simulate_rotor(block(film), speed_rpm=RPM, dt=DT, until=0.002)
+    again = load(save(run, tmp_path / "run.h5"), RotorResult)
     for name, values in vars(run).items():
         np.testing.assert_array_equal(getattr(again, name), values)
     (tmp_path / "none.h5").write_text("nothing")
-    with pytest.raises(InputError, match="run of a rotor on ball bearings"):
-        load(tmp_path / "none.h5", BearingRun)
+    with pytest.raises(InputError, match="run of a rotor"):
+        load(tmp_path / "none.h5", RotorResult)
 
 
 def test_a_course_of_one_speed_is_that_speed(film):
     rotor = beam(film, unbalance=1e-4)
-    one = simulate_on_bearings(rotor, speed_rpm=RPM, dt=DT, until=0.01)
+    one = simulate_rotor(rotor, speed_rpm=RPM, dt=DT, until=0.01)
     course = SpeedProfile(np.array([0.0, 0.002, 0.02]), np.full(3, RPM))
-    same = simulate_on_bearings(rotor, speed_rpm=course, dt=DT, until=0.01)
+    same = simulate_rotor(rotor, speed_rpm=course, dt=DT, until=0.01)
     np.testing.assert_allclose(same.displacement, one.displacement, rtol=1e-9, atol=1e-15)
 
 
@@ -198,13 +198,13 @@ def test_run_up(film):
     """Through laws of several speeds: forces do not jump where they change, steps twice as fine agree."""
     rotor = beam(film, unbalance=2e-5)
     course = SpeedProfile(np.array([0.0, 0.1]), np.array([2000.0, 5000.0]))
-    coarse, fine = (simulate_on_bearings(rotor, speed_rpm=course, dt=dt, until=0.1) for dt in (DT, DT / 2.0))
+    coarse, fine = (simulate_rotor(rotor, speed_rpm=course, dt=dt, until=0.1) for dt in (DT, DT / 2.0))
     assert coarse.speed_rpm[-1] == pytest.approx(5000.0)
     error = np.abs(coarse.displacement[:, DISC : DISC + 2] - fine.displacement[::2, DISC : DISC + 2])
     assert error.max() < 0.01 * np.ptp(coarse.displacement[:, DISC])
-    jumps = np.abs(np.diff(coarse.force[:, 0, 1], n=3))
+    jumps = np.abs(np.diff(coarse.ring_force[:, 0, 1], n=3))
     assert jumps.max() < 12.0 * np.median(jumps) + 1.0
-    back = simulate_on_bearings(
+    back = simulate_rotor(
         rotor, speed_rpm=SpeedProfile(np.array([0.0, 0.1]), np.array([5000.0, 2000.0])), dt=DT, until=0.1
     )
     assert back.speed_rpm[-1] == pytest.approx(2000.0)
@@ -216,7 +216,7 @@ def test_a_heavy_housing_is_the_ground(film):
     load = np.array([0.0, -300.0, 0.0, 0.0])
     housed = Rotor(mass=mass, stiffness=stiffness, mounts=mount, load=load)
     runs = [
-        simulate_on_bearings(rotor, speed_rpm=RPM, dt=DT, until=0.01, start=(place, np.zeros(rotor.size)))
+        simulate_rotor(rotor, speed_rpm=RPM, dt=DT, until=0.01, start=(place, np.zeros(rotor.size)))
         for rotor, place in ((housed, np.array([0.0, -8e-6, 0.0, 0.0])), (block(film), np.array([0.0, -8e-6])))
     ]
     np.testing.assert_allclose(runs[0].ring, runs[1].ring, atol=2e-9)
@@ -228,27 +228,27 @@ def test_a_heavy_housing_is_the_ground(film):
 def test_two_bearings_of_different_kinds(film, oil):
     other = BallBearing.catalogue("6010", oil=oil, clearance=2e-5)
     mounts = (BearingMount(bearing=film, x=4, y=5), BearingMount(bearing=other, x=20, y=21, cage_angle=0.3))
-    run = simulate_on_bearings(beam(film, mounts=mounts), speed_rpm=RPM, dt=DT, until=0.004)
-    assert run.force.shape == (201, 2, 2)
-    np.testing.assert_allclose(run.force[0].sum(axis=0), [0.0, -1000.0], atol=1e-6)
+    run = simulate_rotor(beam(film, mounts=mounts), speed_rpm=RPM, dt=DT, until=0.004)
+    assert run.ring_force.shape == (201, 2, 2)
+    np.testing.assert_allclose(run.ring_force[0].sum(axis=0), [0.0, -1000.0], atol=1e-6)
     assert abs(run.ring[0, 0, 1] - run.ring[0, 1, 1]) > 1e-6
 
 
 def test_balls_that_carry_more_than_the_atlas_knows(film):
     fast = {"speed_rpm": RPM, "dt": DT, "until": 0.001}
-    quiet = simulate_on_bearings(block(film), **fast)
+    quiet = simulate_rotor(block(film), **fast)
     alone = film.equilibrium((0.0, -300.0), speed_rpm=RPM, cage_angle=-pi / 2.0)
     np.testing.assert_allclose(quiet.largest_load, [alone.force.max(axis=0)], rtol=1e-3)
     with pytest.warns(
         OutsideValidityWarning, match=r"a ball of bearing 0 carried .* N on the inner race \(atlas up"
     ):
-        simulate_on_bearings(block(film, load=(0.0, -9000.0)), **fast)
+        simulate_rotor(block(film, load=(0.0, -9000.0)), **fast)
 
 
 def test_a_ring_that_leaves_its_bearing(dry):
     rotor = block(dry, unbalances=(Unbalance(x=0, y=1, amount=0.5),))
     with pytest.raises(ConvergenceError, match=r"ring of bearing 0 has left it, .* mm from the middle") as caught:
-        simulate_on_bearings(rotor, speed_rpm=12000.0, dt=DT, until=0.1)
+        simulate_rotor(rotor, speed_rpm=12000.0, dt=DT, until=0.1)
     run = caught.value.result
     assert run.status is Status.FAILED and 1 < len(run.t) < 5000
     assert np.isfinite(run.displacement).all()
@@ -288,7 +288,7 @@ def test_what_is_no_rotor(dry, match, changes):
 )
 def test_what_is_no_run(film, match, changes):
     with pytest.raises(InputError, match=match):
-        simulate_on_bearings(block(film), **({"speed_rpm": RPM, "dt": DT, "until": 0.01} | changes))
+        simulate_rotor(block(film), **({"speed_rpm": RPM, "dt": DT, "until": 0.01} | changes))
 
 
 def test_angles_of_a_mount_are_in_radians(dry):

@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from reduced_models import linearise, simulate_on_bearings
+from reduced_models import linearise, simulate_rotor
 from reduced_models.bearing.impedance import SmallBalls
 
 RPM, DISC = 3000.0, 12
@@ -21,7 +21,7 @@ def floquet(at, mode):
     kernel, at_speed, first = bearing.kernel(RPM), bearing.speed_state(RPM), at.rotor.mounts[0].cage_angle
     angles = first + 2.0 * pi / bearing.balls * np.arange(POSITIONS) / POSITIONS
     places = [SmallBalls.of(kernel, at_speed, bearing.standings(at.loads[0], RPM, a)) for a in angles.tolist()]
-    passing, rings, (M, C, K) = bearing.balls * at_speed.cage, at.rotor.rings, at.matrices
+    passing, rings, (M, C, K) = bearing.balls * at_speed.cage, at.rotor.support_rows, at.matrices
     count = 2 * HARMONICS + 1
 
     def matrix(s):
@@ -72,9 +72,7 @@ def test_a_mode_across_the_load(film, beam):
     kick = 2e-8 * mode.shape
     starts = (rest + kick.real, (mode.eigenvalue * kick).real), (rest, np.zeros(rotor.size))
     with_it, without = (
-        simulate_on_bearings(rotor, speed_rpm=RPM, dt=dt, until=0.5, start=start, rho_inf=1.0).displacement[
-            :, DISC
-        ]
+        simulate_rotor(rotor, speed_rpm=RPM, dt=dt, until=0.5, start=start, rho_inf=1.0).displacement[:, DISC]
         for start in starts
     )
     hz, seen = poles((with_it - without)[2500::40], 40 * dt)

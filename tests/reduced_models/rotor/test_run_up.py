@@ -8,14 +8,14 @@ import pytest
 
 from reduced_models import (
     BallBearing,
-    BearingRun,
     Disc,
+    RotorResult,
     Shaft,
     SpeedProfile,
     Support,
     campbell,
     rotor_on_bearings,
-    simulate_on_bearings,
+    simulate_rotor,
 )
 from reduced_models.bearing.balls import speed_state
 from reduced_models.bearing.equilibrium import StaticBalls
@@ -68,7 +68,7 @@ COURSE = SpeedProfile(np.array([0.0, 0.02, 0.04]), np.array([3000.0, 8000.0, 600
 def test_run_ups_are_of_second_order(overhung):
     """Up and down through four laws: errors fall fourfold with half the step."""
     ends = [
-        simulate_on_bearings(overhung, speed_rpm=COURSE, dt=dt, until=0.04).displacement[:: round(2e-5 / dt)]
+        simulate_rotor(overhung, speed_rpm=COURSE, dt=dt, until=0.04).displacement[:: round(2e-5 / dt)]
         for dt in (2e-5, 1e-5, 5e-6, 1.25e-6)
     ]
     errors = [np.sqrt(np.mean((end - ends[-1]) ** 2)) for end in ends[:-1]]
@@ -79,11 +79,11 @@ def test_run_ups_are_of_second_order(overhung):
 def test_energy_is_kept_as_the_speed_changes(overhung):
     """What unbalance, weight and gyroscopic forces put in is stored, or taken by bearings and dampers."""
     dt = 2.5e-6
-    run = simulate_on_bearings(overhung, speed_rpm=COURSE, dt=dt, until=0.04, rho_inf=1.0)
+    run = simulate_rotor(overhung, speed_rpm=COURSE, dt=dt, until=0.04, rho_inf=1.0)
     q, v = run.displacement, run.velocity
     forces, at = turning_forces(overhung, *COURSE.at(run.t))
     power = np.einsum("ij,ij->i", forces, v @ at) + v @ overhung.load
-    taken = np.einsum("ij,ij->i", run.force.reshape(len(q), -1), v @ overhung.rings.T)
+    taken = np.einsum("ij,ij->i", run.force, v @ overhung.support_rows.T)
     taken += np.einsum("ij,jk,ik->i", v, overhung.damping, v)
     stored = 0.5 * np.einsum("ij,jk,ik->i", v, overhung.mass, v)
     stored += 0.5 * np.einsum("ij,jk,ik->i", q, overhung.stiffness, q)
@@ -125,7 +125,7 @@ def test_modes_swing_most_where_the_diagram_says(passage, film, runs):
 def roughness(run, speed):
     """Largest fourth difference of the rings' forces as the speed is passed, over the largest beside it."""
     at = int(np.searchsorted(run.speed_rpm, speed))
-    rough = np.abs(np.diff(run.force[at - 400 : at + 400], n=4, axis=0)).reshape(-1, 4)
+    rough = np.abs(np.diff(run.force[at - 400 : at + 400], n=4, axis=0))
     return (rough[394:402].max(axis=0) / np.concatenate([rough[:380], rough[420:]]).max(axis=0)).max()
 
 
@@ -139,13 +139,13 @@ def test_forces_in_the_run_do_not_jump_where_laws_change(passage, runs):
     for speed in slow:
         jumped = run.force.copy()
         jumped[run.speed_rpm >= speed, :, 1] += 0.5
-        assert roughness(BearingRun(**(vars(run) | {"force": jumped})), speed) > 2.0
+        assert roughness(RotorResult(**(vars(run) | {"force": jumped})), speed) > 2.0
 
 
 @pytest.mark.slow
 def test_the_run_up_does_not_depend_on_the_step(passage, film, runs):
     """Of second order through four resonances that ring on; the mean deflection does not care."""
-    x, up = list(passage.rotor(film).nodes["disc"]), passage.courses()[0]
+    x, up = list(passage.rotor(film).nodes["disc"].values()), passage.courses()[0]
     finest, fine = (passage.run(film, up, passage.DT / n) for n in (4, 2))
     orbits = [one.displacement[::n][:, x] for one, n in ((finest, 4), (fine, 2), (runs[0], 1))]
     near, far = (np.sqrt(np.mean((orbit - orbits[0]) ** 2)) / orbits[0].std() for orbit in orbits[1:])

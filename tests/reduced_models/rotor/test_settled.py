@@ -7,9 +7,9 @@ import pytest
 from rotor_twins import SCALES, C, K, one_mass
 
 from ehlcontact import InputError, Status
-from reduced_models import RotorResult, dry_contact, run_until_settled, settling
+from reduced_models import RotorResult, dry_contact, settling
 from reduced_models.elements.polynomial import LinearContact
-from reduced_models.rotor.settled import QUIET, part_of
+from reduced_models.rotor.settled import QUIET, run_until_settled
 
 STEPS = 40
 
@@ -22,17 +22,19 @@ def history(transient, revolutions=4, drift=0.0):
     plane = np.column_stack([np.zeros_like(y), 1e-6 * y])
     column = (50.0 + y)[:, None]
     return RotorResult(
-        t,
-        plane,
-        plane,
-        plane,
-        plane,
-        column,
-        column,
-        column,
-        np.ones(t.size, dtype=int),
-        Status.CONVERGED,
-        one_mass(),
+        t=t,
+        speed_rpm=np.full(t.size, 3000.0),
+        displacement=plane,
+        velocity=plane,
+        approach=column,
+        rate=column,
+        force=column,
+        iterations=np.ones(t.size, dtype=int),
+        largest_load=np.zeros((0, 2)),
+        status=Status.CONVERGED,
+        columns=("contact 1",),
+        names=("disc x", "disc y"),
+        places=np.array([0, 1]),
     )
 
 
@@ -73,10 +75,10 @@ def test_settled_again_after_a_disturbance():
 
 def test_part_of_a_run():
     run = history(0.0)
-    part = part_of(run, STEPS, 2 * STEPS, keep_time=False)
-    assert part.t.size == STEPS + 1 and part.t[0] == 0.0 and part.rotor is run.rotor
+    part = run.part(STEPS, 2 * STEPS, keep_time=False)
+    assert part.t.size == STEPS + 1 and part.t[0] == 0.0
     assert np.array_equal(part.force, run.force[STEPS : 2 * STEPS + 1])
-    assert part_of(run, STEPS).t[0] == run.t[STEPS]
+    assert run.part(STEPS).t[0] == run.t[STEPS]
 
 
 @pytest.mark.parametrize("damping", [0.0, C])
@@ -97,10 +99,10 @@ def test_settling_asks_for_whole_revolutions():
     with pytest.raises(InputError, match="steps per revolution"):
         settling(replace(run, t=run.t * 1.01))
     with pytest.raises(InputError, match="turning"):
-        settling(replace(run, rotor=replace(run.rotor, speed_rpm=0.0)))
-    element = dry_contact(SCALES)
+        settling(replace(run, speed_rpm=0.0 * run.t))
+    element, rotor = dry_contact(SCALES), one_mass()
     with pytest.raises(InputError, match="steps"):
-        run_until_settled(run.rotor, [element], steps=4, revolutions=2, start=run.rotor.rest_state(np.zeros(1)))
+        run_until_settled(rotor, [element], steps=4, revolutions=2, start=rotor.rest_state(np.zeros(1)))
 
 
 def test_the_signal_that_settles_last_decides():

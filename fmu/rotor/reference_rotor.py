@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from fmu.comparison import bounds, film_rates_at, tangents
 from fmu.contact_variables import Element, Film
 from reduced_models import JeffcottRotor, OutsideValidityWarning, RotorState, simulate_rotor
-from reduced_models.rotor.step import CondensedRotor, Motion
+from reduced_models.rotor.integrate import steps_of
+from reduced_models.rotor.step import PythonSteps
 
 if TYPE_CHECKING:
     from fmu.rotor.model import RotorModel
@@ -81,9 +82,7 @@ def _closed_run(model: RotorModel, rotor: JeffcottRotor, start: RotorState) -> R
     with warnings.catch_warnings():  # about a motion that is none of the user's
         warnings.simplefilter("ignore", OutsideValidityWarning)
         result = simulate_rotor(rotor, contacts, dt=dt, until=STEPS * dt, start=start, tolerance=TOLERANCE)
-    axes = list(rotor.axes)
-    parts = (result.disc, result.journal, result.disc_velocity, result.journal_velocity)
-    return Run(rotor, dt, {}, np.hstack([part[:, axes] for part in parts]), result.force)
+    return Run(rotor, dt, {}, np.hstack([result.displacement, result.velocity]), result.force)
 
 
 def _free_run(rotor: JeffcottRotor, start: RotorState, dt: float) -> Run:
@@ -95,21 +94,23 @@ def _free_run(rotor: JeffcottRotor, start: RotorState, dt: float) -> Run:
     names += [f"force[{i + 1}]" for i in range(len(rotor.mounts))]
     inputs = {name: SWING * load * np.sin(phase + k) for k, name in enumerate(names)}
     table = np.stack(list(inputs.values()), axis=1)
-    journal, disc, force = table[:, :size], table[:, size : 2 * size], table[:, 2 * size :]
+    one, none = np.eye(size), np.zeros((size, size))
+    contacts = rotor.bearings * rotor.normals.T
+    at = np.block([[none, one, np.zeros_like(contacts)], [one, none, -contacts]])  # where each input acts
     M, C, K = rotor.matrices()
-    linear = CondensedRotor((M, C, K), np.arange(size, 2 * size), dt, RHO)
-    carried = np.hstack([0.0 * disc, rotor.bearings * force @ rotor.normals])
-    applied = [rotor.applied_force(n * dt) + np.hstack([disc[n], journal[n]]) for n in range(STEPS + 1)]
-    d = np.concatenate([start.disc[axes], start.journal[axes]])
-    v = np.concatenate([start.disc_velocity[axes], start.journal_velocity[axes]])
-    now = Motion(d, v, np.linalg.solve(M, applied[0] - carried[0] - C @ v - K @ d), applied[0])
-    rows = [np.concatenate([d, v])]
-    for n in range(STEPS):
-        pending = linear.begin(now, carried[n], applied[n + 1])
-        late = linear.weight * np.linalg.solve(linear.D, carried[n + 1][size:])
-        now = linear.finish(pending, pending.q_free - late)
-        rows.append(np.concatenate([now.d, now.v]))
-    return Run(rotor, dt, inputs, np.array(rows), force)
+    applied = np.array([rotor.applied_force(n * dt) for n in range(STEPS + 1)])
+    given = np.hstack([table, applied])
+    d, v = rotor.motion(start)
+    state = np.array([d, v, np.linalg.solve(M, applied[0] + at @ table[0] - C @ v - K @ d), np.zeros_like(d)])
+    everywhere = np.hstack([at, np.eye(2 * size)])
+    steps = steps_of((M, C, K), np.zeros((0, 2 * size)), everywhere, np.zeros(2 * size), dt, RHO)
+    histories = (*np.zeros((2, STEPS + 1, 2 * size)), *np.zeros((3, STEPS + 1, 0)), np.zeros(STEPS + 1))
+    free = PythonSteps((), (np.zeros((0, 2 * size)), np.zeros((0, 0)), np.zeros(0)), state, histories, (1.0, 1))
+    histories[0][0], histories[1][0] = d, v
+    for n in range(1, STEPS + 1):
+        free.advance(steps, n, (np.zeros(STEPS + 1), np.zeros((STEPS + 1, 0)), given))
+    force = table[:, 2 * size :]
+    return Run(rotor, dt, inputs, np.hstack(histories[:2]), force)
 
 
 # ---- in a state

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi
 from pathlib import Path
@@ -12,17 +12,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.cli.study.whole_input import whole_bearing
+from ehlcontact.cli.study.whole_bearing import whole_bearing
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
 from ehlcontact.store import save
 from reduced_models import (
     BallBearing,
     BearingCoefficients,
-    BearingRun,
     BearingState,
     Campbell,
     Disc,
+    LinearBearing,
     OutsideValidityWarning,
     Rotor,
     Shaft,
@@ -30,9 +30,9 @@ from reduced_models import (
     campbell,
     linearise,
     rotor_on_bearings,
-    simulate_on_bearings,
+    simulate_rotor,
 )
-from reduced_models.rotor.modes import eigenvectors
+from reduced_models.rotor.linearise import LinearRotor
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
@@ -50,7 +50,6 @@ NAMES = {
     CONSTANT: "constant K and C, of the film at the speed",
     USUAL: f"constant K, dry, and C = {USUAL_DAMPING:g} s K",
 }
-VERTICAL = 0.5  # share of the motion of a mode from which it counts as vertical
 SWEEP = (0.25, 3.0)  # over the study's speed: where the Campbell diagram begins and ends
 MODES, SPEEDS = 4, 5  # of that diagram
 BAND = (0.1, 100.0)  # over the frequency of the shaft: K and C of the bearing
@@ -62,7 +61,6 @@ NARROW = 0.04  # of the frequency of a mode: how far on either side they are clo
 
 
 OVER_SPEED = 9  # speeds of that sweep at which films, stiffness and damping are told
-Linear = Callable[[_Floats], NDArray[np.complex128]]  # response (k, N) of all [m] to unbalance at hz (k,)
 
 
 @dataclass(frozen=True)
@@ -77,8 +75,8 @@ class Ran:
         Displacements of the left inner ring and of the disc [m].
     vertical, horizontal : (float, float) or None
         Slowest mode of each direction, where one oscillates.
-    linear : callable
-        Response of the rotor about rest, films and balls as at its speed, to its unbalance at any frequency.
+    linear : LinearRotor
+        The rotor about rest, films and balls as at its speed.
     """
 
     t: _Floats
@@ -86,7 +84,7 @@ class Ran:
     disc: _Floats
     vertical: Mode | None
     horizontal: Mode | None
-    linear: Linear
+    linear: LinearRotor
     largest_load: float | None = None  # of any ball, in the whole run [N]
 
     def lines(self, hz: tuple[float, ...]) -> _Floats:
@@ -202,7 +200,7 @@ class WholeFindings:
         return {"amplitude": float(size.max()), "hz": float(self.response_hz[np.argmax(size)])}
 
 
-def whole_rotor(study: Study, bearing: BallBearing) -> Rotor:
+def whole_rotor(study: Study, bearing: BallBearing | LinearBearing) -> Rotor:
     """Rotor of the study on two such bearings, pressed down so that each carries the study's load."""
     r = study.rotor
     needed = 2.0 * study.bearing.radial_load - (r.disc_mass + r.journal_mass) * 9.81
@@ -233,9 +231,9 @@ def run_whole(study: Study, folder: Path) -> WholeFindings | None:
         CONSTANT: (film.stiffness[0], film.damping[0]),
         USUAL: (hertz.stiffness[0], USUAL_DAMPING * hertz.stiffness[0]),
     }
-    ran |= {name: _linear(study, whole_rotor(study, dry), *pair) for name, pair in constant.items()}
+    ran |= {name: _linear(study, *pair) for name, pair in constant.items()}
     hz = rpm / 60.0 * np.geomspace(*BAND, FREQUENCIES)
-    grid, disc = _response_grid(rpm / 60.0, ran), list(whole_rotor(study, wet).nodes["disc"])
+    grid, disc = _response_grid(rpm / 60.0, ran), list(whole_rotor(study, wet).nodes["disc"].values())
     eccentricity = study.rotor.unbalance / study.rotor.disc_mass
     return WholeFindings(
         bearing=wet,
@@ -247,9 +245,12 @@ def run_whole(study: Study, folder: Path) -> WholeFindings | None:
         over_frequency=wet.coefficients(weight, speed_rpm=rpm, hz=hz),
         over_speed=_over_speed(wet, weight, rpm, hz),
         constants={name: (float(K[1, 1]), float(C[1, 1])) for name, (K, C) in constant.items()},
-        diagram=_diagram(study, whole_rotor(study, wet)),
+        diagram=_diagram(study, wet),
         response_hz=grid,
-        responses={name: np.abs(one.linear(grid)[:, disc]) / eccentricity for name, one in ran.items()},
+        responses={
+            name: np.abs(one.linear.unbalance_response(hz=grid).amplitude[:, disc]) / eccentricity
+            for name, one in ran.items()
+        },
         speed_rpm=rpm,
     )
 
@@ -265,62 +266,37 @@ def _run(study: Study, rotor: Rotor, path: Path) -> Ran:
     dt, until, begin = _times(study)
     rpm = study.bearing.speed_rpm
     at = linearise(rotor, rpm)
-    orbit = at.unbalance_response(rpm=rpm)[0]
-    start = at.rest + orbit.real, (1j * rpm * pi / 30.0 * orbit).real
-    run: BearingRun = simulate_on_bearings(rotor, speed_rpm=rpm, dt=dt, until=until, start=start)
+    run = simulate_rotor(rotor, speed_rpm=rpm, dt=dt, until=until, start=at.orbit())
     if run.status is Status.INTERRUPTED:
         raise KeyboardInterrupt
     save(run, path)
     seen = run.t >= begin - 0.5 * dt
-    vertical, horizontal = _slowest(rotor, [(mode.eigenvalue, mode.shape) for mode in at.modes(None)])
     return Ran(
         t=run.t[seen],
         ring=run.ring[seen, 0],
-        disc=run.displacement[seen][:, list(rotor.nodes["disc"])],
-        vertical=vertical,
-        horizontal=horizontal,
-        linear=lambda hz: at.unbalance_response(hz=hz),
+        disc=run.disc[seen],
+        **_slowest(at),
+        linear=at,
         largest_load=float(run.largest_load.max()),
     )
 
 
-def _linear(study: Study, rotor: Rotor, K: _Floats, C: _Floats) -> Ran:
-    """The settled rotor on springs and dampers that stay what they are."""
+def _linear(study: Study, stiffness: _Floats, damping: _Floats) -> Ran:
+    """The settled rotor on bearings of constant stiffness and damping."""
     dt, until, begin = _times(study)
-    omega, rings = study.bearing.speed_rpm * pi / 30.0, rotor.rings
-    both = np.eye(len(rotor.mounts))
-    stiffness = rotor.stiffness + rings.T @ np.kron(both, K) @ rings
-    damping = rotor.damping + rings.T @ np.kron(both, C) @ rings
-    turning = np.zeros(rotor.size, complex)
-    for one in rotor.unbalances:
-        turning[[one.x, one.y]] += one.amount * np.array([1.0, -1j])
-
-    def response(hz: _Floats) -> NDArray[np.complex128]:
-        """Of all displacements, shape (k, N)."""
-        ws = 2.0 * pi * hz
-        return np.array(
-            [np.linalg.solve(stiffness - w * w * rotor.mass + 1j * w * damping, w * w * turning) for w in ws]
-        )
-
-    orbit = response(np.array([omega / (2.0 * pi)]))[0]
+    rotor = whole_rotor(study, LinearBearing(stiffness, damping))
+    at = linearise(rotor, study.bearing.speed_rpm)
     t: _Floats = np.asarray(np.arange(round(begin / dt), round(until / dt) + 1) * dt, np.float64)
-    q = np.linalg.solve(stiffness, rotor.load) + np.real(np.exp(1j * omega * t)[:, None] * orbit)
-    values, vectors = eigenvectors((rotor.mass, damping, stiffness), np.zeros_like(stiffness, complex), 1.0)
-    modes = [(complex(s), shape) for s, shape in zip(values, vectors.T, strict=True)]
-    vertical, horizontal = _slowest(rotor, modes)
-    return Ran(t, (q @ rings.T)[:, :2], q[:, list(rotor.nodes["disc"])], vertical, horizontal, response)
+    q = at.motion(t)
+    ring, disc = (q[:, list(rotor.nodes[node].values())] for node in ("bearing 0", "disc"))
+    return Ran(t, ring, disc, **_slowest(at), linear=at)
 
 
-def _slowest(rotor: Rotor, modes: list[tuple[complex, Any]]) -> tuple[Mode | None, Mode | None]:
-    """Of modes from the slowest on, the first that is vertical and the first that is not."""
-    found: dict[str, Mode | None] = {"vertical": None, "horizontal": None}
-    up = [pair[1] for pair in rotor.nodes.values()]
-    for s, shape in modes:
-        share = float((np.abs(shape[up]) ** 2).sum() / (np.abs(shape) ** 2).sum())
-        way = "vertical" if share >= VERTICAL else "horizontal"
-        if found[way] is None:
-            found[way] = s.imag / (2.0 * pi), -2.0 * pi * s.real / s.imag
-    return found["vertical"], found["horizontal"]
+def _slowest(at: LinearRotor) -> dict[str, Any]:
+    """Frequency and decrement of the slowest mode of each direction."""
+    found = at.slowest()
+    ways = {"vertical": found.get("y"), "horizontal": found.get("x")}
+    return {way: None if mode is None else (mode.hz, mode.decrement) for way, mode in ways.items()}
 
 
 def _response_grid(speed_hz: float, ran: Mapping[str, Ran]) -> _Floats:
@@ -344,11 +320,11 @@ def _over_speed(bearing: BallBearing, weight: tuple[float, float], rpm: float, h
     return tuple(found)
 
 
-def _diagram(study: Study, rotor: Rotor) -> Campbell | str:
+def _diagram(study: Study, bearing: BallBearing) -> Campbell | str:
     """Modes over the speed, as far as the bearing has films."""
     rpm = study.bearing.speed_rpm
-    high = min(SWEEP[1] * rpm, rotor.mounts[0].bearing.highest_speed)
+    high = min(SWEEP[1] * rpm, bearing.highest_speed)
     try:
-        return campbell(rotor, np.linspace(SWEEP[0] * rpm, high, SPEEDS), count=MODES)
+        return campbell(whole_rotor(study, bearing), np.linspace(SWEEP[0] * rpm, high, SPEEDS), count=MODES)
     except (ConvergenceError, InputError) as error:
         return str(error)

@@ -1,0 +1,78 @@
+"""Impedances of contacts about rest, over the frequency: of an element, and of a solved film.
+
+Contacts stay as their speed makes them: only the frequency of the excitation varies, not the speed that draws the
+oil in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+from ehlcontact import ImpedanceResult
+from ehlcontact.errors import InputError
+from reduced_models.elements.base import ContactElement
+
+_Floats = NDArray[np.float64]
+_Complex = NDArray[np.complex128]
+Impedance = Callable[[_Floats], _Complex]  # omega [rad/s], shape (k,) -> Z [N/m], shape (k,)
+
+TINY_OMEGA = 1e-6  # rad/s, stands for 0: where damping is the slope of Z
+
+
+def impedance_about(element: ContactElement, load: float) -> Impedance:
+    """Impedance of an SI element about rest under `load` [N], as a function of omega [rad/s]."""
+    return lambda omega: element.impedance(omega=omega, load=load)
+
+
+def film_impedance(response: ImpedanceResult) -> Impedance:
+    """Impedance of a solved film over omega [rad/s], between its frequencies by monotone cubics.
+
+    Below the lowest frequency and beyond the highest, stiffness and damping stay what they are there.
+
+    Raises
+    ------
+    InputError
+        A dimensionless point, or fewer than 2 frequencies.
+    """
+    scales = response.scales
+    if scales is None:
+        raise InputError("response.scales", None, "of an OperatingPoint, for a rotor in SI")
+    order = np.argsort(response.Omega)
+    if order.size < 2:
+        raise InputError("response.Omega", response.Omega.tolist(), "at least 2 frequencies")
+    known = response.Omega[order]
+    parts = [PchipInterpolator(known, values[order]) for values in (response.stiffness, response.damping)]
+
+    def impedance(omega: _Floats) -> _Complex:
+        w = np.asarray(omega, dtype=np.float64)
+        at = np.clip(w * scales.time, known[0], known[-1])
+        K, C = (part(at) for part in parts)
+        return np.asarray(K * scales.stiffness + 1j * w * C * scales.damping, dtype=np.complex128)
+
+    return impedance
+
+
+class ContactImpedance:
+    """Contacts at one place of a rotor, known by Z on the imaginary axis alone.
+
+    Parameters
+    ----------
+    impedance : callable
+        Of one contact, over omega [rad/s] to N/m.
+    count : int
+        How many contacts there are.
+    """
+
+    def __init__(self, impedance: Impedance, count: int) -> None:
+        self._impedance, self._count = impedance, count
+
+    def impedance(self, s: complex) -> _Complex:
+        """Of all of them, shape (1, 1) [N/m]: K + s C with K and C at the frequency of `s` [1/s]."""
+        omega = max(s.imag, TINY_OMEGA)
+        Z = complex(self._impedance(np.array([omega]))[0])
+        found = Z if s == 1j * omega else Z.real + s * Z.imag / omega
+        return np.array([[self._count * found]])

@@ -1,0 +1,48 @@
+"""Degrees of freedom by the name of their node, in whatever has one number for each of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.errors import InputError
+
+PLANE = ("x", "y")
+
+
+def flat_nodes(nodes: Mapping[str, Mapping[str, int]]) -> tuple[tuple[str, ...], NDArray[np.int64]]:
+    """Names "disc x", "disc y", ... and the degrees of freedom that they stand for."""
+    names = tuple(f"{node} {direction}" for node, at in nodes.items() for direction in at)
+    return names, np.array([place for at in nodes.values() for place in at.values()], np.int64)
+
+
+class ByNode:
+    """Base of what has `names` of degrees of freedom, as "disc x", and their `places`."""
+
+    names: tuple[str, ...]
+    places: NDArray[np.int64]
+
+    @property
+    def nodes(self) -> dict[str, dict[str, int]]:
+        """Degrees of freedom by node and direction."""
+        found: dict[str, dict[str, int]] = {}
+        for name, place in zip(self.names, self.places.tolist(), strict=True):
+            node, _, direction = name.rpartition(" ")
+            found.setdefault(node, {})[direction] = place
+        return found
+
+    def _node(self, values: NDArray[Any], name: str) -> NDArray[Any]:
+        """Of `values`, whose last axis are the degrees of freedom, x and y of a node; 0 where it does not move."""
+        nodes = self.nodes
+        if name not in nodes:
+            known = f"one of {', '.join(nodes)}" if nodes else "none: the rotor has no names"
+            raise InputError("node", name, known)
+        found = np.zeros((*values.shape[:-1], len(PLANE)), values.dtype)
+        for k, direction in enumerate(PLANE):
+            if direction in nodes[name]:
+                found[..., k] = values[..., nodes[name][direction]]
+        found.setflags(write=False)
+        return found
