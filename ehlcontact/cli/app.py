@@ -27,7 +27,7 @@ from ehlcontact.cli.commands import (
     verify,
 )
 from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, StdoutError, complain, watched_stdout
-from ehlcontact.cli.usage import by_option, command_of, epilog, lower_case_note, usage_line
+from ehlcontact.cli.usage import by_option, command_of, epilog, usage_line
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.process.early_interrupt import INTERRUPTED
 from ehlcontact.version import __version__
@@ -116,8 +116,6 @@ def _invoke(given: list[str]) -> int:
     try:
         with root.make_context("ehlcontact", list(given)) as context:
             context.command.invoke(context)
-        if note := lower_case_note(given, root):
-            complain(note)
     except InputError as error:
         raise by_option(error, command_of(root, given)[0], given) from None
     except typer.Exit as end:

@@ -19,7 +19,7 @@ from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
 
 _SI, _MOES, _LAWS = "A ball of a bearing, in SI", "Or a point without dimensions", "Laws of the oil"
-BESIDE = "or a ball of a bearing: --bearing, --oil, --temp, --rpm, --load"
+BESIDE = "or a ball of a bearing: --bearing, --oil, --temp, --speed-rpm, --load"
 NO_TIME = (
     "a point of --M --L --kappa has no unit of time; its frequencies are given as --Omega, 2a/u_sum times rad/s"
 )
@@ -52,8 +52,8 @@ class Contact(Options):
         typer.Option("--bearing", metavar="NAME", autocompletion=known_bearings, show_default=False),
     ] = None
     oil: Annotated[str | None, OIL_NAME] = None
-    temp: Annotated[e.Temperature | None, typer.Option("--temp", "--temperature", show_default=False)] = None
-    rpm: Annotated[e.Speed | None, typer.Option("--rpm", show_default=False)] = None
+    temp: Annotated[e.Temperature | None, typer.Option("--temp", show_default=False)] = None
+    speed_rpm: Annotated[e.Speed | None, typer.Option("--speed-rpm", show_default=False)] = None
     load: Annotated[e.Load | None, typer.Option("--load", show_default=False)] = None
     race: Annotated[e.Race | None, typer.Option("--contact", metavar="RACE", show_default="inner")] = None
     M: Annotated[float | None, _moes("--M"), e.meaning("Moes load parameter, > 0")] = None
@@ -68,7 +68,7 @@ class Contact(Options):
         """The error for an option that has to be given."""
         field = type(self).model_fields[name]
         words = "; ".join(part for part in (e.meaning_of(field), e.allowed_of(field)) if part)
-        return InputError(f"--{name}", None, f"given ({words}){beside}")
+        return InputError(f"--{name.replace('_', '-')}", None, f"given ({words}){beside}")
 
     @property
     def in_si(self) -> bool:
@@ -78,7 +78,7 @@ class Contact(Options):
     @property
     def _of_bearing(self) -> dict[str, Any]:
         options = {"--bearing": self.bearing, "--oil": self.oil, "--temp": self.temp, "--load": self.load}
-        options |= {"--rpm": self.rpm, "--contact": self.race}
+        options |= {"--speed-rpm": self.speed_rpm, "--contact": self.race}
         return {name: value for name, value in options.items() if value is not None}
 
     def point(self) -> Point:
@@ -107,7 +107,7 @@ class Contact(Options):
         """Raise `InputError` for the option that is the odd one out."""
         if len(of_bearing) == 1:
             name, value = next(iter(of_bearing.items()))
-            why = NO_TIME if name == "--rpm" else "that is a point without dimensions"
+            why = NO_TIME if name == "--speed-rpm" else "that is a point without dimensions"
             raise InputError(name, value, f"left out where {next(iter(numbers))} is given: {why}")
         name, value = next(iter(numbers.items()))
         raise InputError(name, value, f"left out where {next(iter(of_bearing))} is given: a bearing has its own")
@@ -115,7 +115,7 @@ class Contact(Options):
     def _ball(self) -> OperatingPoint:
         from reduced_models.bearing.catalogue import catalogue_row
 
-        for name in ("bearing", "rpm", "load"):
+        for name in ("bearing", "speed_rpm", "load"):
             if getattr(self, name) is None:
                 raise self._missing(name)
         try:
@@ -124,14 +124,14 @@ class Contact(Options):
             known = error.allowed.partition("; any other bearing")[0]
             allowed = f"{known}; any other by its dimensions, in a study as `ehlcontact init` writes it"
             raise InputError("--bearing", error.value, allowed) from None
-        assert self.rpm is not None
+        assert self.speed_rpm is not None
         with self.called():
             return OperatingPoint.ball_bearing(
                 self.lubricant(),
                 ball_diameter=row.ball_diameter,
                 pitch_diameter=row.pitch_diameter,
                 conformity=row.conformity,
-                speed_rpm=self.rpm,
+                speed_rpm=self.speed_rpm,
                 load=most_loaded_ball(self.load or 0.0, row.balls),
                 race=self.race or "inner",
             )
@@ -173,7 +173,7 @@ class Contact(Options):
         """What a user gave in place of a point's own inputs."""
         if not self.in_si:
             return None
-        values = {"--load": (self.load, "load"), "--rpm": (self.rpm, "speed_rpm")}
+        values = {"--load": (self.load, "load"), "--speed-rpm": (self.speed_rpm, "speed_rpm")}
         values |= {"--eta0": (self.eta0, "eta0"), "--alpha": (self.alpha, "alpha")}
         return {name: (value, INPUTS[key]) for name, (value, key) in values.items() if value is not None}
 
@@ -186,7 +186,7 @@ class Contact(Options):
             "contact": {
                 "bearing": self._name,
                 "race": self.race or "inner",
-                "speed_rpm": self.rpm,
+                "speed_rpm": self.speed_rpm,
                 "radial_load": self.load,
                 "ball_load": point.load,
                 "u_sum": point.u_sum,
@@ -204,7 +204,7 @@ class Contact(Options):
         ellipse = f"{numeral(2e3 * s.a, 3)} x {numeral(2e3 * s.b, 3)} mm"
         return [
             ("contact", f"{self._name}, {self.race or 'inner'} race", ball),
-            ("speed", f"{numeral(self.rpm)} rpm", f"surfaces roll at {numeral(point.u_sum / 2.0)} m/s each"),
+            ("speed", f"{numeral(self.speed_rpm)} rpm", f"surfaces roll at {numeral(point.u_sum / 2.0)} m/s each"),
             ("oil", self._oil_name(), f"{numeral(oil.eta0, 3)} Pa s, alpha {numeral(oil.alpha, 3)} 1/Pa"),
             ("Hertz pressure", f"{numeral(s.pressure * 1e-9, 3)} GPa", f"on {ellipse}, along and across rolling"),
             ("M, L, kappa", ", ".join(numeral(getattr(point.moes, k)) for k in ("M", "L", "kappa")), ""),
@@ -215,7 +215,7 @@ class Contact(Options):
         """The same in one line."""
         if not self.in_si:
             return ""
-        ball = f"most loaded ball of {numeral(self.load)} N at {numeral(self.rpm)} rpm"
+        ball = f"most loaded ball of {numeral(self.load)} N at {numeral(self.speed_rpm)} rpm"
         oil = f"oil of {numeral(self.eta0)} Pa s" if self.oil is None else self._oil_name()
         return f"{self._name}, {self.race or 'inner'} race, {ball}, {oil}"
 
@@ -261,27 +261,45 @@ class Surfaces(Options):
         return {} if ratio is None else {"lambda_ratio": ratio}
 
 
-def frequency(
-    contact: Contact, Omega: float | list[float] | None, hz: float | list[float] | None
-) -> dict[str, Any] | None:
-    """The frequencies that options give, as the library takes them; of a bearing that of the shaft by default.
+class Frequencies(Options):
+    """Frequencies of small vibrations, by one of their four names."""
 
-    Returns
-    -------
-    dict or None
-        ``Omega``, ``hz`` or ``rpm``; None where a dimensionless point has none.
+    panel: ClassVar[str | None] = "Frequency (one name; each option once per frequency)"
+    Omega: Annotated[
+        list[float] | None,
+        typer.Option("--Omega", help="Dimensionless angular frequency (unit of time 2a/u_sum), >= 0."),
+    ] = None
+    omega: Annotated[list[float] | None, typer.Option("--omega", help="Of a bearing's contact, rad/s.")] = None
+    hz: Annotated[
+        list[float] | None,
+        typer.Option("--hz", show_default="that of the shaft", help="Of a bearing's contact, Hz."),
+    ] = None
+    rpm: Annotated[list[float] | None, typer.Option("--rpm", help="Of a bearing's contact, turns per minute.")] = (
+        None
+    )
 
-    Raises
-    ------
-    InputError
-        Two of them, or one in Hz at a point without a unit of time.
-    """
-    if hz is not None and not contact.in_si:
-        raise InputError("--hz", hz, f"left out: {NO_TIME}")
-    if hz is not None and Omega is not None:
-        raise InputError("--hz", hz, "left out where --Omega is given: a frequency has one name")
-    if hz is not None:
-        return {"hz": hz}
-    if Omega is not None:
-        return {"Omega": Omega}
-    return {"rpm": contact.rpm} if contact.rpm is not None and contact.in_si else None
+    @property
+    def given(self) -> dict[str, list[float]]:
+        """The frequencies by their names."""
+        return {name: values for name, values in self.model_dump().items() if values}
+
+    def named(self, contact: Contact) -> dict[str, Any]:
+        """The frequencies by their one name; of a bearing that of the shaft where none is given.
+
+        Raises
+        ------
+        InputError
+            Two names; none, or one with a unit, at a point without a unit of time.
+        """
+        first, *others = self.given or ("rpm" if contact.in_si else "Omega",)
+        values = self.given.get(first)
+        if others:
+            allowed = f"left out where --{first} is given: a frequency has one name"
+            raise InputError(f"--{others[0]}", self.given[others[0]], allowed)
+        if first != "Omega" and not contact.in_si:
+            raise InputError(f"--{first}", values, f"left out: {NO_TIME}")
+        if values is None and not contact.in_si:
+            raise InputError(
+                "--Omega", None, "given: a dimensionless angular frequency (unit of time 2a/u_sum), >= 0"
+            )
+        return {first: values or [contact.speed_rpm or 0.0]}

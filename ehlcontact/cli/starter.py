@@ -31,7 +31,7 @@ COMMENT = 34  # of them before the comment
 OPTIONS = {
     "bearing.catalogue": "--bearing",
     "bearing.radial_load": "--load",
-    "bearing.speed_rpm": "--rpm",
+    "bearing.speed_rpm": "--speed-rpm",
     "oil.iso_vg": "--oil",
     "oil.temperature": "--temp",
 }

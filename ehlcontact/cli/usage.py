@@ -16,8 +16,6 @@ PLAIN_WORDS = {
     "a valid number, unable to parse string as a number": "a number, as 0.04 or 4e-2",
 }
 
-SI_FREQUENCIES = ("--frequency",)  # what else a user may try where frequencies are named with their unit
-
 
 def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
     """What was wrong; the option, the value and what it must be where the error tells them.
@@ -43,13 +41,6 @@ def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
             found = InputError(_title(parameter, arguments), None, f"followed by {few}{_about(parameter)}")
             return str(found).replace(" = None", "", 1)
     if kind == "NoSuchOption" and name:
-        typed = str(getattr(error, "option_name", ""))
-        if typed in SI_FREQUENCIES and any("--Omega" in option.opts for option in command.params):
-            allowed = (
-                "given as --hz for a --bearing, else as --Omega, 2a/u_sum times rad/s: "
-                "a point of --M --L --kappa has no unit of time"
-            )
-            return str(InputError(typed, None, allowed)).replace(" = None", "", 1)
         options = (option.opts[0] for option in command.params if option.opts[0].startswith("--"))
         return f"{message.rstrip('.')}; `{name}` knows {', '.join(options)}"
     if kind == "UsageError" and "unexpected extra argument" in message:
@@ -59,15 +50,6 @@ def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
     if isinstance(error, typer.BadParameter) and parameter is not None:
         return _bad_value(error, parameter, arguments, message)
     return message
-
-
-def lower_case_note(arguments: Sequence[str], root: Any) -> str:
-    """A line for who gives --omega, which is rad/s in Python, to a command that has it for --Omega; else empty."""
-    command, _ = command_of(root, arguments)
-    both = any({"--Omega", "--omega"} <= set(option.opts) for option in command.params)
-    if not both or not any(word.partition("=")[0] == "--omega" for word in arguments):
-        return ""
-    return "note: --omega is dimensionless here, as --Omega: not rad/s"
 
 
 def command_of(root: Any, arguments: Sequence[str]) -> tuple[Any, str]:
@@ -133,12 +115,12 @@ def _about(parameter: Any) -> str:
 
 
 # Examples of every command, which a test parses.
-_BALL = '--bearing 6205 --oil "ISO VG 68" --temp 60 --rpm 3000 --load 1000'
+_BALL = '--bearing 6205 --oil "ISO VG 68" --temp 60 --speed-rpm 3000 --load 1000'
 EXAMPLES = {
     "init": (
         "ehlcontact init",
-        'ehlcontact init mine.toml --bearing 6206 --oil "ISO VG 46" --temp 65 --rpm 6000 --load 200',
-        "ehlcontact init --rpm 1500 --rpm 3000 --load 100 --load 500",
+        'ehlcontact init mine.toml --bearing 6206 --oil "ISO VG 46" --temp 65 --speed-rpm 6000 --load 200',
+        "ehlcontact init --speed-rpm 1500 --speed-rpm 3000 --load 100 --load 500",
     ),
     "steady": (
         f"ehlcontact steady {_BALL} --rq 0.1",
@@ -174,7 +156,7 @@ EXAMPLES = {
     ),
     "reproduce": ("ehlcontact reproduce --table 3", "ehlcontact reproduce -o results/paper"),
     "bearing": (
-        'ehlcontact bearing 6205 --oil "ISO VG 68" --temp 50 --load 1000 --rpm 3000 --figure bearing.png',
+        'ehlcontact bearing 6205 --oil "ISO VG 68" --temp 50 --load 1000 --speed-rpm 3000 --figure bearing.png',
         "ehlcontact bearing examples/bearing_6205.toml --json -",
     ),
     "verify": ("ehlcontact verify ball.fmu",),

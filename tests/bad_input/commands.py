@@ -3,14 +3,19 @@
 POINT = ("--M", "200", "--L", "10", "--kappa", "0.5")
 # Files of the folder that they are run in: `good` makes sound ones of each kind.
 RECORD, OTHER, FILM, ELEMENT, STUDY = "record.h5", "other.h5", "film.h5", "element.json", "study.toml"
-OIL = {"grade": "68", "temperature": "50"}
-BALL = ("--bearing", "6205", "--oil", "68", "--temp", "60", "--rpm", "3000", "--load", "100")
+OIL = {"oil": "68", "temp": "50"}
+BALL = ("--bearing", "6205", "--oil", "68", "--temp", "60", "--speed-rpm", "3000", "--load", "100")
 ATLAS = ("atlas", "build", "-o", "new.npz")
+
+
+def named(options):
+    """Options by their names on a command line."""
+    return {f"--{name.replace('_', '-')}": value for name, value in options.items()}
 
 
 def at(command, *more, **changes):
     """A command at a point, with some of its options changed."""
-    options = dict(zip(POINT[::2], POINT[1::2], strict=True)) | {f"--{k}": v for k, v in changes.items()}
+    options = dict(zip(POINT[::2], POINT[1::2], strict=True)) | named(changes)
     return (command, *(part for pair in options.items() for part in pair), *more)
 
 
@@ -28,14 +33,14 @@ def harmonic(*more, **changes):
 
 def ball(command, *left_out, **changes):
     """A command at the contact of a bearing, with some of its options left out or changed."""
-    options = dict(zip(BALL[::2], BALL[1::2], strict=True)) | {f"--{k}": v for k, v in changes.items()}
+    options = dict(zip(BALL[::2], BALL[1::2], strict=True)) | named(changes)
     return (command, *(part for name, value in options.items() if name not in left_out for part in (name, value)))
 
 
 def bearing(name, *more, **changes):
     """A bearing by its name, dry at 1000 N and 1000 rpm but for the changes."""
-    options = {"load": "1000", "speed": "1000"} | changes
-    return ("bearing", name, *(part for key, value in options.items() for part in (f"--{key}", value)), *more)
+    options = named({"load": "1000", "speed_rpm": "1000"} | changes)
+    return ("bearing", name, *(part for pair in options.items() for part in pair), *more)
 
 
 COMMANDS = [
@@ -51,7 +56,7 @@ COMMANDS = [
     (("init", "new.toml", "--bearing", "6025"), ("--bearing = '6025'", "6205", "nearest")),
     (("init", "new.toml", "--oil", "68 cSt"), ("--oil = '68 cSt'", "ISO VG 10", "680")),
     (("init", "new.toml", "--temp", "323"), ("--temp = 323.0", "between 20 and 120")),
-    (("init", "new.toml", "--rpm", "nan"), ("--rpm = nan", "finite")),
+    (("init", "new.toml", "--speed-rpm", "nan"), ("--speed-rpm = nan", "finite")),
     (("init", "new.toml", "--load", "1e-3"), ("M", "between 0.1 and 60000")),
     # a bearing's contact
     (("steady", *BALL[:-2]), ("--load = None", "given", "N")),
@@ -60,12 +65,12 @@ COMMANDS = [
     (ball("steady", "--bearing"), ("--bearing = None", "given", "6205")),
     (ball("steady", "--oil"), ("--oil = None", "--oil and --temp, or --eta0 and --alpha")),
     (ball("steady", "--temp"), ("--temp = None", "--oil and --temp")),
-    (ball("steady", "--rpm"), ("--rpm = None", "given", "rev/min")),
+    (ball("steady", "--speed-rpm"), ("--speed-rpm = None", "given", "rev/min")),
     (ball("steady", bearing="6999"), ("--bearing = '6999'", "6205", "ehlcontact init")),
     (ball("steady", oil="olive"), ("--oil = 'olive'", "ISO VG 10, 15", "680")),
     (ball("steady", temp="300"), ("--temp = 300.0", "between 20 and 120")),
-    (ball("steady", rpm="-1"), ("--rpm = -1.0", "between 0.001")),
-    (ball("steady", rpm="1e9"), ("--rpm = 1000000000.0", "rev/min")),
+    (ball("steady", speed_rpm="-1"), ("--speed-rpm = -1.0", "between 0.001")),
+    (ball("steady", speed_rpm="1e9"), ("--speed-rpm = 1000000000.0", "rev/min")),
     (ball("steady", load="0"), ("--load = 0.0", "between 1e-06")),
     (ball("steady", load="1e-5"), ("M of this contact", "between 0.1")),
     (ball("steady", load="1e6"), ("M of this contact", "20.1 GPa")),
@@ -84,16 +89,16 @@ COMMANDS = [
     (ball("impedance", hz="50", Omega="1"), ("--hz", "one name", "left out", "--Omega")),
     (ball("impedance", hz="-50"), ("--hz", "-50")),
     (at("impedance"), ("--Omega = None", "2a/u_sum")),
-    (ball("element", temp="20", oil="680", rpm="20000"), ("L of this contact", "between 0 and 30")),
+    (ball("element", temp="20", oil="680", speed_rpm="20000"), ("L of this contact", "between 0 and 30")),
     *(
         (at(*command, option, "50"), (option, "--Omega", "2a/u_sum", "no unit of time"))
         for command in (("impedance",), ("element", "--model", "cubic"))
-        for option in ("--hz", "--rpm", "--frequency")
+        for option in ("--hz", "--omega", "--rpm", "--speed-rpm")
     ),
     # steady, and what all solvers have in common
     *(
         (at(*command, **{option: value}), words)
-        for command in (("steady",), ("simulate", "--free", "5.13"), ("impedance", "--omega", "1"))
+        for command in (("steady",), ("simulate", "--free", "5.13"), ("impedance", "--Omega", "1"))
         for option, value, *words in (
             ("M", "1e9", "M = 1000000000.0", "between 0.1 and"),
             ("M", "1e-3", "M = 0.001", "between 0.1 and"),
@@ -139,7 +144,7 @@ COMMANDS = [
     (steady(threads="9999"), ("--threads = 9999", "whole number from 1 to", "cores")),
     (steady(threads="all"), ("--threads = 'all'", "whole number")),
     (free(threads="9999"), ("--threads = 9999", "whole number from 1 to")),
-    (at("impedance", "--omega", "1", threads="0"), ("--threads = 0", "whole number from 1 to")),
+    (at("impedance", "--Omega", "1", threads="0"), ("--threads = 0", "whole number from 1 to")),
     (steady("--n=x"), ("--n = 'x'", "whole number")),
     (steady("64"), ("64", "unexpected", "--help")),
     (steady(M=""), ("--M = ''", "a number")),
@@ -193,22 +198,22 @@ COMMANDS = [
     (at("simulate", "--harmonic", "0"), ("--harmonic = 0.0", "> 0")),
     (at("simulate", "--harmonic", "3", "--amplitude", "10"), ("--amplitude = 10.0", "above 0 and below 1")),
     (at("simulate", "--harmonic", "3", "--amplitude", "10%"), ("--amplitude = '10%'", "a number")),
-    (at("simulate", "--harmonic", "3", "--omega-n", "0"), ("--omega-n = 0.0", "> 0")),
+    (at("simulate", "--harmonic", "3", "--Omega-n", "0"), ("--Omega-n = 0.0", "> 0")),
     (at("simulate", "--harmonic", "3", "--offset", "0.1"), ("--offset = 0.1", "left out", "--free")),
-    (at("simulate", "--ramp", "3", "--omega-n", "2"), ("--ramp", "DURATION")),
+    (at("simulate", "--ramp", "3", "--Omega-n", "2"), ("--ramp", "DURATION")),
     (at("simulate", "--ramp", "3"), ("--ramp", "2 values", "RATIO DURATION")),
-    (at("simulate", "--ramp", "3", "0", "--omega-n", "2"), ("--ramp DURATION = 0.0", "> 0")),
-    (at("simulate", "--ramp", "-3", "1", "--omega-n", "2"), ("--ramp RATIO = -3.0", "> 0")),
+    (at("simulate", "--ramp", "3", "0", "--Omega-n", "2"), ("--ramp DURATION = 0.0", "> 0")),
+    (at("simulate", "--ramp", "-3", "1", "--Omega-n", "2"), ("--ramp RATIO = -3.0", "> 0")),
     (
-        at("simulate", "--ramp", "1e5", "1", "--omega-n", "2"),
+        at("simulate", "--ramp", "1e5", "1", "--Omega-n", "2"),
         ("M under the largest load", "between 0.1 and 60000"),
     ),
     (free("--harmonic", "3"), ("motion", "exactly one")),
-    (at("simulate", "--ramp", "3", "1"), ("--omega-n", "--ramp")),
-    (at("simulate", "--ramp", "1e4", "1", "--omega-n", "2.4"), ("M under the largest load",)),
+    (at("simulate", "--ramp", "3", "1"), ("--Omega-n", "--ramp")),
+    (at("simulate", "--ramp", "1e4", "1", "--Omega-n", "2.4"), ("M under the largest load",)),
     *((at("simulate", "--free", text), (f"--free = {float(text)}", "> 0")) for text in ("0", "nan")),
     (free("--amplitude", "0.2"), ("--amplitude", "0.2", "--harmonic")),
-    (free("--omega-n", "2"), ("--omega-n", "2.0", "--harmonic or --ramp")),
+    (free("--Omega-n", "2"), ("--Omega-n", "2.0", "--harmonic or --ramp")),
     (harmonic("--rate", "0.1"), ("--rate", "0.1", "--free")),
     (harmonic("--amplitude", "1.5"), ("amplitude", "1.5", "below 1")),
     (harmonic("--until", "-1"), ("until", "-1.0", "> 0")),
@@ -233,15 +238,15 @@ COMMANDS = [
     (free("--restart", RECORD, "--save", RECORD), ("--save = 'record.h5'", "another file", "which is read")),
     (free("--checkpoint", OTHER, "--save", f"./{OTHER}"), ("--save", "another file", "for --checkpoint")),
     # impedance
-    (at("impedance", "--omega"), ("--omega", "one value")),
-    (at("impedance", "--omega", "-1"), ("--omega", "-1.0", "<= 200")),
-    (at("impedance", "--omega", "314000"), ("--omega", "314000.0", "<= 200")),
-    (at("impedance", "--omega", "1", "--omega", "x"), ("--omega = '1, x'", "a number")),
-    (at("impedance", "--omega", "1,2,3"), ("--omega = '1,2,3'", "a number")),
-    (at("impedance", "--omega", "1", "2"), ("(2)", "unexpected")),
-    (at("impedance", "--omega", "1", n="17"), ("--n = 17", "multiple of 16")),
-    (at("impedance", "--omega", "1", "--save", "z.h5"), ("--save", "--json")),
-    (at("impedance", "--omega", "1", "--json", "none/z.json"), ("--json", "folder that exists")),
+    (at("impedance", "--Omega"), ("--Omega", "one value")),
+    (at("impedance", "--Omega", "-1"), ("--Omega", "-1.0", "<= 200")),
+    (at("impedance", "--Omega", "314000"), ("--Omega", "314000.0", "<= 200")),
+    (at("impedance", "--Omega", "1", "--Omega", "x"), ("--Omega = '1, x'", "a number")),
+    (at("impedance", "--Omega", "1,2,3"), ("--Omega = '1,2,3'", "a number")),
+    (at("impedance", "--Omega", "1", "2"), ("(2)", "unexpected")),
+    (at("impedance", "--Omega", "1", n="17"), ("--n = 17", "multiple of 16")),
+    (at("impedance", "--Omega", "1", "--save", "z.h5"), ("--save", "--json")),
+    (at("impedance", "--Omega", "1", "--json", "none/z.json"), ("--json", "folder that exists")),
     # fit
     (("fit",), ("R.h5", "given", "simulate")),
     (("fit", "none.h5"), ("file = 'none.h5'", "a readable result of simulate")),
@@ -269,7 +274,7 @@ COMMANDS = [
     (at("element", eta0="3"), ("--eta0 = 3.0", "between 0.002 and 1 Pa s", "in mPa s? then 0.003")),
     (at("element", viscosity="barus"), ("--viscosity = 'barus'", "roelands, the law of the atlas")),
     (at("element", density="incompressible"), ("--density", "dowson-higginson, the law of the atlas")),
-    (at("element", "--model", "cubic"), ("--Omega = None", "given with --model cubic", "one frequency")),
+    (at("element", "--model", "cubic"), ("--Omega = None", "given", "2a/u_sum")),
     (at("element", "--model", "cubic", "--Omega", "9999"), ("--Omega = 9999.0", ">= 0 and <= 60")),
     (at("element", "--model", "linear"), ("--model = 'linear'", "wide, cubic")),
     (at("element", "--atlas", "none.npz"), ("atlas = 'none.npz'", "readable atlas")),
@@ -353,22 +358,22 @@ COMMANDS = [
     # bearing
     (("bearing",), ("NAME|FILE.toml = None", "given")),
     (bearing("6025"), ("bearing = '6025'", "6205", "nearest", "examples/bearing_6205.toml")),
-    (("bearing", "6205", "--speed", "1000"), ("--load = None", "given")),
-    (("bearing", "6205", "--load", "1000"), ("--speed = None", "given")),
+    (("bearing", "6205", "--speed-rpm", "1000"), ("--load = None", "given")),
+    (("bearing", "6205", "--load", "1000"), ("--speed-rpm = None", "given")),
     (bearing("6205", load="-5"), ("--load = -5.0", ">= 0")),
     (bearing("6205", load="1e6", **OIL), ("--load = 1000000.0", "a ball carries at most", "atlas")),
     (bearing("6205", load="0"), ("--load = 0.0", "preload the bearing")),
-    (bearing("6205", speed="nan"), ("--speed = nan", "finite")),
-    (bearing("6205", speed="0", **OIL), ("--speed = 0.0", "without rolling there is no film")),
-    (bearing("6205", speed="90000", **OIL), ("--speed = 90000.0", "at most 21622")),
-    (bearing("6205", grade="68"), ("--temperature = None", "--grade and --temperature")),
-    (bearing("6205", grade="70", temperature="50"), ("--grade = 70", "one of 10, 15")),
-    (bearing("6205", grade="68", temperature="323"), ("--temperature = 323.0", "between 20 and 120")),
+    (bearing("6205", speed_rpm="nan"), ("--speed-rpm = nan", "finite")),
+    (bearing("6205", speed_rpm="0", **OIL), ("--speed-rpm = 0.0", "without rolling there is no film")),
+    (bearing("6205", speed_rpm="90000", **OIL), ("--speed-rpm = 90000.0", "at most 21622")),
+    (bearing("6205", oil="68"), ("--temp = None", "--oil and --temp")),
+    (bearing("6205", oil="70", temp="50"), ("--oil = '70'", "ISO VG 10, 15")),
+    (bearing("6205", oil="68", temp="323"), ("--temp = 323.0", "between 20 and 120")),
     (bearing("6205", clearance="5000"), ("--clearance = 5000", "given in um")),
     (bearing("6205", load="0", clearance="-300", **OIL), ("--clearance = -300", "a ball carries at most")),
     (bearing("6205", rq="0"), ("--rq = 0.0", "between 0.001 and 100")),
     (bearing("6205", figure="x.txt"), ("--figure = 'x.txt'", ".png")),
     (bearing("none.toml"), ("file = 'none.toml'", "readable TOML")),
     (bearing("study.toml"), ("study.toml", "left out")),
-    (("bearing", "6205", "--axial", "5"), ("--axial", "--load, --speed")),
+    (("bearing", "6205", "--axial", "5"), ("--axial", "--load, --speed-rpm")),
 ]

@@ -42,7 +42,7 @@ SAMPLE = [
     steady(alpha="20"),
     steady("--save", RECORD, "--json", RECORD),
     at("simulate", "--free", "314000"),
-    at("impedance", "--omega", "x"),
+    at("impedance", "--Omega", "x"),
     ("fit", RECORD, RECORD),
     at("element", eta0="3"),
     ("export", RECORD, "-o", "new.fmu"),

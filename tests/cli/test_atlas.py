@@ -37,7 +37,7 @@ def test_element_is_printed_saved_and_written(call, tmp_path, model):
         ((*POINT, "--atlas", "nowhere.npz"), ("nowhere.npz",)),
         (("--M", "6", "--L", "19", "--kappa", "0.11", "--model", "cubic", "--Omega", "1"), ("cubic", "wide")),
         ((*POINT, "--model", "cubic"), ("--Omega", "given with --model cubic")),
-        ((*POINT, "--model", "wide", "--omega", "1"), ("Omega", "left out", "wide")),
+        ((*POINT, "--model", "wide", "--Omega", "1"), ("Omega", "left out", "wide")),
     ],
 )
 def test_element_refuses(refused, arguments, words):

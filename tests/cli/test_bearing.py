@@ -10,7 +10,7 @@ from ehlcontact import Lubricant
 from reduced_models import BallBearing
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "bearing_6205.toml"
-OIL = ("--grade", "68", "--temperature", "50")
+OIL = ("--oil", "68", "--temp", "50")
 
 NAME = 'catalogue = "6205"'
 SIZES = "balls = {}\nball_diameter_mm = {}\npitch_diameter_mm = 39"
@@ -41,9 +41,9 @@ def test_json_is_what_the_library_has(call):
         "0.1",
         "--load",
         "1000",
-        "--speed",
+        "--speed-rpm",
         "3000",
-        "--speed",
+        "--speed-rpm",
         "1000",
         "--json",
         "-",
@@ -67,7 +67,7 @@ def test_json_is_what_the_library_has(call):
 
 
 def test_the_table_says_the_same(call):
-    result = call("bearing", "6205", *OIL, "--rq", "0.1", "--load", "1000", "--speed", "3000")
+    result = call("bearing", "6205", *OIL, "--rq", "0.1", "--load", "1000", "--speed-rpm", "3000")
     assert result.code == 0
     bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
     at = bearing.coefficients((0.0, -1000.0), speed_rpm=3000.0, rpm=3000.0)
@@ -81,9 +81,9 @@ def test_the_table_says_the_same(call):
 
 
 def test_a_dry_bearing_has_no_film_and_no_highest_speed(call):
-    result = call("bearing", "209", "--load", "8900", "--speed", "0", "--clearance", "15")
+    result = call("bearing", "209", "--load", "8900", "--speed-rpm", "0", "--clearance", "15")
     assert result.code == 0 and "none: dry" in result.out and "film" not in result.out
-    result = call("bearing", "209", "--load", "8900", "--speed", "0", "--clearance", "15", "--json", "-")
+    result = call("bearing", "209", "--load", "8900", "--speed-rpm", "0", "--clearance", "15", "--json", "-")
     found = json.loads(result.out)
     # Harris, Rolling Bearing Analysis, ch. 7
     loads = np.array(found["states"][0]["force"])[:3, 0]
@@ -95,7 +95,7 @@ def test_a_file_and_options_that_stand_in_for_its_entries(call, file):
     alone = json.loads(call("bearing", EXAMPLE, "--json", "-").out)
     assert alone["load"] == 1000.0 and alone["speed_rpm"] == [1000.0, 3000.0, 6000.0]
     assert alone["states"][0]["lambda_ratio"] is not None
-    hot = json.loads(call("bearing", EXAMPLE, "--temperature", "80", "--load", "500", "--json", "-").out)
+    hot = json.loads(call("bearing", EXAMPLE, "--temp", "80", "--load", "500", "--json", "-").out)
     assert hot["load"] == 500.0 and hot["bearing"]["oil"]["eta0"] < 0.5 * alone["bearing"]["oil"]["eta0"]
     sizes = 'balls = 9\nball_diameter_mm = 7.94004\npitch_diameter_mm = 39.0398\nname = "mine"'
     own = json.loads(call("bearing", file({'catalogue = "6205"': sizes}), "--json", "-").out)
@@ -108,17 +108,17 @@ def test_a_file_and_options_that_stand_in_for_its_entries(call, file):
 
 
 def test_every_entry_with_a_unit_is_there_and_zero_has_no_sign(call):
-    result = call("bearing", "6205", *OIL, "--rq", "0.1", "--load", "0", "--speed", "3000", "--json", "-")
+    result = call("bearing", "6205", *OIL, "--rq", "0.1", "--load", "0", "--speed-rpm", "3000", "--json", "-")
     found = json.loads(result.out)
     assert found["coefficients"][0]["frequency_hz"] == 50.0
     inner = found["coefficients"][0].keys() | found["states"][0].keys()
     assert found["units"].keys() <= found.keys() | inner
-    assert "-0 " not in call("bearing", "6205", *OIL, "--load", "0", "--speed", "3000").out
+    assert "-0 " not in call("bearing", "6205", *OIL, "--load", "0", "--speed-rpm", "3000").out
 
 
 @pytest.mark.parametrize(("speeds", "oil"), [(("3000",), OIL), (("500", "6000"), OIL), (("0",), ())])
 def test_a_figure(call, tmp_path, speeds, oil):
-    chosen = [part for speed in speeds for part in ("--speed", speed)]
+    chosen = [part for speed in speeds for part in ("--speed-rpm", speed)]
     result = call("bearing", "6205", *oil, "--load", "500", *chosen, "--figure", tmp_path / "b.png")
     assert result.code == 0 and (tmp_path / "b.png").read_bytes().startswith(b"\x89PNG")
 
@@ -128,7 +128,7 @@ def test_curves_pass_through_what_was_asked_for():
     from ehlcontact.cli.study.bearing import load_job
     from reduced_models.bearing.picture import draw_over_speed
 
-    job = load_job("6205", {"--load": 500.0, "--speed": [1000.0, 4000.0], "--grade": 68, "--temperature": 50.0})
+    job = load_job("6205", {"--load": 500.0, "--speed-rpm": [1000.0, 4000.0], "--oil": 68, "--temp": 50.0})
     at = tuple(job.bearing.coefficients((0, -500), speed_rpm=s, rpm=s) for s in job.speeds)
     states = tuple(job.bearing.equilibrium((0, -500), speed_rpm=s) for s in job.speeds)
     panels = draw_over_speed(states[1], at, curve(BearingReport(job, states, at))).axes

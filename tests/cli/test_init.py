@@ -41,7 +41,7 @@ def test_every_entry_of_the_schema_is_explained():
 
 
 def test_what_was_asked_for_is_what_the_study_says(study):
-    file = study("--bearing", "6206", "--oil", "vg46", "--temp", "65", "--rpm", "1500", "--load", "250")
+    file = study("--bearing", "6206", "--oil", "vg46", "--temp", "65", "--speed-rpm", "1500", "--load", "250")
     found, bearing = load_study(file), BallBearing.catalogue("6206")
     assert (found.oil.iso_vg, found.oil.temperature, found.oil.label) == (46, 65.0, "ISO VG 46 at 65 °C")
     assert (found.bearing.speed_rpm, found.bearing.radial_load) == (1500.0, 250.0)
@@ -132,7 +132,7 @@ def test_it_replaces_nothing_without_being_told(call, refused, tmp_path, monkeyp
         (("--bearing", "6999"), ("--bearing = '6999'", "6205", "balls = ...")),
         (("--oil", "olive"), ("--oil = 'olive'", "ISO VG 10")),
         (("--temp", "300"), ("--temp = 300.0", "between 20 and 120")),
-        (("--rpm", "0"), ("--rpm = 0.0", "between 0.001")),
+        (("--speed-rpm", "0"), ("--speed-rpm = 0.0", "between 0.001")),
         (("--load", "-5"), ("--load = -5.0", "between 1e-06")),
         (("--load", "1e7"), ("M", "between 0.1")),
         (("--load", "x"), ("--load = 'x'", "a number")),

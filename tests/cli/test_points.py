@@ -357,14 +357,14 @@ def test_validate_tells_of_all_points(call, tmp_path):
 
 def test_init_writes_lists(call, tmp_path):
     file = tmp_path / "s.toml"
-    options = ("--rpm", "1500", "--rpm", "3000", "--load", "100", "--load", "3000", "--json", "-")
+    options = ("--speed-rpm", "1500", "--speed-rpm", "3000", "--load", "100", "--load", "3000", "--json", "-")
     document = json.loads(call("init", file, *options).out)
     assert document["speed_rpm"] == [1500.0, 3000.0] and document["radial_load"] == [100.0, 3000.0]
     points = load_points(file, tmp_path)
     assert [point.name for point in points] == ["1500rpm_100N", "1500rpm_3000N", "3000rpm_100N", "3000rpm_3000N"]
     # the grid is that of the thinnest film
     alone = tmp_path / "alone.toml"
-    call("init", alone, "--rpm", "1500", "--load", "3000")
+    call("init", alone, "--speed-rpm", "1500", "--load", "3000")
     assert points[0].study.solver.n == load_study(alone).solver.n
 
 

@@ -107,7 +107,7 @@ def test_ctrl_c_in_a_subcommand(call, point, monkeypatch):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(import_module("ehlcontact.impedance"), "impedance", stop)
-    result = call("impedance", *point, "--omega", "1")
+    result = call("impedance", *point, "--Omega", "1")
     assert result.code == 130 and result.out == ""
     assert result.err == "ehlcontact: interrupted: nothing was computed that could be kept\n"
 
@@ -128,5 +128,5 @@ def test_what_the_system_refuses_is_one_line(call, point, monkeypatch, error, li
         raise error
 
     monkeypatch.setattr(import_module("ehlcontact.impedance"), "impedance", stop)
-    result = call("impedance", *point, "--omega", "1")
+    result = call("impedance", *point, "--Omega", "1")
     assert (result.code, result.err) == (1, f"ehlcontact: {line}\n")

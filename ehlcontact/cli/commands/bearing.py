@@ -92,24 +92,21 @@ class BearingOptions(o.Options):
     load: Annotated[e.NotNegative | None, typer.Option("--load"), e.meaning("radial load, N; a NAME needs it")] = (
         None
     )
-    speed: Annotated[
+    speed_rpm: Annotated[
         list[float] | None,
-        typer.Option("--speed", "--rpm"),
+        typer.Option("--speed-rpm"),
         e.meaning("speed of the shaft, rev/min; once each; a NAME needs one"),
     ] = None
-    grade: Annotated[e.Grade | None, typer.Option("--grade", rich_help_panel=_OIL)] = None
     oil: Annotated[
         str | None,
         typer.Option(
             "--oil",
             metavar="GRADE",
-            help='ISO grade of a mineral oil, as "ISO VG 68"; the same as --grade.',
+            help='ISO grade of a mineral oil, as "ISO VG 68"; without an oil the bearing is dry.',
             rich_help_panel=_OIL,
         ),
     ] = None
-    temperature: Annotated[e.Temperature | None, typer.Option("--temperature", "--temp", rich_help_panel=_OIL)] = (
-        None
-    )
+    temp: Annotated[e.Temperature | None, typer.Option("--temp", rich_help_panel=_OIL)] = None
     clearance: Annotated[e.Clearance | None, typer.Option("--clearance", rich_help_panel=_BEARING)] = None
     rq: Annotated[
         e.Roughness | None,
@@ -118,16 +115,10 @@ class BearingOptions(o.Options):
     ] = None
 
     def given(self) -> dict[str, Any]:
-        """Values by option; the grade by either of its two options."""
-        grade = self.grade
-        if self.oil is not None:
-            if grade is not None:
-                allowed = f"left out where --grade is given, here {grade}: both are the oil's grade"
-                raise InputError("--oil", self.oil, allowed)
-            grade = oil_grade(self.oil, "--oil")
-        values = {"--load": self.load, "--speed": self.speed or None, "--grade": grade}
-        values |= {"--temperature": self.temperature, "--clearance": self.clearance, "--rq": self.rq}
-        return values
+        """Values by option, None where one is not given."""
+        grade = None if self.oil is None else oil_grade(self.oil, "--oil")
+        values = {"--load": self.load, "--speed-rpm": self.speed_rpm or None, "--oil": grade, "--temp": self.temp}
+        return values | {"--clearance": self.clearance, "--rq": self.rq}
 
 
 @o.grouped

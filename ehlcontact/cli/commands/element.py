@@ -11,7 +11,7 @@ import typer
 
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import Contact, Surfaces, frequency
+from ehlcontact.cli.contact import Contact, Frequencies, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.rows import Row, in_unit, quantity_rows
 from ehlcontact.errors import InputError
@@ -23,22 +23,9 @@ if TYPE_CHECKING:
 
 
 class Kind(o.Options):
-    """Which element, and for which frequency."""
+    """Which element, and from which atlas; a cubic is for one frequency."""
 
     model: Annotated[str, typer.Option("--model", help="wide, memory or cubic.")] = "wide"
-    Omega: Annotated[
-        float | None,
-        typer.Option(
-            "--Omega",
-            "--omega",
-            help="Of a cubic, which needs it: the dimensionless angular frequency (unit of time 2a/u_sum) "
-            "that its damper is for. Both names mean the same: neither is in rad/s.",
-        ),
-    ] = None
-    hz: Annotated[
-        float | None,
-        typer.Option("--hz", show_default="that of the shaft", help="The same in Hz, of a bearing's contact."),
-    ] = None
     atlas: Annotated[
         Path | None,
         typer.Option("--atlas", metavar="FILE", help="An atlas; the library's own by default."),
@@ -46,16 +33,20 @@ class Kind(o.Options):
 
 
 @o.grouped
-def element(contact: Contact, surfaces: Surfaces, kind: Kind, out: o.ElementOutput) -> None:
+def element(
+    contact: Contact, surfaces: Surfaces, kind: Kind, frequencies: Frequencies, out: o.ElementOutput
+) -> None:
     """Take a contact element from the atlas, in SI for a bearing: any load, any frequency, or one of each."""
     from reduced_models.atlas.atlas import MODELS, Atlas
 
     require_choice("--model", kind.model, MODELS)
     point = contact.point()
-    named = kind.model == "cubic" or kind.Omega is not None or kind.hz is not None
-    at = frequency(contact, kind.Omega, kind.hz) if named else {}
-    if at is None:
-        raise InputError("--Omega", None, "given with --model cubic: a damper without memory is for one frequency")
+    at: dict[str, float] = {}
+    if kind.model == "cubic" or frequencies.given:
+        ((name, values),) = frequencies.named(contact).items()
+        if len(values) > 1:
+            raise InputError(f"--{name}", values, "given once: a damper without memory is for one frequency")
+        at = {name: values[0]}
     surfaces.check(contact)
     out.check(kind.atlas)
     table = Atlas(kind.atlas)
@@ -69,7 +60,7 @@ def element(contact: Contact, surfaces: Surfaces, kind: Kind, out: o.ElementOutp
         f"{kind.model} element from the atlas, version {table.metadata['version']}",
         [
             *contact.rows(point),
-            *_answer(answer, contact.rpm),
+            *_answer(answer, contact.speed_rpm),
             *rough,
             *_damper(made),
             *_valid(made),

@@ -2,41 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import Contact, frequency
+from ehlcontact.cli.contact import Contact, Frequencies
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row, in_unit, run_rows
-from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
     from ehlcontact.results import ImpedanceResult
-
-
-class Frequencies(o.Options):
-    """Frequencies of the small vibrations."""
-
-    Omega: Annotated[
-        list[float] | None,
-        typer.Option(
-            "--Omega",
-            "--omega",
-            help="Dimensionless angular frequency (unit of time 2a/u_sum), >= 0; give it once per frequency. "
-            "Both names mean the same: neither is in rad/s.",
-        ),
-    ] = None
-    hz: Annotated[
-        list[float] | None,
-        typer.Option(
-            "--hz",
-            show_default="that of the shaft",
-            help="Frequency of a bearing's contact, Hz; give it once per frequency.",
-        ),
-    ] = None
 
 
 @o.grouped
@@ -45,9 +20,7 @@ def impedance(contact: Contact, grid: o.Grid, frequencies: Frequencies, out: o.O
     from ehlcontact.impedance import impedance as solve
 
     point, chosen = contact.solvable(), grid.chosen()
-    at = frequency(contact, frequencies.Omega or None, frequencies.hz or None)
-    if at is None:
-        raise InputError("--Omega", None, "given: a dimensionless angular frequency (unit of time 2a/u_sum), >= 0")
+    at = frequencies.named(contact)
     out.check()
     with progress("linearised contact"):
         result = solve(point, **at, **chosen)

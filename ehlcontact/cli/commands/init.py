@@ -27,10 +27,10 @@ class Wish(o.Options):
         "6205"
     )
     oil: Annotated[str, OIL_NAME] = "ISO VG 68"
-    temp: Annotated[e.Temperature, typer.Option("--temp", "--temperature")] = 50.0
-    rpm: Annotated[list[e.Speed], typer.Option("--rpm"), e.meaning(f"speed of the shaft; {SEVERAL}")] = Field(
-        [3000.0]
-    )
+    temp: Annotated[e.Temperature, typer.Option("--temp")] = 50.0
+    speed_rpm: Annotated[
+        list[e.Speed], typer.Option("--speed-rpm"), e.meaning(f"speed of the shaft; {SEVERAL}")
+    ] = Field([3000.0])
     load: Annotated[list[e.Load], typer.Option("--load"), e.meaning(f"radial load on the bearing; {SEVERAL}")] = (
         Field([100.0])
     )
@@ -52,13 +52,14 @@ def init(
     entries = {
         "bearing.catalogue": bearing,
         "bearing.radial_load": _one_or_all(wish.load),
-        "bearing.speed_rpm": _one_or_all(wish.rpm),
+        "bearing.speed_rpm": _one_or_all(wish.speed_rpm),
         "oil.iso_vg": grade,
         "oil.temperature": float(wish.temp),
     }
     text = study_text({"title": f"study of a {bearing}", **entries}, file.name)
     write_text(file, text, "FILE.toml")
-    oil, loads, speeds = f"ISO VG {grade}", *(", ".join(map(numeral, values)) for values in (wish.load, wish.rpm))
+    oil = f"ISO VG {grade}"
+    loads, speeds = (", ".join(map(numeral, values)) for values in (wish.load, wish.speed_rpm))
     about = {"bearing": bearing, "oil": oil, "temperature": wish.temp}
     numbers = {name: entries[f"bearing.{name}"] for name in ("speed_rpm", "radial_load")}
     told = partial(

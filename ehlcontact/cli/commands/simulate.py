@@ -50,7 +50,7 @@ class MotionOptions(o.Options):
         typer.Option(
             "--ramp",
             metavar="RATIO DURATION",
-            help="Load rising to RATIO times the static one in DURATION of T; needs --omega-n.",
+            help="Load rising to RATIO times the static one in DURATION of T; needs --Omega-n.",
         ),
     ] = None
     free_hz: Annotated[
@@ -71,11 +71,7 @@ class MotionOptions(o.Options):
     ] = None
     Omega_n: Annotated[
         float | None,
-        typer.Option(
-            "--Omega-n",
-            "--omega-n",
-            help="Dimensionless Omega_n of the bodies, for --ramp and --harmonic; both names mean the same.",
-        ),
+        typer.Option("--Omega-n", help="Dimensionless Omega_n of the bodies, for --ramp and --harmonic."),
     ] = None
     offset: Annotated[
         float | None,
@@ -115,7 +111,7 @@ class MotionOptions(o.Options):
                 return HarmonicLoad(Omega=self.harmonic, amplitude=self._amplitude, Omega_n=self.Omega_n)
         assert self.ramp is not None
         if self.Omega_n is None:
-            raise InputError("--omega-n", None, "given with --ramp: a finite number > 0")
+            raise InputError("--Omega-n", None, "given with --ramp: a finite number > 0")
         with o.called(ratio="--ramp RATIO", duration="--ramp DURATION"):
             return RampLoad(*self.ramp, Omega_n=self.Omega_n)
 
@@ -138,7 +134,7 @@ class MotionOptions(o.Options):
             "--offset": (self.offset, ("--free",)),
             "--rate": (self.rate, ("--free",)),
             "--amplitude": (self.amplitude, ("--harmonic",)),
-            "--omega-n": (self.Omega_n, ("--harmonic", "--ramp")),
+            "--Omega-n": (self.Omega_n, ("--harmonic", "--ramp")),
         }
         for name, (value, motions) in owners.items():
             if value is not None and chosen not in motions:

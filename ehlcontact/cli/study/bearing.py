@@ -20,9 +20,9 @@ from reduced_models import BallBearing
 
 OPTIONS = {
     "--load": "operation.radial_load",
-    "--speed": "operation.speed_rpm",
-    "--grade": "oil.iso_vg",
-    "--temperature": "oil.temperature",
+    "--speed-rpm": "operation.speed_rpm",
+    "--oil": "oil.iso_vg",
+    "--temp": "oil.temperature",
     "--clearance": "bearing.clearance_um",
     "--rq": "surface.rq_um",
 }
@@ -178,7 +178,7 @@ def _called(file: str, given: frozenset[str], values: Mapping[str, Any]) -> Iter
         elif entry == "bearing.catalogue":
             entry = "bearing"
         if value is None and option is not None:
-            if option in ("--grade", "--temperature"):
-                allowed = "given: an oil has --grade and --temperature"
+            if option in ("--oil", "--temp"):
+                allowed = "given: an oil has --oil and --temp"
             allowed += f", or {option}" if file else ""
         raise InputError(entry, value, allowed) from None
