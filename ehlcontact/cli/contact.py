@@ -211,8 +211,8 @@ class Contact(Options):
         ]
 
     @property
-    def said(self) -> str:
-        """The same in one line."""
+    def description(self) -> str:
+        """Bearing, race, load, speed and oil in one line; empty for a dimensionless point."""
         if not self.in_si:
             return ""
         ball = f"most loaded ball of {numeral(self.load)} N at {numeral(self.speed_rpm)} rpm"

@@ -248,7 +248,7 @@ class Output(Options):
         """
         deliver(
             lambda: save_to("--save", getattr(self, "save", None), save),
-            lambda: figure and write_to("--figure", getattr(self, "figure", None), figure),
+            lambda: write_to("--figure", getattr(self, "figure", None), figure),
             lambda: write_json(document, self.json_to),
             *(part if callable(part) else functools.partial(show_table, *part, self.json_to) for part in shown),
         )

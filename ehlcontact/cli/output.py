@@ -182,15 +182,15 @@ def write_json(document: Mapping[str, Any], target: str | None, field: str = "--
         write_text(target, text + "\n", field)
 
 
-def write_to(option: str, path: Path | None, write: Callable[[Path], object]) -> None:
-    """Write to the path of an option, if there is one.
+def write_to(option: str, path: Path | None, write: Callable[[Path], object] | None) -> None:
+    """Write to the path of an option, if there is one, and anything to write.
 
     Raises
     ------
     InputError
         It cannot be written; it names the option.
     """
-    if path is not None:
+    if path is not None and write is not None:
         try:
             write(path)
         except InputError as error:

@@ -157,7 +157,7 @@ SLIPS = {
         ("[free]\nOmega_n = 1e9", "free.Omega_n = 1000000000.0", "between 1e-06 and 1000"),
         ("[free]\nperiods = 101", "free.periods = 101", "between 1 and 100"),
         ("[free]\nsteps = 3", "free.steps = 3", "steps_per_period?"),
-        ("[free]\nomega_n = 2.56", "free.omega_n", "2.56", "as Omega_n (dimensionless", "hz"),
+        ("[free]\nomega_n = 2.56", "free.omega_n", "2.56", "Omega_n?", "hz"),
         ("[free]\nOmega_n = 2.56\nhz = 1e4", "free.hz", "10000", "left out where free.Omega_n"),
     ],
     "steps_per_period = 40": [
@@ -167,7 +167,7 @@ SLIPS = {
     "[harmonic]": [
         ("[harmonic]\nOmega = 314000", "harmonic.Omega = 314000", "between 1e-06 and 1000"),
         ("[harmonic]\namplitude = 25", "harmonic.amplitude = 25", "above 0 and below 1"),
-        ("[harmonic]\nomega = 3.14", "harmonic.omega", "3.14", "as Omega (dimensionless", "hz"),
+        ("[harmonic]\nomega = 3.14", "harmonic.omega", "3.14", "Omega?", "hz"),
         ("[harmonic]\nOmega = 2\nhz = 1e4", "harmonic.hz", "left out where harmonic.Omega"),
         ("[harmonic]\nhz = 0", "harmonic.hz", "0", "> 0"),
     ],

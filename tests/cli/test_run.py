@@ -86,7 +86,7 @@ def test_what_is_assumed_is_told(finished):
     expected = assumptions(study.point, film=film, roughness=study.roughness).short()
     for name in ("rotor_band_cubic", "rotor_band_cubic_si", "memory_si"):
         assert load(folder / "elements" / f"{name}.json").source["assumptions"] == expected
-    said = reduction.contact_said(study)
+    said = reduction.contact_text(study)
     assert study.bearing.name in said and study.oil.label in said and "3000 rpm" in said
     assert load(folder / "elements" / "memory_si.json").source["contact"] == said
     for name in ("contact", "contact_film"):

@@ -52,8 +52,8 @@ def element(
     table = Atlas(kind.atlas)
     with contact.called():
         answer, made = table.at(point), table.element(point, kind.model, **at)
-    if said := contact.said:
-        made = replace(made, source={**(made.source or {}), "contact": said})
+    if contact.description:
+        made = replace(made, source={**(made.source or {}), "contact": contact.description})
     rough = () if surfaces.rq is None else surfaces.rows(answer.si.h_min)
     about = {} if surfaces.rq is None else surfaces.about(answer.si.h_min)
     shown = (

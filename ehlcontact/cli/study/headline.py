@@ -1,4 +1,4 @@
-"""What a study found, in sentences: every one is computed; those with nothing to say are empty."""
+"""Findings of a study in sentences made from its numbers; a sentence without content is empty."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.reduction import CHOSEN, CONTACTS, DRY, FULL, MEMORY, UNDAMPED, WRONG
 from ehlcontact.cli.study.results import Findings
 
-# Change by half the step, over a signal's standard deviation or the decrement, from which the headline tells it.
-STEP_TOLD = 0.01
+# Change by half the step, over the standard deviation of a signal or the decrement, that has a sentence.
+LARGE_CHANGE = 0.01
 
 
 def document(found: Findings) -> dict[str, Any]:
@@ -28,16 +28,16 @@ def headline(found: Findings) -> str:
 
 
 def findings(found: Findings) -> list[str]:
-    """What was found, a text per subject."""
-    return _told(found, contact, damper, decay, unbalance, whole)
+    """Findings, a text per subject."""
+    return _sentences(found, contact, damper, decay, unbalance, whole)
 
 
 def reservations(found: Findings) -> list[str]:
-    """What to keep in mind with it."""
-    return _told(found, unsettled, step_check, grids, happenings, failures, assumed)
+    """Reservations about the findings, a text per subject."""
+    return _sentences(found, unsettled, step_check, grids, happenings, failures, assumed)
 
 
-def _told(found: Findings, *parts: Callable[[Findings], str]) -> list[str]:
+def _sentences(found: Findings, *parts: Callable[[Findings], str]) -> list[str]:
     return [text for text in (part(found) for part in parts) if text]
 
 
@@ -70,7 +70,7 @@ def damper(found: Findings) -> str:
 
 
 def decay(found: Findings) -> str:
-    """Decrement of the full film, and what becomes of it with elements and without a film."""
+    """Decrement on the full film, with elements, and without a film."""
     d = found.rotors.decay
     own = d.decrements[FULL]
     rest = [
@@ -92,12 +92,12 @@ def decay(found: Findings) -> str:
 
 
 def off(share: float) -> str:
-    """How far from the full film."""
+    """Difference from the value on the full film, as a share of it."""
     return f"{'+' if share >= 0.0 else '-'}{percent(abs(share), 2)} of it"
 
 
 def unbalance(found: Findings) -> str:
-    """How far elements and baselines are from the full film under unbalance."""
+    """Differences of elements and baselines from the full film under unbalance."""
     u = found.rotors.unbalance
     said = [
         f"the {CONTACTS[name]} by {percent(c.displacement_vibration, 2)} and {percent(c.force_vibration, 2)}"
@@ -112,7 +112,7 @@ def unbalance(found: Findings) -> str:
 
 
 def whole(found: Findings) -> str:
-    """The rotor on whole bearings, where the study has them: its decrements, and how balls that pass move it."""
+    """The rotor on whole bearings, where the study has them: decrements, and motion at ball passage."""
     if found.whole is None:
         return ""
     rows, parts = found.whole.rows, []
@@ -150,18 +150,18 @@ def unsettled(found: Findings) -> str:
 
 
 def step_check(found: Findings) -> str:
-    """Where half the step changes more than a hundredth."""
+    """Changes by half the step above a hundredth."""
     u, d = found.rotors.unbalance.step_share, found.rotors.decay.step_share
     said = []
-    if u is not None and u > STEP_TOLD:
+    if u is not None and u > LARGE_CHANGE:
         said.append(f"the run with unbalance by {percent(u, 2)} of the standard deviation of a signal")
-    if d is not None and d > STEP_TOLD:
+    if d is not None and d > LARGE_CHANGE:
         said.append(f"the decrement by {percent(d, 2)} of it")
     return f"THE STEP IS LONG: half of it changes {' and '.join(said)}, on the full film." if said else ""
 
 
 def grids(found: Findings) -> str:
-    """What `validate` would have told beforehand: meshes too coarse for this film, numbers nobody measured at."""
+    """Warnings of `validate`: a mesh too coarse for this film, numbers beyond the measured range."""
     said = cautions(found.study)
     return f"NOT AS SURE AS IT LOOKS: {'; '.join(said)}." if said else ""
 
@@ -197,5 +197,5 @@ def failures(found: Findings) -> str:
 
 
 def assumed(found: Findings) -> str:
-    """What is assumed and does not hold."""
+    """Assumptions that do not hold."""
     return found.assumptions.headline

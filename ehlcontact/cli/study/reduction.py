@@ -129,7 +129,7 @@ def _spread(response: ImpedanceResult) -> ImpedanceResult:
     return replace(response, **{name: getattr(response, name)[kept] for name in names})
 
 
-def contact_said(study: Study) -> str:
+def contact_text(study: Study) -> str:
     """Whose contact it is, in one line."""
     bearing, oil = study.bearing, study.oil
     viscosity = "" if oil.eta0 is None else f" of {numeral(oil.eta0)} Pa s"

@@ -21,7 +21,7 @@ from ehlcontact.cli.study.reduction import (
     FULL,
     RECORDS,
     Reduction,
-    contact_said,
+    contact_text,
     export_fmu,
     reduce_records,
     save_elements,
@@ -236,7 +236,7 @@ def evaluate(study: Study, folder: Path, index: Mapping[str, Mapping[str, Any]])
     scales = study.point.scales
     assumed = assumptions(study.point, film=steady, roughness=study.roughness).short()
     response = film_response(study)
-    known = {"assumptions": assumed, "contact": contact_said(study)}
+    known = {"assumptions": assumed, "contact": contact_text(study)}
     reduction = reduce_records(histories, response, scales, known)
     save_elements(reduction, folder)
     exported = export_fmu(reduction.chosen, folder / "contact.fmu")

@@ -1,4 +1,4 @@
-"""What is wrong with a study file, in one line: the entry, what it may be, and what was probably meant."""
+"""Errors of study files and options in one line: the entry, its allowed range, and what was probably meant."""
 
 from __future__ import annotations
 
@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 # What a name of the catalogue gives.
 DIMENSIONS = ("bearing.balls", "bearing.ball_diameter_mm", "bearing.pitch_diameter_mm", "bearing.conformity")
 BY_NAME = ', or catalogue = "6205" in place of all dimensions'
-# Names from before frequencies carried their unit: omega is in rad/s now, so they are not taken silently.
-RENAMED = {"free.omega_n": "Omega_n", "harmonic.omega": "Omega"}
 # Where pydantic speaks of Python: what TOML calls it.
 RANGE = ("limits", "greater_than", "greater_than_equal", "less_than", "less_than_equal", "multiple_of")
 LIST = "a list of three numbers"
@@ -52,9 +50,7 @@ def first_error(error: ValidationError, study: type[BaseModel]) -> InputError:
     first = next((e for e in errors if e["type"] == "extra_forbidden"), errors[0])
     loc, value = first["loc"], first["input"]
     field = ".".join(str(part) for part in loc) or "study"
-    if field in RENAMED:
-        allowed = f"given as {RENAMED[field]} (dimensionless, the same number) or as hz"
-    elif first["type"] == "extra_forbidden":
+    if first["type"] == "extra_forbidden":
         allowed = "left out; " + _known_instead(study, loc)
     elif first["type"] == "missing" and isinstance(loc[-1], int):
         field, allowed = ".".join(str(part) for part in loc[:-1]), LIST
@@ -78,7 +74,7 @@ def first_error(error: ValidationError, study: type[BaseModel]) -> InputError:
 def in_other_kind(
     error: InputError, document: Mapping[str, Any], sections: tuple[str, ...], command: str
 ) -> InputError:
-    """An error of a file that has sections of the other kind of file: told which command reads that kind."""
+    """The error, with the command for the other kind of file where the file has sections of that kind."""
     if not any(name in document for name in sections):
         return error
     allowed = f"{error.allowed}; or is this a file for `ehlcontact {command}`?"
