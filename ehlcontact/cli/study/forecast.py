@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from math import ceil
 from pathlib import Path
 from typing import Any
 
@@ -20,20 +19,6 @@ from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.solver.mesh import FINENESS, LARGEST_MESH, Mesh, Purpose, mesh_for
 
-# Cost of a stage: convolutions ("conv", docs/solver_development.md)
-# per thousand nodes and step of one contact, the geometric
-# mean of the two studies in examples/, whose own costs are up to a factor 1.5 on either side. What a step costs
-# depends on how far it goes: hardly a cycle in a free vibration, three at the rotor's frequency.
-COST = {
-    "free": 0.59,
-    "harmonic": 0.91,
-    "rotor_band": 1.03,
-    "rotor_full": 1.90,
-    "rotor_half_step": 1.16,
-    "decay": 1.67,
-    "decay_half_step": 0.70,
-}
-STEADY_COST = 3.5  # likewise per thousand nodes, of a whole steady solve
 CONV = 2.3e-3  # seconds of one when those studies were run
 REST = 10.0 / CONV  # fits, impedance, FMU, reduced rotors and report, of either study
 # Convolutions of the rotor on whole bearings, with films and dry: its diagram, and each of its steps.
@@ -151,18 +136,16 @@ def forecast(study: Study, folder: Path, jobs: int) -> Forecast:
     conv, index = convolution_seconds(), read_index(folder)
     plans = []
     for stage in stages_of(study):
-        mesh, contacts, steps, step = _work(stage.name, study)
-        estimate = conv * stage_cost(stage.name, study)
-        plans.append(Plan(stage, mesh, contacts, steps, step, estimate, is_done(stage, study, folder, index)))
+        estimate, kept = conv * stage_cost(stage, study), is_done(stage, study, folder, index)
+        plans.append(Plan(stage, _mesh(stage, study), *_steps(stage, study), estimate, kept))
     closed = all(plan.kept for plan in plans) and is_final(study, folder, index)
     return Forecast(study, folder, jobs, conv, tuple(plans), closed, tuple(cautions(study)))
 
 
-def stage_cost(name: str, study: Study) -> float:
+def stage_cost(stage: Stage, study: Study) -> float:
     """Estimated cost of a stage, in convolutions."""
-    mesh, contacts, steps, _ = _work(name, study)
-    cost = STEADY_COST if not steps else steps * contacts * COST[name]
-    return float(cost * mesh.nodes(study.point.moes.kappa) * 1e-3)
+    contacts, steps, _ = _steps(stage, study)
+    return float(stage.cost * max(1, steps) * contacts * _mesh(stage, study).nodes(study.point.moes.kappa) * 1e-3)
 
 
 def closing_cost(study: Study) -> float:
@@ -183,27 +166,17 @@ def convolution_seconds() -> float:
     return min(times)
 
 
-def _work(name: str, study: Study) -> tuple[Mesh, int, int, float | None]:
-    """Mesh, contacts, steps and their length; no steps for a steady film."""
-    free, harmonic, r = study.free, study.harmonic, study.rotor
-    mesh, contacts = Mesh(study.solver.n_transient, study.domain), 1
-    period: float | None
-    match name:
-        case "free":
-            periods, each, period = free.periods, free.steps_per_period, study.free_motion.period
-        case "harmonic":
-            periods, each, period = harmonic.periods, harmonic.steps_per_period, study.harmonic_motion.period
-        case "rotor_band":
-            periods, each, period = r.fit_periods, r.fit_steps_per_period, study.rotor_motion.period
-        case "rotor_full" | "rotor_half_step":
-            halvings, contacts = int(name == "rotor_half_step"), len(build_rotor(study).mounts)
-            periods, each, period = r.revolutions, r.steps_per_revolution * 2**halvings, study.rotor_motion.period
-        case "decay" | "decay_half_step":
-            halvings, contacts = int(name == "decay_half_step"), len(build_rotor(study).mounts)
-            periods, each, period = r.decay_periods, r.decay_steps_per_period * 2**halvings, None
-        case _:
-            return Mesh(study.solver.n, study.domain), 1, 0, None
-    return mesh, contacts, ceil(periods * each - 1e-9), None if period is None else period / each
+def _mesh(stage: Stage, study: Study) -> Mesh:
+    return Mesh(study.solver.n if stage.steps is None else study.solver.n_transient, study.domain)
+
+
+def _steps(stage: Stage, study: Study) -> tuple[int, int, float | None]:
+    """Contacts, steps and their dimensionless length, None where the film decides it; a steady film has none."""
+    if stage.steps is None:
+        return 1, 0, None
+    steps = stage.steps(study)
+    contacts = len(build_rotor(study).mounts) if steps.on_rotor else 1
+    return contacts, steps.count, None if steps.period is None else steps.period / steps.per_period
 
 
 def cautions(study: Study) -> list[str]:

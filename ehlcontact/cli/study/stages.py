@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
+from math import ceil
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -25,15 +27,49 @@ class Outcome(NamedTuple):
     message: str = ""
 
 
+class Steps(NamedTuple):
+    """Time steps of a computation."""
+
+    period: float | None  # dimensionless; None where it follows from the film
+    periods: float
+    per_period: int
+    on_rotor: bool = False  # films in all contacts of the rotor, else in one
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        return ceil(self.periods * self.per_period - 1e-9)
+
+
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """One computation; `sections` of the study decide whether an earlier file still holds."""
+    """One computation of a study.
+
+    Attributes
+    ----------
+    name, title : str
+    sections : tuple of str
+        Sections of the study that, with bearing and oil, decide whether an earlier file still holds.
+    cost : float
+        Of one step of one contact, or of a steady solve, in convolutions ("conv", docs/solver_development.md) per
+        thousand nodes: geometric mean of the two studies in examples/, whose own costs are up to a factor 1.5 on
+        either side. It depends on the length of a step: hardly a cycle in a free vibration, three at the rotor's
+        frequency.
+    steps : callable, optional
+        `Steps` of a study; None of a steady film.
+    compute : callable
+        Study and progress to a result.
+    checks : bool
+        Whether it is only done for [check] half_step.
+    """
 
     name: str
     title: str
     sections: tuple[str, ...]
+    cost: float
+    steps: Callable[[Study], Steps] | None
     compute: Callable[[Study, Update], Any]
-    checks: bool = False  # only for [check] half_step
+    checks: bool = False
 
     def wanted(self, study: Study) -> bool:
         """Whether the study includes this computation."""
@@ -76,8 +112,7 @@ def _steady(study: Study, update: Update) -> Any:
 def _simulate(
     study: Study,
     motion: FreeVibration | HarmonicLoad,
-    periods: float,
-    steps: int,
+    steps: Steps,
     update: Update,
     snapshots: Sequence[float] = (),
 ) -> Any:
@@ -87,20 +122,28 @@ def _simulate(
         study.point,
         motion,
         grid=Grid(n=study.solver.n_transient, domain=study.domain),
-        time=TimeSteps(periods=periods, steps_per_period=steps),
+        time=TimeSteps(periods=steps.periods, steps_per_period=steps.per_period),
         keep=KeepSettings(snapshots=[T * study.point.scales.time for T in snapshots]),
         run=RunSettings(throw=False, callback=update),
     )
 
 
+def _free_steps(study: Study) -> Steps:
+    return Steps(study.free_motion.period, study.free.periods, study.free.steps_per_period)
+
+
 def _free(study: Study, update: Update) -> Any:
-    return _simulate(study, study.free_motion, study.free.periods, study.free.steps_per_period, update)
+    return _simulate(study, study.free_motion, _free_steps(study), update)
+
+
+def _harmonic_steps(study: Study) -> Steps:
+    return Steps(study.harmonic_motion.period, study.harmonic.periods, study.harmonic.steps_per_period)
 
 
 def _harmonic(study: Study, update: Update) -> Any:
-    settings = study.harmonic
-    kept = frame_times(study.harmonic_motion.period, settings.periods, settings.steps_per_period)
-    return _simulate(study, study.harmonic_motion, settings.periods, settings.steps_per_period, update, kept)
+    steps = _harmonic_steps(study)
+    kept = frame_times(study.harmonic_motion.period, steps.periods, steps.per_period)
+    return _simulate(study, study.harmonic_motion, steps, update, kept)
 
 
 def frame_times(period: float, periods: float, steps: int) -> list[float]:
@@ -111,44 +154,49 @@ def frame_times(period: float, periods: float, steps: int) -> list[float]:
     return [k * period / steps for k in range(first, last + 1, stride)]
 
 
+def _band_steps(study: Study) -> Steps:
+    return Steps(study.rotor_motion.period, study.rotor.fit_periods, study.rotor.fit_steps_per_period)
+
+
 def _rotor_band(study: Study, update: Update) -> Any:
-    settings = study.rotor
-    return _simulate(study, study.rotor_motion, settings.fit_periods, settings.fit_steps_per_period, update)
+    return _simulate(study, study.rotor_motion, _band_steps(study), update)
 
 
-def _rotor_full(study: Study, update: Update) -> Any:
+def _rotor_steps(halvings: int, study: Study) -> Steps:
+    per_turn = study.rotor.steps_per_revolution * 2**halvings
+    return Steps(study.rotor_motion.period, study.rotor.revolutions, per_turn, on_rotor=True)
+
+
+def _rotor(halvings: int, study: Study, update: Update) -> Any:
     from ehlcontact.cli.study.rotor import run_full
 
-    return run_full(study, 0, update)
+    return run_full(study, halvings, update)
 
 
-def _rotor_half_step(study: Study, update: Update) -> Any:
-    from ehlcontact.cli.study.rotor import run_full
-
-    return run_full(study, 1, update)
+def _decay_steps(halvings: int, study: Study) -> Steps:
+    return Steps(None, study.rotor.decay_periods, study.rotor.decay_steps_per_period * 2**halvings, on_rotor=True)
 
 
-def _decay(study: Study, update: Update) -> Any:
+def _decay(halvings: int, study: Study, update: Update) -> Any:
     from ehlcontact.cli.study.free_decay import run_decay_full
 
-    return run_decay_full(study, 0, update)
+    return run_decay_full(study, halvings, update)
 
 
-def _decay_half_step(study: Study, update: Update) -> Any:
-    from ehlcontact.cli.study.free_decay import run_decay_full
-
-    return run_decay_full(study, 1, update)
+def _on_rotor(name: str, title: str, cost: float, steps: Any, compute: Any, halvings: int) -> Stage:
+    sections, checks = ("solver", "rotor"), halvings > 0
+    return Stage(name, title, sections, cost, partial(steps, halvings), partial(compute, halvings), checks)
 
 
 STAGES = (  # the longest first
-    Stage("rotor_half_step", "rotor again, half the step", ("solver", "rotor"), _rotor_half_step, True),
-    Stage("decay_half_step", "decay again, half the step", ("solver", "rotor"), _decay_half_step, True),
-    Stage("rotor_full", "rotor on full contacts", ("solver", "rotor"), _rotor_full),
-    Stage("decay", "decay after a kick", ("solver", "rotor"), _decay),
-    Stage("steady", "steady film", ("solver",), _steady),
-    Stage("free", "free vibration", ("solver", "free"), _free),
-    Stage("harmonic", "harmonic load, contact band", ("solver", "harmonic"), _harmonic),
-    Stage("rotor_band", "harmonic load, rotor band", ("solver", "rotor"), _rotor_band),
+    _on_rotor("rotor_half_step", "rotor again, half the step", 1.16, _rotor_steps, _rotor, 1),
+    _on_rotor("decay_half_step", "decay again, half the step", 0.70, _decay_steps, _decay, 1),
+    _on_rotor("rotor_full", "rotor on full contacts", 1.90, _rotor_steps, _rotor, 0),
+    _on_rotor("decay", "decay after a kick", 1.67, _decay_steps, _decay, 0),
+    Stage("steady", "steady film", ("solver",), 3.5, None, _steady),
+    Stage("free", "free vibration", ("solver", "free"), 0.59, _free_steps, _free),
+    Stage("harmonic", "harmonic load, contact band", ("solver", "harmonic"), 0.91, _harmonic_steps, _harmonic),
+    Stage("rotor_band", "harmonic load, rotor band", ("solver", "rotor"), 1.03, _band_steps, _rotor_band),
 )
 
 

@@ -63,7 +63,7 @@ class Task:
     def cost(self) -> float:
         """Estimated, in convolutions."""
         study = self.point.study
-        return closing_cost(study) if self.stage is None else stage_cost(self.stage.name, study)
+        return closing_cost(study) if self.stage is None else stage_cost(self.stage, study)
 
 
 class Scheduler:
