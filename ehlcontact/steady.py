@@ -92,7 +92,7 @@ def solve_steady(
         Intervals along X, computed region, engine of the elastic deflection. The default number of intervals is
         what the film needs, 128 or more. It is doubled until the estimated errors are within 0.2 % of the dry
         approach, 1 % of the central and 3 % of the smallest film, up to a grid of a million nodes, and of four
-        million where the side lobes of a long contact come out negative otherwise; ``result.error`` is
+        million where the side lobes of a long contact come out negative otherwise; ``result.error_estimate`` is
         what was reached. The default region is ``Domain()``, wider at light load, and, with the number of
         intervals left out, narrower where the film is too thin for a grid of that extent.
     approach : float, optional
@@ -111,7 +111,7 @@ def solve_steady(
         again with the load raised in small steps instead, and on a still finer grid where that fails.
     refine : bool
         False, with the number of intervals left out, accepts the first grid that gives a film, with a quarter of
-        the nodes or fewer: the smallest film may be off by a third (``result.error``).
+        the nodes or fewer: the smallest film may be off by a third (``result.error_estimate``).
     threads : int, optional
         Threads that share the work, at most the cores there are; by default all of them, within the present limits
         of BLAS, and one in the processes of a pool. Results are the same, bit for bit, for any number.
@@ -277,6 +277,6 @@ class _Attempt:
             pressure_changes=np.array(track.pressure_changes[: max(track.iterations, 0)]),
             dry_residual=self.scale,
             status=status,
-            error=self.error_estimate,
+            error_estimate=self.error_estimate,
             seconds=seconds,
         )

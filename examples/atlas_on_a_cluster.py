@@ -36,7 +36,7 @@ def build(folder: Path, draws: int = DRAWS, light: int = LIGHT, workers: int = 2
 def films(atlas: Atlas) -> list[tuple[float, float]]:
     """Central film at the points, and its error bar."""
     answers = [atlas.at(point) for point in POINTS]
-    return [(answer.h_central, answer.error["h_central"]) for answer in answers]
+    return [(answer.h_central, answer.error_bars["h_central"]) for answer in answers]
 
 
 def main(picture: str = "atlas_on_a_cluster.png") -> None:

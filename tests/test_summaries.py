@@ -269,7 +269,9 @@ def test_tables_of_xarray(told):
     assert list(state.race.values) == ["inner", "outer"] and state.force.sel(race="outer").shape == (9,)
     answer = next(thing for thing in told if isinstance(thing, reduced_models.AtlasAnswer))
     data = answer.to_xarray()
-    assert np.array_equal(data.stiffness_error, answer.error["stiffness"]) and data.attrs["M"] == answer.point.M
+    assert (
+        np.array_equal(data.stiffness_error, answer.error_bars["stiffness"]) and data.attrs["M"] == answer.point.M
+    )
 
 
 def test_tables_of_pandas(told):

@@ -188,7 +188,7 @@ class Tabled:
 
     def _quantities(self) -> Iterator[tuple[str, str, Array]]:
         """Name, name of the quantity that it is (another for error bars) and values, of all that are there."""
-        bars = getattr(self, "error", None)
+        bars = getattr(self, "error_bars", None)
         for name in self._layout().quantities:
             if getattr(self, name) is None:
                 continue
@@ -225,7 +225,7 @@ class Tabled:
 
     def _panels(self) -> Iterator[Panel | Map]:
         """Of the figure; those of quantities that are not there are left out."""
-        layout, bars, sizes = self._layout(), getattr(self, "error", None), self._sizes()
+        layout, bars, sizes = self._layout(), getattr(self, "error_bars", None), self._sizes()
         for group in layout.panels:
             names = [name for name in group.split() if getattr(self, name) is not None]
             if not names:

@@ -77,7 +77,7 @@ class SteadyResult(ScaledTable, Origin):
     dry_residual : float
         Mean absolute residual of the dry Hertz start on this grid: the scale.
     status : Status
-    error : ErrorEstimate or None
+    error_estimate : ErrorEstimate or None
         How far approach and films may be from those of an endless fine mesh on the same region; None of a film
         that is not converged. In SI its approach is in m.
     point, scales, domain, n, seconds, version
@@ -98,7 +98,7 @@ class SteadyResult(ScaledTable, Origin):
     dry_residual: float
     status: Status
     pressure_changes: Annotated[Array, PRESSURE.over("change", listed=False)]
-    error: ErrorEstimate | None = None
+    error_estimate: ErrorEstimate | None = None
 
     DISPLAY: ClassVar[Display] = Display(rows="X Y", panels=("P", "H"))
 
@@ -166,15 +166,15 @@ class SteadyResult(ScaledTable, Origin):
         """How the smallest film was found, and how sure it is, in words."""
         if not self.status.ok:
             return f"not solved: {self.status}"
-        if self.error is None:
+        if self.error_estimate is None:
             return "solved"
-        bar = self.error.h_min
+        bar = self.error_estimate.h_min
         return "solved, off by anything" if bar >= ALL else f"solved, ± {float(f'{100.0 * bar:.2g}'):g} %"
 
     @property
     def reservation(self) -> str:
         """What a converged film leaves open, in words: where its mesh does not show a film; else empty."""
-        return grid_doubt(self.error) if self.status.ok else ""
+        return grid_doubt(self.error_estimate) if self.status.ok else ""
 
     def _panels(self) -> Iterator[Any]:
         places, fields = (self.X, self.Y), (self.P, self.H)
@@ -185,8 +185,8 @@ class SteadyResult(ScaledTable, Origin):
 
     def _summary_lines(self) -> list[str]:
         bars = ["", ""]
-        if self.error is not None:
-            bars = [f" ({bar})" for bar in film_bars(self.error)]
+        if self.error_estimate is not None:
+            bars = [f" ({bar})" for bar in film_bars(self.error_estimate)]
         s = self.scales
         size, unit = (1.0, "of the dry approach") if s is None else (s.length * 1e6, "µm")
         central, least = size * self.h_central, size * self.h_min

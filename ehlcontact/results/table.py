@@ -32,7 +32,7 @@ from ehlcontact.summary import LINES, WIDTH, Summary
 
 Array = NDArray[Any]
 
-ERRORS = "error", "film_error"  # attributes that hold errors of quantities, in their units
+ERRORS = "error_estimate", "error_bars", "film_error"  # attributes that hold errors of quantities, in their units
 
 
 @dataclass(frozen=True)
@@ -230,7 +230,7 @@ class QuantityTable(Summary):
 
     def _columns(self) -> Iterator[tuple[str, str, Array]]:
         """Name, name of the quantity (another for error bars) and values, of all that are not None."""
-        bars = getattr(self, "error", None)
+        bars = getattr(self, "error_bars", None)
         for name in self._declared():
             if getattr(self, name) is None:
                 continue
@@ -303,7 +303,7 @@ class QuantityTable(Summary):
         self, names: list[str], rest: list[str], sizes: Mapping[str, int]
     ) -> Iterator[tuple[str, Array, Array | None]]:
         """Lines of a panel: name, values, half widths of error bars."""
-        bars = getattr(self, "error", None)
+        bars = getattr(self, "error_bars", None)
         for name in names:
             bar = bars.get(name) if isinstance(bars, Mapping) else None
             pairs = self._pairs(rest, sizes)
@@ -343,7 +343,7 @@ class SIView(QuantityTable):
 
     Attributes have the names of the result in lower case: X, Y, P, H, T become x, y, p, h, t, and Omega both
     ``omega`` [rad/s] and ``hz``. The docstring of the result lists them with their units, and so does `dir`.
-    Errors of quantities (``error``) are in the units of the quantities.
+    Errors of quantities (``error_estimate``, ``error_bars``) are in the units of the quantities.
 
     Parameters
     ----------

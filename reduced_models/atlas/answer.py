@@ -40,7 +40,7 @@ class AtlasAnswer(ScaledTable):
     stiffness, damping : ndarray, shape (k,)
         K(Omega) in f0/delta_H, the static tangent at Omega = 0, and C(Omega) in that times 2a/u_sum; in SI [N/m]
         and [N s/m].
-    error : dict
+    error_bars : dict
         Half widths of the error bars of all these, under these names and in the same units and shapes.
     scales : Scales or None
         Its units in SI; None for a dimensionless point.
@@ -55,7 +55,7 @@ class AtlasAnswer(ScaledTable):
     Omega: Annotated[_Floats, FREQUENCY.over("Omega")]
     stiffness: Annotated[_Floats, STIFFNESS.over("Omega")]
     damping: Annotated[_Floats, DAMPING.over("Omega")]
-    error: dict[str, Any]
+    error_bars: dict[str, Any]
     scales: Scales | None = None
 
     DISPLAY: ClassVar[Display] = FrequencyResponse.DISPLAY
@@ -68,10 +68,10 @@ class AtlasAnswer(ScaledTable):
     @property
     def film_origin(self) -> str:
         """How the smallest film was found, and how sure it is, in words."""
-        return f"from the atlas, ± {100.0 * self.error['h_min'] / self.h_min:.2g} %"
+        return f"from the atlas, ± {100.0 * self.error_bars['h_min'] / self.h_min:.2g} %"
 
     def _summary_lines(self) -> list[str]:
-        s, bar = self.scales, self.error
+        s, bar = self.scales, self.error_bars
         size, unit = (1.0, "of the dry approach") if s is None else (s.length * 1e6, "µm")
         rigid, damps = (1.0, 1.0) if s is None else (s.stiffness * 1e-6, s.damping)
         names = ("", "") if s is None else (" N/µm", " N s/m")
@@ -109,9 +109,9 @@ class AtlasAnswer(ScaledTable):
         """
         time = None if self.scales is None else self.scales.time
         w = dimensionless(time, Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=float(self.Omega[-1]))
-        K, C = (Between(self.Omega, getattr(self, n), self.error[n]) for n in ("stiffness", "damping"))
+        K, C = (Between(self.Omega, getattr(self, n), self.error_bars[n]) for n in ("stiffness", "damping"))
         error = {"stiffness": K.bars(w), "damping": C.bars(w)}
-        return AtlasImpedance(Omega=w, stiffness=K.at(w), damping=C.at(w), error=error, scales=self.scales)
+        return AtlasImpedance(Omega=w, stiffness=K.at(w), damping=C.at(w), error_bars=error, scales=self.scales)
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON; of an SI point with ``si``."""
@@ -128,7 +128,7 @@ class AtlasAnswers(QuantityTable):
     approach, h_central, h_min, film_share, moment : ndarray, shape (n,)
     Omega : ndarray, shape (k,)
     stiffness, damping : ndarray, shape (n, k)
-    error : dict
+    error_bars : dict
         Half widths of the error bars, in the same units and shapes.
     """
 
@@ -143,7 +143,7 @@ class AtlasAnswers(QuantityTable):
     Omega: Annotated[_Floats, FREQUENCY.over("Omega")]
     stiffness: Annotated[_Floats, STIFFNESS.over("point Omega")]
     damping: Annotated[_Floats, DAMPING.over("point Omega")]
-    error: dict[str, _Floats]
+    error_bars: dict[str, _Floats]
 
     DISPLAY: ClassVar[Display] = Display(
         rows="point", panels=("h_central", "h_min", "approach", "damping"), first=0

@@ -91,7 +91,7 @@ class Atlas:
         error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
         for numbers in (named, error):
             numbers |= {name: float(numbers[name]) for name in NUMBERS}
-        return AtlasAnswer(moes, Omega=self._table.omega, **named, error=error, scales=scales_of(point))
+        return AtlasAnswer(moes, Omega=self._table.omega, **named, error_bars=error, scales=scales_of(point))
 
     def over(
         self,
@@ -126,7 +126,7 @@ class Atlas:
         named, error = self._named(values), self._named(bars)
         error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
         axes = dict(zip(("M", "L", "kappa"), points.T, strict=True))
-        return AtlasAnswers(**axes, Omega=self._table.omega, **named, error=error)
+        return AtlasAnswers(**axes, Omega=self._table.omega, **named, error_bars=error)
 
     @by_name(3)
     def element(
@@ -287,11 +287,11 @@ class Atlas:
         return named | {"stiffness": rows[:, HEAD : HEAD + k], "damping": rows[:, HEAD + k :]}
 
     def _source(self, answer: AtlasAnswer) -> dict[str, Any]:
-        bars, low = answer.error, self._table.interpolation.reference
+        bars, low = answer.error_bars, self._table.interpolation.reference
         return {
             "atlas": self._table.metadata["version"],
             "point": answer.point.to_dict(),
-            "error": {
+            "error_bars": {
                 "approach": bars["approach"],
                 "h_central": bars["h_central"],
                 "tangent": float(bars["stiffness"][0]),

@@ -63,7 +63,7 @@ class AtlasImpedance(ScaledResponse):
     stiffness, damping : ndarray, shape (k,)
         K(Omega) in f0/delta_H, the static tangent at Omega = 0, and C(Omega) in that times 2a/u_sum; in SI [N/m]
         and [N s/m].
-    error : dict
+    error_bars : dict
         Half widths of the error bars of stiffness and damping, in the same units and shapes.
     scales : Scales or None
         Its units in SI; None for a dimensionless point.
@@ -72,5 +72,5 @@ class AtlasImpedance(ScaledResponse):
     Omega: Annotated[_Floats, FREQUENCY.over("Omega")]
     stiffness: Annotated[_Floats, STIFFNESS.over("Omega")]
     damping: Annotated[_Floats, DAMPING.over("Omega")]
-    error: dict[str, _Floats]
+    error_bars: dict[str, _Floats]
     scales: Scales | None = None

@@ -51,18 +51,18 @@ def rows_of(atlas, entries):
     for entry in entries:
         answer = atlas.at(MoesPoint(entry["M"], entry["L"], entry["kappa"]))
         film = entry.get("film", entry)
-        found = {name: (getattr(answer, name) - film[name], answer.error[name]) for name in NAMES}
+        found = {name: (getattr(answer, name) - film[name], answer.error_bars[name]) for name in NAMES}
         sizes = {name: abs(film[name]) for name in NAMES} | {"approach": max(abs(film["approach"]), 1.0)}
         found["film_share"], sizes["film_share"] = found["approach"], 1.0 - film["approach"]
         K, C, low = np.array(entry["stiffness"]), np.array(entry["damping"]), OMEGAS.index(0.05)
-        found["tangent"], sizes["tangent"] = (answer.stiffness[0] - K[0], answer.error["stiffness"][0]), K[0]
-        found["K(Omega)"], sizes["K(Omega)"] = (answer.stiffness - K, answer.error["stiffness"]), K
+        found["tangent"], sizes["tangent"] = (answer.stiffness[0] - K[0], answer.error_bars["stiffness"][0]), K[0]
+        found["K(Omega)"], sizes["K(Omega)"] = (answer.stiffness - K, answer.error_bars["stiffness"]), K
         if not is_near(entry):
             found["damping"], sizes["damping"] = (
-                (answer.damping[low] - C[low], answer.error["damping"][low]),
+                (answer.damping[low] - C[low], answer.error_bars["damping"][low]),
                 C[low],
             )
-            found["C(Omega)"], sizes["C(Omega)"] = (answer.damping - C, answer.error["damping"]), C[low]
+            found["C(Omega)"], sizes["C(Omega)"] = (answer.damping - C, answer.error_bars["damping"]), C[low]
         row = {"point": [entry[name] for name in ("M", "L", "kappa")]}
         for name, (error, bar) in found.items():
             row[name] = np.atleast_1d(error / sizes[name]), np.atleast_1d(np.abs(error) / bar)

@@ -78,7 +78,7 @@ def test_atlas_answers_as_in_python(ask):
         there = atlas.at(point)
         for name in NUMBERS:
             np.testing.assert_allclose(here[name], getattr(there, name), rtol=CLOSE, atol=1e-12, err_msg=name)
-            np.testing.assert_allclose(here["error"][name], there.error[name], rtol=CLOSE, err_msg=name)
+            np.testing.assert_allclose(here["error"][name], there.error_bars[name], rtol=CLOSE, err_msg=name)
 
 
 def test_between_the_frequencies_of_the_table(ask):
@@ -91,7 +91,7 @@ def test_between_the_frequencies_of_the_table(ask):
     found = ask(body, [{"point": asked_of(point), "Omega": Omega} for point in points])
     for point, here in zip(points, found, strict=True):
         there = atlas.at(point).impedance(Omega=Omega)
-        columns = there.stiffness, there.error["stiffness"], there.damping, there.error["damping"]
+        columns = there.stiffness, there.error_bars["stiffness"], there.damping, there.error_bars["damping"]
         for column, values in zip(np.transpose(here), columns, strict=True):
             np.testing.assert_allclose(column, values, rtol=CLOSE, atol=1e-10)
 

@@ -157,7 +157,7 @@ def test_films_and_records(films, results):
         unit = "" if name == "approach" else "_um"
         size = 1.0 if name == "approach" else 1e6 * point["dry_approach"]
         assert point[name + unit] == pytest.approx(getattr(film, name) * size)
-        assert point[f"{name}_error"] == getattr(film.error, name)
+        assert point[f"{name}_error"] == getattr(film.error_estimate, name)
     for name in RECORDS:
         row, run = results["simulations"][name], films[name]
         assert row["static_approach"] == run.static_approach and row["steps"] == run.T.size - 1

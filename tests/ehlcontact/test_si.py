@@ -71,14 +71,20 @@ def run():
 
 
 def test_every_field_in_its_unit(steady, run):
-    assert steady.si.error.approach == pytest.approx(steady.error.approach * S.length)
-    assert (steady.si.error.h_central, steady.si.error.h_min) == (steady.error.h_central, steady.error.h_min)
+    assert steady.si.error_estimate.approach == pytest.approx(steady.error_estimate.approach * S.length)
+    assert (steady.si.error_estimate.h_central, steady.si.error_estimate.h_min) == (
+        steady.error_estimate.h_central,
+        steady.error_estimate.h_min,
+    )
     assert run.si.film_error.approach == pytest.approx(run.film_error.approach * S.length)
     assert (run.si.film_error.h_central, run.si.to_dict()["film_error"]["h_min"]) == (
         run.film_error.h_central,
         run.film_error.h_min,
     )
-    for result, beside in ((steady, {"error"}), (run, {"static_load", "mass", "omega", "hz", "film_error"})):
+    for result, beside in (
+        (steady, {"error_estimate"}),
+        (run, {"static_load", "mass", "omega", "hz", "film_error"}),
+    ):
         si = result.si
         assert {name for name in UNITS if hasattr(result, UNITS[name][0])} | beside == names_of(si)
         for name in names_of(si) - beside:

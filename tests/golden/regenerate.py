@@ -102,7 +102,11 @@ def answered(name):
     answer = atlas.at(point)
     found = {k: getattr(answer, k) for k in ("approach", "h_central", "h_min")}
     found |= {k: getattr(answer, k).tolist() for k in ("stiffness", "damping")}
-    found["bars"] = [answer.error["approach"], answer.error["h_central"], *answer.error["damping"].tolist()]
+    found["bars"] = [
+        answer.error_bars["approach"],
+        answer.error_bars["h_central"],
+        *answer.error_bars["damping"].tolist(),
+    ]
     for model in ("wide", "memory", "cubic"):
         element = atlas.element(point, model, **({"Omega": 2.0 * np.pi} if model == "cubic" else {}))
         rest = element.approach_at(1.0)

@@ -77,15 +77,17 @@ def _answer(answer: AtlasAnswer, rpm: float | None) -> list[Row]:
         unit = unit if si else ""
         return name, in_unit(value, unit), f"± {in_unit(bar, unit, 1)}{remark}"
 
-    rows = quantity_rows(answer, dict.fromkeys(("approach", "h_central", "h_min", "moment"), ""), answer.error)
+    rows = quantity_rows(
+        answer, dict.fromkeys(("approach", "h_central", "h_min", "moment"), ""), answer.error_bars
+    )
     remark = "" if si else ", dimensionless, as C: time in 2a/u_sum"
-    rows.append(row("static tangent", view.stiffness[0], view.error["stiffness"][0], "N/m", remark))
+    rows.append(row("static tangent", view.stiffness[0], view.error_bars["stiffness"][0], "N/m", remark))
     if rpm is not None:
         shaft, own = answer.impedance(rpm=rpm).si, ", the shaft's own frequency"
         hz = f"C at {numeral(rpm / 60.0)} Hz"
-        rows.append(row(hz, shaft.damping[0], shaft.error["damping"][0], "N s/m", own))
+        rows.append(row(hz, shaft.damping[0], shaft.error_bars["damping"][0], "N s/m", own))
     names = [f"{numeral(hz, 3)} Hz" for hz in answer.si.hz] if si else [""] * len(answer.Omega)
-    every = zip(answer.Omega, names, view.damping, view.error["damping"], strict=True)
+    every = zip(answer.Omega, names, view.damping, view.error_bars["damping"], strict=True)
     for w, hz, c, bar in every:
         if w in SHOWN:
             omega = f"Ω = {numeral(w, 3)}"

@@ -107,7 +107,7 @@ def _draw(result: SteadyResult, path: Path) -> None:
 
 
 def _rows(result: SteadyResult) -> list[Row]:
-    error = result.error
+    error = result.error_estimate
     central, smallest = ("", "") if error is None else map(share_text, (error.h_central, error.h_min))
     remarks = {"approach": "", "h_central": central, "h_min": smallest, "p_max": "", "moment": _left_out(result)}
     return [

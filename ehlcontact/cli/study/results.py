@@ -53,7 +53,7 @@ class Findings:
     @property
     def operating_point(self) -> dict[str, Any]:
         """Numbers of the contact, SI unless the name has a unit; errors of films over the films, or None."""
-        error = self.steady.error
+        error = self.steady.error_estimate
         moes, scales, oil = self.study.point.moes, self.study.point.scales, self.study.lubricant
         return {
             "M": moes.M,

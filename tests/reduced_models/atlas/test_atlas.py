@@ -79,7 +79,7 @@ def shares(answer, truth):
     """True error over error bar: approach, films, K and C at every frequency."""
     names = ("approach", "h_central", "h_min", "stiffness", "damping")
     error = [np.atleast_1d(np.abs(getattr(answer, n) - np.asarray(truth[n]))) for n in names]
-    bar = [np.atleast_1d(answer.error[n]) for n in names]
+    bar = [np.atleast_1d(answer.error_bars[n]) for n in names]
     return np.concatenate(error) / np.concatenate(bar)
 
 
@@ -136,7 +136,10 @@ def test_outside_the_box_it_says_which_axis(analytic, point, words, ask):
 def test_another_oil_widens_the_error_bars(analytic):
     own, other = analytic.at(CASE), analytic.at(MoesPoint(200.0, 10.0, 0.5, alpha=1.5e-8, eta0=0.1))
     assert own.approach == other.approach
-    assert other.error["approach"] > own.error["approach"] and other.error["h_central"] > own.error["h_central"]
+    assert (
+        other.error_bars["approach"] > own.error_bars["approach"]
+        and other.error_bars["h_central"] > own.error_bars["h_central"]
+    )
 
 
 @pytest.mark.parametrize(("alpha", "eta0"), [(1.5e-8, 0.04), (2.2e-8, 0.1), (3.5e-8, 0.01)])
@@ -150,9 +153,9 @@ def test_error_bars_widen_by_what_the_oil_may_change(shipped, alpha, eta0):
     changes = {"h_central": film * own.h_central, "h_min": film * own.h_min, "stiffness": K * own.stiffness}
     changes["moment"] = m * own.moment
     for name, change in (changes | {"approach": film * (1.0 - own.approach)}).items():
-        np.testing.assert_allclose(np.subtract(other.error[name], own.error[name]), change, rtol=1e-9)
-    assert (other.error["damping"] > np.hypot(own.error["damping"], C * own.damping)).all()
-    assert (other.error["damping"] < own.error["damping"] + 2.0 * C * own.damping).all()
+        np.testing.assert_allclose(np.subtract(other.error_bars[name], own.error_bars[name]), change, rtol=1e-9)
+    assert (other.error_bars["damping"] > np.hypot(own.error_bars["damping"], C * own.damping)).all()
+    assert (other.error_bars["damping"] < own.error_bars["damping"] + 2.0 * C * own.damping).all()
 
 
 @pytest.mark.parametrize("model", MODELS)
@@ -249,7 +252,7 @@ def test_bars_are_wide_where_films_are_too_thin_to_be_solved(shipped):
     with pytest.raises(InputError, match=r"^inlet width = "):
         impedance_grid(thin)
     far, near = shipped.at(thin), shipped.at(CASE)
-    assert far.error["h_central"] / far.h_central > 5.0 * near.error["h_central"] / near.h_central
+    assert far.error_bars["h_central"] / far.h_central > 5.0 * near.error_bars["h_central"] / near.h_central
 
 
 def test_every_point_of_the_box_gives_elements(shipped):
@@ -285,7 +288,7 @@ def test_operating_points_get_elements_in_si(shipped, model):
 def test_elements_say_where_they_come_from(shipped, tmp_path, model):
     read = load_file(save(shipped.element(CASE, model, **AT[model]), tmp_path / "e.json"))
     assert read.source["atlas"] == shipped.metadata["version"]
-    assert read.source["point"]["M"] == CASE.M and 0.0 < read.source["error"]["approach"] < 0.01
+    assert read.source["point"]["M"] == CASE.M and 0.0 < read.source["error_bars"]["approach"] < 0.01
     assert read.load_range is not None and read.omega_range is not None
     assert read.source["assumptions"]["elastic"]["holds"] is True
     assert read.source["assumptions"]["isothermal"]["holds"] is None  # without dimensions
@@ -302,8 +305,8 @@ def test_answers_in_si_have_their_error_bars_in_si(shipped):
     units = dict.fromkeys(lengths, s.length) | {"stiffness": s.force / s.length, "moment": s.force * s.a}
     for name, unit in units.items():
         np.testing.assert_allclose(getattr(si, name), np.asarray(getattr(answer, name)) * unit)
-        np.testing.assert_allclose(si.error[name], np.asarray(answer.error[name]) * unit)
-    assert set(si.error) == set(answer.error) and answer.to_dict()["si"]["force"] == 60.0
+        np.testing.assert_allclose(si.error_bars[name], np.asarray(answer.error_bars[name]) * unit)
+    assert set(si.error_bars) == set(answer.error_bars) and answer.to_dict()["si"]["force"] == 60.0
     with pytest.raises(InputError, match=r"^scales = None"):
         _ = shipped.at(point.moes).si
 
@@ -412,9 +415,11 @@ def test_the_6205_on_vg_68_from_idling_to_its_limit(shipped, race, conformity, s
         )
         answer = shipped.at(point)
         # an oil of another alpha than the atlas's widens the bars; those of the atlas alone are narrow
-        assert shipped.at(MoesPoint(answer.point.M, answer.point.L, answer.point.kappa)).error["approach"] < 0.01
-        assert answer.error["approach"] < 0.03 * max(1.0, answer.film_share)
-        assert answer.error["h_central"] < 0.1 * answer.h_central
+        assert (
+            shipped.at(MoesPoint(answer.point.M, answer.point.L, answer.point.kappa)).error_bars["approach"] < 0.01
+        )
+        assert answer.error_bars["approach"] < 0.03 * max(1.0, answer.film_share)
+        assert answer.error_bars["h_central"] < 0.1 * answer.h_central
         assert (
             0.0 < answer.si.moment < 2.0 * load * point.scales.a
         )  # of a thick film, pressed well ahead of the centre
@@ -452,7 +457,7 @@ def test_thin_film_of_a_narrow_contact(shipped):
     point = MoesPoint(17241.0, 0.49, 0.149)
     answer, film = shipped.at(point), solve_point(point)["film"]
     for name in ("approach", "h_central", "h_min", "moment"):
-        assert abs(getattr(answer, name) - film[name]) <= answer.error[name], name
+        assert abs(getattr(answer, name) - film[name]) <= answer.error_bars[name], name
 
 
 @pytest.mark.slow

@@ -29,7 +29,7 @@ def test_formula_has_the_scatter_that_is_said_of_it():
             film = ATLAS.at(MoesPoint(M, L, kappa))
         except InputError:
             continue
-        if film.error["h_min"] < 0.1 * film.h_min:
+        if film.error_bars["h_min"] < 0.1 * film.h_min:
             ratios.append(by_formula(M, L, kappa) / film.h_min)
             if kappa > 0.7 and M > 3000.0:
                 circles.append(ratios[-1])
@@ -52,7 +52,7 @@ def test_film_of_the_atlas_makes_the_lambda_ratio():
     bare, known = (assumptions(point, film=film, roughness=ROUGH)["smooth"] for film in (None, answer))
     assert known.value == pytest.approx(answer.si.h_min / np.hypot(*ROUGH), rel=1e-12)
     assert bare.value > 1.2 * known.value
-    bar = 100.0 * answer.error["h_min"] / answer.h_min
+    bar = 100.0 * answer.error_bars["h_min"] / answer.h_min
     assert f"(from the atlas, ± {bar:.2g} %)" in known.verdict
     assert "(by Hamrock and Dowson's formula)" in bare.verdict
     assert FORMULA_SCATTER in bare.scatter and FORMULA_SCATTER not in known.scatter
@@ -62,7 +62,7 @@ def test_film_of_the_atlas_makes_the_lambda_ratio():
 def test_solved_film_says_so():
     point = MoesPoint(200, 10, 0.5)
     solved = solve_steady(point, grid=Grid(n=64))
-    assert solved.film_origin == f"solved, ± {100.0 * solved.error.h_min:.2g} %"
+    assert solved.film_origin == f"solved, ± {100.0 * solved.error_estimate.h_min:.2g} %"
     assert impedance(point, Omega=[0.0], grid=Grid(n=64)).film_origin == "solved"
     stopped = solve_steady(point, grid=Grid(n=64), max_cycles=1, throw=False)
     assert stopped.film_origin == f"not solved: {stopped.status}"

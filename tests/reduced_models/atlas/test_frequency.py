@@ -35,7 +35,7 @@ def test_exact_at_the_nodes_and_static_at_0(shipped):
     np.testing.assert_allclose(found.stiffness, answer.stiffness, rtol=1e-12)
     np.testing.assert_allclose(found.damping, answer.damping, rtol=1e-9)
     for name in ("stiffness", "damping"):
-        np.testing.assert_allclose(found.error[name], answer.error[name], rtol=1e-6)
+        np.testing.assert_allclose(found.error_bars[name], answer.error_bars[name], rtol=1e-6)
     still = answer.impedance(Omega=0.0)
     assert still.impedance[0] == pytest.approx(answer.stiffness[0])
     np.testing.assert_array_equal(found.impedance, found.stiffness + 1j * NODES * found.damping)
@@ -60,7 +60,7 @@ def test_between_the_nodes_it_is_what_is_solved_there(point):
 def test_bars_are_wider_between_the_nodes(shipped):
     answer = shipped.at(CASE)
     at = 0.5 * (NODES[8:20] + NODES[9:21])
-    bars, beside = answer.impedance(Omega=at).error["damping"], answer.error["damping"]
+    bars, beside = answer.impedance(Omega=at).error_bars["damping"], answer.error_bars["damping"]
     assert np.all(bars >= np.minimum(beside[8:20], beside[9:21]))
     assert np.all(bars <= np.maximum(beside[8:20], beside[9:21]) + 0.02 * answer.damping[1])
 
@@ -74,7 +74,7 @@ def test_in_si_by_any_name(shipped):
     si = found.si
     np.testing.assert_allclose(si.hz, [0.0, 50.0], rtol=1e-12)
     np.testing.assert_allclose(si.impedance, found.impedance * POINT.scales.stiffness, rtol=1e-12)
-    np.testing.assert_allclose(si.error["damping"], found.error["damping"] * POINT.scales.damping)
+    np.testing.assert_allclose(si.error_bars["damping"], found.error_bars["damping"] * POINT.scales.damping)
     assert pytest.approx(si.damping[1], rel=1e-12) == shipped.element(POINT, "cubic", hz=50.0).C1
 
 

@@ -40,9 +40,9 @@ def test_as_one_by_one(analytic, axes, oil):
         one = analytic.at(MoesPoint(*(float(axis[i]) for axis in axes), **oil))
         for name in NAMES:
             np.testing.assert_allclose(getattr(many, name)[i], getattr(one, name), rtol=1e-9)
-            np.testing.assert_allclose(many.error[name][i], one.error[name], rtol=1e-9)
-    assert many.stiffness.shape == many.error["damping"].shape == (MANY, many.Omega.size)
-    assert set(many.error) == {f.name for f in fields(many)} - {"M", "L", "kappa", "Omega", "error"}
+            np.testing.assert_allclose(many.error_bars[name][i], one.error_bars[name], rtol=1e-9)
+    assert many.stiffness.shape == many.error_bars["damping"].shape == (MANY, many.Omega.size)
+    assert set(many.error_bars) == {f.name for f in fields(many)} - {"M", "L", "kappa", "Omega", "error_bars"}
 
 
 def test_a_number_stands_for_all(analytic):
