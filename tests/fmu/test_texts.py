@@ -1,16 +1,23 @@
+"""Texts and picture of an FMU: model description, documentation, icon."""
+
 import dataclasses
+import io
 import re
+import zipfile
 from xml.etree import ElementTree
 
 import fmpy
 import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
+from PIL import Image
 
 from ehlcontact.errors import InputError
+from fmu import export_contact
 from fmu.c_headers import c_double
 from fmu.contacts import contact_spec, step_advice
 from fmu.documentation import documentation
+from fmu.icon import SIZE, icon
 from fmu.model_description import model_description
 from fmu.spec import ModelSpec, Variable
 
@@ -162,3 +169,27 @@ def test_page_names_the_largest_step_of_each_coupling(elements):
         notes = dict(contact_spec(element).notes)
         assert all(advice[label] in notes[label.capitalize()] for label in advice)
         assert float(advice["default step"].split()[0]) <= 0.05 * (element.time or 1.0)
+
+
+@pytest.mark.parametrize(("fmi", "place"), [(2, "model.png"), (3, "terminalsAndIcons/icon.png")])
+def test_icon_is_in_the_fmu(elements, tmp_path, fmi, place):
+    path = export_contact(elements["cubic"], tmp_path / "x.fmu", fmi=fmi)
+    with zipfile.ZipFile(path) as archive:
+        assert archive.read(place) == icon()
+        assert sum(name.endswith(".png") for name in archive.namelist()) == 1
+
+
+def test_icon_is_small_and_can_be_read():
+    """Ball above raceway with the film between, on nothing."""
+    content = icon()
+    icon.cache_clear()
+    assert icon() == content and len(content) < 2000
+    picture = Image.open(io.BytesIO(content))
+    picture.load()  # checksums too
+    assert picture.size == (SIZE, SIZE) and SIZE >= 100 and picture.mode == "RGBA"
+    middle = [picture.getpixel((SIZE // 2, y)) for y in range(SIZE)]
+    solid = [pixel for pixel in middle if pixel[3] == 255]
+    assert list(dict.fromkeys(pixel for pixel in solid if solid.count(pixel) > 2)) == [
+        (0x8D, 0x99, 0xA6, 255), (0xE0, 0x8A, 0x1E, 255), (0x4A, 0x55, 0x60, 255),
+    ]  # fmt: skip
+    assert picture.getpixel((0, 0))[3] == 0

@@ -16,6 +16,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 import json
+import re
 import sys
 import tempfile
 import warnings
@@ -49,6 +50,7 @@ from ehlcontact import (
     film_of,
     film_wave,
     impedance,
+    load,
     save,
     simulate,
     solve_steady,
@@ -292,15 +294,15 @@ def element(name: str, contact: Any) -> Leaves:
     v = scale * np.array([-3.0, -0.7, 0.0, 0.4, 2.5])
     yield f"{name}.spring", np.asarray(contact.spring(u))
     yield f"{name}.tangent", np.array([contact.spring_tangent(float(x)) for x in u])
-    load = float(contact.spring(0.5 * (low + high)))
+    middle = float(contact.spring(0.5 * (low + high)))
     yield (
         f"{name}.approach_at",
-        np.array([contact.approach_at(share * load) for share in (0.05, 0.6, 1.0, 1.4, 5.0)]),
+        np.array([contact.approach_at(share * middle) for share in (0.05, 0.6, 1.0, 1.4, 5.0)]),
     )
-    if hasattr(contact, "force"):
+    if callable(getattr(contact, "force", None)):
         for what in ("force", "stiffness", "damping"):
             yield f"{name}.{what}", getattr(contact, what)(u[:, None], v[None, :])
-        yield f"{name}.rate_at", contact.rate_at(0.5 * (low + high), 1.01 * load)
+        yield f"{name}.rate_at", contact.rate_at(0.5 * (low + high), 1.01 * middle)
     dt = 0.05 if contact.units == "dimensionless" else 1e-6
     contact.rest(low)
     steps = []
@@ -421,8 +423,8 @@ def bearings() -> Leaves:
     state = "displacement stiffness angles force approach h_central h_min lambda_ratio moment rolling_torque"
     for name, bearing in cases.items():
         yield from leaves(f"{name}.frequencies", bearing.frequencies(3000.0))
-        for load, speed in (((0.0, -1000.0), 3000.0), ((300.0, -150.0), 9000.0)):
-            yield from named(f"{name} {load} {speed:g}", bearing.equilibrium(load, speed_rpm=speed), state)
+        for pull, speed in (((0.0, -1000.0), 3000.0), ((300.0, -150.0), 9000.0)):
+            yield from named(f"{name} {pull} {speed:g}", bearing.equilibrium(pull, speed_rpm=speed), state)
         for angle in (None, 0.1):
             found = bearing.coefficients(
                 (200.0, -800.0), speed_rpm=3000.0, cage_angle=angle, hz=[0.0, 5.0, 90.0, 1e3, 2e4]
@@ -573,11 +575,20 @@ def main() -> None:
     known = {k: v for k, v in json.loads(given.other.read_text()).items() if k.split(": ")[0] in given.only}
     differing = [k for k in known if known[k] != found.get(k, "absent")]
     for key in differing:
-        print(f"{key}\n    {known[key]}\n    {found.get(key, 'absent')}")
+        print(f"{key}{off(known[key], found.get(key))}\n    {known[key]}\n    {found.get(key, 'absent')}")
     new = len(found.keys() - known.keys())
     print(f"{len(known) - len(differing)} alike, {len(differing)} differ from {given.other}; {new} new")
     if differing:
         raise SystemExit(1)
+
+
+def off(known: Any, found: Any) -> str:
+    """By how much a number, or the sum of an array, has changed."""
+    try:
+        before, after = (float(re.split("= |sum ", text)[1]) for text in (known, found))
+    except (TypeError, IndexError, ValueError):
+        return ""
+    return f": changed by {abs(after - before) / max(abs(before), 1e-300):.1e} of it"
 
 
 if __name__ == "__main__":
