@@ -47,7 +47,7 @@ def refused(call):
 @pytest.fixture(autouse=True)
 def quiet(monkeypatch):
     """No lines of progress, which a first compilation would bring about; their own tests call them."""
-    monkeypatch.setattr("ehlcontact.cli.progress.Lines.tell", lambda self, now: None)
+    monkeypatch.setattr("ehlcontact.cli.progress.Lines.write_due", lambda self, now: None)
 
 
 @pytest.fixture(scope="session")

@@ -7,9 +7,9 @@ from numba import njit
 from rich.console import Console
 
 from ehlcontact.cli import progress
-from ehlcontact.cli.progress import COMPILING, Bars, Lines, Task, duration
+from ehlcontact.cli.progress import COMPILING, Bars, Lines, duration
 
-TELL = Lines.tell  # before the fixture of this folder takes it away
+WRITE_DUE = Lines.write_due  # before the fixture of this folder takes it away
 
 
 @pytest.fixture
@@ -21,7 +21,7 @@ def clock(monkeypatch):
 
         def __call__(self, lines, seconds):
             self.now += seconds
-            TELL(lines, self.now)
+            WRITE_DUE(lines, self.now)
 
     clock = Clock()
     monkeypatch.setattr(progress.time, "monotonic", lambda: clock.now)
@@ -90,20 +90,17 @@ def test_many_short_tasks_are_as_silent_as_a_long_one(clock, capsys):
     assert 10 <= len(told) <= 14 and all(line.startswith("case ") for line in told)
 
 
-def test_waiting_tasks_say_nothing_and_ended_ones_their_last_line(clock, capsys):
+def test_ended_tasks_write_their_last_line_and_no_more(clock, capsys):
     lines = Lines()
-    waiting, running = lines.add("later", started=False), lines.add("now")
+    running = lines.add("now")
     clock(lines, 10.0)
     lines.end(running, "now: done, 10.0 s")
     clock(lines, 100.0)
     assert capsys.readouterr().err.splitlines() == ["now: 10 s so far", "now: done, 10.0 s"]
-    lines.start(waiting)
-    clock(lines, 100.0)
-    assert "later: 2 min so far" in capsys.readouterr().err
 
 
 def test_the_thread_speaks_by_itself_and_ends(monkeypatch, capsys):
-    monkeypatch.setattr(Lines, "tell", TELL)
+    monkeypatch.setattr(Lines, "write_due", WRITE_DUE)
     monkeypatch.setattr(progress, "SPACING", 0.0)
     monkeypatch.setattr(progress, "TICK", 0.01)
     with progress.progress("film") as update:
@@ -159,4 +156,3 @@ def test_durations():
     assert [duration(t) for t in (0.2, 25.4, 99.0, 100.0, 3500.0, 4200.0)] == [
         *("0 s", "25 s", "99 s", "2 min", "58 min", "1 h 10 min"),
     ]
-    assert not Task("waits").due(1e9)

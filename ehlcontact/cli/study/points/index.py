@@ -20,7 +20,7 @@ from ehlcontact.status import Status
 INDEX = "stages.json"
 FINALISE = "report"  # its entry of what is made of all stages
 
-Note = Mapping[str, Any]
+Entry = Mapping[str, Any]
 Index = dict[str, dict[str, Any]]
 
 
@@ -30,9 +30,9 @@ def read_index(folder: Path) -> Index:
         found = parse_json(read_text(folder / INDEX))
     except (OSError, ValueError):
         return {}
-    notes = found if isinstance(found, dict) else {}
+    entries = found if isinstance(found, dict) else {}
     names = [*(stage.name for stage in STAGES), FINALISE]
-    return {name: notes[name] for name in names if _is_note(notes.get(name))}
+    return {name: entries[name] for name in names if _is_entry(entries.get(name))}
 
 
 def write_index(index: Index, folder: Path) -> None:
@@ -46,31 +46,31 @@ def write_index(index: Index, folder: Path) -> None:
     write_json(index, str(folder / INDEX), "file")
 
 
-def _is_note(note: Any) -> bool:
+def _is_entry(entry: Any) -> bool:
     texts, seconds = ("status", "message", "fingerprint"), (int, float)
-    if not isinstance(note, dict) or not isinstance(note.get("seconds"), seconds):
+    if not isinstance(entry, dict) or not isinstance(entry.get("seconds"), seconds):
         return False
-    return all(isinstance(note.get(key), str) for key in texts)
+    return all(isinstance(entry.get(key), str) for key in texts)
 
 
-def is_done(stage: Stage, study: Study, folder: Path, index: Mapping[str, Note]) -> bool:
-    """Whether the stage's file is there, converged, and belongs to this study."""
+def is_done(stage: Stage, study: Study, folder: Path, index: Mapping[str, Entry]) -> bool:
+    """Whether the file of a stage is there, converged, and of this study."""
     return _holds(stage, study, index.get(stage.name, {})) and stage.file(folder).is_file()
 
 
-def _holds(stage: Stage, study: Study, note: Note) -> bool:
-    """Whether a note is of this stage's contents."""
+def _holds(stage: Stage, study: Study, entry: Entry) -> bool:
+    """Whether an entry is of a converged result for the same inputs."""
     own = study.fingerprint(*stage.sections)
-    return bool(note.get("fingerprint") == own and note.get("status") == Status.CONVERGED)
+    return bool(entry.get("fingerprint") == own and entry.get("status") == Status.CONVERGED)
 
 
-def is_sound(stage: Stage, folder: Path, note: Note) -> bool:
-    """Whether the file of a stage that is done is what was written, by its checksum."""
-    return bool(note.get("sha256") == checksum(stage.file(folder)))
+def is_sound(stage: Stage, folder: Path, entry: Entry) -> bool:
+    """Whether the file of a stage is as it was written, by its checksum."""
+    return bool(entry.get("sha256") == checksum(stage.file(folder)))
 
 
-def adopted(stage: Stage, study: Study, folder: Path, others: Iterable[Path]) -> dict[str, Any] | None:
-    """The note of another folder whose file is this stage's, copied here; None where there is none.
+def copied(stage: Stage, study: Study, folder: Path, others: Iterable[Path]) -> dict[str, Any] | None:
+    """Copy the file of a stage from another folder that has it for the same inputs; its entry there, or None.
 
     Raises
     ------
@@ -78,24 +78,24 @@ def adopted(stage: Stage, study: Study, folder: Path, others: Iterable[Path]) ->
         There is no room for the copy.
     """
     for other in others:
-        note = read_index(other).get(stage.name, {})
-        if other != folder and _holds(stage, study, note) and is_sound(stage, other, note):
+        entry = read_index(other).get(stage.name, {})
+        if other != folder and _holds(stage, study, entry) and is_sound(stage, other, entry):
             with replacing(stage.file(folder), "file") as temporary:
                 shutil.copyfile(stage.file(other), temporary)
-            return dict(note)
+            return dict(entry)
     return None
 
 
-def final_fingerprint(study: Study, index: Mapping[str, Note]) -> str:
+def final_fingerprint(study: Study, index: Mapping[str, Entry]) -> str:
     """Hash of what results and report are made of: the whole study, names and all, and the files of its stages."""
     files = {stage.name: index.get(stage.name, {}).get("sha256") for stage in stages_of(study)}
     return key_of([study.model_dump(mode="json", exclude_none=True), study.fingerprint(), files])
 
 
-def is_final(study: Study, folder: Path, index: Mapping[str, Note]) -> bool:
+def is_final(study: Study, folder: Path, index: Mapping[str, Entry]) -> bool:
     """Whether results, report, elements and FMUs are all there, as they were written, and of this study."""
-    note = index.get(FINALISE, {})
-    files = note.get("files")
-    if not isinstance(files, dict) or note.get("fingerprint") != final_fingerprint(study, index):
+    entry = index.get(FINALISE, {})
+    files = entry.get("files")
+    if not isinstance(files, dict) or entry.get("fingerprint") != final_fingerprint(study, index):
         return False
-    return bool(note.get("whole")) and all(checksum(folder / name) == kept for name, kept in files.items())
+    return bool(entry.get("whole")) and all(checksum(folder / name) == kept for name, kept in files.items())

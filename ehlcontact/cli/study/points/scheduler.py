@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ehlcontact.cli.progress import Progressing
+from ehlcontact.cli.progress import Bars, Lines
 from ehlcontact.cli.study.forecast import closing_cost, stage_cost
 from ehlcontact.cli.study.points.finalise import TITLE
 from ehlcontact.cli.study.points.index import (
     FINALISE,
     Index,
-    adopted,
+    copied,
     final_fingerprint,
     is_done,
     is_final,
@@ -89,7 +89,7 @@ class Scheduler:
         self.todo: list[Task] = []
         self.solved: list[str] = []
         self.kept: list[str] = []
-        self._shown: Progressing | None = None
+        self._shown: Bars | Lines | None = None
         self._bars: dict[Task | None, Any] = {}
         others = [root, *sorted(path for path in (root / POINTS).glob("*") if path.is_dir())]
         for point in points:
@@ -122,7 +122,7 @@ class Scheduler:
             if is_sound(stage, folder, index[stage.name]):
                 return True
             self.log.warn(f"{stage.file(folder)} is damaged: it is made again")
-        entry = adopted(stage, study, folder, others)
+        entry = copied(stage, study, folder, others)
         if entry is None:
             return False
         index[stage.name] = entry
@@ -133,7 +133,7 @@ class Scheduler:
         self.kept.append(task.key)
         self.log.line("kept", task.title)
 
-    def show(self, shown: Progressing) -> None:
+    def show(self, shown: Bars | Lines) -> None:
         """Show progress there from now on, that of the whole study first."""
         self._shown = shown
         if len(self.todo) > 1:

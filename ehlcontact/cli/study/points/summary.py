@@ -17,7 +17,7 @@ from typing import Any
 from ehlcontact.cli.output import plain
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.points.finalise import REPORT, faults, products, read_results
-from ehlcontact.cli.study.points.index import FINALISE, Note
+from ehlcontact.cli.study.points.index import FINALISE, Entry
 from ehlcontact.cli.study.points.lists import STUDY_FILE, Point
 from ehlcontact.cli.study.points.log import LOG, versions
 from ehlcontact.cli.study.stages import stages_of
@@ -89,7 +89,7 @@ class Row:
         }
 
 
-def row_of(point: Point, index: Mapping[str, Note], root: Path) -> Row:
+def row_of(point: Point, index: Mapping[str, Entry], root: Path) -> Row:
     """What the folder of a point holds."""
     computed = stages_of(point.study)
     names = [*(stage.name for stage in computed), FINALISE]
@@ -203,7 +203,7 @@ def withdraw(folder: Path, names: Sequence[str], changes: bool) -> tuple[str, ..
         found = []
     if found == list(names) and not changes:
         return ()
-    over_all = (REPORT,) if len(found) > 1 else ()  # else it is the report of the point itself, which is remade
+    over_all = (REPORT,) if len(found) > 1 else ()  # else that of the point itself, which is made again
     gone = tuple(name for name in (SUMMARY, TABLE, PICTURE, *over_all) if (folder / name).is_file())
     for name in gone:
         (folder / name).unlink()
