@@ -372,6 +372,28 @@ def test_at_rest_by_place_or_by_load(asked):
         element.at_rest(load=0.0)
 
 
+@pytest.mark.parametrize("load", [None, 0.6, 1.4])
+def test_state_space_is_the_impedance_and_what_python_control_linearises(asked, load):
+    """F over u of `to_ss`, with v = i w u, at any load; and of `to_control` by differences."""
+    control = pytest.importorskip("control")
+    element, omega = asked.element, np.geomspace(0.01, 30.0, 7) / asked.time
+    at, unit = None if load is None else load * asked.force, "Omega" if asked.force == 1.0 else "omega"
+    block, nonlinear = element.to_ss(at), element.to_control()
+    found = control.frequency_response(block, omega).frdata[0]
+    found = found.reshape(2, omega.size) if found.ndim > 1 else found
+    expected = element.impedance(load=at, **{unit: omega})
+    np.testing.assert_allclose(found[0] + 1j * omega * found[1], expected, rtol=1e-9)
+    for one in (block, nonlinear):
+        assert (one.input_labels, one.output_labels, one.nstates) == (["u", "v"], ["F"], element.state_count)
+    assert nonlinear.state_labels == block.state_labels
+    u, rest = element.approach_at(asked.force * (load or 1.0)), np.zeros(block.nstates)
+    for k, step in enumerate((1e-6 * asked.length, 1e-6 * asked.length / asked.time)):
+        up, down = (nonlinear.output(0.0, rest, np.array([u, 0.0]) + d * np.eye(2)[k])[0] for d in (step, -step))
+        assert (up - down) / (2.0 * step) == pytest.approx(block.D[0, k], rel=1e-5)
+    if block.nstates:
+        np.testing.assert_allclose(nonlinear.dynamics(0.0, rest, [u, step]) / step, block.B[:, 1], rtol=1e-9)
+
+
 def test_figure_of_every_kind(asked, tmp_path):
     """Force over the approach, K and C over frequency, with the units of the element."""
     figure = asked.element.plot(tmp_path / "element.png")

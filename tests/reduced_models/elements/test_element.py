@@ -117,21 +117,3 @@ def test_a_spring_rises_all_the_way(lowest, slope):
 def test_negative_tangent_advises_a_way_out():
     with pytest.raises(InputError, match="wider range"):
         CubicContact(3.0, 0.0, -1.2, 0.01, 0.75, 1.0)
-
-
-@pytest.mark.parametrize("load", [None, 0.8])
-def test_state_space_has_the_impedance(cubic, load):
-    control = pytest.importorskip("control")
-    block = cubic.to_ss(load)
-    assert block.nstates == 0 and block.input_labels == ["u", "v"] and block.output_labels == ["F"]
-    found = control.frequency_response(block, [0.5]).frdata[0, :, 0]
-    assert found[0] + 0.5j * found[1] == pytest.approx(cubic.impedance(Omega=0.5, load=load)[0], rel=1e-12)
-
-
-def test_control_block_linearises_to_the_tangents(cubic):
-    control = pytest.importorskip("control")
-    block = cubic.to_control()
-    assert block.nstates == 0 and block.input_labels == ["u", "v"] and block.output_labels == ["F"]
-    point = [0.9, 0.2]
-    linear = control.linearize(block, [], point, eps=1e-7)
-    np.testing.assert_allclose(linear.D, [[cubic.stiffness(*point), cubic.damping(*point)]], rtol=1e-6)
