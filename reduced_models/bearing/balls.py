@@ -6,9 +6,8 @@ rings come closer by
     delta = n . q - clearance/2,    of which w at the outer race and delta - w at the inner one.
 
 Along n, F_o(w) + m w'' = F_i(delta - w) + F_c with the centrifugal force F_c; balls have no inertia m there unless
-it is asked for. So w is found from one scalar equation per ball, and the ring sees F = sum F_i n. Balls travel
-with the cage, which is a part of delta'. Rings and fits that lose something (`reduced_models.bearing.loss`) have
-the last word on F.
+it is asked for. So w is found from one scalar equation per ball, and the force on the ring is F = sum F_i n. Balls
+travel with the cage, which is a part of delta'. The loss factor of rings and fits acts on F (`loss`).
 """
 
 from __future__ import annotations
@@ -22,27 +21,24 @@ from numpy.typing import NDArray
 from ehlcontact.jit import jit_exact_loop, jit_exact_node
 from reduced_models.bearing.contact import (
     APPROACH,
-    BY_DELTA,
-    BY_RATE,
-    PLACE,
-    PLACE_BEFORE,
-    PLACE_HISTORY,
-    PLACE_NOW,
-    RATE_BEFORE,
-    RATE_HISTORY,
-    RATE_NOW,
-    TRIED_DELTA,
-    TRIED_RATE,
-    Films,
-    accept,
-    begin,
-    new_films,
-    press,
-    still,
-)  # fmt: skip
-from reduced_models.bearing.loss import Loss, accept_seat, begin_seat, hold_still, press_seat, rest_seat
+    WORK,
+    accept_contact,
+    clear_filters,
+    contact_force,
+    prepare_filters,
+)
+from reduced_models.bearing.loss import (
+    Loss,
+    Seat,
+    accept_seat,
+    begin_seat,
+    hold_still,
+    press_seat,
+    rest_seat,
+    seat_of,
+)
 from reduced_models.bearing.race_table import RaceForceTable
-from reduced_models.elements.film_filters import DIRECT
+from reduced_models.elements.film_filters import CHAIN, DIRECT
 
 _Floats = NDArray[np.float64]
 
@@ -53,9 +49,16 @@ MOST_STEPS = 60  # of that search: a handful, but where a ball lands
 FIRST_STEP = 1e-7  # [m], to a ball that nothing touches; doubled until a race is met
 FILM_GROWTH = 0.67  # of the film with speed (Hamrock and Dowson 1977): between two speeds of a law, films add so
 
+# Entries of a ball: its place w as tried last, what its rate follows from, w at the last two ends of steps; delta
+# and its rate where that was tried, and the slopes of w by both; what its acceleration follows from, and its rates
+# at the last two ends of steps.
+PLACE, PLACE_HISTORY, PLACE_NOW, PLACE_BEFORE = range(4)
+TRIED_DELTA, TRIED_RATE, BY_DELTA, BY_RATE = range(4, 8)
+RATE_HISTORY, RATE_NOW, RATE_BEFORE, BALL_ENTRIES = range(8, 12)
+
 
 class Balls(NamedTuple):
-    """What the kernels know of a bearing. Angular speeds in rad/s."""
+    """A bearing as its kernels need it. Angular speeds in rad/s."""
 
     inner: RaceForceTable
     outer: RaceForceTable
@@ -70,7 +73,7 @@ class Balls(NamedTuple):
 
 
 class SpeedState(NamedTuple):
-    """One speed of the shaft."""
+    """Contacts, cage and centrifugal force at one speed of the shaft."""
 
     speed_row: tuple[int, float]  # row of the laws, and weight of the next
     inner: float  # 2a/u_sum over sqrt(g) [s/m^0.5]
@@ -79,10 +82,35 @@ class SpeedState(NamedTuple):
     centrifugal: float  # N
 
 
+class Films(NamedTuple):
+    """States and work of a bearing in time: contacts 2 k (inner race) and 2 k + 1 of ball k; balls; seat."""
+
+    state: _Floats
+    work: _Floats
+    interval: NDArray[np.int64]  # (contacts, 2): of the curve used last, and of the gains that `work` has
+    poisson: _Floats  # room for `prepare_filters`
+    share: _Floats
+    balls: _Floats  # (balls, BALL_ENTRIES) place of each ball, the approach w at its outer race; entries above
+    force: _Floats  # (balls, 2) at the inner and at the outer race [N]
+    largest: _Floats  # (2,) force that any ball has had at either race [N]
+    seat: Seat
+
+
 def films_of(balls: Balls) -> Films:
-    """Memory for all its contacts, of nothing yet."""
+    """States and work for all its contacts and balls and its seat, all zero."""
     lags = max(law.gains.shape[2] for law in (balls.inner, balls.outer)) - DIRECT
-    return new_films(balls.number, lags, balls.loss)
+    contacts = 2 * balls.number
+    return Films(
+        state=np.zeros((contacts, CHAIN + lags)),
+        work=np.zeros((contacts, WORK + 3 * lags)),
+        interval=np.zeros((contacts, 2), np.int64),
+        poisson=np.zeros(lags + 3),
+        share=np.zeros(lags + 3),
+        balls=np.zeros((balls.number, BALL_ENTRIES)),
+        force=np.zeros((balls.number, 2)),
+        largest=np.zeros(2),
+        seat=seat_of(balls.loss),
+    )
 
 
 @jit_exact_loop
@@ -116,16 +144,16 @@ def begin_step(balls, at_speed, dt, films):
         ball = films.balls[k]
         ball[PLACE_HISTORY] = (4.0 * ball[PLACE_NOW] - ball[PLACE_BEFORE]) / 3.0
         ball[RATE_HISTORY] = (4.0 * ball[RATE_NOW] - ball[RATE_BEFORE]) / 3.0
-        begin(balls.inner, at_speed.inner, at_speed.speed_row, dt, films, 2 * k)
-        begin(balls.outer, at_speed.outer, at_speed.speed_row, dt, films, 2 * k + 1)
+        prepare_filters(balls.inner, at_speed.inner, at_speed.speed_row, dt, films, 2 * k)
+        prepare_filters(balls.outer, at_speed.outer, at_speed.speed_row, dt, films, 2 * k + 1)
     begin_seat(balls.loss, dt, films.seat)
     return 1.5 / dt
 
 
 @jit_exact_loop
 def begin_rest(films):
-    """Let `press_balls` give the static law; returns the gain from w to its rate, 0."""
-    still(films)
+    """Prepare `press_balls` for the static law; returns the gain from w to its rate, 0."""
+    clear_filters(films)
     hold_still(films.seat)
     return 0.0
 
@@ -133,14 +161,14 @@ def begin_rest(films):
 @jit_exact_node
 def _ball(balls, at_speed, films, k, delta, rate, gain):
     """Balance ball `k`; returns the force on the ring and its derivatives by delta and by the rate of delta."""
-    ball, heavy = films.balls[k], balls.inertia * gain
+    ball, heavy, row = films.balls[k], balls.inertia * gain, at_speed.speed_row
     history = ball[PLACE_HISTORY]
     w = ball[PLACE] + ball[BY_DELTA] * (delta - ball[TRIED_DELTA]) + ball[BY_RATE] * (rate - ball[TRIED_RATE])
     low, high, reach = -inf, inf, FIRST_STEP
     for _ in range(MOST_STEPS):
         v = gain * (w - history)
-        fi, ki, di = press(balls.inner, at_speed.inner, at_speed.speed_row, films, 2 * k, delta - w, rate - v)
-        fo, ko, do = press(balls.outer, at_speed.outer, at_speed.speed_row, films, 2 * k + 1, w, v)
+        fi, ki, di = contact_force(balls.inner, at_speed.inner, row, films, 2 * k, delta - w, rate - v)
+        fo, ko, do = contact_force(balls.outer, at_speed.outer, row, films, 2 * k + 1, w, v)
         inner, held = ki + gain * di, ko + gain * do
         outer = held + heavy * gain
         balance, tangent = fo + heavy * (v - ball[RATE_HISTORY]) - fi - at_speed.centrifugal, inner + outer
@@ -197,7 +225,7 @@ def press_balls(balls, at_speed, films, normals, q, v, gain, out):
 
 @jit_exact_loop
 def accept_balls(balls, at_speed, films, normals, q, v, gain):
-    """Move all films and balls to the end of the step, at the ring's place that `press_balls` was asked last."""
+    """Move all films and balls to the end of the step, with the ring where `press_balls` was called last."""
     for k in range(balls.number):
         x, y = normals[k]
         delta = x * q[0] + y * q[1] - balls.half_clearance
@@ -205,8 +233,8 @@ def accept_balls(balls, at_speed, films, normals, q, v, gain):
         ball = films.balls[k]
         w = ball[PLACE]
         own = gain * (w - ball[PLACE_HISTORY])
-        accept(balls.inner, at_speed.inner, at_speed.speed_row, films, 2 * k, delta - w, rate - own)
-        accept(balls.outer, at_speed.outer, at_speed.speed_row, films, 2 * k + 1, w, own)
+        accept_contact(balls.inner, at_speed.inner, at_speed.speed_row, films, 2 * k, delta - w, rate - own)
+        accept_contact(balls.outer, at_speed.outer, at_speed.speed_row, films, 2 * k + 1, w, own)
         ball[PLACE_BEFORE], ball[PLACE_NOW] = ball[PLACE_NOW], w
         ball[RATE_BEFORE], ball[RATE_NOW] = ball[RATE_NOW], own
         films.largest[0] = max(films.largest[0], films.force[k, 0])
@@ -216,7 +244,7 @@ def accept_balls(balls, at_speed, films, normals, q, v, gain):
 
 @jit_exact_loop
 def rest_balls(balls, films, normals, q):
-    """Put all films at rest where `press_balls` was asked last, the ring at `q`."""
+    """Put all films at rest, with the ring at `q` where `press_balls` was called last."""
     films.state[:] = 0.0
     for k in range(balls.number):
         w = films.balls[k, PLACE]

@@ -1,26 +1,21 @@
-"""One contact over a step: what its filters make of any motion, once; then the force of the motion that is tried.
+"""Force of one film contact over a step, compiled: filters once per step, force and tangents per iteration.
 
-The equations are those of `reduced_models.elements.film_law` without saturation of the inlet. Its filters are then
-linear in what a step brings, the own rate e at its end and the travel t of the approach. `begin` therefore works
-them out once per step, down to three numbers for each of two rows of gains,
+The equations are those of `reduced_models.elements.film_law` without saturation of the inlet. The filters are then
+linear in the own rate e at the end of the step and the travel t of the approach. `prepare_filters` reduces them,
+once per step, to three numbers for each of two nodes of the gains,
 
     m = m_0 + m_e e + m_t t,
 
-and `press`, which an iteration calls, is left with the curve g(u) and a few products. For that the own time of the
-step has to be known before its end is: it is that of its middle, foreseen from its start, where `film_step` takes
-the mean of both ends. Both are of second order.
+so that `contact_force`, which every iteration calls, evaluates the curve g(u) and a few products. The length of
+the step in own time has to be known before its end: it is taken at the middle, extrapolated from the start.
+`film_step` of the elements takes the mean of both ends. Both are of second order.
 """
 
 from __future__ import annotations
 
 from math import log, sqrt
-from typing import NamedTuple
-
-import numpy as np
-from numpy.typing import NDArray
 
 from ehlcontact.jit import jit_exact_loop, jit_exact_node
-from reduced_models.bearing.loss import Loss, Seat, seat_of
 from reduced_models.bearing.race_table import curve, film_cutoff, gain
 from reduced_models.elements.film_filters import (
     CHAIN,
@@ -31,25 +26,18 @@ from reduced_models.elements.film_filters import (
     lag_moments,
     pass_on,
     poisson_shares,
-)  # fmt: skip
-
-_Floats = NDArray[np.float64]
+)
 
 APPROACH, RATE, OWN = range(3)  # entries of a state before those of its filters
 # Entries of the work of a step: inlet, fast and hump as sums of 1, e and t; the sums of two rows of gains; then,
 # of all lags, what they hold, what they make of the film at the end, and of the hump.
 S, Y, HUMP, ROW, NEXT, HELD = 0, 3, 6, 9, 12, 15
-# Entries of a ball: its place w as tried last, what its rate follows from, w at the last two ends of steps; delta
-# and its rate where that was tried, and the slopes of w by both; what its acceleration follows from, and its rates
-# at the last two ends of steps.
-PLACE, PLACE_HISTORY, PLACE_NOW, PLACE_BEFORE = range(4)
-TRIED_DELTA, TRIED_RATE, BY_DELTA, BY_RATE = range(4, 8)
-RATE_HISTORY, RATE_NOW, RATE_BEFORE, BALL_ENTRIES = range(8, 12)
+WORK = HELD  # entries before those of the lags
 
 
 @jit_exact_node
-def begin(law, transit, speed_row, dt, films, c):
-    """Work out a step of length `dt` for contact `c`.
+def prepare_filters(law, transit, speed_row, dt, films, c):
+    """Reduce the filters of contact `c` over a step of length `dt`.
 
     `transit` is 2a/u_sum over sqrt(g), `speed_row` the row of speeds and the weight of the next.
     """
@@ -57,7 +45,7 @@ def begin(law, transit, speed_row, dt, films, c):
     if law.x.size == 0:
         return
     ahead = state[c, APPROACH] + 0.5 * dt * state[c, RATE]
-    middle, _, films.place[c, 0] = curve(ahead, speed_row[0], speed_row[1], law, films.place[c, 0])
+    middle, _, films.interval[c, 0] = curve(ahead, speed_row[0], speed_row[1], law, films.interval[c, 0])
     span = dt / (transit * sqrt(middle))
     p, start, inlet = law.inlet_rate, state[c, OWN], state[c, INLET]
     s_a, s_e, s_t = _lag(inlet, start, p, span)
@@ -75,7 +63,7 @@ def begin(law, transit, speed_row, dt, films, c):
         work[c, HELD + j], work[c, HELD + lags + j] = inlet * r1, r0 - r1
         work[c, HELD + 2 * lags + j] = 6.0 * (r1 - r2)
     pass_on(state[c, CHAIN : CHAIN + lags], poisson, work[c, HELD : HELD + lags])
-    films.place[c, 1] = -1
+    films.interval[c, 1] = -1
 
 
 @jit_exact_node
@@ -113,11 +101,11 @@ def _add(law, speed_row, node, work, c, at, chain):
 
 
 @jit_exact_node
-def press(law, transit, speed_row, films, c, u, v):
+def contact_force(law, transit, speed_row, films, c, u, v):
     """Force [N] at approach `u` [m] and rate `v` [m/s] of the end of the step, dF/du and dF/dv."""
     work = films.work
-    g, g_u, k = curve(u, speed_row[0], speed_row[1], law, films.place[c, 0])
-    films.place[c, 0] = k
+    g, g_u, k = curve(u, speed_row[0], speed_row[1], law, films.interval[c, 0])
+    films.interval[c, 0] = k
     root = sqrt(g)
     if law.x.size == 0:
         return law.kn * g * root, 1.5 * law.kn * root * g_u, 0.0
@@ -126,9 +114,9 @@ def press(law, transit, speed_row, films, c, u, v):
         k -= 1
     while k < law.x.size - 2 and x > law.x[k + 1]:
         k += 1
-    if k != films.place[c, 1]:
+    if k != films.interval[c, 1]:
         _weigh(law, speed_row, k, work, c)
-        films.place[c, 1] = k
+        films.interval[c, 1] = k
     per_x = 1.0 / (law.x[k + 1] - law.x[k])
     weight = (x - law.x[k]) * per_x
     tau = transit * root
@@ -148,14 +136,14 @@ def press(law, transit, speed_row, films, c, u, v):
 
 
 @jit_exact_node
-def accept(law, transit, speed_row, films, c, u, v):
-    """Move contact `c` to the end of the step that `begin` has worked out."""
+def accept_contact(law, transit, speed_row, films, c, u, v):
+    """Move the state of contact `c` to the end of the step, at approach `u` and rate `v`."""
     state, work = films.state, films.work
     t = u - state[c, APPROACH]
     state[c, APPROACH], state[c, RATE] = u, v
     if law.x.size == 0:
         return
-    g, _, films.place[c, 0] = curve(u, speed_row[0], speed_row[1], law, films.place[c, 0])
+    g, _, films.interval[c, 0] = curve(u, speed_row[0], speed_row[1], law, films.interval[c, 0])
     e = transit * sqrt(g) * v
     s = work[c, S] + work[c, S + 1] * e + work[c, S + 2] * t
     hump = work[c, HUMP] + work[c, HUMP + 1] * e + work[c, HUMP + 2] * t
@@ -167,37 +155,7 @@ def accept(law, transit, speed_row, films, c, u, v):
 
 
 @jit_exact_loop
-def still(films):
-    """Make the step one in which nothing moves: `press` then gives the static law."""
+def clear_filters(films):
+    """Clear what the filters add, so that `contact_force` gives the static force."""
     films.work[:] = 0.0
-    films.place[:, 1] = -1
-
-
-class Films(NamedTuple):
-    """Memory of all contacts of a bearing, of ball k at 2 k (inner race) and 2 k + 1; of balls and seat."""
-
-    state: _Floats
-    work: _Floats
-    place: NDArray[np.int64]  # (contacts, 2): interval of the curve used last, rows of gains that `work` has
-    poisson: _Floats  # room for `begin`
-    share: _Floats
-    balls: _Floats  # (balls, BALL_ENTRIES) place of each ball, the approach w at its outer race; entries above
-    force: _Floats  # (balls, 2) at the inner and at the outer race [N]
-    largest: _Floats  # (2,) force that any ball has had at either race [N]
-    seat: Seat
-
-
-def new_films(balls: int, lags: int, loss: Loss) -> Films:
-    """Memory for the contacts of so many balls and for their seat, of nothing yet."""
-    contacts = 2 * balls
-    return Films(
-        state=np.zeros((contacts, CHAIN + lags)),
-        work=np.zeros((contacts, HELD + 3 * lags)),
-        place=np.zeros((contacts, 2), np.int64),
-        poisson=np.zeros(lags + 3),
-        share=np.zeros(lags + 3),
-        balls=np.zeros((balls, BALL_ENTRIES)),
-        force=np.zeros((balls, 2)),
-        largest=np.zeros(2),
-        seat=seat_of(loss),
-    )
+    films.interval[:, 1] = -1

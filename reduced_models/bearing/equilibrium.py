@@ -14,8 +14,7 @@ from scipy.optimize import brentq
 
 from ehlcontact.checks import as_column, require_finite
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models.bearing.balls import Balls, SpeedState, begin_rest, directions, films_of, press_balls
-from reduced_models.bearing.contact import PLACE
+from reduced_models.bearing.balls import PLACE, Balls, SpeedState, begin_rest, directions, films_of, press_balls
 
 _Floats = NDArray[np.float64]
 

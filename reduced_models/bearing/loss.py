@@ -1,18 +1,18 @@
-"""Loss factor of rings and fits: a bearing's force through filters that turn its phase by one angle in a band.
+"""Loss factor of rings and fits: filters of a bearing's force that lag by nearly one angle over a frequency band.
 
-A loss factor eta makes stiffness K into K (1 + i eta) in the linear answers that know nothing else. No motion in
-time has that: what loses the same share of its energy at every frequency has to stiffen with it (Kramers and
-Kronig). So here, in frequency and in time alike,
+In frequency, a loss factor eta makes stiffness K into K (1 + i eta). No motion in time has exactly that: what
+loses the same share of its energy at every frequency has to stiffen with it (Kramers and Kronig). So here, in
+frequency and in time alike,
 
     F_seat = F + sum g_k (F - y_k),    y_k' = p_k (F - y_k),
 
-with poles p_k evenly over the decades and the gains g_k >= 0 by least squares such that within `BAND` the
-imaginary part is eta times the real part. It is within 0.3 % for eta up to 0.1, 1 % at 0.2 (the tests hold it to
-that). What is held still is left as it is; K is higher by 1.4 eta at 5 Hz, 3.8 eta at 200 Hz and 5.9 eta at 5 kHz.
+with poles p_k evenly over the decades and gains g_k >= 0 by least squares, such that within `BAND` the imaginary
+part is eta times the real part: within 0.3 % for eta up to 0.1, 1 % at 0.2. Static stiffness stays as it is; K is
+higher by 1.4 eta at 5 Hz, 3.8 eta at 200 Hz and 5.9 eta at 5 kHz.
 
-F is the force of all balls on the ring, as a vector, so balls that pass lose nothing by it. It does not turn: the
-seat is that of the ring that stands still. What is lost in parts that turn with the shaft drives whirl above a
-critical speed instead; nothing here does. No vibration gains energy by positive gains.
+F is the force of all balls on the ring, as a vector, so ball passage loses nothing by it. It does not rotate: the
+seat is that of the stationary ring. Losses in parts that rotate with the shaft drive whirl above a critical speed
+instead, and are not in it. With gains >= 0 no vibration gains energy.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Loss(NamedTuple):
 
 
 class Seat(NamedTuple):
-    """Memory of a seat."""
+    """States and work of a seat."""
 
     rows: _Floats  # (3 + n, 2) forces [N]; see above
     lift: _Floats  # (1,) what a force at the end of the step becomes, over it
@@ -71,7 +71,7 @@ def loss_of(factor: float) -> Loss:
 
 
 def seat_of(loss: Loss) -> Seat:
-    """Memory of nothing yet."""
+    """States of a seat, all zero."""
     n = loss.gains.size
     return Seat(np.zeros((HELD + n, 2)), np.ones(1), np.zeros((3, n)))
 

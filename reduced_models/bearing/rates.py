@@ -1,10 +1,12 @@
-"""The balls of a bearing in continuous time, compiled: rates of the states of `states`, whatever the motion.
+"""Balls and films of a bearing in continuous time, compiled: rates of the states of `state_space`, for any motion.
+
+Both contacts of a ball have the force
 
     F = share k_n (g(u) + c tau u' + sum g_j x_j)_+^(3/2)
 
-in both contacts of a ball, and F_o = F_i + F_c for w', which is found between the rate at which the outer film
-would let go and that at which the inner one would, or the outer one carries F_c alone. A ball with inertia has w'
-as a state, and m w'' = F_i + F_c - F_o.
+A ball without inertia has F_o = F_i + F_c, from which w' follows: it lies above the rate at which the outer
+contact lets go, and below the rate at which the inner one does or the outer one carries F_c alone. A ball with
+inertia has w' as a state, and m w'' = F_i + F_c - F_o.
 """
 
 from __future__ import annotations
@@ -43,7 +45,7 @@ def _held(law, transit, speed_row, u, states, first):
 
 @jit_exact
 def _pushed(kn, film):
-    """Force and slope."""
+    """Force and its slope by the film."""
     if film <= 0.0:
         return 0.0, 0.0
     root = sqrt(film)

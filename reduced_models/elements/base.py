@@ -74,14 +74,14 @@ class ContactElement(ElementSummary, _Common, ABC):
     high: float
     validity: Validity
     beyond: ClassVar[Mapping[str, str]] = {}  # what to take instead, by what was left: "motion", "frequency"
-    _told: set[str]
+    _warned: set[str]
     _reach: tuple[float, float, float, float, float]
 
     def __post_init__(self) -> None:
         require_choice("units", self.units, UNITS)
         self._check_coefficients()
         validity = Validity((self.low, self.high), self.rate, self.load_range, self.omega_range)
-        fresh = {"validity": validity, "_told": set(), "_reach": validity.reach}
+        fresh = {"validity": validity, "_warned": set(), "_reach": validity.reach}
         for name, value in {**validity.fields(), **fresh}.items():
             object.__setattr__(self, name, value)
 
@@ -285,9 +285,9 @@ class ContactElement(ElementSummary, _Common, ABC):
             "motion": self.validity.excess(approach, rate, None, force, self.units),
             "frequency": self.validity.excess(omega=self._frequency(frequency), units=self.units),
         }
-        new = {reason: words for reason, words in said.items() if words and reason not in self._told}
+        new = {reason: words for reason, words in said.items() if words and reason not in self._warned}
         if new:
-            self._tell(set(new))
+            self._note(set(new))
             left = ", ".join(word for words in new.values() for word in words)
             advice = "".join(f"; {self.beyond[reason]}" for reason in new if reason in self.beyond)
             message = f"{type(self).__name__} used outside its validity box: {left}{advice}"
@@ -307,8 +307,8 @@ class ContactElement(ElementSummary, _Common, ABC):
         force: list[float] = []
         if point is not None:
             said = self.design_point.differences(point)
-            if said and "point" not in self._told:
-                self._tell({"point"})
+            if said and "point" not in self._warned:
+                self._note({"point"})
                 message = f"{type(self).__name__} used for another contact than it was made for: {', '.join(said)}"
                 warnings.warn(message, OutsideValidityWarning, stacklevel=stacklevel)
             load, unit = self.design_point.load_of(point), self._known("force") if self.units == "SI" else 1.0
@@ -322,9 +322,9 @@ class ContactElement(ElementSummary, _Common, ABC):
         if not (low <= approach <= high and -fastest <= rate <= fastest and least <= force <= most):
             self.warn_outside(approach, rate, force=force, stacklevel=3)
 
-    def _tell(self, reasons: set[str]) -> None:
-        """Note that these have been told; a motion that has been told is no longer watched."""
-        self._told.update(reasons)
+    def _note(self, reasons: set[str]) -> None:
+        """Note reasons that have been warned of; after "motion" single states are no longer compared."""
+        self._warned.update(reasons)
         if "motion" in reasons:
             object.__setattr__(self, "_reach", UNWATCHED)
 

@@ -1,21 +1,21 @@
-"""The film law of the elements with memory, as compiled kernels: dry spring on a film that remembers.
+"""Film law of the elements with memory, compiled: a dry Hertz spring on an oil film that lags behind the motion.
 
     F = (g(u) + m)_+^(3/2),    g = F_s(u)^(2/3) = u + h_s
 
-F_s is the static force, h_s the film it carries, and m the film that motion has added or taken. All memory runs
-in the contact's own time sigma, d sigma = dT/theta with theta = F_s^(1/3), because the contact that the film has
-to cross grows with the load. With i = du/d sigma:
+F_s is the static force, h_s its film, and m the film that motion has added or taken. The film has to cross a
+contact that grows with the load, so all filters run in the contact's own time sigma, d sigma = dT/theta with
+theta = F_s^(1/3). With the own rate i = du/d sigma:
 
     inlet   s' = p_i (i - s)
     fast    y' = p_f (i - y)
     chain   q_1' = nu (phi(s) - q_1),  q_k' = nu (q_(k-1) - q_k),     phi(s) = s + beta s^2/(1 + |beta s|)
     m = c i + g_i s + g_f y + sum_k g_k q_k
 
-The chain carries the film made at the inlet through the contact, its gains weigh how much of it is felt at which
-age. phi is monotone and above -1/beta: opening cannot take away more film than there is. Between the ends of a
-step u is the cubic through both approaches and rates; for that every filter is advanced exactly, so a step of
-any length is stable and a long one ends on the static force plus damping. In continuous time (`film_rates`) the
-states are s, y and q_1 ...; all zero at rest.
+The chain carries the film made at the inlet through the contact; its gains weigh the film of each age. phi is
+monotone and above -1/beta, the saturation of the inlet: opening cannot take away more film than there is. Between
+the ends of a step u is the cubic through both approaches and rates, and every filter is advanced exactly
+(`film_filters`), so a step of any length is stable and a long one ends on the static force plus damping. In
+continuous time (`film_rates`) the states are s, y and q_1 ...; at rest all are zero.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from reduced_models.elements.film_filters import (
     lag_moments,
     pass_on,
     poisson_shares,
-)  # fmt: skip
+)
 from reduced_models.elements.jet import Jet, half, minus, over, plus, root, through, through3, times
 
 _Floats = NDArray[np.float64]
@@ -221,7 +221,7 @@ def film_step(law, old, new, dt, u, v):
 
 @jit_exact
 def film_rest(law, u, state):
-    """Make `state` that of rest at approach `u`; returns the static force."""
+    """Set `state` to rest at approach `u`; returns the static force."""
     g = static(u, law)[1]
     state[:] = 0.0
     state[THETA], state[APPROACH] = sqrt(g), u

@@ -1,4 +1,8 @@
-"""Numbers with their derivatives by approach u and rate v, so that a kernel says every quantity once."""
+"""Values with two partial derivatives, for kernels: by approach u and rate v at the end of a step.
+
+Forward differentiation: every operation below applies the chain rule, so that a formula written once gives the
+force and both of its tangents.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +13,7 @@ from ehlcontact.jit import jit_exact
 
 
 class Jet(NamedTuple):
-    """A value, and its derivatives."""
+    """Value x with its partial derivatives."""
 
     x: float
     u: float

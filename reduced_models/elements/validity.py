@@ -24,7 +24,7 @@ Band = tuple[float, float]
 
 
 class OutsideValidityWarning(UserWarning):
-    """An element was used where no data stands behind it; it is told once per element."""
+    """An element was used outside the data that it was fitted to; warned once per element and reason."""
 
 
 @dataclass(frozen=True)

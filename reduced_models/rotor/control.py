@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_instance, require_integer, require_nonnegative
 from ehlcontact.errors import InputError
-from reduced_models.bearing.balls import Balls, SpeedState, begin_rest, directions, films_of, press_balls
-from reduced_models.bearing.contact import PLACE
+from reduced_models.bearing.balls import PLACE, Balls, SpeedState, begin_rest, directions, films_of, press_balls
 from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.rates import bearing_rates

@@ -14,8 +14,15 @@ from ehlcontact import Status
 from ehlcontact.checks import as_column, require_integer, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models.bearing.balls import begin_rest, directions, films_of, press_balls, rest_balls, speed_state
-from reduced_models.bearing.contact import Films
+from reduced_models.bearing.balls import (
+    Films,
+    begin_rest,
+    directions,
+    films_of,
+    press_balls,
+    rest_balls,
+    speed_state,
+)
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.race import RACES
 from reduced_models.elements.validity import OutsideValidityWarning, frequency_of

@@ -1,4 +1,4 @@
-/* Numbers with their derivatives by approach u and rate v at the end of a step: reduced_models.elements.jet. */
+/* Values with two partial derivatives, by approach u and rate v at the end of a step: reduced_models.elements.jet. */
 #ifndef JET_H
 #define JET_H
 

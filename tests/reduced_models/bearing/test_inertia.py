@@ -16,8 +16,7 @@ from reduced_models import (
     rotor_to_control,
     simulate_rotor,
 )
-from reduced_models.bearing.balls import speed_state
-from reduced_models.bearing.contact import PLACE
+from reduced_models.bearing.balls import PLACE, speed_state
 from reduced_models.bearing.equilibrium import ring_equilibrium
 from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS

@@ -13,7 +13,7 @@ from reduced_models.bearing import balls as balls_room
 from reduced_models.bearing import contact as contact_room
 from reduced_models.bearing import race_table as table_room
 from reduced_models.bearing.balls import films_of, speed_state
-from reduced_models.bearing.contact import APPROACH, begin, press
+from reduced_models.bearing.contact import APPROACH, contact_force, prepare_filters
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.race import shared_atlas
 from reduced_models.bearing.race_table import curve, film_cutoff, tabulate_race
@@ -98,8 +98,8 @@ def test_between_speeds_films_grow_as_they_should(film):
     for at_speed in (below, above):
         films = films_of(many)
         films.state[0, APPROACH] = 5e-6
-        begin(many.inner, at_speed.inner, at_speed.speed_row, 2e-5, films, 0)
-        pressed.append(press(many.inner, at_speed.inner, at_speed.speed_row, films, 0, 5.1e-6, 3e-3))
+        prepare_filters(many.inner, at_speed.inner, at_speed.speed_row, 2e-5, films, 0)
+        pressed.append(contact_force(many.inner, at_speed.inner, at_speed.speed_row, films, 0, 5.1e-6, 3e-3))
     np.testing.assert_allclose(pressed[0], pressed[1], rtol=1e-6)
 
 
@@ -125,10 +125,11 @@ def test_compiled_and_plain_are_twins(film, monkeypatch):
     """A ball over two steps, all its kernels as plain Python."""
     kernel = film.kernel(3000.0)
     at_speed = speed_state(kernel, 3000.0 * RADIANS)
+    steps = "prepare_filters", "contact_force", "accept_contact"
     names = {
         table_room: ("_at", "curve", "film_cutoff", "gain"),
-        contact_room: ("_lag", "_weigh", "_add", "begin", "press", "accept", "curve", "film_cutoff"),
-        balls_room: ("_ball", "begin_step", "press_balls", "accept_balls", "begin", "press", "accept"),
+        contact_room: ("_lag", "_weigh", "_add", "curve", "film_cutoff", *steps),
+        balls_room: ("_ball", "begin_step", "press_balls", "accept_balls", *steps),
     }
     normals = np.array([[0.0, -1.0]] * 9)
     q, v = np.array([0.0, -9e-6]), np.array([0.0, 2e-3])

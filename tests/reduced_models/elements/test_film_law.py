@@ -8,7 +8,6 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from reduced_models.elements.film_response import FilterRates, fit_gains
-from reduced_models.rotor.contact import has_tangents
 
 OMEGAS = np.concatenate([[0.0], np.geomspace(0.03, 60.0, 24)])
 
