@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass, field, fields, is_dataclass, replace
+from dataclasses import asdict, dataclass, field, is_dataclass, replace
 from enum import Enum
 from math import prod
 from textwrap import fill
@@ -131,35 +131,19 @@ class QuantityTable(Summary):
         frame.attrs.update(self._about())
         return frame
 
-    def plot(self, path: str | os.PathLike[str] | None = None, *beside: Any) -> Any:
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
         """Matplotlib figure, in SI where the point is; into a file too where a path is given.
-
-        Parameters
-        ----------
-        path : path, optional
-            Its ending gives the format.
-        *beside : result or panel
-            Shown in the same figure, after this result.
 
         Raises
         ------
         InputError
             The file cannot be written.
         """
-        panels: list[Any] = []
-        for one in (self, *beside):
-            panels += one._drawn()._panels() if isinstance(one, QuantityTable) else [one]
-        return draw(self._title(), panels, path)
+        return draw(self._title(), self.panels(), path)
 
-    def require_complete(self, **sizes: int) -> None:
-        """Raise `ValueError` unless the arrays of fields fit the dimensions, of given `sizes`, and each other."""
-        for name in [f.name for f in fields(self) if f.name in self._quantities()]:  # type: ignore[arg-type]
-            dims, shape = self._quantities()[name].dims, np.shape(getattr(self, name))
-            if getattr(self, name) is not None and len(shape) != len(dims):
-                raise ValueError(f"{name} has the shape {shape}, not {len(dims)} dimensions")
-            for dim, size in zip(dims, shape, strict=False):
-                if sizes.setdefault(dim, size) != size:
-                    raise ValueError(f"{name} has {size} values along {dim}, not {sizes[dim]}")
+    def panels(self) -> list[Any]:
+        """Panels of that figure: those of several results in one by `ehlcontact.results.picture.draw`."""
+        return list(self._drawn()._panels())
 
     def _quantities(self) -> Mapping[str, Quantity]:
         """Declared quantities by name, with those that only SI has."""

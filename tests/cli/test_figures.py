@@ -134,15 +134,13 @@ def test_drawing_leaves_matplotlib_alone(tmp_path):
     assert dict(mpl.rcParams) == before
 
 
-def test_pictures_stand_side_by_side_in_a_file():
-    """What is given beside a result is drawn after it: fringes, a panel of one's own."""
+def test_panels_of_several_results_in_one_figure():
     from ehlcontact import film_of, interferogram
-    from ehlcontact.results.picture import Panel
+    from ehlcontact.results.picture import Panel, draw
 
     film = solve_steady(IN_SI, grid=Grid(n=32))
-    alone = film.plot()
-    loop = Panel((film.X, "place"), [("", film.H[:, 0], None)], "gap")
-    beside = film.plot(None, interferogram(film_of(film), 600e-9), loop)
-    texts = [[axes.get_ylabel() for axes in one.axes] for one in (alone, beside)]
-    assert len(texts[1]) == len(texts[0]) + 3 and texts[1][-1] == "gap"  # the map of fringes has a bar of colours
-    assert "intensity" in " ".join(texts[1])
+    own = Panel((film.X, "place"), [("", film.H[:, 0], None)], "gap")
+    figure = draw("a title", [*film.panels(), *interferogram(film_of(film), 600e-9).panels(), own])
+    labels = [axes.get_ylabel() for axes in figure.axes]
+    assert len(labels) == len(film.plot().axes) + 3 and labels[-1] == "gap"  # fringes with their bar
+    assert "intensity" in " ".join(labels)

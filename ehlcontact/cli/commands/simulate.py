@@ -266,7 +266,8 @@ def simulate(
 def _draw(result: SimulationResult, path: Path) -> None:
     """Draw histories, the film wave, and the force against the approach."""
     from ehlcontact.film import film_wave
-    from ehlcontact.results.picture import Panel
+    from ehlcontact.results.picture import Panel, draw
+    from ehlcontact.summary import contact_text
 
     shown, units = (result, ("", "")) if result.scales is None else (result.si, ("m", "N"))
     loop = Panel(
@@ -274,7 +275,9 @@ def _draw(result: SimulationResult, path: Path) -> None:
     )
     wave = film_wave(result)
     near = abs(wave.X) <= 1.1  # beyond, the film follows the approach at once
-    result.plot(path, replace(wave, X=wave.X[near], change=wave.change[:, near]), loop)
+    inside = replace(wave, X=wave.X[near], change=wave.change[:, near])
+    title = f"transient film: {contact_text(result.point, result.scales)}"
+    draw(title, [*result.panels(), *inside.panels(), loop], path)
 
 
 def _rows(result: SimulationResult) -> list[Row]:

@@ -97,13 +97,15 @@ def _draw(result: SteadyResult, path: Path) -> None:
     """Draw the contact, and its fringes where there is a unit of length."""
     from ehlcontact.film import film_of, interferogram
     from ehlcontact.film.plane import interpolated
+    from ehlcontact.results.picture import draw
+    from ehlcontact.summary import contact_text
 
-    if result.scales is None:
-        result.plot(path)
-        return
-    film = film_of(result)
-    X, Y = (np.linspace(max(-REACH, at[0]), min(REACH, at[-1]), POINTS) for at in (film.X, film.Y))
-    result.plot(path, interferogram(interpolated(film, X, Y), WAVELENGTH, REFRACTIVE_INDEX))
+    panels = result.panels()
+    if result.scales is not None:
+        film = film_of(result)
+        X, Y = (np.linspace(max(-REACH, at[0]), min(REACH, at[-1]), POINTS) for at in (film.X, film.Y))
+        panels += interferogram(interpolated(film, X, Y), WAVELENGTH, REFRACTIVE_INDEX).panels()
+    draw(f"steady film: {contact_text(result.point, result.scales)}", panels, path)
 
 
 def _rows(result: SteadyResult) -> list[Row]:

@@ -39,7 +39,7 @@ def refined(film: Film, points: tuple[int, int], growth: float = 1.0) -> Film:
 
 def map_axes(
     figure: go.Figure, film: Film, kappa: float, row: int = 1, col: int = 1, *, upwards: bool = True
-) -> Array:
+) -> tuple[Array, Array]:
     """Axes of a map, with the Hertz ellipse dashed; returns the places along its x and y axis.
 
     Parameters
