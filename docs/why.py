@@ -63,7 +63,7 @@ def respond(study: Study) -> tuple[Bode, ImpedanceResult, dict[str, ContactEleme
     film, contacts = film_response(study), elements(study)
     rotors = linear_rotors(study, build_rotor(study), film, contacts)
     rotors[FULL] = rotors.pop("full")
-    return bode(rotors), film, contacts
+    return bode(rotors, study.rotor.unbalance / study.rotor.disc_mass), film, contacts
 
 
 def main() -> None:

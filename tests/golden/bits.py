@@ -369,6 +369,9 @@ def at(model: str) -> dict[str, float]:
     return {"Omega": 2.0 * np.pi} if model == "cubic" else {}
 
 
+ROTOR = "t disc disc_velocity journal journal_velocity approach rate force iterations status"
+
+
 def motions() -> Leaves:
     """Jeffcott rotors and oscillators on elements, and on the full film."""
     atlas = Atlas()
@@ -378,8 +381,9 @@ def motions() -> Leaves:
         for model in ("wide", "memory", "cubic"):
             first, second = (atlas.element(BEARING, model, **at(model)) for _ in range(2))
             runs[model] = simulate_rotor(UPRIGHT, [first], dt=2e-4, until=0.02)
-            yield from leaves(f"rotor {model}", runs[model])
-            yield from leaves(f"vee {model}", simulate_rotor(VEE, [first, second], dt=2e-4, until=0.02))
+            yield from named(f"rotor {model}", runs[model], ROTOR)
+            pair = simulate_rotor(VEE, [first, second], dt=2e-4, until=0.02)
+            yield from named(f"vee {model}", pair, ROTOR)
             dimensionless = atlas.element(PAPER, model, **at(model))
             for omega_n in (5.13, None):
                 swing = simulate_oscillator(
@@ -391,7 +395,7 @@ def motions() -> Leaves:
         run = simulate_rotor(
             UPRIGHT, [ScaledContact(full, BEARING.scales)], dt=2e-4, until=0.004, start=start, tolerance=1e-4
         )
-    yield from leaves("rotor full", run)
+    yield from named("rotor full", run, ROTOR)
     yield from leaves("compared", compare(run, runs["memory"]).to_dict())
     t = np.linspace(0.0, 0.1, 2001)
     yield from leaves("decay", log_decrement(t, np.exp(-30.0 * t) * np.cos(600.0 * t) + 1e-3, omega=600.0))
@@ -404,7 +408,7 @@ def motions() -> Leaves:
         linear = linearise(rotor, contacts=films)
         modes = [[mode.omega, mode.decrement, mode.support_share] for mode in linear.modes()]
         yield f"linear on {name}.modes", np.array(modes)
-        yield f"linear on {name}.unbalance", linear.unbalance_response(rpm=[500.0, 3000.0, 9000.0])
+        yield f"linear on {name}.unbalance", linear.unbalance_response(rpm=[500.0, 3000.0, 9000.0]).amplitude
     # twice until it differs from the run before by rounding at most
     yield "equilibrium", VEE.static_equilibrium([wide, wide.copy()]).journal
 
