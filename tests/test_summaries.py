@@ -30,7 +30,6 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.results.layout import Tabled
 from ehlcontact.results.table import QuantityTable, SIView
 from ehlcontact.summary import Summary, span
 from fmu import References, Trial
@@ -92,7 +91,7 @@ def point():
 
 
 @pytest.fixture(scope="module")
-def told(point):
+def results(point):
     """One of everything."""
     moes, motion = MoesPoint(20, 5, 0.5), HarmonicLoad(Omega=3.0)
     film = solve_steady(point, grid=Grid(n=32))
@@ -172,8 +171,8 @@ def rotors(element, bearing):
     ]  # fmt: skip
 
 
-def test_summaries_are_short(told):
-    for thing in told:
+def test_summaries_are_short(results):
+    for thing in results:
         if not isinstance(thing, Summary):
             continue
         lines = repr(thing).splitlines()
@@ -188,16 +187,16 @@ def test_summaries_are_short(told):
         )
 
 
-def test_they_say_what_is_there(point, told):
-    film, run = told[0], told[4]
+def test_they_say_what_is_there(point, results):
+    film, run = results[0], results[4]
     assert f"{1e6 * film.si.h_central:.4g} (±" in repr(film) and "49 N" in repr(film) and "converged" in repr(film)
     assert "unresolved" in repr(replace(film, status=ehlcontact.Status.UNRESOLVED))
     assert f"force {span(run.si.force, 1.0, 'N')}" in repr(run) and f"{run.steps} steps" in repr(run)
-    state = next(thing for thing in told if isinstance(thing, reduced_models.BearingState))
+    state = next(thing for thing in results if isinstance(thing, reduced_models.BearingState))
     assert f"heaviest {state.force[state.heaviest, 0]:.4g} N" in repr(state) and "lambda" in repr(state)
 
 
-def test_every_public_result_of_arrays_is_told():
+def test_every_public_result_of_arrays_has_a_summary():
     """So that a new one that dumps them is seen here."""
     left = []
     for package in (ehlcontact, reduced_models, fmu):
@@ -224,16 +223,16 @@ def test_every_public_result_has_a_figure():
     assert without == set(WITHOUT_PLOT)
 
 
-def test_figures_are_drawn(told, tmp_path):
+def test_figures_are_drawn(results, tmp_path):
     """Every axis says what it shows, and in which unit where it has one."""
     drawn = set()
-    for thing in told:
+    for thing in results:
         long_enough = not isinstance(thing, reduced_models.RotorResult) or thing.t.size > 16
         if hasattr(thing, "plot") and long_enough and type(thing) not in drawn:
             figure = thing.plot(tmp_path / "figure.png")
             drawn.add(type(thing))
             assert figure.axes and (tmp_path / "figure.png").stat().st_size > 5000, thing
-            if type(thing).plot in (Tabled.plot, QuantityTable.plot):
+            if type(thing).plot is QuantityTable.plot:
                 assert all(axes.get_xlabel() or axes.get_label() == "<colorbar>" for axes in figure.axes), thing
                 assert all(axes.get_ylabel() for axes in figure.axes), thing
     wanted = {kind for kind in public_classes().values() if hasattr(kind, "plot") and not inspect.isabstract(kind)}
@@ -241,57 +240,57 @@ def test_figures_are_drawn(told, tmp_path):
     assert {kind.__name__ for kind in wanted - drawn} == alike
 
 
-def test_a_figure_of_a_point_in_si_is_in_si(told):
-    names = {axes.get_xlabel() for axes in told[0].plot().axes if axes.get_xlabel()}
-    assert names == {"x along rolling [µm]", "y across [µm]"} and told[0].scales is not None
-    films = [thing for thing in told if isinstance(thing, ehlcontact.SteadyResult) and thing.scales is None]
+def test_a_figure_of_a_point_in_si_is_in_si(results):
+    names = {axes.get_xlabel() for axes in results[0].plot().axes if axes.get_xlabel()}
+    assert names == {"x along rolling [µm]", "y across [µm]"} and results[0].scales is not None
+    films = [thing for thing in results if isinstance(thing, ehlcontact.SteadyResult) and thing.scales is None]
     assert films[0].plot().axes[0].get_xlabel() == "x/a"
-    answer = next(thing for thing in told if isinstance(thing, reduced_models.AtlasAnswer))
+    answer = next(thing for thing in results if isinstance(thing, reduced_models.AtlasAnswer))
     assert [axes.get_xscale() for axes in answer.plot().axes] == ["symlog"] * 2  # it begins at rest
     with pytest.raises(ehlcontact.InputError, match=r"path = .*a file name ending in one of"):
-        told[0].plot("figure.docx")
+        results[0].plot("figure.docx")
 
 
-def test_tables_of_xarray(told):
+def test_tables_of_xarray(results):
     xarray = pytest.importorskip("xarray")
-    for thing in told:
-        if isinstance(thing, Tabled | QuantityTable):
+    for thing in results:
+        if isinstance(thing, QuantityTable):
             data, view = thing.to_xarray(), isinstance(thing, SIView)
             assert isinstance(data, xarray.Dataset)
             assert data.attrs["result"] + " in SI" * view == thing._summary_name()
             assert all(values.attrs["units"] and values.attrs["long_name"] for values in data.data_vars.values())
             assert not [dim for dim in data.dims if dim.startswith("dim_")]
-    film, run = told[0].si.to_xarray(), told[4].to_xarray()
+    film, run = results[0].si.to_xarray(), results[4].to_xarray()
     assert film.h.dims == ("x", "y") and film.h.attrs == {"units": "m", "long_name": "film"}
     assert float(film.h.sel(x=0.0, y=0.0, method="nearest")) == pytest.approx(float(film.h_central), rel=0.05)
     assert run.force.dims == ("T",) and run.h_midplane.dims == ("T", "X") and run.force.attrs["units"] == "f0"
-    state = next(thing for thing in told if isinstance(thing, reduced_models.BearingState)).to_xarray()
+    state = next(thing for thing in results if isinstance(thing, reduced_models.BearingState)).to_xarray()
     assert list(state.race.values) == ["inner", "outer"] and state.force.sel(race="outer").shape == (9,)
-    answer = next(thing for thing in told if isinstance(thing, reduced_models.AtlasAnswer))
+    answer = next(thing for thing in results if isinstance(thing, reduced_models.AtlasAnswer))
     data = answer.to_xarray()
     assert (
         np.array_equal(data.stiffness_error, answer.error_bars["stiffness"]) and data.attrs["M"] == answer.point.M
     )
 
 
-def test_tables_of_pandas(told):
+def test_tables_of_pandas(results):
     pandas = pytest.importorskip("pandas")
-    for thing in told:
+    for thing in results:
         if hasattr(thing, "to_pandas"):
             assert isinstance(thing.to_pandas(), pandas.DataFrame) and len(thing.to_pandas()), thing
-    film, run, response = told[0], told[4], told[8]
+    film, run, response = results[0], results[4], results[8]
     grid = film.si.to_pandas()
     assert list(grid.columns) == ["p [Pa]", "h [m]"] and grid.index.names == ["x [m]", "y [m]"]
     assert np.array_equal(grid["h [m]"].to_numpy().reshape(film.H.shape), film.si.h)
     history = run.si.to_pandas()
     assert np.array_equal(history["force [N]"], run.si.force) and history.index.name == "t [s]"
     assert np.array_equal(response.si.to_pandas()["damping [N s/m]"], response.si.damping)
-    kind = {type(thing): thing for thing in told}
+    kind = {type(thing): thing for thing in results}
     balls = kind[reduced_models.BearingState].to_pandas()
     assert np.array_equal(balls["force_outer [N]"], kind[reduced_models.BearingState].force[:, 1])
     K = kind[reduced_models.BearingCoefficients].to_pandas()
     assert np.array_equal(K["stiffness_xy [N/m]"], kind[reduced_models.BearingCoefficients].stiffness[:, 0, 1])
-    turned = next(thing for thing in told if isinstance(thing, reduced_models.RotorResult) and thing.names)
+    turned = next(thing for thing in results if isinstance(thing, reduced_models.RotorResult) and thing.names)
     assert np.array_equal(turned.to_pandas()["displacement_disc_y [m]"], turned.disc[:, 1])
     many = kind[reduced_models.AtlasAnswers].to_pandas()
     assert np.array_equal(many["h_min [delta_H]"], kind[reduced_models.AtlasAnswers].h_min) and len(many) == 2
@@ -305,12 +304,12 @@ def test_tables_of_pandas(told):
 
 
 @pytest.mark.parametrize(("library", "method"), [("xarray", "to_xarray"), ("pandas", "to_pandas")])
-def test_a_missing_library_is_one_line(told, monkeypatch, library, method):
+def test_a_missing_library_is_one_line(results, monkeypatch, library, method):
     monkeypatch.setitem(sys.modules, library, None)
     with pytest.raises(
         ehlcontact.InputError, match=rf"^{library} = None: must be installed: pip install 'ehl.*tables"
     ):
-        getattr(told[0], method)()
+        getattr(results[0], method)()
 
 
 def test_span():
@@ -329,13 +328,13 @@ def rooms():
                     yield room
 
 
-@pytest.mark.parametrize("package", list(rooms()), ids=lambda package: package.__name__)
-def test_dir_lists_public_names_only(package):
-    listed = dir(package)
-    inner = [name for name in listed if inspect.ismodule(getattr(package, name))]
-    assert inner == [] and listed and "annotations" not in listed
-    assert not [name for name in listed if name.startswith("_") and name != "__version__"]
-    assert set(getattr(package, "__all__", listed)) == set(listed)
+def test_dir_lists_public_names_only():
+    for package in rooms():
+        listed = dir(package)
+        inner = [name for name in listed if inspect.ismodule(getattr(package, name))]
+        assert inner == [] and listed and "annotations" not in listed, package
+        assert not [name for name in listed if name.startswith("_") and name != "__version__"], package
+        assert set(getattr(package, "__all__", listed)) == set(listed), package
 
 
 def test_the_three_packages_list_what_they_show():

@@ -7,7 +7,6 @@ module        responsibility
 ``impedance`` `ImpedanceResult`: stiffness and damping over frequency
 ``frequency`` `FrequencyResponse`: impedance and python-control system of K and C
 ``table``     `QuantityTable`: values in SI, dictionary, xarray, pandas and figure of declared quantities
-``layout``    what their quantities are: as xarray, as pandas, as a figure
 ``contact_map`` pressure and film of a contact as a figure
 ``picture``   plain figures; matplotlib is imported where one is drawn
 ============= =================================================================================
