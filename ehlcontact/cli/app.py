@@ -1,4 +1,4 @@
-"""The program: subcommands, and every way to fail turned into one line and an exit code."""
+"""The program: subcommands; every error becomes one line on stderr and an exit code."""
 
 from __future__ import annotations
 
@@ -76,8 +76,8 @@ app.add_typer(atlas.group, name="atlas")
 
 
 def execute(arguments: Sequence[str] | None = None) -> int:
-    """Run one command line; returns the exit code, and says on stderr in one line what was wrong."""
-    if COMPLETION in os.environ and arguments is None:  # a shell asks what may come next
+    """Run one command line; return the exit code. An error is one line on stderr."""
+    if COMPLETION in os.environ and arguments is None:  # completion in a shell
         typer.main.get_command(app).main(prog_name="ehlcontact")
     given = list(sys.argv[1:] if arguments is None else arguments)
     try:
@@ -111,7 +111,7 @@ def execute(arguments: Sequence[str] | None = None) -> int:
 
 
 def _invoke(given: list[str]) -> int:
-    """The command itself: not by its `main`, which has its own ways with Ctrl-C and a closed stdout."""
+    """Run the command itself; its `main` would handle Ctrl-C and a closed stdout by itself."""
     root = typer.main.get_command(app)
     try:
         with root.make_context("ehlcontact", list(given)) as context:

@@ -238,7 +238,7 @@ def show_table(title: str, rows: Iterable[tuple[str, str, str]], json_to: str | 
 
 
 class StdoutError(Exception):
-    """stdout took no more; the message says why."""
+    """stdout accepts no more; the message is the reason of the system."""
 
     def __init__(self, error: OSError) -> None:
         self.closed = isinstance(error, BrokenPipeError)
@@ -256,7 +256,7 @@ class _Watched:
         return getattr(self._stream, name)
 
     def write(self, text: str) -> int:
-        """Write what the encoding knows."""
+        """Write the text in characters of the encoding."""
         try:
             return self._stream.write(known(text, self._stream))
         except OSError as error:
@@ -304,7 +304,7 @@ def to_stderr(line: str) -> None:
 
 
 def known(text: str, stream: TextIO) -> str:
-    """The text with the numbers of the characters that the stream's encoding does not know."""
+    """The text with escapes for characters that the encoding of the stream does not have."""
     encoding = stream.encoding or "utf-8"
     return text.encode(encoding, "backslashreplace").decode(encoding)
 

@@ -10,7 +10,7 @@ import typer
 from ehlcontact.cli.output import one_line
 from ehlcontact.errors import InputError
 
-# What the parser says of numbers, in its readers' words.
+# Messages of the parser about numbers, in plain words.
 PLAIN_WORDS = {
     "a valid integer, unable to parse string as an integer": "a whole number",
     "a valid number, unable to parse string as a number": "a number, as 0.04 or 4e-2",
@@ -18,7 +18,7 @@ PLAIN_WORDS = {
 
 
 def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
-    """What was wrong; the option, the value and what it must be where the error tells them.
+    """A usage error in one line: the option, the value and its allowed range, as far as the error has them.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
             return str(found).replace(" = None", "", 1)
     if kind == "NoSuchOption" and name:
         options = (option.opts[0] for option in command.params if option.opts[0].startswith("--"))
-        return f"{message.rstrip('.')}; `{name}` knows {', '.join(options)}"
+        return f"{message.rstrip('.')}; `{name}` takes {', '.join(options)}"
     if kind == "UsageError" and "unexpected extra argument" in message:
         return f"{message}; `ehlcontact {name} --help` shows what `{name}` takes: options come with their names"
     if "No such command" in message and getattr(command, "commands", None) and "Did you mean" not in message:
@@ -53,7 +53,7 @@ def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
 
 
 def command_of(root: Any, arguments: Sequence[str]) -> tuple[Any, str]:
-    """The command that a command line calls, as far as it can be told, and its name."""
+    """The command that a command line calls, as far as its words name one, and its name."""
     command, names = root, []
     for word in arguments:
         below = getattr(command, "commands", {})

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 CURVE = 15  # speeds of the curves of a figure
 BESIDE = (0.5, 2.0)  # over a single speed: where its curves begin and end
 _OIL, _BEARING = "Oil", "Bearing"
-# Of the entries of the JSON, whatever they are nested in; what is not here has no unit, or is told by its name.
+# Of the entries of the JSON, whatever they are nested in; other entries have no unit, or have it in their name.
 UNITS = {
     "load": "N; (x, y), downwards is -y",
     "force": "N",
@@ -179,7 +179,7 @@ def _show(report: BearingReport, json_to: str | None) -> None:
 
 
 def _rows(b: BallBearing) -> list[tuple[str, str, str]]:
-    """What bearing it is."""
+    """Dimensions, oil and defect frequencies of the bearing."""
     oil = [("oil", "none: dry", "")]
     if b.oil is not None:
         oil = [
@@ -197,7 +197,7 @@ def _rows(b: BallBearing) -> list[tuple[str, str, str]]:
 
 
 def _at_speed(b: BallBearing, state: BearingState, at: BearingCoefficients) -> list[tuple[str, str, str]]:
-    """How it stands, rolls and vibrates at a speed."""
+    """Deflection, stiffness, damping, resistance and frequencies at a speed."""
     K, C = at.stiffness[0] * 1e-6, at.damping[0]
     down, swing = -at.displacement[1] * 1e6, at.swing[1] * 1e9
     return [
@@ -211,7 +211,7 @@ def _at_speed(b: BallBearing, state: BearingState, at: BearingCoefficients) -> l
 
 
 def _resistance(state: BearingState) -> list[tuple[str, str, str]]:
-    """Of the films of a bearing that has any."""
+    """Rolling resistance of the films of a bearing in oil."""
     if state.rolling_torque is None or state.rolling_loss is None:
         return []
     loss = f"{numeral(state.rolling_loss)} W; without sliding, cage, churning"

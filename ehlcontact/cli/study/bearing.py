@@ -75,7 +75,7 @@ class Operation(Section):
 
 
 class BearingFile(Section):
-    """Everything that the file says; without [oil] the bearing is dry."""
+    """A bearing file; without [oil] the bearing is dry."""
 
     bearing: Bearing
     oil: Oil = Oil()

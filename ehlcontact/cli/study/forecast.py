@@ -1,4 +1,4 @@
-"""What a study will do, and about how long it takes, from its file alone: nothing is solved here."""
+"""Work and estimated time of a study, from its file alone: nothing is solved here."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ DAMPING_OFF = "damping is 12 to 16 % off at 0.6 of that, a few at a third"
 
 @dataclass(frozen=True)
 class Plan:
-    """What one stage will do."""
+    """Work and estimated time of one stage."""
 
     stage: Stage
     mesh: Mesh
@@ -58,7 +58,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class Forecast:
-    """What a study will do."""
+    """Work and estimated time of a study."""
 
     study: Study
     folder: Path
@@ -123,7 +123,7 @@ class Forecast:
 
 
 def forecast(study: Study, folder: Path, jobs: int) -> Forecast:
-    """Look at a study and at what its folder holds.
+    """Estimate a study, less what its folder holds already.
 
     Parameters
     ----------
@@ -180,12 +180,12 @@ def _steps(stage: Stage, study: Study) -> tuple[int, int, float | None]:
 
 
 def cautions(study: Study) -> list[str]:
-    """What will run, but not well."""
+    """Warnings about grids and numbers that the study will run with, but not accurately."""
     return [*_coarse(study), *_outside(study)]
 
 
 def _coarse(study: Study) -> list[str]:
-    """Grids that do not see the inlet, and a region too small."""
+    """Warnings of grids too coarse for the inlet, and of a region too small."""
     point, domain, found = study.point.moes, study.domain, []
     for key, n, purpose, why in (
         ("n", study.solver.n, Purpose.FILM, FILM_TOO_THIN),
@@ -210,7 +210,7 @@ def _coarse(study: Study) -> list[str]:
 
 
 def _outside(study: Study) -> list[str]:
-    """Numbers beyond those that the solver was measured at."""
+    """Warnings of numbers beyond those that the solver was measured at."""
     m, found = study.point.moes, []
     for name in ("M", "L", "kappa"):
         low, high = getattr(MEASURED, name)

@@ -102,7 +102,7 @@ def reduce_records(
     """Fit every model to every record; a fit that makes no contact is kept as the reason why.
 
     The film memory is fitted to the impedance too. Elements carry what is `known` in their ``source``: what is
-    assumed of the study's oil, film and roughness, and whose contact it is, which the records do not know.
+    assumed of the study's oil, film and roughness, and the bearing of the contact, which the records do not have.
     """
     fits: dict[tuple[str, str], FitResult] = {}
     refused: dict[tuple[str, str], str] = {}
@@ -130,7 +130,7 @@ def _spread(response: ImpedanceResult) -> ImpedanceResult:
 
 
 def contact_text(study: Study) -> str:
-    """Whose contact it is, in one line."""
+    """Bearing, race, load, speed and oil of the contact in one line."""
     bearing, oil = study.bearing, study.oil
     viscosity = "" if oil.eta0 is None else f" of {numeral(oil.eta0)} Pa s"
     return (

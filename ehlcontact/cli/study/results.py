@@ -1,4 +1,4 @@
-"""Everything a study found, in numbers."""
+"""Results of a study in numbers: ``results.json``."""
 
 from __future__ import annotations
 
@@ -81,12 +81,12 @@ class Findings:
 
     @property
     def fmus(self) -> list[Mapping[str, Any]]:
-        """What is said of each FMU of the study."""
+        """Entries of `to_dict` about the FMUs of the study."""
         return [entry for entry in (self.fmu, self.film_fmu) if entry is not None]
 
     @property
     def assumptions(self) -> Assumptions:
-        """What was assumed, and how far it holds; vibration is that of the journal on full contacts."""
+        """Assumptions and how far they hold; vibration is that of the journal on full contacts."""
         runs = (self.rotors.unbalance.full, self.rotors.decay.runs[FULL])
         velocity = np.concatenate([np.linalg.norm(run.journal_velocity, axis=1) for run in runs])
         return assumptions(
@@ -174,7 +174,7 @@ class Findings:
 
     @property
     def warnings(self) -> list[str]:
-        """What elements said about leaving their validity box, each run once, with the contacts that said it."""
+        """Warnings of elements outside their validity box, each once per run, with the contacts concerned."""
         said: dict[str, list[str]] = {}
         for when, events in (("unbalance", self.rotors.unbalance.events), ("kick", self.rotors.decay.events)):
             for name, contacts in events.items():

@@ -243,7 +243,7 @@ class Check(Section):
 
 
 class Study(Section):
-    """Everything that a study file says."""
+    """A study file of one speed and load."""
 
     title: Annotated[str, e.meaning("heads the report")] = "contact study"
     bearing: Bearing
@@ -378,7 +378,7 @@ def load_study(path: Path) -> Study:
 
 
 def study_of(document: dict[str, Any]) -> Study:
-    """Check what a study file says.
+    """The study of a document, checked.
 
     Raises
     ------

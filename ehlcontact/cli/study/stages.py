@@ -21,7 +21,7 @@ FRAMES = 24  # of a period: whole fields that the report can run through
 
 
 class Outcome(NamedTuple):
-    """How a stage ended, with what to say about it."""
+    """Status at the end of a stage, and a message about it."""
 
     status: Status
     message: str = ""
@@ -37,7 +37,7 @@ class Steps(NamedTuple):
 
     @property
     def count(self) -> int:
-        """How many there are."""
+        """Number of steps."""
         return ceil(self.periods * self.per_period - 1e-9)
 
 
@@ -206,5 +206,5 @@ def stages_of(study: Study) -> tuple[Stage, ...]:
 
 
 def stage_named(name: str) -> Stage:
-    """Look a stage up."""
+    """The stage of a name."""
     return next(stage for stage in STAGES if stage.name == name)
