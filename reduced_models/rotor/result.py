@@ -159,7 +159,7 @@ class RotorResult(QuantityTable, ByNode):
     def plot(
         self,
         path: str | os.PathLike[str] | None = None,
-        *beside: Any,
+        *,
         kind: str | None = None,
         most_hz: float | None = None,
         node: str | tuple[int, int] | None = None,
@@ -191,7 +191,7 @@ class RotorResult(QuantityTable, ByNode):
         if kind not in KINDS:
             raise InputError("kind", kind, f"one of {', '.join(KINDS)}")
         if kind == "histories":
-            return super().plot(path, *beside)
+            return super().plot(path)
         if self.t.size <= FEWEST:
             raise InputError("steps of the run", self.t.size - 1, f"at least {FEWEST}, for a figure")
         highest, per_second = 0.5 / float(self.t[1] - self.t[0]), float(self.speed_rpm.max()) / 60.0
