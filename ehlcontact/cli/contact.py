@@ -12,6 +12,7 @@ from ehlcontact.checks.admissible_range import INPUTS, Given
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.options import Options, called
+from ehlcontact.cli.rows import Row
 from ehlcontact.cli.study.schema import lubricant_of, oil_grade
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import most_loaded_ball
@@ -195,7 +196,7 @@ class Contact(Options):
             }
         }
 
-    def rows(self, point: Point) -> list[tuple[str, str, str]]:
+    def rows(self, point: Point) -> list[Row]:
         """Rows of a table that say which contact this is."""
         if not isinstance(point, OperatingPoint):
             return [("M, L, kappa", ", ".join(map(numeral, (point.M, point.L, point.kappa))), "")]
@@ -249,7 +250,7 @@ class Surfaces(Options):
         """Smallest film [m] over roughness; None where none was given."""
         return None if self.rq is None else h_min / (1e-6 * self.rq)
 
-    def rows(self, h_min: float) -> list[tuple[str, str, str]]:
+    def rows(self, h_min: float) -> list[Row]:
         """For a table: the lambda ratio where a roughness was given."""
         ratio = self.lambda_ratio(h_min)
         said = f"smallest film over a roughness of {numeral(self.rq)} µm"

@@ -28,6 +28,7 @@ from ehlcontact.cli.output import (
     write_json,
     write_to,
 )
+from ehlcontact.cli.rows import Row
 from ehlcontact.cli.study.schema_errors import first_error
 from ehlcontact.errors import InputError
 from ehlcontact.solver.domain import Domain
@@ -35,7 +36,7 @@ from ehlcontact.solver.grid import Grid as SolverGrid
 
 HDF5 = (".h5", ".hdf5")
 PICTURES = (".png", ".svg", ".pdf")
-Table = tuple[str, list[tuple[str, str, str]]]  # title; rows of quantity, value and unit
+Table = tuple[str, list[Row]]  # title; rows of quantity, value and unit
 
 
 class Options(Section):

@@ -18,6 +18,7 @@ from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral, spelled
 from ehlcontact.cli.output import STDOUT, show_table
 from ehlcontact.cli.progress import progress
+from ehlcontact.cli.rows import Row, in_unit
 from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.errors import InputError
 
@@ -178,7 +179,7 @@ def _show(report: BearingReport, json_to: str | None) -> None:
         Console().print(_balls(state))
 
 
-def _rows(b: BallBearing) -> list[tuple[str, str, str]]:
+def _rows(b: BallBearing) -> list[Row]:
     """Dimensions, oil and defect frequencies of the bearing."""
     oil = [("oil", "none: dry", "")]
     if b.oil is not None:
@@ -190,35 +191,35 @@ def _rows(b: BallBearing) -> list[tuple[str, str, str]]:
     return [
         ("balls", f"{b.balls} x {numeral(b.ball_diameter * 1e3)} mm", f"on {numeral(b.pitch_diameter * 1e3)} mm"),
         ("conformity", conformity, "inner, outer"),
-        ("clearance", f"{numeral(b.clearance * 1e6)} µm", "below 0: preload"),
+        ("clearance", in_unit(b.clearance, "m"), "below 0: preload"),
         *oil,
         *_defects(b.orders, 5, "per turn"),
     ]
 
 
-def _at_speed(b: BallBearing, state: BearingState, at: BearingCoefficients) -> list[tuple[str, str, str]]:
+def _at_speed(b: BallBearing, state: BearingState, at: BearingCoefficients) -> list[Row]:
     """Deflection, stiffness, damping, resistance and frequencies at a speed."""
-    K, C = at.stiffness[0] * 1e-6, at.damping[0]
-    down, swing = -at.displacement[1] * 1e6, at.swing[1] * 1e9
+    K, C, swing = at.stiffness[0], at.damping[0], at.swing[1] * 1e9
+    deflection = in_unit(-at.displacement[1], "m")
     return [
-        ("deflection", f"{numeral(down)} µm", f"{numeral(swing, 3)} nm up and down as a ball passes"),
-        ("along the load", f"{numeral(K[1, 1])} N/µm", f"{numeral(C[1, 1])} N s/m"),
-        ("across it", f"{numeral(K[0, 0])} N/µm", f"{numeral(C[0, 0])} N s/m"),
+        ("deflection", deflection, f"{numeral(swing, 3)} nm up and down at ball passage"),
+        ("along the load", in_unit(K[1, 1], "N/m"), in_unit(C[1, 1], "N s/m")),
+        ("across it", in_unit(K[0, 0], "N/m"), in_unit(C[0, 0], "N s/m")),
         ("both at", f"{numeral(at.omega[0] / math.tau)} Hz", "that of the shaft"),
         *_resistance(state),
         *_defects(b.frequencies(at.speed_rpm), 4, "Hz"),
     ]
 
 
-def _resistance(state: BearingState) -> list[tuple[str, str, str]]:
+def _resistance(state: BearingState) -> list[Row]:
     """Rolling resistance of the films of a bearing in oil."""
     if state.rolling_torque is None or state.rolling_loss is None:
         return []
     loss = f"{numeral(state.rolling_loss)} W; without sliding, cage, churning"
-    return [("films resist rolling", f"{numeral(state.rolling_torque * 1e3)} N mm", loss)]
+    return [("films resist rolling", in_unit(state.rolling_torque, "N m"), loss)]
 
 
-def _defects(found: DefectFrequencies, digits: int, unit: str) -> list[tuple[str, str, str]]:
+def _defects(found: DefectFrequencies, digits: int, unit: str) -> list[Row]:
     names = (("cage, ball", found.ftf, found.bsf), ("on outer, inner race", found.bpfo, found.bpfi))
     return [(name, f"{numeral(a, digits)}, {numeral(b, digits)}", unit) for name, a, b in names]
 

@@ -95,7 +95,7 @@ def _answer(answer: AtlasAnswer, rpm: float | None) -> list[Row]:
     return rows
 
 
-def _damper(made: Any) -> list[tuple[str, str, str]]:
+def _damper(made: Any) -> list[Row]:
     """The one damping of a cubic, and the band it is for."""
     from reduced_models.elements.validity import MARGIN, frequency_text
 
@@ -105,7 +105,7 @@ def _damper(made: Any) -> list[tuple[str, str, str]]:
     return [("damper C1", damper, f"within {MARGIN:.0%} for {frequency_text(made.omega_range, made.units)}")]
 
 
-def _valid(made: Any) -> list[tuple[str, str, str]]:
+def _valid(made: Any) -> list[Row]:
     """Where it holds."""
     from reduced_models.elements.validity import text_of
 

@@ -10,6 +10,7 @@ import typer
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import USAGE, check_new, complain
 from ehlcontact.cli.progress import progress
+from ehlcontact.cli.rows import Row
 from ehlcontact.errors import InputError
 from ehlcontact.store import load
 
@@ -147,7 +148,7 @@ def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
     return model
 
 
-def _about(exported: Any, system: bool) -> list[tuple[str, str, str]]:
+def _about(exported: Any, system: bool) -> list[Row]:
     """What it is."""
     from fmu import RotorModel
 
@@ -161,7 +162,7 @@ def _about(exported: Any, system: bool) -> list[tuple[str, str, str]]:
     ]
 
 
-def _advice(exported: Any, found: Any) -> list[tuple[str, str, str]]:
+def _advice(exported: Any, found: Any) -> list[Row]:
     """Steps of a co-simulation."""
     step = getattr(found, "step", None)
     if step is not None:
@@ -176,7 +177,7 @@ def _advice(exported: Any, found: Any) -> list[tuple[str, str, str]]:
     return step_advice(exported)
 
 
-def _rows(found: Verification | SystemVerification | None, *, rotor: bool) -> list[tuple[str, str, str]]:
+def _rows(found: Verification | SystemVerification | None, *, rotor: bool) -> list[Row]:
     """What the verification found."""
     if found is None:
         return [("verified", "no", "this machine can run no such FMU")]

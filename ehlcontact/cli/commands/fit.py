@@ -11,6 +11,7 @@ import typer
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.rows import Row
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
@@ -97,7 +98,7 @@ def _with_files(text: str, files: list[Path]) -> str:
     return re.sub(r"records\[(\d+)\]", lambda found: str(files[int(found[1])]), text)
 
 
-def _coefficients(fitted: FitResult) -> list[tuple[str, str, str]]:
+def _coefficients(fitted: FitResult) -> list[Row]:
     rows = [
         (name, numeral(value, 5), "{} .. {} (95 %)".format(*map(numeral, fitted.intervals[name])))
         for name, value in fitted.parameters.items()
@@ -106,7 +107,7 @@ def _coefficients(fitted: FitResult) -> list[tuple[str, str, str]]:
     return [*rows, ("condition", numeral(fitted.condition, 3), f"number; {worth}")]
 
 
-def _memory(fitted: ElementFit) -> list[tuple[str, str, str]]:
+def _memory(fitted: ElementFit) -> list[Row]:
     p, found = fitted.parameters, fitted.to_dict()
     low, high = fitted.valid["omega"]
     gains = p["gains"]

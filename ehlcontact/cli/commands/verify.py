@@ -9,6 +9,7 @@ import typer
 
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import FAILED, complain
+from ehlcontact.cli.rows import Row
 
 if TYPE_CHECKING:
     from fmu import ReferenceCheck
@@ -39,7 +40,7 @@ def verify(
         raise typer.Exit(FAILED)
 
 
-def _rows(found: ReferenceCheck) -> list[tuple[str, str, str]]:
+def _rows(found: ReferenceCheck) -> list[Row]:
     """What was compared, and how large the differences are."""
     rows = [
         ("FMI", found.fmi, ""),

@@ -176,7 +176,7 @@ def _steps(stage: Stage, study: Study) -> tuple[int, int, float | None]:
         return 1, 0, None
     steps = stage.steps(study)
     contacts = len(build_rotor(study).mounts) if steps.on_rotor else 1
-    return contacts, steps.count, None if steps.period is None else steps.period / steps.per_period
+    return contacts, steps.number, None if steps.period is None else steps.period / steps.per_period
 
 
 def cautions(study: Study) -> list[str]:

@@ -36,7 +36,7 @@ class Steps(NamedTuple):
     on_rotor: bool = False  # films in all contacts of the rotor, else in one
 
     @property
-    def count(self) -> int:
+    def number(self) -> int:
         """Number of steps."""
         return ceil(self.periods * self.per_period - 1e-9)
 
