@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass, field, is_dataclass, replace
+from dataclasses import asdict, dataclass, field, fields, is_dataclass, replace
 from enum import Enum
 from math import prod
 from textwrap import fill
@@ -144,6 +144,16 @@ class QuantityTable(Summary):
     def panels(self) -> list[Any]:
         """Panels of that figure: those of several results in one by `ehlcontact.results.picture.draw`."""
         return list(self._drawn()._panels())
+
+    def require_complete(self, **sizes: int) -> None:
+        """Raise `ValueError` unless the arrays of fields fit the dimensions, of given `sizes`, and each other."""
+        for name in [f.name for f in fields(self) if f.name in self._quantities()]:  # type: ignore[arg-type]
+            dims, shape = self._quantities()[name].dims, np.shape(getattr(self, name))
+            if getattr(self, name) is not None and len(shape) != len(dims):
+                raise ValueError(f"{name} has the shape {shape}, not {len(dims)} dimensions")
+            for dim, size in zip(dims, shape, strict=False):
+                if sizes.setdefault(dim, size) != size:
+                    raise ValueError(f"{name} has {size} values along {dim}, not {sizes[dim]}")
 
     def _quantities(self) -> Mapping[str, Quantity]:
         """Declared quantities by name, with those that only SI has."""
