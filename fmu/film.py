@@ -60,9 +60,9 @@ def film_parts(element: Film, common: ContactVariables) -> dict[str, Any]:
 
 
 def _states(common: ContactVariables, states: tuple[str, ...], nominal: float) -> None:
-    texts = ("Rate that the inlet remembers", "Rate that the fast part remembers")
+    texts = ("State of the inlet lag", "State of the fast lag")
     for k, name in enumerate(states):
-        text = texts[k] if k < len(texts) else f"Film made, as lag {k - 1} of the chain passes it on"
+        text = texts[k] if k < len(texts) else f"Film at the end of lag {k - 1} of the chain"
         common.add(name, "local", "continuous", text, unit="1", start=0.0, nominal=nominal)
     unit = "1/s" if common.element.units == "SI" else "1"
     for k, name in enumerate(states):

@@ -10,7 +10,7 @@
 | power | `PowerLawContact` |
 | jet | compiled: values with two partial derivatives |
 | film_filters | compiled: the filters of the film memory over a step and in continuous time |
-| film_law | compiled: a dry spring on a film that remembers: a step, and the equations in continuous time |
+| film_law | compiled: a dry Hertz spring on a film with memory: a step, and the equations in continuous time |
 | film_curve | its static curve from a table of loads |
 | film_response | transfer functions of its filters: gains from an impedance, passivity |
 | small_motion | linear law about rest, of elements and bearings alike: impedance and state space |

@@ -38,7 +38,7 @@ _SCALES = tuple(f.name for f in fields(Scales))
 
 
 class FilmContact(ContactElement):
-    """A dry spring on a film that remembers; see `reduced_models.elements.film_law` for the equations.
+    """Dry Hertz spring on a film with memory; equations in `reduced_models.elements.film_law`.
 
     The element carries a state and starts at rest under its reference load; one element must not serve two
     contacts (take a `copy`). Its coefficients are dimensionless always; in SI it holds the ``scales`` and

@@ -241,7 +241,7 @@ def film_drive(law, T, u, v, force):
 
 
 @jit_exact
-def _remembered(law, between, states):
+def _film_of_states(law, between, states):
     """Film that the states add."""
     film = 0.0
     for k in range(states.size):
@@ -256,7 +256,7 @@ def film_rates(law, states, u, v, rates):
     theta = sqrt(g)
     filter_rates(law, law.inlet_saturation, theta, v, states, rates)
     between = _between(x, law)
-    w = g + _gain(0, law, between) * (theta * v) + _remembered(law, between, states)
+    w = g + _gain(0, law, between) * (theta * v) + _film_of_states(law, between, states)
     return w * sqrt(w) if w > 0.0 else 0.0
 
 
@@ -265,7 +265,7 @@ def film_rate(law, states, u, force):
     """Rate at which the contact carries `force` > 0 at approach `u`."""
     x, g, _ = static(u, law)
     between = _between(x, law)
-    return (force ** (2.0 / 3.0) - g - _remembered(law, between, states)) / (_gain(0, law, between) * sqrt(g))
+    return (force ** (2.0 / 3.0) - g - _film_of_states(law, between, states)) / (_gain(0, law, between) * sqrt(g))
 
 
 @jit_exact

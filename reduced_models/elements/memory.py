@@ -33,7 +33,7 @@ def film_and_exponent(approach: float, tangent: float) -> tuple[float, float]:
 @stored("contact element")
 @dataclass(frozen=True)
 class FilmMemoryContact(FilmContact):
-    """Contact about one load, with the damping of every frequency: a dry spring on a film that remembers.
+    """Contact about one load, with the damping of every frequency: a dry Hertz spring on a film with memory.
 
     The static film is h_s = film F^-exponent, which approach and static tangent at the reference load fix; the
     memory is described in `reduced_models.elements.film_law`. Made by `reduced_models.fit_memory`.

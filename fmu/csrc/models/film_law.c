@@ -185,7 +185,7 @@ typedef struct {
     Between between;
 } Memory;
 
-static Memory remembered(const double states[FILM_RATES], const Rest *rest)
+static Memory film_memory(const double states[FILM_RATES], const Rest *rest)
 {
     Memory m;
     int k;
@@ -205,14 +205,14 @@ static Memory remembered(const double states[FILM_RATES], const Rest *rest)
 
 FilmForce film_now(const double states[FILM_RATES], const Rest *rest, double v)
 {
-    const Memory m = remembered(states, rest);
+    const Memory m = film_memory(states, rest);
     return force_of(rest->g + m.direct * (m.theta * v) + m.held,
                     frozen_slope(rest, &m.between, m.theta, m.theta_u, v, m.held_x), m.direct * m.theta);
 }
 
 void film_instant(const double states[FILM_RATES], const Rest *rest, double v, FilmInstant *now)
 {
-    const Memory m = remembered(states, rest);
+    const Memory m = film_memory(states, rest);
     double x_uu, g_uu, theta_uu, w_root, w[2], ww[2][2];
     int i, j, k;
     film_curvature(rest, &x_uu, &g_uu);

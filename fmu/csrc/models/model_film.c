@@ -37,7 +37,7 @@ static double own_rate(double rate)
 static const double stiffness_unit = SCALE_FORCE / SCALE_LENGTH;
 static const double damping_unit = SCALE_FORCE / SCALE_LENGTH * SCALE_TIME;
 
-/* ---- static curve, remembered ---- */
+/* ---- static curve, kept where it was evaluated last ---- */
 
 /* Where it was last asked for; 0 if it never was. */
 static int known(const Model *m, Rest *rest)
@@ -58,7 +58,7 @@ static void rest_at(const Model *m, double u, Rest *rest)
     }
 }
 
-static void remember(Model *m, const Rest *rest)
+static void keep_rest(Model *m, const Rest *rest)
 {
     m->cache[KNOWN] = 1.0;
     m->cache[REST_U] = rest->u;
@@ -87,7 +87,7 @@ static void show(Model *m, double approach, double rate, const Rest *rest, const
     m->value[VR_damping] = now->damping * damping_unit;
     m->value[VR_step_stiffness] = step->stiffness * stiffness_unit;
     m->value[VR_step_damping] = step->damping * damping_unit;
-    remember(m, rest);
+    keep_rest(m, rest);
     model_watch(m);
 }
 

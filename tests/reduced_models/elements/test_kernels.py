@@ -66,7 +66,7 @@ CASES = {
         "film_rest": [(FILM, 0.8, np.zeros(7))],
         "film_drive": [(FILM, np.linspace(0.0, 1.0, 6), POINTS, 0.1 * POINTS, np.zeros(6))],
         "_gain": [(1, FILM, (0, 1, 0.3, 0.7))],
-        "_remembered": [(FILM, (0, 1, 0.3, 0.7), STATE[3:])],
+        "_film_of_states": [(FILM, (0, 1, 0.3, 0.7), STATE[3:])],
         "film_rates": [(FILM, STATE[3:], 0.9, 0.2, np.zeros(4))],
         "film_rate": [(FILM, STATE[3:], 0.9, 1.1)],
         "static_forces": [(FILM, POINTS, np.zeros(6))],
