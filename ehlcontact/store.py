@@ -213,9 +213,8 @@ def put(group: h5py.Group, name: str, value: np.ndarray) -> None:
     """Store an array."""
     filled = value.ndim > 0 and value.size > 0  # there is something to pack
     # with a checksum, so that a damaged number raises an error
-    data = group.create_dataset(
-        name, data=value, compression="gzip" if filled and value.ndim > 1 else None, fletcher32=filled
-    )
+    packing = {"compression": "gzip", "shuffle": True} if filled and value.ndim > 1 else {}
+    data = group.create_dataset(name, data=value, fletcher32=filled, **packing)
     if value.flags.f_contiguous and not value.flags.c_contiguous:
         set_text(data, "order", "F")
 

@@ -29,8 +29,8 @@ def build(folder: Path, draws: int = DRAWS, light: int = LIGHT, workers: int = 2
     with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0") as cluster:
         # a cluster of many machines: the address that `dask scheduler` prints
         address = cluster.scheduler_address
-        build_atlas(folder / "small.npz", folder / "work", draws, light, scheduler=address, **options)
-    return Atlas(folder / "small.npz")
+        build_atlas(folder / "small.h5", folder / "work", draws, light, scheduler=address, **options)
+    return Atlas(folder / "small.h5")
 
 
 def films(atlas: Atlas) -> list[tuple[float, float]]:

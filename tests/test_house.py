@@ -92,7 +92,7 @@ def relative(folder, pattern):
         ("reduced_models", "py.typed"),
         ("fmu", "py.typed"),
         ("ehlcontact", "*.csv"),
-        ("reduced_models", "*.npz"),
+        ("reduced_models", "*.h5"),
     ],
 )
 def test_data_files_are_installed(package, pattern):

@@ -24,6 +24,7 @@ from ehlcontact.checks.admissible_range import INPUTS, Quantity
 from ehlcontact.lubricant import MineralOil, oil
 from ehlcontact.lubricant.law import ROELANDS_LOG, ROELANDS_P0
 from ehlcontact.lubricant.oil import GRADES
+from ehlcontact.store import load
 from reduced_models import BallBearing
 from reduced_models.atlas import frequency
 from reduced_models.atlas.atlas import SHIPPED
@@ -79,7 +80,7 @@ def page_data() -> dict[str, Any]:
     """Atlas, oils, bearings and ranges of inputs; arrays in base64."""
     return {
         "version": __version__,
-        "atlas": _atlas(AtlasTable.load(SHIPPED)),
+        "atlas": _atlas(load(SHIPPED, AtlasTable)),
         "oil": _oils(),
         "catalogue": {name: row._asdict() for name, row in ROWS.items()},
         "quantities": {name: _quantity(_in_units(name)) for name in OF_INPUTS},

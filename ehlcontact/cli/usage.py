@@ -161,7 +161,7 @@ EXAMPLES = {
     ),
     "verify": ("ehlcontact verify ball.fmu",),
     "explore": ("ehlcontact explore -o page.html",),
-    "atlas build": ("ehlcontact atlas build -o atlas.npz --draws 200 --processes 4",),
+    "atlas build": ("ehlcontact atlas build -o atlas.h5 --draws 200 --processes 4",),
 }
 
 

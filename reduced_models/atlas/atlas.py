@@ -18,6 +18,7 @@ from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
+from ehlcontact.store import load as read_file
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
 from reduced_models.atlas.elements import (
     Loads,
@@ -37,7 +38,7 @@ from reduced_models.elements.wide import WideRangeContact
 
 _Floats = NDArray[np.float64]
 
-SHIPPED = Path(__file__).with_name("atlas.npz")
+SHIPPED = Path(__file__).with_name("atlas.h5")
 MODELS = ("memory", "wide", "cubic")
 NUMBERS = ("approach", "h_central", "h_min", "film_share", "moment")  # beside what is over frequency
 # Loads of a wide-range element, as far as the box goes.
@@ -64,7 +65,7 @@ class Atlas:
     """
 
     def __init__(self, path: str | os.PathLike[str] | None = None) -> None:
-        self._table = AtlasTable.load(SHIPPED if path is None else Path(path))
+        self._table = read_file(SHIPPED if path is None else path, AtlasTable, "atlas")
         self._surface = AtlasSurface(self._table)
 
     @property

@@ -20,6 +20,7 @@ from ehlcontact import Domain, MoesPoint, __version__
 from ehlcontact.errors import InputError
 from ehlcontact.executors import require_scheduler
 from ehlcontact.formulas import LIGHT_BLEND, LIGHT_LOAD
+from ehlcontact.store import save
 from reduced_models.atlas import surface
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import FILM, OMEGAS, solve_point
@@ -116,7 +117,7 @@ def build_atlas(
         "sampled": SAMPLED.to_dict(),
     }
     table = assemble(entries, made_by)
-    table.save(output)
+    save(table.rounded(), output, "atlas")
     return table
 
 

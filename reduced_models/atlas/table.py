@@ -1,12 +1,9 @@
-"""Table of the atlas: solved points, their answers, settings of the interpolation; its file."""
+"""Table of the atlas: solved points, their answers, settings of the interpolation."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
-from io import BytesIO
-from pathlib import Path
+from dataclasses import asdict, dataclass, fields, replace
 from typing import Any, Self
 
 import numpy as np
@@ -14,14 +11,13 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_choice
 from ehlcontact.errors import InputError
-from ehlcontact.files import parse_json, write_bytes
 from ehlcontact.formulas import moes_pressure
 from ehlcontact.point import MoesPoint
+from ehlcontact.store import stored
 from reduced_models.elements.film_response import FilterRates
 
 _Floats = NDArray[np.float64]
 
-SCHEMA, VERSION = "ehlcontact-atlas", 3
 # Answers at a point stand in one row: approach, films, low-frequency C, moment; then K and C over frequency.
 LOW, HEAD = 3, 5
 KERNELS = {"cubic": 1}  # radial functions with the degree of the polynomial beside them
@@ -121,6 +117,7 @@ class OtherOil:
             object.__setattr__(self, name, (float(first), float(second)))
 
 
+@stored("table of an atlas", 3)
 @dataclass(frozen=True, eq=False)
 class AtlasTable:
     """Arrays over the n solved points, in the units of each point's own load."""
@@ -186,39 +183,7 @@ class AtlasTable:
         if not 0 <= self.interpolation.reference < k:
             raise ValueError(f"reference {self.interpolation.reference} is no frequency of {k}")
 
-    def save(self, path: Path) -> None:
-        """Write as compressed npz, single precision but for the points; the same table makes the same bytes."""
-        arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "metadata"}
-        small = {k: v if k in ("points", "omega") else v.astype(np.float32) for k, v in arrays.items()}
-        header = json.dumps({"schema": SCHEMA, "schema_version": VERSION, **self.metadata}, sort_keys=True)
-        stream = BytesIO()
-        np.savez_compressed(stream, metadata=np.array(header), **small)
-        write_bytes(path, stream.getvalue(), "atlas")
-
-    @classmethod
-    def load(cls, path: Path) -> Self:
-        """Read a table.
-
-        Raises
-        ------
-        InputError
-            Missing, damaged, no atlas, or one of an older or newer library.
-        """
-        try:
-            with path.open("rb") as stream, np.load(stream) as file:
-                metadata = parse_json(str(file["metadata"]))
-                if metadata["schema"] != SCHEMA:
-                    raise ValueError(f"not of schema {SCHEMA!r}")
-                version = metadata["schema_version"]
-                if version == VERSION:
-                    arrays = {f.name: file[f.name].astype(float) for f in fields(cls) if f.name != "metadata"}
-                    table = cls(**arrays, metadata=metadata)
-                    table.require_complete()
-                    return table
-        except OSError as error:
-            raise InputError("atlas", str(path), f"a readable atlas ({error.strerror or error})") from None
-        except Exception as error:  # whatever zip files, numpy and classes raise on what is damaged, or no atlas
-            reason = "no npz file, or one of Python objects" if "pickle" in str(error) else str(error)
-            raise InputError("atlas", str(path), f"a complete atlas file ({reason})") from None
-        allowed = f"of version {VERSION}, which `ehlcontact atlas build` of this library makes"
-        raise InputError("atlas", f"{path}, of version {version}", allowed)
+    def rounded(self) -> Self:
+        """Table in single precision but for the points, as in the file that comes with the library."""
+        names = [f.name for f in fields(self) if f.name not in ("points", "omega", "metadata")]
+        return replace(self, **{name: getattr(self, name).astype(np.float32).astype(float) for name in names})

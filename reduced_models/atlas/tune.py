@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from ehlcontact import MoesPoint
+from ehlcontact.store import load
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.build import gain_equations, smooth_gains
 from reduced_models.atlas.mesh import impedance_grid
@@ -158,7 +159,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         parser.add_argument(f"--{name}", action="store_true")
     parser.add_argument("--atlas", type=Path, default=SHIPPED)
     asked = parser.parse_args(arguments)
-    table = AtlasTable.load(asked.atlas)
+    table = load(asked.atlas, AtlasTable)
     for name, search in (("weights", best_weights), ("lobes", best_lobe_weights), ("rates", best_rates)):
         if getattr(asked, name):
             found = search(table)

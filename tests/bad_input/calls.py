@@ -227,7 +227,7 @@ CALLS = {
         lambda: load(__file__, rm.ContactElement),
         ("file", "a complete file of a contact element"),
     ),
-    "an atlas of Python": (lambda: rm.Atlas(__file__), ("atlas", "a complete atlas file (no npz")),
+    "an atlas of Python": (lambda: rm.Atlas(__file__), ("atlas", "a complete file of a table of an atlas")),
     # elements, fits, atlas
     "K1 in words": (lambda: cubic(K1="1"), ("K1", "a finite number")),
     "damping below 0": (lambda: cubic(C1=-0.01), ("C1", "a finite number >= 0")),

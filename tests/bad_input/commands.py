@@ -5,7 +5,7 @@ POINT = ("--M", "200", "--L", "10", "--kappa", "0.5")
 RECORD, OTHER, FILM, ELEMENT, STUDY = "record.h5", "other.h5", "film.h5", "element.json", "study.toml"
 OIL = {"oil": "68", "temp": "50"}
 BALL = ("--bearing", "6205", "--oil", "68", "--temp", "60", "--speed-rpm", "3000", "--load", "100")
-ATLAS = ("atlas", "build", "-o", "new.npz")
+ATLAS = ("atlas", "build", "-o", "new.h5")
 
 
 def named(options):
@@ -277,7 +277,7 @@ COMMANDS = [
     (at("element", "--model", "cubic"), ("--Omega = None", "given", "2a/u_sum")),
     (at("element", "--model", "cubic", "--Omega", "9999"), ("--Omega = 9999.0", ">= 0 and <= 60")),
     (at("element", "--model", "linear"), ("--model = 'linear'", "wide, cubic")),
-    (at("element", "--atlas", "none.npz"), ("atlas = 'none.npz'", "readable atlas")),
+    (at("element", "--atlas", "none.h5"), ("atlas = 'none.h5'", "readable atlas")),
     (at("element", "--atlas", ELEMENT), ("atlas = 'element.json'", "complete atlas file")),
     (at("element", "--save", "e.txt"), ("--save = 'e.txt'", ".json")),
     (at("element", "--atlas", ELEMENT, "--json", ELEMENT), ("--json = 'element.json'", "which is read")),
@@ -344,14 +344,14 @@ COMMANDS = [
     (("reproduce", "--n", "0"), ("--n = 0", "between 16 and 2048")),
     (("reproduce", "-o", RECORD), ("--output = 'record.h5'", "folder")),
     # atlas build
-    (("atlas", "build", "-o", "a.txt"), ("--output = 'a.txt'", ".npz")),
-    (("atlas", "build", "-o", "none/a.npz"), ("--output", "folder that exists")),
+    (("atlas", "build", "-o", "a.txt"), ("--output = 'a.txt'", ".h5")),
+    (("atlas", "build", "-o", "none/a.h5"), ("--output", "folder that exists")),
     ((*ATLAS, "--draws", "many"), ("--draws = 'many'", "whole number")),
     ((*ATLAS, "--draws", "-1"), ("--draws = -1", "whole number >= 0")),
     ((*ATLAS, "--draws", "5", "--light-draws", "5"), ("points", "at least 20", "draws = 5")),
     ((*ATLAS, "--seed", "1.5"), ("--seed = '1.5'", "whole number")),
     ((*ATLAS, "--processes", "0"), ("--processes = 0", "> 0")),
-    ((*ATLAS, "--work", "new.npz"), ("--work = 'new.npz'", "another file", "for --output")),
+    ((*ATLAS, "--work", "new.h5"), ("--work = 'new.h5'", "another file", "for --output")),
     ((*ATLAS, "--work", STUDY), ("work folder = 'study.toml'", "a folder that can be written to")),
     ((*ATLAS, "--scheduler", "nowhere"), ("--scheduler = 'nowhere'", "address of a Dask scheduler")),
     ((*ATLAS, "--scheduler", "tcp://127.0.0.1:1"), ("--scheduler", "refused")),

@@ -34,7 +34,7 @@ SUFFIX = {
     "checkpoint": ".h5",
     "element": ".json",
     "study": ".toml",
-    "atlas": ".npz",
+    "atlas": ".h5",
 }
 
 
@@ -143,25 +143,13 @@ def study(old, new):
     return lambda good: STUDY.replace(old, new, 1).encode()
 
 
-def atlas(**changes):
-    """The shipped atlas with other arrays, or with an array left out."""
+def metadata(**changes):
+    """An atlas with other metadata."""
 
-    def made(good):
-        arrays = dict(np.load(io.BytesIO(good)))
-        for name, change in changes.items():
-            if change is None:
-                del arrays[name]
-            else:
-                arrays[name] = change(arrays[name])
-        stream = io.BytesIO()
-        np.savez(stream, **arrays)
-        return stream.getvalue()
+    def edit(file):
+        file.attrs["metadata"] = json.dumps(json.loads(file.attrs["metadata"]) | changes)
 
-    return made
-
-
-def header(change):
-    return lambda array: np.array(change(json.loads(str(array))))
+    return hdf5(edit)
 
 
 def zipped(good):
@@ -300,24 +288,19 @@ BAD = {
         "a list": study("balls = 9", "balls = [9]"),
         "JSON": content("study", '{"bearing": {}}'),
     },
-    "atlas": {
-        "empty": cut(0.0),
-        "nearly whole": cut(0.999),
+    "atlas": HDF5
+    | {
         "a zip file": zipped,
         "one array": lambda good: stored(np.zeros(3)),
         "a pickled object": lambda good: stored(np.array([{}], dtype=object), allow_pickle=True),
-        "HDF5": of("result"),
-        "byte in the middle": flipped(0.5),
-        "another schema": atlas(metadata=header(lambda old: json.dumps(old | {"schema": "soup"}))),
-        "newer": atlas(metadata=header(lambda old: json.dumps(old | {"schema_version": 9}))),
-        "no schema": atlas(metadata=header(lambda old: "[]")),
-        "deep": atlas(metadata=header(lambda old: DEEP)),
-        "no box": atlas(metadata=header(lambda old: json.dumps(old | {"box": 5}))),
-        "no metadata": atlas(metadata=None),
-        "no damping": atlas(damping=None),
-        "too few points": atlas(points=lambda old: old[:-1]),
-        "no numbers": atlas(damping=lambda old: old * np.nan),
-        "words": atlas(damping=lambda old: old.astype(str).astype("U8")[:, :2]),
+        "a result": of("result"),
+        "metadata in a list": attribute("metadata", "[]"),
+        "no box": metadata(box=5),
+        "no metadata": hdf5(lambda file: file.attrs.__delitem__("metadata")),
+        "no damping": hdf5(lambda file: file.__delitem__("damping")),
+        "too few points": array("points", lambda old: old[:-1]),
+        "no numbers": array("damping", lambda old: old * np.nan),
+        "words": array("damping", lambda old: old.astype("S8")),
     },
 }
 for kind, table in BAD.items():

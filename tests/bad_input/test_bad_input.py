@@ -51,7 +51,7 @@ SAMPLE = [
     ("explore", "-o", "k.json"),
     ("run", STUDY, "--jobs", "0"),
     ("reproduce", "--table", "7"),
-    ("atlas", "build", "-o", "new.npz", "--scheduler", "nowhere"),
+    ("atlas", "build", "-o", "new.h5", "--scheduler", "nowhere"),
     bearing("6205", load="0"),
 ]
 
@@ -74,7 +74,7 @@ def good(tmp_path_factory):
     save(solve_steady(MoesPoint(20, 5, 0.5), grid=Grid(n=16), throw=False), folder / FILM)
     save(CubicContact(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0), folder / ELEMENT)
     (folder / STUDY).write_text(SMALL)
-    for name in ("x.fmu", "new.npz", "k.json", "slip.toml"):
+    for name in ("x.fmu", "new.h5", "k.json", "slip.toml"):
         (folder / name).write_text("kept")
     return folder
 
@@ -164,7 +164,7 @@ def place(tmp_path):
     """A folder with results that would be replaced."""
     out = tmp_path / "out"
     out.mkdir()
-    for suffix in (".json", ".h5", ".fmu", ".npz"):
+    for suffix in (".json", ".h5", ".fmu", ".h5"):
         (out / f"kept{suffix}").write_text("kept")
     return tmp_path
 

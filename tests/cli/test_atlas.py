@@ -34,7 +34,7 @@ def test_element_is_printed_saved_and_written(call, tmp_path, model):
         ((*POINT, "--viscosity", "barus"), ("viscosity", "roelands")),
         ((*POINT, "--model", "quartic"), ("--model", "quartic", "wide")),
         ((*POINT, "--save", "e.txt"), ("--save", ".json")),
-        ((*POINT, "--atlas", "nowhere.npz"), ("nowhere.npz",)),
+        ((*POINT, "--atlas", "nowhere.h5"), ("nowhere.h5",)),
         (("--M", "6", "--L", "19", "--kappa", "0.11", "--model", "cubic", "--Omega", "1"), ("cubic", "wide")),
         ((*POINT, "--model", "cubic"), ("--Omega", "given with --model cubic")),
         ((*POINT, "--model", "wide", "--Omega", "1"), ("Omega", "left out", "wide")),
@@ -46,7 +46,7 @@ def test_element_refuses(refused, arguments, words):
 
 def test_build_from_points_that_are_solved(call, tmp_path):
     """Nothing is left to solve, so the atlas comes at once; its own command is inside."""
-    work, output = tmp_path / "work", tmp_path / "a.npz"
+    work, output = tmp_path / "work", tmp_path / "a.h5"
     atlas_stub.prefill(work, 24, 24)
     size = ("--draws", "24", "--light-draws", "24")
     result = call("atlas", "build", "-o", output, "--work", work, *size, "--json", "-")
@@ -63,8 +63,8 @@ def test_build_from_points_that_are_solved(call, tmp_path):
     [
         (("--draws", "-1"), ("--draws", "-1")),
         (("--processes", "0"), ("--processes", "0")),
-        (("-o", "a.txt"), (".npz",)),
-        (("-o", "no/such/folder/a.npz"), ("folder",)),
+        (("-o", "a.txt"), (".h5",)),
+        (("-o", "no/such/folder/a.h5"), ("folder",)),
     ],
 )
 def test_build_refuses(refused, tmp_path, monkeypatch, arguments, words):
@@ -76,5 +76,5 @@ def test_build_refuses(refused, tmp_path, monkeypatch, arguments, words):
 def test_work_in_a_file_is_refused(refused, tmp_path):
     work = tmp_path / "work"
     work.write_text("my notes")
-    refused(("work folder", "File exists"), "atlas", "build", "-o", tmp_path / "a.npz", "--work", work)
+    refused(("work folder", "File exists"), "atlas", "build", "-o", tmp_path / "a.h5", "--work", work)
     assert work.read_text() == "my notes"

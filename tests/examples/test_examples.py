@@ -175,9 +175,9 @@ def test_atlas_on_a_cluster(tmp_path, monkeypatch):
     mine = built.build(tmp_path, solve=atlas_stub.solve)
     kept = len(list((tmp_path / "work").iterdir()))
     (tmp_path / "alone").mkdir()
-    files = [tmp_path / "alone" / name for name in ("small.npz", "work")]
+    files = [tmp_path / "alone" / name for name in ("small.h5", "work")]
     build_atlas(*files, built.DRAWS, built.LIGHT, solve=atlas_stub.solve)
-    assert files[0].read_bytes() == (tmp_path / "small.npz").read_bytes()
+    assert files[0].read_bytes() == (tmp_path / "small.h5").read_bytes()
     assert kept > 20
     films = built.films(mine)
     for (h, bar), point in zip(films, built.POINTS, strict=True):

@@ -28,8 +28,8 @@ def _group() -> None:
 @o.grouped
 def build(
     out: o.Output,
-    output: Annotated[Path, typer.Option("-o", "--output", metavar="FILE", help="The atlas, npz.")] = Path(
-        "atlas.npz"
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="FILE", help="The atlas, HDF5.")] = Path(
+        "atlas.h5"
     ),
     work: Annotated[
         Path | None,
@@ -49,7 +49,7 @@ def build(
     from reduced_models.atlas.build import build_atlas
 
     kept = output.with_suffix(".work") if work is None else work
-    out.check(beside={"--output": (output, (".npz",))})
+    out.check(beside={"--output": (output, (".h5",))})
     check_apart({"--output": output, "--work": kept})
     for name, value in (("--draws", draws), ("--light-draws", light_draws), ("--seed", seed)):
         require_integer(name, value, "a whole number >= 0", 0)

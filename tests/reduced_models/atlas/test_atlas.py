@@ -2,7 +2,7 @@
 
 import json
 import math
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 import atlas_stub
 import numpy as np
@@ -28,6 +28,7 @@ from reduced_models.atlas.elements import LEAST_APPROACH
 from reduced_models.atlas.mesh import impedance_grid
 from reduced_models.atlas.sample import sample_points
 from reduced_models.atlas.solve import OMEGAS, solve_point
+from reduced_models.atlas.table import AtlasTable
 from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
 
 CASE = MoesPoint(200.0, 10.0, 0.5)
@@ -57,9 +58,9 @@ def shipped():
 @pytest.fixture(scope="module")
 def analytic(tmp_path_factory):
     """Atlas of the stand-in for the solver, whose answers are known everywhere."""
-    path = tmp_path_factory.mktemp("atlas") / "a.npz"
+    path = tmp_path_factory.mktemp("atlas") / "a.h5"
     entries = [atlas_stub.solve(point) for point in sample_points(128, 128, 2).values()]
-    assemble(entries, {"version": "stub"}).save(path)
+    save(assemble(entries, {"version": "stub"}), path)
     return Atlas(path)
 
 
@@ -348,46 +349,34 @@ def test_what_is_shipped(shipped):
     json.dumps(meta, allow_nan=False)
 
 
-def changed(path, target, **entries):
-    """The atlas file at `path` with other entries in its metadata; None leaves one out."""
-    arrays = dict(np.load(path))
-    header = json.loads(str(arrays["metadata"])) | entries
-    arrays["metadata"] = np.array(json.dumps({k: v for k, v in header.items() if v is not None}))
-    with target.open("wb") as stream:
-        np.savez(stream, **arrays)
-    return target
+def changed(source, target, **entries):
+    """Copy of an atlas with other entries in its metadata."""
+    table = load_file(source, AtlasTable)
+    return save(replace(table, metadata=table.metadata | entries), target)
 
 
 def test_numbers_of_the_interpolation_travel_with_the_file(shipped, tmp_path):
     """Each file answers by its own."""
-    header = json.loads(str(np.load(SHIPPED)["metadata"]))
+    header = load_file(SHIPPED, AtlasTable).metadata
     assert header["interpolation"] == json.loads(json.dumps(asdict(INTERPOLATION)))
     weights = header["interpolation"]["weights"]
     other = {**header["interpolation"], "weights": [*weights[:3], 0.5 * weights[3], *weights[4:]]}
-    heavier = Atlas(changed(SHIPPED, tmp_path / "other.npz", interpolation=other))
-    narrow = Atlas(changed(SHIPPED, tmp_path / "oil.npz", oil={**header["oil"], "alpha": [2e-8, 3e-8]}))
+    heavier = Atlas(changed(SHIPPED, tmp_path / "other.h5", interpolation=other))
+    narrow = Atlas(changed(SHIPPED, tmp_path / "oil.h5", oil={**header["oil"], "alpha": [2e-8, 3e-8]}))
     for point in random_points(5, 3):
         assert heavier.at(point).h_central != shipped.at(point).h_central
     with pytest.raises(InputError, match="alpha = 1e-08: must be between 2e-08 and 3e-08"):
         narrow.at(MoesPoint(200.0, 10.0, 0.5, alpha=1e-8))
 
 
-def test_a_file_of_the_first_library_is_refused_in_one_line(tmp_path):
-    """It has no moment, and its default region had a kink."""
-    with pytest.raises(
-        InputError, match=r"^atlas = '.*old.npz, of version 1': must be of version 3, which `ehlcon"
-    ):
-        Atlas(changed(SHIPPED, tmp_path / "old.npz", schema_version=1))
-
-
 @pytest.mark.parametrize(
     "entry", [{"kernel": "gaussian"}, {"degree": 2}, {"weights": "many"}, {"nearest": None}, {"colour": 3}]
 )
 def test_numbers_that_cannot_be_are_refused(tmp_path, entry):
-    header = json.loads(str(np.load(SHIPPED)["metadata"]))
+    header = load_file(SHIPPED, AtlasTable).metadata
     new = {k: v for k, v in {**header["interpolation"], **entry}.items() if v is not None}
-    with pytest.raises(InputError, match=r"^atlas = .*a.npz.*complete atlas file"):
-        Atlas(changed(SHIPPED, tmp_path / "a.npz", interpolation=new))
+    with pytest.raises(InputError, match=r"a\.h5.*(complete file of a table|of the atlas)"):
+        Atlas(changed(SHIPPED, tmp_path / "a.h5", interpolation=new))
 
 
 @pytest.mark.parametrize("point", [CASE, MoesPoint(12.0, 4.0, 0.3)])

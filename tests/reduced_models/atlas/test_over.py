@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import InputError, MoesPoint
+from ehlcontact.store import save
 from reduced_models import Atlas
 from reduced_models.atlas.atlas import NUMBERS
 from reduced_models.atlas.build import assemble
@@ -20,8 +21,8 @@ NAMES = (*NUMBERS, "stiffness", "damping")
 @pytest.fixture(scope="module")
 def analytic(tmp_path_factory):
     """Atlas of the stand-in for the solver."""
-    path = tmp_path_factory.mktemp("atlas") / "a.npz"
-    assemble([atlas_stub.solve(p) for p in sample_points(128, 64, 2).values()], {"version": "stub"}).save(path)
+    path = tmp_path_factory.mktemp("atlas") / "a.h5"
+    save(assemble([atlas_stub.solve(p) for p in sample_points(128, 64, 2).values()], {"version": "stub"}), path)
     return Atlas(path)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import MoesPoint
+from ehlcontact.store import load, save
 from reduced_models.atlas import tune
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.table import AtlasTable
@@ -14,7 +15,7 @@ from reduced_models.elements.film_response import FilterRates
 
 @pytest.fixture(scope="module")
 def shipped():
-    return AtlasTable.load(SHIPPED)
+    return load(SHIPPED, AtlasTable)
 
 
 @pytest.fixture(scope="module")
@@ -80,7 +81,7 @@ def test_slopes_for_other_oils_cover_a_light_load(shipped):
 
 
 def test_command_line(few, tmp_path, capsys):
-    few.save(tmp_path / "few.npz")
-    tune.main(["--weights", "--atlas", str(tmp_path / "few.npz")])
+    save(few, tmp_path / "few.h5")
+    tune.main(["--weights", "--atlas", str(tmp_path / "few.h5")])
     said = capsys.readouterr().out.splitlines()
     assert said[0].startswith("weights: 0.4 0.16 0.33 0.905 0.476 error") and said[1].split()[0] == "best:"
