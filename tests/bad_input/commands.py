@@ -277,8 +277,11 @@ COMMANDS = [
     (at("element", "--model", "cubic"), ("--Omega = None", "given", "2a/u_sum")),
     (at("element", "--model", "cubic", "--Omega", "9999"), ("--Omega = 9999.0", ">= 0 and <= 60")),
     (at("element", "--model", "linear"), ("--model = 'linear'", "wide, cubic")),
-    (at("element", "--atlas", "none.h5"), ("atlas = 'none.h5'", "readable atlas")),
-    (at("element", "--atlas", ELEMENT), ("atlas = 'element.json'", "complete atlas file")),
+    (at("element", "--atlas", "none.h5"), ("atlas = 'none.h5'", "readable table of an atlas")),
+    (
+        at("element", "--atlas", ELEMENT),
+        ("atlas = 'element.json'", "table of an atlas; its header names the class 'CubicContact'"),
+    ),
     (at("element", "--save", "e.txt"), ("--save = 'e.txt'", ".json")),
     (at("element", "--atlas", ELEMENT, "--json", ELEMENT), ("--json = 'element.json'", "which is read")),
     # export

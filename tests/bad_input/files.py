@@ -187,11 +187,11 @@ HDF5 = {
     "format in words": header_of(format="one"),
     "no format": header_of(format=None),
     "a class without end": header_of(**{"class": "x" * 100_000}),
-    "version that is no text": attribute("version", 3.0),
-    "deep": attribute("version", DEEP),
 }
+VERSION = {"version that is no text": attribute("version", 3.0), "deep": attribute("version", DEEP)}
 BAD = {
     "result": HDF5
+    | VERSION
     | {
         "a steady film": of("steady"),
         "a checkpoint": of("checkpoint"),
@@ -225,6 +225,7 @@ BAD = {
         "n in words": attribute("n", '"many"'),
     },
     "checkpoint": HDF5
+    | VERSION
     | {
         "a result": of("result"),
         "older": header_of(format=0),
