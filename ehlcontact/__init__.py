@@ -7,22 +7,22 @@ room              responsibility
 ``lubricant/``    `Lubricant`, from its numbers or its grade; the laws of viscosity and density
 ``hertz``         dry elliptic contact
 ``formulas``      published film and approach formulas: grids are chosen from them, results compared with them
-``solver/``       one film at one instant: mesh, equations, multigrid, Newton
+``solver/``       film at one instant: mesh, equations, multigrid, Newton
 ``steady``        `solve_steady`
 ``impedance``     `impedance`: K and C over frequency from the linearised steady state
-``transient/``    one film through time: motions, surfaces, `simulate`, `FullContact`
-``assumptions/``  what every solve assumes, and the numbers that tell when it matters
+``transient/``    film through time: motions, surfaces, `simulate`, `FullContact`
+``assumptions/``  assumptions of every solve, each with the number that shows whether it holds
 ``quantities``    units, scales and dimensions of quantities, declared once in the annotations of results
 ``results/``      results of a steady solve and of an impedance; tables, SI values and figures of all results
-``origin``        where numbers come from: what all results have in common
+``origin``        contact, mesh and version that a result or an element comes from
 ``version``       of the distribution
-``film/``         the film to look at: maps, mid-planes, fringes, what the surfaces carry through
+``film/``         films for display: maps, mid-planes, fringes, film waves
 ``store``         `save` and `load`: one file header, one way back, for every class
 ``content_store`` `ContentStore`: what is computed, found by the hash of its inputs
 ``files``         files written in one move; texts of any origin
 ``executors``     executors of `concurrent.futures`: worker processes, or a Dask cluster
 ``process/``      worker processes, Ctrl-C, threads
-``checks/``       checks of inputs, and the box that the solvers are made for
+``checks/``       checks of inputs, and the admissible ranges of operating points
 ``errors``        `InputError`, `ConvergenceError`
 ``status``        how a solve or a run ended, with advice
 ``summary``       `Summary`: what results and elements show at the prompt and in notebooks
@@ -31,7 +31,7 @@ room              responsibility
 ================= ==========================================================================================
 """
 
-from ehlcontact import process as process  # first: it guards the imports of the command line against Ctrl-C
+from ehlcontact import process as process  # first: from here on Ctrl-C ends the command line in one line
 from ehlcontact.assumptions import Assumption, Assumptions, assumptions
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.film import (

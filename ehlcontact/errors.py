@@ -1,4 +1,4 @@
-"""The two ways a call can fail: bad input, and a solve that did not converge. `checks` raises the first."""
+"""Exceptions: `InputError` for bad input, `ConvergenceError` for a solve that did not converge."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Published fits for film and approach, and for what takes from a film.
+"""Published formulas for film thickness and approach, and for film losses by heat and starvation.
 
 Regions and grids are chosen from them (`solver.mesh`, through the properties of a `MoesPoint`), the atlas
 interpolates what its contacts have over them, `assumptions` judges by them, and tests compare; what a solver

@@ -1,4 +1,4 @@
-"""Frequency response of the contact: the steady state linearised, one small model for all frequencies.
+"""`impedance`: stiffness and damping over frequency of the linearised steady contact.
 
 A harmonic approach ``u + du exp(i Omega T)`` makes a pressure ``P + dP exp(i Omega T)`` with
 
@@ -186,7 +186,7 @@ class LinearisedContact:
         """Impedance at each frequency > 0, and the relative residual of its linear system, both (k,).
 
         `tolerance` is for the residuals, their imaginary part counted relative to Omega below Omega = 1. Where
-        a solve fails to reach it, the residual returned tells.
+        a solve fails to reach it, the residual returned is larger.
         """
         basis: list[Array] = []
         products: list[Array] = [self.j, self.b]

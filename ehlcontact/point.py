@@ -1,6 +1,6 @@
-"""The conventions of the library, and the only place where SI meets dimensionless.
+"""Operating points of a contact, in SI and dimensionless, and the conventions of the library.
 
-* x along rolling, y across; Hertz semi-axes a, b; ``kappa = a/b``.
+* x along rolling, y across; Hertz semi-axes a, b; ``kappa = a/b`` (not the viscosity ratio of ISO 281).
 * ``u_sum = u1 + u2``; 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2.
 * Moes, with Rx and u_sum: ``M = f/(E' Rx^2) (E' Rx/(eta0 u_sum))^(3/4)``,
   ``L = alpha E' (eta0 u_sum/(E' Rx))^(1/4)``.
@@ -39,7 +39,8 @@ class MoesPoint:
     Parameters
     ----------
     M, L, kappa : float
-        Moes' numbers with Rx and the sum of the speeds; semi-axis along rolling over that across.
+        Moes' numbers with Rx and the sum of the speeds; Hertz semi-axis along rolling over that across (not the
+        viscosity ratio of ISO 281).
     alpha, eta0 : float
         Pressure-viscosity coefficient [1/Pa], viscosity at ambient pressure [Pa s].
     viscosity, density : str

@@ -1,4 +1,4 @@
-"""Steady film of a contact: full multigrid, then V cycles until both residuals hold."""
+"""`solve_steady`: full multigrid, then V cycles until pressure, load balance and residual have converged."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ LARGEST_APPROACH = 1e9  # beyond all that is solved, and its power still a numbe
 
 
 class Method(NamedTuple):
-    """How one mesh is solved."""
+    """Solution method on one mesh."""
 
     newton: bool
     sweep_factor: int  # of the cycles, and of those that lead to the start of Newton steps
@@ -255,7 +255,7 @@ class _Attempt:
         return status
 
     def result(self, status: Status, scales: Scales | None, seconds: float) -> SteadyResult:
-        """Everything that is kept."""
+        """Result of the attempt."""
         mg, level, track = self.multigrid, self.multigrid.finest, self.track
         return SteadyResult(
             point=mg.point,

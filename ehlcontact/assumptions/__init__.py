@@ -1,15 +1,15 @@
-"""What every solve of this library assumes, and the numbers that tell when it matters.
+"""Assumptions of every solve, each with the number that shows whether it holds.
 
-Isothermal, Newtonian, smooth, fully flooded, at constant speed, rolling in one direction, on elastic bodies. That
-a film converged says nothing about any of these. Formulas, sources, scatter: docs/assumptions.md.
+Isothermal, Newtonian, smooth, fully flooded, at constant speed, rolling in one direction, elastic bodies.
+Convergence of a film does not show whether any of these holds. Formulas, sources, scatter: docs/assumptions.md.
 
 =========== ====================================================================
 module      responsibility
 =========== ====================================================================
-``judge``   `assumptions`: the table of a point
+``judge``   `assumptions`: all assumptions of an operating point
 ``film``    isothermal, Newtonian, smooth, fully flooded
 ``bodies``  constant speed, one direction, elastic
-``contact`` the point with its film, and in SI as far as it is known
+``contact`` operating point with its film, in SI where known
 ``table``   `Assumption`, `Assumptions`
 =========== ====================================================================
 """

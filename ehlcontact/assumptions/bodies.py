@@ -1,4 +1,4 @@
-"""What is assumed of the bodies: constant speed, one direction of rolling, elastic."""
+"""Assumptions about the bodies: constant speed, one direction of rolling, elastic."""
 
 from __future__ import annotations
 

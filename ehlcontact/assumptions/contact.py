@@ -1,4 +1,4 @@
-"""A point with its film, and in SI as far as it is known: what the judgements are made of."""
+"""Operating point with its film, in SI where known: the input of the assumptions."""
 
 from __future__ import annotations
 

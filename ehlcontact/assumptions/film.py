@@ -1,4 +1,4 @@
-"""What is assumed of the oil and of the gap: isothermal, Newtonian, smooth, fully flooded."""
+"""Assumptions about oil and gap: isothermal, Newtonian, smooth, fully flooded."""
 
 from __future__ import annotations
 

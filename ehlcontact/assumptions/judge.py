@@ -1,4 +1,4 @@
-"""`assumptions`: the table of a point."""
+"""`assumptions`: judgement of all assumptions at an operating point."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One assumption with its number, and the table of all."""
+"""`Assumption`: one assumption with its number; `Assumptions`: the table of all."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""What the solvers are made for: the gate before any solve, and the slip of unit that a value outside betrays.
+"""Admissible ranges of inputs, checked before any solve, with the unit that a value outside was probably given in.
 
-Solves far outside do not fail at once: they refine, turn to Newton, and end after minutes. And a number that far
-off is hardly ever meant: it is a viscosity in mPa s, or a diameter in mm. So every solve begins with
-`point.require_solvable`, and a study before any of its computations.
+Solves far outside the range do not fail at once: they refine, turn to Newton, and end after minutes. And a
+number that far outside is usually an input in another unit: a viscosity in mPa s, or a diameter in mm. So every
+solve begins with `point.require_solvable`, and a study calls it before all of its computations.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The one rule for frequencies: named with their unit, exactly one given, nothing guessed.
+"""Frequencies as arguments: named with their unit, exactly one given.
 
 ======== ==================================================================== ==================
 name     is                                                                   taken by
@@ -9,7 +9,7 @@ name     is                                                                   ta
 ``rpm``  turns per minute                                                     contacts in SI
 ======== ==================================================================== ==================
 
-A contact in SI is an `OperatingPoint`, or what was made from one: it knows how long its unit of time is.
+A contact in SI is an `OperatingPoint`, or was made from one: its unit of time in seconds is known.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Checks of inputs: each returns what it was given, in its plain form, or raises one line that names it."""
+"""Checks of numbers, arrays and choices: each returns the plain value, or raises one line that names the input."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the machine has of what is asked for."""
+"""Number of threads, at most the cores of the machine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Numbers with a unit of their own, as `pint` makes them: an input in SI takes them, in whatever unit they come.
+"""Quantities with a unit, such as those of `pint`, as inputs in SI.
 
 Duck typed, so that nothing has to be installed: what has ``m_as(unit)``, or ``to_base_units`` and ``to(unit)``
 with a ``magnitude``. What asks for no unit (a dimensionless input) refuses them, like all that is no number.

@@ -1,10 +1,10 @@
-"""The oil: what it is, and its laws as the solver's kernels need them.
+"""Lubricant: its data by numbers or ISO grade, and its viscosity and density laws for the kernels.
 
 ======= =======================================================================================
 module  responsibility
 ======= =======================================================================================
 ``law`` `Lubricant`; the laws of viscosity and density, dimensionless and compiled
-``oil`` mineral oils by grade and temperature: viscosity, density, how both change, and how sure
+``oil`` mineral oils by grade and temperature: viscosity, density, their slopes and scatter
 ======= =======================================================================================
 """
 

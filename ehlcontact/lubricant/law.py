@@ -1,4 +1,4 @@
-"""`Lubricant`, and the laws of viscosity and density, dimensionless and compiled for the solver's kernels.
+"""`Lubricant`; dimensionless laws of viscosity and density, compiled for the kernels.
 
 Roelands (1966) with p0 = 1.96e8 Pa, Barus (1893), and Dowson-Higginson (1966) density, each as written in
 Venner and Lubrecht (2000), ch. 1. A new law is entered here: its name, its numbers in `FluidLaw`, and its branch

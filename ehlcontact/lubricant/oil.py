@@ -1,4 +1,4 @@
-"""Mineral oils by what is printed on the drum: ISO grade and viscosity index, at a temperature.
+"""Mineral oils by ISO viscosity grade, viscosity index and temperature.
 
 From grade to film: the grade is the viscosity at 40 C (ISO 3448), the viscosity index gives the one at 100 C
 (ASTM D2270), Walther's line through both any other (ASTM D341), and thermal expansion the density (ASTM D1250).

@@ -1,7 +1,7 @@
-"""BLAS on one thread while we solve: on matrices as small as ours its threads wait for each other.
+"""Limit of BLAS to one thread during a solve.
 
-Some thousand unknowns are the most that are factorised at once. There a second thread gains nothing, and one that
-has nothing to do spins: steps in time took twice as much processor time as they lasted.
+The matrices have some thousand unknowns at most. A second thread of BLAS gains nothing there, and one without work
+spins: steps in time took twice as much processor time as they lasted.
 """
 
 from __future__ import annotations

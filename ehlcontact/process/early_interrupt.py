@@ -1,7 +1,7 @@
-"""Ctrl-C while the command line is imported: one line and exit code 130.
+"""Ctrl-C while the command line is being imported: one line and exit code 130.
 
-Its imports take a second, most of it before any code of the command line runs, and some packages swallow what is
-raised while they are imported. So this is what `ehlcontact` imports first, and it imports next to nothing itself.
+The imports take a second, most of it before any code of the command line runs, and some packages suppress what is
+raised while they are imported. So `ehlcontact` imports this module first, and this module imports next to nothing.
 """
 
 import _signal  # built in: `signal` would import 10 ms of others, unguarded

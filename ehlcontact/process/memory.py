@@ -1,4 +1,4 @@
-"""How much memory this process may still take."""
+"""Memory that is still available to this process."""
 
 from __future__ import annotations
 

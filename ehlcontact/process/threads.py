@@ -1,10 +1,9 @@
-"""Threads for compiled loops over independent items: whole fields and lines of one colour.
+"""Threads for compiled loops over independent items: whole fields, and lines of one colour.
 
-Chunks only split the items among the threads, so results are the same, bit for bit, for any number of them.
+Chunks only divide the items among the threads, so results are the same, bit for bit, for any number of threads.
 
-An idle core takes some 40 us to wake, as long as many a loop lasts. So nobody waits for that: the caller takes
-chunk after chunk, the others join in when they are awake, and in the end the caller waits only for those that are
-at one.
+Waking a thread costs 40 us, as long as many a loop lasts: the caller starts, and takes chunk after chunk; helpers
+join when they are awake. At the end the caller waits only for helpers that are at work on a chunk.
 """
 
 from __future__ import annotations
@@ -98,7 +97,7 @@ class Team:
 
 
 class _Share:
-    """The chunks of a run, which whoever is at it takes one after the other."""
+    """Chunks of a run, taken one after the other by the caller and its helpers."""
 
     def __init__(self, kernel: Kernel, bounds: list[int], args: tuple[Any, ...]) -> None:
         self._kernel, self._args = kernel, args
@@ -116,13 +115,13 @@ class _Share:
                 self.stop()
 
     def stop(self) -> None:
-        """Leave no chunks to who comes late."""
+        """Leave no chunks to helpers that join late."""
         for _ in self._chunks:
             pass
 
 
 class _Help:
-    """One other thread asked to join a run."""
+    """A request to another thread to join a run."""
 
     __slots__ = ("begun", "done", "ended", "share")
 
@@ -140,7 +139,7 @@ class _Help:
 
 
 class _Worker:
-    """A thread that helps where it is asked to; asked again before it woke, it goes to the latest run."""
+    """A helper thread; a request that comes before it woke replaces the one before."""
 
     def __init__(self, number: int) -> None:
         self._asked: _Help | None = None
@@ -195,8 +194,8 @@ def cores() -> int:
 def threads_allowed() -> int:
     """How many threads a solve takes by itself: the cores, within what BLAS is limited to.
 
-    That is where whoever knows better says so (``OPENBLAS_NUM_THREADS``, ``threadpool_limits``). One in a process
-    that `multiprocessing` has started, Dask workers among them: the other cores are those of its siblings.
+    That limit is set by ``OPENBLAS_NUM_THREADS`` or ``threadpool_limits``. One thread in a process that
+    `multiprocessing` has started, such as a Dask worker: the other cores are those of the other workers.
     """
     if parent_process() is not None:
         return 1

@@ -1,25 +1,25 @@
-"""One film at one instant: its mesh, its equations, and the ways to solve them.
+"""Steady or momentary film of one contact: mesh, equations, multigrid and Newton.
 
 ================ ==========================================================================================
-room             responsibility
+module           responsibility
 ================ ==========================================================================================
-``mesh``         `mesh_for`, `remedy`: which region and grid a film needs, what to try after a failure
-``regime``       what ellipse ratio, inlet width and load decide: named conditions, coarse levels
-``domain``       `Domain`: the computed region
+``mesh``         `mesh_for`, `remedy`: region and fineness of a film, and the mesh to try after a failure
+``regime``       conditions on ellipse ratio, inlet width and load; coarsest grid and load of coarse levels
 ``grid``         `Grid`: intervals, region and engine of the deflection, as a user gives them
-``memory``       what a grid takes, told before it is tried
-``level``        `Level`: the arrays of one mesh and the equations on it; a hierarchy of them
-``deflection/``  the elastic deflection: fast transforms, multi-integration, direct sum
-``kernels/``     the equations node by node, compiled: Reynolds residual, derivatives, relaxation, transfer
-``lowest_film``  the smallest film between the nodes
-``accuracy``     `ErrorEstimate`: how far a film may be from that of an endless fine mesh
-``estimate``     that of a film solved, from grids of half and a quarter of its intervals
-``balance``      `Balance`: the equation that closes a solve: load, approach, or Newmark's step of the motion
-``coarse``       Newton with dense elasticity, on the coarsest grid
+``domain``       `Domain`: the computed region
+``memory``       estimate of the memory that a grid takes
+``level``        `Level`: arrays and equations on one mesh; the hierarchy of levels
+``deflection/``  elastic deflection: fast Fourier transforms, multi-integration, direct sum
+``kernels/``     compiled kernels: Reynolds residual, derivatives, relaxation, grid transfer
+``lowest_film``  smallest film between the nodes
+``accuracy``     `ErrorEstimate`: estimated discretisation error of a film
+``estimate``     the solutions on coarser grids that the estimate is made from
+``balance``      `Balance`: load balance, prescribed approach, or Newmark's step of the motion
+``coarse``       Newton with dense elasticity on the coarsest grid
 ``multigrid``    full-approximation-scheme cycle and full multigrid
-``acceleration`` V cycles, combined with the last ones where they fall slowly
-``linear``       the linearised film: operator, preconditioner, Krylov solution
-``newton``       one Newton step on the finest grid
-``iterate``      the only driver loop: cycles or Newton steps until settled; how they ended
+``acceleration`` Anderson acceleration of V cycles
+``linear``       linearised film: operator, preconditioner, Krylov solution
+``newton``       Newton steps on the finest grid
+``iterate``      iteration of cycles or Newton steps until convergence or failure
 ================ ==========================================================================================
 """

@@ -1,10 +1,10 @@
-"""Cycles that learn from the last ones: what falls slowly is extrapolated.
+"""Anderson (Washio-Oosterlee) acceleration of V cycles.
 
-Where the coarse grid sees a pressure spike lower and elsewhere, or the outlet of thin oil, V cycles leave a few
-smooth errors that fall by a third to a half in each, while all others are gone. Two remembered cycles tell how
-they fall. Washio and Oosterlee (Electronic Transactions on Numerical Analysis 6, 1997) combine them so that the
-residual is smallest; here it is the change of the pressure by a cycle, as in Anderson's mixing, because the
-residual weighs a node by its flow factor.
+V cycles leave a few smooth errors that fall by only a third to a half in each cycle, where a pressure spike is
+lower and elsewhere on the coarse grid, or at the outlet of thin oil. The changes of the last cycles show how
+these errors fall. Washio and Oosterlee (Electronic Transactions on Numerical Analysis 6, 1997) combine the last
+cycles so that the residual is smallest; here it is the change of the pressure by a cycle, as in Anderson's
+mixing, because the residual weighs a node by its flow factor.
 """
 
 from __future__ import annotations

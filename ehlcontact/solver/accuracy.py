@@ -23,7 +23,7 @@ ALL = 1.0  # no error is given as larger: then nothing is known
 
 @dataclass(frozen=True, slots=True)
 class ErrorEstimate:
-    """How far a steady film may be from that on an endless fine mesh of the same region.
+    """Estimated discretisation error of a steady film, on its own region.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class ErrorEstimate:
 
 
 def regular_error(fine: float, coarse: float, coarsest: float | None = None) -> float:
-    """Error of the first of these values, as the head of this file says."""
+    """Estimated error of the first of these values, from those on coarser grids."""
     d = abs(fine - coarse)
     if coarsest is None:
         return d

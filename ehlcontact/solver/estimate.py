@@ -1,7 +1,7 @@
-"""The film solved, on grids of half and a quarter of its intervals: what its `ErrorEstimate` is made of.
+"""Solutions on grids of half and a quarter of the intervals, for the error estimate of a film.
 
-Each starts from the film above it, restricted, and differs from its own solution by that film's error only: two
-cycles are enough.
+Each starts from the restricted film of the grid above and differs from its own solution by that film's error only,
+so two cycles are enough.
 """
 
 from __future__ import annotations

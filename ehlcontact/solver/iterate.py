@@ -1,7 +1,7 @@
-"""The only driver loop: cycles or Newton steps until a film is solved, or will not be.
+"""Iteration of cycles or Newton steps until a film has converged or failed.
 
-Steady films, steps in time and Newton share it, so that NaN, a residual that no longer falls and a film that is
-none are judged once, here.
+Steady films, steps in time and Newton share this loop, so that NaN, stagnation, divergence and negative films are
+judged in one place.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ BORDER_PRESSURE = 0.02  # of the maximum, beside the outlet; a film that ends ou
 
 
 class StoppingCriteria(NamedTuple):
-    """When an iteration ends."""
+    """Limits at which an iteration ends."""
 
     scale: float  # residual by which residuals are measured; fixed by the problem, not by the start
     tol: float  # share of it to be reached
@@ -44,7 +44,7 @@ class StoppingCriteria(NamedTuple):
 
 @dataclass(slots=True)
 class IterationHistory:
-    """What an iteration leaves behind: entry 0 is the start."""
+    """Residuals and changes of an iteration; entry 0 is the start."""
 
     residuals: list[float] = field(default_factory=list)  # mean |residual| over P > 0
     balance_residuals: list[float] = field(default_factory=list)

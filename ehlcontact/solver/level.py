@@ -1,4 +1,4 @@
-"""Grids: one `Level` holds the work arrays of one mesh, a hierarchy is a list of them, coarse to fine."""
+"""Levels of the multigrid hierarchy: arrays and equations on one mesh each, ordered from coarse to fine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The linearised film: as an operator, its preconditioner, and its Krylov solution.
+"""Linearised film: operator, preconditioner and Krylov solution.
 
 Around a state P, H of a level, the Newton equations over the free nodes read
 

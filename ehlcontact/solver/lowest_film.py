@@ -1,4 +1,4 @@
-"""The smallest film between the nodes.
+"""Smallest film of a grid, between the nodes too.
 
 The film is thinnest in a valley a few cells wide that runs aslant to the grid: the lowest node lies above its
 bottom, at n = 128 by up to one per cent, and by another amount on the next grid or at the next step. Cubics

@@ -1,4 +1,4 @@
-"""The memory that a grid takes, told before it is tried."""
+"""Memory that a grid takes, estimated before it is solved."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ from ehlcontact.status import Status
 
 
 class Purpose(StrEnum):
-    """What a mesh is for."""
+    """Purpose of a mesh."""
 
     FILM = "film"  # a steady film: `solve_steady`
     DAMPING = "damping"  # the film linearised: `impedance`
@@ -61,7 +61,7 @@ STEPPED = (80, 96, 128, 160, 192, 256, 320, 384, 512, 640, 768, 1024)  # closer,
 
 
 class Fineness(NamedTuple):
-    """What a purpose asks for."""
+    """Requirements of a purpose."""
 
     share: float  # largest mesh over the width of the inlet
     counts: tuple[int, ...]  # intervals to choose from
@@ -90,7 +90,7 @@ LARGEST_NEWTON = 300_000  # nodes for Newton as a last resort: sparse factors ta
 
 @dataclass(frozen=True, slots=True)
 class Mesh:
-    """Intervals along X on a region.
+    """Mesh of a film: intervals along X, region, refinement across.
 
     Attributes
     ----------

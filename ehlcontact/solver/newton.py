@@ -1,4 +1,4 @@
-"""Semismooth Newton on the finest grid: the equations of the multigrid cycle, linearised all at once.
+"""Semismooth Newton on the finest grid: all equations linearised together.
 
 Unknowns are the pressures of the free nodes and the approach u. Complementarity P >= 0 by the primal-dual
 active set of `coarse`; the linear systems by `linear`, with factors that are kept over steps while

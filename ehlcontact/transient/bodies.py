@@ -1,9 +1,9 @@
-"""What a motion is: how it closes a step, moves its bodies, and says how long and in what steps it runs.
+"""Motion of the bodies: base classes with the equation that closes a step, end, default step and corners.
 
-Three kinds: a driven approach (`prescribed.PrescribedApproach`), and bodies under a load, with inertia or without.
-With it the approach obeys ``u''/Omega_n^2 + f = f_ext`` (eq. 5), integrated by Newmark's rule; without it the film
-carries the load at every instant (eq. 6). A `Motion` says by which `Balance` a step is closed and how the bodies
-move once it is solved, so that nobody else asks which kind it is.
+There are three kinds: a prescribed approach (`prescribed.PrescribedApproach`), and bodies under a load, with or
+without inertia. With inertia the approach obeys ``u''/Omega_n^2 + f = f_ext`` (eq. 5), integrated by Newmark's
+rule; without it the film carries the load at every instant (eq. 6). A `Motion` gives the `Balance` that closes
+a step and the state of the bodies after it, so that no other code depends on the kind.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class Start(NamedTuple):
 
 
 class Motion(ABC):
-    """What drives a contact: closes its steps, moves its bodies, and says how long and in what steps it runs."""
+    """Motion of a contact: equation that closes a step, state of the bodies, end and default step of a run."""
 
     __slots__ = ()
     kind: ClassVar[str]  # its name in files
@@ -70,7 +70,7 @@ class Motion(ABC):
     @property
     @abstractmethod
     def default_step(self) -> float:
-        """Step that its own course asks for; a fixed one of a run is `film_step` at most."""
+        """Step that resolves the motion itself; a fixed step of a run is `film_step` at most."""
 
     @property
     def load_period(self) -> float:

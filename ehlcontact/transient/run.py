@@ -1,4 +1,4 @@
-"""A simulation under way: film and motion advanced together, in fixed or in controlled steps."""
+"""Run of a simulation: film and motion advanced together, in fixed or in controlled steps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`simulate`: a motion drives the transient contact and the history is recorded."""
+"""`simulate`: the transient contact under a motion, recorded as a history."""
 
 from __future__ import annotations
 

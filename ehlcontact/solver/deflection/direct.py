@@ -1,4 +1,4 @@
-"""The convolution term by term, O(N^2): slow and plain, the check of the other engines."""
+"""Elastic deflection by the direct sum, O(N^2): the reference for the other engines."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The convolution by zero-padded transforms, O(N log N) and exact to rounding."""
+"""Elastic deflection by zero-padded fast Fourier transforms, O(N log N) and exact to rounding."""
 
 from __future__ import annotations
 
