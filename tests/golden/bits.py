@@ -460,16 +460,18 @@ def bearing_rotors() -> Leaves:
         supports=[Support(position=0.0, bearing=heavy), Support(position=0.3, bearing=dry)],
     )
     speeds = SpeedProfile(np.array([0.0, 0.01, 0.02]), np.array([3000.0, 8000.0, 6000.0]))
-    history = "t speed_rpm displacement velocity ring force iterations largest_load"
+    history = "t speed_rpm displacement velocity ring iterations largest_load"
     for name, rotor in {"overhung": overhung, "beam": beam}.items():
         yield from named(name, rotor, "mass stiffness load")
         yield f"{name}.equilibrium", rotor.equilibrium(3000.0)
         for course, at_speed in {"constant": 3000.0, "run-up": speeds}.items():
             run = simulate_rotor(rotor, speed_rpm=at_speed, dt=1e-5, until=0.02)
             yield from named(f"{name} {course}", run, history)
+            yield f"{name} {course}.force", run.force.reshape(run.ring.shape)
         moved = rotor.equilibrium(3000.0) + 1e-7, np.zeros(rotor.size)
         run = simulate_rotor(rotor, speed_rpm=3000.0, dt=1e-5, until=0.01, start=moved)
         yield from named(f"{name} pushed", run, history)
+        yield f"{name} pushed.force", run.force.reshape(run.ring.shape)
         for passage in (True, False):
             small = linearise(rotor, 3000.0, passage=passage)
             modes = [[m.omega, m.eigenvalue.real, m.whirl] for m in small.modes(6)]
