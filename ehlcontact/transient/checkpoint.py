@@ -1,7 +1,7 @@
-"""Checkpoints: everything a simulation needs to go on bit for bit, in one HDF5 file.
+"""Checkpoints: everything that a simulation needs to go on, bit for bit, in one HDF5 file.
 
-What drives the run (point, motion, grid, tolerances) is stored to be compared, not to be used: whoever restarts
-says again what is wanted, and a file of anything else is refused.
+A restart takes the inputs of the run (point, motion, grid, tolerances) again as arguments. Those in the file are
+only compared with them, and a file of other inputs is refused.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ SAME = 1e-12  # of a time or a step: they differ by rounding only
 @stored("checkpoint of `simulate`")
 @dataclass(frozen=True, slots=True, eq=False)
 class Checkpoint:
-    """Contents of the file: the run up to its last sound state, and that state."""
+    """Content of the file: the run up to its last accepted state, and that state."""
 
     inputs: RunInputs
     record: Record
@@ -51,7 +51,7 @@ class Checkpoint:
 
     @classmethod
     def of(cls, run: Run, inputs: RunInputs, seconds: float) -> Checkpoint:
-        """Contents for the last sound state of `run`."""
+        """Content for the last accepted state of `run`."""
         kept = run.kept
         return cls(
             inputs=inputs,

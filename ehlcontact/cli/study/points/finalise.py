@@ -31,7 +31,7 @@ class Final(NamedTuple):
 
 
 def finalise(study: Study, folder: Path) -> Final:
-    """Make all of it, and write it to the folder."""
+    """Compute results of a point and write them, with report, elements and FMUs, to its folder."""
     from ehlcontact.cli.study.headline import document
     from ehlcontact.cli.study.report import write_report
     from ehlcontact.cli.study.results import evaluate
@@ -62,7 +62,7 @@ def read_results(folder: Path) -> dict[str, Any]:
 
 
 def products(results: Mapping[str, Any]) -> dict[str, str]:
-    """Files that are made, by what they are."""
+    """Files of the finalisation, relative to the folder, by their meaning."""
     made = {"results": RESULTS, "report": REPORT}
     for row in results["fits"]:
         if "refused" not in row:
@@ -78,7 +78,7 @@ def products(results: Mapping[str, Any]) -> dict[str, str]:
 
 
 def faults(results: Mapping[str, Any]) -> list[str]:
-    """FMUs that are not there, and why."""
+    """FMUs that could not be made, with reasons."""
     return [
         f"{entry['file']}: {entry.get('error') or 'differs from the element'}"
         for entry in _fmus(results)

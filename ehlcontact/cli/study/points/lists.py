@@ -1,4 +1,4 @@
-"""The points of a study file: every speed with every load, each a study of its own with a folder of its own."""
+"""Points of a study file: every speed with every load, each a study of its own in a folder of its own."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Point:
         return self.folder / STUDY_FILE
 
     def titled(self, text: str) -> str:
-        """The text, with the point in front where there are several."""
+        """Text with the name of the point in front where there are several."""
         return f"{self.name}: {text}" if self.of_several else text
 
 
@@ -132,19 +132,19 @@ def _said(document: Mapping[str, Any]) -> str:
 
 
 def point_name(study: Study) -> str:
-    """Of a folder: different for different points."""
+    """Name of a point and of its folder, different for different points."""
     speed, load = (_short(getattr(study.bearing, key)) for key in LISTS)
     return f"{speed}rpm_{load}N"
 
 
 def _short(value: float) -> str:
-    """All digits of a number, and no more than it has."""
+    """Shortest text of a number that gives all its digits."""
     text = f"{value:g}"
     return text if float(text) == value else repr(value)
 
 
 def write_studies(points: tuple[Point, ...], path: Path, folder: Path) -> None:
-    """A copy of the study file beside its results, and of each of several points a study of its own."""
+    """Copy the study file to the folder of its results, and write the study of each of several points."""
     copy = folder / STUDY_FILE
     if not copy.exists() or not copy.samefile(path):
         write_text(copy, read_text(path), "file")

@@ -1,4 +1,4 @@
-"""The report over several points: what was found at each, over speed and load, and the way to each report."""
+"""Report over several points: numbers of each over speed and load, and links to the reports of all."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ NARROW = tuple(column for column in COLUMNS if column[1] not in ("p_hertz", "dec
 
 
 def cells(row: Row, columns: Sequence[tuple[str, str, float, int]] = COLUMNS) -> list[str]:
-    """Numbers of a point as people read them; a dash where one was not reached."""
+    """Numbers of a point in words; a dash where there is none."""
     return [
         numeral(None if (value := row.numbers[name]) is None else factor * value, figures)
         for _, name, factor, figures in columns

@@ -58,7 +58,7 @@ MEANINGS = {
 
 @dataclass(frozen=True)
 class Row:
-    """One point: how it ended, what was found, and where it is."""
+    """One point: status, numbers and files."""
 
     point: Point
     status: str
@@ -76,7 +76,7 @@ class Row:
         return self.status == Status.CONVERGED
 
     def to_dict(self) -> dict[str, Any]:
-        """All of it."""
+        """Content of its entry in ``summary.json``."""
         return {
             "name": self.point.name,
             "status": self.status,
@@ -90,7 +90,7 @@ class Row:
 
 
 def row_of(point: Point, index: Mapping[str, Entry], root: Path) -> Row:
-    """What the folder of a point holds."""
+    """Row of a point from its folder and its index."""
     computed = stages_of(point.study)
     names = [*(stage.name for stage in computed), FINALISE]
     stages = {name: index[name]["status"] for name in names if name in index}
@@ -127,18 +127,18 @@ def row_of(point: Point, index: Mapping[str, Entry], root: Path) -> Row:
 
 
 def _outside(results: Mapping[str, Any] | None) -> tuple[str, ...]:
-    """What is not as assumed, in one line where there is any."""
+    """Assumptions that do not hold, in one line, or none."""
     found = {} if results is None else results.get("assumptions", {})
     return (found["headline"],) if found.get("out_of_range") else ()
 
 
 def _worst(stages: Mapping[str, str], lacking: Sequence[str]) -> str:
-    """Status of a point that did not get to its end: of its first stage that did not."""
+    """Status of a point that is not finalised: of its first stage that did not converge."""
     return next((stages[name] for name in lacking), str(Status.INTERRUPTED))
 
 
 def _numbers(point: Point, results: Mapping[str, Any] | None) -> dict[str, float | None]:
-    """Numbers by `UNITS`: what follows from the study alone is there whatever happened."""
+    """Numbers by `UNITS`; those that follow from the study alone do not depend on stages."""
     study, rough = point.study, point.study.roughness
     m, s = study.point.moes, study.point.scales
     found: dict[str, float | None] = dict.fromkeys(UNITS)
