@@ -302,11 +302,11 @@ class BallBearing(BearingSummary):
         """
         force, speed = radial_load(load), self.speed(speed_rpm)
         w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
-        standings = self.standings(force, speed, cage_angle)
+        standings = self.ring_equilibria(force, speed, cage_angle)
         balls = SmallBalls.of(self.kernel(speed), self.speed_state(speed), standings)
         return BearingCoefficients.of(force, speed, cage_angle, w, balls.coefficients(w), standings)
 
-    def standings(
+    def ring_equilibria(
         self, load: ArrayLike, speed_rpm: float, cage_angle: float | None = None
     ) -> list[RingEquilibrium]:
         """The ring at rest under a load [N], at positions of the cage over a ball passage or at one [rad]."""

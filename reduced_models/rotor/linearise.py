@@ -142,6 +142,12 @@ class LinearRotor(Summary):
             found.setdefault("y" if mode.vertical_share >= VERTICAL else "x", mode)
         return found
 
+    def nearest(self, mode: RotorMode) -> RotorMode:
+        """The mode next in frequency to that of another rotor, if possible among those along its direction."""
+        modes = self.modes(None)
+        alike = [own for own in modes if (own.vertical_share >= VERTICAL) == (mode.vertical_share >= VERTICAL)]
+        return min(alike or modes, key=lambda own: abs(own.omega - mode.omega))
+
     @property
     def growth(self) -> float:
         """Largest real part [1/s] of all modes that oscillate; below 0 they all die away."""
@@ -348,7 +354,7 @@ def _linear_bearing(mount: BearingMount, speed: float, ring: _Floats, passage: b
     force = held.force(ring)
     if np.linalg.norm(force) < UNLOADED * held.films.force.max():
         force = np.zeros(2)
-    at_angles = bearing.standings(force, speed, None if passage else mount.cage_angle)
+    at_angles = bearing.ring_equilibria(force, speed, None if passage else mount.cage_angle)
     return force, SmallBalls.of(kernel, state, at_angles)
 
 

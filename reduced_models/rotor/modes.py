@@ -102,6 +102,11 @@ class RotorMode(Summary, ByNode):
         up = sum(square for place, square in squares.items() if found[place] == "y")
         return up / sum(squares.values())
 
+    def to_dict(self) -> dict[str, float]:
+        """Frequency, decrement and shares, ready for JSON."""
+        names = "hz", "decrement", "vertical_share", "support_share"
+        return {name: getattr(self, name) for name in names}
+
     def node(self, name: str) -> _Complex:
         """Complex displacements x, y of a node, shape (2,)."""
         return self._node(self.shape, name)

@@ -11,7 +11,7 @@ from ehlcontact import store
 from ehlcontact.cli.study.bode import Bode, bode
 from ehlcontact.cli.study.free_decay import decrement_of, kicked_mode, run_decay_reduced
 from ehlcontact.cli.study.reduction import CHOSEN, DRY, FULL, UNDAMPED
-from ehlcontact.cli.study.response import linear_rotors, mode_numbers
+from ehlcontact.cli.study.response import linear_rotors
 from ehlcontact.cli.study.rotor import build_rotor, run_reduced
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
@@ -147,7 +147,7 @@ class RotorFindings:
         """All numbers."""
         return self.unbalance.to_dict() | {
             "decay": self.decay.to_dict(),
-            "modes": {name: mode_numbers(linear) for name, linear in self.linear.items()},
+            "modes": {name: [one.to_dict() for one in linear.modes()] for name, linear in self.linear.items()},
             "resonance": self.bode.to_dict(),
             "failed": dict(self.failed),
         }
@@ -176,7 +176,7 @@ def compare_rotors(
         unbalance=_unbalance(study, ran, folder),
         decay=_decay(study, mode, ran, response, folder),
         linear=linear,
-        kicked={name: _nearest(one, mode) for name, one in linear.items()},
+        kicked={name: one.nearest(mode) for name, one in linear.items()},
         bode=bode(linear, study.rotor.unbalance / study.rotor.disc_mass),
         failed=failed,
     )
@@ -249,9 +249,3 @@ def _decay(
 
 def _events(ran: _Ran, run: RotorResult, load: float) -> tuple[ContactEvents, ...]:
     return contact_events(run, load, [ran.element] * run.force.shape[1])
-
-
-def _nearest(linear: LinearRotor, mode: RotorMode) -> RotorMode:
-    """The mode of another rotor that moves most like a given one: among those of its direction, the nearest."""
-    same = [m for m in linear.modes() if round(m.vertical_share) == round(mode.vertical_share)]
-    return min(same or linear.modes(), key=lambda m: abs(m.omega - mode.omega))

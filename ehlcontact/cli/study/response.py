@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
@@ -77,16 +76,3 @@ def bounce(linear: LinearRotor) -> RotorMode:
     if found is None:
         raise ConvergenceError("no vertical mode of this rotor oscillates: it is damped too much", None)
     return found
-
-
-def mode_numbers(linear: LinearRotor) -> list[dict[str, Any]]:
-    """Frequency, decrement and what bends, of all modes."""
-    return [
-        {
-            "hz": mode.hz,
-            "decrement": mode.decrement,
-            "vertical_share": mode.vertical_share,
-            "contact_share": mode.support_share,
-        }
-        for mode in linear.modes()
-    ]

@@ -20,7 +20,9 @@ def floquet(at, mode):
     bearing, size = at.rotor.mounts[0].bearing, at.rotor.size
     kernel, at_speed, first = bearing.kernel(RPM), bearing.speed_state(RPM), at.rotor.mounts[0].cage_angle
     angles = first + 2.0 * pi / bearing.balls * np.arange(POSITIONS) / POSITIONS
-    places = [SmallBalls.of(kernel, at_speed, bearing.standings(at.loads[0], RPM, a)) for a in angles.tolist()]
+    places = [
+        SmallBalls.of(kernel, at_speed, bearing.ring_equilibria(at.loads[0], RPM, a)) for a in angles.tolist()
+    ]
     passing, rings, (M, C, K) = bearing.balls * at_speed.cage, at.rotor.support_rows, at.matrices
     count = 2 * HARMONICS + 1
 
