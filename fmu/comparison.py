@@ -217,7 +217,7 @@ def tangents(element: Any, states: _Floats, approach: float, rate: float) -> tup
     x, g, g_u = static(approach / length, law)
     k = int(np.searchsorted(law.gain_x, x)) - 1
     inside = 0 <= k < law.gain_x.size - 1
-    gains = np.array([np.interp(x, law.gain_x, column) for column in law.gains.T])
+    gains = element.gains_at(x)
     slopes = (law.gains[k + 1] - law.gains[k]) / (law.gain_x[k + 1] - law.gain_x[k]) if inside else 0.0 * gains
     theta, x_u = g**0.5, 1.5 * g_u / g
     felt = np.array([theta * v, *states])

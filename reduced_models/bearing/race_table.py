@@ -131,7 +131,7 @@ def _rows(element: FilmContact, x: _Floats) -> tuple[_Floats, _Floats, _Floats]:
     rise, width = np.diff(g, axis=1), np.diff(u)[:, None] / CELLS
     start, end = slope[:, :-1] * width, slope[:, 1:] * width
     cells = np.stack([g[:, :-1], start, 3.0 * rise - 2.0 * start - end, start + end - 2.0 * rise], axis=-1)
-    gains = np.array([np.interp(own, law.gain_x, column) for column in law.gains.T]).T
+    gains = element.gains_at(own).T
     return u * length, cells * length, gains
 
 

@@ -211,9 +211,12 @@ class FilmContact(ContactElement):
         f, length, time = self._units
         at = 1.0 if load is None else require_positive("load", load) / f
         own = at ** (1.0 / 3.0)  # length of the contact, and so its time, over that under the reference load
-        gains = np.array([np.interp(math.log(at), self.law.gain_x, column) for column in self.law.gains.T])
         tangent = self.spring_tangent(self.approach_at(at * f))
-        return SmallMotion(tangent, DRY * own * f / length, own * time, gains, self.rates)
+        return SmallMotion(tangent, DRY * own * f / length, own * time, self.gains_at(math.log(at)), self.rates)
+
+    def gains_at(self, x: float | _Floats) -> _Floats:
+        """Gains at x = ln F, shape (3 + lags,) + that of x, with F in units of the reference load."""
+        return np.array([np.interp(x, self.law.gain_x, column) for column in self.law.gains.T])
 
     @property
     def state_count(self) -> int:
