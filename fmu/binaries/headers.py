@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import struct
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -57,11 +57,15 @@ def read_library(content: bytes) -> tuple[Library, ...]:
     lief.logging.disable()
     if content.startswith((UNIVERSAL, b"\xcf\xfa\xed\xfe")):
         found = lief.MachO.parse(list(content))
-        parsed = [] if found is None else [found.at(k) for k in range(found.size)]
+        parsed: list[Any] = [] if found is None else [found.at(k) for k in range(found.size)]
     else:
         one = lief.parse(list(content)) if content else None
         parsed = [] if one is None else [one]
-    readers = {lief.ELF.Binary: _elf, lief.PE.Binary: _pe, lief.MachO.Binary: _macho}
+    readers: dict[Any, Callable[[Any], Library]] = {
+        lief.ELF.Binary: _elf,
+        lief.PE.Binary: _pe,
+        lief.MachO.Binary: _macho,
+    }
     libraries = [readers[type(one)](one) for one in parsed]
     if any(_end(one) > len(content) for one in parsed):
         raise ValueError("a damaged library: it ends too early")
