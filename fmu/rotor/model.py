@@ -77,7 +77,7 @@ class RotorModel:
         if not self.elements:
             return self.rotor.rest_state(np.zeros(len(self.rotor.axes)))
         try:
-            with warnings.catch_warnings():  # about the speed, which rest knows nothing of
+            with warnings.catch_warnings():  # about the speed, on which rest does not depend
                 warnings.simplefilter("ignore", OutsideValidityWarning)
                 return self.rotor.static_equilibrium([element.copy() for element in self.elements])
         except ConvergenceError as error:

@@ -1,4 +1,4 @@
-"""What a rotor does in Python, for its FMU to be held against: a short run, and its equations in a state."""
+"""The rotor of an FMU in Python, for comparison: a short run, and its equations in a state."""
 
 from __future__ import annotations
 

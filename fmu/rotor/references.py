@@ -42,7 +42,7 @@ def rotor_references(model: RotorModel, spec: ModelSpec) -> References:
 
 
 def _points(model: RotorModel, names: list[str]) -> Trial:
-    """Derivatives in states of the run, with films that remember something, at the rotor's own unbalance."""
+    """Derivatives in states of the run, with films away from rest, at the rotor's own unbalance."""
     rotor, run = model.rotor, model.run
     count = run.motion.shape[1]
     at = np.arange(EVERY, len(run.motion), EVERY)

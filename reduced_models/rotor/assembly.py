@@ -33,7 +33,7 @@ def rotor_on_bearings(
     """Jeffcott's rotor and its relatives on ball bearings, which may differ: discs anywhere, beyond a bearing too.
 
     For `simulate_rotor`, at one speed or along a `SpeedProfile`, and for `linearise`, `campbell` and
-    `unbalance_response`. Where discs and bearings are among the degrees of freedom, ``nodes`` of the rotor says:
+    `unbalance_response`. Where discs and bearings are among the degrees of freedom, ``nodes`` of the rotor has:
     "disc" (or "disc 0", "disc 1", ...), "bearing 0", ..., "housing 0", ...
 
     Parameters

@@ -1,4 +1,4 @@
-"""What an element is worth: the contacts that are there without it. Dry, undamped, and linearised at one load.
+"""Contacts without a film, for comparison with elements: dry, undamped, and linearised at one load.
 
 Whoever shows an element in a rotor shows these beside it. Where they do as well, the film decides nothing there.
 """

@@ -1,4 +1,4 @@
-"""How far a reduced response is from the full one, relative to how much the full one moves."""
+"""Differences between two runs of a rotor, reduced and full, relative to the motion of the full one."""
 
 from __future__ import annotations
 
@@ -94,10 +94,10 @@ class Comparison(Summary):
 
     def _summary_lines(self) -> list[str]:
         shares = {"displacements": self.displacement, "contact forces": self.force}
-        said = (f"{name} differ by {100.0 * share:.2g} %" for name, share in shares.items() if share is not None)
+        lines = (f"{name} differ by {100.0 * share:.2g} %" for name, share in shares.items() if share is not None)
         return [
             f"{self.samples} samples from {self.t_start:.4g} to {self.t_end:.4g} s",
-            ", ".join(said) or "nothing moves",
+            ", ".join(lines) or "nothing moves",
             "percentages: largest rms difference, of the standard deviation of the full signal",
         ]
 

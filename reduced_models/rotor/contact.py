@@ -1,4 +1,4 @@
-"""The one face that a contact shows to a rotor, full or reduced, and all contacts of a rotor as one force."""
+"""Contacts of a rotor, full or reduced: protocol, SI units around dimensionless ones, forces in a step."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from ehlcontact.point import Scales
 
 _Floats = NDArray[np.float64]
 
-# A contact without tangents tells its first slope by a probe: this share of its approach further, at least so far.
+# The first slope of a contact without tangents is a secant: over this share of its approach, at least so far.
 PROBE = 1e-4
 SHORTEST_PROBE = 1e-12  # [m]
-NO_TIME = 1e-9  # share of a step, in which a contact with memory tells the force it has now
+NO_TIME = 1e-9  # share of a step, over which the force of a contact with memory hardly changes
 
 
 @runtime_checkable
@@ -35,7 +35,7 @@ class Contact(Protocol):
 
 @runtime_checkable
 class TangentContact(Contact, Protocol):
-    """A contact that knows its statics and the exact tangents of a step; every reduced element does."""
+    """A contact with a static law and the exact tangents of a step; every reduced element is one."""
 
     def rest(self, approach: float) -> float:
         """Put the contact at rest at this approach; returns the static force."""
@@ -169,7 +169,7 @@ class ContactForces:
         return forces
 
     def accept(self, approach: _Floats, rate: _Floats) -> None:
-        """Move the contacts to the end of the step, where `at` was asked last."""
+        """Move the contacts to the end of the step, where `at` was called last."""
         for i, contact in enumerate(self._contacts):
             if self._analytic[i]:
                 contact.advance(self._dt, float(approach[i]), float(rate[i]))
@@ -185,14 +185,14 @@ class ContactForces:
 
     @property
     def last_slopes(self) -> _Floats:
-        """Slopes where `at` was asked last."""
+        """Slopes where `at` was called last."""
         return self._slopes
 
     def start(self, approach: _Floats, rate: _Floats) -> _Floats:
         """Forces at the very start, and the first slopes; the contacts stay where they are.
 
-        A contact with memory only tells its force by making a step: one that goes nowhere, in no time where the
-        contact can be asked without being moved.
+        The force of a contact with memory needs a step: one without motion, and almost without duration where the
+        contact has tangents.
         """
         self.begin()
         forces = self.at(approach, rate)

@@ -1,4 +1,4 @@
-"""What happened in the contacts of a run: lift-off, impacts, loads, and time outside what elements stand for."""
+"""Events in the contacts of a run: lift-off, impacts, range of loads, time outside the validity of elements."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class ContactEvents:
     outside_omega : float or None
         Likewise, 0 or 1: the frequency is one of the whole run.
     warnings : tuple of str
-        What the element said.
+        Of the element.
     """
 
     lift_offs: int

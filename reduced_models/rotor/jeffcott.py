@@ -1,4 +1,4 @@
-"""Jeffcott rotor on contacts: its parameters, and the `Rotor` that it is. SI units.
+"""Jeffcott rotor on contacts, by its parameters: a constructor of `Rotor`. SI units.
 
 Four degrees of freedom: disc (x, y) and journal (x, y), y upwards. Both bearings are taken as identical and
 move as one, so one journal stands for both: its mass is that of the two journals, and the contacts of one
@@ -310,7 +310,7 @@ class JeffcottRotor(Summary):
     def check(self, contacts: Sequence[Any], *, stacklevel: int = 2) -> None:
         """Let elements warn, once each, whose band does not hold this speed, or that were made for other contacts.
 
-        What the mounts know of their contacts counts. `simulate_rotor` and `static_equilibrium` call it.
+        The points of the mounts count. `simulate_rotor` and `static_equilibrium` call it.
         """
         omega = self.omega if self.speed_rpm > 0.0 else None
         for mount, contact in zip(self.mounts, contacts, strict=False):

@@ -1,4 +1,4 @@
-"""Degrees of freedom by the name of their node, in whatever has one number for each of them."""
+"""Degrees of freedom by the name of their node."""
 
 from __future__ import annotations
 

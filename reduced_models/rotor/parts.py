@@ -1,4 +1,4 @@
-"""What a rotor is made of: a shaft, discs on it, bearings with their housings under it. SI units.
+"""Parts of a rotor on bearings: shaft, discs, bearings with their housings. SI units.
 
 Positions are along the shaft, from its left end.
 """
@@ -115,7 +115,7 @@ class Shaft(Summary):
     @classmethod
     @takes(stiffness="N/m", span="m", damping="N s/m")
     def jeffcott(cls, stiffness: float, span: float, *, damping: float = 0.0) -> Self:
-        """Shaft without mass that only bends, as stiff in the middle between bearings at its ends as is asked.
+        """Shaft without mass that only bends, of given stiffness in the middle between bearings at its ends.
 
         Parameters
         ----------

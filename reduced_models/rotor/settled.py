@@ -1,4 +1,4 @@
-"""Whether a rotor has settled, by how much successive revolutions differ; and runs that go on until it has."""
+"""Settling of a rotor: changes from revolution to revolution, and runs that go on until they are small."""
 
 from __future__ import annotations
 
@@ -159,11 +159,11 @@ def run_until_settled(
         Turning.
     elements : sequence of ContactElement
         One per mount, in SI; copies of them run, at rest at the start. Whether the run stays in their validity box
-        is not told here: ask `contact_events` of the revolutions that are returned.
+        is not reported here: see `contact_events` of the revolutions that are returned.
     steps : int
         In a revolution.
     revolutions : int
-        Returned; settled if they could be, which `settling` tells.
+        Returned; `settling` has whether they are settled.
     start : RotorState or (ndarray, ndarray)
         Near the settled motion, as of `LinearRotor.orbit`.
     tolerance : float

@@ -1,4 +1,4 @@
-"""The speed of a shaft over time, and what follows: angles, turning forces, the speeds that laws are made at."""
+"""Speed of a shaft over time: angle, forces of unbalances, speeds at which race tables are made."""
 
 from __future__ import annotations
 

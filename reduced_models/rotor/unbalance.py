@@ -1,4 +1,4 @@
-"""Response of a rotor on ball bearings to its unbalances, over the speed."""
+"""Response of a rotor to its unbalances, over the rate at which they turn."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class UnbalanceResponse(QuantityTable):
     def to_pandas(self) -> Any:
         """``pandas.DataFrame`` over the speed: half axis, cosine and sine of x and y of each node, in m.
 
-        Of the other degrees of freedom nothing here says which of them turn: they are in `to_xarray`.
+        Other degrees of freedom, some of which are angles, are in `to_xarray`.
 
         Raises
         ------

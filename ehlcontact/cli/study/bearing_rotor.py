@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 _Floats = NDArray[np.float64]
 Mode = tuple[float, float]  # frequency [Hz], logarithmic decrement
 
-# Damping over stiffness of a rolling bearing where nobody knows it [s]: Kraemer (Dynamics of Rotors and
+# Damping over stiffness of a rolling bearing where it is not known [s]: Kraemer (Dynamics of Rotors and
 # Foundations, 1993) gives 0.25e-5 to 2.5e-5, and ROSS's BallBearingElement has the middle.
 USUAL_DAMPING = 1.25e-5
 FILM, DRY, CONSTANT, USUAL = "memory", "dry", "constant", "usual"
@@ -60,7 +60,7 @@ BEGIN, BEYOND, COARSE, CLOSE = 0.2, 2.0, 120, 81
 NARROW = 0.04  # of the frequency of a mode: how far on either side they are close
 
 
-OVER_SPEED = 9  # speeds of that sweep at which films, stiffness and damping are told
+OVER_SPEED = 9  # speeds of that sweep at which films, stiffness and damping are listed
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ class Ran:
     def to_dict(self, speed_hz: float, passage_hz: float) -> dict[str, Any]:
         """All numbers, SI; swings from end to end, x and y."""
         once, _, passing, _ = self.lines((speed_hz, 2.0 * speed_hz, passage_hz, 2.0 * passage_hz)).tolist()
-        moving = self.largest_load is not None  # constant springs do not know of balls, nor where they stand
+        moving = self.largest_load is not None  # constant springs have neither balls nor a place of rest
         modes = {"vertical": self.vertical, "horizontal": self.horizontal}
         return {
             "deflection": -float(self.ring[:, 1].mean()) if moving else None,
@@ -212,7 +212,7 @@ def whole_rotor(study: Study, bearing: BallBearing | LinearBearing) -> Rotor:
 
 
 def run_whole(study: Study, folder: Path) -> WholeFindings | None:
-    """Run the rotor on whole bearings where the study asks for it; runs are left in the folder."""
+    """Run the rotor on whole bearings where the study has [whole_bearing]; runs are left in the folder."""
     if "whole_bearing" not in study.model_fields_set:
         return None
     wet, dry, rpm = whole_bearing(study, oil=True), whole_bearing(study, oil=False), study.bearing.speed_rpm

@@ -158,7 +158,7 @@ def compare_rotors(
 ) -> RotorFindings:
     """Run the rotor on SI elements, by name, and compare it with the stored runs on full contacts.
 
-    A rotor that does not converge on one of them leaves it out, and is told; but for the chosen one.
+    An element on which the rotor does not converge is left out and reported; the chosen one raises.
     """
     mode = kicked_mode(study, response)
     ran: dict[str, _Ran] = {}

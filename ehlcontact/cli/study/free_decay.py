@@ -1,4 +1,4 @@
-"""The rotor of a study kicked up and down: free decay on full contacts and on elements, and its decrement."""
+"""Free decay of a study's rotor after an initial velocity, on full contacts and on elements, and its decrement."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def run_decay_reduced(
 
 
 def kicked(study: Study, rest: RotorState, mode: RotorMode, response: ImpedanceResult) -> RotorState:
-    """The state at rest with the velocities of the mode, as fast as the kick of the study says.
+    """The state at rest with the velocities of the mode, as fast as the entry `kick` of the study has it.
 
     So fast that without damping the load of a contact would swing by that share of the load at rest.
     """

@@ -1,6 +1,6 @@
 """The bearing of a study with all its balls: made from its entries, refused by them before anything is computed.
 
-`study` is a `Study` of `schema`, which asks here.
+`study` is a `Study` of `schema`, whose checks call this.
 """
 
 from __future__ import annotations
