@@ -14,7 +14,7 @@ import numpy as np
 from ehlcontact.errors import ConvergenceError, InputError
 from fmu.contact_variables import Element
 from fmu.contacts import default_step, round_down
-from fmu.rotor.reference_rotor import Run, shaken_run
+from fmu.rotor.reference_rotor import Run, reference_run
 from reduced_models import JeffcottRotor, OutsideValidityWarning, RotorState, ScaledContact
 
 # An FMU counts its contacts, and all inputs that have derivatives, in the bits of one number.
@@ -86,8 +86,8 @@ class RotorModel:
 
     @cached_property
     def run(self) -> Run:
-        """What its FMU is held against."""
-        return shaken_run(self)
+        """Reference run of the FMU."""
+        return reference_run(self.rotor, self.elements, self.state, self.inner_step)
 
     @property
     def inner_step(self) -> float:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,9 +13,6 @@ from fmu.contact_variables import Element, Film
 from reduced_models import JeffcottRotor, OutsideValidityWarning, RotorState, simulate_rotor
 from reduced_models.rotor.integrate import steps_of
 from reduced_models.rotor.step import PythonSteps
-
-if TYPE_CHECKING:
-    from fmu.rotor.model import RotorModel
 
 _Floats = NDArray[np.float64]
 
@@ -55,17 +51,17 @@ class Felt:
     outside: tuple[bool, ...]
 
 
-def shaken_run(model: RotorModel) -> Run:
-    """The rotor turning with an unbalance that shows, from rest with the disc off its place."""
-    rotor, dt, load = model.rotor, model.inner_step, load_size(model.rotor)
+def reference_run(rotor: JeffcottRotor, elements: tuple[Element, ...], rest: RotorState, dt: float) -> Run:
+    """Run from `rest` with the disc displaced, under an unbalance of at least `SWING` of the load."""
+    load = load_size(rotor)
     speed = rotor.speed_rpm if rotor.speed_rpm > 0.0 else 60.0 / (TURN * dt)
     omega = speed * np.pi / 30.0
     rotor = replace(rotor, speed_rpm=speed, unbalance=max(rotor.unbalance, SWING * load / omega**2))
     off = np.zeros(2)
     off[list(rotor.axes)] = OFF * load / rotor.shaft_stiffness
     # at rest: a film of the Python element begins there, whatever its rate
-    start = RotorState(model.state.disc + off, model.state.journal, np.zeros(2), np.zeros(2))
-    return _closed_run(model, rotor, start) if model.elements else _free_run(rotor, start, dt)
+    start = RotorState(rest.disc + off, rest.journal, np.zeros(2), np.zeros(2))
+    return _closed_run(rotor, elements, start, dt) if elements else _free_run(rotor, start, dt)
 
 
 def load_size(rotor: JeffcottRotor) -> float:
@@ -74,11 +70,10 @@ def load_size(rotor: JeffcottRotor) -> float:
     return load if load > 0.0 else 1.0
 
 
-def _closed_run(model: RotorModel, rotor: JeffcottRotor, start: RotorState) -> Run:
-    contacts = [element.copy() for element in model.elements]
+def _closed_run(rotor: JeffcottRotor, elements: tuple[Element, ...], start: RotorState, dt: float) -> Run:
+    contacts = [element.copy() for element in elements]
     for contact, approach in zip(contacts, rotor.approaches(start.journal).tolist(), strict=True):
         contact.rest(approach)
-    dt = model.inner_step
     with warnings.catch_warnings():  # about a motion that is none of the user's
         warnings.simplefilter("ignore", OutsideValidityWarning)
         result = simulate_rotor(rotor, contacts, dt=dt, until=STEPS * dt, start=start, tolerance=TOLERANCE)

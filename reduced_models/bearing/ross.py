@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,9 +17,6 @@ from ehlcontact.checks import as_column, require_integer
 from ehlcontact.checks.frequency import is_given, one, radians_per_second
 from ehlcontact.errors import InputError
 from reduced_models.bearing.kinematics import RADIANS
-
-if TYPE_CHECKING:
-    from reduced_models.bearing.ball_bearing import BallBearing
 
 _Floats = NDArray[np.float64]
 
@@ -41,14 +38,14 @@ def downward(load: ArrayLike) -> ArrayLike:
 
 
 def bearing_element(
-    bearing: BallBearing,
+    bearing: Any,
     node: int,
     speeds_rpm: ArrayLike,
     load: ArrayLike,
     frequency: Mapping[str, ArrayLike | None],
     **options: Any,
 ) -> Any:
-    """See `BallBearing.to_ross`."""
+    """Element of ROSS with the coefficients of a `BallBearing`: see its method `to_ross`."""
     ross = import_ross()
     n = require_integer("node", node, "a node of the rotor, a whole number >= 0", 0)
     speeds = as_column("speeds_rpm", np.atleast_1d(np.asarray(speeds_rpm, float)), increasing=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,6 @@ from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.rotor.contact import has_tangents
 from reduced_models.rotor.supports import BearingMount, ContactMount, is_ball_bearing
-
-if TYPE_CHECKING:
-    from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
 
@@ -36,6 +33,33 @@ class StaticSupport(Protocol):
         """Its derivative, shape (directions, directions) [N/m]."""
 
 
+class SupportedRotor(Protocol):
+    """What the equilibrium takes of a `Rotor`."""
+
+    @property
+    def mounts(self) -> tuple[Any, ...]:
+        """Supports."""
+
+    @property
+    def load(self) -> _Floats:
+        """Constant forces, shape (N,) [N]."""
+
+    @property
+    def size(self) -> int:
+        """Number N of degrees of freedom."""
+
+    @property
+    def support_rows(self) -> _Floats:
+        """Motions of all supports from the displacements, shape (directions of all supports, N)."""
+
+    @property
+    def support_columns(self) -> tuple[slice, ...]:
+        """Directions of each support among those of all."""
+
+    def matrices(self, omega: float) -> tuple[_Floats, _Floats, _Floats]:
+        """Mass, damping and stiffness at a speed [rad/s]."""
+
+
 class StaticContact:
     """A contact at rest, or several alike, after its static law; its state stays."""
 
@@ -54,7 +78,7 @@ class StaticContact:
         return np.array([[self._count * self._contact.spring_tangent(float(r[0]) + self._offset)]])
 
 
-def static_supports(rotor: Rotor, speed_rpm: float) -> list[tuple[slice, StaticSupport]]:
+def static_supports(rotor: SupportedRotor, speed_rpm: float) -> list[tuple[slice, StaticSupport]]:
     """Every support that is not linear, with its place among the directions of all supports.
 
     Raises
@@ -73,7 +97,7 @@ def static_supports(rotor: Rotor, speed_rpm: float) -> list[tuple[slice, StaticS
     return found
 
 
-def equilibrium(rotor: Rotor, speed_rpm: float) -> _Floats:
+def equilibrium(rotor: SupportedRotor, speed_rpm: float) -> _Floats:
     """Displacements, shape (N,), at which supports and stiffness carry the load: see `Rotor.equilibrium`."""
     supports, rows = static_supports(rotor, speed_rpm), rotor.support_rows
     load, (_, _, stiffness) = rotor.load, rotor.matrices(speed_rpm * RADIANS)
@@ -111,7 +135,7 @@ def equilibrium(rotor: Rotor, speed_rpm: float) -> _Floats:
     )
 
 
-def _across(rotor: Rotor) -> _Floats:
+def _across(rotor: SupportedRotor) -> _Floats:
     """Unit springs at the degrees of freedom of contacts, shape (N, N): a contact alone holds one direction."""
     held = np.zeros((rotor.size, rotor.size))
     for mount in rotor.mounts:
