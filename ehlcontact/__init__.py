@@ -6,7 +6,7 @@ room              responsibility
 ``point``         inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
 ``lubricant/``    `Lubricant`, from its numbers or its grade; the laws of viscosity and density
 ``hertz``         dry elliptic contact
-``formulas``      published film and approach formulas: grids are chosen from them, results compared with them
+``film_formulas``  published film and approach formulas: grids are chosen from them, results compared with them
 ``solver/``       film at one instant: mesh, equations, multigrid, Newton
 ``steady``        `solve_steady`
 ``impedance``     `impedance`: K and C over frequency from the linearised steady state
@@ -55,6 +55,7 @@ from ehlcontact.solver.grid import Grid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.store import load, save
+from ehlcontact.transient.features import Dent, TransverseRidge, Waviness
 from ehlcontact.transient.full_contact import FullContact
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 from ehlcontact.transient.prescribed import PrescribedApproach, PrescribedLoad
@@ -62,7 +63,6 @@ from ehlcontact.transient.result import Instants, SimulationResult
 from ehlcontact.transient.roughness import Roughness
 from ehlcontact.transient.settings import KeepSettings, RunSettings, TimeSteps
 from ehlcontact.transient.simulate import simulate
-from ehlcontact.transient.surface import Dent, TransverseRidge, Waviness
 from ehlcontact.version import __version__
 
 __all__ = [

@@ -29,7 +29,7 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
 from ehlcontact.solver.memory import Solve
-from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, require_room, wider_meshes
+from ehlcontact.solver.mesh_choice import Mesh, Purpose, mesh_for, require_room, wider_meshes
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady

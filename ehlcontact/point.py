@@ -1,4 +1,4 @@
-"""Operating points of a contact, in SI and dimensionless, and the conventions of the library.
+"""One contact: bodies, oil, load and speed in SI, its Moes numbers, and the units and signs of the library.
 
 * x along rolling, y across; Hertz semi-axes a, b; ``kappa = a/b`` (not the viscosity ratio of ISO 281).
 * ``u_sum = u1 + u2``; 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2.
@@ -22,7 +22,7 @@ from ehlcontact.checks import require_finite, require_nonnegative, require_posit
 from ehlcontact.checks.admissible_range import INPUTS, Given, require_admissible
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
-from ehlcontact.formulas import expected_film, film_to_moes, load_number, moes_pressure
+from ehlcontact.film_formulas import expected_film, film_to_moes, load_number, moes_pressure
 from ehlcontact.hertz import HertzContact, ellipse_ratio, hertz_contact, scaled_axis, shape_factor
 from ehlcontact.lubricant import FluidLaw, Lubricant, log_viscosity
 

@@ -1,4 +1,4 @@
-"""Physical quantities of results, declared once by an annotation.
+"""SI unit, dimensionless unit and axis label of every quantity of a result.
 
 A class declares a quantity where it declares the field or property that holds it ::
 

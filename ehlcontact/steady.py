@@ -17,14 +17,14 @@ from ehlcontact.point import MoesPoint, Point, Scales, require_solvable, scales_
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.acceleration import AcceleratedCycles
-from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.estimate import estimate_error
+from ehlcontact.solver.error_estimate import ErrorEstimate
+from ehlcontact.solver.error_grids import estimate_error
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.memory import Solve
-from ehlcontact.solver.mesh import (
+from ehlcontact.solver.mesh_choice import (
     FAILED,
     LARGEST_ATTEMPTS,
     Mesh,

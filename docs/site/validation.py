@@ -79,7 +79,7 @@ def formulas() -> list[Row]:
     the approach of Wijnant, thesis, Twente 1998; n = 128.
     """
     from ehlcontact import Grid, MoesPoint, solve_steady
-    from ehlcontact.formulas import nvm_central_film, wijnant_approach
+    from ehlcontact.film_formulas import nvm_central_film, wijnant_approach
 
     rows = []
     for M, L in ((20, 10), (58.07, 4.62), (200, 10)):

@@ -7,7 +7,7 @@ from math import pi
 from typing import Protocol
 
 from ehlcontact.errors import InputError
-from ehlcontact.formulas import hamrock_dowson_minimum
+from ehlcontact.film_formulas import hamrock_dowson_minimum
 from ehlcontact.hertz import elliptic_integrals, radius_ratio
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 

@@ -6,7 +6,7 @@ from math import e
 
 from ehlcontact.assumptions.contact import BY_FORMULA, NO_SI, Contact
 from ehlcontact.assumptions.table import Assumption
-from ehlcontact.formulas import flooding_distance, gupta_heating, starved_film, wilson_heating
+from ehlcontact.film_formulas import flooding_distance, gupta_heating, starved_film, wilson_heating
 from ehlcontact.hertz import shape_factor
 from ehlcontact.solver.domain import Domain
 

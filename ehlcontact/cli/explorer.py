@@ -22,13 +22,13 @@ from ehlcontact import __version__
 from ehlcontact.assumptions.film import LEAST_LAMBDA, MIXED_LAMBDA
 from ehlcontact.checks.admissible_range import INPUTS, Quantity
 from ehlcontact.lubricant import MineralOil, oil
-from ehlcontact.lubricant.law import ROELANDS_LOG, ROELANDS_P0
 from ehlcontact.lubricant.oil import GRADES
+from ehlcontact.lubricant.oil_laws import ROELANDS_LOG, ROELANDS_P0
 from ehlcontact.store import load
 from reduced_models import BallBearing
 from reduced_models.atlas import frequency
 from reduced_models.atlas.atlas import SHIPPED
-from reduced_models.atlas.surface import AtlasSurface
+from reduced_models.atlas.interpolation import AtlasSurface
 from reduced_models.atlas.table import AtlasTable
 from reduced_models.bearing import ball_bearing, equilibrium, impedance, race
 from reduced_models.bearing.catalogue import ROWS

@@ -22,7 +22,7 @@ from ehlcontact.cli.toml import toml_value
 from ehlcontact.errors import InputError
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
-from ehlcontact.solver.mesh import Purpose, mesh_for
+from ehlcontact.solver.mesh_choice import Purpose, mesh_for
 from reduced_models.bearing.catalogue import catalogue_row
 
 WIDTH = 115  # characters of a line, as in the files of examples/

@@ -3,12 +3,13 @@
 ======= =======================================================================================
 module  responsibility
 ======= =======================================================================================
-``law`` `Lubricant`; the laws of viscosity and density, dimensionless and compiled
+``oil_laws`` `Lubricant`; the laws of viscosity and density, dimensionless and compiled
 ``oil`` mineral oils by grade and temperature: viscosity, density, their slopes and scatter
 ======= =======================================================================================
 """
 
-from ehlcontact.lubricant.law import (
+from ehlcontact.lubricant.oil import MineralOil
+from ehlcontact.lubricant.oil_laws import (
     DENSITY_LAWS,
     VISCOSITY_LAWS,
     FluidLaw,
@@ -16,7 +17,6 @@ from ehlcontact.lubricant.law import (
     density,
     log_viscosity,
 )
-from ehlcontact.lubricant.oil import MineralOil
 
 __all__ = [
     "DENSITY_LAWS",

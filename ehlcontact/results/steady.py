@@ -14,7 +14,7 @@ from ehlcontact.origin import Origin
 from ehlcontact.quantities import ACROSS, ALONG, FORCE, LENGTH, MOMENT, NUMBER, PRESSURE
 from ehlcontact.results.contact_map import contact_panels
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable
-from ehlcontact.solver.accuracy import ALL, ErrorEstimate
+from ehlcontact.solver.error_estimate import ALL, ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.store import stored
 from ehlcontact.summary import contact_text

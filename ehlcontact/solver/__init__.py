@@ -3,8 +3,8 @@
 ================ ==========================================================================================
 module           responsibility
 ================ ==========================================================================================
-``mesh``         `mesh_for`, `remedy`: region and fineness of a film, and the mesh to try after a failure
-``regime``       conditions on ellipse ratio, inlet width and load; coarsest grid and load of coarse levels
+``mesh_choice``  `mesh_for`, `remedy`: region and fineness of a film, and the mesh to try after a failure
+``grid_rules``   conditions on ellipse ratio, inlet width and load; coarsest grid and load of coarse levels
 ``grid``         `Grid`: intervals, region and engine of the deflection, as a user gives them
 ``domain``       `Domain`: the computed region
 ``memory``       estimate of the memory that a grid takes
@@ -12,10 +12,10 @@ module           responsibility
 ``deflection/``  elastic deflection: fast Fourier transforms, multi-integration, direct sum
 ``kernels/``     compiled kernels: Reynolds residual, derivatives, relaxation, grid transfer
 ``lowest_film``  smallest film between the nodes
-``accuracy``     `ErrorEstimate`: estimated discretisation error of a film
-``estimate``     the solutions on coarser grids that the estimate is made from
+``error_estimate``  `ErrorEstimate`: estimated discretisation error of a film
+``error_grids``  solutions on coarser grids, for the error estimate
 ``balance``      `Balance`: load balance, prescribed approach, or Newmark's step of the motion
-``coarse``       Newton with dense elasticity on the coarsest grid
+``coarse_newton``  Newton with dense elasticity on the coarsest grid
 ``multigrid``    full-approximation-scheme cycle and full multigrid
 ``acceleration`` Anderson acceleration of V cycles
 ``linear``       linearised film: operator, preconditioner, Krylov solution

@@ -1,4 +1,4 @@
-"""The equation that closes a solve: load balance, a prescribed approach, or a step of the motion."""
+"""Equation for the mutual approach: load balance, given approach, or a Newmark step of the equation of motion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Computed region of a film, in Hertz semi-axes: how far the inlet is flooded is a physical input."""
+"""Computed region of a film, in Hertz semi-axes: how far the inlet is flooded. Default regions: `mesh_choice`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from math import exp, log
 
 from ehlcontact.checks import require_finite, require_integer
 from ehlcontact.errors import InputError
-from ehlcontact.formulas import lightness
+from ehlcontact.film_formulas import lightness
 from ehlcontact.point import MoesPoint
 
 MOST_INTERVALS = 2048  # along X: beyond, grids of ten million nodes that no solver here affords

@@ -12,11 +12,11 @@ from ehlcontact.point import MoesPoint
 from ehlcontact.process.threads import CALLING_THREAD, Kernel, team_of
 from ehlcontact.solver.deflection import make_deflection
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.kernels import boundary, flanks, relax, reynolds
+from ehlcontact.solver.grid_rules import LINES_APART, is_long, longer_axis
+from ehlcontact.solver.kernels import cavitation, flanks, relax, reynolds
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS
 from ehlcontact.solver.lowest_film import lowest_film
-from ehlcontact.solver.mesh import Mesh
-from ehlcontact.solver.regime import LINES_APART, is_long, longer_axis
+from ehlcontact.solver.mesh_choice import Mesh
 
 Array = NDArray[np.float64]
 
@@ -180,7 +180,7 @@ class Level:
             self.team.run(relax.apply_lines, lines, colour, f, self.near)
         own = self.near[0, 0]
         given = (f.P, f.H, f.flow, self.rhs, self.law, numbers, self.c_t, own, self.nodes, self.marks)
-        self._run_blocks(boundary.relax_boundary_blocks, *given)
+        self._run_blocks(cavitation.relax_boundary_blocks, *given)
 
     @property
     def squeeze_dominates(self) -> bool:

@@ -29,7 +29,7 @@ from scipy import linalg, sparse
 from scipy.sparse.linalg import LinearOperator, gcrotmk, splu
 
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.coarse import BALANCE_WEIGHT, bordered_lu, coefficients
+from ehlcontact.solver.coarse_newton import BALANCE_WEIGHT, bordered_lu, coefficients
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
 from ehlcontact.solver.kernels.relax import SHARE, response
 from ehlcontact.solver.level import Array, Level

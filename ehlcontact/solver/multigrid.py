@@ -19,11 +19,8 @@ from scipy.interpolate import RectBivariateSpline
 
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.coarse import CoarseNewton
-from ehlcontact.solver.kernels import transfer
-from ehlcontact.solver.level import Array, Level, build_hierarchy
-from ehlcontact.solver.mesh import Mesh
-from ehlcontact.solver.regime import (
+from ehlcontact.solver.coarse_newton import CoarseNewton
+from ehlcontact.solver.grid_rules import (
     LEAST_NESTED,
     LOBE_SHARE,
     coarsest_intervals,
@@ -31,6 +28,9 @@ from ehlcontact.solver.regime import (
     level_is_useful,
     resolved_load,
 )
+from ehlcontact.solver.kernels import transfer
+from ehlcontact.solver.level import Array, Level, build_hierarchy
+from ehlcontact.solver.mesh_choice import Mesh
 
 PRE_SWEEPS, POST_SWEEPS = 2, 1
 REPEATED_LEVELS = 2  # of a long contact: the finest, which alone repeat their sweeps

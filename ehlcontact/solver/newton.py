@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.coarse import step_length
+from ehlcontact.solver.coarse_newton import step_length
 from ehlcontact.solver.linear import LinearFilm, Preconditioner, solve_linear
 from ehlcontact.solver.multigrid import Multigrid
 

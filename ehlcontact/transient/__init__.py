@@ -6,7 +6,7 @@ module           responsibility
 ``bodies``       `Motion`, and bodies under a load, by Newmark's rule
 ``motion``       free vibration, harmonic load, ramp
 ``prescribed``   loads and approaches given by a table
-``surface``      surface features: `Dent`, `TransverseRidge`, `Waviness`
+``features``     surface features: `Dent`, `TransverseRidge`, `Waviness`
 ``roughness``    `Roughness`: rough surfaces, synthetic or measured
 ``film``         `TransientFilm`: one implicit step of the film
 ``record``       record of a run: an entry per step, whole fields at given times

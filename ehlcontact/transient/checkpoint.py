@@ -19,15 +19,15 @@ import numpy as np
 
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
-from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.domain import Domain
+from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.level import Level
 from ehlcontact.store import save, stored
+from ehlcontact.transient.features import Surface, surface_height
 from ehlcontact.transient.film import FilmState
 from ehlcontact.transient.record import COLUMNS, Array, Record
 from ehlcontact.transient.run import Run
 from ehlcontact.transient.settings import RunInputs, even_step
-from ehlcontact.transient.surface import Surface, surface_height
 from ehlcontact.transient.time_step import StepControl
 from ehlcontact.version import __version__
 

@@ -1,4 +1,4 @@
-"""Transient film: implicit second-order steps of Reynolds, film and motion, each solved by multigrid.
+"""Time integration: implicit second-order steps of Reynolds equation, film and equation of motion, by multigrid.
 
 The squeeze term is differenced backwards over two steps (BDF2, variable step); the motion follows Newmark's
 rule with beta = 1/4, gamma = 1/2, evaluated inside the multigrid cycle through its `Balance`.
@@ -15,16 +15,16 @@ from typing import TypeVar
 import numpy as np
 
 from ehlcontact.point import MoesPoint
-from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.coarse import Factors
-from ehlcontact.solver.estimate import estimate_error
+from ehlcontact.solver.coarse_newton import Factors
+from ehlcontact.solver.error_estimate import ErrorEstimate
+from ehlcontact.solver.error_grids import estimate_error
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Array, Level
-from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
-from ehlcontact.transient.surface import SurfaceStep
+from ehlcontact.transient.features import SurfaceStep
 
 Quantity = TypeVar("Quantity", float, Array)
 

@@ -1,4 +1,4 @@
-"""The full EHL contact as a force element: same interface as a reduced element, whole film inside."""
+"""`FullContact`: the transient EHL film as a force element, with the interface of a fitted element."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ehlcontact.results.steady import grid_doubt
 from ehlcontact.results.table import SIView
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
-from ehlcontact.solver.mesh import Purpose, mesh_for, require_room, wider_meshes
+from ehlcontact.solver.mesh_choice import Purpose, mesh_for, require_room, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, contact_text
 from ehlcontact.transient.film import FilmState, Step, TransientFilm

@@ -28,7 +28,7 @@ from ehlcontact.quantities import (
 )
 from ehlcontact.results.steady import film_bars, grid_doubt
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable
-from ehlcontact.solver.accuracy import ErrorEstimate
+from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.store import stored
 from ehlcontact.summary import contact_text, span

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion, MotionState
+from ehlcontact.transient.features import Surface, surface_height, surface_step
 from ehlcontact.transient.film import FilmState, TransientFilm
 from ehlcontact.transient.record import Entry, History
 from ehlcontact.transient.settings import StepPlan
-from ehlcontact.transient.surface import Surface, surface_height, surface_step
 from ehlcontact.transient.time_step import (
     StepControl,
     difference,

@@ -16,11 +16,12 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
-from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for, require_room, wider_meshes
+from ehlcontact.solver.mesh_choice import Mesh, Purpose, mesh_for, require_room, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.store import load
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import Checkpoint, CheckpointError, Keeper, require_replaceable
+from ehlcontact.transient.features import Dent, Surface, require_surface, surface_height
 from ehlcontact.transient.film import TransientFilm
 from ehlcontact.transient.record import History
 from ehlcontact.transient.result import SimulationResult
@@ -35,7 +36,6 @@ from ehlcontact.transient.settings import (
     require_groups,
     snapshot_times,
 )
-from ehlcontact.transient.surface import Dent, Surface, require_surface, surface_height
 from ehlcontact.transient.time_step import StepControl, default_fixed_step
 
 BY_MOTION, HISTORY_ONLY, UNATTENDED = TimeSteps(), KeepSettings(), RunSettings()  # the defaults

@@ -6,7 +6,7 @@
 | answer | `AtlasAnswer`: one contact with error bars; `AtlasAnswers`: many at once |
 | frequency | K and C between the frequencies of the table |
 | table | what it holds: box, points, answers, the numbers of its interpolation; the file |
-| surface | interpolation of the table, and its error bars |
+| interpolation | interpolation of the table, and its error bars |
 | elements | contact elements from answers under one or several loads |
 | build | `build_atlas`: sample, solve what is missing, put together; the numbers of a build |
 | sample | the points of a build |

@@ -29,7 +29,7 @@ from reduced_models.atlas.elements import (
     wide_element,
 )
 from reduced_models.atlas.frequency import Between
-from reduced_models.atlas.surface import AtlasSurface
+from reduced_models.atlas.interpolation import AtlasSurface
 from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Box
 from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
 from reduced_models.elements.memory import FilmMemoryContact

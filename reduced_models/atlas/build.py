@@ -19,9 +19,9 @@ from scipy.optimize import nnls
 from ehlcontact import Domain, MoesPoint, __version__
 from ehlcontact.errors import InputError
 from ehlcontact.executors import require_scheduler
-from ehlcontact.formulas import LIGHT_BLEND, LIGHT_LOAD
+from ehlcontact.film_formulas import LIGHT_BLEND, LIGHT_LOAD
 from ehlcontact.store import save
-from reduced_models.atlas import surface
+from reduced_models.atlas import interpolation
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import FILM, OMEGAS, solve_point
 from reduced_models.atlas.table import AtlasTable, Box, Interpolation, OtherOil
@@ -167,7 +167,7 @@ def assemble(entries: Sequence[Entry], made_by: Mapping[str, Any]) -> AtlasTable
 
 def judged(table: AtlasTable) -> AtlasTable:
     """Table with leave-one-out errors, from which its error bars follow."""
-    left_out, factor = surface.judge(table.points, table.answers, table.interpolation)
+    left_out, factor = interpolation.judge(table.points, table.answers, table.interpolation)
     return replace(table, left_out=left_out, factor=factor)
 
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ehlcontact.formulas import load_number
+from ehlcontact.film_formulas import load_number
 from ehlcontact.point import MoesPoint
 from reduced_models.atlas.table import Box
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_choice
 from ehlcontact.errors import InputError
-from ehlcontact.formulas import moes_pressure
+from ehlcontact.film_formulas import moes_pressure
 from ehlcontact.point import MoesPoint
 from ehlcontact.store import stored
 from reduced_models.elements.film_response import FilterRates

@@ -25,9 +25,9 @@ from ehlcontact import MoesPoint
 from ehlcontact.store import load
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.build import gain_equations, smooth_gains
+from reduced_models.atlas.interpolation import LOBE, coordinates, films, left_out_errors, to_smooth
 from reduced_models.atlas.mesh import impedance_grid
 from reduced_models.atlas.solve import respond
-from reduced_models.atlas.surface import LOBE, coordinates, films, left_out_errors, to_smooth
 from reduced_models.atlas.table import HEAD, AtlasTable
 from reduced_models.elements.film_response import FilterRates
 

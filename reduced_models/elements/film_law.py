@@ -1,10 +1,10 @@
-"""Film law of the elements with memory, compiled: a dry Hertz spring on an oil film that lags behind the motion.
+"""Contact force of the film-memory elements: a dry Hertz spring on an oil film that lags behind the motion.
 
     F = (g(u) + m)_+^(3/2),    g = F_s(u)^(2/3) = u + h_s
 
 F_s is the static force, h_s its film, and m the film that motion has added or taken. The film has to cross a
-contact that grows with the load, so all filters run in the contact's own time sigma, d sigma = dT/theta with
-theta = F_s^(1/3). With the own rate i = du/d sigma:
+contact that grows with the load, so all filters run in a time sigma scaled by the size of the contact,
+d sigma = dT/theta with theta = F_s^(1/3). With the rate i = du/d sigma in that time:
 
     inlet   s' = p_i (i - s)
     fast    y' = p_f (i - y)

@@ -31,7 +31,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
-from ehlcontact.solver.mesh import Mesh, require_room
+from ehlcontact.solver.mesh_choice import Mesh, require_room
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.steady import APPROACH_TOLERANCE, LARGEST_RESIDUAL, LOAD_TOLERANCE, MAX_CYCLES

@@ -17,10 +17,10 @@ from row_file import Row, RowFile, Task, measure_missing
 from time_to_accuracy import WAYS, measure
 
 from ehlcontact import Grid, MoesPoint
-from ehlcontact.solver.mesh import Purpose, mesh_for
+from ehlcontact.solver.mesh_choice import Purpose, mesh_for
 
 GRIDS = (128, 256, 512, 1024, 2048)
-RESOLVED = 0.6  # mesh over inlet width up to which a film is resolved, as in `ehlcontact.solver.mesh`
+RESOLVED = 0.6  # mesh over inlet width up to which a film is resolved, as in `ehlcontact.solver.mesh_choice`
 MOST_CYCLES, MOST_STEPS, LARGEST_FACTOR = 12, 8, 0.3  # asked for: per V(2,1) cycle worth of relaxation
 LARGEST_GAP = 1e-9  # of P, between the solutions of cycles and of Newton steps
 # Eight that were asked for, and sixteen chosen one after the other as far as possible from all before, in ln M, L

@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 from time_to_accuracy import MOST, Errors, Middle, State
 
 from ehlcontact import Dent, Domain, Grid, MoesPoint, PrescribedLoad, Roughness
-from ehlcontact.solver.mesh import Purpose, mesh_for
-from ehlcontact.transient.surface import Surface
+from ehlcontact.solver.mesh_choice import Purpose, mesh_for
+from ehlcontact.transient.features import Surface
 
 NEAR = Domain(-2.5, 1.5, 2.0)
 MOURIER, ROUGH = MoesPoint(63.7817, 5.78819, 1.0), MoesPoint(200.0, 10.0, 1.0)

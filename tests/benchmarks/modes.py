@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.solver.deflection.coefficients import influence_coefficients
+from ehlcontact.solver.grid_rules import LINES_APART
 from ehlcontact.solver.kernels import relax
-from ehlcontact.solver.regime import LINES_APART
 
 WAVES = 32  # angles over the circle
 LAGS = 64  # of the film beyond which a window ends it: longer waves than any that is judged

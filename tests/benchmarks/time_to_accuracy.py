@@ -25,15 +25,15 @@ from ehlcontact import FreeVibration, Grid, HarmonicLoad, MoesPoint, solve_stead
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.iterate import LARGEST_SWEEP_FACTOR, falls_slowly
-from ehlcontact.solver.mesh import Mesh, Purpose, allows_newton, mesh_for
+from ehlcontact.solver.mesh_choice import Mesh, Purpose, allows_newton, mesh_for
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.transient import film as film_module
 from ehlcontact.transient.bodies import Motion
+from ehlcontact.transient.features import Surface
 from ehlcontact.transient.film import TransientFilm
 from ehlcontact.transient.record import History
 from ehlcontact.transient.run import Run, march_fixed
-from ehlcontact.transient.surface import Surface
 
 Advance = Callable[[], None]
 Row = dict[str, Any]

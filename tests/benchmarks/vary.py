@@ -1,6 +1,6 @@
 """Half and double of a constant of the solver: what they change in films, impedance and a free vibration.
 
-    python tests/benchmarks/vary.py ehlcontact.solver.mesh:FINEST ehlcontact.solver.iterate:SLOW
+    python tests/benchmarks/vary.py ehlcontact.solver.mesh_choice:FINEST ehlcontact.solver.iterate:SLOW
 
 Each value runs in a fresh process with kernels compiled anew, so that copies in other modules change too. A row
 gives the largest relative change of each group of results and the time over that of the unchanged constant.

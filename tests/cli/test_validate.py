@@ -9,7 +9,7 @@ import pytest
 from ehlcontact.cli.study.forecast import forecast
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import STAGES
-from ehlcontact.solver.mesh import Purpose, mesh_for
+from ehlcontact.solver.mesh_choice import Purpose, mesh_for
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SMALL = EXAMPLES / "small_study.toml"

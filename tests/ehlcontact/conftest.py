@@ -5,7 +5,7 @@ import pytest
 
 from ehlcontact import Domain, MoesPoint
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.coarse import CoarseNewton
+from ehlcontact.solver.coarse_newton import CoarseNewton
 from ehlcontact.solver.level import Level
 
 

@@ -6,7 +6,7 @@ import oracles
 import pytest
 
 from ehlcontact import InputError
-from ehlcontact.formulas import nvm_central_film, wijnant_approach
+from ehlcontact.film_formulas import nvm_central_film, wijnant_approach
 from ehlcontact.hertz import ellipse_ratio, elliptic_integrals, hertz_contact, radius_ratio, shape_factor
 
 KAPPAS = [0.02, 0.08, 0.107, 0.5, 0.9, 0.9995, 1.0, 1.0004, 1.7, 12.0]

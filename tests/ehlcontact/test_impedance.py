@@ -8,7 +8,7 @@ import pytest
 from ehlcontact import Domain, Grid, InputError, MoesPoint
 from ehlcontact.impedance import LinearisedContact, impedance
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
-from ehlcontact.solver.mesh import NEAR_DOMAIN, Mesh, Purpose, mesh_for
+from ehlcontact.solver.mesh_choice import NEAR_DOMAIN, Mesh, Purpose, mesh_for
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.steady import solve_steady
 from ehlcontact.transient.full_contact import FullContact

@@ -19,7 +19,7 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.formulas import nvm_central_film, wijnant_approach
+from ehlcontact.film_formulas import nvm_central_film, wijnant_approach
 from reduced_models import ContactRecord, fit
 
 pytestmark = pytest.mark.literature

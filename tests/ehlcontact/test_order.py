@@ -19,7 +19,7 @@ from ehlcontact import (
     solve_steady,
 )
 from ehlcontact.solver.level import Level
-from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import Mesh
 from ehlcontact.transient.film import TransientFilm
 from ehlcontact.transient.record import History
 from ehlcontact.transient.run import Run

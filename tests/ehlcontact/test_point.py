@@ -7,7 +7,7 @@ import oracles
 import pytest
 
 from ehlcontact import Geometry, InputError, Lubricant, MoesPoint, OperatingPoint
-from ehlcontact.formulas import nvm_central_film
+from ehlcontact.film_formulas import nvm_central_film
 from ehlcontact.hertz import elliptic_integrals, most_loaded_ball, shape_factor
 from ehlcontact.lubricant import density, log_viscosity
 from ehlcontact.point import moes_point, scales_of

@@ -20,10 +20,10 @@ from ehlcontact import (
 )
 from ehlcontact import steady as steady_module
 from ehlcontact.hertz import shape_factor
-from ehlcontact.solver import mesh
+from ehlcontact.solver import mesh_choice as mesh
+from ehlcontact.solver.grid_rules import coarsest_intervals
 from ehlcontact.solver.level import build_hierarchy
-from ehlcontact.solver.mesh import Mesh
-from ehlcontact.solver.regime import coarsest_intervals
+from ehlcontact.solver.mesh_choice import Mesh
 
 POINT = MoesPoint(200, 10, 0.5)
 CASES = [(200, 10, 0.5), (20, 10, 1.0), (500, 15, 0.12)]

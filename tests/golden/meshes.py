@@ -5,8 +5,8 @@ from math import exp, log
 import numpy as np
 
 from ehlcontact import Domain, Grid, InputError, MoesPoint, Status
-from ehlcontact.solver.mesh import Mesh, Purpose, allows_newton, mesh_for, remedy
-from ehlcontact.solver.regime import coarsest_intervals, resolved_load
+from ehlcontact.solver.grid_rules import coarsest_intervals, resolved_load
+from ehlcontact.solver.mesh_choice import Mesh, Purpose, allows_newton, mesh_for, remedy
 from reduced_models.atlas.mesh import film_grid, impedance_grid, near_grid
 
 PICKED = [

@@ -81,7 +81,7 @@ def run(
 def _require_room(study: Study, path: Path) -> None:
     """Raise `InputError` for a grid of the study that would not fit into memory."""
     from ehlcontact.solver.memory import Solve
-    from ehlcontact.solver.mesh import Mesh, require_room
+    from ehlcontact.solver.mesh_choice import Mesh, require_room
 
     for name, solve in (("n", Solve.CYCLES), ("n_transient", Solve.IMPEDANCE)):
         try:

@@ -14,7 +14,7 @@ from ehlcontact.cli.paper import pictures as p
 from ehlcontact.cli.paper.data import FIRST_VALLEY, paper_films, paper_fits
 from ehlcontact.cli.paper.fits import Fits
 from ehlcontact.cli.paper.runs import CASES, FREE, HARMONIC
-from ehlcontact.formulas import wijnant_approach
+from ehlcontact.film_formulas import wijnant_approach
 
 Numbers = Callable[[Fits], dict[str, Any]]
 OUTSIDE = (0.5, 1.0, 1.5, 2.5)  # approaches at which springs are compared in numbers

@@ -30,7 +30,7 @@ from ehlcontact.cli.plots.style import (
 )
 from ehlcontact.cli.plots.units import units_of
 from ehlcontact.film import Interferogram, film_of
-from ehlcontact.formulas import wijnant_approach
+from ehlcontact.film_formulas import wijnant_approach
 from ehlcontact.point import moes_point
 from reduced_models import FitResult
 

@@ -17,14 +17,14 @@ from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import Stage, stages_of
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
-from ehlcontact.solver.mesh import FINENESS, LARGEST_MESH, Mesh, Purpose, mesh_for
+from ehlcontact.solver.mesh_choice import FINENESS, LARGEST_MESH, Mesh, Purpose, mesh_for
 
 CONV = 2.3e-3  # seconds of one when those studies were run
 REST = 10.0 / CONV  # fits, impedance, FMU, reduced rotors and report, of either study
 # Convolutions of the rotor on whole bearings, with films and dry: its diagram, and each of its steps.
 WHOLE, WHOLE_STEP = 470.0, 0.016
 REFERENCE_RUNS = 15  # convolutions timed, of which the fastest counts
-# What too coarse a mesh does, measured against finer grids: the 6205 at n = 64, and solver/mesh.py.
+# What too coarse a mesh does, measured against finer grids: the 6205 at n = 64, and solver/mesh_choice.py.
 FILM_TOO_THIN = "it comes out a fifth too thin, or negative"
 DAMPING_OFF = "damping is 12 to 16 % off at 0.6 of that, a few at a third"
 

@@ -7,7 +7,7 @@ module        responsibility
 ``linearise`` its derivatives; the dense Jacobian
 ``relax``     hybrid line relaxation of the whole level
 ``flanks``    line relaxation along the steep flanks of the pressure
-``boundary``  passes along the cavitation boundary
+``cavitation``  passes along the cavitation boundary
 ``transfer``  from grid to grid
 ``mlmi``      the direct sum of the deflection, and one coarsening of multi-integration
 ============= ============================================================================================

@@ -1,10 +1,9 @@
-"""Local line relaxation along the steep flanks of the pressure.
+"""Extra line relaxation where the flow factor jumps between neighbouring nodes, at the edge of the Hertz zone.
 
-On the way out of the contact the flow factor falls by orders of magnitude within one cell: what relaxation solves
-for changes from plain to distributed changes there, and how far the flank has come is settled node by node.
-Everywhere else two or three sweeps suffice between corrections from coarser grids. So the few nodes along that
-front, some per cent of all, are relaxed several times after the sweeps: segments of lines, in two colours, with
-the near film of what has changed.
+The flow factor eps changes there by orders of magnitude within one node spacing, relaxation switches from plain
+to distributed changes of the pressure, and the edge moves by one node per sweep. Everywhere else two or three
+sweeps suffice between corrections from coarser grids. So the few nodes along that edge, some per cent of all, are
+relaxed several times after the sweeps: segments of lines in two colours, with the elastic deflection near them.
 """
 
 import numpy as np

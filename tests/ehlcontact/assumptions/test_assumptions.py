@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from ehlcontact import Domain, Grid, InputError, Lubricant, MoesPoint, OperatingPoint, assumptions, solve_steady
 from ehlcontact.assumptions.contact import Contact
-from ehlcontact.formulas import (
+from ehlcontact.film_formulas import (
     flooding_distance,
     gupta_heating,
     starved_film,

@@ -189,7 +189,7 @@ def test_pressure_viscosity_of_a_measured_oil(t):
     measured = Fva3(t)
     secant = oils.GOLD_S * measured.nu**oils.GOLD_T
     assert -0.105 < secant / measured.alpha(2000.0) - 1.0 < -0.02
-    from ehlcontact.lubricant.law import alpha_through
+    from ehlcontact.lubricant.oil_laws import alpha_through
 
     slope = alpha_through(secant, measured.eta0, "roelands")
     assert slope == pytest.approx(measured.alpha(0.0), rel=0.03)  # Roelands' curve makes up for the secant

@@ -18,7 +18,7 @@ from ehlcontact import (
 )
 from ehlcontact.process.blas import blas_threads, one_blas_thread
 from ehlcontact.process.threads import threads_allowed
-from ehlcontact.solver import coarse
+from ehlcontact.solver import coarse_newton
 
 POINT = MoesPoint(200, 10, 0.5)
 
@@ -89,13 +89,13 @@ CALLS = {
 @pytest.mark.parametrize("call", CALLS)
 def test_every_solve(call, monkeypatch):
     """Wherever a dense matrix is factorised."""
-    seen, factors = [], coarse.linalg.lu_factor
+    seen, factors = [], coarse_newton.linalg.lu_factor
 
     def watched(*args, **kwargs):
         seen.extend(limits())
         return factors(*args, **kwargs)
 
-    monkeypatch.setattr(coarse.linalg, "lu_factor", watched)
+    monkeypatch.setattr(coarse_newton.linalg, "lu_factor", watched)
     CALLS[call]()
     assert set(seen) == {1}
 

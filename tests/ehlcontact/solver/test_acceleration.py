@@ -9,7 +9,7 @@ from ehlcontact import MoesPoint
 from ehlcontact.solver.acceleration import REMEMBERED, SLOW_FACTOR, AcceleratedCycles
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 
 LOAD = Balance.of_load()

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from ehlcontact import Domain, Grid, MoesPoint, Status, load, save, solve_steady
-from ehlcontact.solver.accuracy import ALL, ErrorEstimate, regular_error
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.estimate import estimate_error
-from ehlcontact.solver.mesh import ACCURACY, Mesh, Purpose, mesh_for, remedy
+from ehlcontact.solver.error_estimate import ALL, ErrorEstimate, regular_error
+from ehlcontact.solver.error_grids import estimate_error
+from ehlcontact.solver.mesh_choice import ACCURACY, Mesh, Purpose, mesh_for, remedy
 from ehlcontact.solver.multigrid import Multigrid
 
 NUMBERS = ("approach", "h_central", "h_min")

@@ -13,7 +13,7 @@ from ehlcontact.solver.iterate import (
     iterate,
     pressure_error,
 )
-from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 
 NAN, INF = float("nan"), float("inf")

@@ -8,10 +8,10 @@ import pytest
 
 from ehlcontact import Domain, MoesPoint
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.coarse import CoarseNewton
+from ehlcontact.solver.coarse_newton import CoarseNewton
 from ehlcontact.solver.kernels import transfer
 from ehlcontact.solver.level import Level, build_hierarchy
-from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import Mesh
 from ehlcontact.solver.multigrid import initial_approach
 
 

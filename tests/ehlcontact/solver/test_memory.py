@@ -20,7 +20,7 @@ from ehlcontact import (
 from ehlcontact.solver import memory
 from ehlcontact.solver.level import build_hierarchy
 from ehlcontact.solver.memory import Solve, fits, needed_bytes, require_memory
-from ehlcontact.solver.mesh import Mesh, Purpose, allows_newton, remedy
+from ehlcontact.solver.mesh_choice import Mesh, Purpose, allows_newton, remedy
 from ehlcontact.status import Status
 
 POINT = MoesPoint(200, 10, 0.5)

@@ -21,13 +21,13 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.formulas import LIGHT_BLEND, LIGHT_LOAD
+from ehlcontact.film_formulas import LIGHT_BLEND, LIGHT_LOAD
 from ehlcontact.solver import domain as d
-from ehlcontact.solver import mesh as m
-from ehlcontact.solver import regime
-from ehlcontact.solver.accuracy import ErrorEstimate
+from ehlcontact.solver import grid_rules
+from ehlcontact.solver import mesh_choice as m
 from ehlcontact.solver.domain import check_intervals
-from ehlcontact.solver.mesh import Mesh, Purpose, mesh_for
+from ehlcontact.solver.error_estimate import ErrorEstimate
+from ehlcontact.solver.mesh_choice import Mesh, Purpose, mesh_for
 
 
 def test_default_is_the_documented_region():
@@ -77,15 +77,15 @@ def test_all_counts_are_allowed_and_have_hierarchies(counts):
 def test_steady_mesh_resolves_the_inlet_or_is_the_finest(M, L, kappa):
     point, rule = MoesPoint(M, L, kappa), m.FINENESS[Purpose.FILM]
     mesh = mesh_for(point, Purpose.FILM)
-    share = m.MESH_OF_THIN_SIDES if regime.has_thin_sides(point) else rule.share
+    share = m.MESH_OF_THIN_SIDES if grid_rules.has_thin_sides(point) else rule.share
     wanted = min(share * point.inlet_width, m.LARGEST_MESH)
     finer = Mesh(2 * mesh.n, mesh.domain).nodes(kappa)
     assert mesh.size(kappa) <= wanted or finer > rule.largest
     assert mesh.nodes(kappa) <= rule.largest
-    if kappa <= regime.SIDE_LOBES:
+    if kappa <= grid_rules.SIDE_LOBES:
         assert mesh.n == 128 or 2.0 * mesh.size(kappa) > wanted  # no finer than needed
     else:
-        fine = (m.FINE_THIN_SIDES if regime.has_thin_sides(point) else m.FINE_SIDES) * point.inlet_width
+        fine = (m.FINE_THIN_SIDES if grid_rules.has_thin_sides(point) else m.FINE_SIDES) * point.inlet_width
         assert mesh.size(kappa) <= fine or finer > m.AFFORDABLE_GRID
 
 
@@ -93,8 +93,8 @@ def test_region_closes_in_on_thin_films():
     assert mesh_for(MoesPoint(2900, 19, 0.11), Purpose.FILM).domain == Domain()
     near = mesh_for(MoesPoint(30000, 0, 0.3), Purpose.FILM)
     assert near.domain == m.NEAR_DOMAIN == Domain.near()
-    assert not regime.has_thin_sides(MoesPoint(200, 10, 3.0))
-    assert regime.has_thin_sides(MoesPoint(7333, 2.6, 3.0))
+    assert not grid_rules.has_thin_sides(MoesPoint(200, 10, 3.0))
+    assert grid_rules.has_thin_sides(MoesPoint(7333, 2.6, 3.0))
     assert mesh_for(MoesPoint(7333, 2.6, 3.0), Purpose.FILM).domain == m.NEAREST_DOMAIN
 
 
@@ -352,7 +352,7 @@ def test_the_page_of_notation_has_the_numbers_of_the_code():
     for said in (
         f"of {m.FINENESS[Purpose.FILM].share:g} of it at first",
         f"{m.FINE_SIDES:g} or {m.FINE_THIN_SIDES:g} where side lobes are thinner",
-        f"kappa above {regime.SIDE_LOBES:g}; {m.MESH_OF_THIN_SIDES:g} of very",
+        f"kappa above {grid_rules.SIDE_LOBES:g}; {m.MESH_OF_THIN_SIDES:g} of very",
         f"{m.LARGEST_MESH:g} semi-axes at most",
         f"above {limits.approach:g} dry approaches, {100 * limits.h_central:g} % of the central or "
         f"{100 * limits.h_min:g} % of the smallest film",

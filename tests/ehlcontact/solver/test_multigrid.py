@@ -5,11 +5,11 @@ import pytest
 
 from ehlcontact import Domain, Grid, MoesPoint, Status, solve_steady, steady
 from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.grid_rules import coarsest_intervals
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Level
-from ehlcontact.solver.mesh import NEAREST_DOMAIN, Mesh, is_last
+from ehlcontact.solver.mesh_choice import NEAREST_DOMAIN, Mesh, is_last
 from ehlcontact.solver.multigrid import CONTINUATION_LOADING, Multigrid, initial_approach
-from ehlcontact.solver.regime import coarsest_intervals
 
 LOAD = Balance.of_load()
 

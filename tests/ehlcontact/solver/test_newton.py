@@ -19,7 +19,7 @@ from ehlcontact.solver.linear import (
     solve_linear,
     stencil_matrix,
 )
-from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.status import Status

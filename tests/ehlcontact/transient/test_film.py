@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import FreeVibration, Grid, HarmonicLoad, MoesPoint
-from ehlcontact.solver.mesh import Purpose, mesh_for
+from ehlcontact.solver.mesh_choice import Purpose, mesh_for
 from ehlcontact.transient.film import TransientFilm, extrapolate
 from ehlcontact.transient.record import History
 from ehlcontact.transient.run import Run, march_fixed

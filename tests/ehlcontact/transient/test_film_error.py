@@ -22,9 +22,9 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.mesh import Purpose, mesh_for
+from ehlcontact.solver.error_estimate import ErrorEstimate
+from ehlcontact.solver.mesh_choice import Purpose, mesh_for
 from ehlcontact.status import Status
 from ehlcontact.transient.film import TransientFilm
 

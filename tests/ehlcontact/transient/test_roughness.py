@@ -19,7 +19,7 @@ from ehlcontact import (
     Roughness,
     simulate,
 )
-from ehlcontact.transient.surface import surface_step
+from ehlcontact.transient.features import surface_step
 
 POINT = MoesPoint(200.0, 10.0, 1.0)
 NEAR = Domain(-2.5, 1.5, 2.0)

@@ -24,7 +24,7 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.transient.surface import surface_height, surface_step
+from ehlcontact.transient.features import surface_height, surface_step
 
 X, Y = np.linspace(-2.0, 1.0, 31), np.linspace(0.0, 1.0, 5)
 

@@ -27,8 +27,8 @@ from ehlcontact import (
     simulate,
 )
 from ehlcontact.transient.bodies import LONGEST_ABRUPT, LONGEST_SMOOTH
+from ehlcontact.transient.features import require_surface
 from ehlcontact.transient.settings import StepPlan
-from ehlcontact.transient.surface import require_surface
 from ehlcontact.transient.time_step import (
     DEFAULT_TOL,
     FEWEST_STEPS,

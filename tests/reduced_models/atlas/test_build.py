@@ -14,7 +14,7 @@ import pytest
 
 from ehlcontact import Domain, InputError, MoesPoint
 from ehlcontact.content_store import ContentStore
-from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import Mesh
 from ehlcontact.store import load, save
 from reduced_models.atlas.build import BOX, RATES, assemble, build_atlas, smooth_gains
 from reduced_models.atlas.mesh import GRIDS, LIGHT_INTERVALS, impedance_grid

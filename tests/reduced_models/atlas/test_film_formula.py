@@ -6,7 +6,7 @@ from scipy.stats import qmc
 
 from ehlcontact import Grid, InputError, Lubricant, MoesPoint, OperatingPoint, assumptions, impedance, solve_steady
 from ehlcontact.assumptions.film import FORMULA_SCATTER
-from ehlcontact.formulas import film_to_moes, hamrock_dowson_minimum
+from ehlcontact.film_formulas import film_to_moes, hamrock_dowson_minimum
 from reduced_models import Atlas
 
 ATLAS = Atlas()

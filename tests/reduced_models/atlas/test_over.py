@@ -11,8 +11,8 @@ from ehlcontact.store import save
 from reduced_models import Atlas
 from reduced_models.atlas.atlas import NUMBERS
 from reduced_models.atlas.build import assemble
+from reduced_models.atlas.interpolation import BLOCK
 from reduced_models.atlas.sample import sample_points
-from reduced_models.atlas.surface import BLOCK
 
 MANY = BLOCK + 44
 NAMES = (*NUMBERS, "stiffness", "damping")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from reduced_models.atlas.build import INTERPOLATION
-from reduced_models.atlas.surface import films, from_smooth, to_smooth
+from reduced_models.atlas.interpolation import films, from_smooth, to_smooth
 
 POINTS = np.array([[200.0, 10.0, 0.5], [12.0, 4.0, 0.3], [2900.0, 19.0, 0.11]])
 FILMS = films(POINTS)

@@ -1,4 +1,4 @@
-// The atlas: reduced_models.atlas.surface and .frequency. Points are { M, L, kappa, alpha, eta0 }, dimensionless.
+// The atlas: reduced_models.atlas.interpolation and .frequency. Points are { M, L, kappa, alpha, eta0 }, dimensionless.
 
 const LOBE = 2, LOW = 3, HEAD = 5; // of a row of answers: ln(Hm/Hc), low-frequency C; then K and C over frequency
 const { SPLINE_SHARE } = DATA.rules;

@@ -1,4 +1,4 @@
-// Dry contacts, and published films: ehlcontact.hertz and ehlcontact.formulas, under the same names.
+// Dry contacts, and published films: ehlcontact.hertz and ehlcontact.film_formulas, under the same names.
 
 // K and E of the parameter 1 - kappa^2, by the arithmetic-geometric mean.
 function ellipticIntegrals(kappa) {

@@ -14,11 +14,10 @@ from math import log2
 from typing import NamedTuple
 
 from ehlcontact.point import MoesPoint
-from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.domain import MOST_INTERVALS, Domain
+from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.grid import AUTOMATIC, Grid
-from ehlcontact.solver.memory import Solve, fits, require_memory
-from ehlcontact.solver.regime import (
+from ehlcontact.solver.grid_rules import (
     has_side_lobes,
     has_spike,
     has_thin_inlet,
@@ -28,6 +27,7 @@ from ehlcontact.solver.regime import (
     longer_axis,
     x_coarsenings,
 )
+from ehlcontact.solver.memory import Solve, fits, require_memory
 from ehlcontact.status import Status
 
 

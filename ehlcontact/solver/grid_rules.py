@@ -1,4 +1,4 @@
-"""Regime of a contact: what ellipse ratio, inlet width and load decide in the solver.
+"""Limits of ellipse ratio, inlet width, M and L for grid size, coarse levels and the load that they carry.
 
 `kappa` = a/b is the Hertz semi-axis along rolling over that across (not the viscosity ratio of ISO 281). A wide
 contact (kappa < 1, ball bearings) has the inlet as its narrowest feature. In a long one (kappa > 1) oil leaks out

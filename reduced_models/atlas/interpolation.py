@@ -1,4 +1,4 @@
-"""Interpolation over the atlas: smooth variables, radial basis functions, and the error bar.
+"""Interpolation of the atlas over M, L and kappa: radial basis functions on logarithms of its answers, error bars.
 
 What is interpolated, per point: ln of 1 - u, of Hc, of C at the lowest frequency > 0 and of the moment, each over
 a published central film; ln(Hm/Hc); ln K at each frequency; asinh of every C over a small share of that one (C may
@@ -6,7 +6,7 @@ touch 0).
 
 As coordinates serve Wijnant's load number N, which separates rigid from elastic films, L^(2/3), kappa; how far N
 lies below a light load, where the default domain grows with it (`formulas.lightness` is the rule of both); and the
-published film. Three would do, but answers bend more sharply in them than in all five. Hm/Hc follows the side
+published film. Three would do, but answers curve more sharply in them than in all five. Hm/Hc follows the side
 lobes and bends elsewhere than the others: it has weights of its own, of the first four.
 
 Every number of it is one of the atlas's `Interpolation`.
@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
-from ehlcontact.formulas import expected_film, lightness
+from ehlcontact.film_formulas import expected_film, lightness
 from ehlcontact.hertz import radius_ratio
 from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Interpolation
 

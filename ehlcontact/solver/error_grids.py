@@ -6,8 +6,8 @@ so two cycles are enough.
 
 from __future__ import annotations
 
-from ehlcontact.solver.accuracy import ErrorEstimate
 from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.kernels import transfer
 from ehlcontact.solver.level import Level
 from ehlcontact.solver.multigrid import Multigrid

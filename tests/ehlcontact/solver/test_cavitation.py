@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import MoesPoint
-from ehlcontact.solver.kernels import boundary
+from ehlcontact.solver.kernels import cavitation as boundary
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
 from ehlcontact.solver.kernels.reynolds import operator_at, residual
 
