@@ -21,6 +21,7 @@ from reduced_models.elements.film_filters import (
     CHAIN,
     DIRECT,
     FAST,
+    FEW,
     INLET,
     chain_moments,
     lag_moments,
@@ -56,7 +57,7 @@ def prepare_filters(law, transit, speed_row, dt, films, c):
     work[c, HUMP] = -(s_a - inlet) / (p * span) - 0.5 * (inlet + s_a)
     work[c, HUMP + 1], work[c, HUMP + 2] = -s_e * both, 1.0 / span - s_t * both
     mu, lags = law.lag_rate * span, law.gains.shape[2] - DIRECT
-    poisson_shares(mu, lags + 2, poisson, share)
+    poisson_shares(mu, lags + 2, FEW, poisson, share)
     per_mu = 1.0 / mu
     for j in range(lags):
         r0, r1, r2 = chain_moments(j + 1, per_mu, share)
@@ -69,7 +70,7 @@ def prepare_filters(law, transit, speed_row, dt, films, c):
 @jit_exact_node
 def _lag(old, start, rate, span):
     """One lag at the end of a step that travels t at an own rate from `start` to e: its sums of 1, e and t."""
-    kept, r0, r1, r2 = lag_moments(rate * span)
+    kept, r0, r1, r2 = lag_moments(rate * span, FEW)
     hump = r1 - r2
     return old * kept + start * (r1 - 3.0 * hump), r0 - r1 - 3.0 * hump, 6.0 * hump / span
 

@@ -17,7 +17,7 @@ from ehlcontact.jit import jit_exact_node
 
 INLET, FAST, CHAIN = range(3, 6)  # entries of a state of a step, behind three of its own; the chain is the rest
 DIRECT = 3  # gains before those of the chain: viscous, inlet, fast
-FEW, TERMS = 0.5, 16  # mean of Poisson's law below which shares are summed, and how many terms are enough then
+FEW = 0.5  # mean of Poisson's law below which shares have to be summed: at it, differences lose two digits
 
 
 @jit_exact_node
@@ -29,14 +29,15 @@ def film_entering(s, saturation):
 
 
 @jit_exact_node
-def lag_moments(mu):
-    """Share of its state that one lag keeps over a step, and its moments r_0, r_1, r_2."""
+def lag_moments(mu, few):
+    """Share of its state that one lag keeps over a step, and its moments r_0, r_1, r_2; below `few` by a sum."""
     kept = exp(-mu)
-    if mu < FEW:  # as sums, or small differences would drown in rounding
-        term, third = kept * mu * mu * mu / 6.0, 0.0
-        for k in range(4, TERMS):
+    if mu < few:  # or small differences would drown in rounding
+        term, third, k = kept * mu * mu * mu / 6.0, 0.0, 4
+        while term > 1e-17 * third:
             third += term
             term *= mu / k
+            k += 1
         second = third + 0.5 * kept * mu * mu
         r0 = second + kept * mu
     else:
@@ -47,14 +48,17 @@ def lag_moments(mu):
 
 
 @jit_exact_node
-def poisson_shares(mu, n, poisson, share):
-    """Fill Poisson's weights of mean `mu`, and the share of what entered that k lags have passed on, to k = n."""
+def poisson_shares(mu, n, few, poisson, share):
+    """Fill Poisson's weights of mean `mu`, and the share of what entered that k lags have passed on, to k = n.
+
+    Below `few` shares are summed from the far end: each has full relative accuracy then, at twice the time.
+    """
     weight, passed = exp(-mu), 1.0
     for k in range(n + 1):
         poisson[k], share[k] = weight, passed
         passed -= weight
         weight *= mu / (k + 1)
-    if mu < FEW:  # from the far end, or shares that are divided by mu would drown in rounding
+    if mu < few:  # or shares that are divided by mu would drown in rounding
         passed, k = 0.0, n
         while weight > 1e-17 * passed:
             passed += weight

@@ -127,7 +127,7 @@ def static(u, law):
 def _one_lag(old, start, end, bump, rate, span):
     """Jet of one lag at the end of a step; end, bump and span are jets."""
     mu = rate * span.x
-    kept, r0, r1, r2 = lag_moments(mu)
+    kept, r0, r1, r2 = lag_moments(mu, 3.0)
     d1, d2 = (kept * mu - r1) / mu, (kept * mu - 2.0 * r2) / mu
     value = old * kept + start * r1 + end.x * (r0 - r1) + 6.0 * bump.x * (r1 - r2)
     slope = -old * kept + start * d1 + end.x * (kept - d1) + 6.0 * bump.x * (d1 - d2)
@@ -200,7 +200,7 @@ def film_step(law, old, new, dt, u, v):
     m = plus(m, _weighed(2, y, law, between, x_u))
     mu = through(law.lag_rate * span.x, law.lag_rate, span)
     per_mu, poisson, share, held = 1.0 / mu.x, np.empty(lags + 3), np.empty(lags + 3), np.zeros(lags + 1)
-    poisson_shares(mu.x, lags + 2, poisson, share)
+    poisson_shares(mu.x, lags + 2, lags + 2.0, poisson, share)
     pass_on(old[CHAIN:], poisson, held[1:])
     for j in range(1, lags + 1):
         r0, r1, r2 = chain_moments(j, per_mu, share)

@@ -80,7 +80,7 @@ def solve(M: float, L: float, kappa: float) -> Row:
         "h_central": result.h_central,
         "h_min": result.h_min,
         "residual": result.residual,
-        "error": result.to_dict()["error"],
+        "error_estimate": result.to_dict()["error_estimate"],
         "seconds": result.seconds,
     }
 
@@ -91,7 +91,7 @@ def solve_finer(row: Row) -> Row:
     lines = 2 ** round(-log2(row["apart"])) if row["apart"] < CLOSE else 1  # the number of lines was rounded up
     mesh = Mesh(2 * row["n"], domain, lines)
     found: Row = {"of": row["key"], "M": row["M"], "L": row["L"], "kappa": row["kappa"], "n": mesh.n}
-    found["estimate"] = row["error"]["h_min"]
+    found["estimate"] = row["error_estimate"]["h_min"]
     if not mesh.nodes(point.kappa) <= LARGEST_GRID:
         return found | {"status": "not solved: the grid has too many nodes", "move": None}
     try:

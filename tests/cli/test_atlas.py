@@ -36,7 +36,7 @@ def test_element_is_printed_saved_and_written(call, tmp_path, model):
         ((*POINT, "--save", "e.txt"), ("--save", ".json")),
         ((*POINT, "--atlas", "nowhere.h5"), ("nowhere.h5",)),
         (("--M", "6", "--L", "19", "--kappa", "0.11", "--model", "cubic", "--Omega", "1"), ("cubic", "wide")),
-        ((*POINT, "--model", "cubic"), ("--Omega", "given with --model cubic")),
+        ((*POINT, "--model", "cubic"), ("--Omega", "must be given")),
         ((*POINT, "--model", "wide", "--Omega", "1"), ("Omega", "left out", "wide")),
     ],
 )

@@ -5,10 +5,6 @@
 
 #include "film_inverse.h"
 
-/* Mean of Poisson's law below which shares are summed, and how many terms are enough then. */
-static const double few = 0.5;
-enum { TERMS = 16 };
-
 double film_entering(double s, double *slope)
 {
     const double b = INLET_SATURATION * s, d = 1.0 + fabs(b);
@@ -21,10 +17,10 @@ double lag_moments(double mu, Moments *r)
     const double kept = exp(-mu);
     double second, third, term;
     int k;
-    if (mu < few) { /* as sums, or small differences would drown in rounding */
+    if (mu < 3.0) { /* as sums, or small differences would drown in rounding */
         term = kept * mu * mu * mu / 6.0;
         third = 0.0;
-        for (k = 4; k < TERMS; k++) {
+        for (k = 4; term > 1e-17 * third; k++) {
             third += term;
             term *= mu / k;
         }
@@ -50,7 +46,7 @@ void poisson_shares(double mu, int n, double poisson[], double share[])
         passed -= weight;
         weight *= mu * inverse[k + 1];
     }
-    if (mu < few) { /* from the far end, or shares that are divided by mu would drown in rounding */
+    if (mu < n) { /* from the far end, or shares that are divided by mu would drown in rounding */
         passed = 0.0;
         for (k = n + 1; weight > 1e-17 * passed; k++) {
             passed += weight;

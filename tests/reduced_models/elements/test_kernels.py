@@ -49,8 +49,8 @@ CASES = {
     power: {"power": [(0.9, POWER)]},
     film_filters: {
         "film_entering": [(0.3, 0.2), (-0.3, 0.2)],
-        "lag_moments": [(mu,) for mu in (0.1, 2.0)],
-        "poisson_shares": [(mu, 4, np.zeros(5), np.zeros(5)) for mu in (0.1, 2.0, 9.0)],
+        "lag_moments": [(mu, few) for mu in (0.1, 2.0) for few in (0.5, 3.0)],
+        "poisson_shares": [(mu, 4, few, np.zeros(5), np.zeros(5)) for mu in (0.1, 2.0, 9.0) for few in (0.5, 4.0)],
         "chain_moments": [(j, 2.5, SHARE) for j in (1, 3)],
         "pass_on": [(STATE[5:], POISSON, np.ones(2))],
         "filter_rates": [(FILM, 0.2, 0.9, 0.2, STATE[3:], np.zeros(4))],
