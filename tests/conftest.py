@@ -33,8 +33,9 @@ def pytest_cmdline_main(config):
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # a solve has as many threads, and the cores are taken
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config, items):
-    """Tests of a file stay in one process, and so do those that share an expensive fixture: it is made once."""
+    """Before pytest-xdist reads the groups: tests of a file, or with an expensive fixture, stay in one process."""
     for item in items if config.pluginmanager.hasplugin("xdist") else ():
         shared = "study" if "finished" in item.fixturenames else "fmus" if "fmus" in item.fixturenames else None
         item.add_marker(pytest.mark.xdist_group(shared or item.nodeid.partition("::")[0]))
