@@ -29,16 +29,8 @@ def pytest_cmdline_main(config):
     if not default or asked or hasattr(config, "workerinput"):
         return
     if option.dist == "no" and cores() > 1:
-        option.numprocesses, option.dist = cores(), "loadgroup"  # by `pytest_collection_modifyitems`
+        option.numprocesses, option.dist = cores(), "loadfile"  # fixtures of a file are made once
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # a solve has as many threads, and the cores are taken
-
-
-@pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(config, items):
-    """Before pytest-xdist reads the groups: tests of a file, or with an expensive fixture, stay in one process."""
-    for item in items if config.pluginmanager.hasplugin("xdist") else ():
-        shared = "study" if "finished" in item.fixturenames else "fmus" if "fmus" in item.fixturenames else None
-        item.add_marker(pytest.mark.xdist_group(shared or item.nodeid.partition("::")[0]))
 
 
 @cache
