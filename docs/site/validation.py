@@ -45,11 +45,12 @@ def row(case: str, quantity: str, ours: float, theirs: float) -> Row:
 
 
 def solvers() -> list[Row]:
-    """Steady films that other solvers converged to.
+    """Steady films compared with converged films of other solvers.
 
-    The approach at the paper's point against the limit 0.8700 of a solver written apart from this one; five points
-    of *PINN-EHL-Reproducibility* (github.com/vachekivan495-design), converged on 769 x 769 nodes, a steel ball on
-    glass; and the limits, by Richardson from 257 x 257 and 513 x 513 nodes, of the program of Venner and Lubrecht.
+    Three references: the approach at the paper's point, compared with the limit 0.8700 of an independently written
+    solver; five points of *PINN-EHL-Reproducibility* (github.com/vachekivan495-design), converged on 769 x 769
+    nodes, a steel ball on glass; and the limits of the program of Venner and Lubrecht, by Richardson extrapolation
+    from 257 x 257 and 513 x 513 nodes.
     """
     from ehlcontact import Domain, Geometry, Grid, Lubricant, MoesPoint, OperatingPoint, solve_steady
 
@@ -73,10 +74,10 @@ def solvers() -> list[Row]:
 
 
 def formulas() -> list[Row]:
-    """Steady films beside published fits, each to solutions of its authors.
+    """Steady films compared with published fits, each to solutions of its authors.
 
-    Central film of Nijenbanning, Venner and Moes, *Wear* 176 (1994) 217-229, which is for incompressible oil, and
-    the approach of Wijnant, thesis, Twente 1998; n = 128.
+    The central film is compared with Nijenbanning, Venner and Moes, *Wear* 176 (1994) 217-229, which is for
+    incompressible oil; the approach with Wijnant, thesis, Twente 1998. All solutions have n = 128.
     """
     from ehlcontact import Grid, MoesPoint, solve_steady
     from ehlcontact.film_formulas import nvm_central_film, wijnant_approach
@@ -95,12 +96,12 @@ def formulas() -> list[Row]:
 
 
 def cubics() -> list[Row]:
-    """Cubics fitted to six motions at M = 200, L = 10, kappa = 0.5, by what can be identified of them.
+    """Cubics fitted to six motions at M = 200, L = 10, kappa = 0.5, compared by their identifiable quantities.
 
-    Nonato and Cavalca, *J. Sound Vib.* 329 (2010) 4656-4671, Tables 3 and 5. The three coefficients of a cubic
-    scatter from motion to motion; where it carries the load and its tangent there do not, and its damper is
-    printed with two digits. Here: n = 128, the record and window that a user gets by default. All tables and
-    figures of the paper, ours beside theirs: `ehlcontact reproduce`.
+    Nonato and Cavalca, *J. Sound Vib.* 329 (2010) 4656-4671, Tables 3 and 5. The three stiffness coefficients of a
+    cubic scatter from motion to motion. The approach at the static load and the tangent there do not scatter; the
+    paper prints the damping with two digits. This library: n = 128, record and window by default.
+    `ehlcontact reproduce` compares all tables and figures of the paper.
     """
     from ehlcontact import Grid, simulate
     from reduced_models import ContactRecord, fit
@@ -119,11 +120,11 @@ def cubics() -> list[Row]:
 
 
 def bearings() -> list[Row]:
-    """Dry bearings beside tables and an example of a textbook.
+    """Dry bearings compared with Hertz' formulas and a textbook example.
 
-    1 kN without clearance, conformities 0.52, E = 206.8 GPa, a ball under the load: computed apart from this
-    library by Hertz' formulas. And the example of Harris, *Rolling Bearing Analysis*, ch. 7: a 209 under 8900 N
-    with 15 µm of clearance.
+    Bearings under 1 kN without clearance, conformities 0.52, E = 206.8 GPa, a ball under the load: the references
+    were computed by Hertz' formulas, independently of this library. The 209 under 8900 N with 15 µm of clearance
+    is the example of Harris, *Rolling Bearing Analysis*, ch. 7.
     """
     from reduced_models import BallBearing
 
@@ -142,11 +143,11 @@ def bearings() -> list[Row]:
 
 
 def fmus() -> list[Row]:
-    """Compiled models beside the elements they were made from.
+    """Compiled models compared with their Python elements.
 
-    Elements of the atlas at M = 200, L = 10, kappa = 0.5, exported, compiled and run by FMPy over what
-    `fmu.verify` goes through: force, tangents, derivatives and states, relative to the magnitude of what is
-    compared.
+    Elements of the atlas at M = 200, L = 10, kappa = 0.5 were exported and compiled, and run by FMPy over the
+    states of `fmu.verify`. The table has the largest difference in force, tangents, derivatives and states, each
+    relative to its magnitude.
     """
     from ehlcontact import MoesPoint
     from fmu import export_contact, verify
@@ -166,7 +167,7 @@ def fmus() -> list[Row]:
 
 
 class Section(NamedTuple):
-    """A table of the page; what it shows is said by what measures it."""
+    """A table of the page; the docstring of `measure` is its text."""
 
     title: str
     measure: Callable[[], list[Row]]
@@ -178,7 +179,7 @@ SECTIONS = {
     "formulas": Section("Published fits of films", formulas, FILMS),
     "cubics": Section("The paper's cubics", cubics, FILMS),
     "bearings": Section("Dry ball bearings", bearings, BEARINGS),
-    "fmus": Section("FMUs beside their elements", fmus, "tests/fmu/test_verify.py"),
+    "fmus": Section("FMUs and their elements", fmus, "tests/fmu/test_verify.py"),
 }
 
 
@@ -193,11 +194,11 @@ def cells(found: Row) -> str:
 
 
 def table(rows: list[Row]) -> str:
-    """As markdown; below, how far the farthest is off."""
+    """As markdown, with the largest difference below the table."""
     if all(r["theirs"] == 0.0 for r in rows):
-        head, last = "| case | quantity | here |\n|---|---|---|", ""
+        head, last = "| case | quantity | this library |\n|---|---|---|", ""
     else:
-        head = "| case | quantity | here | there | here over there |\n|---|---|---|---|---|"
+        head = "| case | quantity | this library | reference | difference |\n|---|---|---|---|---|"
         far = max(rows, key=lambda r: abs(r["ours"] / r["theirs"] - 1.0))
         off = 100.0 * (far["ours"] / far["theirs"] - 1.0)
         last = f"\n\nFarthest off: {far['quantity']} of {far['case']}, {off:+.2f} %."
@@ -217,17 +218,19 @@ HEAD = """\
 
 <!-- made by docs/site/validation.py: change that -->
 
-This library (commit {version}) beside what others published. `python tests/golden/regenerate.py validation` solves
-all of it anew, `python docs/site/validation.py` remakes this page. The tests named hold every version to these
-numbers, within the limits that stand there: `pytest -m literature`. How the solver does on grids, over its box and
-by the clock is in [the solver](solver.md), whole bearings against films are in [ball bearings](bearings.md).
+This page compares results of this library (commit {version}) with published results.
+`python tests/golden/regenerate.py validation` repeats all solves, `python docs/site/validation.py` rewrites this
+page. The tests named below compare every version with these numbers, within the tolerances given there:
+`pytest -m literature`. Grid convergence, range and cost of the solver are in [the solver](solver.md); bearings
+compared with computed films are in [ball bearings](bearings.md).
 """
 TAIL = """\
-## Its own numbers
+## Regression values of this library
 
-Solved far below what the grid leaves open, and compared in every run of the tests (`tests/golden/test_golden.py`,
-films within 1e-6 of these); a change of one is a line under *Numerics* in [changes](guide/changelog.md). They are
-dimensionless; `python tests/golden/regenerate.py` writes them.
+These solutions are converged far below the discretisation error of their grid. Every run of the tests compares
+new solutions with them (`tests/golden/test_golden.py`, films within 1e-6). A change of a value is noted under
+*Numerics* in [changes](guide/changelog.md). Values are dimensionless; `python tests/golden/regenerate.py` writes
+them.
 """
 
 
@@ -239,7 +242,7 @@ def page() -> str:
     for name, section in SECTIONS.items():
         said = inspect.getdoc(section.measure)
         parts += [f"## {section.title}\n", f"{said}\n", table(data[name]) + "\n"]
-        parts += [f"Held by `{section.held_by}`.\n"]
+        parts += [f"Tested by `{section.held_by}`.\n"]
     return "\n".join([*parts, TAIL, golden(stored)]) + "\n"
 
 
