@@ -1,4 +1,4 @@
-"""Specification of an FMU: variables and sources, the origin of XML, C headers and documentation."""
+"""`ModelSpec`: variables and C files of an FMU; XML, C headers and documentation follow from it."""
 
 from __future__ import annotations
 

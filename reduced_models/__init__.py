@@ -75,8 +75,8 @@ from reduced_models.rotor.ross import RossCallback as RossCallback
 from reduced_models.rotor.ross import from_ross as from_ross
 from reduced_models.rotor.rotor import Rotor as Rotor
 from reduced_models.rotor.rotor import Unbalance as Unbalance
-from reduced_models.rotor.settled import Settling as Settling
-from reduced_models.rotor.settled import settling as settling
+from reduced_models.rotor.settling import Settling as Settling
+from reduced_models.rotor.settling import settling as settling
 from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor
 from reduced_models.rotor.speed_profile import SpeedProfile as SpeedProfile
 from reduced_models.rotor.supports import BearingMount as BearingMount

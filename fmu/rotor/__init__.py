@@ -1,4 +1,4 @@
-"""A Jeffcott rotor as an FMU: alone, its contacts outside, or closed with them.
+"""A Jeffcott rotor as an FMU, either with contact forces as inputs or with the contacts inside.
 
 ===================  ==========================================================================================
 module               responsibility
@@ -8,7 +8,7 @@ module               responsibility
 ``laws``             each contact law inside as one C file with names of its own
 ``export``           `export_rotor`: rotor in, FMU file out
 ``reference_rotor``  the rotor in Python: a short run by the steps of `simulate_rotor`, its equations in a state
-``comparison``       the FMU beside that
-``references``       that inside the FMU
+``comparison``       comparison of the FMU with the rotor in Python
+``references``       reference inputs and results stored in the FMU
 ===================  ==========================================================================================
 """

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from fmu.comparison import bounds, film_rates_at, tangents
 from fmu.contact_variables import Element, Film
 from reduced_models import JeffcottRotor, OutsideValidityWarning, RotorState, simulate_rotor
-from reduced_models.rotor.integrate import steps_of
-from reduced_models.rotor.step import PythonSteps
+from reduced_models.rotor.integrate_compiled import steps_of
+from reduced_models.rotor.integrate_python import PythonSteps
 
 _Floats = NDArray[np.float64]
 

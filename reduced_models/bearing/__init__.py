@@ -1,6 +1,6 @@
 """Ball bearings made of EHL contacts: a film with its memory under every ball, on both races.
 
-| room | is responsible for |
+| module | is responsible for |
 |---|---|
 | ball_bearing | `BallBearing`: dimensions, checks, and what can be asked of it |
 | catalogue | dimensions by name, with their sources |
@@ -14,7 +14,7 @@
 | coefficients | stiffness and damping over frequency |
 | impedance | impedance of all balls at complex frequencies |
 | state_space | balls and films about rest as matrices of first order |
-| rates | compiled: balls and films in continuous time |
+| continuous_time | derivatives of the states of balls and films, compiled |
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
 | state | `BearingState`: a bearing at rest, ball by ball |
 | ross | bearings as elements of ROSS |

@@ -1,13 +1,14 @@
-"""All balls of a bearing as one force on the shaft, compiled: an inner and an outer contact in series on each.
+"""Force of the inner ring on all balls, compiled: an inner and an outer contact in series at each ball.
 
 The inner ring is at q, the outer one stands still; ball k at the angle psi_k with n = (cos, sin) psi_k lets both
 rings come closer by
 
-    delta = n . q - clearance/2,    of which w at the outer race and delta - w at the inner one.
+    delta = n . q - clearance/2,    split into w at the outer contact and delta - w at the inner one.
 
 Along n, F_o(w) + m w'' = F_i(delta - w) + F_c with the centrifugal force F_c; balls have no inertia m there unless
-it is asked for. So w is found from one scalar equation per ball, and the force on the ring is F = sum F_i n. Balls
-travel with the cage, which is a part of delta'. The loss factor of rings and fits acts on F (`loss`).
+it is asked for. So w is found from one scalar equation per ball, and the force of the ring on the balls is
+F = sum F_i n. Balls travel with the cage, which is a part of delta'. The loss factor of rings and fits (`loss`)
+acts on F.
 """
 
 from __future__ import annotations
@@ -160,7 +161,7 @@ def begin_rest(films):
 
 @jit_exact_node
 def _ball(balls, at_speed, films, k, delta, rate, gain):
-    """Balance ball `k`; returns the force on the ring and its derivatives by delta and by the rate of delta."""
+    """Balance ball `k`; returns the force of the ring on it, its derivatives by delta and delta'."""
     ball, heavy, row = films.balls[k], balls.inertia * gain, at_speed.speed_row
     history = ball[PLACE_HISTORY]
     w = ball[PLACE] + ball[BY_DELTA] * (delta - ball[TRIED_DELTA]) + ball[BY_RATE] * (rate - ball[TRIED_RATE])

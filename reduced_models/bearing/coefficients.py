@@ -1,4 +1,4 @@
-"""Stiffness and damping of a bearing over frequency, film memory included (`reduced_models.bearing.impedance`)."""
+"""`BearingCoefficients`: stiffness and damping over frequency, computed in `reduced_models.bearing.impedance`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Force table of a race in SI: static force over approach and gains of the film memory, at one speed or several.
+"""Table of the force of one ball on one race in SI: static force, gains of the lag filters; a row per shaft speed.
 
 The law is that of `reduced_models.elements.film_law` without its reference load, in N and m:
 

@@ -12,8 +12,8 @@
 | nodes | degrees of freedom by node and direction |
 | equilibrium | a rotor at rest on its supports |
 | speed_profile | `SpeedProfile`: the speed of a shaft over time, and the forces that turn with it |
-| integrate | compiled: generalised-alpha steps of rotor, bearings and balls |
-| step | the same steps in Python, for contacts |
+| integrate_compiled | generalised-alpha steps of rotor, bearings and balls, compiled |
+| integrate_python | the same steps in Python, for supports without a compiled kernel |
 | simulate | `simulate_rotor`: a rotor over time |
 | result | `RotorResult`: histories of a run |
 | impedance | impedance of a contact over the frequency |
@@ -28,6 +28,6 @@
 | compare | `compare`: full against reduced response |
 | baselines | contacts without a film: dry, undamped, and linearised at one load |
 | decay | `log_decrement`: of a free decay, by a fit |
-| settled | `settling`: whether a response has settled; runs that go on until it has |
+| settling | whether a run has reached steady state; runs that go on until it has |
 | events | `contact_events`: lift-off, impacts, load range, time outside validity |
 """

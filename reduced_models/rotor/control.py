@@ -16,14 +16,14 @@ from numpy.typing import NDArray
 from ehlcontact.checks import require_instance, require_integer, require_nonnegative
 from ehlcontact.errors import InputError
 from reduced_models.bearing.balls import PLACE, Balls, SpeedState, begin_rest, directions, films_of, press_balls
+from reduced_models.bearing.continuous_time import bearing_rates
 from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.impedance import SmallBalls
-from reduced_models.bearing.rates import bearing_rates
 from reduced_models.bearing.state_space import PER_METRE, bearing_system
 from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.small_motion import FILTERS, StateSpace
+from reduced_models.rotor.integrate_python import active_mounts, geometry_of
 from reduced_models.rotor.rotor import Matrices, Rotor
-from reduced_models.rotor.step import active_mounts, geometry_of
 from reduced_models.rotor.supports import BearingMount
 
 _Floats = NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""A rotor about rest at one speed: modes, responses, stability."""
+"""A rotor linearised about its static equilibrium at a shaft speed: modes, responses, stability, unbalance."""
 
 from __future__ import annotations
 
@@ -22,6 +22,7 @@ from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.contact import ScaledContact
 from reduced_models.rotor.control import Signals, linear_block
 from reduced_models.rotor.impedance import ContactImpedance, impedance_about
+from reduced_models.rotor.integrate_python import active_mounts, geometry_of
 from reduced_models.rotor.jeffcott import JeffcottRotor
 from reduced_models.rotor.modes import (
     CANDIDATES,
@@ -36,7 +37,6 @@ from reduced_models.rotor.modes import (
 )
 from reduced_models.rotor.nodes import flat_nodes
 from reduced_models.rotor.rotor import Matrices, Rotor
-from reduced_models.rotor.step import active_mounts, geometry_of
 from reduced_models.rotor.supports import BearingMount, ContactMount
 from reduced_models.rotor.unbalance import UnbalanceResponse
 

@@ -19,8 +19,8 @@ from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.motion import BearingMotion
 from reduced_models.bearing.ross import import_ross, ross_entries
+from reduced_models.rotor.integrate_python import active_mounts
 from reduced_models.rotor.rotor import Rotor, Unbalance
-from reduced_models.rotor.step import active_mounts
 from reduced_models.rotor.supports import BearingMount
 
 _Floats = NDArray[np.float64]

@@ -1,7 +1,8 @@
-"""A linear rotor on supports: its matrices, its supports, what loads it.
+"""A linear rotor on supports: matrices, supports, constant forces and unbalance.
 
     M q'' + (C + omega G) q' + K q + B^T F(B q, B q') = load + unbalance
 
+with B q the motions at the supports and F their forces, which depend on the past where films have a memory.
 Where the matrices come from does not matter: `JeffcottRotor`, shaft and discs, ROSS, a reduction that keeps the
 degrees of freedom of the supports.
 """

@@ -27,13 +27,16 @@ from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.race import RACES
 from reduced_models.elements.validity import OutsideValidityWarning, frequency_of
 from reduced_models.rotor.contact import Contact
-from reduced_models.rotor.integrate import LOST, NO_BALANCE, RingState, Steps, ring_state_at, run_block, steps_of
-from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
-from reduced_models.rotor.nodes import flat_nodes
-from reduced_models.rotor.result import RotorResult
-from reduced_models.rotor.rotor import Mount, Rotor
-from reduced_models.rotor.speed_profile import SpeedProfile, law_speeds, turning_forces
-from reduced_models.rotor.step import (
+from reduced_models.rotor.integrate_compiled import (
+    LOST,
+    NO_BALANCE,
+    RingState,
+    Steps,
+    ring_state_at,
+    run_block,
+    steps_of,
+)
+from reduced_models.rotor.integrate_python import (
     NOISE,
     PythonSteps,
     RunningBalls,
@@ -42,6 +45,11 @@ from reduced_models.rotor.step import (
     active_mounts,
     geometry_of,
 )
+from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
+from reduced_models.rotor.nodes import flat_nodes
+from reduced_models.rotor.result import RotorResult
+from reduced_models.rotor.rotor import Mount, Rotor
+from reduced_models.rotor.speed_profile import SpeedProfile, law_speeds, turning_forces
 from reduced_models.rotor.supports import BearingMount, ContactMount, LinearBearing
 
 _Floats = NDArray[np.float64]

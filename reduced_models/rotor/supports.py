@@ -1,4 +1,4 @@
-"""Supports of a rotor: a contact at an angle, a ball bearing, a bearing given by stiffness and damping.
+"""Supports of a rotor: one radial contact at a position around the shaft, a ball bearing, a bearing as K and C.
 
 A support takes the motion of its degrees of freedom, one number for each of its directions (the approach of a
 contact; x and y of an inner ring against the outer one), and gives as many forces.

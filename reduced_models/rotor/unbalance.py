@@ -1,4 +1,4 @@
-"""Response of a rotor to its unbalances, over the rate at which they turn."""
+"""`UnbalanceResponse`: amplitudes over the speed, computed by `linearise.unbalance_response`."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ from ehlcontact.cli.plots.style import (
     vertical,
 )
 from reduced_models import Decrement, RotorResult, Settling
-from reduced_models.rotor.settled import steps_per_revolution
+from reduced_models.rotor.settling import steps_per_revolution
 
 MICRO = "\N{MICRO SIGN}m"
 # How each contact is drawn, wherever it is.

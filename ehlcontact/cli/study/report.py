@@ -16,7 +16,7 @@ from ehlcontact.cli.study.reduction import CONTACTS, FULL, MEMORY, RECORDS
 from ehlcontact.cli.study.results import Findings
 from ehlcontact.cli.study.stages import STAGES
 from reduced_models.rotor.events import LOST
-from reduced_models.rotor.settled import MOST_REVOLUTIONS
+from reduced_models.rotor.settling import MOST_REVOLUTIONS
 
 # Files of a study, and what to say of them; STAGE is what computed one.
 FILES = {

@@ -28,7 +28,7 @@ from reduced_models import (
     local_contact,
     simulate_rotor,
 )
-from reduced_models.rotor.settled import run_until_settled
+from reduced_models.rotor.settling import run_until_settled
 
 # Of the force balance on full films: at a third of it they take 2 to 3 solves per step in place of 2, and at ten
 # times as much the journal's velocity under a light unbalance shows it.

@@ -9,7 +9,7 @@ from rotor_twins import SCALES, C, K, one_mass
 from ehlcontact import InputError, Status
 from reduced_models import RotorResult, dry_contact, settling
 from reduced_models.elements.polynomial import LinearContact
-from reduced_models.rotor.settled import QUIET, run_until_settled
+from reduced_models.rotor.settling import QUIET, run_until_settled
 
 STEPS = 40
 

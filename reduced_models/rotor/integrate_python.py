@@ -1,6 +1,6 @@
-"""Generalised-alpha steps in Python, for rotors with supports that have no compiled kernel: full films, elements.
+"""Time integration (generalised-alpha) in Python, for supports without a compiled kernel: full films, elements.
 
-The steps are those of `integrate`: its matrices, its equations. Only the balance of a step is found here, on the
+The matrices and equations are those of `integrate_compiled`. Only the balance of a step is found here, on the
 displacements of the points at which supports act, by Newton's method or, for contacts without tangents, secants.
 """
 
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ehlcontact.errors import ConvergenceError
 from reduced_models.bearing.balls import Balls, accept_balls, begin_step, directions, press_balls, speed_state
 from reduced_models.rotor.contact import ContactForces
-from reduced_models.rotor.integrate import Steps
+from reduced_models.rotor.integrate_compiled import Steps
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.supports import BearingMount, ContactMount, is_ball_bearing
 

@@ -1,4 +1,4 @@
-"""Generalised-alpha steps of a linear rotor on bearings, compiled: rotor, bearings and balls in one loop.
+"""Time integration (generalised-alpha) of a rotor on bearings, compiled. Other supports: `integrate_python`.
 
 Chung and Hulbert, J. Appl. Mech. 60 (1993) 371. Everything linear is condensed onto the displacements r = B q of
 the inner rings against the outer ones: the end of a step has

@@ -1,4 +1,4 @@
-"""Settling of a rotor: changes from revolution to revolution, and runs that go on until they are small."""
+"""Steady state of a run: comparison of successive revolutions; runs of `JeffcottRotor` until it is reached."""
 
 from __future__ import annotations
 
