@@ -1,9 +1,13 @@
-"""Rotors of Timoshenko beams and discs, the obvious way: matrices for the bearing runs of the tests.
+"""Rotors of Timoshenko beams and discs, the obvious way, and the rotors on ball bearings of the tests.
 
 Every node has x, y, and the turns about x and y; a node's shaft bends in x-z with the turn about y.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
+
+from reduced_models import BallBearing, BearingMount, Rotor, Unbalance
 
 RHO, E, G_S = 7810.0, 211e9, 81.2e9  # steel
 
@@ -78,3 +82,33 @@ def shaft(lengths, diameter, discs=()):
         G[at + 2, at + 3] += polar
         G[at + 3, at + 2] -= polar
     return M, K, G
+
+
+M, K, G = shaft([0.05] * 6, 0.04, [(3, 0.28, 0.07)])
+NODES, DISC = (1, 5), 12  # of the bearings; first degree of freedom of the disc
+
+
+def beam(bearing, unbalance=0.0, phase=0.0, **changes):
+    """Disc of 34 kg in the middle of a shaft, 500 N on either bearing."""
+    load = np.zeros(len(M))
+    load[DISC + 1] = -1000.0
+    mounts = tuple(BearingMount(bearing=bearing, x=4 * n, y=4 * n + 1) for n in NODES)
+    heavy = (Unbalance(x=DISC, y=DISC + 1, amount=unbalance, phase=phase),) if unbalance else ()
+    given = {"mass": M, "stiffness": K, "gyroscopic": G, "load": load, "mounts": mounts, "unbalances": heavy}
+    return Rotor(**(given | changes))
+
+
+def block(bearing, mass=2.0, load=(0.0, -300.0), unbalance=0.0, **changes):
+    """A rigid mass on one bearing."""
+    given = {"mass": mass * np.eye(2), "stiffness": np.zeros((2, 2)), "load": np.array(load)}
+    given |= {"mounts": (BearingMount(bearing=bearing, x=0, y=1),)}
+    heavy = (Unbalance(x=0, y=1, amount=unbalance),) if unbalance else ()
+    return Rotor(**(given | {"unbalances": heavy} | changes))
+
+
+@dataclass(frozen=True, kw_only=True)
+class StillBearing(BallBearing):
+    """Its balls do not go round."""
+
+    def kernel(self, speeds_rpm):
+        return super().kernel(speeds_rpm)._replace(cage=0.0, swing=0.0)

@@ -1,9 +1,9 @@
-"""Rotors and contacts that are known in closed form: one mass on a spring and a damper."""
+"""Rotors and contacts that are known in closed form, one mass on a spring and a damper; constructed runs."""
 
 import numpy as np
 
-from ehlcontact import Lubricant, OperatingPoint
-from reduced_models import JeffcottRotor
+from ehlcontact import Lubricant, OperatingPoint, Status
+from reduced_models import JeffcottRotor, RotorResult
 
 POINT = OperatingPoint.ball_bearing(
     Lubricant(0.0367, 2e-8),
@@ -26,3 +26,18 @@ def one_mass(**changes):
 def spring(omega):
     """Impedance of one contact."""
     return np.asarray(K + 1j * C * np.asarray(omega), dtype=complex)
+
+
+def run_of(t, approach, rate, force, **others):
+    """A run at 3000 rev/min with these histories of its contacts; all that is not given is at rest."""
+    still = np.zeros((len(t), 2))
+    columns = [np.asarray(values, float).reshape(len(t), -1) for values in (approach, rate, force)]
+    given = dict(zip(("approach", "rate", "force"), columns, strict=True))
+    given |= {"t": t, "speed_rpm": np.full(len(t), 3000.0), "displacement": still, "velocity": still}
+    given |= {
+        "iterations": np.ones(len(t), dtype=int),
+        "largest_load": np.zeros((0, 2)),
+        "status": Status.CONVERGED,
+    }
+    given["columns"] = tuple(f"contact {i + 1}" for i in range(columns[2].shape[1]))
+    return RotorResult(**(given | others))

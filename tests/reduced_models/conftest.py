@@ -3,11 +3,34 @@
 import numpy as np
 import pytest
 
+from ehlcontact import Lubricant
 from ehlcontact.point import Scales
-from reduced_models import ContactRecord, CubicContact, FilmMemoryContact, LinearContact
+from reduced_models import Atlas, BallBearing, ContactRecord, CubicContact, FilmMemoryContact, LinearContact
 
 # Nonato and Cavalca (2010), Table 3 case 2 (free vibration, Omega_n = 5.13).
 PAPER = {"K1": 0.806, "K2": 0.346, "K3": 0.054, "C1": 0.013}
+
+
+@pytest.fixture(scope="session")
+def shipped():
+    """The atlas of the package."""
+    return Atlas()
+
+
+@pytest.fixture(scope="session")
+def oil():
+    return Lubricant.iso_vg(68, temperature=50.0)
+
+
+@pytest.fixture(scope="session")
+def film(oil):
+    """6205 with VG 68 at 50 C."""
+    return BallBearing.catalogue("6205", oil=oil)
+
+
+@pytest.fixture(scope="session")
+def dry():
+    return BallBearing.catalogue("6205")
 
 
 @pytest.fixture

@@ -23,7 +23,7 @@ from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.store import load as load_file
 from reduced_models import Atlas
 from reduced_models.atlas.atlas import MODELS, SHIPPED
-from reduced_models.atlas.build import BOX, INTERPOLATION, assemble
+from reduced_models.atlas.build import BOX, INTERPOLATION
 from reduced_models.atlas.elements import LEAST_APPROACH
 from reduced_models.atlas.mesh import impedance_grid
 from reduced_models.atlas.sample import sample_points
@@ -48,20 +48,6 @@ def random_points(count, seed):
         if point.p_hertz <= BOX.p_hertz:
             points.append(point)
     return points
-
-
-@pytest.fixture(scope="module")
-def shipped():
-    return Atlas()
-
-
-@pytest.fixture(scope="module")
-def analytic(tmp_path_factory):
-    """Atlas of the stand-in for the solver, whose answers are known everywhere."""
-    path = tmp_path_factory.mktemp("atlas") / "a.h5"
-    entries = [atlas_stub.solve(point) for point in sample_points(128, 128, 2).values()]
-    save(assemble(entries, {"version": "stub"}), path)
-    return Atlas(path)
 
 
 @pytest.mark.parametrize(("M", "kappa"), [(20.0, 0.2), (200.0, 0.5), (1000.0, 0.12)])
@@ -128,7 +114,7 @@ def test_answers_hit_the_sampled_points(analytic):
     ],
 )
 @pytest.mark.parametrize("ask", ["at", "element"])
-def test_outside_the_box_it_says_which_axis(analytic, point, words, ask):
+def test_outside_the_box_the_axis_is_named(analytic, point, words, ask):
     with pytest.raises(InputError) as raised:
         getattr(analytic, ask)(point)
     assert all(word in str(raised.value) for word in words)
@@ -286,7 +272,7 @@ def test_operating_points_get_elements_in_si(shipped, model):
 
 
 @pytest.mark.parametrize("model", MODELS)
-def test_elements_say_where_they_come_from(shipped, tmp_path, model):
+def test_source_of_elements(shipped, tmp_path, model):
     read = load_file(save(shipped.element(CASE, model, **AT[model]), tmp_path / "e.json"))
     assert read.source["atlas"] == shipped.metadata["version"]
     assert read.source["point"]["M"] == CASE.M and 0.0 < read.source["error_bars"]["approach"] < 0.01
@@ -312,7 +298,7 @@ def test_answers_in_si_have_their_error_bars_in_si(shipped):
         _ = shipped.at(point.moes).si
 
 
-def test_a_cubic_is_asked_for_its_frequency(shipped):
+def test_a_cubic_needs_its_frequency(shipped):
     """No default: its damper is right at one frequency only; and in SI by any of its names."""
     point = OperatingPoint(Geometry(0.0016, 0.05), Lubricant(0.037, 2e-8), 60.0, 5.0)
     with pytest.raises(

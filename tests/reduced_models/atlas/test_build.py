@@ -6,11 +6,11 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import atlas_stub
 import numpy as np
 import pytest
+from programs import ROOT, dask_cluster, environment
 
 from ehlcontact import Domain, InputError, MoesPoint
 from ehlcontact.content_store import ContentStore
@@ -25,7 +25,6 @@ from reduced_models.atlas.work import solve_points
 from reduced_models.elements.film_response import DRY
 
 DRAWS, LIGHT = 24, 24
-TESTS = Path(__file__).parents[2]
 BUILD = f"""
 import sys
 from pathlib import Path
@@ -133,7 +132,7 @@ def test_table_file_and_what_is_recorded_in_it(tmp_path, entries):
     assert read.metadata["points"] == len(entries) - failed and read.box == BOX
 
 
-def test_far_oil_is_learnt_from_the_points_solved_on_both_domains(entries):
+def test_effect_of_far_oil_from_points_solved_on_both_domains(entries):
     """With pairs that differ by lambda times a constant, the points solved near alone get just that."""
     shift, close = 0.4, list(Domain(-2.0, 1.35, 1.6).as_tuple())
     points = [MoesPoint(e["M"], e["L"], e["kappa"]) for e in entries]
@@ -164,12 +163,12 @@ def test_killed_build_goes_on_and_ends_the_same(tmp_path):
     """kill -9 twice: byte for byte the atlas of an undisturbed build."""
     script = tmp_path / "build.py"
     script.write_text(BUILD)
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(TESTS), str(TESTS.parent)])}
+    own = environment(ROOT / "tests")
     disturbed, calm = tmp_path / "disturbed", tmp_path / "calm"
     disturbed.mkdir(), calm.mkdir()
     work = disturbed / "work"
     for least in (5, 15):
-        process = subprocess.Popen([sys.executable, str(script), str(disturbed)], env=environment)
+        process = subprocess.Popen([sys.executable, str(script), str(disturbed)], env=own)
         deadline = time.monotonic() + 60.0
         while not work.exists() or len(list(work.iterdir())) <= least:
             assert process.poll() is None and time.monotonic() < deadline
@@ -179,7 +178,7 @@ def test_killed_build_goes_on_and_ends_the_same(tmp_path):
         assert not (disturbed / "a.h5").exists()
     kept = {path.name for path in work.iterdir() if path.suffix != ".tmp"}
     for folder in (disturbed, calm):
-        subprocess.run([sys.executable, str(script), str(folder)], env=environment, check=True)
+        subprocess.run([sys.executable, str(script), str(folder)], env=own, check=True)
     assert (disturbed / "a.h5").read_bytes() == (calm / "a.h5").read_bytes()
     files = {path.name: path.read_bytes() for path in work.iterdir() if path.suffix != ".tmp"}
     assert kept < set(files) and files == {path.name: path.read_bytes() for path in (calm / "work").iterdir()}
@@ -189,19 +188,7 @@ def test_killed_build_goes_on_and_ends_the_same(tmp_path):
 def test_dask_cluster_with_a_worker_killed_in_mid_run(tmp_path):
     """Scheduler and workers as processes of their own; the atlas is that of a local build."""
     pytest.importorskip("distributed")
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(TESTS), str(TESTS.parent)])}
-    address = tmp_path / "scheduler.json"
-    command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--port", "0", "--no-dashboard"]
-    processes = [_start([*command, "--host", "127.0.0.1", "--scheduler-file", str(address)], environment)]
-    try:
-        deadline = time.monotonic() + 60.0
-        while not address.exists() or not address.read_text():
-            assert processes[0].poll() is None and time.monotonic() < deadline
-            time.sleep(0.05)
-        scheduler = json.loads(address.read_text())["address"]
-        worker = [sys.executable, "-m", "distributed.cli.dask_worker", scheduler, "--nthreads", "1", "--no-nanny"]
-        folder = ["--local-directory", str(tmp_path), "--no-dashboard"]
-        processes += [_start([*worker, *folder], environment) for _ in range(2)]
+    with dask_cluster(tmp_path) as (scheduler, processes):
         killed = []
 
         def kill_one(done, total):
@@ -220,22 +207,5 @@ def test_dask_cluster_with_a_worker_killed_in_mid_run(tmp_path):
         )
         assert killed and killed[0][0] < killed[0][1]
         assert processes[1].wait(10) == -signal.SIGKILL and processes[2].poll() is None
-    finally:
-        for process in processes:
-            process.kill()
-            process.wait()
     build_atlas(tmp_path / "here.h5", tmp_path / "here", DRAWS, LIGHT, solve=atlas_stub.solve)
     assert (tmp_path / "dask.h5").read_bytes() == (tmp_path / "here.h5").read_bytes()
-
-
-def _start(command, environment):
-    return subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-
-def test_no_cluster_at_the_address(tmp_path, monkeypatch):
-    pytest.importorskip("distributed")
-    monkeypatch.setattr("ehlcontact.executors.CONNECT_SECONDS", 0.5)
-    with pytest.raises(InputError, match="--scheduler"):
-        build_atlas(
-            tmp_path / "a.h5", tmp_path / "work", 20, 2, scheduler="tcp://127.0.0.1:1", solve=atlas_stub.solve
-        )

@@ -20,7 +20,7 @@ def by_formula(M, L, kappa, G=4500.0):
     return hamrock_dowson_minimum(0.5 * U, G, M * U**0.75, kappa) / U**0.5 / film_to_moes(M, kappa)
 
 
-def test_formula_has_the_scatter_that_is_said_of_it():
+def test_scatter_of_the_formula():
     """docs/assumptions.md: nine of ten within -12 and +59 %, three times as high in heavily loaded circles."""
     ratios, circles = [], []
     for x, y, z in qmc.Sobol(3, seed=2).random(1024):
@@ -59,7 +59,7 @@ def test_film_of_the_atlas_makes_the_lambda_ratio():
     assert assumptions(point, film=answer)["fully flooded"].value is None  # the atlas has no region
 
 
-def test_solved_film_says_so():
+def test_origin_of_a_solved_film():
     point = MoesPoint(200, 10, 0.5)
     solved = solve_steady(point, grid=Grid(n=64))
     assert solved.film_origin == f"solved, ± {100.0 * solved.error_estimate.h_min:.2g} %"

@@ -14,7 +14,6 @@ from ehlcontact import (
     OperatingPoint,
     impedance,
 )
-from reduced_models import Atlas
 from reduced_models.atlas.frequency import Between
 from reduced_models.atlas.mesh import impedance_grid
 from reduced_models.atlas.solve import OMEGAS
@@ -22,11 +21,6 @@ from reduced_models.atlas.solve import OMEGAS
 CASE = MoesPoint(200.0, 10.0, 0.5)
 POINT = OperatingPoint(Geometry(0.0016, 0.05), Lubricant(0.037, 2e-8), 60.0, 5.0)
 NODES = np.array(OMEGAS)
-
-
-@pytest.fixture(scope="module")
-def shipped():
-    return Atlas()
 
 
 def test_exact_at_the_nodes_and_static_at_0(shipped):

@@ -2,28 +2,15 @@
 
 from dataclasses import fields
 
-import atlas_stub
 import numpy as np
 import pytest
 
 from ehlcontact import InputError, MoesPoint
-from ehlcontact.store import save
-from reduced_models import Atlas
 from reduced_models.atlas.atlas import NUMBERS
-from reduced_models.atlas.build import assemble
 from reduced_models.atlas.interpolation import BLOCK
-from reduced_models.atlas.sample import sample_points
 
 MANY = BLOCK + 44
 NAMES = (*NUMBERS, "stiffness", "damping")
-
-
-@pytest.fixture(scope="module")
-def analytic(tmp_path_factory):
-    """Atlas of the stand-in for the solver."""
-    path = tmp_path_factory.mktemp("atlas") / "a.h5"
-    save(assemble([atlas_stub.solve(p) for p in sample_points(128, 64, 2).values()], {"version": "stub"}), path)
-    return Atlas(path)
 
 
 @pytest.fixture(scope="module")

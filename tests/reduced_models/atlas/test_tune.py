@@ -25,42 +25,39 @@ def few(shipped):
     return replace(shipped, **{name: getattr(shipped, name)[::8] for name in names})
 
 
-@pytest.mark.parametrize("which", range(1, 4))
-def test_half_and_twice_a_shipped_weight_are_worse(shipped, which):
-    weights = list(shipped.interpolation.weights)
-    own = tune.weights_error(shipped, weights)
-    for factor in (0.5, 2.0):
-        other = [w * (factor if i == which else 1.0) for i, w in enumerate(weights)]
-        assert tune.weights_error(shipped, other) > own
+KINDS = {  # name of the weights in the table, their error, the search for better ones
+    "weights": (tune.weights_error, tune.best_weights),
+    "lobe_weights": (tune.lobe_error, tune.best_lobe_weights),
+}
 
 
+@pytest.mark.parametrize("name", KINDS)
 @pytest.mark.parametrize("which", range(1, 4))
-def test_half_and_twice_a_shipped_weight_are_worse_for_side_lobes(shipped, which):
-    weights = list(shipped.interpolation.lobe_weights)
-    own = tune.lobe_error(shipped, weights)
-    assert own < 0.8 * tune.lobe_error(shipped, shipped.interpolation.weights[:4])
+def test_half_and_twice_a_shipped_weight_are_worse(shipped, name, which):
+    error, weights = KINDS[name][0], getattr(shipped.interpolation, name)
+    own = error(shipped, weights)
     for factor in (0.5, 2.0):
         other = [w * (factor if i == which else 1.0) for i, w in enumerate(weights)]
-        assert tune.lobe_error(shipped, other) > own
+        assert error(shipped, other) > own
+
+
+def test_side_lobes_have_weights_of_their_own(shipped):
+    numbers = shipped.interpolation
+    assert tune.lobe_error(shipped, numbers.lobe_weights) < 0.8 * tune.lobe_error(shipped, numbers.weights[:4])
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_search_for_weights(few, name):
+    error, search = KINDS[name]
+    found = search(few, most=30)
+    assert found.used == getattr(few.interpolation, name) and found.best[0] == found.used[0]
+    assert found.error == error(few, found.used)
+    assert found.least == error(few, found.best) < found.error
 
 
 def test_only_ratios_of_weights_count(few):
     own = tune.weights_error(few, few.interpolation.weights)
     assert tune.weights_error(few, [3.0 * w for w in few.interpolation.weights]) == pytest.approx(own, rel=1e-4)
-
-
-def test_search_for_weights(few):
-    found = tune.best_weights(few, most=30)
-    assert found.used == few.interpolation.weights and found.best[0] == found.used[0]
-    assert found.error == tune.weights_error(few, found.used)
-    assert found.least == tune.weights_error(few, found.best) < found.error
-
-
-def test_search_for_weights_of_side_lobes(few):
-    found = tune.best_lobe_weights(few, most=30)
-    assert found.used == few.interpolation.lobe_weights and found.best[0] == found.used[0]
-    assert found.error == tune.lobe_error(few, found.used)
-    assert found.least == tune.lobe_error(few, found.best) < found.error
 
 
 def test_shipped_rates_fit_nearly_best(shipped):

@@ -1,26 +1,7 @@
-"""The bearing that most tests are about."""
+"""Prescribed motions of a ring."""
 
 import numpy as np
 import pytest
-
-from ehlcontact import Lubricant
-from reduced_models import BallBearing
-
-
-@pytest.fixture(scope="package")
-def oil():
-    return Lubricant.iso_vg(68, temperature=50.0)
-
-
-@pytest.fixture(scope="package")
-def film(oil):
-    """6205 with VG 68 at 50 C."""
-    return BallBearing.catalogue("6205", oil=oil)
-
-
-@pytest.fixture(scope="package")
-def dry():
-    return BallBearing.catalogue("6205")
 
 
 @pytest.fixture

@@ -24,7 +24,7 @@ def refused(match, call):
     return str(caught.value)
 
 
-def test_every_row_says_where_it_is_from():
+def test_every_row_has_a_source():
     for name, row in ROWS.items():
         assert row.source
         assert row.sourced == ("no source" not in row.source)
@@ -62,7 +62,7 @@ def test_what_is_no_bearing(match, changes):
     refused(match, lambda: BallBearing(**{**SIZES, **changes}))
 
 
-def test_a_conformity_outside_the_atlas_is_told_its_limit(oil):
+def test_limits_of_the_conformity_on_the_atlas(oil):
     assert BallBearing(**SIZES, oil=oil, conformity_inner=0.505).highest_speed > 0.0
     said = refused("conformity_inner = 0.503", lambda: BallBearing(**SIZES, oil=oil, conformity_inner=0.503))
     limit = float(said.split("at least ")[1].split(":")[0].split()[0])
@@ -78,7 +78,7 @@ def test_an_oil_that_is_none_of_the_atlas():
     refused("viscosity", lambda: BallBearing(**SIZES, oil=Lubricant(0.04, viscosity="barus")))
 
 
-def test_unknown_names_are_told_the_near_ones():
+def test_unknown_names_with_the_nearest_ones():
     refused("name = '6250': must be one of 6206, 6205, 6204 .nearest", lambda: BallBearing.catalogue("6250"))
     # an angular contact bearing of the size of a 6206 is none
     said = refused("name = '7206': must be one of 6202, 6203", lambda: BallBearing.catalogue("7206"))

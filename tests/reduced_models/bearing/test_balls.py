@@ -22,6 +22,14 @@ def motion(bearing, dt, rpm=RPM, angle=-pi / 2.0):
     return BearingMotion(bearing.kernel(rpm), rpm, dt, angle)
 
 
+def assert_same_forces(fast, slow, q, v, dt):
+    """Of all balls, over a motion in steps of `dt`."""
+    _, balls = fast.drive(q, v)
+    for place, rate, found in zip(q, v, balls, strict=True):
+        forces, _ = slow.step(dt, place, rate)
+        np.testing.assert_allclose(found, forces, rtol=0.0, atol=1e-10 * forces.max())
+
+
 @pytest.mark.parametrize("clearance", [0.0, 2e-5, -5e-6])
 @pytest.mark.parametrize("rpm", [RPM, 9000.0])
 def test_at_rest_it_is_two_elements_in_series(oil, clearance, rpm):
@@ -39,10 +47,7 @@ def test_in_motion_it_is_its_twin(film, shake, dt):
     fast, slow = motion(film, dt), SlowBearing(film, RPM, SlowContact)
     fast.rest(PLACE)
     slow.rest(PLACE)
-    _, balls = fast.drive(q, v)
-    for place, rate, found in zip(q, v, balls, strict=True):
-        forces, _ = slow.step(dt, place, rate)
-        np.testing.assert_allclose(found, forces, rtol=0.0, atol=1e-10 * forces.max())
+    assert_same_forces(fast, slow, q, v, dt)
 
 
 def test_films_that_stop_carrying(oil, shake):
@@ -54,10 +59,7 @@ def test_films_that_stop_carrying(oil, shake):
     forces, _ = slow.rest(PLACE)
     np.testing.assert_allclose(fast.films.force, forces, rtol=0.0, atol=1e-10 * forces.max())
     assert 0 < np.count_nonzero(forces == 0.0) < forces.size
-    _, balls = fast.drive(q, v)
-    for place, rate, found in zip(q, v, balls, strict=True):
-        forces, _ = slow.step(2e-5, place, rate)
-        np.testing.assert_allclose(found, forces, rtol=0.0, atol=1e-10 * forces.max())
+    assert_same_forces(fast, slow, q, v, 2e-5)
 
 
 @light
@@ -72,10 +74,7 @@ def test_small_motions_are_those_of_two_elements(film):
     slow.cage = slow.centrifugal = 0.0
     fast.rest(PLACE)
     slow.rest(PLACE)
-    _, balls = fast.drive(q, v)
-    for place, rate, found in zip(q, v, balls, strict=True):
-        forces, _ = slow.step(dt, place, rate)
-        np.testing.assert_allclose(found, forces, rtol=0.0, atol=1e-10 * forces.max())
+    assert_same_forces(fast, slow, q, v, dt)
 
 
 @light
@@ -95,10 +94,10 @@ def test_large_motions_are_nearly_those_of_two_elements(film, shake):
 
 
 @pytest.mark.parametrize("speeds", [RPM, (2000.0, 3700.0)])  # a law of its own, or between two
-@pytest.mark.parametrize("film_limit", [None, 8e-6])
+@pytest.mark.parametrize("changes", [{}, {"film_limit": 8e-6}, {"loss_factor": 0.2}])
 @pytest.mark.parametrize("dt", [1e-6, 2e-5, 1e-3])
-def test_tangents_are_those_of_differences(oil, shake, dt, film_limit, speeds):
-    bearing = BallBearing.catalogue("6205", oil=oil, film_limit=film_limit, clearance=3e-6)
+def test_tangents_are_those_of_differences(oil, shake, dt, changes, speeds):
+    bearing = BallBearing.catalogue("6205", oil=oil, clearance=3e-6, **changes)
     q, v = shake(dt, 6)
     it = BearingMotion(bearing.kernel(speeds), RPM, dt, 0.2)
     it.rest(PLACE)

@@ -4,14 +4,13 @@ from math import pi
 
 import numpy as np
 import pytest
+from beam_rotor import block
 from scipy.integrate import solve_ivp
 
 from ehlcontact.errors import InputError
 from reduced_models import (
     BallBearing,
     BearingMotion,
-    BearingMount,
-    Rotor,
     linearise,
     rotor_to_control,
     simulate_rotor,
@@ -22,11 +21,6 @@ from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS
 
 RPM = 3000.0
-
-
-def block(bearing, **changes):
-    given = {"mass": 2.0 * np.eye(2), "stiffness": np.zeros((2, 2)), "load": np.array([0.0, -300.0])}
-    return Rotor(**(given | {"mounts": (BearingMount(bearing=bearing, x=0, y=1),)} | changes))
 
 
 def test_against_scipy():

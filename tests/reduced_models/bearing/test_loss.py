@@ -6,13 +6,12 @@ from math import pi
 import numba
 import numpy as np
 import pytest
+from beam_rotor import block
 
 from ehlcontact.errors import InputError
 from reduced_models import (
     BallBearing,
     BearingMotion,
-    BearingMount,
-    Rotor,
     linearise,
     log_decrement,
     rotor_to_control,
@@ -26,11 +25,6 @@ from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.loss import BAND, loss_of, response, seat_of
 
 RPM = 3000.0
-
-
-def block(bearing, mass=2.0, **changes):
-    given = {"mass": mass * np.eye(2), "stiffness": np.zeros((2, 2)), "load": np.array([0.0, -300.0])}
-    return Rotor(**(given | {"mounts": (BearingMount(bearing=bearing, x=0, y=1),)} | changes))
 
 
 @pytest.mark.parametrize("factor", [1e-3, 0.02, 0.1, 0.2])
@@ -83,7 +77,7 @@ def test_small_motions_in_time_have_the_impedance(oil, oiled):
     np.testing.assert_allclose(swing, Z[:, 1], rtol=0.0, atol=3e-4 * abs(Z[1, 1]))
 
 
-def test_coefficients_lose_what_is_asked_for(dry, oil):
+def test_loss_factor_of_the_coefficients(dry, oil):
     """C = eta K/omega beside that of the films; statics and the balls' loads stay."""
     lossy = BallBearing.catalogue("6205", loss_factor=0.03)
     hz = np.array([10.0, 50.0, 1000.0])
@@ -98,22 +92,6 @@ def test_coefficients_lose_what_is_asked_for(dry, oil):
     )
     added = both.damping[0, 1, 1] - films.damping[0, 1, 1]
     assert added == pytest.approx(0.03 * both.stiffness[0, 1, 1] / films.omega[0], rel=0.015)
-
-
-def test_tangents_are_those_of_differences(oil, shake):
-    bearing = BallBearing.catalogue("6205", oil=oil, loss_factor=0.2)
-    q, v = shake(2e-5, 6)
-    it = BearingMotion(bearing.kernel(RPM), RPM, 2e-5)
-    it.rest(np.array([1e-6, -12e-6]))
-    it.drive(q[:5], v[:5])
-    _, stiffness, damping = it.forces(q[5], v[5])
-    for k in range(2):
-        step = 1e-10 * np.eye(2)[k]
-        slope = (it.forces(q[5] + step, v[5])[0] - it.forces(q[5] - step, v[5])[0]) / 2e-10
-        np.testing.assert_allclose(slope, stiffness[:, k], rtol=0.0, atol=1e-6 * np.abs(stiffness).max())
-        step = 1e-5 * np.eye(2)[k]
-        slope = (it.forces(q[5], v[5] + step)[0] - it.forces(q[5], v[5] - step)[0]) / 2e-5
-        np.testing.assert_allclose(slope, damping[:, k], rtol=0.0, atol=1e-6 * np.abs(damping).max())
 
 
 @pytest.mark.parametrize("factor", [0.01, 0.05])

@@ -239,7 +239,7 @@ def test_refused(program, film):
         assert words in str(error.value) and "\n" not in str(error.value)
 
 
-def test_without_ross_the_pip_line_is_said(monkeypatch, dry):
+def test_without_ross_the_message_has_the_pip_line(monkeypatch, dry):
     monkeypatch.setitem(sys.modules, "ross", None)
     for call in (lambda: dry.to_ross(1, speeds_rpm=0.0, load=500.0), lambda: from_ross(None, {1: dry})):
         with pytest.raises(InputError, match=r"^ross = None: must be installed: pip install 'ehlcontact\[ross\]'"):

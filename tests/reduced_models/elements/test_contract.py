@@ -1,4 +1,4 @@
-"""What every kind of element promises, dimensionless and in SI. A new kind needs an example in `MADE`, no more."""
+"""Behaviour of every kind of element, dimensionless and in SI. A new kind needs an example in `MADE`, no more."""
 
 import json
 import math
@@ -167,7 +167,7 @@ def test_no_closed_cycle_gives_energy(asked, omega, centre, amplitude, third):
     assert work > 0.0
 
 
-def test_a_step_is_what_its_tangents_say_and_a_state_comes_back(asked):
+def test_steps_have_the_force_of_their_tangents_and_states_are_restored(asked):
     e = asked.element
     rng = np.random.default_rng(3)
     way = [(0.05, *at) for at in zip(rng.uniform(0.6, 1.1, 40), 0.5 * rng.normal(size=40), strict=True)]
@@ -278,7 +278,7 @@ def test_files_without_a_coefficient_or_with_text_name_it(element, tmp_path):
         (lambda e: e.warn_outside([0.9], [1.0], Omega=13.0), r"Omega 13 \(fitted Omega 3 to 6\)"),
     ],
 )
-def test_leaving_the_box_is_told_once(element, call, words):
+def test_leaving_the_box_warns_once(element, call, words):
     with pytest.warns(OutsideValidityWarning, match=rf"^{type(element).__name__} used outside .*{words}") as told:
         for _ in range(3):
             call(element)
@@ -287,7 +287,7 @@ def test_leaving_the_box_is_told_once(element, call, words):
         call(replace(element))
 
 
-def test_within_the_margin_and_for_questions_nothing_is_said(element):
+def test_no_warning_within_the_margin_or_for_evaluations(element):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         at_corners = replace(element, load_range=(0.0, 2.0))  # where no data is

@@ -1,7 +1,6 @@
 """Element files: exact round trip, and one clear line for whatever else is in the file."""
 
 import json
-import os
 
 import pytest
 
@@ -26,28 +25,10 @@ def test_round_trip_is_exact(tmp_path, record):
     assert set(document["source"]) == {"point", "scales", "n", "domain", "motion", "version"}
 
 
-def test_bounds_that_are_not_known_may_be_left_out(tmp_path, cubic):
+def test_unknown_bounds_may_be_left_out(tmp_path, cubic):
     path = save(cubic, tmp_path / "e.json")
     _edit(path, valid={"low": 0.75, "high": 1.0, "rate": None})
     assert load(path) == cubic and load(path).load_range is None
-
-
-def test_saving_replaces_in_one_move_and_leaves_nothing_behind(tmp_path, linear, cubic, monkeypatch):
-    path = save(linear, tmp_path / "e.json")
-
-    def fail(*_):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "replace", fail)
-    with pytest.raises(InputError, match="No space left"):
-        save(cubic, path)
-    assert load(path) == linear
-    assert [p.name for p in tmp_path.iterdir()] == ["e.json"]
-
-
-def test_saving_into_a_missing_folder_is_an_input_error(tmp_path, linear):
-    with pytest.raises(InputError, match="can be written"):
-        save(linear, tmp_path / "none" / "e.json")
 
 
 def _edit(path, **changes):
@@ -90,14 +71,6 @@ def test_wrong_content_is_one_line_that_names_the_file(tmp_path, cubic, changes,
     assert "wrong.json" in str(caught.value) and "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("content", [b"", b"{", b"[1, 2]", b"\xff\xfe\x00", b'{"header": NaN}', b"null"])
-def test_truncated_and_foreign_files(tmp_path, content):
-    path = tmp_path / "broken.json"
-    path.write_bytes(content)
-    with pytest.raises(InputError, match=r"broken\.json"):
-        load(path)
-
-
 def test_truncation_anywhere_is_noticed(tmp_path, cubic):
     path = save(cubic, tmp_path / "cut.json")
     text = path.read_text().rstrip()
@@ -105,10 +78,3 @@ def test_truncation_anywhere_is_noticed(tmp_path, cubic):
         path.write_text(text[:length])
         with pytest.raises(InputError, match=r"cut\.json"):
             load(path)
-
-
-def test_missing_file_and_wrong_class(tmp_path, linear):
-    with pytest.raises(InputError, match=r"gone\.json"):
-        load(tmp_path / "gone.json")
-    with pytest.raises(InputError, match="class 'LinearContact'"):
-        load(save(linear, tmp_path / "e.json"), CubicContact)

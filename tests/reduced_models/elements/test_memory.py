@@ -30,7 +30,6 @@ def test_impedance_and_wrapper_in_si(memory, scales):
     [
         ("parameters", "gains", 1.0, "parameters.gains"),
         ("parameters", "gains", [1.0, "x", 2.0, 3.0], "gains"),
-        ("parameters", "film", None, "parameters.film"),
         ("parameters", "film", -1.0, "film"),
         ("parameters", "lag_rate", 0.0, "lag_rate"),
         (None, "scales", [1.0], "scales"),
@@ -54,7 +53,6 @@ def test_wrong_files_name_the_entry(memory, tmp_path, section, key, value, messa
         ({"film": 0.0}, "film"),
         ({"exponent": 0.0}, "exponent"),
         ({"inlet_saturation": -0.1}, "inlet_saturation"),
-        ({"inlet_rate": math.inf}, "inlet_rate"),
         ({"gains": (0.1, 0.1, 0.1)}, "gains"),
         ({"gains": (0.1, math.nan, 0.1, 0.1)}, "gains"),
     ],

@@ -16,7 +16,7 @@ def boxed():
     return LinearContact(1.15, 0.012, 0.75, 1.0, rate=1.0, load_range=(0.8, 1.2), omega_range=(3.0, 6.0))
 
 
-def test_a_bound_that_is_not_known_does_not_count(boxed, linear):
+def test_unknown_bounds_do_not_count(boxed, linear):
     assert linear.is_valid(0.9, 1e9, Omega=1e9) and not linear.is_valid(1.1, 1e9)
     assert boxed.is_valid(0.9, 0.5, Omega=4.0) and not boxed.is_valid(0.9, 1.1)
     assert linear.validity == Validity((0.75, 1.0)) and linear.validity.excess([0.9], [1e9], 1e9, [1e9]) == []
@@ -47,7 +47,7 @@ def test_control_block_warns(boxed):
         block.output(0.0, [], [3.0, 0.0])
 
 
-def test_oscillation_at_another_frequency_is_told():
+def test_oscillation_at_another_frequency_warns():
     element = LinearContact(1.0, 0.01, 0.5, 1.5, omega_range=(3.0, 3.0))
     T = np.linspace(0.0, 3.0, 301)
     simulate_oscillator(element, T, Omega_n=4.0, u0=1.1)

@@ -13,8 +13,6 @@ from ehlcontact import (
     MoesPoint,
     PrescribedLoad,
     impedance,
-    load,
-    save,
     simulate,
     solve_steady,
 )
@@ -63,9 +61,8 @@ def test_static_curve_rises_from_nothing_without_a_kink(wide):
     for F, u in zip(wide.loads, wide.approach, strict=True):
         below, above = (wide.spring_tangent(u + s) for s in (-1e-7, 1e-7))
         assert above == pytest.approx(below, rel=1e-3), f"slope at load {F}"
-    h = 1e-7
-    for u in (-1.0, -0.02, 0.05, 0.4, 1.2, 5.0):
-        slope = (wide.spring(u + h) - wide.spring(u - h)) / (2.0 * h)
+    for u in (-1.0, -0.02, 0.05, 5.0):
+        slope = (wide.spring(u + 1e-7) - wide.spring(u - 1e-7)) / 2e-7
         assert wide.spring_tangent(u) == pytest.approx(slope, rel=1e-4)
 
 
@@ -114,13 +111,6 @@ def test_oscillator_agrees_with_steps_at_every_load(wide):
     run = simulate_oscillator(wide, T, Omega_n=4.0, load=load, u0=wide.approach_at(0.3), rtol=1e-8)
     assert run.force.max() > 1.8
     assert np.abs(wide.drive(T, run.approach, run.rate) - run.force)[1:].max() < 2e-4
-
-
-def test_box_is_that_of_its_tables_in_si_too(wide, scales, tmp_path):
-    si = wide.to_si(scales)
-    assert si.load_range == (0.005 * scales.force, 3.0 * scales.force)
-    assert si.low == wide.low * scales.length
-    assert load(save(si, tmp_path / "w.json")) == si
 
 
 @pytest.mark.parametrize(

@@ -56,7 +56,7 @@ def test_cross_validation_chooses_the_order_and_the_impedance_alone_will_do(coar
     assert result.element.load_range == (0.9, 1.1)
 
 
-def test_records_of_simulations_know_where_to_solve_the_impedance(coarse):
+def test_impedance_is_solved_at_the_point_of_the_record(coarse):
     response, records = coarse
     element = fit_memory(None, records[2], lags=4).element
     C = np.interp(0.05, response.Omega, response.damping)

@@ -85,7 +85,7 @@ def test_from_result_takes_what_the_fit_will_need(domain):
     assert record.motion["kind"] == "free" and record.load is not None
 
 
-def test_from_result_refuses_an_unconverged_run_unless_told():
+def test_from_result_refuses_an_unconverged_run_by_default():
     with pytest.raises(InputError, match="accept_unconverged"):
         ContactRecord.from_result(simulation("diverged"))
     assert len(ContactRecord.from_result(simulation("diverged"), accept_unconverged=True)) == 31

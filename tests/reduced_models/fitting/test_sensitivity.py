@@ -46,7 +46,7 @@ def test_terms_that_the_truth_has_are_missed_and_the_others_are_not(noisy):
     assert all(row.rms >= table.rows[0].rms for row in table.rows)
 
 
-def test_correlated_residuals_are_told_and_counted(record):
+def test_correlated_residuals_warn_and_are_counted(record):
     wave = replace(record, force=record.force + 1e-3 * np.sin(40.0 * record.T))
     table = sensitivity(wave)
     assert table.lag_one > 0.8 and table.independent_samples < 0.3 * table.samples

@@ -25,7 +25,7 @@ def test_autocorrelation_of_a_known_sequence():
     np.testing.assert_array_equal(autocorrelation(np.zeros(3)), [1.0, 0.0, 0.0])
 
 
-def test_white_noise_counts_in_full_and_coloured_noise_as_its_correlation_time_says():
+def test_white_noise_counts_in_full_and_coloured_noise_by_its_correlation_time():
     white = independent_samples([coloured(seed, 2000, 0.0) for seed in range(5)])
     assert white == pytest.approx(10_000, rel=0.05)
     rho = 0.9

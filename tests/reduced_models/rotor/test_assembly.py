@@ -1,12 +1,11 @@
 """Rotors of shaft, discs and supports on ball bearings: closed forms, and the Jeffcott rotor on contacts."""
 
-from dataclasses import dataclass
 from math import pi
 
 import numpy as np
 import pytest
+from beam_rotor import StillBearing
 
-from ehlcontact import Lubricant
 from ehlcontact.errors import InputError
 from reduced_models import (
     BallBearing,
@@ -26,24 +25,6 @@ from reduced_models import (
 
 RPM, DT = 3000.0, 2e-5
 SPAN, OVER = 0.4, 0.15  # m, between bearings, and of a disc beyond them
-
-
-@dataclass(frozen=True, kw_only=True)
-class StillBearing(BallBearing):
-    """Its balls do not go round."""
-
-    def kernel(self, speeds_rpm):
-        return super().kernel(speeds_rpm)._replace(cage=0.0, swing=0.0)
-
-
-@pytest.fixture(scope="module")
-def dry():
-    return BallBearing.catalogue("6205")
-
-
-@pytest.fixture(scope="module")
-def film():
-    return BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
 
 
 def pair(left, right, span=SPAN, **both):
@@ -117,7 +98,7 @@ def test_a_massless_shaft_bends_as_a_pinned_beam(dry, at):
 
 
 @pytest.mark.parametrize("rpm", [0.0, 6000.0, 60000.0])
-def test_an_overhung_disc_whirls_as_its_flexibilities_say(dry, rpm):
+def test_whirl_of_an_overhung_disc_by_its_flexibilities(dry, rpm):
     """A disc beyond two pins on a massless shaft: flexibilities of the beam, moment (Id w^2 - Ip omega w).
 
     Gere and Goodno, Mechanics of Materials, table of beams with an overhang c; Genta, Dynamics of Rotating Systems

@@ -8,16 +8,11 @@ import pytest
 from beam_rotor import shaft as twin
 from scipy import linalg
 
-from reduced_models import BallBearing, Disc, Shaft, Support, rotor_on_bearings
+from reduced_models import Disc, Shaft, Support, rotor_on_bearings
 from reduced_models.rotor.beam import shear_coefficient
 
 STEEL = {"youngs_modulus": 211e9, "poisson_ratio": 0.5 * 211e9 / 81.2e9 - 1.0, "density": 7810.0}
 LENGTH, DIAMETER = 0.8, 0.03
-
-
-@pytest.fixture(scope="module")
-def dry():
-    return BallBearing.catalogue("6205")
 
 
 def built(dry, shaft, ends, discs=(), **supports):

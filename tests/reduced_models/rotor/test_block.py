@@ -24,20 +24,6 @@ def test_states_have_the_frequency_response_of_the_impedances(film, beam):
         np.testing.assert_allclose(response(block, w), expected, rtol=0.0, atol=1e-9 * abs(expected).max())
 
 
-def test_bode_is_the_impedance(film, block):
-    """Without the mass, forces over displacements are K + i w C of `coefficients`."""
-    at = linearise(block(film), RPM, passage=False)
-    omega = np.geomspace(10.0, 1e5, 5)
-    found = control.frequency_response(at.to_control(), omega).frdata
-    angle = at.rotor.mounts[0].cage_angle
-    c = film.coefficients(at.loads[0], speed_rpm=RPM, cage_angle=angle, omega=omega)
-    for k, w in enumerate(omega):
-        Z = c.stiffness[k] + 1j * w * c.damping[k]
-        np.testing.assert_allclose(
-            np.linalg.inv(found[:, :, k]) + 2.0 * w * w * np.eye(2), Z, rtol=0.0, atol=1e-9 * abs(Z).max()
-        )
-
-
 def test_eigenvalues_of_the_states_are_the_modes(film, beam):
     at = linearise(beam(film), RPM, passage=False)
     values = np.linalg.eigvals(at.to_control().A)

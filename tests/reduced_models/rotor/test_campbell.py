@@ -57,7 +57,7 @@ def test_critical_speeds_lie_where_a_mode_has_the_frequency_of_the_order(film, b
     assert diagram.critical_speeds(0.01) == ()
 
 
-def test_no_critical_speed_says_what_was_searched(diagram):
+def test_no_critical_speed_has_the_range_that_was_searched(diagram):
     low, high = diagram.hz.min(), diagram.hz.max()
     none = diagram.critical_speeds(0.01)
     assert isinstance(none, tuple) and none == ()

@@ -24,7 +24,7 @@ def test_exact_decay(delta, guess):
     assert found.to_dict()["decrement"] == found.decrement
 
 
-def test_a_guess_in_hertz_is_told():
+def test_a_guess_in_hertz_warns():
     """Six times too low, the search ends where it has to: that is no decrement."""
     t = np.linspace(0.0, 0.02, 2000)
     y = np.exp(-30.0 * t) * np.cos(2.0 * pi * 800.0 * t)

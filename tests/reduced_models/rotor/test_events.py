@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from rotor_twins import run_of
 
-from ehlcontact import Status
-from reduced_models import CubicContact, RotorResult, contact_events
+from reduced_models import CubicContact, contact_events
 from reduced_models.rotor.events import lift_offs
 
 ELEMENT = CubicContact(
@@ -21,25 +21,8 @@ ELEMENT = CubicContact(
 )
 
 
-def run_of(approach, rate, force):
-    n = len(force)
-    plane = np.zeros((n, 2))
-    columns = [np.asarray(values, float).reshape(n, -1) for values in (approach, rate, force)]
-    t = np.arange(n) * 1e-4
-    approaches, rates, forces = columns
-    return RotorResult(
-        t=t,
-        speed_rpm=np.full(n, 3000.0),
-        displacement=plane,
-        velocity=plane,
-        approach=approaches,
-        rate=rates,
-        force=forces,
-        iterations=np.ones(n, dtype=int),
-        largest_load=np.zeros((0, 2)),
-        status=Status.CONVERGED,
-        columns=tuple(f"contact {i + 1}" for i in range(forces.shape[1])),
-    )
+def run(approach, rate, force):
+    return run_of(np.arange(len(force)) * 1e-4, approach, rate, force)
 
 
 @pytest.mark.parametrize(
@@ -63,7 +46,7 @@ def test_shares_outside_the_box():
     u = np.array([1.0, 1.2, 1.5, 1.8, 2.0, 2.04, 2.06, 2.2, 0.96, 0.94]) * 1e-6
     v = np.array([0.0, 1.0, -1.0, 1.04, -1.04, 1.06, -1.06, 2.0, 0.0, 0.0]) * 1e-3
     f = np.array([20.0, 30, 40, 50, 51, 51.6, 60, 18.6, 18.4, 0.0])
-    found = contact_events(run_of(u, v, f), 40.0, [ELEMENT])[0]
+    found = contact_events(run(u, v, f), 40.0, [ELEMENT])[0]
     assert found.outside_approach == pytest.approx(0.3) and found.outside_rate == pytest.approx(0.3)
     assert found.outside_load == pytest.approx(0.4) and found.load_range == (0.0, 60.0)
     assert found.lift_offs == 1 and found.impacts == 0 and found.lost_share == pytest.approx(0.1)
@@ -78,12 +61,12 @@ def test_shares_outside_the_box():
 def test_frequency_is_of_the_whole_run(omega, share):
     t = np.linspace(0.0, 2.0 * np.pi / omega, 400, endpoint=False)
     u, v = 1.5e-6 + 1e-7 * np.sin(omega * t), 1e-7 * omega * np.cos(omega * t)
-    found = contact_events(run_of(u, v, np.full(400, 40.0)), 40.0, [ELEMENT])[0]
+    found = contact_events(run(u, v, np.full(400, 40.0)), 40.0, [ELEMENT])[0]
     assert found.outside_omega == share and bool(found.warnings) == bool(share)
 
 
 def test_full_films_have_no_box():
-    found = contact_events(run_of([1e-6] * 3, [0.0] * 3, [40.0, 0.0, 41.0]), 40.0)[0]
+    found = contact_events(run([1e-6] * 3, [0.0] * 3, [40.0, 0.0, 41.0]), 40.0)[0]
     assert found.outside_approach is None and found.outside == 0.0 and found.warnings == ()
     assert (found.lift_offs, found.impacts) == (1, 1)
     assert found.to_dict()["load_range"] == [0.0, 41.0] and found.to_dict()["warnings"] == []
@@ -91,6 +74,6 @@ def test_full_films_have_no_box():
 
 def test_every_contact_for_itself():
     force = np.array([[40.0, 40.0], [40.0, 0.0], [40.0, 40.0]])
-    first, second = contact_events(run_of(np.full((3, 2), 1.5e-6), np.zeros((3, 2)), force), 40.0, [ELEMENT, None])
+    first, second = contact_events(run(np.full((3, 2), 1.5e-6), np.zeros((3, 2)), force), 40.0, [ELEMENT, None])
     assert (first.lift_offs, second.lift_offs) == (0, 1)
     assert first.outside_approach == 0.0 and second.outside_approach is None

@@ -1,17 +1,16 @@
 """Rotors about rest: against the coefficients of their bearings, published figures, the time domain."""
 
-from dataclasses import dataclass
 from math import pi
 
 import numpy as np
 import pytest
+from beam_rotor import DISC, StillBearing
 
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingMount, Rotor, linearise, log_decrement, simulate_rotor
 from reduced_models.rotor.modes import is_new
 
 RPM = 3000.0
-DISC = 12
 
 
 def with_coefficients(rotor, at, w):
@@ -84,14 +83,6 @@ def test_all_modes_of_a_dry_rotor_are_those_of_its_matrices(dry, beam):
     assert whirling[0] < -0.5 < 0.5 < whirling[1]
 
 
-@dataclass(frozen=True, kw_only=True)
-class StillBearing(BallBearing):
-    """Its balls do not go round."""
-
-    def kernel(self, speeds_rpm):
-        return super().kernel(speeds_rpm)._replace(cage=0.0, swing=0.0)
-
-
 def test_free_decay_in_time_is_that_of_the_first_mode(film, beam):
     """Balls standing still, so that nothing is averaged: the run decays as the eigenvalue says."""
     rotor = beam(StillBearing.catalogue("6205", oil=film.oil))
@@ -140,7 +131,7 @@ def test_a_root_is_new_at_another_place_or_in_another_direction():
     assert is_new(-1.0 + 100.0j, x, [])
 
 
-def test_whirl_tells_the_direction(block):
+def test_sign_of_whirl(block):
     """A preloaded bearing and a gyroscopic block: of exp(i w t) (1, -i), a circle from x to y, w is known."""
     tight, turning = BallBearing.catalogue("6205", clearance=-2e-5), 20000.0 * pi / 30.0
     at = linearise(block(tight, gyroscopic=np.array([[0.0, 2.0], [-2.0, 0.0]]), load=np.zeros(2)), 20000.0)

@@ -149,7 +149,7 @@ def test_kick_is_felt_at_once(memory, scales):
     assert run.force[0, 0] == pytest.approx(scales.force * (g + memory.gains[0] * dimensionless) ** 1.5, rel=1e-6)
 
 
-def test_leaving_the_box_is_told_once_for_the_run(memory, scales):
+def test_leaving_the_box_warns_once_per_run(memory, scales):
     slow = replace(memory, omega_range=(1.0, 60.0), load_range=(0.9, 1.1), low=0.8, high=0.95)
     rotor = vee(1.05 * scales.force, unbalance=1e-4, speed_rpm=4800.0)
     contacts = [slow.to_si(scales), memory.to_si(scales)]

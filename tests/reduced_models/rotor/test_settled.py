@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from rotor_twins import SCALES, C, K, one_mass
+from rotor_twins import SCALES, C, K, one_mass, run_of
 
-from ehlcontact import InputError, Status
-from reduced_models import RotorResult, dry_contact, settling
+from ehlcontact import InputError
+from reduced_models import dry_contact, settling
 from reduced_models.elements.polynomial import LinearContact
 from reduced_models.rotor.settling import QUIET, run_until_settled
 
@@ -21,21 +21,8 @@ def history(transient, revolutions=4, drift=0.0):
     y = np.sin(2.0 * np.pi * turn) + 0.5 * transient**turn * np.sin(2.0 * np.pi * 3.3 * turn) + drift * turn
     plane = np.column_stack([np.zeros_like(y), 1e-6 * y])
     column = (50.0 + y)[:, None]
-    return RotorResult(
-        t=t,
-        speed_rpm=np.full(t.size, 3000.0),
-        displacement=plane,
-        velocity=plane,
-        approach=column,
-        rate=column,
-        force=column,
-        iterations=np.ones(t.size, dtype=int),
-        largest_load=np.zeros((0, 2)),
-        status=Status.CONVERGED,
-        columns=("contact 1",),
-        names=("disc x", "disc y"),
-        places=np.array([0, 1]),
-    )
+    moving = {"displacement": plane, "velocity": plane, "names": ("disc x", "disc y"), "places": np.array([0, 1])}
+    return run_of(t, column, column, column, **moving)
 
 
 def test_periodic_motion_is_settled_at_once():
@@ -94,7 +81,7 @@ def test_elements_turn_until_they_have_settled(damping):
     assert np.ptp(run.journal[:, 1]) / 2.0 == pytest.approx(swing, rel=0.02)
 
 
-def test_settling_asks_for_whole_revolutions():
+def test_settling_needs_whole_revolutions():
     run = history(0.0)
     with pytest.raises(InputError, match="steps per revolution"):
         settling(replace(run, t=run.t * 1.01))
