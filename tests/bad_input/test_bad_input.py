@@ -176,7 +176,7 @@ def test_files(refused, sound, place, kind, name):
     assert data != sound[kind]
     file = place / f"bad{files.SUFFIX[kind]}"
     file.write_bytes(data)
-    refused(files.COMMANDS[kind](file, place / "out"), ("must be",), place)
+    refused(files.COMMANDS[kind](file, place / "out"), ("must be", file.name), place)
 
 
 @pytest.mark.parametrize("kind", files.COMMANDS)
@@ -187,7 +187,8 @@ def test_files_that_are_not_there(refused, place, kind, name):
 
 def test_a_bad_index_is_no_index(tmp_path):
     """Of the folder of a study; its stages are made again."""
-    for text in ("", "{", "[]", files.DEEP, '{"steady": {"status": "converged"}}', '{"steady": 3}', "\ud83d"):
+    entries = '{"steady": {"status": "converged"}}', '{"steady": {"status": []}}', '{"steady": 3}', '{"sofa": {}}'
+    for text in ("", "{", "[]", "5", files.DEEP, *entries, "\ud83d"):
         (tmp_path / "stages.json").write_bytes(text.encode("utf-8", "surrogatepass"))
         assert read_index(tmp_path) == {}
 

@@ -1,5 +1,6 @@
 """The command line called in this process, as the console script calls it."""
 
+import json
 from collections import namedtuple
 
 import pytest
@@ -62,3 +63,9 @@ def finished(tmp_path_factory):
         main(["run", str(study), "-o", str(root / "out")])
     assert not stop.value.code
     return study, root / "out"
+
+
+@pytest.fixture(scope="session")
+def results(finished):
+    """The results of that run."""
+    return json.loads((finished[1] / "results.json").read_text())

@@ -1,4 +1,4 @@
-"""The section [check] of a study: without it nothing is solved twice, and nothing is said of it."""
+"""The section [check] of a study: without it nothing is solved twice, and no output mentions it."""
 
 import json
 import shutil
@@ -32,7 +32,7 @@ def test_stages_of_the_check_are_opt_in(finished, unchecked):
     assert plans == set(names) - set(HALF_STEP)
 
 
-def test_a_study_without_a_check_says_nothing_of_it(call, finished, unchecked):
+def test_results_of_a_study_without_a_check(call, finished, unchecked):
     """Its numbers are those of the study with the check, whose stages it keeps."""
     file, folder = unchecked
     result = call("run", file, "-o", folder)

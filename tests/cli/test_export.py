@@ -1,21 +1,24 @@
-"""``ehlcontact export``: platforms, files that are kept, compilers that fail; and a study without its FMU."""
+"""``ehlcontact export``: platforms, files that are kept, compilers that fail; rotors of studies."""
 
 import json
 import os
 import shutil
 import subprocess
-import sys
 import zipfile
 from pathlib import Path
 
+import fmpy
 import pytest
+from programs import ROOT, command, environment, program
 
 from ehlcontact import save
 from ehlcontact.cli.study.reduction import export_fmu
+from ehlcontact.cli.study.rotor import build_rotor
+from ehlcontact.cli.study.schema import load_study
 from fmu.binaries import this_machine
-from reduced_models import CubicContact
+from reduced_models import Atlas, CubicContact
 
-ROOT = Path(__file__).parents[2]
+STUDY = ROOT / "examples" / "small_study.toml"
 CUBIC = {"K1": 0.624, "K2": 0.750, "K3": -0.174, "C1": 0.0130, "low": 0.75, "high": 1.0}
 
 
@@ -126,25 +129,20 @@ def test_the_longest_name_there_is(call, element):
     assert beside(element) == [name]
 
 
-def program(*arguments, **environment):
-    """The program in a process of its own."""
-    command = [sys.executable, "-m", "ehlcontact.cli", *map(str, arguments)]
-    environment = os.environ | {"PYTHONPATH": str(ROOT)} | environment
-    return subprocess.run(command, capture_output=True, text=True, check=False, env=environment, timeout=300)
-
-
 def test_a_disk_without_room(full_disk, element, tmp_path_factory):
     """For the FMU itself, for the compiler, or for what is kept of it: the last only costs time."""
     where, fresh = element.with_name("x.fmu"), str(tmp_path_factory.mktemp("cache"))
     found = program("export", element, "-o", full_disk / "x.fmu")
     assert (found.returncode, found.stdout) == (2, "") and "No space left on device" in found.stderr
     for cache, word in ((fresh, "no room to compile"), (os.environ["EHLCONTACT_CACHE"], "no room to verify")):
-        found = program("export", element, "-o", where, TMPDIR=str(full_disk), EHLCONTACT_CACHE=cache)
+        own = environment(TMPDIR=str(full_disk), EHLCONTACT_CACHE=cache)
+        found = program("export", element, "-o", where, env=own)
         assert (found.returncode, found.stdout) == (2, "")
         (line,) = found.stderr.splitlines()
         assert line.startswith(f"ehlcontact: no FMU was written: {word} in {full_disk} (No space left")
     assert not where.exists()
-    assert program("export", element, "-o", where, EHLCONTACT_CACHE=str(full_disk)).returncode == 0
+    own = environment(EHLCONTACT_CACHE=str(full_disk))
+    assert program("export", element, "-o", where, env=own).returncode == 0
     assert zipfile.is_zipfile(where)
 
 
@@ -155,20 +153,15 @@ def test_without_a_home_or_a_network(element, tmp_path):
         unshare = []
     (tmp_path / "file").write_text("")
     nowhere = str(tmp_path / "file" / "home")
-    environment = os.environ | {
-        "PYTHONPATH": str(ROOT),
-        "HOME": nowhere,
-        "EHLCONTACT_CACHE": "",
-        "XDG_CACHE_HOME": "",
-    }
-    command = [*unshare, sys.executable, "-m", "ehlcontact.cli", "export", element, "-o", tmp_path / "x.fmu"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment, timeout=300)
+    own = environment(HOME=nowhere, EHLCONTACT_CACHE="", XDG_CACHE_HOME="")
+    full = [*unshare, *command("export", element, "-o", tmp_path / "x.fmu")]
+    done = subprocess.run(full, capture_output=True, text=True, check=False, env=own, timeout=300)
     assert done.returncode == 0, done.stderr
     assert zipfile.is_zipfile(tmp_path / "x.fmu")
 
 
 @pytest.mark.parametrize("what", ["EHLCONTACT_CC", "folder", "bug"])
-def test_what_a_study_says_of_an_fmu_it_cannot_have(tmp_path, monkeypatch, what):
+def test_error_of_an_fmu_in_the_results_of_a_study(tmp_path, monkeypatch, what):
     target = tmp_path / "contact.fmu"
     if what == "EHLCONTACT_CC":
         monkeypatch.setenv("EHLCONTACT_CC", "'")
@@ -198,8 +191,8 @@ def test_a_study_without_its_fmu_has_all_the_rest(call, finished, tmp_path, monk
 
 def test_a_study_as_a_system(call, refused, element, tmp_path):
     """Rotor and contacts, each its FMU; an element alone is no system."""
-    study, target = ROOT / "examples" / "small_study.toml", tmp_path / "rotor.ssp"
-    result = call("export", study, "-o", target, "--json", "-", "--name", "of a study")
+    target = tmp_path / "rotor.ssp"
+    result = call("export", STUDY, "-o", target, "--json", "-", "--name", "of a study")
     document = json.loads(result.out)
     assert result.code == 0 and document["passes"] is True and document["system"] == str(target)
     assert document["fmi"] == "2.0"
@@ -212,9 +205,53 @@ def test_a_study_as_a_system(call, refused, element, tmp_path):
         }
         assert b'name="of a study"' in archive.read("SystemStructure.ssd")
     kept = target.read_bytes()
-    refused(("--output", "--force"), "export", study, "-o", target)
+    refused(("--output", "--force"), "export", STUDY, "-o", target)
     assert target.read_bytes() == kept
-    table = call("export", study, "-o", target, "--force")
+    table = call("export", STUDY, "-o", target, "--force")
     assert table.code == 0 and "wired" in table.out and f"{document['step']:g} s" in table.out
     assert any(line.split()[:2] == ["FMI", "2.0"] for line in table.out.splitlines())
     refused(("--output", ".fmu", "a study (.toml) with a rotor"), "export", element, "-o", tmp_path / "x.ssp")
+
+
+def test_a_study_becomes_its_rotor(call, tmp_path):
+    """On the atlas's contacts, at rest under the load of the study."""
+    target = tmp_path / "rotor.fmu"
+    done = call("export", STUDY, "-o", target, "--json", "-")
+    assert done.code == 0, done
+    document = json.loads(done.out)
+    assert document["passes"] is True and document["units"] == "SI" and document["motion"] < 1e-6
+    study = load_study(STUDY)
+    rotor = build_rotor(study)
+    state = rotor.static_equilibrium([Atlas().element(study.point)])
+    starts = {v.name: v.start for v in fmpy.read_model_description(str(target)).modelVariables}
+    assert float(starts["journal_y"]) == pytest.approx(state.journal[1], rel=1e-12)
+    assert float(starts["speed_rpm"]) == study.bearing.speed_rpm
+    assert float(starts["unbalance"]) == study.rotor.unbalance
+
+
+def test_a_rotor_on_an_element_of_ones_own(call, tmp_path):
+    """Dimensionless or in SI it is the same contact."""
+    scales = load_study(STUDY).point.scales
+    found = []
+    for name, element in (("one", CubicContact(**CUBIC)), ("si", CubicContact(**CUBIC).to_si(scales))):
+        file, target = save(element, tmp_path / f"{name}.json"), tmp_path / f"{name}.fmu"
+        done = call("export", STUDY, "-o", target, "--contact", file, "--fmi", "3")
+        assert done.code == 0 and "cubic" in done.out and "inner step" in done.out, done
+        found.append(target.read_bytes())
+    assert found[0] == found[1]
+
+
+def test_rotors_that_cannot_be_exported(refused, tmp_path):
+    target = tmp_path / "x.fmu"
+    text = STUDY.read_text()
+    start, end = text.index("[rotor]"), text.index("[whole_bearing]")
+    bare = tmp_path / "bare.toml"
+    bare.write_text(text[:start] + text[end:])
+    refused(("bare.toml", "no table [rotor]"), "export", bare, "-o", target)
+    element = save(CubicContact(**CUBIC), tmp_path / "e.json")
+    refused(("--contact", "left out"), "export", element, "-o", target, "--contact", element)
+    refused(("nothing.json",), "export", STUDY, "-o", target, "--contact", tmp_path / "nothing.json")
+    broken = tmp_path / "broken.toml"
+    broken.write_text(text.replace("disc_mass = 1.5", "disc_mass = -1.5"))
+    refused(("broken.toml", "rotor.disc_mass"), "export", broken, "-o", target)
+    assert not target.exists()

@@ -1,29 +1,18 @@
 """A disk that is full: one line, exit 2, nothing lost; on a real one of 16 kB where the tests run as root."""
 
 import json
-import os
-import subprocess
-import sys
 import zipfile
 from pathlib import Path
 
 import pytest
+from programs import program
 from tiny_study import STUDY
 
 from ehlcontact import InputError, load
 from ehlcontact.transient import checkpoint
 from ehlcontact.transient.checkpoint import Checkpoint
 
-ROOT = Path(__file__).parents[2]
-SMALL = ROOT / "examples" / "small_study.toml"
 WIDE = ("element", "--M", "2900", "--L", "19", "--kappa", "0.11")
-
-
-def program(*arguments):
-    """The program in a process of its own: how it ends is the point."""
-    command = [sys.executable, "-m", "ehlcontact.cli", *map(str, arguments)]
-    environment = os.environ | {"PYTHONPATH": str(ROOT)}
-    return subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
 
 
 @pytest.mark.parametrize("option", ["--save", "--checkpoint", "--figure"])
@@ -75,7 +64,7 @@ def test_fmu_atlas_and_report(call, refused, no_room, tmp_path):
     assert (tmp_path / "x.fmu").read_bytes() == before and zipfile.is_zipfile(tmp_path / "x.fmu")
 
 
-def test_the_last_checkpoint_is_told_and_the_run_kept(call, point, tmp_path, monkeypatch):
+def test_a_full_disk_at_a_checkpoint_keeps_the_run(call, point, tmp_path, monkeypatch):
     """The disk fills up during the run: it goes on, and what it found is saved elsewhere."""
     write, saved, path = checkpoint.save, tmp_path / "r.h5", tmp_path / "c.h5"
 

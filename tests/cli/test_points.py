@@ -1,4 +1,4 @@
-"""A study of several points: lists, what is kept, what is solved, what fails, and what is said of all together."""
+"""A study of several points: lists, what is kept, what is solved, what fails, and the summary of all."""
 
 import csv
 import json
@@ -6,8 +6,6 @@ import os
 import random
 import shutil
 import signal
-import subprocess
-import sys
 import threading
 import time
 from contextlib import contextmanager
@@ -16,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from programs import dask_cluster
 from stub_tasks import StubTasks, Threads
 from tiny_study import STUDY
 
@@ -29,7 +28,6 @@ from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import stage_named
 from ehlcontact.executors import ProcessExecutor
 
-PYTHON, ROOT = sys.executable, Path(__file__).parents[2]
 NAMES = ["steady", "free", "harmonic"]
 TASKS = len(NAMES) + 1
 
@@ -132,7 +130,7 @@ def test_lists_that_are_none_of_points(refused, tmp_path, speeds, loads, words):
     assert not (tmp_path / "out").exists()
 
 
-def test_commands_of_one_point_say_so(refused, tmp_path):
+def test_commands_of_one_point_refuse_lists(refused, tmp_path):
     file = tmp_path / "s.toml"
     file.write_text(with_lists())
     refused(
@@ -266,7 +264,7 @@ def test_fmus_that_fail_are_tried_again(run, stub):
     assert run(with_lists()).code == 0 and stub() == ["4000rpm_20N report"]
 
 
-def test_the_log_tells_what_was_kept_and_solved(run, stub):
+def test_entries_of_the_log(run, stub):
     run(with_lists("[3000.0, 4000]"))
     run(with_lists("[3000.0, 5000]"))
     lines = [line.split(maxsplit=2) for line in (run.folder / "run.log").read_text().splitlines()]
@@ -343,7 +341,7 @@ def test_two_runs_do_not_share_a_folder(run, stub):
     assert run(with_two).code == 0
 
 
-def test_validate_tells_of_all_points(call, tmp_path):
+def test_validate_covers_all_points(call, tmp_path):
     file = tmp_path / "s.toml"
     file.write_text(with_lists("[3000.0, 4000]", "[20.0, 30.0]"))
     found = call("validate", file, "-o", tmp_path / "none", "--jobs", "2", "--json", "-")
@@ -403,7 +401,7 @@ def test_stages_of_a_cluster_are_those_of_this_machine(run, stub, cluster, monke
     assert run(text, "--scheduler", "tcp://somewhere").code == 0 and len(cluster) == 2
 
 
-def test_a_stage_that_fails_on_a_cluster_is_told(run, stub, cluster):
+def test_a_stage_that_fails_on_a_cluster(run, stub, cluster):
     stub.orders = ["3000rpm_20N free"]
     found = run(STUDY, "--scheduler", "tcp://somewhere")
     assert found.code == 1 and "free: diverged: The residual grows" in found.err
@@ -417,37 +415,17 @@ def test_a_stage_that_fails_on_a_cluster_is_told(run, stub, cluster):
 def test_a_dask_cluster(run, stub, monkeypatch, tmp_path):
     """Scheduler and two workers as processes of their own."""
     pytest.importorskip("distributed")
-    place = tmp_path / "scheduler.json"
     monkeypatch.setattr(runner, "STAGES", (stage_named("steady"), stage_named("free")))
     monkeypatch.setattr(runner, "solve_stage", solve_stage)
-    environment = os.environ | {"PYTHONPATH": str(ROOT)}
-    command = [PYTHON, "-m", "distributed.cli.dask_scheduler", "--port", "0", "--no-dashboard"]
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "env": environment}
-    there = ["--host", "127.0.0.1", "--scheduler-file", str(place)]
     (tmp_path / "one.toml").write_text(STUDY)
     (point,) = load_points(tmp_path / "one.toml", tmp_path)
-    for _ in range(
-        2
-    ):  # where kernels are compiled, last digits may differ from where they are read from the cache
+    for _ in range(2):  # where kernels are compiled, last digits may differ from those of cached ones
         with ProcessExecutor(1, threads=1) as executor:
             document = point.study.model_dump(exclude_unset=True, exclude_none=True)
             (tmp_path / "free.h5").write_bytes(executor.submit(solve_stage, "", document, "free").result().content)
     ours = load(tmp_path / "free.h5")
-    processes = [subprocess.Popen([*command, *there], **quiet)]
-    try:
-        deadline = time.monotonic() + 60.0
-        while not place.exists() or not place.read_text():
-            assert processes[0].poll() is None and time.monotonic() < deadline
-            time.sleep(0.05)
-        scheduler = json.loads(place.read_text())["address"]
-        worker = [PYTHON, "-m", "distributed.cli.dask_worker", scheduler, "--nthreads", "1", "--no-nanny"]
-        folder = ["--local-directory", str(tmp_path), "--no-dashboard"]
-        processes += [subprocess.Popen([*worker, *folder], **quiet) for _ in range(2)]
+    with dask_cluster(tmp_path) as (scheduler, _):
         assert run(with_lists("[3000.0, 4000]"), "--scheduler", scheduler).code == 0
-    finally:
-        for process in processes:
-            process.kill()
-            process.wait()
     assert stub() == ["3000rpm_20N report", "4000rpm_20N report"]
     theirs = load(run.folder / "points" / "3000rpm_20N" / "free.h5")
     assert np.array_equal(ours.force, theirs.force)

@@ -55,7 +55,7 @@ def test_help_ends_in_examples_that_the_parser_takes(call, name):
         ("ehlcontact steady --bearing 630", ["6305", "6306"]),
     ],
 )
-def test_a_shell_is_told_what_may_come_next(line, offered):
+def test_completion_in_a_shell(line, offered):
     asked = {"_EHLCONTACT_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(len(line.split()) - 1)}
     command = [sys.executable, "-c", "from ehlcontact.cli import main; main()"]
     found = subprocess.run(command, capture_output=True, text=True, check=False, env=os.environ | asked)
@@ -70,25 +70,6 @@ def test_version(call):
 def test_no_arguments_show_the_help(call):
     result = call()
     assert result.code == 2 and "Usage" in result.out + result.err
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (("stedy",), ("stedy",)),
-        (("steady", "--M", "20", "--L", "5"), ("--kappa",)),
-        (("steady", "--M", "many", "--L", "5", "--kappa", "1"), ("--M", "many", "must be", "number")),
-        (
-            ("steady", "--M", "20", "--L", "5", "--kappa", "1", "--n", "64.5"),
-            ("--n", "64.5", "must be", "whole number"),
-        ),
-        (("steady", "--M", "20", "--L", "5", "--kappa", "1", "--colour", "x"), ("--colour",)),
-        (("steady", "--M", "20", "--L", "5", "--kappa", "1", "--domain", "-4", "2"), ("--domain",)),
-        (("fit",), ("R.h5",)),
-    ],
-)
-def test_usage_errors_are_one_line(refused, arguments, words):
-    refused(words, *arguments)
 
 
 def test_as_a_process():

@@ -64,7 +64,7 @@ def test_a_run_that_goes_on_from_a_file_is_judged_by_what_it_does_now(clock, cap
     assert capsys.readouterr().err == "film: 91 %, about 16 s left\n"
 
 
-def test_where_the_end_is_not_known_the_silence_is_broken_all_the_same(clock, capsys):
+def test_lines_of_a_task_without_known_end(clock, capsys):
     lines = Lines()
     task = lines.add("steady film")
     for second in range(200):
@@ -77,7 +77,7 @@ def test_where_the_end_is_not_known_the_silence_is_broken_all_the_same(clock, ca
     ]
 
 
-def test_many_short_tasks_are_as_silent_as_a_long_one(clock, capsys):
+def test_many_short_tasks_have_as_few_lines_as_a_long_one(clock, capsys):
     for k in range(40):
         lines = Lines()
         task = lines.add(f"case {k}")
@@ -99,7 +99,7 @@ def test_ended_tasks_write_their_last_line_and_no_more(clock, capsys):
     assert capsys.readouterr().err.splitlines() == ["now: 10 s so far", "now: done, 10.0 s"]
 
 
-def test_the_thread_speaks_by_itself_and_ends(monkeypatch, capsys):
+def test_the_thread_writes_and_ends(monkeypatch, capsys):
     monkeypatch.setattr(Lines, "write_due", WRITE_DUE)
     monkeypatch.setattr(progress, "SPACING", 0.0)
     monkeypatch.setattr(progress, "TICK", 0.01)
@@ -111,7 +111,7 @@ def test_the_thread_speaks_by_itself_and_ends(monkeypatch, capsys):
     assert said.startswith("film: ") and not thread.is_alive()
 
 
-def test_what_is_compiled_is_told_until_there_is_news(clock, capsys):
+def test_compilation_is_shown_until_the_next_progress(clock, capsys):
     lines = Lines()
     task = lines.add("film")
     lines.compiling(task)
@@ -131,7 +131,7 @@ def test_what_is_compiled_is_told_until_there_is_news(clock, capsys):
     ]
 
 
-def test_only_what_was_not_compiled_yet_is_told(monkeypatch):
+def test_only_the_first_compilation_is_shown(monkeypatch):
     kernel, told = njit(lambda x: x + 1.0), []
     monkeypatch.setattr(Lines, "compiling", lambda self, task: told.append(task.description))
     for _ in range(2):

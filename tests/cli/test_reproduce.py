@@ -122,7 +122,7 @@ def test_interrupt_keeps_what_is_finished(call, tmp_path, monkeypatch):
     assert load(tmp_path / "case_2_n32.h5").status is Status.CONVERGED
 
 
-def test_a_case_that_fails_is_told_and_the_page_is_made_without_it(call, tmp_path, monkeypatch):
+def test_a_page_without_the_case_that_failed(call, tmp_path, monkeypatch):
     simulate = runs.simulate
 
     def short_of_breath(point, motion, **options):
@@ -135,19 +135,6 @@ def test_a_case_that_fails_is_told_and_the_page_is_made_without_it(call, tmp_pat
     assert document["status"] == "not converged" and "case 2, n = 32" in document["failed"]
     assert document["missing_figures"] == {"6": "no simulation of case 2"}
     assert "Not converged" in (tmp_path / "reproduction.html").read_text()
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (("--table", "7"), ("--table", "7", "1, 2, 3")),
-        (("--figure", "3"), ("--figure", "3", "2, 4")),
-        (("--n", "100"), ("100", "multiple of 16")),
-        (("--json", "/nowhere/r.json"), ("--json", "/nowhere")),
-    ],
-)
-def test_bad_input(refused, tmp_path, arguments, words):
-    refused(words, "reproduce", "-o", tmp_path / "out", *arguments)
 
 
 def test_every_figure_with_results_is_listed():

@@ -1,32 +1,17 @@
 """A real study that is interrupted again and again: Ctrl-C and kill -9 at ten random moments, the same summary."""
 
 import json
-import os
 import random
 import signal
 import subprocess
-import sys
 import time
-from pathlib import Path
 
 import pytest
+from programs import begin
 from tiny_study import STUDY
 
-ROOT = Path(__file__).parents[2]
 MOMENTS, SEED = 10, 2026
-
-
-def begin(study, folder):
-    """The program in a process of its own."""
-    command = [sys.executable, "-m", "ehlcontact.cli", "run", str(study), "-o", str(folder), "--jobs", "2"]
-    return subprocess.Popen(
-        command,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=os.environ | {"PYTHONPATH": str(ROOT)},
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    )
+JOBS = ("--jobs", "2")
 
 
 def lasting(folder):
@@ -54,10 +39,11 @@ def timeless(value):
 def test_interrupted_at_ten_random_moments_it_gives_the_same_bit_for_bit(tmp_path):
     study = tmp_path / "two.toml"
     study.write_text(STUDY.replace("speed_rpm = 3000.0", "speed_rpm = [3000.0, 4000.0]"))
-    first = begin(study, tmp_path / "warm")  # compiles: last digits may differ from kernels of the cache
+    # the first compiles: last digits may differ from kernels of the cache
+    first = begin("run", study, "-o", tmp_path / "warm", *JOBS)
     first.communicate()
     started = time.monotonic()
-    whole = begin(study, tmp_path / "whole")
+    whole = begin("run", study, "-o", tmp_path / "whole", *JOBS)
     whole.communicate()
     took = time.monotonic() - started
     assert first.returncode == whole.returncode == 0
@@ -66,7 +52,7 @@ def test_interrupted_at_ten_random_moments_it_gives_the_same_bit_for_bit(tmp_pat
     rng, folder, ends = random.Random(SEED), tmp_path / "out", []
     while len(ends) < MOMENTS:
         blow = rng.choice([signal.SIGINT, signal.SIGKILL])
-        process = begin(study, folder)
+        process = begin("run", study, "-o", folder, *JOBS)
         try:  # so soon that the study is rarely done before the tenth
             _, said = process.communicate(timeout=rng.uniform(0.0, 0.3) * took)
         except subprocess.TimeoutExpired:
@@ -75,7 +61,7 @@ def test_interrupted_at_ten_random_moments_it_gives_the_same_bit_for_bit(tmp_pat
         ends.append(process.returncode)
         assert process.returncode in (0, 130, -signal.SIGKILL, -signal.SIGINT) and "Traceback" not in said
     assert {130, -signal.SIGKILL} <= set(ends)
-    last = begin(study, folder)
+    last = begin("run", study, "-o", folder, *JOBS)
     last.communicate()
     assert last.returncode == 0
     assert lasting(folder) == expected

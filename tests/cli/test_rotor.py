@@ -1,7 +1,6 @@
-"""The rotor of a study: what is told of it, computed a second time from the stored runs, and what is told when."""
+"""The rotor of a study: its numbers computed a second time from the stored runs, sentences of the headline."""
 
 import html
-import json
 from dataclasses import replace
 from math import pi
 from pathlib import Path
@@ -21,11 +20,6 @@ from ehlcontact.cli.study.results import evaluate
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.errors import ConvergenceError
 from reduced_models import ContactEvents, RotorResult, Settling
-
-
-@pytest.fixture(scope="module")
-def results(finished):
-    return json.loads((finished[1] / "results.json").read_text())
 
 
 @pytest.fixture(scope="module")
@@ -127,7 +121,7 @@ def test_differences_from_the_stored_run(finished, results, found):
     assert step["force"] == pytest.approx(np.sqrt(np.mean(change**2)) / np.std(full["force"][:, 0]))
 
 
-def test_the_step_check_tells_the_signal_that_changes_most(finished, found):
+def test_the_step_check_is_of_the_signal_that_changes_most(finished, found):
     full, half = (stored(finished[1], name) for name in ("rotor_full", "rotor_half_step"))
     signals = ((run["disc"][:, 1], run["journal"][:, 1], run["force"][:, 0]) for run in (full, half))
     changes = [np.sqrt(np.mean((b[::2] - a) ** 2)) / np.std(a) for a, b in zip(*signals, strict=True)]
@@ -163,7 +157,7 @@ def test_damper_of_the_headline_is_the_impedances(finished, results):
     )
 
 
-def test_the_headline_says_it(results):
+def test_numbers_of_the_headline(results):
     """The numbers of the paragraph are those of the results."""
     answer, decay = results["answer"], results["rotor"]["decay"]
     for name in ("full", "rotor_band", "undamped", "dry"):
@@ -204,7 +198,7 @@ def fake(**changes):
     return SimpleNamespace(rotors=rotors)
 
 
-def test_sentences_that_have_nothing_to_say_are_empty():
+def test_sentences_without_a_finding_are_empty():
     for sentence in (headline.unsettled, headline.step_check, headline.happenings, headline.failures):
         assert sentence(fake()) == ""
 
@@ -273,17 +267,6 @@ def test_pictures_show_what_is_settled(finished, found):
     assert not is_settled and last.t.size == 21 and last.t[-1] == run.t[-1]
     grey = pictures.response({"full": run, "dry": run, "rotor_band": run}, Settling((0.5,), 0.01), CONTACTS)
     assert "not settled" in [note.text for note in grey.layout.annotations]
-
-
-def test_spectrum_has_the_amplitude(found):
-    """Of a sum of two harmonics: both, and nothing beside them."""
-    run = found.rotors.unbalance.full
-    wave = 3.0 * np.sin(2 * pi * run.t / 0.02) + 0.5 * np.cos(2 * pi * run.t / 0.01)
-    hz, amplitude = pictures.lines(replace(run, force=wave[:, None]), lambda r: r.force[:, 0])
-    assert amplitude[np.isclose(hz, 50.0)] == pytest.approx(3.0)
-    assert amplitude[np.isclose(hz, 100.0)] == pytest.approx(0.5)
-
-    assert np.sort(amplitude)[-3] < 1e-10 and hz[0] == pytest.approx(25.0)
 
 
 def test_bode_picture_has_amplitude_and_phase(found):

@@ -9,6 +9,7 @@ import pytest
 
 from ehlcontact import SimulationResult, Status, SteadyResult, load
 from ehlcontact.cli.numerals import numeral
+from ehlcontact.transient.film import TransientFilm
 
 STEADY_KEYS = (
     "approach, force, h_central, h_min, p_max, moment, pressure_error, residual, load_residual, cycles, seconds, "
@@ -40,14 +41,14 @@ def test_steady_table_and_json_file(call, point, tmp_path):
     assert json.loads((tmp_path / "r.json").read_text())["domain"] == [-4.0, 1.5, 2.5]
 
 
-def test_a_region_that_ends_near_the_contact_says_what_that_costs(call, point):
+def test_note_on_a_region_that_ends_near_the_contact(call, point):
     """As one chosen for a very thin film does: the moment of pressure is made of the oil ahead, too."""
     near = call("steady", *point, "--n", "32", "--domain", "-2", "1.35", "1.6")
     assert "low for want of the oil before X = -2 (with it: --domain -4.5 1.5 3)" in " ".join(near.out.split())
     assert "without the oil" not in call("steady", *point, "--n", "32").out
 
 
-def test_impedance(call, refused, point):
+def test_impedance(call, point):
     result = call("impedance", *point, "--n", "32", "--Omega", "0", "--Omega", "3", "--json", "-")
     assert result.code == 0 and result.err == ""
     document = json.loads(result.out)
@@ -55,29 +56,12 @@ def test_impedance(call, refused, point):
     assert all(k > 1.0 for k in document["stiffness"]) and all(c > 0.0 for c in document["damping"])
     table = call("impedance", *point, "--n", "32", "--Omega", "3")
     assert table.code == 0 and "Omega = 3" in table.out
-    refused(["--omega", "no unit of time"], "impedance", *point, "--omega", "3")
-    refused(["--Omega = -1.0"], "impedance", *point, "--Omega", "-1")
-    refused(["n", "16"], "impedance", *point, "--n", "100", "--Omega", "1")
 
 
 def test_from_simulation_to_fmu(call, refused, point, tmp_path):
     record, element, target = tmp_path / "r.h5", tmp_path / "element.json", tmp_path / "x.fmu"
-    result = call(
-        "simulate",
-        *point,
-        "--n",
-        "32",
-        "--harmonic",
-        "3",
-        "--amplitude",
-        "0.2",
-        "--dt",
-        "0.1",
-        "--save",
-        record,
-        "--json",
-        "-",
-    )
+    motion = ("--n", "32", "--harmonic", "3", "--amplitude", "0.2", "--dt", "0.1")
+    result = call("simulate", *point, *motion, "--save", record, "--json", "-")
     assert result.code == 0, result.err
     document = json.loads(result.out)
     assert set(SIMULATE_KEYS) <= set(document) and len(document["T"]) == document["steps"] + 1
@@ -92,7 +76,6 @@ def test_from_simulation_to_fmu(call, refused, point, tmp_path):
     result = call("fit", record, "--window", "2", "4")
     assert result.code == 0 and "tangent" in result.out
     copy = shutil.copy(record, tmp_path / "copy.h5")
-    refused(("file", "r.h5", "given once"), "fit", record, record)
     refused(("file", "copy.h5", "given once", "record of", "r.h5"), "fit", record, copy)
 
     result = call("export", element, "-o", target, "--json", "-")
@@ -102,7 +85,7 @@ def test_from_simulation_to_fmu(call, refused, point, tmp_path):
     assert "modelDescription.xml" in zipfile.ZipFile(target).namelist()
 
 
-def test_tolerance_too_coarse_for_the_load_is_told(call, point):
+def test_tolerance_too_coarse_for_the_load_warns(call, point):
     run = ["simulate", *point, "--n", "32", "--harmonic", "3", "--amplitude", "0.01", "--until", "0.1"]
     fitting = call(*run)
     assert fitting.code == 0 and fitting.err == "" and numeral(3e-4) in fitting.out
@@ -111,7 +94,7 @@ def test_tolerance_too_coarse_for_the_load_is_told(call, point):
     assert json.loads(coarse.out)["reservation"] in coarse.err
 
 
-def test_grid_too_coarse_for_the_start_of_a_run_is_told(call, point):
+def test_grid_too_coarse_for_the_start_of_a_run_warns(call, point):
     run = ["--n", "32", "--harmonic", "3", "--until", "0.1"]
     fine = call("simulate", *point, *run)
     assert fine.code == 0 and fine.err == "" and "error of the grid" in fine.out
@@ -135,13 +118,8 @@ def test_film_memory_from_a_simulation_alone(call, point, tmp_path):
     assert loaded.approach_at(1.0) == document["root"]
 
 
-def test_a_steady_file_cannot_be_fitted(call, refused, point, tmp_path):
-    assert call("steady", *point, "--n", "16", "--save", tmp_path / "s.h5").code == 0
-    refused(("s.h5", "result of simulate"), "fit", tmp_path / "s.h5")
-
-
 @pytest.mark.parametrize("command", ["steady", "simulate"])
-def test_not_converged_is_saved_and_said(call, point, tmp_path, monkeypatch, command):
+def test_not_converged_is_saved_and_reported(call, point, tmp_path, monkeypatch, command):
     monkeypatch.setattr("ehlcontact.solver.iterate.touches_border", lambda level: True)
     motion = ["--free", "5"] if command == "simulate" else []
     result = call(command, *point, "--n", "16", *motion, "--save", tmp_path / "p.h5", "--json", "-")
@@ -151,18 +129,21 @@ def test_not_converged_is_saved_and_said(call, point, tmp_path, monkeypatch, com
     assert load(tmp_path / "p.h5").status is Status.OUT_OF_DOMAIN
 
 
-def test_interrupted_simulation_is_saved(call, point, tmp_path, monkeypatch):
-    from ehlcontact.transient.film import TransientFilm
-
+def interrupt_after(steps, patch):
+    """Ctrl-C in the step after so many."""
     advance, calls = TransientFilm.advance, []
 
     def stopped(self, *arguments):
         calls.append(1)
-        if len(calls) > 5:
+        if len(calls) > steps:
             raise KeyboardInterrupt
         return advance(self, *arguments)
 
-    monkeypatch.setattr(TransientFilm, "advance", stopped)
+    patch.setattr(TransientFilm, "advance", stopped)
+
+
+def test_interrupted_simulation_is_saved(call, point, tmp_path, monkeypatch):
+    interrupt_after(5, monkeypatch)
     result = call("simulate", *point, "--n", "16", "--free", "5", "--save", tmp_path / "p.h5")
     assert result.code == 130 and "interrupted" in result.err and len(result.err.splitlines()) == 1
     stored = load(tmp_path / "p.h5")
@@ -170,21 +151,11 @@ def test_interrupted_simulation_is_saved(call, point, tmp_path, monkeypatch):
 
 
 def test_interrupted_simulation_goes_on_from_its_checkpoint(call, refused, point, tmp_path, monkeypatch):
-    from ehlcontact.transient.film import TransientFilm
-
     run = ["simulate", *point, "--n", "16", "--harmonic", "3", "--until", "1", "--error", "1e-3", "--json", "-"]
     whole = json.loads(call(*run).out)
-    advance, calls = TransientFilm.advance, []
-
-    def stopped(self, *arguments):
-        calls.append(1)
-        if len(calls) > 8:
-            raise KeyboardInterrupt
-        return advance(self, *arguments)
-
     checkpoint = tmp_path / "c.h5"
     with monkeypatch.context() as patch:
-        patch.setattr(TransientFilm, "advance", stopped)
+        interrupt_after(8, patch)
         result = call(*run, "--checkpoint", checkpoint)
     assert result.code == 130 and len(result.err.splitlines()) == 1
     assert "interrupted" in result.err and f"go on with --restart {checkpoint}" in result.err
@@ -208,7 +179,7 @@ def test_a_finished_run_goes_on_to_a_later_end(call, point, tmp_path):
     assert np.ptp(np.diff(longer["T"])) < 1e-12
 
 
-def test_step_that_cannot_meet_its_error_is_said(call, point, tmp_path, monkeypatch):
+def test_step_that_cannot_meet_its_error(call, point, tmp_path, monkeypatch):
     monkeypatch.setattr("ehlcontact.transient.run.local_error", lambda before, entry, motion: 1.0)
     result = call("simulate", *point, "--n", "16", "--free", "5", "--error", "1e-3", "--save", tmp_path / "p.h5")
     assert result.code == 1 and len(result.err.splitlines()) == 1

@@ -5,31 +5,22 @@ import os
 import subprocess
 import sys
 from importlib import import_module
-from pathlib import Path
 
 import pytest
+from programs import environment, program
 
 from ehlcontact.cli.output import StdoutError, watched_stdout
 
-ROOT = Path(__file__).parents[2]
 ELEMENT = ("element", "--M", "2900", "--L", "19", "--kappa", "0.11")
 FULL = "ehlcontact: stdout = 'No space left on device': must be able to take the output\n"
 CLOSED = "ehlcontact: stdout was closed before everything was written to it\n"
 
 
-def program(*arguments, path=(), **options):
-    command = [sys.executable, "-m", "ehlcontact.cli", *map(str, arguments)]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, (*path, ROOT)))}
-    environment.pop("PYTHONUNBUFFERED", None)
-    environment |= options.pop("env", {})
-    return subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False, env=environment, **options)
-
-
 @pytest.mark.parametrize("arguments", [ELEMENT, (*ELEMENT, "--json", "-"), ("--help",), ("--version",)], ids=len)
-@pytest.mark.parametrize("unbuffered", [{}, {"PYTHONUNBUFFERED": "1"}], ids=["", "unbuffered"])
+@pytest.mark.parametrize("unbuffered", ["", "1"])
 def test_full(arguments, unbuffered):
     with open("/dev/full", "w") as full:
-        found = program(*arguments, stdout=full, env=unbuffered)
+        found = program(*arguments, stdout=full, env=environment(PYTHONUNBUFFERED=unbuffered))
     assert (found.returncode, found.stderr) == (2, FULL)
 
 
@@ -46,8 +37,8 @@ def test_closed(arguments, tmp_path):
 
 def test_stderr_full_or_closed():
     with open("/dev/full", "w") as full:
-        command = [sys.executable, "-m", "ehlcontact.cli", "steady", "--M", "-1", "--L", "5", "--kappa", "1"]
-        assert subprocess.run(command, stderr=full, stdout=full, check=False).returncode == 2
+        slip = ("steady", "--M", "-1", "--L", "5", "--kappa", "1")
+        assert program(*slip, stderr=full, stdout=full).returncode == 2
     shell = f"{sys.executable} -m ehlcontact.cli {' '.join(ELEMENT)}"
     silent = subprocess.run(f"{shell} --json - >&- 2>&-", shell=True, check=False)
     assert silent.returncode == 2  # nobody could have got the result
@@ -63,7 +54,7 @@ class Narrow(io.StringIO):
         return super().write(text)
 
 
-def test_characters_that_the_terminal_does_not_know(monkeypatch):
+def test_characters_beyond_the_encoding_of_the_terminal(monkeypatch):
     stream = Narrow()
     monkeypatch.setattr(sys, "stdout", stream)
     with watched_stdout():
@@ -71,7 +62,7 @@ def test_characters_that_the_terminal_does_not_know(monkeypatch):
     assert stream.getvalue() == r"\xb5 \udcff" and sys.stdout is stream
 
 
-def test_a_failure_that_a_library_swallows_is_told_at_the_end(monkeypatch):
+def test_a_failure_that_a_library_swallows_is_raised_at_the_end(monkeypatch):
     class Full(io.StringIO):
         def write(self, text):
             raise OSError(28, "No space left on device")
@@ -91,7 +82,7 @@ def test_ctrl_c_while_it_is_imported(module, tmp_path):
         "import os, signal\ntry:\n    os.kill(os.getpid(), signal.SIGINT)\n    for _ in range(9): pass\n"
     )
     (tmp_path / f"{module}.py").write_text(f"{interrupting}except BaseException:\n    pass\n")
-    found = program(*ELEMENT, path=(tmp_path,), stdout=subprocess.PIPE)
+    found = program(*ELEMENT, env=environment(tmp_path))
     assert (found.returncode, found.stdout) == (130, "")
     assert found.stderr == "ehlcontact: interrupted before anything was computed\n"
 

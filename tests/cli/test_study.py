@@ -69,13 +69,6 @@ def test_roughness_in_micrometres(tmp_path, study):
     assert load_study(file).fingerprint("rotor") == load_study(EXAMPLES / "small_study.toml").fingerprint("rotor")
 
 
-def test_operating_point_of_the_6205(study):
-    moes = study.point.moes
-    assert moes.M == pytest.approx(297.5, rel=0.01)
-    assert moes.L == pytest.approx(19.0, rel=0.02)
-    assert moes.kappa == pytest.approx(0.11, rel=0.05)
-
-
 @pytest.mark.parametrize("arrangement", ["vee", "vertical"])
 def test_every_contact_carries_the_load_of_the_operating_point(study, arrangement):
     changed = study.model_copy(update={"rotor": study.rotor.model_copy(update={"arrangement": arrangement})})
@@ -86,12 +79,3 @@ def test_a_file_of_a_bearing_is_no_study(refused, tmp_path):
     words = ("bearing.conformity_inner = 0.52", "left out", "is this a file for `ehlcontact bearing`?")
     refused(words, "run", EXAMPLES / "bearing_6205.toml", "-o", tmp_path / "results")
     refused(words, "validate", EXAMPLES / "bearing_6205.toml")
-
-
-def test_study_file_and_output_folder(refused, tmp_path):
-    refused(("study", "none.toml"), "run", tmp_path / "none.toml")
-    (tmp_path / "binary.toml").write_bytes(b"\xff\xfe\x00")
-    refused(("study", "binary.toml"), "run", tmp_path / "binary.toml")
-    (tmp_path / "file").write_text("")
-    for folder in (tmp_path / "file" / "out", Path("/proc/out")):
-        refused(("--output", str(folder)), "run", EXAMPLES / "small_study.toml", "-o", folder)
