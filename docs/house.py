@@ -1,4 +1,4 @@
-"""The house in figures: lines, rooms, floors, circles, constants, long functions; and its picture.
+"""Figures of the packages: lines, modules, layers, circles of imports, constants, long functions; and a picture.
 
     python docs/house.py [CHECKOUT ...]               # a table, one column per checkout
     python docs/house.py --draw docs/images/house.png # the rooms and who imports whom
