@@ -195,12 +195,12 @@ def without_faces(graph: Graph, known: dict[str, Path]) -> Graph:
 
 
 SHEETS = (
-    ("ehlcontact", "one contact's film"),
-    ("ehlcontact.solver", "the film at one instant"),
-    ("ehlcontact.transient", "the film through time"),
-    ("reduced_models", "elements that stand for it"),
-    ("reduced_models.elements", "one law, many kinds"),
-    ("ehlcontact.cli", "the command line, above all three"),
+    ("ehlcontact", "modules of one contact"),
+    ("ehlcontact.solver", "solution of one film"),
+    ("ehlcontact.transient", "transient film"),
+    ("reduced_models", "elements, atlas, bearings, rotors"),
+    ("reduced_models.elements", "contact elements"),
+    ("ehlcontact.cli", "command line"),
 )
 
 
@@ -255,7 +255,7 @@ def _draw_sheet(axes: Any, graph: Graph, lines: dict[str, int]) -> None:
         axes.text(x, y, f"{name}\n{lines[name]}", ha="center", va="center", fontsize=8.5, bbox=label)
     axes.set(xlim=(-0.05, 1.05), ylim=(0.5, max(levels.values()) + 0.5), xticks=[])
     axes.set_yticks(range(1, max(levels.values()) + 1))
-    axes.set_ylabel("floor")
+    axes.set_ylabel("layer")
     axes.spines[:].set_visible(False)
     axes.tick_params(length=0)
 
