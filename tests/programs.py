@@ -1,5 +1,6 @@
-"""The program, and a Dask cluster, in processes of their own."""
+"""The program and a Dask cluster in processes of their own; modules of scripts."""
 
+import importlib.util
 import json
 import os
 import signal
@@ -34,6 +35,14 @@ def begin(*arguments, **options):
     # a shell's background job passes on that it ignores Ctrl-C
     listen = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)}
     return subprocess.Popen(command(*arguments), text=True, env=environment(), **streams, **listen)
+
+
+def script(path):
+    """The module of a file outside of the packages, by its path from the root."""
+    spec = importlib.util.spec_from_file_location(Path(path).stem, ROOT / path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 @contextmanager

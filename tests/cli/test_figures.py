@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from rotor_twins import run_of
 
 from ehlcontact import (
     Geometry,
@@ -34,10 +35,8 @@ def named(figure, name, number=0):
 
 @pytest.mark.parametrize(("point", "si"), [(IN_SI, True), (PLAIN, False)], ids=["SI", "dimensionless"])
 def test_mid_planes(point, si):
-    from ehlcontact.cli.plots.film import midplanes
-
     result = solve_steady(point, grid=Grid(n=32))
-    figure = midplanes(result)
+    figure = film.midplanes(result)
     place, gap = (point.scales.a * 1e3, point.scales.length * 1e6) if si else (1.0, 1.0)
     assert ("[GPa]" in figure.layout.yaxis.title.text) == si
     np.testing.assert_allclose(named(figure, "film").x, result.X * place)
@@ -47,18 +46,16 @@ def test_mid_planes(point, si):
 
 @pytest.mark.parametrize(("point", "si"), [(IN_SI, True), (PLAIN, False)], ids=["SI", "dimensionless"])
 def test_histories_and_film_wave(point, si):
-    from ehlcontact.cli.plots.motion import histories, wave
-
     unit = IN_SI.scales.time if si else 1.0
     steps = TimeSteps(until=1.0 * unit, dt=0.1 * unit)
     run = simulate(point, HarmonicLoad(Omega=3.0), grid=Grid(n=32), time=steps)
-    figure = histories(run, None)
+    figure = motion.histories(run, None)
     labels = {axis.title.text for axis in figure.select_yaxes()}
     assert {"approach [µm]", "force [N]"} <= labels if si else {"approach u", "force f/f0"} <= labels
     np.testing.assert_allclose(named(figure, "minimum").x, run.T * (run.scales.time * 1e3 if si else 1.0))
     unit = run.scales.length * 1e6 if si else 1.0
     np.testing.assert_allclose(named(figure, "minimum").y, run.h_min * unit)
-    shown = wave(run).data[0]
+    shown = motion.wave(run).data[0]
     assert (shown.x[0], shown.x[-1], shown.y[0], shown.y[-1]) == (0.0, run.T[-1], -1.1, 1.1)
     np.testing.assert_allclose(shown.z[:, 0], 0.0, atol=1e-12 * unit)
     centre = (run.h_midplane[-1] - run.h_midplane[0])[np.argmin(np.abs(run.X))]
@@ -90,20 +87,16 @@ def test_loops_show_the_element_that_was_fitted():
 
 def test_spectrum_shows_amplitudes():
     """Of a run with known ones, over its settled part: 3 um twice a revolution, 7 N once, whatever the means."""
-    from ehlcontact import Status
     from ehlcontact.cli.plots.rotor import spectrum
-    from reduced_models import RotorResult, Settling
+    from reduced_models import Settling
 
     t = np.arange(3 * 40 + 1) / 2000.0
     turned = 2.0 * np.pi * 50.0 * t
     start = 1.0 + (t <= 0.02)  # the first of three revolutions is not settled
     moved = np.column_stack([np.zeros(t.size), 1e-6 * start * (20.0 + 3.0 * np.sin(2.0 * turned))])
     force = (100.0 + 7.0 * start * np.cos(turned))[:, None]
-    still, once = np.zeros((t.size, 2)), np.zeros((t.size, 1))
-    known = {"t": t, "displacement": moved, "force": force, "iterations": np.ones(t.size)}
-    unknown = {"velocity": still, "approach": once, "rate": once, "largest_load": np.zeros((0, 2))}
-    places = {"columns": ("contact 1",), "names": ("disc x", "disc y"), "places": np.array([0, 1])}
-    run = RotorResult(**known, **unknown, **places, speed_rpm=np.full(t.size, 3000.0), status=Status.CONVERGED)
+    once, places = np.zeros((t.size, 1)), {"names": ("disc x", "disc y"), "places": np.array([0, 1])}
+    run = run_of(t, once, once, force, displacement=moved, **places)
     figure = spectrum({"full": run}, Settling((0.5, 0.0), 0.01), {"full": "full film"})
     displacement, load = (np.array([trace.x, trace.y]) for trace in figure.data)
     for (hz, amplitude), (where, size) in ((displacement, (100.0, 3.0)), (load, (50.0, 7.0))):

@@ -1,6 +1,5 @@
 """What the site is made of: the reference has every public name, the README its marks, links lead somewhere."""
 
-import importlib.util
 import inspect
 import re
 import tomllib
@@ -9,6 +8,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from programs import script
 
 import ehlcontact
 import fmu
@@ -17,14 +17,6 @@ import reduced_models
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 PACKAGES = {package.__name__: package for package in (ehlcontact, reduced_models, fmu)}
-
-
-def module(path):
-    """A file of the site, which is no part of a package."""
-    spec = importlib.util.spec_from_file_location(path.stem, path)
-    found = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(found)
-    return found
 
 
 def public(package):
@@ -91,7 +83,7 @@ def test_the_explorer_is_part_of_the_site(tmp_path):
     assert "\nguide/explorer\n" in index and "(guide/explorer.md)" in index
     assert "ehlcontact explore" in (ROOT / "README.md").read_text(encoding="utf-8")
     pytest.importorskip("sphinx", reason="no Sphinx is installed: pip install 'ehlcontact[docs]'")
-    conf = module(DOCS / "conf.py")
+    conf = script(DOCS / "conf.py")
     connected = {}
     app = SimpleNamespace(builder=SimpleNamespace(format="html"), outdir=tmp_path, connect=connected.__setitem__)
     app.add_html_math_renderer = lambda *_: None
@@ -118,7 +110,7 @@ def test_extra_and_step_of_ci():
 
 @pytest.fixture(scope="module")
 def links():
-    return module(DOCS / "site" / "links.py")
+    return script(DOCS / "site" / "links.py")
 
 
 GOOD = '<a href="b.html#there">x</a><a href="#here">x</a><p id="here"></p><a href="https://fmi-standard.org">x</a>'
@@ -160,7 +152,7 @@ def test_the_citation_is_of_this_version():
 
 @pytest.mark.slow
 def test_the_numbers_beside_the_first_picture():
-    why = module(DOCS / "why.py")
+    why = script(DOCS / "why.py")
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     found, _, _ = why.respond(why.load_study(why.STUDY))
     peak = {name: resonance.amplitude for name, resonance in found.peaks["y"].items()}

@@ -1,20 +1,14 @@
 """The page of validation is what its script makes of the stored numbers, which `tests/golden` compares."""
 
-import importlib.util
 import json
-from pathlib import Path
 
 import pytest
-
-SCRIPT = Path(__file__).parents[2] / "docs" / "site" / "validation.py"
+from programs import script
 
 
 @pytest.fixture(scope="module")
 def validation():
-    spec = importlib.util.spec_from_file_location("validation", SCRIPT)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script("docs/site/validation.py")
 
 
 @pytest.fixture(scope="module")

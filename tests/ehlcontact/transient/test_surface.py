@@ -1,12 +1,11 @@
 """Surface features over time: dents, ridges, waves, and the film over them."""
 
-import importlib.util
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
 from argument_groups import grouped
+from programs import script
 
 from ehlcontact import (
     ConvergenceError,
@@ -243,10 +242,7 @@ def test_on_the_faster_surface_it_stays_behind(passages):
 
 def test_example_draws_both_passages(tmp_path, capsys):
     """The oil that ran ahead is told and drawn; M and L are those of the rolling dimple in `dimple.py`."""
-    path = Path(__file__).parents[3] / "examples" / "studies" / "fine_features.py"
-    spec = importlib.util.spec_from_file_location("fine_features", path)
-    example = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(example)
+    example = script("examples/studies/fine_features.py")
     assert example.BALL_ON_DISC.moes.M == pytest.approx(MOURIER.M, rel=1e-3)
     assert example.BALL_ON_DISC.moes.L == pytest.approx(MOURIER.L, rel=1e-3)
     runs = {name: example.roll(speed, start, 64) for name, (speed, start) in example.SPEEDS.items()}
@@ -294,15 +290,9 @@ def test_steps_on_a_grid_of_a_thousand(case):
     assert gap < 2e-3 * film
 
 
-EXAMPLE = Path(__file__).parents[3] / "examples" / "studies" / "dimple.py"
-
-
 @pytest.fixture(scope="module")
 def dimple():
-    spec = importlib.util.spec_from_file_location("dimple", EXAMPLE)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script("examples/studies/dimple.py")
 
 
 def test_published_curves(dimple):

@@ -86,7 +86,6 @@ def test_what_a_light_ball_lacks_is_the_oil_further_out(ball, film):
     )
     assert wider == pytest.approx(u[-1], abs=0.05 * (near - wider))
     element = film.element("inner", 3000.0)
-    print(load, wide[-1], near - wider)
     lacking = element.spring(u[-1] + near - wider) - element.spring(u[-1])
     assert lacking == pytest.approx(full[-1] - wide[-1], rel=0.1)
     assert lacking > 2.0

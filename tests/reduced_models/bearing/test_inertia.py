@@ -11,8 +11,6 @@ from ehlcontact.errors import InputError
 from reduced_models import (
     BallBearing,
     BearingMotion,
-    linearise,
-    rotor_to_control,
     simulate_rotor,
 )
 from reduced_models.bearing.balls import PLACE, speed_state
@@ -107,26 +105,6 @@ def test_tangents_are_those_of_differences(oil, shake):
             ends = [it.forces(q[5] + s * moves[0] * move, v[5] + s * moves[1] * move)[0] for s in (1, -1)]
             slope = (ends[0] - ends[1]) / (2.0 * step)
             np.testing.assert_allclose(slope, matrix[:, k], rtol=0.0, atol=1e-5 * np.abs(matrix).max())
-
-
-@pytest.mark.parametrize("oiled", [True, False])
-def test_blocks_of_control_have_its_states(oil, oiled):
-    control = pytest.importorskip("control")
-    rotor = block(BallBearing.catalogue("6205", oil=oil if oiled else None, ball_inertia=True, clearance=-4e-6))
-    at = linearise(rotor, RPM, passage=False)
-    exact, moving = at.to_control(), rotor_to_control(rotor, RPM, cage_turns=False)
-    assert exact.state_labels == moving.state_labels and exact.state_labels[4:6] == ["b0_0_w", "b0_0_v"]
-    found = control.linearize(moving, np.zeros(moving.nstates), np.zeros(2), eps=1e-5)
-    for w in (1e3, 1e5, 3e5):
-        expected = at.receptance(omega=w)[0]
-        for one in (exact, found):
-            inner = np.linalg.solve(1j * w * np.eye(exact.nstates) - one.A, one.B)
-            np.testing.assert_allclose(one.C @ inner, expected, rtol=0.0, atol=3e-4 * abs(expected).max())
-    if not oiled:  # a ball on its two contacts
-        contact = at.balls[0]
-        bounce = np.sqrt((contact.inner.stiffness + contact.outer.stiffness) / contact.inertia).max()
-        assert np.linalg.eigvals(exact.A).imag.max() == pytest.approx(bounce, rel=0.02)
-        assert 30e3 < bounce / (2.0 * pi) < 45e3
 
 
 def test_yes_or_no():

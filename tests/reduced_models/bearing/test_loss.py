@@ -14,7 +14,6 @@ from reduced_models import (
     BearingMotion,
     linearise,
     log_decrement,
-    rotor_to_control,
     simulate_rotor,
 )
 from reduced_models.bearing import loss as loss_room
@@ -129,22 +128,6 @@ def test_large_motions_lose_energy_too():
     put_in = np.abs(work[0][trips]).sum()
     assert abs(work[0][trips].sum()) < 1e-3 * put_in
     assert 0.02 * put_in < work[1][trips].sum() < 0.2 * put_in
-
-
-@pytest.mark.parametrize("oiled", [True, False])
-def test_blocks_of_control_have_its_states(oil, oiled):
-    control = pytest.importorskip("control")
-    rotor = block(BallBearing.catalogue("6205", oil=oil if oiled else None, loss_factor=0.05))
-    at = linearise(rotor, RPM, passage=False)
-    exact, moving = at.to_control(), rotor_to_control(rotor, RPM, cage_turns=False)
-    assert exact.state_labels == moving.state_labels
-    assert exact.state_labels[-2:] == ["b0_seat_x8", "b0_seat_y8"]
-    found = control.linearize(moving, np.zeros(moving.nstates), np.zeros(2), eps=1e-5)
-    for w in (30.0, 1e3, 2e4):
-        expected = at.receptance(omega=w)[0]
-        for block_of in (exact, found):
-            inner = np.linalg.solve(1j * w * np.eye(exact.nstates) - block_of.A, block_of.B)
-            np.testing.assert_allclose(block_of.C @ inner, expected, rtol=0.0, atol=1e-4 * abs(expected).max())
 
 
 @pytest.mark.skipif(numba.config.DISABLE_JIT, reason="kernels are plain Python already")

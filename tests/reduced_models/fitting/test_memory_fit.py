@@ -1,20 +1,18 @@
 """Fit of the film-memory element to impedance and records of full EHL, and the one element for all cases."""
 
-import importlib.util
 from dataclasses import replace
 from math import pi
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from programs import script
 
 from ehlcontact import FreeVibration, Grid, HarmonicLoad, InputError, MoesPoint, impedance, simulate
 from reduced_models import ContactRecord, fit_memory
 
 POINT = MoesPoint(200, 10, 0.5)
 OMEGAS = np.concatenate([[0.0], np.geomspace(0.03, 60.0, 24)])
-EXAMPLE = Path(__file__).parents[3] / "examples" / "studies" / "one_element_for_all.py"
 
 
 @pytest.fixture(scope="module")
@@ -94,9 +92,7 @@ def test_bad_data_for_the_fit(coarse):
 @pytest.mark.slow
 def test_one_element_for_all():
     """What issue 4 asks for, on n = 64; `examples/studies/one_element_for_all.py` prints it at any n."""
-    spec = importlib.util.spec_from_file_location("one_element_for_all", EXAMPLE)
-    example = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(example)
+    example = script("examples/studies/one_element_for_all.py")
     Z = impedance(example.POINT, Omega=example.OMEGAS, grid=Grid(n=64, domain=example.DOMAIN))
     seen = {name: example.record(motion, 64) for name, motion in example.fitted_motions().items()}
     unseen = {"chirp": example.record(example.chirp(), 64), "step": example.record(example.load_step(), 64)}

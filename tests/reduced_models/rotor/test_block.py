@@ -121,6 +121,35 @@ def test_block_in_time_is_the_run(film, block):
     np.testing.assert_allclose(seen.outputs, expected, rtol=0.0, atol=0.01 * np.ptp(expected))
 
 
+@pytest.mark.parametrize("oiled", [True, False])
+@pytest.mark.parametrize(
+    ("changes", "part", "labels", "omega", "share"),
+    [
+        ({"loss_factor": 0.05}, slice(-2, None), ["b0_seat_x8", "b0_seat_y8"], (30.0, 1e3, 2e4), 1e-4),
+        ({"ball_inertia": True, "clearance": -4e-6}, slice(4, 6), ["b0_0_w", "b0_0_v"], (1e3, 1e5, 3e5), 3e-4),
+    ],
+    ids=["loss", "inertia"],
+)
+def test_states_of_losses_and_of_balls_with_inertia(oil, block, oiled, changes, part, labels, omega, share):
+    rotor = block(BallBearing.catalogue("6205", oil=oil if oiled else None, **changes))
+    at = linearise(rotor, RPM, passage=False)
+    exact, moving = at.to_control(), rotor_to_control(rotor, RPM, cage_turns=False)
+    assert exact.state_labels == moving.state_labels and exact.state_labels[part] == labels
+    found = control.linearize(moving, np.zeros(moving.nstates), np.zeros(2), eps=1e-5)
+    for w in omega:
+        expected = at.receptance(omega=w)[0]
+        for one in (exact, found):
+            np.testing.assert_allclose(response(one, w), expected, rtol=0.0, atol=share * abs(expected).max())
+
+
+def test_a_dry_ball_vibrates_on_its_two_contacts(block):
+    at = linearise(block(BallBearing.catalogue("6205", ball_inertia=True, clearance=-4e-6)), RPM, passage=False)
+    contact = at.balls[0]
+    bounce = np.sqrt((contact.inner.stiffness + contact.outer.stiffness) / contact.inertia).max()
+    assert np.linalg.eigvals(at.to_control().A).imag.max() == pytest.approx(bounce, rel=0.02)
+    assert 30e3 < bounce / (2.0 * np.pi) < 45e3
+
+
 def test_dry_bearings_have_no_states(dry, block):
     rotor = block(dry)
     moving = rotor_to_control(rotor, RPM, cage_turns=False)

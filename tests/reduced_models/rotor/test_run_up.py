@@ -1,10 +1,8 @@
 """The issue's rotor from 500 to 9000 rev/min: peaks at the crossings of the Campbell diagram, no jump."""
 
-import importlib.util
-from pathlib import Path
-
 import numpy as np
 import pytest
+from programs import script
 
 from reduced_models import (
     BallBearing,
@@ -23,7 +21,6 @@ from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.rotor.speed_profile import law_speeds, turning_forces
 
 RANGE = np.array([500.0, 9000.0])
-EXAMPLE = Path(__file__).parents[3] / "examples" / "studies" / "ball_passage.py"
 
 
 def test_forces_at_rest_do_not_jump_where_laws_change(film):
@@ -95,10 +92,7 @@ def test_energy_is_kept_as_the_speed_changes(overhung):
 
 @pytest.fixture(scope="module")
 def passage():
-    spec = importlib.util.spec_from_file_location("ball_passage", EXAMPLE)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script("examples/studies/ball_passage.py")
 
 
 @pytest.fixture(scope="module")
