@@ -55,19 +55,23 @@ def read_library(content: bytes) -> tuple[Library, ...]:
     import lief
 
     lief.logging.disable()
-    if content.startswith((UNIVERSAL, b"\xcf\xfa\xed\xfe")):
-        found = lief.MachO.parse(list(content))
-        parsed: list[Any] = [] if found is None else [found.at(k) for k in range(found.size)]
-    else:
-        one = lief.parse(list(content)) if content else None
-        parsed = [] if one is None else [one]
-    readers: dict[Any, Callable[[Any], Library]] = {
-        lief.ELF.Binary: _elf,
-        lief.PE.Binary: _pe,
-        lief.MachO.Binary: _macho,
-    }
-    libraries = [readers[type(one)](one) for one in parsed]
-    if any(_end(one) > len(content) for one in parsed):
+    try:
+        if content.startswith((UNIVERSAL, b"\xcf\xfa\xed\xfe")):
+            found = lief.MachO.parse(list(content))
+            parsed: list[Any] = [] if found is None else [found.at(k) for k in range(found.size)]
+        else:
+            one = lief.parse(list(content)) if content else None
+            parsed = [] if one is None else [one]
+        readers: dict[Any, Callable[[Any], Library]] = {
+            lief.ELF.Binary: _elf,
+            lief.PE.Binary: _pe,
+            lief.MachO.Binary: _macho,
+        }
+        libraries = [readers[type(one)](one) for one in parsed]
+        early = any(_end(one) > len(content) for one in parsed)
+    except (SystemError, KeyError) as error:  # an entry that LIEF has no name for; a format that is none of these
+        raise ValueError(f"a damaged library ({type(error).__name__} in its headers)") from None
+    if early:
         raise ValueError("a damaged library: it ends too early")
     if not libraries:
         raise ValueError("no ELF, PE or Mach-O library, or a damaged library")
