@@ -1,7 +1,7 @@
 """Extra line relaxation where the flow factor jumps between neighbouring nodes, at the edge of the Hertz zone.
 
 The flow factor eps changes there by orders of magnitude within one node spacing, relaxation switches from plain
-to distributed changes of the pressure, and the edge moves by one node per sweep. Everywhere else two or three
+to distributed changes of the pressure, and where the edge lies is settled node by node. Elsewhere two or three
 sweeps suffice between corrections from coarser grids. So the few nodes along that edge, some per cent of all, are
 relaxed several times after the sweeps: segments of lines in two colours, with the elastic deflection near them.
 """
