@@ -19,12 +19,11 @@ import numpy as np
 
 from ehlcontact import Grid, ImpedanceResult, simulate
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.study.bode import Bode, bode
-from ehlcontact.cli.study.response import film_response, linear_rotors
-from ehlcontact.cli.study.rotor import build_rotor
+from ehlcontact.cli.study.rotor import film_response, linear_rotors
 from ehlcontact.cli.study.schema import Study, load_study
 from reduced_models import Atlas, ContactElement, ContactRecord, dry_contact, fit, impedance_about
 from reduced_models.rotor.baselines import local_contact
+from reduced_models.rotor.resonance import Resonances, resonances
 
 ROOT = Path(__file__).parents[1]
 STUDY, PICTURE = ROOT / "examples" / "deep_groove_6205.toml", ROOT / "docs" / "images" / "why.png"
@@ -58,12 +57,12 @@ def elements(study: Study) -> dict[str, ContactElement]:
     }
 
 
-def respond(study: Study) -> tuple[Bode, ImpedanceResult, dict[str, ContactElement]]:
+def respond(study: Study) -> tuple[Resonances, ImpedanceResult, dict[str, ContactElement]]:
     """Response of the rotor on every contact, the film's impedance, and the elements."""
     film, contacts = film_response(study), elements(study)
-    rotors = linear_rotors(study, build_rotor(study), film, contacts)
+    rotors = linear_rotors(study, film, contacts)
     rotors[FULL] = rotors.pop("full")
-    return bode(rotors, study.rotor.unbalance / study.rotor.disc_mass), film, contacts
+    return resonances(rotors, study.rotor.unbalance / study.rotor.disc_mass), film, contacts
 
 
 def main() -> None:

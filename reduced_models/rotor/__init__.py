@@ -28,6 +28,9 @@
 | compare | `compare`: full against reduced response |
 | baselines | contacts without a film: dry, undamped, and linearised at one load |
 | decay | `log_decrement`: of a free decay, by a fit |
+| free_decay | a rotor after an initial velocity in the shape of a mode |
+| resonance | responses of several linear rotors to unbalance, and their highest points |
+| full_films | a rotor with the whole film in every contact, from near its settled motion on |
 | settling | whether a run has reached steady state; runs that go on until it has |
 | events | `contact_events`: lift-off, impacts, load range, time outside validity |
 """

@@ -15,8 +15,8 @@ from ehlcontact.cli.plots import rotor as pictures
 from ehlcontact.cli.study import headline
 from ehlcontact.cli.study.differences import compare_rotors
 from ehlcontact.cli.study.reduction import CONTACTS
-from ehlcontact.cli.study.response import film_response, frequencies
 from ehlcontact.cli.study.results import evaluate
+from ehlcontact.cli.study.rotor import film_response, frequencies
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.errors import ConvergenceError
 from reduced_models import ContactEvents, RotorResult, Settling
@@ -270,10 +270,10 @@ def test_pictures_show_what_is_settled(finished, found):
 
 
 def test_bode_picture_has_amplitude_and_phase(found):
-    bode = found.rotors.bode
-    figure = pictures.bode(bode.hz, bode.curves, bode.spans, CONTACTS)
+    responses = found.rotors.resonances
+    figure = pictures.bode(responses, CONTACTS)
     curve, phase = (trace.y for trace in figure.data if trace.name == "full film")
-    assert curve.max() == pytest.approx(bode.peaks["y"]["full"].amplitude)
+    assert curve.max() == pytest.approx(responses.peaks["y"]["full"].amplitude)
     assert phase[0] == pytest.approx(0.0, abs=5.0) and phase[-1] == pytest.approx(-180.0, abs=5.0)
 
 

@@ -23,6 +23,7 @@ from ehlcontact.cli.plots.style import (
     vertical,
 )
 from reduced_models import Decrement, RotorResult, Settling
+from reduced_models.rotor.resonance import Resonances
 from reduced_models.rotor.settling import steps_per_revolution
 
 MICRO = "\N{MICRO SIGN}m"
@@ -166,13 +167,9 @@ def decay(runs: Mapping[str, RotorResult], decrements: Mapping[str, Decrement], 
     return figure
 
 
-def bode(
-    hz: NDArray[np.float64],
-    curves: Mapping[str, Mapping[str, NDArray[np.complex128]]],
-    spans: Mapping[str, tuple[float, float]],
-    names: Names,
-) -> go.Figure:
+def bode(responses: Resonances, names: Names) -> go.Figure:
     """Amplification and phase of the disc under unbalance, by direction, each over its span of frequency [Hz]."""
+    hz, curves, spans = responses.hz, responses.curves, responses.spans
     titles = [f"disc, {DIRECTIONS[direction]}" for direction in curves]
     figure = grid(2, len(curves), heights=[240, 150], titles=titles, shared=True)
     for col, (direction, found) in enumerate(curves.items(), start=1):

@@ -10,10 +10,7 @@ module             responsibility
 ``runner``         stages side by side, with progress, resume and Ctrl-C
 ``points``         its points, what is finished of each, and all of them together
 ``reduction``      fits, element files, FMU
-``response``       the film's impedance down to the rotor's frequency, and the linear rotors on it
-``rotor``          the rotor turning with its unbalance, on full contacts and on elements, and its file
-``free_decay``     the rotor after a kick: its decay and decrement
-``bode``           its response to unbalance over frequency
+``rotor``          the rotor on full films and on elements, turning with its unbalance and after a kick
 ``differences``    full films beside elements, and beside what there is without them
 ``bearing_rotor``  the rotor on two whole bearings, with film memory under every ball
 ``whole_bearing``  the bearing that it takes, from the file

@@ -8,11 +8,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ehlcontact import store
-from ehlcontact.cli.study.bode import Bode, bode
-from ehlcontact.cli.study.free_decay import decrement_of, kicked_mode, run_decay_reduced
 from ehlcontact.cli.study.reduction import CHOSEN, DRY, FULL, UNDAMPED
-from ehlcontact.cli.study.response import linear_rotors
-from ehlcontact.cli.study.rotor import build_rotor, run_reduced
+from ehlcontact.cli.study.rotor import kicked_mode, linear_rotors, run_decay_reduced, run_reduced
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.results import ImpedanceResult
@@ -29,6 +26,8 @@ from reduced_models import (
     contact_events,
     settling,
 )
+from reduced_models.rotor.free_decay import decay_decrement
+from reduced_models.rotor.resonance import Resonances, resonances
 
 DECIDES = 0.2  # share of a full decrement that contacts without a film must miss for the film to decide it
 
@@ -140,7 +139,7 @@ class RotorFindings:
     decay: Decay
     linear: Mapping[str, LinearRotor]
     kicked: Mapping[str, RotorMode]  # the mode next to the kicked one, on every contact
-    bode: Bode
+    resonances: Resonances
     failed: Mapping[str, str]  # contacts that the rotor could not be run on, and why
 
     def to_dict(self) -> dict[str, Any]:
@@ -148,7 +147,7 @@ class RotorFindings:
         return self.unbalance.to_dict() | {
             "decay": self.decay.to_dict(),
             "modes": {name: [one.to_dict() for one in linear.modes()] for name, linear in self.linear.items()},
-            "resonance": self.bode.to_dict(),
+            "resonance": self.resonances.to_dict(),
             "failed": dict(self.failed),
         }
 
@@ -171,13 +170,13 @@ def compare_rotors(
             if name == CHOSEN[0]:
                 raise
             failed[name] = str(error)
-    linear = linear_rotors(study, build_rotor(study), response, {name: one.element for name, one in ran.items()})
+    linear = linear_rotors(study, response, {name: one.element for name, one in ran.items()})
     return RotorFindings(
         unbalance=_unbalance(study, ran, folder),
         decay=_decay(study, mode, ran, response, folder),
         linear=linear,
         kicked={name: one.nearest(mode) for name, one in linear.items()},
-        bode=bode(linear, study.rotor.unbalance / study.rotor.disc_mass),
+        resonances=resonances(linear, study.rotor.unbalance / study.rotor.disc_mass),
         failed=failed,
     )
 
@@ -240,8 +239,8 @@ def _decay(
     return Decay(
         mode=mode,
         runs=runs,
-        decrements={name: decrement_of(run, mode) for name, run in runs.items()},
-        half_step={name: decrement_of(run, mode) for name, run in half.items()},
+        decrements={name: decay_decrement(run, mode) for name, run in runs.items()},
+        half_step={name: decay_decrement(run, mode) for name, run in half.items()},
         events={FULL: contact_events(full, load)}
         | {name: _events(one, one.decaying, load) for name, one in ran.items()},
     )

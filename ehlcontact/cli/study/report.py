@@ -100,5 +100,5 @@ def drawings(found: Findings) -> dict[str, Callable[[], Any]]:
         "response": lambda: rotor.response(turning, how, CONTACTS),
         "spectrum": lambda: rotor.spectrum(turning, how, CONTACTS),
         "decay": lambda: rotor.decay(rotors.decay.runs, rotors.decay.decrements, CONTACTS),
-        "bode": lambda: rotor.bode(rotors.bode.hz, rotors.bode.curves, rotors.bode.spans, CONTACTS),
+        "bode": lambda: rotor.bode(rotors.resonances, CONTACTS),
     }

@@ -26,14 +26,13 @@ from ehlcontact.cli.study.reduction import (
     reduce_records,
     save_elements,
 )
-from ehlcontact.cli.study.response import at_rotor_speed, film_response
+from ehlcontact.cli.study.rotor import film_response, stiffness_and_damping
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import stages_of
 from ehlcontact.errors import InputError
 from ehlcontact.results import SteadyResult
 from ehlcontact.store import load
 from ehlcontact.transient.result import SimulationResult
-from reduced_models import film_impedance
 
 
 @dataclass(frozen=True)
@@ -139,15 +138,15 @@ class Findings:
     @property
     def at_rotor_speed(self) -> dict[str, float]:
         """Stiffness [N/m] and damping [N s/m] of one contact at the rotor's frequency, by its impedance."""
-        Z, omega = at_rotor_speed(self.study, self.reduction.impedance), 2.0 * pi * self.study.rotor_hz
-        return {"stiffness": Z.real, "damping": Z.imag / omega}
+        K, C = stiffness_and_damping(self.reduction.impedance, 2.0 * pi * self.study.rotor_hz)
+        return {"stiffness": K, "damping": C}
 
     @property
     def at_kicked_mode(self) -> dict[str, float]:
         """Likewise at the frequency of the mode that is kicked."""
         omega = self.rotors.decay.mode.omega
-        Z = complex(film_impedance(self.reduction.impedance)(np.array([omega]))[0])
-        return {"Omega": omega * self.study.point.scales.time, "stiffness": Z.real, "damping": Z.imag / omega}
+        K, C = stiffness_and_damping(self.reduction.impedance, omega)
+        return {"Omega": omega * self.study.point.scales.time, "stiffness": K, "damping": C}
 
     @property
     def damper_of_fit(self) -> dict[str, Any]:

@@ -1,42 +1,44 @@
-"""The rotor of a study on full contacts and on elements, turning with its unbalance: its runs."""
+"""The rotor of a study on full films and on elements: turning with its unbalance, and decaying after a kick."""
 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from math import ceil, cos, radians
+from collections.abc import Callable, Mapping
+from math import cos, radians
 from typing import Any
 
 import numpy as np
 
-from ehlcontact.cli.study.response import at_rotor_speed, film_response
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
+from ehlcontact.impedance import impedance
 from ehlcontact.results import ImpedanceResult
 from ehlcontact.solver.grid import Grid
-from ehlcontact.status import Status
-from ehlcontact.transient.full_contact import FullContact
 from reduced_models import (
     ContactElement,
     JeffcottRotor,
+    LinearRotor,
     OutsideValidityWarning,
+    RotorMode,
     RotorResult,
     RotorState,
-    ScaledContact,
+    film_impedance,
+    impedance_about,
     linearise,
     local_contact,
-    simulate_rotor,
 )
-from reduced_models.rotor.settling import run_until_settled
+from reduced_models.fitting.memory import OMEGAS
+from reduced_models.rotor.free_decay import initial_velocity, simulate_decay
+from reduced_models.rotor.full_films import (
+    ELEMENT_TOLERANCE,
+    FILM_TOLERANCE,
+    film_contacts,
+    rest_on_films,
+    settled_run,
+    simulate_on_films,
+)
 
-# Of the force balance on full films: at a third of it they take 2 to 3 solves per step in place of 2, and at ten
-# times as much the journal's velocity under a light unbalance shows it.
-TOLERANCE = 1e-6
-EXACT = 1e-9  # likewise on elements, which cost nothing
-# Before a run the film is led along the motion it starts on: so long, in its unit of time, of which it takes 2 to
-# cross the contact; and so many steps at least.
-LEAD_IN = (8.0, 3)
+BELOW = 0.5  # of the rotor's frequency: the lowest one of the impedance, but for rest
 
 
 def build_rotor(study: Study, *, unbalance: bool = True) -> JeffcottRotor:
@@ -63,100 +65,109 @@ def build_rotor(study: Study, *, unbalance: bool = True) -> JeffcottRotor:
     return JeffcottRotor.vertical(**settings)
 
 
-def time_step(study: Study, halvings: int = 0) -> float:
-    """Step of the turning rotor [s]."""
-    return 60.0 / study.bearing.speed_rpm / (study.rotor.steps_per_revolution * 2**halvings)
+def film_response(study: Study) -> ImpedanceResult:
+    """Impedance on the mesh of the transient films, from below the rotor's frequency to far above the contact's.
+
+    It is the same every time: a stage that needs it solves it again, in the time of a few steps of its run.
+    """
+    return impedance(study.point, Omega=frequencies(study), grid=_grid(study))
 
 
-def full_contacts(study: Study, rotor: JeffcottRotor) -> list[ScaledContact]:
-    """Films at rest under the load of the operating point, one for every mount."""
-    point = study.point
-    films = [FullContact(point, grid=Grid(n=study.solver.n_transient, domain=study.domain)) for _ in rotor.mounts]
-    return [ScaledContact(film, point.scales) for film in films]
+def frequencies(study: Study) -> list[float]:
+    """Dimensionless angular frequencies of `film_response`: below those of a film memory as close as they are."""
+    own, lowest = study.rotor_omega, OMEGAS[1]
+    start = BELOW * own
+    decades = np.log10(lowest / start) if start < lowest else 0.0
+    below = np.geomspace(start, lowest, 1 + int(np.ceil(7.0 * decades)))[:-1].tolist() if decades else []
+    return sorted({*OMEGAS, *below, own})
 
 
-def rest_of(rotor: JeffcottRotor, contacts: list[ScaledContact]) -> RotorState:
-    """The rotor at rest on full contacts."""
-    return rotor.state_at([c.contact.static_approach * c.scales.length for c in contacts])
+def stiffness_and_damping(response: ImpedanceResult, omega: float) -> tuple[float, float]:
+    """Of one contact [N/m] and [N s/m], by its impedance at a frequency [rad/s]."""
+    Z = complex(film_impedance(response)(np.array([omega]))[0])
+    return Z.real, Z.imag / omega
+
+
+def linear_rotors(
+    study: Study, response: ImpedanceResult, elements: Mapping[str, ContactElement]
+) -> dict[str, LinearRotor]:
+    """The rotor on the film, "full", and on every element, linearised about rest."""
+    rotor, impedances = build_rotor(study), {"full": film_impedance(response)}
+    impedances |= {name: impedance_about(element, study.ball_load) for name, element in elements.items()}
+    return {name: linearise(rotor, contacts=[one] * len(rotor.mounts)) for name, one in impedances.items()}
+
+
+def kicked_mode(study: Study, response: ImpedanceResult) -> RotorMode:
+    """The slowest vertical mode on the film: that of the kick whatever then carries the rotor.
+
+    Raises
+    ------
+    ConvergenceError
+        None oscillates.
+    """
+    found = linear_rotors(study, response, {})["full"].slowest().get("y")
+    if found is None:
+        raise ConvergenceError("no vertical mode of this rotor oscillates: it is damped too much", None)
+    return found
 
 
 def run_full(study: Study, halvings: int, callback: Callable[[int, int], None]) -> RotorResult:
     """Rotor with the whole film in every contact, from near its settled motion on."""
-    rotor = build_rotor(study)
-    contacts = full_contacts(study, rotor)
-    start: Any = rest_of(rotor, contacts)
-    try:
-        orbit = first_orbit(study, rotor, halvings)
-        _lead(contacts, orbit, study.point.scales.time)
-        start = orbit.displacement[-1], orbit.velocity[-1]
-    except ConvergenceError as error:  # a motion so wild that no element, or no film, follows it: then from rest
-        if getattr(error.result, "status", None) is Status.INTERRUPTED:
-            raise KeyboardInterrupt from None
-        contacts = full_contacts(study, rotor)
-    return simulate_rotor(
-        rotor,
-        contacts,
-        dt=time_step(study, halvings),
-        until=study.rotor.revolutions * 60.0 / study.bearing.speed_rpm,
-        start=start,
-        tolerance=TOLERANCE,
+    response, omega = film_response(study), 2.0 * np.pi * study.rotor_hz
+    approach = response.approach * study.point.scales.length
+    return simulate_on_films(
+        build_rotor(study),
+        study.point,
+        _grid(study),
+        local_contact(study.ball_load, approach, *stiffness_and_damping(response, omega)),
+        steps=study.rotor.steps_per_revolution * 2**halvings,
+        revolutions=study.rotor.revolutions,
         callback=callback,
     )
 
 
-def first_orbit(study: Study, rotor: JeffcottRotor, halvings: int) -> RotorResult:
-    """A settled revolution on contacts with approach, stiffness and damping of the film at the rotor's speed."""
-    response = film_response(study)
-    element = contact_of(study, response)
-    return _settled(study, rotor, element, halvings, 1)
-
-
-def contact_of(study: Study, response: ImpedanceResult) -> ContactElement:
-    """The film at the rotor's frequency as an element, from its impedance alone."""
-    Z = at_rotor_speed(study, response)
-    omega = 2.0 * np.pi * study.rotor_hz
-    approach = response.approach * study.point.scales.length
-    return local_contact(study.ball_load, approach, Z.real, Z.imag / omega)
-
-
 def run_reduced(study: Study, element: ContactElement, halvings: int) -> RotorResult:
     """The same with an SI element in every contact, settled where it can be, the same revolutions long."""
-    return _settled(study, build_rotor(study), element, halvings, study.rotor.revolutions)
+    steps = study.rotor.steps_per_revolution * 2**halvings
+    return settled_run(build_rotor(study), element, steps=steps, revolutions=study.rotor.revolutions)
 
 
-def _settled(
-    study: Study, rotor: JeffcottRotor, element: ContactElement, halvings: int, revolutions: int
+def run_decay_full(study: Study, halvings: int, callback: Callable[[int, int], None]) -> RotorResult:
+    """Decay with the whole film in every contact."""
+    response, rotor = film_response(study), build_rotor(study, unbalance=False)
+    mode, contacts = kicked_mode(study, response), film_contacts(rotor, study.point, _grid(study))
+    start = _kicked(study, rest_on_films(rotor, contacts), mode, response)
+    settings = _decay_settings(study, halvings)
+    return simulate_decay(rotor, contacts, start, mode, tolerance=FILM_TOLERANCE, callback=callback, **settings)
+
+
+def run_decay_reduced(
+    study: Study, element: ContactElement, mode: RotorMode, response: ImpedanceResult, halvings: int
 ) -> RotorResult:
+    """Decay after the same kick with an SI element in every contact, from its own rest."""
+    rotor = build_rotor(study, unbalance=False)
     elements = [element.copy() for _ in rotor.mounts]
-    linear = linearise(rotor, contacts=elements)
-    with told_elsewhere():
-        return run_until_settled(
-            rotor,
-            elements,
-            steps=study.rotor.steps_per_revolution * 2**halvings,
-            revolutions=revolutions,
-            start=linear.orbit(),
-            tolerance=EXACT,
-        )
-
-
-@contextmanager
-def told_elsewhere() -> Iterator[None]:
-    """No warnings about validity meanwhile: `contact_events` collects them, of the revolutions that are shown."""
-    with warnings.catch_warnings():
+    with warnings.catch_warnings():  # `contact_events` collects them
         warnings.simplefilter("ignore", OutsideValidityWarning)
-        yield
+        rest = rotor.static_equilibrium(elements)
+        for contact, approach in zip(elements, rotor.approaches(rest.journal).tolist(), strict=True):
+            contact.rest(approach)
+        start, settings = _kicked(study, rest, mode, response), _decay_settings(study, halvings)
+        return simulate_decay(rotor, elements, start, mode, tolerance=ELEMENT_TOLERANCE, **settings)
 
 
-def _lead(contacts: list[ScaledContact], orbit: RotorResult, film_time: float) -> None:
-    """Move every film along the end of an orbit, so that it has the past that belongs to where it starts.
+def _grid(study: Study) -> Grid:
+    """Of every film in motion."""
+    return Grid(n=study.solver.n_transient, domain=study.domain)
 
-    From where the orbit passes its place of rest, so that no film is made to jump.
-    """
-    dt = float(orbit.t[1] - orbit.t[0])
-    steps = max(LEAD_IN[1], ceil(LEAD_IN[0] * film_time / dt))
-    for i, contact in enumerate(contacts):
-        away = np.abs(orbit.approach[:, i] - contact.contact.static_approach * contact.scales.length)
-        first = int(np.argmin(away[: max(1, away.size - steps)]))
-        for u, v in zip(orbit.approach[first:, i], orbit.rate[first:, i], strict=True):
-            contact.advance(dt, float(u), float(v))
+
+def _decay_settings(study: Study, halvings: int) -> dict[str, Any]:
+    steps = study.rotor.decay_steps_per_period * 2**halvings
+    return {"periods": study.rotor.decay_periods, "steps_per_period": steps}
+
+
+def _kicked(study: Study, rest: RotorState, mode: RotorMode, response: ImpedanceResult) -> RotorState:
+    """At rest with the velocities of the mode, as fast as the entry `kick` of the study has it."""
+    stiffness = float(abs(film_impedance(response)(np.array([mode.omega]))[0]))
+    load, swing = study.ball_load, study.rotor.kick
+    return initial_velocity(build_rotor(study), rest, mode, stiffness=stiffness, load=load, swing=swing)

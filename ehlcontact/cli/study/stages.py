@@ -178,7 +178,7 @@ def _decay_steps(halvings: int, study: Study) -> Steps:
 
 
 def _decay(halvings: int, study: Study, update: Update) -> Any:
-    from ehlcontact.cli.study.free_decay import run_decay_full
+    from ehlcontact.cli.study.rotor import run_decay_full
 
     return run_decay_full(study, halvings, update)
 

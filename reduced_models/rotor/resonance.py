@@ -1,18 +1,19 @@
-"""Response to unbalance over frequency, of the linear rotors of a study, and their resonances."""
+"""Resonances of linear rotors under unbalance: frequencies that resolve their modes, responses, highest points."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import pi
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from reduced_models import LinearRotor, RotorMode
+from reduced_models.rotor.linearise import LinearRotor
+from reduced_models.rotor.modes import RotorMode
 
-SPAN = (0.3, 1.7)  # of the slowest resonance, and of the fastest shown, at the ends of the frequencies
+SPAN = (0.3, 1.7)  # of the slowest mode, and of the fastest shown, at the ends of the frequencies
 SHOWN = (0.75, 1.25)  # likewise, of what a picture shows
 POINTS = 300  # evenly on the logarithm, beside those near resonances
 # Round every resonance: how far, in half widths of its peak, and points, evenly on the area hyperbolic sine.
@@ -21,22 +22,21 @@ NEAR = (50.0, 81)
 
 @dataclass(frozen=True)
 class Resonance:
-    """Highest point of one direction."""
+    """Highest point of the response along one direction."""
 
     hz: float
-    amplitude: float  # of the disc, over the eccentricity of the unbalance
-
-    def to_dict(self) -> dict[str, float]:
-        """Both numbers."""
-        return {"hz": self.hz, "amplitude": self.amplitude}
+    amplitude: float  # of the node, over the eccentricity of the unbalance
 
 
 @dataclass(frozen=True, eq=False)
-class Bode:
-    """Disc displacement by direction, "x" or "y", and contact: the unbalance turns at `hz`, the film does not."""
+class Resonances:
+    """Responses of several rotors by direction, "x" or "y", and name of the rotor.
+
+    The unbalance turns at `hz`; films are those of the speed of each rotor.
+    """
 
     hz: NDArray[np.float64]
-    curves: Mapping[str, Mapping[str, NDArray[np.complex128]]]  # over the eccentricity, unbalance/disc mass
+    curves: Mapping[str, Mapping[str, NDArray[np.complex128]]]  # of the node, over the eccentricity
     peaks: Mapping[str, Mapping[str, Resonance]]
 
     @property
@@ -50,32 +50,41 @@ class Bode:
         return found
 
     def to_dict(self) -> dict[str, Any]:
-        """The peaks."""
+        """The resonances, ready for JSON."""
         return {
-            direction: {name: peak.to_dict() for name, peak in found.items()}
+            direction: {name: asdict(peak) for name, peak in found.items()}
             for direction, found in self.peaks.items()
         }
 
 
-def bode(rotors: Mapping[str, LinearRotor], eccentricity: float) -> Bode:
-    """Response over frequencies that show the slowest mode of every direction of every rotor."""
+def resonances(rotors: Mapping[str, LinearRotor], eccentricity: float, node: str = "disc") -> Resonances:
+    """Responses over frequencies that show the slowest mode along every direction of every rotor.
+
+    Parameters
+    ----------
+    rotors : mapping of str to LinearRotor
+        With the same nodes.
+    eccentricity : float
+        Of the unbalance [m]; amplitudes are over it.
+    node : str
+        Whose displacements are compared.
+    """
     slowest = {name: linear.slowest() for name, linear in rotors.items()}
-    modes = [mode for by_direction in slowest.values() for mode in by_direction.values()]
-    hz = _frequencies(modes)
-    disc = next(iter(rotors.values())).rotor.nodes["disc"]
-    curves: dict[str, dict[str, NDArray[np.complex128]]] = {direction: {} for direction in disc}
-    peaks: dict[str, dict[str, Resonance]] = {direction: {} for direction in disc}
+    hz = frequencies_near([mode for by_direction in slowest.values() for mode in by_direction.values()])
+    columns = next(iter(rotors.values())).rotor.nodes[node]
+    curves: dict[str, dict[str, NDArray[np.complex128]]] = {direction: {} for direction in columns}
+    peaks: dict[str, dict[str, Resonance]] = {direction: {} for direction in columns}
     for name, linear in rotors.items():
         amplitudes = linear.unbalance_response(hz=hz).amplitude / eccentricity
-        for direction, column in disc.items():
-            curve = amplitudes[:, column]
-            curves[direction][name] = curve
+        for direction, column in columns.items():
+            curves[direction][name] = amplitudes[:, column]
             if direction in slowest[name]:
-                peaks[direction][name] = _peak(hz, np.abs(curve), slowest[name][direction])
-    return Bode(hz, curves, peaks)
+                peaks[direction][name] = _peak(hz, np.abs(amplitudes[:, column]), slowest[name][direction])
+    return Resonances(hz, curves, peaks)
 
 
-def _frequencies(modes: list[RotorMode]) -> NDArray[np.float64]:
+def frequencies_near(modes: list[RotorMode]) -> NDArray[np.float64]:
+    """Frequencies [Hz] from below the slowest mode to above the fastest, close together near each of them."""
     centres = [mode.hz for mode in modes]
     parts = [np.geomspace(SPAN[0] * min(centres), SPAN[1] * max(centres), POINTS)]
     spread = np.sinh(np.linspace(-np.arcsinh(NEAR[0]), np.arcsinh(NEAR[0]), NEAR[1]))
