@@ -190,7 +190,7 @@ def _is_hdf5(path: str | os.PathLike[str]) -> bool:
             return False
         with Path(path).open("rb") as stream:
             return stream.read(len(SIGNATURE)) == SIGNATURE
-    except (OSError, ValueError):
+    except (OSError, ValueError):  # not to be read, or no path: `load` reads it as JSON then, and says why not
         return False
 
 
@@ -278,7 +278,7 @@ def _content(group: h5py.Group) -> dict[str, Any]:
     for name in group.attrs:
         try:
             found[name] = parse_json(text_of(group, name), nan=True)
-        except ValueError:
+        except ValueError:  # an attribute that another program added to the file: it is none of ours
             pass
     for name, item in group.items():
         found[name] = take(item) if isinstance(item, h5py.Dataset) else _content(item)

@@ -62,7 +62,7 @@ def check_file(field: str, path: Path | None, suffixes: tuple[str, ...] = ()) ->
         if path.exists() and not path.is_file():  # a device, which is written to and not replaced
             return
         path.lstat()  # whether there can be a file of that name
-    except FileNotFoundError:
+    except FileNotFoundError:  # a new file, which is what most are
         pass
     except OSError as error:
         raise InputError(field, str(path), f"a file that can be written ({error.strerror})") from None

@@ -22,7 +22,7 @@ def exit_on_interrupt() -> None:
     if _is_program() and _signal.getsignal(_signal.SIGINT) is _signal.default_int_handler:
         try:
             _signal.signal(_signal.SIGINT, _leave)
-        except ValueError:  # not in the main thread
+        except ValueError:  # not in the main thread, to which Ctrl-C does not come: nothing to guard
             pass
 
 
@@ -42,7 +42,7 @@ def _is_program() -> bool:
 def _leave(*_: object) -> None:
     try:
         os.write(2, NOTHING_COMPUTED.encode())
-    except OSError:
+    except OSError:  # stderr is closed or full: the exit code tells it all the same
         pass
     os._exit(INTERRUPTED)
 

@@ -84,8 +84,6 @@ COMMANDS = [
     (ball("steady", M="20"), ("--M = 20.0", "left out", "--bearing")),
     (steady("--load", "7"), ("--load = 7.0", "left out where --M")),
     (at("simulate", "--free-hz", "50"), ("--free-hz", "no unit of time")),
-    (free("--until-ms", "1"), ("--until-ms", "--until")),
-    (ball("simulate", free="5", until="2", **{"until-ms": "1"}), ("--until-ms", "one end")),
     (ball("simulate", free="5", **{"free-hz": "50"}), ("exactly one",)),
     (ball("simulate", amplitude="0.2", **{"free-hz": "5e3"}), ("--amplitude", "--harmonic")),
     (ball("simulate", **{"free-hz": "1e12"}), ("--free-hz", "between")),

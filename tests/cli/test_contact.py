@@ -105,7 +105,7 @@ def test_element_is_in_si_and_its_damper_that_of_the_shaft(call, tmp_path):
 
 def test_simulation_in_hz_and_its_element_in_si(call, refused, tmp_path):
     record, element = tmp_path / "r.h5", tmp_path / "e.json"
-    motion = ("--harmonic-hz", "2e4", "--until-ms", "0.1", "--dt", "0.3")
+    motion = ("--harmonic-hz", "2e4", "--until", "1e-4", "--dt", str(0.3 * ball().scales.time))
     result = call("simulate", *options(), *COARSE, *motion, "--save", record)
     assert result.code == 0 and "20000 Hz" in result.out and "0.1 ms" in result.out
     stored = load(record)
@@ -139,7 +139,7 @@ def test_lambda_of_a_given_roughness(call, refused, point):
     coarse = (*options(load="20"), *COARSE, "--rq", "0.1", "--json", "-")
     film = json.loads(call("steady", *coarse).out)
     assert film["lambda_ratio"] == pytest.approx(film["si"]["h_min"] / 1e-7)
-    run = json.loads(call("simulate", "--harmonic", "3", "--until", "0.2", "--dt", "0.1", *coarse).out)
+    run = json.loads(call("simulate", "--harmonic", "3", "--until", "4e-6", "--dt", "2e-6", *coarse).out)
     assert 0.5 * film["lambda_ratio"] < run["lambda_ratio"] < 1.5 * film["lambda_ratio"]
     for command, rest in (("steady", ()), ("element", ()), ("simulate", ("--free", "3"))):
         refused(("--rq = 0.1", "no unit of length"), command, *point, *rest, "--rq", "0.1")

@@ -147,15 +147,14 @@ class TimeOptions(o.Options):
     panel: ClassVar[str | None] = _TIME
     until: Annotated[
         e.Positive | None,
-        typer.Option("--until", help="End in T, unit 2a/u_sum; by default some periods."),
-    ] = None
-    until_ms: Annotated[
-        e.Positive | None,
-        typer.Option("--until-ms", help="The same of a bearing, in ms."),
+        typer.Option(
+            "--until",
+            help="End: of a bearing in s, of --M --L --kappa in T = u_sum t/(2a); by default some periods.",
+        ),
     ] = None
     dt: Annotated[
         e.Positive | None,
-        typer.Option("--dt", help="Step in T (1/80 period); with --error, the first."),
+        typer.Option("--dt", help="Step in the unit of --until (1/80 period); with --error, the first."),
     ] = None
     error: Annotated[
         e.Positive | None,
@@ -174,21 +173,10 @@ class TimeOptions(o.Options):
         ),
     ] = None
 
-    def chosen(self, point: Point) -> TimeSteps:
-        """The time steps that the options stand for, in the unit of the point."""
-        unit = point.scales.time if isinstance(point, OperatingPoint) else 1.0
-        until, dt = (None if T is None else T * unit for T in (self._end(point), self.dt))
+    def chosen(self) -> TimeSteps:
+        """The time steps that the options stand for."""
         with o.called(dt="--dt", local_error="--error"):
-            return TimeSteps(until=until, dt=dt, local_error=self.error, tol=self.tol)
-
-    def _end(self, point: Point) -> float | None:
-        if self.until_ms is None:
-            return self.until
-        if self.until is not None:
-            raise InputError("--until-ms", self.until_ms, "left out where --until is given: there is one end")
-        if not isinstance(point, OperatingPoint):
-            raise InputError("--until-ms", self.until_ms, "given as --until: this point has no unit of time")
-        return self.until_ms * 1e-3 / point.scales.time
+            return TimeSteps(until=self.until, dt=self.dt, local_error=self.error, tol=self.tol)
 
 
 class RestartOptions(o.Options):
@@ -227,7 +215,7 @@ def simulate(
     point = contact.solvable()
     arguments = (point, motion.chosen(point))
     surfaces.check(contact)
-    chosen, steps = grid.chosen(), time.chosen(point)
+    chosen, steps = grid.chosen(), time.chosen()
     out.check(restart.other, beside={"--checkpoint": (restart.checkpoint, o.HDF5)})
     failure, unkept = "", None
     with progress("transient film") as update, o.called(dt="--dt", local_error="--error"):
