@@ -51,7 +51,6 @@ from reduced_models.rotor.campbell import CriticalSpeed as CriticalSpeed
 from reduced_models.rotor.campbell import campbell as campbell
 from reduced_models.rotor.compare import Comparison as Comparison
 from reduced_models.rotor.compare import compare as compare
-from reduced_models.rotor.contact import ScaledContact as ScaledContact
 from reduced_models.rotor.control import rotor_to_control as rotor_to_control
 from reduced_models.rotor.decay import Decrement as Decrement
 from reduced_models.rotor.decay import log_decrement as log_decrement
@@ -75,6 +74,7 @@ from reduced_models.rotor.ross import RossCallback as RossCallback
 from reduced_models.rotor.ross import from_ross as from_ross
 from reduced_models.rotor.rotor import Rotor as Rotor
 from reduced_models.rotor.rotor import Unbalance as Unbalance
+from reduced_models.rotor.scaled_contact import ScaledContact as ScaledContact
 from reduced_models.rotor.settling import Settling as Settling
 from reduced_models.rotor.settling import settling as settling
 from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor

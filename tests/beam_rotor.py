@@ -3,7 +3,7 @@
 Every node has x, y, and the turns about x and y; a node's shaft bends in x-z with the turn about y.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -110,5 +110,12 @@ def block(bearing, mass=2.0, load=(0.0, -300.0), unbalance=0.0, **changes):
 class StillBearing(BallBearing):
     """Its balls do not go round."""
 
-    def kernel(self, speeds_rpm):
-        return super().kernel(speeds_rpm)._replace(cage=0.0, swing=0.0)
+    def _kernel(self, speeds_rpm):
+        return super()._kernel(speeds_rpm)._replace(cage=0.0, swing=0.0)
+
+
+def with_balls(bearing, balls, speed_rpm=3000.0):
+    """A copy of a bearing with other parameters of its kernels at a speed."""
+    changed = replace(bearing)
+    changed._known["kernel", speed_rpm] = balls
+    return changed

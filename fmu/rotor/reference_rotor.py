@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from fmu.comparison import bounds, film_rates_at, tangents
 from fmu.contact_variables import Element, Film
 from reduced_models import JeffcottRotor, OutsideValidityWarning, RotorState, simulate_rotor
-from reduced_models.rotor.integrate_compiled import steps_of
-from reduced_models.rotor.integrate_python import PythonSteps
+from reduced_models.rotor.time_step import free_displacement, move_to, steps_of
 
 _Floats = NDArray[np.float64]
 
@@ -99,13 +98,13 @@ def _free_run(rotor: JeffcottRotor, start: RotorState, dt: float) -> Run:
     state = np.array([d, v, np.linalg.solve(M, applied[0] + at @ table[0] - C @ v - K @ d), np.zeros_like(d)])
     everywhere = np.hstack([at, np.eye(2 * size)])
     steps = steps_of((M, C, K), np.zeros((0, 2 * size)), everywhere, np.zeros(2 * size), dt, RHO)
-    histories = (*np.zeros((2, STEPS + 1, 2 * size)), *np.zeros((3, STEPS + 1, 0)), np.zeros(STEPS + 1))
-    free = PythonSteps((), (np.zeros((0, 2 * size)), np.zeros((0, 0)), np.zeros(0)), state, histories, (1.0, 1))
-    histories[0][0], histories[1][0] = d, v
+    motion = np.empty((STEPS + 1, 4 * size))
+    motion[0] = state[:2].ravel()
     for n in range(1, STEPS + 1):
-        free.advance(steps, n, (np.zeros(STEPS + 1), np.zeros((STEPS + 1, 0)), given))
+        move_to(steps, state, free_displacement(steps, state, given[n], given[n - 1]))
+        motion[n] = state[:2].ravel()
     force = table[:, 2 * size :]
-    return Run(rotor, dt, inputs, np.hstack(histories[:2]), force)
+    return Run(rotor, dt, inputs, motion, force)
 
 
 # ---- in a state

@@ -7,7 +7,7 @@
 | kinematics | cage, balls and defect frequencies |
 | race | one contact and its law at a speed; the one place that asks the atlas |
 | race_table | compiled: static force and memory gains of a race, tabulated over approach and speed |
-| contact | compiled: one contact over a step: filters once per step, force and tangents per iteration |
+| race_contact | compiled: one ball on one race over a step: filters once, force and tangents per iteration |
 | balls | compiled: all balls, two contacts in series on each, as one force with tangents |
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
 | equilibrium | springs under a load; the ring of a bearing on its balls: `ring_equilibrium` |

@@ -30,6 +30,7 @@ from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
 from reduced_models.bearing.coefficients import BearingCoefficients
 from reduced_models.bearing.equilibrium import (
     RingEquilibrium,
+    StaticBalls,
     angle_of,
     direction_of,
     radial_load,
@@ -213,28 +214,6 @@ class BallBearing(BearingSummary):
             self._known[race, speed] = contact.element(speed)
         return self._known[race, speed]
 
-    def kernel(self, speeds_rpm: ArrayLike) -> Balls:
-        """Parameters of the compiled kernels (`reduced_models.bearing.balls`) over increasing speeds [rev/min].
-
-        Between two speeds films grow as with the speed to the power of 0.67; outside them the kernels do not ask.
-        """
-        speeds = as_column("speeds_rpm", np.atleast_1d(np.asarray(speeds_rpm, float)), increasing=True)
-        key = ("kernel", *speeds.tolist())
-        if key not in self._known:
-            self._known[key] = Balls(
-                inner=self._law("inner", speeds),
-                outer=self._law("outer", speeds),
-                number=self.balls,
-                half_clearance=0.5 * self.clearance,
-                cage=cage_ratio(self.gamma),
-                swing=ball_swing(self.ball_diameter, self.pitch_diameter, self.density),
-                rolling=rolling_radius(self.pitch_diameter, self.gamma),
-                speeds=speeds * RADIANS,
-                loss=loss_of(self.loss_factor),
-                inertia=ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0,
-            )
-        return self._known[key]
-
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
     def equilibrium(
         self, load: ArrayLike, *, speed_rpm: float = 0.0, cage_angle: float | None = None
@@ -303,7 +282,7 @@ class BallBearing(BearingSummary):
         force, speed = radial_load(load), self.speed(speed_rpm)
         w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
         standings = self.ring_equilibria(force, speed, cage_angle)
-        balls = SmallBalls.of(self.kernel(speed), self.speed_state(speed), standings)
+        balls = SmallBalls.of(self._kernel(speed), self._speed_state(speed), standings)
         return BearingCoefficients.of(force, speed, cage_angle, w, balls.coefficients(w), standings)
 
     def ring_equilibria(
@@ -355,7 +334,7 @@ class BallBearing(BearingSummary):
         return bearing_element(self, node, speeds_rpm, load, frequency, **options)
 
     def _stand(self, load: _Floats, speed: float, angle: float) -> RingEquilibrium:
-        standing = ring_equilibrium(self.kernel(speed), self.speed_state(speed), load, angle)
+        standing = ring_equilibrium(self._static_balls(speed, angle), load)
         if self.oil is not None:
             for name, most in zip(RACES, standing.force.max(axis=0).tolist(), strict=True):
                 highest = self.race(name).loads(speed)[1]
@@ -367,10 +346,35 @@ class BallBearing(BearingSummary):
                     )
         return standing
 
-    def speed_state(self, speed_rpm: float) -> SpeedState:
-        """Films, cage and centrifugal force at a speed, as the kernels have them."""
-        speed = self.speed(speed_rpm)
-        return speed_state(self.kernel(speed), speed * RADIANS)
+    def _static_balls(self, speed: float, angle: float) -> StaticBalls:
+        """All balls at rest at a speed that the bearing takes, the first ball at `angle`."""
+        return StaticBalls(self._kernel(speed), self._speed_state(speed), angle)
+
+    def _speed_state(self, speed: float) -> SpeedState:
+        """Films, cage and centrifugal force at a speed that the bearing takes, as the kernels have them."""
+        return speed_state(self._kernel(speed), speed * RADIANS)
+
+    def _kernel(self, speeds_rpm: ArrayLike) -> Balls:
+        """Parameters of the compiled kernels (`reduced_models.bearing.balls`) over increasing speeds [rev/min].
+
+        Between two speeds films grow as with the speed to the power of 0.67; outside them the kernels do not ask.
+        """
+        speeds = as_column("speeds_rpm", np.atleast_1d(np.asarray(speeds_rpm, float)), increasing=True)
+        key = ("kernel", *speeds.tolist())
+        if key not in self._known:
+            self._known[key] = Balls(
+                inner=self._law("inner", speeds),
+                outer=self._law("outer", speeds),
+                number=self.balls,
+                half_clearance=0.5 * self.clearance,
+                cage=cage_ratio(self.gamma),
+                swing=ball_swing(self.ball_diameter, self.pitch_diameter, self.density),
+                rolling=rolling_radius(self.pitch_diameter, self.gamma),
+                speeds=speeds * RADIANS,
+                loss=loss_of(self.loss_factor),
+                inertia=ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0,
+            )
+        return self._known[key]
 
     def _law(self, race: str, speeds: _Floats) -> Any:
         if self.oil is None:

@@ -20,14 +20,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.jit import jit_exact_loop, jit_exact_node
-from reduced_models.bearing.contact import (
-    APPROACH,
-    WORK,
-    accept_contact,
-    clear_filters,
-    contact_force,
-    prepare_filters,
-)
 from reduced_models.bearing.loss import (
     Loss,
     Seat,
@@ -37,6 +29,14 @@ from reduced_models.bearing.loss import (
     press_seat,
     rest_seat,
     seat_of,
+)
+from reduced_models.bearing.race_contact import (
+    APPROACH,
+    WORK,
+    accept_contact,
+    clear_filters,
+    contact_force,
+    prepare_filters,
 )
 from reduced_models.bearing.race_table import RaceForceTable
 from reduced_models.elements.film_filters import CHAIN, DIRECT

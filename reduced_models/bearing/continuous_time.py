@@ -16,7 +16,7 @@ from math import log, nan, sqrt
 import numpy as np
 
 from ehlcontact.jit import jit_exact
-from reduced_models.bearing.race_table import curve, film_cutoff, gain
+from reduced_models.bearing.race_contact import curve, film_cutoff, gain
 from reduced_models.elements.film_filters import filter_rates
 
 SMALL_STEP = 1e-14  # of the rates, that ends the search for w': rounding

@@ -107,7 +107,7 @@ class StaticBalls:
     """
 
     def __init__(self, balls: Balls, at_speed: SpeedState, angle: float) -> None:
-        self.balls, self._at_speed = balls, at_speed._replace(cage=0.0)
+        self.balls, self.at_speed = balls, at_speed._replace(cage=0.0)
         self.normals = np.zeros((balls.number, 2))
         directions(balls, angle, self.normals)
         self.films = films_of(balls)
@@ -126,7 +126,7 @@ class StaticBalls:
 
     def _press(self, q: _Floats) -> None:
         arrays = self._force, self._stiffness, self._damping
-        press_balls(self.balls, self._at_speed, self.films, self.normals, np.asarray(q, float), STILL, 0.0, arrays)
+        press_balls(self.balls, self.at_speed, self.films, self.normals, np.asarray(q, float), STILL, 0.0, arrays)
         if not np.isfinite(self._force).all():
             raise ConvergenceError(f"a ball finds no balance with the ring at {q.tolist()} m", q)
 
@@ -142,8 +142,8 @@ class RingEquilibrium:
     stiffness: _Floats  # (2, 2) [N/m]
 
 
-def ring_equilibrium(balls: Balls, at_speed: SpeedState, load: _Floats, angle: float) -> RingEquilibrium:
-    """Ring under `load` [N], the first ball at `angle`.
+def ring_equilibrium(still: StaticBalls, load: _Floats) -> RingEquilibrium:
+    """Ring on balls at rest under `load` [N].
 
     Raises
     ------
@@ -152,14 +152,13 @@ def ring_equilibrium(balls: Balls, at_speed: SpeedState, load: _Floats, angle: f
     ConvergenceError
         No balance was found.
     """
-    still = StaticBalls(balls, at_speed, angle)
     q = np.zeros(2) if not load.any() else equilibrium(still, load)
     stiffness = still.tangent(q)
     if not np.linalg.det(stiffness) > SEATED * np.trace(stiffness) ** 2:
         allowed = "one that presses balls on both sides of its direction; or preload the bearing (clearance < 0)"
         raise InputError("load", load.tolist(), allowed)
     w = still.films.balls[:, PLACE]
-    inner = still.normals @ q - balls.half_clearance - w
+    inner = still.normals @ q - still.balls.half_clearance - w
     return RingEquilibrium(q, still.normals, np.column_stack([inner, w]), still.films.force.copy(), stiffness)
 
 

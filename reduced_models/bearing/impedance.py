@@ -18,7 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 from reduced_models.bearing.balls import Balls, SpeedState
 from reduced_models.bearing.equilibrium import RingEquilibrium
 from reduced_models.bearing.loss import Loss, response
-from reduced_models.bearing.race_table import RaceForceTable, curve, film_cutoff
+from reduced_models.bearing.race_contact import curve, film_cutoff
+from reduced_models.bearing.race_table import RaceForceTable
 from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.film_response import FilterRates
 from reduced_models.elements.small_motion import SmallMotion

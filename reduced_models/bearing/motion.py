@@ -1,4 +1,4 @@
-"""A bearing in the time domain: its force on a shaft that moves as it is told, step by step, films and all."""
+"""A ball bearing over time: force of the ring on the balls, step by step, along a motion of the ring."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from math import pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, as_rows, require_positive
-from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.checks import as_column, as_rows, require_instance, require_positive
+from ehlcontact.errors import ConvergenceError
 from ehlcontact.jit import jit_exact_loop
+from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.balls import (
     Balls,
-    SpeedState,
     accept_balls,
     begin_rest,
     begin_step,
@@ -27,6 +27,53 @@ from reduced_models.bearing.kinematics import RADIANS
 _Floats = NDArray[np.float64]
 
 
+class BallMotion:
+    """Balls and films of a bearing in steps, each with its own speed of the shaft and angle of the cage.
+
+    Parameters
+    ----------
+    balls : Balls
+    """
+
+    def __init__(self, balls: Balls) -> None:
+        self.balls, self.films = balls, films_of(balls)
+        self.at_speed, self.gain = speed_state(balls, 0.0), 0.0
+        self._normals = np.zeros((balls.number, 2))
+        self._tried = np.zeros(2), np.zeros(2)
+
+    def rest(self, omega: float, angle: float, q: _Floats) -> _Floats:
+        """Put balls and films at rest with the ring at `q` [m]; force of the ring on the balls, shape (2,) [N].
+
+        Films are those of the speed `omega` [rad/s]; the first ball is at `angle` [rad].
+        """
+        directions(self.balls, angle, self._normals)
+        self.gain = begin_rest(self.films)
+        self.at_speed = speed_state(self.balls, omega)._replace(cage=0.0)
+        force, _, _ = self.forces(q, np.zeros(2))
+        rest_balls(self.balls, self.films, self._normals, q)
+        return force
+
+    def begin(self, omega: float, angle: float, dt: float) -> None:
+        """Begin a step of `dt` [s], at whose end the shaft turns at `omega` and the first ball is at `angle`."""
+        self.at_speed = speed_state(self.balls, omega)
+        directions(self.balls, angle, self._normals)
+        self.gain = begin_step(self.balls, self.at_speed, dt, self.films)
+
+    def forces(self, q: _Floats, v: _Floats) -> tuple[_Floats, _Floats, _Floats]:
+        """Force of the ring at `q`, moving at `v` at the end of the step, and its derivatives by both.
+
+        Not a number where a ball finds no balance.
+        """
+        self._tried = q, v
+        out = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
+        press_balls(self.balls, self.at_speed, self.films, self._normals, q, v, self.gain, out)
+        return out
+
+    def accept(self) -> None:
+        """Move balls and films to the end of the step, as `forces` was called last."""
+        accept_balls(self.balls, self.at_speed, self.films, self._normals, *self._tried, self.gain)
+
+
 class BearingMotion:
     """A bearing on a shaft of constant speed, in steps of one length.
 
@@ -35,41 +82,38 @@ class BearingMotion:
 
     Parameters
     ----------
-    balls : Balls
-        ``bearing.kernel(speed_rpm)``, or of several speeds about it.
+    bearing : BallBearing
     speed_rpm : float
         Of the shaft.
     dt : float
         Length of all steps [s].
     cage_angle : float
         Of the first ball at the start [rad].
+
+    Raises
+    ------
+    InputError
+        A speed that the bearing does not take, a step that is not > 0.
     """
 
-    def __init__(self, balls: Balls, speed_rpm: float, dt: float, cage_angle: float = -pi / 2.0) -> None:
-        self.balls, self.dt = balls, require_positive("dt", dt)
-        omega = speed_rpm * RADIANS
-        if balls.inner.x.size and not balls.speeds[0] <= omega <= balls.speeds[-1]:
-            low, high = balls.speeds[0] / RADIANS, balls.speeds[-1] / RADIANS
-            raise InputError("speed_rpm", speed_rpm, f"between {low:.6g} and {high:.6g}, the speeds of these laws")
-        self.at_speed = speed_state(balls, omega)
-        self.films = films_of(balls)
+    def __init__(self, bearing: BallBearing, speed_rpm: float, dt: float, cage_angle: float = -pi / 2.0) -> None:
+        require_instance("bearing", bearing, BallBearing, "a BallBearing")
+        speed = bearing.speed(speed_rpm)
+        self._motion, self.dt = BallMotion(bearing._kernel(speed)), require_positive("dt", dt)
+        self._omega = speed * RADIANS
+        self._cage = speed_state(self._motion.balls, self._omega).cage
         self._start, self._step = float(cage_angle), 0
-        self._normals = np.zeros((balls.number, 2))
-        self._gain, self._tried = 0.0, (np.zeros(2), np.zeros(2))
         self.rest(np.zeros(2))
 
     @property
     def cage_angle(self) -> float:
         """Of the first ball, at the end of the last step accepted [rad]."""
-        return self._start + self.at_speed.cage * self.dt * self._step
+        return self._start + self._cage * self.dt * self._step
 
     def rest(self, q: ArrayLike) -> _Floats:
         """Put ring, balls and films at rest with the ring at `q` [m]; returns the force on the balls [N]."""
         place = as_column("q", q, size=2)
-        directions(self.balls, self.cage_angle, self._normals)
-        begin_rest(self.films)
-        force, *_ = self._press(self.at_speed._replace(cage=0.0), place, np.zeros(2), 0.0)
-        rest_balls(self.balls, self.films, self._normals, place)
+        force = _finite(self._motion.rest(self._omega, self.cage_angle, place), place)
         self._begin()
         return force
 
@@ -88,12 +132,13 @@ class BearingMotion:
         ConvergenceError
             A ball finds no balance.
         """
-        self._tried = np.array(q, float), np.array(v, float)
-        return self._press(self.at_speed, *self._tried, self._gain)
+        place = np.array(q, float)
+        force, stiffness, damping = self._motion.forces(place, np.array(v, float))
+        return _finite(force, place), stiffness, damping
 
     def accept(self) -> None:
-        """Move on to the end of the step, as `forces` was asked last."""
-        accept_balls(self.balls, self.at_speed, self.films, self._normals, *self._tried, self._gain)
+        """Move on to the end of the step, as `forces` was called last."""
+        self._motion.accept()
         self._step += 1
         self._begin()
 
@@ -113,30 +158,24 @@ class BearingMotion:
             Force on every ball, at the inner and the outer race [N].
         """
         places = as_rows("q", q, np.shape(q)[0], 2)
-        rates = as_rows("v", v, places.shape[0], 2)
-        force, loads = np.zeros((len(places), 2)), np.zeros((len(places), self.balls.number, 2))
-        angles = self._start + self.at_speed.cage * self.dt * np.arange(
-            self._step + 1, self._step + 1 + len(places)
-        )
-        arrays = self._normals, np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
-        _drive(self.balls, self.at_speed, self.films, (self.dt, angles, places, rates), arrays, (force, loads))
+        rates, moved = as_rows("v", v, places.shape[0], 2), self._motion
+        balls = moved.balls
+        force, loads = np.zeros((len(places), 2)), np.zeros((len(places), balls.number, 2))
+        angles = self._start + self._cage * self.dt * np.arange(self._step + 1, self._step + 1 + len(places))
+        arrays = np.zeros((balls.number, 2)), np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
+        _drive(balls, moved.at_speed, moved.films, (self.dt, angles, places, rates), arrays, (force, loads))
         self._step += len(places)
         self._begin()
         return force, loads
 
     def _begin(self) -> None:
-        angle = self._start + self.at_speed.cage * self.dt * (self._step + 1)
-        directions(self.balls, angle, self._normals)
-        self._gain = begin_step(self.balls, self.at_speed, self.dt, self.films)
+        self._motion.begin(self._omega, self._start + self._cage * self.dt * (self._step + 1), self.dt)
 
-    def _press(
-        self, at_speed: SpeedState, q: _Floats, v: _Floats, gain: float
-    ) -> tuple[_Floats, _Floats, _Floats]:
-        force, stiffness, damping = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
-        press_balls(self.balls, at_speed, self.films, self._normals, q, v, gain, (force, stiffness, damping))
-        if not np.isfinite(force).all():
-            raise ConvergenceError(f"a ball finds no balance with the ring at {q.tolist()} m", None)
-        return force, stiffness, damping
+
+def _finite(force: _Floats, q: _Floats) -> _Floats:
+    if not np.isfinite(force).all():
+        raise ConvergenceError(f"a ball finds no balance with the ring at {q.tolist()} m", None)
+    return force
 
 
 @jit_exact_loop

@@ -17,7 +17,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.hertz import hertz_contact, radius_ratio
 from reduced_models.atlas.atlas import Atlas
 from reduced_models.bearing.kinematics import RADIANS, rolling_radius, rolling_torque
-from reduced_models.bearing.race_table import film_cutoff
+from reduced_models.bearing.race_contact import film_cutoff
 from reduced_models.elements.wide import WideRangeContact
 
 _Floats = NDArray[np.float64]

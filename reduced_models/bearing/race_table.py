@@ -23,9 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
-from ehlcontact.jit import jit_exact, jit_exact_node
+from ehlcontact.jit import jit_exact
 from ehlcontact.point import Scales
-from reduced_models.elements.film_curve import RIGID_SLOPE
 from reduced_models.elements.film_element import FilmContact
 from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.film_law import FilmLaw, films, static
@@ -141,64 +140,3 @@ def _fill(law: FilmLaw, x, u, g, slope):
     for k in range(u.shape[0]):
         for j in range(u.shape[1]):
             _, g[k, j], slope[k, j] = static(u[k, j], law)
-
-
-@jit_exact_node
-def curve(u, row, weight, law, k):
-    """Dry compression g [m] at approach `u` and its slope, `weight` from one `row` of speeds to the next.
-
-    `k` is where to begin to look for the interval of u; that found is returned too.
-    """
-    if law.x.size == 0:
-        return max(u, 0.0), 1.0 if u > 0.0 else 0.0, 0
-    g, slope, k = _at(u, law, row, k)
-    if weight > 0.0:
-        other, other_slope, _ = _at(u, law, row + 1, k)
-        g += weight * (other - g)
-        slope += weight * (other_slope - slope)
-    return g, slope, k
-
-
-@jit_exact_node
-def _at(u, law, row, k):
-    """Table of one speed."""
-    nodes, cells, last = law.u, law.cells, law.x.size - 2
-    while k > 0 and u < nodes[row, k]:
-        k -= 1
-    while k < last and u >= nodes[row, k + 1]:
-        k += 1
-    start = nodes[row, k]
-    if u < start:  # wider than the table: F like h^-1/2
-        g = cells[row, 0, 0, 0] * (u / start) ** (2.0 / 3.0 / RIGID_SLOPE)
-        return g, g / u * (2.0 / 3.0 / RIGID_SLOPE), k
-    per_u = CELLS / (nodes[row, k + 1] - start)
-    t = (u - start) * per_u
-    j = min(int(t), CELLS - 1)
-    t -= j
-    a, b, c, d = cells[row, k, j, 0], cells[row, k, j, 1], cells[row, k, j, 2], cells[row, k, j, 3]
-    if t > 1.0 and k == last:  # an iteration went too far: straight on
-        slope = b + 2.0 * c + 3.0 * d
-        return a + b + c + d + slope * (t - 1.0), slope * per_u, k
-    return a + t * (b + t * (c + t * d)), (b + t * (2.0 * c + 3.0 * d * t)) * per_u, k
-
-
-@jit_exact_node
-def gain(law, speed_row, node, k):
-    """Gain `k` at a node of the load, between two speeds."""
-    row, weight = speed_row
-    found = law.gains[row, node, k]
-    if weight > 0.0:
-        found += weight * (law.gains[row + 1, node, k] - found)
-    return found
-
-
-@jit_exact_node
-def film_cutoff(u, cutoff_gap):
-    """Share of its force that a film carries at approach `u`, and its slope."""
-    gap = -u / cutoff_gap
-    if gap <= 0.5:
-        return 1.0, 0.0
-    if gap >= 1.0:
-        return 0.0, 0.0
-    t = 2.0 * gap - 1.0
-    return 1.0 - t * t * (3.0 - 2.0 * t), 12.0 * t * (1.0 - t) / cutoff_gap

@@ -1,8 +1,8 @@
 """Filters of the film memory, compiled: over a step of any length, and in continuous time.
 
-Elements (`reduced_models.elements.film_law`) and bearings (`reduced_models.bearing.contact`) have the same filters
-of the own rate i: an inlet lag s, a fast lag y, and a chain of lags q_1 ... which the film from the inlet enters.
-Over a step of `span` in own time the input of a lag of rate p is
+Elements (`reduced_models.elements.film_law`) and bearings (`reduced_models.bearing.race_contact`) have the same
+filters of the own rate i: an inlet lag s, a fast lag y, and a chain of lags q_1 ... which the film from the inlet
+enters. Over a step of `span` in own time the input of a lag of rate p is
 
     i(t) = start + (end - start) t + 6 bump t (1 - t),    t from 0 to 1,
 

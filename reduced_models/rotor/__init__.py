@@ -4,7 +4,7 @@
 |---|---|
 | rotor | `Rotor`: matrices, supports, loads |
 | supports | `ContactMount`, `BearingMount`, `LinearBearing`: what a rotor stands on |
-| contact | the protocol of contacts; `ScaledContact` shows a dimensionless one in SI; all as one force |
+| scaled_contact | the protocol of contacts; `ScaledContact` shows a dimensionless one in SI |
 | jeffcott | `JeffcottRotor`: such a rotor by its parameters |
 | parts | `Shaft`, `Disc`, `Support`: what a rotor on bearings is made of |
 | beam | matrices of a piece of shaft |
@@ -12,9 +12,12 @@
 | nodes | degrees of freedom by node and direction |
 | equilibrium | a rotor at rest on its supports |
 | speed_profile | `SpeedProfile`: the speed of a shaft over time, and the forces that turn with it |
-| integrate_compiled | generalised-alpha steps of rotor, bearings and balls, compiled |
+| time_step | generalised-alpha step of a rotor, condensed onto its supports |
+| contact_steps | forces and slopes of all contacts in a step |
+| prepared_run | a rotor, its supports and their start as the arrays of a run |
+| integrate_compiled | steps of a rotor on ball bearings, compiled |
 | integrate_python | the same steps in Python, for supports without a compiled kernel |
-| simulate | `simulate_rotor`: a rotor over time |
+| simulate | `simulate_rotor`: a rotor over time, from the rotor by arrays and steps to the result |
 | result | `RotorResult`: histories of a run |
 | impedance | impedance of a contact over the frequency |
 | linearise | `linearise`: a rotor about rest at a speed, `LinearRotor`; `unbalance_response` over the speed |

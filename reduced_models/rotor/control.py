@@ -15,14 +15,22 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_instance, require_integer, require_nonnegative
 from ehlcontact.errors import InputError
-from reduced_models.bearing.balls import PLACE, Balls, SpeedState, begin_rest, directions, films_of, press_balls
+from reduced_models.bearing.balls import (
+    PLACE,
+    Balls,
+    SpeedState,
+    begin_rest,
+    directions,
+    films_of,
+    press_balls,
+    speed_state,
+)
 from reduced_models.bearing.continuous_time import bearing_rates
-from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.impedance import SmallBalls
+from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.state_space import PER_METRE, bearing_system
 from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.small_motion import FILTERS, StateSpace
-from reduced_models.rotor.integrate_python import active_mounts, geometry_of
 from reduced_models.rotor.rotor import Matrices, Rotor
 from reduced_models.rotor.supports import BearingMount
 
@@ -35,9 +43,9 @@ UNIT = 1e-6  # m, of the states
 
 def rings_of(rotor: Rotor) -> _Floats:
     """Motions of the rings of ball bearings, shape (2 bearings, N); `InputError` for a rotor on contacts."""
-    if active_mounts(rotor)[0]:
+    if rotor.contacts:
         raise InputError("mounts", "with contacts", "ball bearings or linear bearings, for python-control")
-    return geometry_of(rotor)[0]
+    return rotor.geometry.points
 
 
 def linear_block(
@@ -191,12 +199,12 @@ class _Ring:
     """One bearing: its balls about rest, with the ring at `r`."""
 
     def __init__(self, mount: BearingMount, speed: float, r: _Floats, cage_turns: bool) -> None:
-        bearing = mount.ball_bearing
-        self.balls: Balls = bearing.kernel(bearing.speed(speed))
-        self._laws: SpeedState = bearing.speed_state(speed)
-        self._at_speed = self._laws if cage_turns else self._laws._replace(cage=0.0)
-        self._angle, self._normals = mount.cage_angle, np.zeros((self.balls.number, 2))
-        held = StaticBalls(self.balls, self._laws, mount.cage_angle)
+        bearing, angle = mount.ball_bearing, mount.cage_angle
+        held = bearing._static_balls(bearing.speed(speed), angle)
+        self.balls: Balls = held.balls
+        laws: SpeedState = speed_state(self.balls, speed * RADIANS)
+        self._at_speed = laws if cage_turns else laws._replace(cage=0.0)
+        self._angle, self._normals = angle, np.zeros((self.balls.number, 2))
         self.force = held.force(r)
         races = self.balls.inner, self.balls.outer
         inner, outer = (law.gains.shape[2] - DIRECT if law.x.size else 0 for law in races)
@@ -234,7 +242,7 @@ class _Motion:
         _, self._damping, self._stiffness = rotor.matrices(speed * np.pi / 30.0)
         self.rings = [
             _Ring(mount, speed, self._r[2 * b : 2 * b + 2], cage_turns)
-            for b, mount in enumerate(active_mounts(rotor)[1])
+            for b, mount in enumerate(rotor.ball_bearings)
         ]
 
     def rates(self, t: float, x: _Floats, force: _Floats) -> _Floats:

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.kinematics import RADIANS
-from reduced_models.rotor.contact import has_tangents
+from reduced_models.rotor.scaled_contact import has_tangents
 from reduced_models.rotor.supports import BearingMount, ContactMount, is_ball_bearing
 
 _Floats = NDArray[np.float64]
@@ -92,8 +91,7 @@ def static_supports(rotor: SupportedRotor, speed_rpm: float) -> list[tuple[slice
             found.append((columns, StaticContact(mount)))
         elif is_ball_bearing(mount):
             bearing = mount.ball_bearing
-            kernel, state = bearing.kernel(bearing.speed(speed_rpm)), bearing.speed_state(speed_rpm)
-            found.append((columns, StaticBalls(kernel, state, mount.cage_angle)))
+            found.append((columns, bearing._static_balls(bearing.speed(speed_rpm), mount.cage_angle)))
     return found
 
 

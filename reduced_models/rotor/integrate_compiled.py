@@ -1,74 +1,30 @@
-"""Time integration (generalised-alpha) of a rotor on bearings, compiled. Other supports: `integrate_python`.
+"""Time steps of a rotor on ball bearings, compiled. Other supports: `integrate_python`.
 
-Chung and Hulbert, J. Appl. Mech. 60 (1993) 371. Everything linear is condensed onto the displacements r = B q of
-the inner rings against the outer ones: the end of a step has
-
-    D (r - r_free) + weight F(r, r') = 0,    r' = gain r + B v_history,    q = q_free - weight S^-1 B^T F,
-
-and Newton's method works on r alone, with the exact tangents of the bearings. q_free depends on the start of the
-step by one matrix, and on the forces by a few columns.
+The step is that of `time_step`, on the displacements r of the inner rings against the outer ones; Newton's method
+works on r alone, with the exact tangents of the bearings.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import inf, sqrt
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.errors import ConvergenceError
 from ehlcontact.jit import jit_exact_loop
 from reduced_models.bearing.balls import accept_balls, begin_step, directions, press_balls, speed_state
+from reduced_models.rotor.prepared_run import PreparedRun
+from reduced_models.rotor.time_step import Steps
 
 _Floats = NDArray[np.float64]
 
 MOST_ITERATIONS = 30  # of a step: two or three, but where balls land
 OVERSHOOT = 2.0  # growth of the imbalance that halves the way to the last place: a ball lands or leaves
+FARTHEST = 0.05  # of a ball diameter, that a ring may go from the middle: no clearance is as large
 DONE, NO_BALANCE, LOST = 0, 1, 2  # how a block of steps ends
-
-
-class Steps(NamedTuple):
-    """The linear part of a rotor for steps of one length, at one speed."""
-
-    past: _Floats  # (3, N, N): what each displacement, velocity and acceleration at the start makes of q_free
-    constant: _Floats  # (N,) q_free of the constant forces
-    columns: _Floats  # (2 bearings, N): of unit forces at the bearings, (S^-1 B^T)^T
-    turning: _Floats  # (2 unbalances, N): of unit forces where the unbalances are
-    D: _Floats  # (2 bearings, 2 bearings)
-    B: _Floats  # (2 bearings, N)
-    dt: float
-    weight: float  # of forces at the end of a step, 1 - alpha_f
-    velocity: tuple[float, float, float, float]  # gain, then what d, v and a at the start make of v at the end
-    acceleration: tuple[float, float, float, float]
-
-
-def steps_of(
-    matrices: tuple[_Floats, _Floats, _Floats],
-    to_rings: _Floats,
-    at: _Floats,
-    constant: _Floats,
-    dt: float,
-    rho_inf: float,
-) -> Steps:
-    """Condense mass, damping and stiffness, shape (N, N), for steps of `dt` [s]; forces turn `at` (N, k)."""
-    M, C, K = matrices
-    alpha_m, alpha_f = (2.0 * rho_inf - 1.0) / (rho_inf + 1.0), rho_inf / (rho_inf + 1.0)
-    gamma, beta = 0.5 - alpha_m + alpha_f, 0.25 * (1.0 - alpha_m + alpha_f) ** 2
-    weight, ratio = 1.0 - alpha_f, gamma / beta
-    velocity = ratio / dt, -ratio / dt, 1.0 - ratio, dt * (1.0 - 0.5 * ratio)
-    acceleration = 1.0 / (beta * dt * dt), -1.0 / (beta * dt * dt), -1.0 / (beta * dt), 1.0 - 0.5 / beta
-    S = (1.0 - alpha_m) * acceleration[0] * M + weight * (velocity[0] * C + K)
-    past = [-weight * velocity[k] * C - (1.0 - alpha_m) * acceleration[k] * M for k in (1, 2, 3)]
-    past[0] -= alpha_f * K
-    past[1] -= alpha_f * C
-    past[2] -= alpha_m * M
-    inverse = np.linalg.inv(S)
-    columns = inverse @ to_rings.T
-    D: _Floats = np.asarray(np.linalg.inv(to_rings @ columns), np.float64)
-    return Steps(
-        np.array([(inverse @ part).T for part in past]), inverse @ constant, np.ascontiguousarray(columns.T),
-        np.ascontiguousarray((inverse @ at).T), D, to_rings, dt, weight, velocity, acceleration,
-    )  # fmt: skip
 
 
 class RingState(NamedTuple):
@@ -86,14 +42,63 @@ class RingState(NamedTuple):
 R, RATE, FORCE, IMBALANCE, FREE, HISTORY = range(6)  # rows of `tried`: r, r', F, imbalance, r_free, B v_history
 
 
-def ring_state_at(r: _Floats, force: _Floats, turned: _Floats, balls: int) -> RingState:
-    """Start of a run with the rings at rest at `r`."""
-    n = r.size
-    pushed = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
-    return RingState(
-        np.tile(r, (3, 1)), force.copy(), np.zeros((6, n)), np.zeros((n, n + 1)), turned.copy(),
-        np.zeros((n // 2, balls, 2)), pushed,
-    )  # fmt: skip
+class CompiledSteps:
+    """Steps of a run on ball bearings alone.
+
+    Parameters
+    ----------
+    run : PreparedRun
+    tolerance : float
+        Largest imbalance over the larger of the load and the forces of the unbalances.
+    """
+
+    made = reached = 0  # steps, and the last one that was begun
+
+    def __init__(self, run: PreparedRun, tolerance: float) -> None:
+        self._run = run
+        load = max(float(np.linalg.norm(run.rotor.load)), float(np.abs(run.turning).max(initial=0.0)))
+        farthest = min(mount.ball_bearing.ball_diameter for mount in run.rotor.ball_bearings)
+        self._limits = tolerance * max(load, 1.0), FARTHEST * farthest
+        r, force = run.histories.motion[0], run.histories.force[0]
+        balls = max(one.balls.number for one in run.balls)
+        pushed = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
+        n = r.size
+        self._rings = RingState(
+            np.tile(r, (3, 1)), force.copy(), np.zeros((6, n)), np.zeros((n, n + 1)), run.turning[0].copy(),
+            np.zeros((n // 2, balls, 2)), pushed,
+        )  # fmt: skip
+
+    def advance(self, steps: Steps, first: int, end: int, progress: Callable[[int], None]) -> None:
+        """Make the steps of one block; `progress` takes the number of steps made, at its end.
+
+        Raises
+        ------
+        ConvergenceError
+            A step found no balance, or a ring left its bearing.
+        """
+        run, here = self._run, slice(first + 1, end + 1)
+        course = run.omega[here], run.cage_angles[here], run.turning[here]
+        d, v, r, rate, force, iterations = (history[here] for history in run.histories)
+        balls, films = tuple(one.balls for one in run.balls), tuple(one.films for one in run.balls)
+        out = d, v, r, force, iterations
+        made, how = run_block(steps, balls, films, self._rings, run.state, course, self._limits, out)
+        rate[:] = v @ steps.B.T
+        self.made = first + int(made)
+        self.reached = self.made + (how == NO_BALANCE)
+        if how == NO_BALANCE:
+            raise ConvergenceError("no balance of the forces was found", None)
+        if how == LOST:
+            raise ConvergenceError(self._lost(run.histories.motion[self.made]), None)
+        progress(self.made)
+
+    def rewind(self) -> None:
+        """Nothing: a block is made as a whole."""
+
+    @staticmethod
+    def _lost(r: _Floats) -> str:
+        worst = int(np.argmax(np.abs(r))) // 2
+        far = float(np.hypot(*r[2 * worst : 2 * worst + 2]))
+        return f"the ring of bearing {worst} has left it, {far * 1e3:.3g} mm from the middle"
 
 
 @jit_exact_loop

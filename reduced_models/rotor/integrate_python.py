@@ -1,24 +1,22 @@
-"""Time integration (generalised-alpha) in Python, for supports without a compiled kernel: full films, elements.
+"""Time steps of a rotor in Python, for supports without a compiled kernel: full films, elements.
 
-The matrices and equations are those of `integrate_compiled`. Only the balance of a step is found here, on the
-displacements of the points at which supports act, by Newton's method or, for contacts without tangents, secants.
+The step is that of `time_step`. Its balance is found on the displacements of the points at which supports act, by
+Newton's method or, for contacts without tangents, secants.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError
-from reduced_models.bearing.balls import Balls, accept_balls, begin_step, directions, press_balls, speed_state
-from reduced_models.rotor.contact import ContactForces
-from reduced_models.rotor.integrate_compiled import Steps
-from reduced_models.rotor.rotor import Rotor
-from reduced_models.rotor.supports import BearingMount, ContactMount, is_ball_bearing
+from reduced_models.bearing.motion import BallMotion
+from reduced_models.rotor.prepared_run import PreparedRun
+from reduced_models.rotor.time_step import Steps, free_displacement, move_to
 
 _Floats = NDArray[np.float64]
 
@@ -45,60 +43,20 @@ class RunningSupport(Protocol):
         """Go back to the start of the step."""
 
 
-class RunningContacts:
-    """All contacts of a rotor."""
+class BallSteps:
+    """One ball bearing over steps of one length `dt` [s]; `gain` is that from displacement to rate in a step."""
 
-    def __init__(self, mounts: Sequence[ContactMount], dt: float, gain: float) -> None:
-        self.forces = ContactForces([mount.contact for mount in mounts], dt, gain)
-        self._offsets = np.array([mount.offset for mount in mounts])
-
-    def start(self, r: _Floats, rate: _Floats) -> _Floats:
-        """Forces at the very start of a run."""
-        return self.forces.start(r + self._offsets, rate)
-
-    def begin(self, omega: float, angle: float) -> None:
-        """Begin a step; contacts do not depend on the speed of the shaft here."""
-        self.forces.begin()
-
-    def at(self, r: _Floats, rate: _Floats) -> tuple[_Floats, _Floats]:
-        """Forces at the end of the step, and their slopes, a diagonal matrix."""
-        force = self.forces.at(r + self._offsets, rate)
-        return force, np.diag(self.forces.last_slopes)
-
-    def expected(self, r: _Floats, rate: _Floats) -> _Floats:
-        """Slopes to be expected there."""
-        return np.diag(self.forces.slopes(r + self._offsets, rate))
-
-    def accept(self, r: _Floats, rate: _Floats) -> None:
-        """Move to the end of the step."""
-        self.forces.accept(r + self._offsets, rate)
-
-    def rewind(self) -> None:
-        """Go back to the start of the step."""
-        self.forces.rewind()
-
-
-class RunningBalls:
-    """One ball bearing, whose films and balls are at rest where the run starts."""
-
-    def __init__(self, balls: Balls, films: object, dt: float, gain: float) -> None:
-        self._balls, self._films, self._dt, self._gain = balls, films, dt, gain
-        self._normals = np.zeros((balls.number, 2))
-        self._pushed = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
-        self._state = speed_state(balls, 0.0)
-        self._own = 0.0
+    def __init__(self, motion: BallMotion, dt: float, gain: float) -> None:
+        self._motion, self._dt, self._gain = motion, dt, gain
 
     def begin(self, omega: float, angle: float) -> None:
         """Begin a step at whose end the shaft turns at `omega` [rad/s] and the first ball is at `angle`."""
-        self._state = speed_state(self._balls, omega)
-        directions(self._balls, angle, self._normals)
-        self._own = begin_step(self._balls, self._state, self._dt, self._films)
+        self._motion.begin(omega, angle, self._dt)
 
     def at(self, r: _Floats, rate: _Floats) -> tuple[_Floats, _Floats]:
         """Forces at the end of the step, and their slopes, shape (2, 2)."""
-        press_balls(self._balls, self._state, self._films, self._normals, r, rate, self._own, self._pushed)
-        force, stiffness, damping = self._pushed
-        return force.copy(), stiffness + self._gain * damping
+        force, stiffness, damping = self._motion.forces(r, rate)
+        return force, stiffness + self._gain * damping
 
     def expected(self, r: _Floats, rate: _Floats) -> _Floats:
         """Slopes to be expected there."""
@@ -106,7 +64,7 @@ class RunningBalls:
 
     def accept(self, r: _Floats, rate: _Floats) -> None:
         """Move to the end of the step."""
-        accept_balls(self._balls, self._state, self._films, self._normals, r, rate, self._own)
+        self._motion.accept()
 
     def rewind(self) -> None:
         """Nothing: balls move where a step is accepted."""
@@ -117,55 +75,64 @@ class PythonSteps:
 
     Parameters
     ----------
-    supports : sequence of (slice, RunningSupport)
-        With their places among the motions of all supports.
-    geometry : (ndarray, ndarray, ndarray)
-        Displacements of the points at which supports act from those of the rotor, shape (n, N); motions of the
-        supports from those of the points, shape (m, n); how often each force acts, shape (m,).
-    state : ndarray, shape (4, N)
-        Displacement, velocity and acceleration; room.
-    histories : tuple of ndarray
-        Displacement and velocity (k, N), motion, rate and force of the supports (k, m), evaluations (k,).
-    limits : (float, int)
-        Largest imbalance of a step [N], and evaluations.
+    run : PreparedRun
+    tolerance : float
+        Largest imbalance over the largest of the forces at the start.
+    most : int
+        Evaluations in a step.
     """
 
-    def __init__(
-        self,
-        supports: Sequence[tuple[slice, RunningSupport]],
-        geometry: tuple[_Floats, _Floats, _Floats],
-        state: _Floats,
-        histories: tuple[_Floats, ...],
-        limits: tuple[float, int],
-    ) -> None:
-        self._supports = supports
-        self._points, self._normals, self._counts = geometry
-        self._pull = self._counts[:, None] * self._normals  # (m, n): forces of the points are force @ pull
-        self._state, self._histories = state, histories
-        self._allowed, self._most = limits
-        self._torn = False
+    made = reached = 0  # steps, and the last one that was begun
 
-    def advance(self, steps: Steps, i: int, course: tuple[_Floats, _Floats, _Floats]) -> None:
-        """Make step `i` of a run, counted from 1; `ConvergenceError` leaves the histories as they were."""
-        omega, angles, turned = course
-        displacement, velocity, approach, rate, force, iterations = self._histories
-        d, v, a = self._state[:3]
-        share = 1.0 - steps.weight
-        held = steps.weight * turned[i] + share * turned[i - 1]
-        free = steps.constant + self._state[:3].ravel() @ steps.past.reshape(-1, d.size) + held @ steps.turning
+    def __init__(self, run: PreparedRun, tolerance: float, most: int) -> None:
+        self._run, self._most, self._torn = run, most, False
+        self._points, self._normals, counts = run.rotor.geometry
+        self._pull = counts[:, None] * self._normals  # (m, n): forces of the points are force @ pull
+        d, force = run.histories.displacement[0], run.histories.force[0]
+        _, _, K = run.rotor.matrices(run.omega[0])
+        carried = np.abs(self._normals.T @ (counts * force)).max(initial=0.0)
+        turning, load = np.abs(run.turning).max(initial=0.0), np.abs(run.rotor.load).sum()
+        scale = float(max(load, np.abs(K @ d).max(), turning, carried))
+        self._allowed = tolerance * (scale if scale > 0.0 else 1.0)
+        self._supports: list[tuple[slice, RunningSupport]] = []
+        first = len(run.rotor.contacts)
+        if first:
+            run.contacts.noise = NOISE * self._allowed / counts[:first].max()
+            self._supports.append((slice(0, first), run.contacts))
+        for at, balls in zip(run.ball_directions, run.balls, strict=True):
+            self._supports.append((at, BallSteps(balls, run.dt, run.contacts.gain)))
+
+    def advance(self, steps: Steps, first: int, end: int, progress: Callable[[int], None]) -> None:
+        """Make the steps of one block; `progress` takes the number of steps made, after each.
+
+        Raises
+        ------
+        ConvergenceError
+            A step found no balance, or a contact in it did not converge; the histories stay as they were.
+        """
+        for i in range(first + 1, end + 1):
+            self.reached = i
+            self._step(steps, i)
+            self.made = i
+            progress(i)
+
+    def _step(self, steps: Steps, i: int) -> None:
+        """Make step `i` of the run, counted from 1."""
+        run = self._run
+        turning, force, share = run.turning, run.histories.force, 1.0 - steps.weight
+        free = free_displacement(steps, run.state, turning[i], turning[i - 1])
         free -= (share * (force[i - 1] @ self._pull)) @ steps.columns
-        gain, by_d, by_v, by_a = steps.velocity
-        past_rate = by_d * d + by_v * v + by_a * a
-        for k, (_, support) in enumerate(self._supports, start=angles.shape[1] - len(self._supports)):
-            support.begin(omega[i], angles[i, k] if k >= 0 else 0.0)  # contacts, which come first, have no angle
+        _, by_d, by_v, by_a = steps.velocity
+        past_rate = by_d * run.state[0] + by_v * run.state[1] + by_a * run.state[2]
+        bearings = run.cage_angles.shape[1]
+        for k, (_, support) in enumerate(self._supports, start=bearings - len(self._supports)):
+            support.begin(run.omega[i], run.cage_angles[i, k] if k >= 0 else 0.0)  # contacts have no angle
         q_free, point_rate = self._points @ free, self._points @ past_rate
         q, r, r_rate, found, count = self._balance(steps, q_free, point_rate, self._predict(steps, i, q_free))
         new = free + (steps.D @ (q - q_free)) @ steps.columns
-        a0, a1, a2, a3 = steps.acceleration
-        self._state[2] = a0 * new + a1 * d + a2 * v + a3 * a
-        self._state[1], self._state[0] = gain * new + past_rate, new
-        displacement[i], velocity[i], approach[i], rate[i] = new, self._state[1], r, r_rate
-        force[i], iterations[i] = found, count
+        move_to(steps, run.state, new)
+        for history, value in zip(run.histories, (new, run.state[1], r, r_rate, found, count), strict=True):
+            history[i] = value
         self._torn = False  # last: Ctrl-C may come between any two lines
 
     def rewind(self) -> None:
@@ -180,7 +147,7 @@ class PythonSteps:
         Extrapolating the force alone fails where a support is stiffer than the inertia in a step, the motion
         alone where it is softer; the linear model through both is good in either case.
         """
-        r, rate, force = (_extrapolated(history, i - 1) for history in self._histories[2:5])
+        r, rate, force = (_extrapolated(history, i - 1) for history in self._run.histories[2:5])
         slopes = np.zeros((r.size, r.size))
         for columns, support in self._supports:
             slopes[columns, columns] = support.expected(r[columns], rate[columns])
@@ -226,28 +193,3 @@ def _extrapolated(history: _Floats, n: int) -> _Floats:
     if n == 2:
         return 3.0 * (history[n] - history[n - 1]) + history[n - 2]
     return 2.0 * history[n] - history[n - 1] if n == 1 else history[0]
-
-
-def active_mounts(rotor: Rotor) -> tuple[list[ContactMount], list[BearingMount]]:
-    """Supports that are not linear: contacts, then ball bearings."""
-    contacts = [mount for mount in rotor.mounts if isinstance(mount, ContactMount)]
-    return contacts, [
-        mount for mount in rotor.mounts if isinstance(mount, BearingMount) and is_ball_bearing(mount)
-    ]
-
-
-def geometry_of(rotor: Rotor) -> tuple[_Floats, _Floats, _Floats]:
-    """`points`, `normals` and `counts` of `PythonSteps`, for contacts, then ball bearings."""
-    contacts, bearings = active_mounts(rotor)
-    places = list(dict.fromkeys(place for mount in contacts for place in mount.ends[0] if place is not None))
-    points = np.concatenate([np.eye(rotor.size)[places], *(mount.rows(rotor.size) for mount in bearings)])
-    normals = np.zeros((len(contacts) + 2 * len(bearings), len(points)))
-    for k, mount in enumerate(contacts):
-        normals[k, : len(places)] = mount.rows(rotor.size)[0, places]
-    normals[len(contacts) :, len(places) :] = np.eye(2 * len(bearings))
-    counts = np.array([mount.count for mount in contacts] + [1.0] * 2 * len(bearings))
-    ranks = [0 if k == 0 else np.linalg.matrix_rank(points[:k]) for k in range(len(points) + 1)]
-    kept = [k for k in range(len(points)) if ranks[k + 1] > ranks[k]]
-    if len(kept) < len(points):  # a contact on the journal of a bearing, say
-        normals = np.asarray(normals @ np.linalg.lstsq(points[kept].T, points.T)[0].T)
-    return points[kept], normals, counts

@@ -15,14 +15,11 @@ from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.summary import Summary
-from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.elements.base import ContactElement
-from reduced_models.rotor.contact import ScaledContact
 from reduced_models.rotor.control import Signals, linear_block
 from reduced_models.rotor.impedance import ContactImpedance, impedance_about
-from reduced_models.rotor.integrate_python import active_mounts, geometry_of
 from reduced_models.rotor.jeffcott import JeffcottRotor
 from reduced_models.rotor.modes import (
     CANDIDATES,
@@ -37,6 +34,7 @@ from reduced_models.rotor.modes import (
 )
 from reduced_models.rotor.nodes import flat_nodes
 from reduced_models.rotor.rotor import Matrices, Rotor
+from reduced_models.rotor.scaled_contact import ScaledContact
 from reduced_models.rotor.supports import BearingMount, ContactMount
 from reduced_models.rotor.unbalance import UnbalanceResponse
 
@@ -230,7 +228,7 @@ class LinearRotor(Summary):
     @cached_property
     def _rows(self) -> _Floats:
         """Motions of contacts and ball bearings from those of the rotor."""
-        points, normals, _ = geometry_of(self.rotor)
+        points, normals, _ = self.rotor.geometry
         return np.asarray(normals @ points)
 
     @cached_property
@@ -309,10 +307,10 @@ def linearise(
     if speed_rpm is None:
         raise InputError("speed_rpm", None, "given: that of the shaft")
     speed = require_nonnegative("speed_rpm", speed_rpm)
-    mounted, bearings = active_mounts(rotor)
+    mounted, bearings = rotor.contacts, rotor.ball_bearings
     known = all(_is_impedance(mount.contact) for mount in mounted)
     rest = np.zeros(rotor.size) if mounted and known and not bearings else rotor.equilibrium(speed)
-    points, normals, _ = geometry_of(rotor)
+    points, normals, _ = rotor.geometry
     r = normals @ (points @ rest)
     found = [_linear_bearing(m, speed, r[k : k + 2], passage) for k, m in zip(
         range(len(mounted), r.size, 2), bearings, strict=True
@@ -349,13 +347,12 @@ def _linear_contact(mount: ContactMount, approach: float) -> ContactImpedance:
 def _linear_bearing(mount: BearingMount, speed: float, ring: _Floats, passage: bool) -> tuple[_Floats, SmallBalls]:
     """Force on the inner ring at rest, and what a small vibration finds in the bearing."""
     bearing = mount.ball_bearing
-    kernel, state = bearing.kernel(bearing.speed(speed)), bearing.speed_state(speed)
-    held = StaticBalls(kernel, state, mount.cage_angle)
+    held = bearing._static_balls(bearing.speed(speed), mount.cage_angle)
     force = held.force(ring)
     if np.linalg.norm(force) < UNLOADED * held.films.force.max():
         force = np.zeros(2)
     at_angles = bearing.ring_equilibria(force, speed, None if passage else mount.cage_angle)
-    return force, SmallBalls.of(kernel, state, at_angles)
+    return force, SmallBalls.of(held.balls, held.at_speed, at_angles)
 
 
 @takes(speeds_rpm="rev/min")

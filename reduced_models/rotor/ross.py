@@ -19,7 +19,6 @@ from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.motion import BearingMotion
 from reduced_models.bearing.ross import import_ross, ross_entries
-from reduced_models.rotor.integrate_python import active_mounts
 from reduced_models.rotor.rotor import Rotor, Unbalance
 from reduced_models.rotor.supports import BearingMount
 
@@ -152,7 +151,7 @@ class RossCallback:
         rest = ours.equilibrium(speed_rpm)
         reaction = ours.load - ours.stiffness @ rest
         self._linear, elements = [], {}
-        for mount, (node, linked) in zip(active_mounts(ours)[1], nodes.items(), strict=True):
+        for mount, (node, linked) in zip(ours.ball_bearings, nodes.items(), strict=True):
             force = reaction[[mount.x, mount.y]]
             found = mount.ball_bearing.coefficients(force, speed_rpm=speed_rpm, rpm=speed_rpm)
             elements[node] = ross.BearingElement(
@@ -214,8 +213,7 @@ class RossCallback:
         held = self._rings @ self.rest
         self._step, self._dt, self._forces = step, dt, [np.zeros(0)]
         self._motions = [
-            BearingMotion(m.ball_bearing.kernel(self._rpm), self._rpm, dt, m.cage_angle)
-            for m in active_mounts(self._ours)[1]
+            BearingMotion(m.ball_bearing, self._rpm, dt, m.cage_angle) for m in self._ours.ball_bearings
         ]
         self._still = [motion.rest(held[2 * b : 2 * b + 2]) for b, motion in enumerate(self._motions)]
 

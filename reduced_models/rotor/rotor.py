@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
 from math import pi
 from types import MappingProxyType
@@ -25,7 +26,14 @@ from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.rotor.equilibrium import equilibrium
-from reduced_models.rotor.supports import BearingMount, ContactMount, is_ball_bearing
+from reduced_models.rotor.supports import (
+    BearingMount,
+    ContactMount,
+    LinearBearing,
+    SupportGeometry,
+    is_ball_bearing,
+    support_geometry,
+)
 
 _Floats = NDArray[np.float64]
 Matrices = tuple[_Floats, _Floats, _Floats]
@@ -100,7 +108,7 @@ class Rotor(Summary):
 
     def _summary_lines(self) -> list[str]:
         bearings = [m.bearing.name or "ball bearing" for m in self.mounts if isinstance(m, BearingMount)]
-        contacts = [m for m in self.mounts if isinstance(m, ContactMount)]
+        contacts = self.contacts
         on = [f"{len(bearings)} bearings: {', '.join(bearings)}"] if bearings else []
         on += [f"{len(contacts)} contacts"] if contacts else []
         amounts = ", ".join(f"{1e6 * abs(unbalance.amount):.4g}" for unbalance in self.unbalances)
@@ -174,6 +182,28 @@ class Rotor(Summary):
         """Where the directions of each support are among those of all."""
         ends = np.cumsum([0, *(len(mount.directions) for mount in self.mounts)]).tolist()
         return tuple(slice(first, end) for first, end in pairwise(ends))
+
+    @property
+    def contacts(self) -> tuple[ContactMount, ...]:
+        """Supports that are contacts."""
+        return tuple(mount for mount in self.mounts if isinstance(mount, ContactMount))
+
+    @property
+    def ball_bearings(self) -> tuple[BearingMount, ...]:
+        """Supports that are ball bearings."""
+        return tuple(m for m in self.mounts if isinstance(m, BearingMount) and is_ball_bearing(m))
+
+    @cached_property
+    def geometry(self) -> SupportGeometry:
+        """Where contacts, then ball bearings act; linear bearings are in `matrices`."""
+        return support_geometry(self.contacts, self.ball_bearings, self.size)
+
+    @property
+    def changes_with_speed(self) -> bool:
+        """Whether `matrices` depend on the speed."""
+        bearings = [mount.bearing for mount in self.mounts if isinstance(mount, BearingMount)]
+        tables = (b for b in bearings if isinstance(b, LinearBearing) and b.speeds_rpm is not None)
+        return bool(self.gyroscopic.any()) or any(True for _ in tables)
 
     def matrices(self, omega: float) -> Matrices:
         """Mass, damping with the gyroscopic part, and stiffness at a speed [rad/s], linear bearings added."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,6 +74,24 @@ class SpeedProfile(QuantityTable):
         since = t - knots[k]
         omega = speeds[k] + rise[k] * since
         return omega, turned[k] + since * (speeds[k] + 0.5 * rise[k] * since), rise[k]
+
+
+class ShaftCourse(NamedTuple):
+    """What turns with the shaft, at given times."""
+
+    omega: _Floats  # (k,) speed [rad/s]
+    angle: _Floats  # (k,) of the shaft [rad]
+    turning: _Floats  # (k, 2 unbalances) forces of the unbalances [N]
+    at: _Floats  # (N, 2 unbalances) where they act
+    law_speeds: _Floats  # speeds [rev/min] at which the tables of races are made
+
+
+def shaft_course(rotor: Rotor, speed_rpm: float | SpeedProfile, t: _Floats) -> ShaftCourse:
+    """Speed, angle and forces of the unbalances of a rotor at the times `t` [s]."""
+    profile = speed_rpm if isinstance(speed_rpm, SpeedProfile) else SpeedProfile.constant(speed_rpm)
+    omega, angle, rise = profile.at(t)
+    turning, at = turning_forces(rotor, omega, angle, rise)
+    return ShaftCourse(omega, angle, turning, at, law_speeds(omega / RADIANS))
 
 
 def law_speeds(rpm: _Floats) -> _Floats:

@@ -6,9 +6,10 @@ contact; x and y of an inner ring against the outer one), and gives as many forc
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import cos, pi, sin
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -205,3 +206,29 @@ def require_bearing(name: str, bearing: object) -> None:
 def is_ball_bearing(mount: BearingMount | ContactMount) -> bool:
     """Whether the support is a ball bearing."""
     return isinstance(mount, BearingMount) and isinstance(mount.bearing, BallBearing)
+
+
+class SupportGeometry(NamedTuple):
+    """Where supports act: N degrees of freedom, n points, m motions of supports."""
+
+    points: _Floats  # (n, N) displacements of the points at which supports act
+    normals: _Floats  # (m, n) motions of the supports from the displacements of the points
+    counts: _Floats  # (m,) how often each force acts
+
+
+def support_geometry(
+    contacts: Sequence[ContactMount], bearings: Sequence[BearingMount], size: int
+) -> SupportGeometry:
+    """Points of contacts, then of ball bearings, on a rotor of `size` degrees of freedom."""
+    places = list(dict.fromkeys(place for mount in contacts for place in mount.ends[0] if place is not None))
+    points = np.concatenate([np.eye(size)[places], *(mount.rows(size) for mount in bearings)])
+    normals = np.zeros((len(contacts) + 2 * len(bearings), len(points)))
+    for k, mount in enumerate(contacts):
+        normals[k, : len(places)] = mount.rows(size)[0, places]
+    normals[len(contacts) :, len(places) :] = np.eye(2 * len(bearings))
+    counts = np.array([mount.count for mount in contacts] + [1.0] * 2 * len(bearings))
+    ranks = [0 if k == 0 else np.linalg.matrix_rank(points[:k]) for k in range(len(points) + 1)]
+    kept = [k for k in range(len(points)) if ranks[k + 1] > ranks[k]]
+    if len(kept) < len(points):  # a contact on the journal of a bearing, say
+        normals = np.asarray(normals @ np.linalg.lstsq(points[kept].T, points.T)[0].T)
+    return SupportGeometry(points[kept], normals, counts)

@@ -81,7 +81,7 @@ def bearing(kernel: str) -> Row:
     if kernel == "elements":  # once per step: an iteration asks several times
         elements = [made.element(race, 3000.0) for race in ("inner", "outer")] * made.balls
         return _timed(lambda: [element.drive(t, -0.5 * q[:, 1], -0.5 * v[:, 1]) for element in elements], 5)
-    run = BearingMotion(made.kernel(3000.0), 3000.0, BEARING_DT)
+    run = BearingMotion(made, 3000.0, BEARING_DT)
     run.rest(q[0])
     return _timed(lambda: run.drive(q[1:], v[1:]), 5)
 

@@ -4,6 +4,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from beam_rotor import with_balls
 from bearing_twins import SlowBearing, SlowContact, SlowElement
 
 from reduced_models import BallBearing
@@ -19,7 +20,7 @@ light = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarnin
 
 
 def motion(bearing, dt, rpm=RPM, angle=-pi / 2.0):
-    return BearingMotion(bearing.kernel(rpm), rpm, dt, angle)
+    return BearingMotion(bearing, rpm, dt, angle)
 
 
 def assert_same_forces(fast, slow, q, v, dt):
@@ -37,7 +38,7 @@ def test_at_rest_it_is_two_elements_in_series(oil, clearance, rpm):
     fast = motion(bearing, 1e-5, rpm, 0.3)
     force = fast.rest(PLACE)
     forces, net = SlowBearing(bearing, rpm, SlowElement, 0.3).rest(PLACE)
-    np.testing.assert_allclose(fast.films.force, forces, rtol=0.0, atol=1e-10 * forces.max())
+    np.testing.assert_allclose(fast._motion.films.force, forces, rtol=0.0, atol=1e-10 * forces.max())
     np.testing.assert_allclose(force, net, rtol=0.0, atol=1e-10 * forces.max())
 
 
@@ -57,7 +58,7 @@ def test_films_that_stop_carrying(oil, shake):
     fast, slow = motion(limited, 2e-5), SlowBearing(limited, RPM, lambda e: SlowContact(e, 8e-6))
     fast.rest(PLACE)
     forces, _ = slow.rest(PLACE)
-    np.testing.assert_allclose(fast.films.force, forces, rtol=0.0, atol=1e-10 * forces.max())
+    np.testing.assert_allclose(fast._motion.films.force, forces, rtol=0.0, atol=1e-10 * forces.max())
     assert 0 < np.count_nonzero(forces == 0.0) < forces.size
     assert_same_forces(fast, slow, q, v, 2e-5)
 
@@ -69,8 +70,8 @@ def test_small_motions_are_those_of_two_elements(film):
     t = dt * np.arange(1, 9)
     q = PLACE + size * np.column_stack([np.sin(4e3 * t), np.cos(3e3 * t)])
     v = size * np.column_stack([4e3 * np.cos(4e3 * t), -3e3 * np.sin(3e3 * t)])
-    kernel = film.kernel(RPM)._replace(cage=0.0, swing=0.0)
-    fast, slow = BearingMotion(kernel, RPM, dt), SlowBearing(film, RPM, SlowElement)
+    kernel = film._kernel(RPM)._replace(cage=0.0, swing=0.0)
+    fast, slow = BearingMotion(with_balls(film, kernel), RPM, dt), SlowBearing(film, RPM, SlowElement)
     slow.cage = slow.centrifugal = 0.0
     fast.rest(PLACE)
     slow.rest(PLACE)
@@ -99,7 +100,7 @@ def test_large_motions_are_nearly_those_of_two_elements(film, shake):
 def test_tangents_are_those_of_differences(oil, shake, dt, changes, speeds):
     bearing = BallBearing.catalogue("6205", oil=oil, clearance=3e-6, **changes)
     q, v = shake(dt, 6)
-    it = BearingMotion(bearing.kernel(speeds), RPM, dt, 0.2)
+    it = BearingMotion(with_balls(bearing, bearing._kernel(speeds)), RPM, dt, 0.2)
     it.rest(PLACE)
     it.drive(q[:5], v[:5])
     _, stiffness, damping = it.forces(q[5], v[5])
@@ -121,7 +122,7 @@ def test_tangents_are_those_of_differences(oil, shake, dt, changes, speeds):
 def test_tangents_at_rest_are_those_of_differences(oil, changes, speeds):
     """Of all balls standing still, by which equilibria are found."""
     bearing = BallBearing.catalogue("6205", **({"oil": oil} | changes))
-    kernel = bearing.kernel(speeds)
+    kernel = bearing._kernel(speeds)
     held = StaticBalls(kernel, speed_state(kernel, RPM * pi / 30.0), 0.2)
     for place in (PLACE, np.array([9e-6, 4e-6])):
         tangent, size = held.tangent(place), 1e-9
@@ -143,7 +144,7 @@ def test_trying_does_not_move(film, shake):
         often.forces(place, rate)
         often.accept()
     once.drive(q, v)
-    np.testing.assert_allclose(often.films.state, once.films.state, rtol=1e-9, atol=1e-20)
+    np.testing.assert_allclose(often._motion.films.state, once._motion.films.state, rtol=1e-9, atol=1e-20)
     assert often.cage_angle == once.cage_angle
 
 

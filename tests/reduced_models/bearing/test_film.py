@@ -7,7 +7,7 @@ import pytest
 
 from reduced_models import BallBearing
 from reduced_models.bearing.balls import Balls
-from reduced_models.bearing.equilibrium import ring_equilibrium
+from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
 from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.race import shared_atlas
 from reduced_models.bearing.race_table import tabulate_race
@@ -25,9 +25,9 @@ def as_the_prototype(bearing, rpm, load, omega):
     elements = [
         shared_atlas(None).element(bearing.race(race).point(487.0, rpm), "wide") for race in ("inner", "outer")
     ]
-    kernel = Balls(*(tabulate_race([element]) for element in elements), *bearing.kernel(rpm)[2:])
-    at_speed = bearing.speed_state(rpm)
-    at = [ring_equilibrium(kernel, at_speed, load, ON + 2.0 * pi / 9.0 * k / 4.0) for k in range(4)]
+    kernel = Balls(*(tabulate_race([element]) for element in elements), *bearing._kernel(rpm)[2:])
+    at_speed = bearing._speed_state(rpm)
+    at = [ring_equilibrium(StaticBalls(kernel, at_speed, ON + 2.0 * pi / 9.0 * k / 4.0), load) for k in range(4)]
     K, C = SmallBalls.of(kernel, at_speed, at).coefficients(np.array([omega]))
     return K[0] + 1j * C[0]
 

@@ -4,7 +4,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from beam_rotor import block
+from beam_rotor import block, with_balls
 from scipy.integrate import solve_ivp
 
 from ehlcontact.errors import InputError
@@ -14,7 +14,7 @@ from reduced_models import (
     simulate_rotor,
 )
 from reduced_models.bearing.balls import PLACE, speed_state
-from reduced_models.bearing.equilibrium import ring_equilibrium
+from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
 from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS
 
@@ -40,9 +40,9 @@ def test_against_scipy():
         return np.concatenate([z[2:4], net / 2.0, z[13:], (inner + thrown - outer) / m])
 
     start = np.array([2e-6, -8e-6]), np.array([0.0, 1e-3])
-    it = BearingMotion(bearing.kernel(RPM), RPM, 1e-6)
+    it = BearingMotion(bearing, RPM, 1e-6)
     it.rest(start[0])
-    first = np.concatenate([*start, it.films.balls[:, PLACE], np.zeros(9)])
+    first = np.concatenate([*start, it._motion.films.balls[:, PLACE], np.zeros(9)])
     exact = solve_ivp(rates, (0.0, 1e-3), first, method="DOP853", rtol=1e-9, atol=1e-15, t_eval=[5e-4, 1e-3])
     errors = []
     for dt in (1e-6, 5e-7):
@@ -57,15 +57,15 @@ def test_against_scipy():
 def test_small_motions_in_time_have_the_impedance(oil, oiled):
     """At half the frequency of the balls on their contacts, where their inertia counts."""
     bearing = BallBearing.catalogue("6205", oil=oil if oiled else None, ball_inertia=True, loss_factor=0.1)
-    kernel = bearing.kernel(RPM)._replace(cage=0.0, swing=0.0)
+    kernel = bearing._kernel(RPM)._replace(cage=0.0, swing=0.0)
     at_speed = speed_state(kernel, RPM * RADIANS)
-    at = ring_equilibrium(kernel, at_speed, np.array([0.0, -1000.0]), -pi / 2.0)
+    at = ring_equilibrium(StaticBalls(kernel, at_speed, -pi / 2.0), np.array([0.0, -1000.0]))
     hz, size, periods, per_period = 15e3, 1e-11, 40, 400
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
     t = dt * np.arange(1, periods * per_period + 1)
     balls = SmallBalls.of(kernel, at_speed, [at])
     Z, massless = (b.impedance(1j * omega) for b in (balls, balls._replace(inertia=0.0)))
-    run = BearingMotion(kernel, RPM, dt)
+    run = BearingMotion(with_balls(bearing, kernel), RPM, dt)
     start = run.rest(at.displacement)
     rise = np.minimum(1.0, t * hz / 20.0)[:, None]  # free balls would swing on for ever
     swing = size * rise * np.array([[0.0, 1.0]])
@@ -95,7 +95,7 @@ def test_slow_motions_and_rest_are_those_without(film, oil):
 def test_tangents_are_those_of_differences(oil, shake):
     bearing = BallBearing.catalogue("6205", oil=oil, ball_inertia=True, clearance=3e-6)
     q, v = shake(1e-6, 6)
-    it = BearingMotion(bearing.kernel(RPM), RPM, 1e-6)
+    it = BearingMotion(bearing, RPM, 1e-6)
     it.rest(np.array([1e-6, -12e-6]))
     it.drive(q[:5], v[:5])
     _, stiffness, damping = it.forces(q[5], v[5])

@@ -4,11 +4,12 @@ from math import pi
 
 import numpy as np
 import pytest
+from beam_rotor import with_balls
 
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingMotion
 from reduced_models.bearing.balls import speed_state
-from reduced_models.bearing.equilibrium import ring_equilibrium
+from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
 from reduced_models.bearing.impedance import SmallBalls, small_motion
 from reduced_models.bearing.kinematics import RADIANS
 
@@ -18,7 +19,7 @@ RPM = 3000.0
 @pytest.mark.parametrize("race", ["inner", "outer"])
 @pytest.mark.parametrize("load", [2.0, 60.0, 900.0])
 def test_a_contact_has_the_impedance_of_its_element(film, race, load):
-    element, kernel = film.element(race, RPM), film.kernel(RPM)
+    element, kernel = film.element(race, RPM), film._kernel(RPM)
     at_speed, omega = speed_state(kernel, RPM * RADIANS), np.array([10.0, 1e3, 1e5])
     law, transit = getattr(kernel, race), getattr(at_speed, race)
     found = small_motion(law, transit, at_speed.speed_row, element.approach_at(load)).impedance(1j * omega)
@@ -30,9 +31,9 @@ def test_a_contact_has_the_impedance_of_its_element(film, race, load):
 def test_small_motions_in_time(oil, film_limit):
     """A ring that swings a little, its balls standing still: amplitude and phase of the force."""
     bearing = BallBearing.catalogue("6205", oil=oil, film_limit=film_limit)
-    kernel = bearing.kernel(RPM)._replace(cage=0.0, swing=0.0)
+    kernel = bearing._kernel(RPM)._replace(cage=0.0, swing=0.0)
     at_speed = speed_state(kernel, RPM * RADIANS)
-    at = ring_equilibrium(kernel, at_speed, np.array([200.0, -1000.0]), 0.4)
+    at = ring_equilibrium(StaticBalls(kernel, at_speed, 0.4), np.array([200.0, -1000.0]))
     hz, dt, size = 2000.0, 1e-6, 1e-10
     omega, periods = 2.0 * pi * hz, 4
     steps = round(periods / (hz * dt))
@@ -40,7 +41,7 @@ def test_small_motions_in_time(oil, film_limit):
     Z = SmallBalls.of(kernel, at_speed, [at]).impedance(1j * omega)
     for k in range(2):
         direction = np.eye(2)[k]
-        run = BearingMotion(kernel, RPM, dt, 0.4)
+        run = BearingMotion(with_balls(bearing, kernel), RPM, dt, 0.4)
         start = run.rest(at.displacement)
         q = at.displacement + size * np.sin(omega * t)[:, None] * direction
         force, _ = run.drive(q, size * omega * np.cos(omega * t)[:, None] * direction)

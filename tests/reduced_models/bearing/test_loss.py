@@ -6,7 +6,7 @@ from math import pi
 import numba
 import numpy as np
 import pytest
-from beam_rotor import block
+from beam_rotor import StillBearing, block, with_balls
 
 from ehlcontact.errors import InputError
 from reduced_models import (
@@ -18,7 +18,7 @@ from reduced_models import (
 )
 from reduced_models.bearing import loss as loss_room
 from reduced_models.bearing.balls import speed_state
-from reduced_models.bearing.equilibrium import ring_equilibrium
+from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
 from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.loss import BAND, loss_of, response, seat_of
@@ -60,14 +60,14 @@ def test_a_step_is_the_filters_over_a_straight_force():
 @pytest.mark.parametrize("oiled", [True, False])
 def test_small_motions_in_time_have_the_impedance(oil, oiled):
     bearing = BallBearing.catalogue("6205", oil=oil if oiled else None, loss_factor=0.05)
-    kernel = bearing.kernel(RPM)._replace(cage=0.0, swing=0.0)
+    kernel = bearing._kernel(RPM)._replace(cage=0.0, swing=0.0)
     at_speed = speed_state(kernel, RPM * RADIANS)
-    at = ring_equilibrium(kernel, at_speed, np.array([200.0, -1000.0]), 0.4)
+    at = ring_equilibrium(StaticBalls(kernel, at_speed, 0.4), np.array([200.0, -1000.0]))
     hz, size, periods, per_period = 400.0, 1e-10, 200, 200
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
     t = dt * np.arange(1, periods * per_period + 1)
     Z = SmallBalls.of(kernel, at_speed, [at]).impedance(1j * omega)
-    run = BearingMotion(kernel, RPM, dt, 0.4)
+    run = BearingMotion(with_balls(bearing, kernel), RPM, dt, 0.4)
     start = run.rest(at.displacement)
     q = at.displacement + size * np.sin(omega * t)[:, None] * [0.0, 1.0]
     force, _ = run.drive(q, size * omega * np.cos(omega * t)[:, None] * [0.0, 1.0])
@@ -118,8 +118,7 @@ def test_large_motions_lose_energy_too():
     v = np.gradient(q, 1e-5, axis=0)
     work = []
     for factor in (0.0, 0.05):
-        kernel = BallBearing.catalogue("6205", clearance=4e-6, loss_factor=factor).kernel(RPM)
-        it = BearingMotion(kernel._replace(cage=0.0, swing=0.0), RPM, 1e-5)
+        it = BearingMotion(StillBearing.catalogue("6205", clearance=4e-6, loss_factor=factor), RPM, 1e-5)
         it.rest(q[0])
         force, _ = it.drive(q, v)
         mean, step = 0.5 * (force[1:] + force[:-1]), np.diff(q, axis=0)

@@ -10,13 +10,12 @@ import pytest
 
 from ehlcontact.errors import InputError
 from reduced_models.bearing import balls as balls_room
-from reduced_models.bearing import contact as contact_room
-from reduced_models.bearing import race_table as table_room
+from reduced_models.bearing import race_contact as contact_room
 from reduced_models.bearing.balls import films_of, speed_state
-from reduced_models.bearing.contact import APPROACH, contact_force, prepare_filters
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.race import shared_atlas
-from reduced_models.bearing.race_table import curve, film_cutoff, tabulate_race
+from reduced_models.bearing.race_contact import APPROACH, contact_force, curve, film_cutoff, prepare_filters
+from reduced_models.bearing.race_table import tabulate_race
 from reduced_models.elements.film_law import static
 
 SPEEDS = (1000.0, 3000.0, 9000.0)
@@ -73,12 +72,12 @@ def test_elements_of_one_race_hold_all_its_loads(film):
 
 
 def test_at_its_own_speeds_a_law_of_many_is_that_of_one(film):
-    many = film.kernel(SPEEDS)
+    many = film._kernel(SPEEDS)
     u = np.array([-5e-6, 0.0, 3e-6, 8e-6])
     for row, speed in enumerate(SPEEDS):
         at_speed = speed_state(many, speed * RADIANS)
         assert sum(at_speed.speed_row) == row
-        one = film.kernel(speed)
+        one = film._kernel(speed)
         for approach in u:
             ours = curve(approach, *at_speed.speed_row, many.inner, 0)[0]
             assert ours == pytest.approx(curve(approach, 0, 0.0, one.inner, 0)[0], rel=1e-9)
@@ -86,12 +85,12 @@ def test_at_its_own_speeds_a_law_of_many_is_that_of_one(film):
 
 def test_between_speeds_films_grow_as_they_should(film):
     """Half way between two speeds of a law it is within 1 % of the law of that speed, and nowhere does it jump."""
-    coarse = film.kernel((2500.0, 3500.0))
-    at_speed, own = speed_state(coarse, 3000.0 * RADIANS), film.kernel(3000.0)
+    coarse = film._kernel((2500.0, 3500.0))
+    at_speed, own = speed_state(coarse, 3000.0 * RADIANS), film._kernel(3000.0)
     for u in (2e-6, 5e-6, 8e-6):
         film_there = curve(u, *at_speed.speed_row, coarse.inner, 0)[0] - u
         assert film_there == pytest.approx(curve(u, 0, 0.0, own.inner, 0)[0] - u, rel=0.01)
-    many = film.kernel(SPEEDS)
+    many = film._kernel(SPEEDS)
     below, above = (speed_state(many, 3000.0 * RADIANS * (1.0 + s)) for s in (-1e-9, 1e-9))
     assert below.speed_row[0] == 0 and above.speed_row[0] == 1
     pressed = []
@@ -123,12 +122,11 @@ def test_fading():
 @pytest.mark.skipif(numba.config.DISABLE_JIT, reason="kernels are plain Python already")
 def test_compiled_and_plain_are_twins(film, monkeypatch):
     """A ball over two steps, all its kernels as plain Python."""
-    kernel = film.kernel(3000.0)
+    kernel = film._kernel(3000.0)
     at_speed = speed_state(kernel, 3000.0 * RADIANS)
     steps = "prepare_filters", "contact_force", "accept_contact"
     names = {
-        table_room: ("_at", "curve", "film_cutoff", "gain"),
-        contact_room: ("_lag", "_weigh", "_add", "curve", "film_cutoff", *steps),
+        contact_room: ("_at", "gain", "_lag", "_weigh", "_add", "curve", "film_cutoff", *steps),
         balls_room: ("_ball", "begin_step", "press_balls", "accept_balls", *steps),
     }
     normals = np.array([[0.0, -1.0]] * 9)

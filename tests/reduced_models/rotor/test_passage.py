@@ -18,7 +18,7 @@ def floquet(at, mode):
     Bearings at a position of the cage have Z(s) of that position; its harmonics over the passage couple all q_n.
     """
     bearing, size = at.rotor.mounts[0].bearing, at.rotor.size
-    kernel, at_speed, first = bearing.kernel(RPM), bearing.speed_state(RPM), at.rotor.mounts[0].cage_angle
+    kernel, at_speed, first = bearing._kernel(RPM), bearing._speed_state(RPM), at.rotor.mounts[0].cage_angle
     angles = first + 2.0 * pi / bearing.balls * np.arange(POSITIONS) / POSITIONS
     places = [
         SmallBalls.of(kernel, at_speed, bearing.ring_equilibria(at.loads[0], RPM, a)) for a in angles.tolist()

@@ -26,7 +26,7 @@ RANGE = np.array([500.0, 9000.0])
 def test_forces_at_rest_do_not_jump_where_laws_change(film):
     """Of a ring that stays: value and slope at every speed that laws are made at, and between them."""
     knots, place = law_speeds(RANGE), film.equilibrium((0.0, -500.0), speed_rpm=3000.0).displacement
-    kernel = film.kernel(knots)
+    kernel = film._kernel(knots)
 
     def force(rpm, own=None):
         held = kernel if own is None else own
@@ -39,7 +39,7 @@ def test_forces_at_rest_do_not_jump_where_laws_change(film):
         assert abs(steps[3] - steps[1] - 1e-9 * (left + right)) < 1e-10 * abs(steps[2])
         assert right == pytest.approx(left, rel=0.015)
     for speed in np.sqrt(knots[1:] * knots[:-1]):
-        assert force(speed) == pytest.approx(force(speed, film.kernel(speed)), rel=1e-4)
+        assert force(speed) == pytest.approx(force(speed, film._kernel(speed)), rel=1e-4)
 
 
 HOUSING = {"housing_mass": 2.0, "housing_stiffness": (8e7, 2e8), "housing_damping": 300.0}

@@ -1,4 +1,4 @@
-"""Force of one film contact at the end of a time step, compiled, with its derivatives by approach and rate.
+"""Force of one ball on one race at the end of a time step, compiled, with its derivatives by approach and rate.
 
 The equations are those of `reduced_models.elements.film_law` without saturation of the inlet. The filters are then
 linear in the own rate e at the end of the step and the travel t of the approach. `prepare_filters` reduces them,
@@ -16,7 +16,8 @@ from __future__ import annotations
 from math import log, sqrt
 
 from ehlcontact.jit import jit_exact_loop, jit_exact_node
-from reduced_models.bearing.race_table import curve, film_cutoff, gain
+from reduced_models.bearing.race_table import CELLS
+from reduced_models.elements.film_curve import RIGID_SLOPE
 from reduced_models.elements.film_filters import (
     CHAIN,
     DIRECT,
@@ -34,6 +35,67 @@ APPROACH, RATE, OWN = range(3)  # entries of a state before those of its filters
 # of all lags, what they hold, what they make of the film at the end, and of the hump.
 S, Y, HUMP, ROW, NEXT, HELD = 0, 3, 6, 9, 12, 15
 WORK = HELD  # entries before those of the lags
+
+
+@jit_exact_node
+def curve(u, row, weight, law, k):
+    """Dry compression g [m] at approach `u` and its slope, `weight` from one `row` of speeds to the next.
+
+    `k` is where to begin to look for the interval of u; that found is returned too.
+    """
+    if law.x.size == 0:
+        return max(u, 0.0), 1.0 if u > 0.0 else 0.0, 0
+    g, slope, k = _at(u, law, row, k)
+    if weight > 0.0:
+        other, other_slope, _ = _at(u, law, row + 1, k)
+        g += weight * (other - g)
+        slope += weight * (other_slope - slope)
+    return g, slope, k
+
+
+@jit_exact_node
+def _at(u, law, row, k):
+    """Table of one speed."""
+    nodes, cells, last = law.u, law.cells, law.x.size - 2
+    while k > 0 and u < nodes[row, k]:
+        k -= 1
+    while k < last and u >= nodes[row, k + 1]:
+        k += 1
+    start = nodes[row, k]
+    if u < start:  # wider than the table: F like h^-1/2
+        g = cells[row, 0, 0, 0] * (u / start) ** (2.0 / 3.0 / RIGID_SLOPE)
+        return g, g / u * (2.0 / 3.0 / RIGID_SLOPE), k
+    per_u = CELLS / (nodes[row, k + 1] - start)
+    t = (u - start) * per_u
+    j = min(int(t), CELLS - 1)
+    t -= j
+    a, b, c, d = cells[row, k, j, 0], cells[row, k, j, 1], cells[row, k, j, 2], cells[row, k, j, 3]
+    if t > 1.0 and k == last:  # an iteration went too far: straight on
+        slope = b + 2.0 * c + 3.0 * d
+        return a + b + c + d + slope * (t - 1.0), slope * per_u, k
+    return a + t * (b + t * (c + t * d)), (b + t * (2.0 * c + 3.0 * d * t)) * per_u, k
+
+
+@jit_exact_node
+def gain(law, speed_row, node, k):
+    """Gain `k` at a node of the load, between two speeds."""
+    row, weight = speed_row
+    found = law.gains[row, node, k]
+    if weight > 0.0:
+        found += weight * (law.gains[row + 1, node, k] - found)
+    return found
+
+
+@jit_exact_node
+def film_cutoff(u, cutoff_gap):
+    """Share of its force that a film carries at approach `u`, and its slope."""
+    gap = -u / cutoff_gap
+    if gap <= 0.5:
+        return 1.0, 0.0
+    if gap >= 1.0:
+        return 0.0, 0.0
+    t = 2.0 * gap - 1.0
+    return 1.0 - t * t * (3.0 - 2.0 * t), 12.0 * t * (1.0 - t) / cutoff_gap
 
 
 @jit_exact_node

@@ -1,0 +1,132 @@
+"""`PreparedRun`: a rotor and its supports as the arrays that time steps need, and their state at the start."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.checks import as_column
+from ehlcontact.errors import InputError
+from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.motion import BallMotion
+from reduced_models.rotor.contact_steps import ContactSteps
+from reduced_models.rotor.rotor import Rotor
+from reduced_models.rotor.speed_profile import SpeedProfile, shaft_course
+from reduced_models.rotor.time_step import Histories, Steps, steps_of
+
+_Floats = NDArray[np.float64]
+
+LONGEST_BLOCK = 4096  # steps between two looks at Ctrl-C
+SPEED_PER_BLOCK = 2e-3  # change of the speed, over the highest, at which gyroscopic forces are renewed
+LEAST_STEPS = 16  # per turn of the shaft and per ball passage, on ball bearings
+
+
+class PreparedRun:
+    """Arrays of a run of `steps` steps; entry 0 is the start.
+
+    Attributes
+    ----------
+    t, omega : ndarray, shape (steps + 1,)
+        Times [s], speeds of the shaft [rad/s].
+    cage_angles : ndarray, shape (steps + 1, ball bearings)
+        Of the first ball of every bearing [rad].
+    turning : ndarray, shape (steps + 1, 2 unbalances)
+        Forces of the unbalances [N]; `at`, shape (N, 2 unbalances), is where they act.
+    contacts : ContactSteps
+        All contacts; they come first among the motions of the supports.
+    balls : tuple of BallMotion
+        Balls and films of every ball bearing.
+    state : ndarray, shape (4, N)
+        Displacement, velocity and acceleration; room.
+    histories : Histories
+        With its first entry.
+    """
+
+    def __init__(
+        self, rotor: Rotor, speed_rpm: float | SpeedProfile, dt: float, steps: int, start: Any, rho_inf: float
+    ) -> None:
+        self.rotor, self.dt, self.steps, self._rho_inf = rotor, dt, steps, rho_inf
+        self.t: _Floats = np.asarray(dt * np.arange(steps + 1), np.float64)
+        course = shaft_course(rotor, speed_rpm, self.t)
+        self.omega, self.turning, self.at = course.omega, course.turning, course.at
+        self._require_short_steps()
+        speeds = course.law_speeds.tolist()
+        bearings = [mount.ball_bearing for mount in rotor.ball_bearings]
+        self.balls = tuple(BallMotion(b._kernel([b.speed(s) for s in speeds])) for b in bearings)
+        cages = [
+            mount.cage_angle + one.balls.cage * course.angle
+            for mount, one in zip(rotor.ball_bearings, self.balls, strict=True)
+        ]
+        self.cage_angles = np.column_stack(cages) if cages else np.zeros((self.t.size, 0))
+        self.histories = Histories.empty(steps + 1, rotor.size, len(rotor.geometry.normals))
+        gain = self._steps_at(self.omega[0]).velocity[0]
+        self.contacts = ContactSteps(rotor.contacts, dt, gain)
+        self.state = self._begin(start)
+
+    @property
+    def ball_directions(self) -> tuple[slice, ...]:
+        """Places of every ball bearing among the motions of all supports."""
+        first = len(self.rotor.contacts)
+        return tuple(slice(first + 2 * b, first + 2 * b + 2) for b in range(len(self.balls)))
+
+    def blocks(self) -> Iterator[tuple[int, int, Steps]]:
+        """Steps made before and after each block, and the step's matrices, of the speed in its middle."""
+        first, made_at, steps = 0, None, None
+        while first < self.steps:
+            end = min(first + LONGEST_BLOCK, self.steps)
+            if self.rotor.changes_with_speed:
+                off = np.abs(self.omega[first : end + 1] - self.omega[first]) > SPEED_PER_BLOCK * self.omega.max()
+                end = first + max(int(np.argmax(off)), 1) if off.any() else end
+            middle = float(0.5 * (self.omega[first] + self.omega[end]))
+            if steps is None or (self.rotor.changes_with_speed and middle != made_at):
+                steps, made_at = self._steps_at(middle), middle
+            yield first, end, steps
+            first = end
+
+    def _steps_at(self, omega: float) -> Steps:
+        rotor = self.rotor
+        return steps_of(rotor.matrices(omega), rotor.geometry.points, self.at, rotor.load, self.dt, self._rho_inf)
+
+    def _begin(self, start: Any) -> _Floats:
+        """State and supports at the start, and the first entries of the histories."""
+        rotor, geometry = self.rotor, self.rotor.geometry
+        d, v = self._start(start)
+        r, rate = geometry.normals @ (geometry.points @ d), geometry.normals @ (geometry.points @ v)
+        force, first = np.zeros(len(r)), len(rotor.contacts)
+        if isinstance(start, str):
+            for mount, approach in zip(rotor.contacts, r.tolist(), strict=False):
+                mount.contact.rest(approach + mount.offset)
+        force[:first] = self.contacts.start(r[:first], rate[:first])
+        for b, (at, balls) in enumerate(zip(self.ball_directions, self.balls, strict=True)):
+            force[at] = balls.rest(self.omega[0], self.cage_angles[0, b], r[at])
+        M, C, K = rotor.matrices(self.omega[0])
+        carried = geometry.points.T @ (geometry.normals.T @ (geometry.counts * force))
+        net = rotor.load + self.at @ self.turning[0] - carried
+        a = np.linalg.solve(M, net - C @ v - K @ d)
+        for history, value in zip(self.histories, (d, v, r, rate, force), strict=False):
+            history[0] = value
+        return np.array([d, v, a, np.zeros(rotor.size)])
+
+    def _start(self, start: Any) -> tuple[_Floats, _Floats]:
+        size = self.rotor.size
+        if isinstance(start, str):
+            if start != "static":
+                raise InputError("start", start, "'static', or displacements and velocities")
+            return self.rotor.equilibrium(float(self.omega[0] / RADIANS)), np.zeros(size)
+        try:
+            d, v = start
+        except (TypeError, ValueError):
+            raise InputError("start", type(start).__name__, "'static', or displacements and velocities") from None
+        return np.array(as_column("displacements", d, size=size)), np.array(as_column("velocities", v, size=size))
+
+    def _require_short_steps(self) -> None:
+        fastest = float(self.omega.max())
+        for mount in self.rotor.ball_bearings:
+            passage = mount.ball_bearing.frequencies(fastest / RADIANS).bpfo
+            for what, hz in (("ball passage", passage), ("turn of the shaft", fastest / (2.0 * np.pi))):
+                if self.dt * hz * LEAST_STEPS > 1.0:
+                    most = 1.0 / (hz * LEAST_STEPS)
+                    raise InputError("dt", self.dt, f"at most {most:.3g} s, a {LEAST_STEPS}th of the {what}")
