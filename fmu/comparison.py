@@ -1,15 +1,15 @@
-"""Comparison of an FMU with its Python element: forces, tangents, derivatives and flags."""
+"""Comparison of the FMU of a contact with its Python element: forces, tangents, derivatives and flags."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu.spec import ModelSpec
+from fmu.verification import Verification
 from reduced_models.elements.film_filters import CHAIN, DIRECT, INLET, film_entering
 from reduced_models.elements.film_law import RATE, THETA, film_rest, film_step, static
 
@@ -21,22 +21,7 @@ DURATION = 25.0  # of it
 LEAST_THETA = 0.01  # below which the FMU bounds the clock of the film: csrc/film_law.h
 
 
-@dataclass(frozen=True, slots=True)
-class Comparison:
-    """Counts and largest relative differences; the fields of `Verification` of the same names."""
-
-    states: int
-    outside: int
-    parted: int
-    force: float
-    tangents: float
-    derivatives: float
-    flags: int
-    exchange: float
-    motion: float = 0.0
-
-
-def compare_spring(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> Comparison:
+def compare_spring(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> Verification:
     """Compare an element without memory, on `state_grid`."""
     approach, rate = state_grid(element)
     expected = [np.asarray(f(approach, rate)) for f in (element.force, element.stiffness, element.damping)]
@@ -46,7 +31,8 @@ def compare_spring(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> 
     none = np.empty(0)
     instant = [exchange.evaluate(none, approach=u, rate=v)[0] for u, v in zip(approach, rate, strict=True)]
     differences = [difference(values[:, k], expected[k], scales[k]) for k in range(3)]
-    return Comparison(
+    return Verification(
+        findings=(),
         states=approach.size,
         outside=int((~((element.low <= approach) & (approach <= element.high))).sum()),
         parted=int((expected[0] == 0.0).sum()),
@@ -167,7 +153,7 @@ def _terms(element: Any, states: _Floats, approach: float, rate: float) -> _Floa
     return np.asarray(clock * (np.abs(fed) + np.abs(states)) / max(theta, LEAST_THETA) / time)
 
 
-def compare_film(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> Comparison:
+def compare_film(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> Verification:
     """Compare an element with a memory, along `film_motion`."""
     f, length, time = element._units
     T, u, v = film_motion(element)
@@ -198,7 +184,8 @@ def compare_film(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> Co
     ours, theirs = np.array(rows), np.array(wanted)
     scales = [f, *[f / length, f / length * time] * 3, f]
     gaps = [difference(ours[:, k], theirs[:, k], scale) for k, scale in enumerate(scales)]
-    return Comparison(
+    return Verification(
+        findings=(),
         states=T.size - 1,
         outside=int(((u[1:] < element.low) | (u[1:] > element.high)).sum()),
         parted=int((theirs[:, 0] == 0.0).sum()),

@@ -1,34 +1,23 @@
-"""Export of a contact element as an FMU file."""
+"""Export of a contact element or a rotor as an FMU file: model, files, verification, archive."""
 
 from __future__ import annotations
 
 import os
 import tempfile
-import uuid
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_bytes
-from fmu import sources
-from fmu.binaries import Platform, build_binaries, choose, this_machine
+from fmu.archive import fmu_files, pack
+from fmu.binaries import choose, this_machine
 from fmu.binaries.libraries import Progress
 from fmu.contact_variables import Element
-from fmu.documentation import documentation
-from fmu.icon import icon
-from fmu.model_description import build_description, model_description, terminals
-from fmu.references.contacts import contact_references
-from fmu.references.files import reference_files
-from fmu.references.series import References
+from fmu.fmu_model import fmu_model
 from fmu.rotor.model import RotorModel
-from fmu.rotor.references import rotor_references
-from fmu.rotor.variables import spec_of
-from fmu.sources import FMI_FILES, compiled, source_files
-from fmu.spec import ModelSpec
-from fmu.verify import Verification
+from fmu.sources import FMI_FILES
+from fmu.verification import Verification
 from fmu.verify_before_write import require_finite, require_verified
-
-_NAMESPACE = uuid.uuid5(uuid.NAMESPACE_URL, "https://pypi.org/project/ehlcontact/fmu")
 
 
 def export_contact(
@@ -117,27 +106,20 @@ def export_verified(
     """Export an element or rotor; returns file and verification (None if this machine cannot run the FMU)."""
     if isinstance(fmi, bool) or fmi not in FMI_FILES:
         raise InputError("fmi", fmi, "2 or 3")
-    spec = spec_of(element, model_name)
-    require_finite(element)
+    model = fmu_model(element, model_name)
+    require_finite(model)
     wanted = choose(platforms, fmi)
     target = free_target(path, overwrite)  # before compiling
-    references = references_of(element, spec)
-    files = fmu_files(spec, wanted, fmi, progress, references)
+    references = model.references()
+    files = fmu_files(model.spec, wanted, fmi, progress, references)
     found = None
     own = this_machine()
     if own is not None and own.folder(fmi) is not None:
         # An FMU for other machines is verified by this one's binary of the same sources.
-        runnable = files if own in wanted else fmu_files(spec, (own,), fmi, references=references)
-        found = require_verified(sources.pack(runnable), element)
+        runnable = files if own in wanted else fmu_files(model.spec, (own,), fmi, references=references)
+        found = require_verified(pack(runnable), model)
     free_target(path, overwrite)  # still
-    return write_bytes(target, sources.pack(files)), found
-
-
-def references_of(element: Element | RotorModel, spec: ModelSpec) -> References:
-    """Reference inputs and results of an element or rotor."""
-    if isinstance(element, RotorModel):
-        return rotor_references(element, spec)
-    return contact_references(element, spec)
+    return write_bytes(target, pack(files)), found
 
 
 def free_target(path: str | os.PathLike[str], overwrite: bool, suffix: str = ".fmu") -> Path:
@@ -160,36 +142,3 @@ def free_target(path: str | os.PathLike[str], overwrite: bool, suffix: str = ".f
             return target
     except OSError as error:
         raise InputError("path", str(path), f"in a folder that can be written to ({error.strerror})") from None
-
-
-def fmu_files(
-    spec: ModelSpec,
-    platforms: Sequence[Platform],
-    fmi: int,
-    progress: Progress | None = None,
-    references: References | None = None,
-) -> dict[str, bytes]:
-    """All files of the FMU by path, compiled libraries included."""
-    guid = content_guid(spec, fmi)
-    code = source_files(spec, guid, fmi)
-    units, interface = compiled(spec, fmi), FMI_FILES[fmi]
-    files, labels = build_binaries(code, units, spec.identifier, platforms, fmi, progress)
-    readme = (sources.CSRC / "README.md").read_text(encoding="ascii")
-    about = "" if references is None else references.about
-    files["modelDescription.xml"] = model_description(spec, guid, fmi)
-    files["documentation/index.html"] = documentation(spec, readme, "; ".join(labels), fmi, about).encode()
-    brought = () if fmi == 2 else interface.standard
-    files |= {f"sources/{name}": content for name, content in code.items() if name not in brought}
-    if fmi == 3:
-        files["sources/buildDescription.xml"] = build_description(spec.identifier, units)
-        files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(spec)
-    files["model.png" if fmi == 2 else "terminalsAndIcons/icon.png"] = icon()
-    for name in filter(None, ("license.txt", interface.licence)):
-        files[f"documentation/licenses/{name}"] = (sources.CSRC / "licenses" / name).read_bytes()
-    return files | ({} if references is None else reference_files(references, spec))
-
-
-def content_guid(spec: ModelSpec, fmi: int = 2) -> str:
-    """GUID or token: a hash of model description and sources, equal for equal FMUs."""
-    content = [model_description(spec, "", fmi), *source_files(spec, "", fmi).values()]
-    return "{" + str(uuid.uuid5(_NAMESPACE, "\n".join(part.decode() for part in content))) + "}"

@@ -1,11 +1,8 @@
-"""C sources of an FMU: files of the FMI version, of the model, generated headers; and the zip archive."""
+"""C sources of an FMU: files of the FMI version, of the model, and generated headers."""
 
 from __future__ import annotations
 
-import zipfile
-from collections.abc import Mapping
 from dataclasses import dataclass
-from io import BytesIO
 from pathlib import Path
 
 from fmu.c_headers import c_headers
@@ -58,16 +55,3 @@ def source_files(spec: ModelSpec, guid: str, fmi: int = 2) -> dict[str, bytes]:
     found = {path.name: path for path in CSRC.rglob("*") if path.is_file()}
     files = {name: found[name].read_bytes() for name in (*names, *interface.standard)}
     return files | {name: text.encode("ascii") for name, text in c_headers(spec, guid).items()}
-
-
-def pack(files: Mapping[str, bytes]) -> bytes:
-    """Zip archive with sorted entries and fixed times: equal files give equal bytes."""
-    stream = BytesIO()
-    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name in sorted(files):
-            entry = zipfile.ZipInfo(name, date_time=(1980, 1, 1, 0, 0, 0))
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.create_system = 3  # Unix, whatever the machine, so that the mode below counts
-            entry.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
-            archive.writestr(entry, files[name])
-    return stream.getvalue()

@@ -1,4 +1,4 @@
-"""Verification of an FMU before it is written: nothing unverified is."""
+"""Verification of an FMU before it is written, against its Python model and its own reference results."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from ehlcontact.errors import InputError
-from fmu.contact_variables import Element
+from fmu.fmu_file import opened
+from fmu.fmu_model import FmuModel
 from fmu.references.check import check_references
-from fmu.rotor.model import RotorModel
-from fmu.verify import Verification, opened, verify_opened
+from fmu.verification import Verification
+from fmu.verify import verify_opened
 
 REACH = 3.0  # validity intervals above `high` up to which `verify` asks for a force
 
@@ -24,28 +25,27 @@ class VerificationError(RuntimeError):
         super().__init__(" ".join(message.split()))
 
 
-def require_finite(element: Element | RotorModel) -> None:
-    """Make sure that an element, or each of a rotor's, has a force wherever an FMU will be asked for one.
+def require_finite(model: FmuModel) -> None:
+    """Make sure that each contact has a finite force at every approach at which the FMU will be run.
 
     Raises
     ------
     InputError
-        It is too large for a floating-point number.
+        A force or stiffness is too large for a floating-point number.
     """
-    if isinstance(element, RotorModel):
-        for one in element.elements:
-            require_finite(one)
-        return
-    low, high = element.validity.approach
-    at = high + REACH * (high - low)
-    for name, value in (("force", element.spring(at)), ("stiffness", element.spring_tangent(at))):
-        if not np.isfinite(value):
-            found = f"{name} {value:g} at approach {at:.4g}"
-            raise InputError("element", found, "one with finite forces, also above its interval (wrong units?)")
+    for element in model.elements:
+        low, high = element.validity.approach
+        at = high + REACH * (high - low)
+        for name, value in (("force", element.spring(at)), ("stiffness", element.spring_tangent(at))):
+            if not np.isfinite(value):
+                found = f"{name} {value:g} at approach {at:.4g}"
+                raise InputError(
+                    "element", found, "one with finite forces, also above its interval (wrong units?)"
+                )
 
 
-def require_verified(content: bytes, element: Element | RotorModel) -> Verification:
-    """Run an FMU, before it is written, against the element or rotor and against its own references.
+def require_verified(content: bytes, model: FmuModel) -> Verification:
+    """Run an FMU, before it is written, against its Python model and against its own references.
 
     Raises
     ------
@@ -56,9 +56,9 @@ def require_verified(content: bytes, element: Element | RotorModel) -> Verificat
         with tempfile.TemporaryDirectory(prefix="ehlcontact-verify-", ignore_cleanup_errors=True) as folder:
             trial = Path(folder) / "trial.fmu"
             trial.write_bytes(content)
-            with opened(trial) as (unpacked, description):
-                found = verify_opened(trial, unpacked, description, element)
-                own = check_references(trial, unpacked, description)
+            with opened(trial) as file:
+                found = verify_opened(file, model)
+                own = check_references(file)
     except InputError as error:
         raise VerificationError(f"the FMU is not {error.allowed}") from None
     except OSError as error:

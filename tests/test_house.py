@@ -85,6 +85,7 @@ def relative(folder, pattern):
         ("fmu", "*.c"),
         ("fmu", "*.h"),
         ("fmu", "*.txt"),
+        ("fmu", "*.png"),
         ("ehlcontact", "*.j2"),
         ("ehlcontact", "*.js"),
         ("ehlcontact", "*.css"),

@@ -1,13 +1,13 @@
 """Reference inputs and results inside an FMU, and verification of the FMU against them.
 
-=============  =======================================================================================
-module         responsibility
-=============  =======================================================================================
-``series``     `References`: inputs and results, row by row, for each FMI interface
-``contacts``   references of a contact element, computed by the element in Python
-``files``      files in ``extra/org.fmi-standard.fmi-ls-ref/`` of an FMU
-``check``      `verify_references`: an FMU against the references inside it
-=============  =======================================================================================
+======================  =======================================================================
+module                  responsibility
+======================  =======================================================================
+``series``              `References`: inputs and results, row by row, for each FMI interface
+``contact_references``  references of a contact element, computed by the element in Python
+``files``               files in ``extra/org.fmi-standard.fmi-ls-ref/`` of an FMU
+``check``               `verify_references`: an FMU against the references inside it
+======================  =======================================================================
 
 The files are those that the FMI cross-check has (``x_in.csv``, ``x_ref.csv``, ``x_ref.opt``), in the folder and
 with the manifest of the layered standard FMI-LS-REF 1.0.0-beta.1 (https://github.com/modelica/fmi-ls-ref),
@@ -18,10 +18,6 @@ from inspect import ismodule as _ismodule
 
 from fmu.references.check import ReferenceCheck as ReferenceCheck
 from fmu.references.check import verify_references as verify_references
-from fmu.references.contacts import contact_references as contact_references
-from fmu.references.files import reference_files as reference_files
-from fmu.references.series import References as References
-from fmu.references.series import Trial as Trial
 
 
 def __dir__() -> list[str]:

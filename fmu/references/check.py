@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from ehlcontact.summary import Summary
 from fmu.comparison import END, each_over, floored
+from fmu.fmu_file import FmuFile, opened
 from fmu.references.files import POINTS, STEPS, changed_files, read_references
 from fmu.references.series import References, Trial
-from fmu.verify import findings_text, opened, running
+from fmu.verification import findings_text
 
 _Floats = NDArray[np.float64]
 
@@ -100,27 +101,24 @@ def verify_references(path: str | os.PathLike[str]) -> ReferenceCheck:
     --------
     fmu.verify : the same against the element in Python, at more states, with the directional derivatives.
     """
-    file = Path(path)
-    with opened(file) as (folder, description):
+    with opened(Path(path)) as file:
         from fmpy.validation import validate_fmu
 
-        return check_references(file, folder, description, tuple(validate_fmu(str(file))))
+        return check_references(file, tuple(validate_fmu(str(file.path))))
 
 
-def check_references(file: Path, folder: str, description: Any, findings: tuple[str, ...] = ()) -> ReferenceCheck:
-    """`verify_references` of an unpacked FMU; adds to `findings`."""
-    references = read_references(folder, description, file)
-    broken, interfaces = _interfaces(file, folder, description, references)
-    found = (*findings, *changed_files(folder), *broken)
-    return ReferenceCheck(description.fmiVersion, found, interfaces, references.tolerance)
+def check_references(file: FmuFile, findings: tuple[str, ...] = ()) -> ReferenceCheck:
+    """`verify_references` of an opened FMU; adds to `findings`."""
+    references = read_references(file)
+    broken, interfaces = _interfaces(file, references)
+    found = (*findings, *changed_files(file.folder), *broken)
+    return ReferenceCheck(file.description.fmiVersion, found, interfaces, references.tolerance)
 
 
-def _interfaces(
-    file: Path, folder: str, description: Any, references: References
-) -> tuple[tuple[str, ...], tuple[Interface, ...]]:
+def _interfaces(file: FmuFile, references: References) -> tuple[tuple[str, ...], tuple[Interface, ...]]:
     """Findings of interfaces that do not run or have no references; comparison of the others."""
     findings, interfaces = [], []
-    with running(file, folder, description) as (slave, exchange):
+    with file.running() as (slave, exchange):
         cases: tuple[tuple[str, Trial | None, Any, Callable[[Any, References], _Floats]], ...] = (
             (STEPS, references.steps, slave, _walk),
             (POINTS, references.points, exchange, _visit),

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
+from fmu.fmu_file import FmuFile
 from fmu.model_description import default_experiment
 from fmu.references.series import References, Trial
 from fmu.spec import ModelSpec
@@ -145,32 +146,23 @@ def _xml(root: ElementTree.Element) -> bytes:
 # ---- from files
 
 
-def read_references(unpacked: str | Path, description: Any, file: Path) -> References:
-    """References in the folder of an unpacked FMU.
-
-    Parameters
-    ----------
-    unpacked : path-like
-        The folder.
-    description : ModelDescription
-        Of the FMU, as fmpy has it.
-    file : Path
-        The FMU, for messages.
+def read_references(file: FmuFile) -> References:
+    """References inside an opened FMU.
 
     Raises
     ------
     InputError
         There are none, or they cannot be read.
     """
-    folder = Path(unpacked, FOLDER)
+    folder = Path(file.folder, FOLDER)
     if not (folder / EXPERIMENTS).is_file():
         raise InputError(
-            "path", str(file), f"an FMU with reference results in {FOLDER}, as ehlcontact exports them"
+            "path", str(file.path), f"an FMU with reference results in {FOLDER}, as ehlcontact exports them"
         )
     try:
         root = ElementTree.parse(folder / EXPERIMENTS).getroot()
         found = {entry.get("name"): entry for entry in root.iter("Experiment")}
-        known = {variable.name: variable for variable in description.modelVariables}
+        known = {variable.name: variable for variable in file.description.modelVariables}
         trials = {name: _trial(entry, folder, known) for name, entry in found.items()}
         steps = found.get(STEPS)
         source = None if steps is None else steps.find("Parameters")
@@ -178,7 +170,7 @@ def read_references(unpacked: str | Path, description: Any, file: Path) -> Refer
         tolerance = _tolerance(root)
     except (OSError, ValueError, KeyError, IndexError, ElementTree.ParseError) as error:
         reason = " ".join(str(error).split())
-        raise InputError("path", str(file), f"an FMU with readable reference results ({reason})") from None
+        raise InputError("path", str(file.path), f"an FMU with readable reference results ({reason})") from None
     return References(trials.get(STEPS), trials.get(POINTS), values, tolerance)
 
 

@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError
-from ehlcontact.results.picture import Panel, draw
-from ehlcontact.results.table import frame_of
-from ehlcontact.summary import Summary
-from fmu.verify import TOLERANCE
+from fmu.verification import TOLERANCE
 
 _Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Trial(Summary):
+class Trial:
     """Rows of one experiment.
 
     Attributes
@@ -37,33 +31,9 @@ class Trial(Summary):
     knowns: Mapping[str, _Floats]
     unknowns: Mapping[str, _Floats]
 
-    def _summary_lines(self) -> list[str]:
-        return [f"{self.time.size} rows", f"set {', '.join(self.knowns)}", f"read {', '.join(self.unknowns)}"]
-
-    def to_pandas(self) -> Any:
-        """``pandas.DataFrame``, a column for each variable; raises `InputError` where pandas is not installed."""
-        columns = {"time": self.time, **self.knowns, **self.unknowns}
-        rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
-        return frame_of(rows, "time", {})
-
-    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
-        """Matplotlib figure of every variable, over time or number; into a file too where a path is given.
-
-        Raises
-        ------
-        InputError
-            The file cannot be written.
-        """
-        panels = [
-            Panel((self.time, "time, or number"), [("", values, None)], f"{name} ({how})")
-            for how, table in (("set", self.knowns), ("read", self.unknowns))
-            for name, values in table.items()
-        ]
-        return draw(f"Trial: {self.time.size} rows", panels, path)
-
 
 @dataclass(frozen=True, slots=True, eq=False)
-class References(Summary):
+class References:
     """Reference inputs and results of a model.
 
     Attributes
@@ -86,21 +56,3 @@ class References(Summary):
     parameters: Mapping[str, float] = field(default_factory=dict)
     tolerance: float = TOLERANCE
     about: str = "Inputs, and what the model makes of them"
-
-    def _summary_lines(self) -> list[str]:
-        sizes = {"co-simulation": self.steps, "model exchange": self.points}
-        lines = [f"{trial.time.size} rows of {name}" for name, trial in sizes.items() if trial is not None]
-        return [", ".join(lines) or "nothing", f"within {self.tolerance:.1g} of the number"]
-
-    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
-        """Matplotlib figure of the steps, or of the points where there are no steps; see `Trial.plot`.
-
-        Raises
-        ------
-        InputError
-            There is neither, or the file cannot be written.
-        """
-        trial = self.points if self.steps is None else self.steps
-        if trial is None:
-            raise InputError("steps", None, "there, or points, for a figure")
-        return trial.plot(path)

@@ -8,17 +8,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu.comparison import END, Comparison, difference
+from fmu.comparison import END, difference
 from fmu.rotor.model import RotorModel
 from fmu.rotor.reference_rotor import Felt, accelerations, felt_by, load_size
 from fmu.spec import ModelSpec
+from fmu.verification import Verification
 
 _Floats = NDArray[np.float64]
 
 EVERY = 8  # steps between the states at which the equations are compared
 
 
-def compare_rotor(slave: Any, exchange: Any, model: RotorModel, spec: ModelSpec) -> Comparison:
+def compare_rotor(slave: Any, exchange: Any, model: RotorModel, spec: ModelSpec) -> Verification:
     """Compare a rotor, in a run with an unbalance that shows and from off its place of rest."""
     run = model.run
     names = [variable.name for variable in spec.states]
@@ -107,6 +108,6 @@ class _Equations:
     def _note(self, name: str, ours: _Floats, wanted: _Floats, scales: _Floats) -> None:
         self._gaps[name] = max(self._gaps[name], difference(ours.ravel(), wanted.ravel(), scales.ravel()))
 
-    def found(self) -> Comparison:
-        """What there is so far; the run itself is not in it."""
-        return Comparison(states=0, outside=self._outside, parted=0, tangents=0.0, flags=0, **self._gaps)
+    def found(self) -> Verification:
+        """Differences of the states compared so far; those of the run itself are not in it."""
+        return Verification((), 0, self._outside, 0, tangents=0.0, flags=0, **self._gaps)

@@ -12,8 +12,8 @@ import numpy as np
 
 from fmu import sources as fmu_sources
 from fmu.c_headers import c_headers, c_table
+from fmu.contact_spec import contact_spec
 from fmu.contact_variables import Element, Film
-from fmu.contacts import contact_spec
 from fmu.spec import ModelSpec
 
 _CORE = ("core.c", "core_step.c")  # which the rotor has once

@@ -13,8 +13,8 @@ import numpy as np
 
 from ehlcontact.errors import ConvergenceError, InputError
 from fmu.contact_variables import Element
-from fmu.contacts import default_step, round_down
 from fmu.rotor.reference_rotor import Run, reference_run
+from fmu.steps import default_step, round_down
 from reduced_models import JeffcottRotor, OutsideValidityWarning, RotorState, ScaledContact
 
 # An FMU counts its contacts, and all inputs that have derivatives, in the bits of one number.

@@ -7,14 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from ehlcontact.errors import InputError
 from fmu.c_headers import c_double, c_table
-from fmu.contact_variables import ALLOWED_ERROR, MEANINGS, Element
-from fmu.contacts import checked_name, contact_spec, whose
+from fmu.contact_spec import checked_name, contact_spec, source_text
+from fmu.contact_variables import ALLOWED_ERROR, MEANINGS
 from fmu.rotor.laws import law_tables, numbers_of_laws
 from fmu.rotor.model import RotorModel
 from fmu.spec import ModelSpec, Variable
-from reduced_models import JeffcottRotor
 
 BODIES = ("disc", "journal")
 LEAST_INNER_STEP = 1e-6  # of the default: below it, importers repeat what is refused without end
@@ -49,7 +47,7 @@ def rotor_spec(model: RotorModel, model_name: str | None = None) -> ModelSpec:
     )
     return ModelSpec(
         name=name,
-        description=f"Jeffcott rotor, {words}; SI units{whose(model.elements)}",
+        description=f"Jeffcott rotor, {words}; SI units{source_text(model.elements)}",
         sources=("core.c", "core_step.c", "model_rotor.c", "rotor_step.c", body),
         headers=("core.h", "model.h", "rotor.h", *(("contact_law.h",) if closed else ())),
         variables=tuple(made.variables),
@@ -71,16 +69,6 @@ def rotor_spec(model: RotorModel, model_name: str | None = None) -> ModelSpec:
             for i in mounts
         ),
     )
-
-
-def spec_of(element: Element | RotorModel, model_name: str | None = None) -> ModelSpec:
-    """Specification of whatever can be exported."""
-    if isinstance(element, JeffcottRotor):
-        allowed = "RotorModel(rotor, contacts), of `fmu`: what export_rotor makes an FMU of"
-        raise InputError("element", type(element).__name__, allowed)
-    if isinstance(element, RotorModel):
-        return rotor_spec(element, model_name)
-    return contact_spec(element, model_name)
 
 
 class _Variables:

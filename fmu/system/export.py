@@ -16,13 +16,15 @@ from numpy.typing import NDArray
 from ehlcontact.checks import require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_bytes
+from fmu.archive import pack
 from fmu.binaries import Platform, choose, this_machine
 from fmu.binaries.libraries import Progress
-from fmu.contacts import checked_name, damping_at, round_down
+from fmu.contact_spec import checked_name
 from fmu.export import export_contact, free_target
 from fmu.rotor.export import export_rotor
 from fmu.rotor.model import RotorModel
-from fmu.sources import FMI_FILES, pack
+from fmu.sources import FMI_FILES
+from fmu.steps import damping_at, round_down
 from fmu.system.check import ALLOWED, SystemVerification, verify_system
 from fmu.system.structure import Component, Connector, Wire, system_structure
 from fmu.verify_before_write import VerificationError

@@ -13,11 +13,11 @@ from conv import Bracket, circumstances
 from row_file import Row
 
 from ehlcontact import MoesPoint
+from fmu.archive import content_guid, fmu_files
 from fmu.binaries import this_machine
 from fmu.binaries.compiler import compilers
+from fmu.contact_spec import contact_spec
 from fmu.contact_variables import MEANINGS, Element
-from fmu.contacts import contact_spec
-from fmu.export import content_guid, fmu_files
 from fmu.sources import CSRC
 from reduced_models import Atlas, CubicContact
 

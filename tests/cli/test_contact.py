@@ -11,7 +11,7 @@ from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant.oil import GRADES
-from fmu.contacts import contact_spec
+from fmu.contact_spec import contact_spec
 from reduced_models import Atlas, BallBearing
 
 GIVEN = {"--bearing": "6205", "--oil": "ISO VG 68", "--temp": "60", "--speed-rpm": "3000", "--load": "100"}

@@ -9,10 +9,11 @@ import pytest
 
 import fmu.spec
 from ehlcontact.errors import InputError
-from fmu import BuildError, VerificationError, binaries, export_contact, sources, verify
+from fmu import BuildError, VerificationError, archive, binaries, export_contact, verify
 from fmu.binaries.compiler import compilers
-from fmu.contacts import contact_spec
+from fmu.contact_spec import contact_spec
 from fmu.export import export_verified
+from fmu.fmu_model import fmu_model
 from fmu.sources import CSRC
 
 
@@ -24,7 +25,7 @@ def test_bytes_are_reproducible(fmus, elements, kind, tmp_path, monkeypatch):
 
 def spoiled(name, old, new):
     """`pack` with a library compiled from a source in which `old` is `new`."""
-    pack = sources.pack
+    pack = archive.pack
 
     def packed(files):
         code = {path[8:]: content for path, content in files.items() if path.startswith("sources/")}
@@ -135,17 +136,17 @@ def test_what_is_verified_is_what_is_written(fmus, elements, tmp_path):
 def test_nothing_is_written_that_is_not_right(elements, tmp_path, monkeypatch, fault):
     """Neither a new file nor in place of an old one."""
     (tmp_path / "old.fmu").write_bytes(b"old")
-    monkeypatch.setattr("fmu.export.require_finite", lambda element: None)
+    monkeypatch.setattr("fmu.export.require_finite", lambda model: None)
     if fault == "differs":
         wrong = dataclasses.replace(elements["cubic"], C1=0.02)
-        spec = contact_spec(wrong)
-        monkeypatch.setattr("fmu.export.spec_of", lambda *_: spec)
+        model = dataclasses.replace(fmu_model(elements["cubic"]), spec=contact_spec(wrong))
+        monkeypatch.setattr("fmu.export.fmu_model", lambda *_: model)
     elif fault == "computes otherwise":  # and says nothing wrong of itself
-        monkeypatch.setattr(sources, "pack", spoiled("model_contact.c", "times(3.0, K3)", "times(3.001, K3)"))
+        monkeypatch.setattr("fmu.export.pack", spoiled("model_contact.c", "times(3.0, K3)", "times(3.001, K3)"))
     elif fault == "does not run":
-        monkeypatch.setattr(sources, "pack", spoiled("core_step.c", "fault.severity != FINE", "1"))
+        monkeypatch.setattr("fmu.export.pack", spoiled("core_step.c", "fault.severity != FINE", "1"))
     else:
-        monkeypatch.setattr(sources, "pack", lambda files: b"no zip")
+        monkeypatch.setattr("fmu.export.pack", lambda files: b"no zip")
     for name in ("new.fmu", "old.fmu"):
         with pytest.raises(VerificationError) as error:
             export_contact(elements["cubic"], tmp_path / name, overwrite=True)

@@ -11,11 +11,12 @@ import pytest
 from fmpy.util import read_csv, read_ref_opt_file
 
 from ehlcontact.errors import InputError
-from fmu import VerificationError, export_contact, sources, verify, verify_references
+from fmu import VerificationError, export_contact, verify, verify_references
+from fmu.archive import pack
 from fmu.binaries import build_binaries, this_machine
 from fmu.comparison import difference
-from fmu.contacts import contact_spec
-from fmu.references.contacts import contact_references
+from fmu.contact_spec import contact_spec
+from fmu.references.contact_references import contact_references
 from fmu.references.files import FOLDER, MANIFEST, _manifest, reference_files
 from fmu.references.series import References, Trial
 
@@ -246,7 +247,7 @@ def test_what_is_missing_or_does_not_run_is_a_finding(fmus, tmp_path):
 def test_export_does_not_write_what_its_references_contradict(elements, tmp_path, monkeypatch):
     """Made of another element than what the FMU was verified against."""
     other = dataclasses.replace(elements["cubic"], C1=0.0131)
-    monkeypatch.setattr("fmu.export.contact_references", lambda element, spec: contact_references(other, spec))
+    monkeypatch.setattr("fmu.fmu_model.contact_references", lambda element, spec: contact_references(other, spec))
     with pytest.raises(VerificationError, match=r"differs from its reference results: .*damping"):
         export_contact(elements["cubic"], tmp_path / "x.fmu")
     assert list(tmp_path.iterdir()) == []
@@ -265,7 +266,7 @@ def test_references_of_other_models(elements, tmp_path):
     path = export_contact(elements["cubic"], tmp_path / "x.fmu")
     with zipfile.ZipFile(path) as archive:
         old = {n: archive.read(n) for n in archive.namelist() if not n.startswith("extra")}
-    (tmp_path / "y.fmu").write_bytes(sources.pack(old | files))
+    (tmp_path / "y.fmu").write_bytes(pack(old | files))
     found = verify_references(tmp_path / "y.fmu")
     assert found.tolerance == 1e-9 and found.findings == ("model exchange: no reference results",)
     assert found.interfaces[0].rows == 3 and found.interfaces[0].difference > 0.1

@@ -18,11 +18,11 @@ from fmpy.build import build_platform_binary
 from fmpy.validation import validate_fmu
 
 from fmu import export_contact, verify
+from fmu.archive import content_guid
 from fmu.comparison import film_motion, state_grid
-from fmu.contacts import contact_spec
-from fmu.export import content_guid
+from fmu.contact_spec import contact_spec
+from fmu.fmu_model import fmu_model
 from fmu.rotor.laws import distinct, law_source
-from fmu.rotor.variables import spec_of
 from fmu.sources import CSRC, source_files
 
 pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
@@ -60,7 +60,7 @@ def compiled(compiler, models, tmp_path):
     """``compiled("cubic", 2, flags)``: sources of an FMU as a library, or with a program of this folder."""
 
     def make(name: str, fmi: int, flags: list[str], program: str | None = None) -> Path:
-        spec = spec_of(models[name])
+        spec = fmu_model(models[name]).spec
         folder = tmp_path / f"{name}{fmi}"
         folder.mkdir()
         for file, content in source_files(spec, content_guid(spec, fmi), fmi).items():

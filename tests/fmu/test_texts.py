@@ -1,7 +1,6 @@
 """Texts and picture of an FMU: model description, documentation, icon."""
 
 import dataclasses
-import io
 import re
 import zipfile
 from xml.etree import ElementTree
@@ -14,12 +13,13 @@ from PIL import Image
 
 from ehlcontact.errors import InputError
 from fmu import export_contact
+from fmu.archive import ICON
 from fmu.c_headers import c_double
-from fmu.contacts import contact_spec, step_advice
+from fmu.contact_spec import contact_spec
 from fmu.documentation import documentation
-from fmu.icon import SIZE, icon
 from fmu.model_description import model_description
 from fmu.spec import ModelSpec, Variable
+from fmu.steps import step_advice
 
 UNITS_SI = {
     "approach": ("m", {"m": 1}),
@@ -175,19 +175,18 @@ def test_page_names_the_largest_step_of_each_coupling(elements):
 def test_icon_is_in_the_fmu(elements, tmp_path, fmi, place):
     path = export_contact(elements["cubic"], tmp_path / "x.fmu", fmi=fmi)
     with zipfile.ZipFile(path) as archive:
-        assert archive.read(place) == icon()
+        assert archive.read(place) == ICON.read_bytes()
         assert sum(name.endswith(".png") for name in archive.namelist()) == 1
 
 
 def test_icon_is_small_and_can_be_read():
     """Ball above raceway with the film between, on nothing."""
-    content = icon()
-    icon.cache_clear()
-    assert icon() == content and len(content) < 2000
-    picture = Image.open(io.BytesIO(content))
+    picture = Image.open(ICON)
     picture.load()  # checksums too
-    assert picture.size == (SIZE, SIZE) and SIZE >= 100 and picture.mode == "RGBA"
-    middle = [picture.getpixel((SIZE // 2, y)) for y in range(SIZE)]
+    width, height = picture.size
+    assert ICON.stat().st_size < 2000
+    assert width == height >= 100 and picture.mode == "RGBA"
+    middle = [picture.getpixel((width // 2, y)) for y in range(height)]
     solid = [pixel for pixel in middle if pixel[3] == 255]
     assert list(dict.fromkeys(pixel for pixel in solid if solid.count(pixel) > 2)) == [
         (0x8D, 0x99, 0xA6, 255), (0xE0, 0x8A, 0x1E, 255), (0x4A, 0x55, 0x60, 255),

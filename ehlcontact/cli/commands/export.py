@@ -170,7 +170,7 @@ def _advice(exported: Any, found: Any) -> list[Row]:
             ("step", f"{step:g} s", "of the default experiment; longer ones damp more, and blow up in the end")
         ]
     from fmu import RotorModel
-    from fmu.contacts import step_advice
+    from fmu.steps import step_advice
 
     if isinstance(exported, RotorModel):
         return [("inner step", f"{exported.inner_step:g} s", "steps of the master are cut into such ones")]

@@ -181,8 +181,8 @@ def export_fmu(element: Any, path: Path) -> dict[str, Any]:
     With the largest steps of each way of coupling under ``steps``, and the frequencies that it is for.
     """
     from fmu import VerificationError
-    from fmu.contacts import step_advice
     from fmu.export import export_verified
+    from fmu.steps import step_advice
 
     band = element.omega_range
     entry: dict[str, Any] = {

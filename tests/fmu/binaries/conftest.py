@@ -4,9 +4,9 @@ import warnings
 
 import pytest
 
+from fmu.archive import content_guid
 from fmu.binaries import PLATFORMS, build_binaries
-from fmu.contacts import contact_spec
-from fmu.export import content_guid
+from fmu.contact_spec import contact_spec
 from fmu.sources import compiled, source_files
 from reduced_models import CubicContact
 

@@ -14,10 +14,10 @@ import pytest
 
 from ehlcontact import InputError
 from fmu import export_contact
+from fmu.archive import content_guid
 from fmu.binaries import PLATFORMS, BuildError, build_binaries, choose, libraries, read_library, this_machine
 from fmu.binaries.compiler import Compiler, compilers
-from fmu.contacts import contact_spec
-from fmu.export import content_guid
+from fmu.contact_spec import contact_spec
 from fmu.sources import CSRC, FMI_FILES, compiled, source_files
 from reduced_models import CubicContact
 

@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fmu.archive import content_guid
 from fmu.binaries import PLATFORMS, build_binaries, this_machine
 from fmu.binaries.compiler import compilers
 from fmu.comparison import film_motion
-from fmu.contacts import contact_spec
-from fmu.export import content_guid
+from fmu.contact_spec import contact_spec
 from fmu.sources import CSRC, compiled, source_files
 
 OWN = this_machine()

@@ -11,7 +11,7 @@ import pytest
 
 from ehlcontact.errors import InputError
 from fmu import RotorModel, VerificationError, export_system, verify_references
-from fmu.sources import pack
+from fmu.archive import pack
 from fmu.system.check import schema_findings, verify_system
 from fmu.system.export import export_verified_system
 from fmu.system.structure import SSC, SSD, SSV

@@ -13,9 +13,9 @@ from fmu.contact_variables import ContactVariables, Film
 LAW = "film_law", "film_filters", "film_curve"  # C files of the film law, each with its header
 
 
-def film_parts(element: Film, common: ContactVariables) -> dict[str, Any]:
+def film_parts(element: Film) -> dict[str, Any]:
     """Fields of the `ModelSpec` of an element with a film memory."""
-    lags = element.lags
+    common, lags = ContactVariables(element), element.lags
     states = ("s", "y", *(f"q[{k}]" for k in range(1, lags + 1)))
     force, length, time = element._units
     u = element.approach_at(force)

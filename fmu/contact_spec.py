@@ -1,24 +1,19 @@
-"""Specification of the FMU of a contact element: name, variables, notes and advice on steps."""
+"""Specification of the FMU of a contact element: name, description, variables and notes."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ehlcontact.errors import InputError
-from fmu.contact_variables import MEANINGS, ContactVariables, Element, Film
-from fmu.film import film_parts
+from fmu.contact_variables import MEANINGS, Element, Film
+from fmu.film_spec import film_parts
 from fmu.spec import ModelSpec
-from fmu.spring import spring_parts
+from fmu.spring_spec import spring_parts
+from fmu.steps import default_step, step_advice
 from reduced_models.elements.validity import frequency_text, text_of
 
-SHARE_OF_TRANSIT = 0.05  # of 2a/u_sum, the default step
-FAST_STEP = 0.1  # of the fastest motion, over its angular frequency: what the advice on steps is told for
-LONGEST_NAME = 200  # characters of what an element says of its contact, in the description of an FMU
+LONGEST_NAME = 200  # characters of the name of a contact in the description of an FMU
 
 _DIMENSIONLESS = "dimensionless: force in static loads, approach in dry Hertz approaches, time in 2a/u_sum"
 
@@ -45,12 +40,11 @@ def contact_spec(element: Element, model_name: str | None = None) -> ModelSpec:
     if not isinstance(element, Element):
         raise InputError("element", type(element).__name__, "a contact element (linear, cubic, ..., wide)")
     name = checked_name(type(element).__name__ if model_name is None else model_name)
-    common = ContactVariables(element)
-    parts = film_parts(element, common) if isinstance(element, Film) else spring_parts(element, common)
+    parts = film_parts(element) if isinstance(element, Film) else spring_parts(element)
     system = "SI units" if element.units == "SI" else _DIMENSIONLESS
     return ModelSpec(
         name=name,
-        description=f"{parts.pop('description')}; {system}{whose([element])}",
+        description=f"{parts.pop('description')}; {system}{source_text([element])}",
         notes=_notes(element),
         choices=(MEANINGS,),
         step=default_step(element),
@@ -59,7 +53,7 @@ def contact_spec(element: Element, model_name: str | None = None) -> ModelSpec:
     )
 
 
-def whose(elements: Iterable[Element]) -> str:
+def source_text(elements: Iterable[Element]) -> str:
     """Bearing, oil, load and speed of elements in words, where their source names them.
 
     A description is one line: what is not printable, as of a file that somebody wrote by hand, is left out.
@@ -82,30 +76,6 @@ def checked_name(name: object) -> str:
     return name
 
 
-def default_step(element: Element) -> float:
-    """A step that resolves the contact, 1, 2 or 5 times a power of ten.
-
-    A twentieth of 2a/u_sum; of an element in SI that does not know its scales, the 60th part of its fastest
-    period, or of the time that its largest rate takes through its interval.
-    """
-    if element.units == "dimensionless" or element.time is not None:
-        return round_down(SHARE_OF_TRANSIT * (1.0 if element.time is None else element.time))
-    times = [1e-3]
-    if element.omega_range is not None and element.omega_range[1] > 0.0:
-        times.append(0.1 / element.omega_range[1])
-    if element.rate:
-        low, high = element.validity.approach
-        times.append(SHARE_OF_TRANSIT * (high - low) / element.rate)
-    return round_down(min(times))
-
-
-def round_down(value: float) -> float:
-    """1, 2 or 5 times a power of ten, at most `value` > 0."""
-    power = math.floor(math.log10(value))
-    digit = max(d for d in (1, 2, 5) if d <= value / 10.0**power * (1.0 + 1e-12))
-    return float(f"{digit}e{power}")
-
-
 def _notes(element: Element) -> tuple[tuple[str, str], ...]:
     lines = [("Element", f"{type(element).__name__}, units: {element.units}")]
     if element.rate is not None:
@@ -120,51 +90,6 @@ def _notes(element: Element) -> tuple[tuple[str, str], ...]:
             lines.append((label, _flat(details)))
     lines += [(label.capitalize(), f"{value}: {why}") for label, value, why in step_advice(element)]
     return tuple(lines)
-
-
-def step_advice(element: Element) -> list[tuple[str, str, str]]:
-    """Advice on co-simulation steps at the static load: (name, largest step, reason) per way of coupling."""
-    unit = " s" if element.units == "SI" else ""
-    low, high = element.validity.approach
-    lines = [("default step", f"{default_step(element):g}{unit}", "resolves the contact")]
-    try:
-        u = element.approach_at(element._static_load(None))
-    except InputError:
-        u = 0.5 * (low + high)
-    K, load = float(element.spring_tangent(u)), float(element.spring(u))
-    if not (K > 0.0 and 0.0 < load < math.inf):
-        return lines
-    C = damping_at(element, load)
-    late = C / K
-    return [
-        *lines,
-        (
-            "largest step, inputs held",
-            f"{late:.3g}{unit}",
-            f"a force one step h late takes K h off the damping C; K = {K:.4g}, C = {C:.4g}",
-        ),
-        (
-            "largest step, inputs extrapolated",
-            f"{late / FAST_STEP**2:.3g}{unit}",
-            f"where K h (w h)^2 is C, twice the damping then, at w h = {FAST_STEP:g} of the fastest "
-            "motion w; it goes like (w h)^-2",
-        ),
-        (
-            "largest step, force read after inputs are set, or iterated",
-            "the master's",
-            "set, get, then doStep has no delay; input_meaning 2 (end) is for rollback",
-        ),
-    ]
-
-
-def damping_at(element: Element, load: float) -> float:
-    """Damping coefficient of slow motion about rest under a load."""
-    return float(element._response(_slow(element), load)[0].imag / _slow(element)[0])
-
-
-def _slow(element: Element) -> NDArray[np.float64]:
-    time = 1.0 if element.time is None else element.time
-    return np.array([0.1 / time])
 
 
 def _flat(details: Mapping[str, object]) -> str:

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from fmu.comparison import END, STEPS, bounds, film_rates_at, film_walk, tangents
 from fmu.contact_variables import Element, Film
-from fmu.contacts import SHARE_OF_TRANSIT, round_down
 from fmu.references.series import References, Trial
 from fmu.spec import ModelSpec
+from fmu.steps import SHARE_OF_TRANSIT, round_down
 from reduced_models.elements.film_filters import DIRECT
 
 _Floats = NDArray[np.float64]

@@ -34,8 +34,9 @@ _VISCOUS = ("C1", "C")
 Spring = LinearContact | CubicContact | PolynomialContact | PowerLawContact
 
 
-def spring_parts(element: Spring, common: ContactVariables) -> dict[str, Any]:
+def spring_parts(element: Spring) -> dict[str, Any]:
     """Fields of the `ModelSpec` of an element without memory."""
+    common = ContactVariables(element)
     coefficients = dict(_POWER if isinstance(element, PowerLawContact) else _POLYNOMIAL)
     seven = isinstance(element, PolynomialContact)
     if not seven:

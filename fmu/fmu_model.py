@@ -1,0 +1,70 @@
+"""`FmuModel`: what the export and the verification of an FMU take from an element or a rotor."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from ehlcontact.errors import InputError
+from fmu.comparison import compare_film, compare_spring
+from fmu.contact_spec import contact_spec
+from fmu.contact_variables import Element, Film
+from fmu.references.contact_references import contact_references
+from fmu.references.series import References
+from fmu.rotor.comparison import compare_rotor
+from fmu.rotor.model import RotorModel
+from fmu.rotor.references import rotor_references
+from fmu.rotor.variables import rotor_spec
+from fmu.spec import ModelSpec
+from fmu.verification import Verification
+from reduced_models import JeffcottRotor
+
+
+@dataclass(frozen=True, slots=True)
+class FmuModel:
+    """One model of an FMU.
+
+    Attributes
+    ----------
+    spec : ModelSpec
+        Variables, C sources and texts.
+    elements : tuple of ContactElement
+        Contacts that the FMU computes; none of a rotor alone.
+    references : callable
+        Reference inputs and results, computed in Python.
+    compare : callable
+        Comparison of two instances, for co-simulation and for model exchange, with the Python model.
+    """
+
+    spec: ModelSpec
+    elements: tuple[Element, ...]
+    references: Callable[[], References]
+    compare: Callable[[Any, Any], Verification]
+
+
+def fmu_model(source: Element | RotorModel, model_name: str | None = None) -> FmuModel:
+    """Model of the FMU of a contact element or a rotor.
+
+    Raises
+    ------
+    InputError
+        Neither of them, or a name that is empty, too long or not printable.
+    """
+    if isinstance(source, JeffcottRotor):
+        allowed = "RotorModel(rotor, contacts), of `fmu`: what export_rotor makes an FMU of"
+        raise InputError("element", type(source).__name__, allowed)
+    if isinstance(source, RotorModel):
+        spec, elements = rotor_spec(source, model_name), source.elements
+        compare: Any = compare_rotor
+        references: Any = rotor_references
+    else:
+        spec, elements = contact_spec(source, model_name), (source,)
+        compare = compare_film if isinstance(source, Film) else compare_spring
+        references = contact_references
+    return FmuModel(
+        spec,
+        elements,
+        references=lambda: references(source, spec),
+        compare=lambda slave, exchange: compare(slave, exchange, source, spec),
+    )
