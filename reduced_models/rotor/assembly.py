@@ -12,6 +12,7 @@ from ehlcontact.checks import as_column, require_instance
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from reduced_models.rotor.beam import matrices
+from reduced_models.rotor.nodes import DIRECTIONS, PLANE
 from reduced_models.rotor.parts import Disc, Shaft, Support
 from reduced_models.rotor.rotor import Rotor, Unbalance
 from reduced_models.rotor.supports import BearingMount
@@ -34,7 +35,8 @@ def rotor_on_bearings(
 
     For `simulate_rotor`, at one speed or along a `SpeedProfile`, and for `linearise`, `campbell` and
     `unbalance_response`. Where discs and bearings are among the degrees of freedom, ``nodes`` of the rotor has:
-    "disc" (or "disc 0", "disc 1", ...), "bearing 0", ..., "housing 0", ...
+    "disc" (or "disc 0", "disc 1", ...), "bearing 0", ..., "housing 0", ...; each with "x" and "y", and where it
+    has inertia against tilting, "tilt_x" and "tilt_y", the angles about them.
 
     Parameters
     ----------
@@ -109,7 +111,7 @@ class _Assembly:
         whole = np.zeros((len(self.M), kept.size))
         whole[kept], whole[left] = np.eye(kept.size), follow
         M, C, K, G = (np.asarray(whole.T @ matrix @ whole) for matrix in (self.M, self.C, self.K, self.G))
-        nodes = {name: {"x": new[at], "y": new[at + 1]} for name, at in self._places().items()}
+        nodes = {name: self._named(new, at) for name, at in self._places().items()}
         return Rotor(
             mass=M,
             stiffness=0.5 * (K + K.T),
@@ -125,6 +127,11 @@ class _Assembly:
             nodes=nodes,
         )
 
+    def _named(self, new: dict[int, int], at: int) -> dict[str, int]:
+        """Degrees of freedom of the node whose first one is `at`; a housing does not tilt, nor a massless node."""
+        count = len(PLANE) if at >= 4 * self.stations.size else len(DIRECTIONS)
+        return {name: new[at + k] for k, name in enumerate(DIRECTIONS[:count]) if at + k in new}
+
     def _at(self, position: float) -> int:
         """First degree of freedom of the node there."""
         return 4 * int(np.argmin(np.abs(self.stations - position)))
@@ -139,9 +146,8 @@ class _Assembly:
     def _mount(k: int, support: Support, nodes: dict[str, dict[str, int]]) -> BearingMount:
         housing = nodes.get(f"housing {k}")
         pair = None if housing is None else (housing["x"], housing["y"])
-        return BearingMount(
-            bearing=support.bearing, housing=pair, cage_angle=support.cage_angle, **nodes[f"bearing {k}"]
-        )
+        place = {name: nodes[f"bearing {k}"][name] for name in PLANE}
+        return BearingMount(bearing=support.bearing, housing=pair, cage_angle=support.cage_angle, **place)
 
     def _add_shaft(self) -> None:
         for k, piece in enumerate(self.shaft.pieces(self.stations)):

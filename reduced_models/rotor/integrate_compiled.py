@@ -94,11 +94,12 @@ class CompiledSteps:
     def rewind(self) -> None:
         """Nothing: a block is made as a whole."""
 
-    @staticmethod
-    def _lost(r: _Floats) -> str:
+    def _lost(self, r: _Floats) -> str:
         worst = int(np.argmax(np.abs(r))) // 2
+        rotor = self._run.rotor
+        number = rotor.bearings.index(rotor.ball_bearings[worst])
         far = float(np.hypot(*r[2 * worst : 2 * worst + 2]))
-        return f"the ring of bearing {worst} has left it, {far * 1e3:.3g} mm from the middle"
+        return f"the ring of bearing {number} has left it, {far * 1e3:.3g} mm from the middle"
 
 
 @jit_exact_loop

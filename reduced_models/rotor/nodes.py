@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ehlcontact.errors import InputError
 
 PLANE = ("x", "y")
+DIRECTIONS = (*PLANE, "tilt_x", "tilt_y")  # of a node of a shaft: displacements [m], angles about x and y [rad]
 
 
 def flat_nodes(nodes: Mapping[str, Mapping[str, int]]) -> tuple[tuple[str, ...], NDArray[np.int64]]:

@@ -16,7 +16,7 @@ from ehlcontact.quantities import FORCE, LENGTH, NUMBER, RATE, SPEED, TIME
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import span
-from reduced_models.rotor.nodes import ByNode
+from reduced_models.rotor.nodes import PLANE, ByNode
 
 _Floats = NDArray[np.float64]
 
@@ -31,8 +31,8 @@ MIXED = "m, or rad where it turns"
 class RotorResult(QuantityTable, ByNode):
     """Histories of a rotor run in SI; entry 0 is the start.
 
-    A support has a column for each of its directions: a contact one, the approach; a ball bearing x and y of the
-    inner ring against the outer one.
+    A support has a column for each of its directions: a contact one, the approach; a bearing x and y of the inner
+    ring against the outer one. Contacts come first, then bearings, in the order of the rotor's supports.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class RotorResult(QuantityTable, ByNode):
     approach, rate : ndarray, shape (k, columns)
         Motion of every support [m], [m/s].
     force : ndarray, shape (k, columns)
-        On one contact; of the inner rings on the balls [N].
+        On one contact; of the inner rings on the balls, or on the bearing where it is linear [N].
     iterations : ndarray, shape (k,)
         Evaluations of every support in the step.
     largest_load : ndarray, shape (ball bearings, 2)
@@ -89,8 +89,10 @@ class RotorResult(QuantityTable, ByNode):
         return replace(self.DISPLAY, labels={**self.DISPLAY.labels, "dof": tuple(dofs), "support": self.columns})
 
     def _unit(self, name: str) -> str:
-        all_named = set(self.places.tolist()) == set(range(self.displacement.shape[1]))
-        mixed = {} if all_named else {"displacement": MIXED, "velocity": f"{MIXED}, per s"}
+        lengths = {place for at in self.nodes.values() for name, place in at.items() if name in PLANE}
+        mixed = {"displacement": MIXED, "velocity": f"{MIXED}, per s"}
+        if lengths == set(range(self.displacement.shape[1])):
+            mixed = {}
         return mixed.get(name) or super()._unit(name)
 
     def _summary_lines(self) -> list[str]:
@@ -136,12 +138,12 @@ class RotorResult(QuantityTable, ByNode):
 
     @property
     def ring(self) -> _Floats:
-        """Inner rings of the ball bearings against the outer ones, shape (k, bearings, 2) [m]."""
+        """Inner rings of the bearings against the outer ones, shape (k, bearings, 2) [m]."""
         return self._of_bearings(self.approach)
 
     @property
     def ring_force(self) -> _Floats:
-        """Force of the inner rings on the balls, shape (k, bearings, 2) [N]."""
+        """Force of the inner rings on the bearings, shape (k, bearings, 2) [N]."""
         return self._of_bearings(self.force)
 
     def _of_bearings(self, values: _Floats) -> _Floats:
@@ -205,7 +207,7 @@ class RotorResult(QuantityTable, ByNode):
         if node is None:
             ring = self.ring
             if not ring.shape[1]:
-                raise InputError("node", None, "given for a rotor without ball bearings")
+                raise InputError("node", None, "given for a rotor without bearings")
             return [(f"inner ring of bearing {b}", ring[:, b]) for b in range(ring.shape[1])]
         named = {name: tuple(at.get(k, -1) for k in "xy") for name, at in self.nodes.items()}
         if isinstance(node, str) and node in named:

@@ -107,7 +107,7 @@ class Rotor(Summary):
     nodes: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
 
     def _summary_lines(self) -> list[str]:
-        bearings = [m.bearing.name or "ball bearing" for m in self.mounts if isinstance(m, BearingMount)]
+        bearings = [mount.bearing.name or "ball bearing" for mount in self.bearings]
         contacts = self.contacts
         on = [f"{len(bearings)} bearings: {', '.join(bearings)}"] if bearings else []
         on += [f"{len(contacts)} contacts"] if contacts else []
@@ -189,9 +189,14 @@ class Rotor(Summary):
         return tuple(mount for mount in self.mounts if isinstance(mount, ContactMount))
 
     @property
+    def bearings(self) -> tuple[BearingMount, ...]:
+        """Supports that are bearings."""
+        return tuple(mount for mount in self.mounts if isinstance(mount, BearingMount))
+
+    @property
     def ball_bearings(self) -> tuple[BearingMount, ...]:
         """Supports that are ball bearings."""
-        return tuple(m for m in self.mounts if isinstance(m, BearingMount) and is_ball_bearing(m))
+        return tuple(mount for mount in self.bearings if is_ball_bearing(mount))
 
     @cached_property
     def geometry(self) -> SupportGeometry:
@@ -201,18 +206,18 @@ class Rotor(Summary):
     @property
     def changes_with_speed(self) -> bool:
         """Whether `matrices` depend on the speed."""
-        bearings = [mount.bearing for mount in self.mounts if isinstance(mount, BearingMount)]
-        tables = (b for b in bearings if isinstance(b, LinearBearing) and b.speeds_rpm is not None)
+        linear = (mount.bearing for mount in self.bearings if isinstance(mount.bearing, LinearBearing))
+        tables = (bearing for bearing in linear if bearing.speeds_rpm is not None)
         return bool(self.gyroscopic.any()) or any(True for _ in tables)
 
     def matrices(self, omega: float) -> Matrices:
         """Mass, damping with the gyroscopic part, and stiffness at a speed [rad/s], linear bearings added."""
         damping = self.damping + omega * self.gyroscopic
         stiffness = self.stiffness
-        for mount in self.mounts:
-            if isinstance(mount, BearingMount) and not is_ball_bearing(mount):
+        for mount in self.bearings:
+            if isinstance(mount.bearing, LinearBearing):
                 rows = mount.rows(self.size)
-                K, C = mount.bearing.at(omega / RADIANS)  # type: ignore[union-attr]
+                K, C = mount.bearing.at(omega / RADIANS)
                 stiffness, damping = stiffness + rows.T @ K @ rows, damping + rows.T @ C @ rows
         return self.mass, damping, stiffness
 

@@ -8,6 +8,7 @@ from math import ceil
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ehlcontact import Status
 from ehlcontact.checks import require_integer, require_positive
@@ -25,6 +26,9 @@ from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.scaled_contact import Contact
 from reduced_models.rotor.speed_profile import SpeedProfile
+from reduced_models.rotor.supports import LinearBearing
+
+_Floats = NDArray[np.float64]
 
 COMPILED_TOLERANCE, TOLERANCE = 1e-9, 1e-6  # on ball bearings alone; with contacts
 
@@ -172,33 +176,53 @@ def _check_contacts(rotor: Rotor) -> None:
 
 
 def _result(run: PreparedRun, made: int, status: Status) -> RotorResult:
-    kept, rotor, histories = slice(0, made + 1), run.rotor, run.histories
-    contacts, bearings = len(rotor.contacts), len(run.balls)
-    names, places = flat_nodes(rotor.nodes)
-    columns = [f"contact {i}" for i in range(1, contacts + 1)]
-    columns += [f"bearing {b} {x}" for b in range(bearings) for x in "xy"]
+    kept, histories = slice(0, made + 1), run.histories
+    columns, approach, rate, force = _supports(run, kept)
+    names, places = flat_nodes(run.rotor.nodes)
     return RotorResult(
         t=run.t[kept],
         speed_rpm=run.omega[kept] / RADIANS,
         displacement=histories.displacement[kept],
         velocity=histories.velocity[kept],
-        approach=histories.motion[kept]
-        + np.array([mount.offset for mount in rotor.contacts] + [0.0] * 2 * bearings),
-        rate=histories.rate[kept],
-        force=histories.force[kept],
+        approach=approach,
+        rate=rate,
+        force=force,
         iterations=histories.evaluations[kept],
         largest_load=np.array([one.films.largest for one in run.balls]).reshape(-1, 2),
         status=status,
-        columns=tuple(columns),
+        columns=columns,
         names=names,
         places=places,
     )
 
 
+def _supports(run: PreparedRun, kept: slice) -> tuple[tuple[str, ...], _Floats, _Floats, _Floats]:
+    """Names, motions, rates and forces of the directions of all supports: contacts, then bearings."""
+    rotor, histories = run.rotor, run.histories
+    r, v, force = histories.motion[kept], histories.rate[kept], histories.force[kept]
+    offsets, first = np.array([mount.offset for mount in rotor.contacts]), len(rotor.contacts)
+    names = [f"contact {i}" for i in range(1, first + 1)]
+    found = [(r[:, :first] + offsets, v[:, :first], force[:, :first])]
+    with_balls = iter(run.ball_directions)
+    for b, mount in enumerate(rotor.bearings):
+        names += [f"bearing {b} {direction}" for direction in mount.directions]
+        if isinstance(mount.bearing, LinearBearing):
+            rows = mount.rows(rotor.size).T
+            moved, moving = histories.displacement[kept] @ rows, histories.velocity[kept] @ rows
+            K, C = mount.bearing.at(run.omega[kept] / RADIANS)
+            found.append((moved, moving, (K @ moved[..., None] + C @ moving[..., None])[..., 0]))
+        else:
+            at = next(with_balls)
+            found.append((r[:, at], v[:, at], force[:, at]))
+    motions, rates, forces = (np.hstack(parts) for parts in zip(*found, strict=True))
+    return tuple(names), motions, rates, forces
+
+
 def _warn_of_overload(run: PreparedRun) -> None:
     """Warn of balls that carried more than the atlas has."""
     slowest = float(run.omega.min() / RADIANS)
-    for b, (mount, balls) in enumerate(zip(run.rotor.ball_bearings, run.balls, strict=True)):
+    for mount, balls in zip(run.rotor.ball_bearings, run.balls, strict=True):
+        b = run.rotor.bearings.index(mount)
         for name, load in zip(RACES, balls.films.largest.tolist(), strict=True):
             bearing = mount.ball_bearing
             most = np.inf if bearing.oil is None else bearing.race(name).loads(slowest)[1]

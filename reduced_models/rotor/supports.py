@@ -62,15 +62,15 @@ class LinearBearing(Summary):
         table = "constant" if self.speeds_rpm is None else f"at {self.speeds_rpm.size} speeds"
         return [f"{self.name or 'linear bearing'}, stiffness and damping {table}"]
 
-    def at(self, speed_rpm: float) -> tuple[_Floats, _Floats]:
-        """Stiffness [N/m] and damping [N s/m] at a speed of the shaft, each of shape (2, 2)."""
+    def at(self, speed_rpm: float | _Floats) -> tuple[_Floats, _Floats]:
+        """Stiffness [N/m] and damping [N s/m] at speeds [rev/min], shape (2, 2) or one for each."""
         if self.speeds_rpm is None:
             return self.stiffness, self.damping
         K, C = (
-            np.array([np.interp(speed_rpm, self.speeds_rpm, entries) for entries in table.reshape(-1, 4).T])
+            np.stack([np.interp(speed_rpm, self.speeds_rpm, entries) for entries in table.reshape(-1, 4).T], -1)
             for table in (self.stiffness, self.damping)
         )
-        return K.reshape(2, 2), C.reshape(2, 2)
+        return K.reshape(*np.shape(speed_rpm), 2, 2), C.reshape(*np.shape(speed_rpm), 2, 2)
 
 
 @fields_take(cage_angle="rad")

@@ -233,7 +233,7 @@ def run_whole(study: Study, folder: Path) -> WholeFindings | None:
     }
     ran |= {name: _linear(study, *pair) for name, pair in constant.items()}
     hz = rpm / 60.0 * np.geomspace(*BAND, FREQUENCIES)
-    grid, disc = _response_grid(rpm / 60.0, ran), list(whole_rotor(study, wet).nodes["disc"].values())
+    grid, disc = _response_grid(rpm / 60.0, ran), [whole_rotor(study, wet).nodes["disc"][k] for k in "xy"]
     eccentricity = study.rotor.unbalance / study.rotor.disc_mass
     return WholeFindings(
         bearing=wet,
@@ -288,7 +288,7 @@ def _linear(study: Study, stiffness: _Floats, damping: _Floats) -> Ran:
     at = linearise(rotor, study.bearing.speed_rpm)
     t: _Floats = np.asarray(np.arange(round(begin / dt), round(until / dt) + 1) * dt, np.float64)
     q = at.motion(t)
-    ring, disc = (q[:, list(rotor.nodes[node].values())] for node in ("bearing 0", "disc"))
+    ring, disc = (q[:, [rotor.nodes[node][k] for k in "xy"]] for node in ("bearing 0", "disc"))
     return Ran(t, ring, disc, **_slowest(at), linear=at)
 
 

@@ -88,9 +88,8 @@ def test_against_the_beams_of_the_tests(dry):
     for one, other in ((rotor.mass, M), (rotor.stiffness, K), (rotor.gyroscopic, G)):
         np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-10 * np.abs(other).max())
     assert rotor.nodes == {
-        "bearing 0": {"x": 4, "y": 5},
-        "bearing 1": {"x": 20, "y": 21},
-        "disc": {"x": 12, "y": 13},
+        name: {"x": first, "y": first + 1, "tilt_x": first + 2, "tilt_y": first + 3}
+        for name, first in (("bearing 0", 4), ("bearing 1", 20), ("disc", 12))
     }
 
 

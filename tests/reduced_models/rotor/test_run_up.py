@@ -140,7 +140,7 @@ def test_forces_in_the_run_do_not_jump_where_laws_change(passage, runs):
 @pytest.mark.slow
 def test_the_run_up_does_not_depend_on_the_step(passage, film, runs):
     """Of second order through four resonances that ring on; the mean deflection does not care."""
-    x, up = list(passage.rotor(film).nodes["disc"].values()), passage.courses()[0]
+    x, up = [passage.rotor(film).nodes["disc"][k] for k in "xy"], passage.courses()[0]
     finest, fine = (passage.run(film, up, passage.DT / n) for n in (4, 2))
     orbits = [one.displacement[::n][:, x] for one, n in ((finest, 4), (fine, 2), (runs[0], 1))]
     near, far = (np.sqrt(np.mean((orbit - orbits[0]) ** 2)) / orbits[0].std() for orbit in orbits[1:])

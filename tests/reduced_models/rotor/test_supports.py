@@ -45,6 +45,9 @@ def test_the_settled_motion_of_a_linear_rotor_is_its_orbit(block):
     at = linearise(rotor, 3000.0)
     run = simulate_rotor(rotor, **RUN, start=at.orbit(), rho_inf=1.0)
     swing = np.ptp(at.motion(run.t), axis=0)
+    assert run.columns == ("bearing 0 x", "bearing 0 y") and run.largest_load.size == 0
+    np.testing.assert_array_equal(run.ring[:, 0], run.displacement)
+    np.testing.assert_allclose(run.ring_force[:, 0], run.displacement @ K.T + run.velocity @ C.T, rtol=1e-12)
     assert np.abs(run.displacement - at.motion(run.t)).max() < 1e-3 * swing.max()
 
 
