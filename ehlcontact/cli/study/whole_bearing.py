@@ -11,7 +11,7 @@ from typing import Any
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing
 from reduced_models.bearing.ball_bearing import LARGEST_PLAY
-from reduced_models.rotor.simulate import LEAST_STEPS
+from reduced_models.rotor.prepared_run import LEAST_STEPS
 
 ENTRIES = {  # of a study, where the library calls them otherwise
     "balls": "bearing.balls",
