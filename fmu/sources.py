@@ -21,7 +21,7 @@ class FmiFiles:
     licence: str | None  # of those that go into the FMU
 
 
-_SHARED = ("instance.c", "exchange.c")  # of the core: what both versions do alike
+_SHARED = ("instance.c", "values.c", "exchange.c")  # of the core: what both versions do alike
 
 FMI_FILES = {
     2: FmiFiles(

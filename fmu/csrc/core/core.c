@@ -8,13 +8,6 @@
 
 static const Fault fine = {FINE, NULL};
 
-static Fault refuse(const char *reason)
-{
-    Fault fault = {REFUSE, NULL};
-    fault.reason = reason;
-    return fault;
-}
-
 /* ---- values ---- */
 
 void core_start(State *s, Kind kind)
@@ -234,7 +227,7 @@ Fault core_contact_changed(State *s, int *changed)
 
 /* ---- validity ---- */
 
-const char *core_notice(State *s, char *text, size_t size)
+const char *core_warning(State *s, char *text, size_t size)
 {
     static const char lead[] = "outside the validity box:";
     const unsigned long long outside = model_outside(&s->model), before = s->noticed;

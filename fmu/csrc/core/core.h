@@ -1,4 +1,4 @@
-/* An FMU without its FMI version: variables, call sequence, steps, derivatives, saved states. The glue of a version
+/* An FMU without its FMI version: variables, call sequence, steps, derivatives, saved states. The interface of a version
  * adds names, logging and memory. A call that fails leaves the state as it was. */
 #ifndef CORE_H
 #define CORE_H
@@ -33,6 +33,11 @@ typedef struct {
     double start, nominal;
 } Variable;
 
+static inline Fault refuse(const char *reason)
+{
+    return fault(REFUSE, reason);
+}
+
 enum { STALE_LAW = 1, STALE_OUTPUTS = 2, STALE_RATES = 4, STALE_INPUTS = 8 }; /* what must be computed anew */
 
 /* All of an instance that can change, without padding: its bytes are the serialized state. */
@@ -44,7 +49,7 @@ typedef struct {
     double turn[N_INPUTS];               /* their slopes at `time`, for the derivatives of outputs */
     double input_slope[2][N_INPUTS];     /* first and second derivatives of the inputs, for the next step alone */
     unsigned long long slopes_set[2];    /* which of them were set: bit k is input k */
-    unsigned long long contact, noticed; /* bits: contacts that push; bounds whose leaving has been told */
+    unsigned long long contact, noticed; /* bits: contacts that push; bounds whose leaving has been logged */
     int phase, kind;
     int has_stop_time, has_last;
     int stale, unused;
@@ -89,14 +94,14 @@ Fault core_directional(State *state, const unsigned int unknowns[], size_t n_unk
 Fault core_adjoint(State *state, const unsigned int unknowns[], size_t n_unknowns, const unsigned int knowns[],
                    size_t n_knowns, const double seed[], double sensitivity[]);
 
-/* Model exchange. `core_contact_changed` tells once whether the surfaces have met or parted since it was last asked. */
+/* Model exchange. `core_contact_changed` is true where the surfaces have met or parted since its last call. */
 void core_set_states(State *state, const double states[]);
 Fault core_set_time(State *state, double time);
 Fault core_contact_changed(State *state, int *changed);
 unsigned long long core_contact(const State *state); /* contacts that push, as bits; of an evaluated model */
 
-/* What is to be told of the validity box, once until it is something else: NULL, or written to `text`. */
-const char *core_notice(State *state, char *text, size_t size);
+/* Bounds of the validity box that have been left since the last call, in words written to `text`; NULL for none. */
+const char *core_warning(State *state, char *text, size_t size);
 
 void core_save(const State *state, const char *token, Saved *saved);
 Fault core_load(State *state, const char *token, const Saved *saved);

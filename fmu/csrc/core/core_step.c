@@ -6,13 +6,6 @@
 
 static const Fault fine = {FINE, NULL};
 
-static Fault refuse(const char *reason)
-{
-    Fault fault = {REFUSE, NULL};
-    fault.reason = reason;
-    return fault;
-}
-
 /* ---- steps ---- */
 
 static Fault check_step(const State *s, double time, double h)

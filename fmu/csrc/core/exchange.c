@@ -7,7 +7,7 @@
 int set_time(void *c, double time, const char *function)
 {
     Instance *instance = enter_as(c, MODEL_EXCHANGE, EVENT | CONTINUOUS, function);
-    return instance == NULL ? FAILED : told(instance, core_set_time(&instance->state, time), function);
+    return instance == NULL ? FAILED : report(instance, core_set_time(&instance->state, time), function);
 }
 
 /* The instance, if the array is one of all `count` entries. */
@@ -28,7 +28,7 @@ static int hand_out(const Instance *instance, Fault fault, const double from[], 
     if (fault.severity == FINE && count > 0) {
         memcpy(to, from, count * sizeof to[0]);
     }
-    return told(instance, fault, function);
+    return report(instance, fault, function);
 }
 
 int set_states(void *c, const double states[], size_t count, const char *function)
@@ -86,7 +86,7 @@ int complete_step(void *c, const char *function)
     }
     fault = core_outputs(&instance->state);
     if (fault.severity == FINE) {
-        notice(instance, function);
+        warn_if_outside(instance, function);
     }
-    return told(instance, fault, function);
+    return report(instance, fault, function);
 }

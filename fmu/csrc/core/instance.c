@@ -1,4 +1,4 @@
-/* Guards, logging and phases of an instance of any FMI version, and its saved states; see instance.h. */
+/* Creation, guards, logging and phases of an instance of any FMI version, and its saved states; see instance.h. */
 #include "instance.h"
 
 #include <stdio.h>
@@ -24,7 +24,7 @@ int failed(const Instance *instance, const char *function, const char *message)
     return log_call(instance, FAILED, LOG_ERROR, function, message);
 }
 
-int told(const Instance *instance, Fault fault, const char *function)
+int report(const Instance *instance, Fault fault, const char *function)
 {
     if (fault.severity == FINE) {
         return DONE;
@@ -33,10 +33,10 @@ int told(const Instance *instance, Fault fault, const char *function)
                                     : log_call(instance, DISCARDED, LOG_DISCARD, function, fault.reason);
 }
 
-void notice(Instance *instance, const char *function)
+void warn_if_outside(Instance *instance, const char *function)
 {
     char text[160];
-    if (core_notice(&instance->state, text, sizeof text) != NULL) {
+    if (core_warning(&instance->state, text, sizeof text) != NULL) {
         log_call(instance, WARNED, LOG_WARNING, function, text);
     }
 }
@@ -52,7 +52,8 @@ Instance *enter_as(void *c, Kind kind, int phases, const char *function)
     return enter(c, phases, function);
 }
 
-void set_logging(Instance *instance, int on)
+/* Errors are always logged; the rest as asked for. */
+static void set_logging(Instance *instance, int on)
 {
     instance->logged[LOG_ERROR] = 1;
     instance->logged[LOG_DISCARD] = on;
@@ -90,9 +91,52 @@ int choose_logging(void *c, int on, size_t count, const char *const categories[]
     return DONE;
 }
 
+/* ---- creation and destruction ---- */
+
+void *make_instance(Instance *like, size_t size, const char *name, const char *token, int logging_on, Kind kind,
+                    const char *function)
+{
+    const Version *version = like->version;
+    Instance *made;
+    char *copy;
+    like->name = name;
+    set_logging(like, logging_on);
+    if (name == NULL || name[0] == '\0') {
+        failed(like, function, "the instance has no name");
+        return NULL;
+    }
+    if (token == NULL || strcmp(token, MODEL_TOKEN) != 0) {
+        failed(like, function, version->wrong_token);
+        return NULL;
+    }
+    made = (Instance *)version->allocate(like, size);
+    copy = made == NULL ? NULL : (char *)version->allocate(like, strlen(name) + 1);
+    if (copy == NULL) {
+        if (made != NULL) {
+            version->release(like, made);
+        }
+        failed(like, function, "out of memory");
+        return NULL;
+    }
+    strcpy(copy, name);
+    memcpy(made, like, size);
+    made->name = copy;
+    core_start(&made->state, kind);
+    return made;
+}
+
+void free_instance(void *c)
+{
+    Instance *instance = (Instance *)c;
+    if (instance != NULL) {
+        instance->version->release(instance, (void *)instance->name);
+        instance->version->release(instance, instance);
+    }
+}
+
 /* ---- call sequence ---- */
 
-static int go(Instance *instance, Phase next)
+static int set_phase(Instance *instance, Phase next)
 {
     if (instance == NULL) {
         return FAILED;
@@ -101,14 +145,38 @@ static int go(Instance *instance, Phase next)
     return DONE;
 }
 
-int go_on(void *c, int phases, Phase next, const char *function)
+int enter_phase(void *c, int phases, Phase next, const char *function)
 {
-    return go(enter(c, phases, function), next);
+    return set_phase(enter(c, phases, function), next);
 }
 
-int go_on_as(void *c, Kind kind, int phases, Phase next, const char *function)
+int enter_phase_as(void *c, Kind kind, int phases, Phase next, const char *function)
 {
-    return go(enter_as(c, kind, phases, function), next);
+    return set_phase(enter_as(c, kind, phases, function), next);
+}
+
+int set_up(void *c, double start, int has_stop, double stop, int has_tolerance, double tolerance, const char *function)
+{
+    Instance *instance = enter(c, INSTANTIATED, function);
+    return instance == NULL ? FAILED
+        : report(instance, core_setup(&instance->state, start, has_stop, stop, has_tolerance, tolerance), function);
+}
+
+int exit_initialization(void *c, int event_mode, const char *function)
+{
+    Instance *instance = enter(c, INITIALIZATION, function);
+    Fault fault;
+    if (instance == NULL) {
+        return FAILED;
+    }
+    fault = core_exit_initialization(&instance->state);
+    if (fault.severity == FINE) {
+        if (event_mode && instance->state.kind == CO_SIMULATION) {
+            instance->state.phase = EVENT;
+        }
+        warn_if_outside(instance, function);
+    }
+    return report(instance, fault, function);
 }
 
 int reset(void *c, const char *function)
@@ -148,7 +216,7 @@ int load_state(void *c, const void *saved, const char *function)
     if (instance == NULL || saved == NULL) {
         return FAILED;
     }
-    return told(instance, core_load(&instance->state, instance->version->token, (const Saved *)saved), function);
+    return report(instance, core_load(&instance->state, instance->version->token, (const Saved *)saved), function);
 }
 
 int free_state(void *c, void **saved, const char *function)
@@ -202,7 +270,7 @@ int read_state(void *c, const void *bytes, size_t size, void **saved, const char
     probe = instance->state;
     fault = core_load(&probe, instance->version->token, &found);
     if (fault.severity != FINE) {
-        return told(instance, fault, function);
+        return report(instance, fault, function);
     }
     if (make_room(instance, saved, function) != DONE) {
         return FAILED;

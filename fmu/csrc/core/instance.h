@@ -11,37 +11,42 @@ enum { DONE = 0, WARNED = 1, DISCARDED = 2, FAILED = 3 }; /* statuses of a call 
 
 typedef struct Instance Instance;
 
-/* What the glue of a version lends. */
+/* What the interface of a version provides. */
 typedef struct {
-    const char *token; /* of saved states */
+    const char *token;       /* of saved states */
+    const char *wrong_token; /* message about another token at instantiation */
     void (*log)(const Instance *instance, int status, const char *category, const char *text); /* to the importer */
     void *(*allocate)(const Instance *instance, size_t size);                                  /* zeroed, or NULL */
     void (*release)(const Instance *instance, void *memory);
 } Version;
 
-/* The first member of what the glue of a version has for an instance. */
+/* The first member of the instance of a version. */
 struct Instance {
     State state;
     const Version *version;
     int logged[LOG_CATEGORIES];
     int within_step; /* the importer is called from a step: reading is all that it may do */
-    char *name;
+    const char *name;
 };
 
 extern const char *const log_categories[LOG_CATEGORIES];
 
-/* Errors are always logged; the rest as asked for. */
-void set_logging(Instance *instance, int on);
+/* A new instance of `size` bytes, a copy of `like`, which has its version and callbacks; NULL, and the error logged, for
+ * want of a name, the right token or memory. */
+void *make_instance(Instance *like, size_t size, const char *name, const char *token, int logging_on, Kind kind,
+                    const char *function);
+void free_instance(void *c);
+
 int choose_logging(void *c, int on, size_t count, const char *const categories[], const char *function);
 
 /* Logs "function: message." as an error and returns FAILED. */
 int failed(const Instance *instance, const char *function, const char *message);
 
-/* Logs what a fault says and returns its status. */
-int told(const Instance *instance, Fault fault, const char *function);
+/* Logs the reason of a fault and returns its status. */
+int report(const Instance *instance, Fault fault, const char *function);
 
-/* Tells once that the validity box has been left. */
-void notice(Instance *instance, const char *function);
+/* Logs once that the validity box has been left. */
+void warn_if_outside(Instance *instance, const char *function);
 
 /* The instance behind c, or NULL (and the error logged) if the function may not be called in its phase; for what may be
  * called from within a step too. */
@@ -68,10 +73,21 @@ static inline Instance *enter(void *c, int phases, const char *function)
 
 Instance *enter_as(void *c, Kind kind, int phases, const char *function);
 
-/* On to another phase of the call sequence. */
-int go_on(void *c, int phases, Phase next, const char *function);
-int go_on_as(void *c, Kind kind, int phases, Phase next, const char *function);
+/* Enters another phase of the call sequence. */
+int enter_phase(void *c, int phases, Phase next, const char *function);
+int enter_phase_as(void *c, Kind kind, int phases, Phase next, const char *function);
+int set_up(void *c, double start, int has_stop, double stop, int has_tolerance, double tolerance, const char *function);
+int exit_initialization(void *c, int event_mode, const char *function);
 int reset(void *c, const char *function);
+
+/* Variables of a type that the importer has in an array of its own type of number: `put` writes entry i, `take` reads it.
+ * All values are set, or none. Derivatives of outputs in time, of order 1 alone. */
+int get_values(Instance *instance, const unsigned int references[], size_t count, Type type, void *values,
+               void (*put)(void *values, size_t i, double value), const char *function);
+int set_values(Instance *instance, const unsigned int references[], size_t count, Type type, const void *values,
+               double (*take)(const void *values, size_t i), const char *function);
+int get_slopes(Instance *instance, const unsigned int references[], size_t count, const int orders[], double values[],
+               const char *function);
 
 /* Model exchange. */
 int set_time(void *c, double time, const char *function);

@@ -1,5 +1,5 @@
-/* What the common core asks of a model, and a model of the core. config.h is generated: it numbers the variables, the
- * inputs first, counts them, states and contacts, says which later input is the rate of one (INPUT_RATES, -1 for none) and
+/* Functions that a model provides for the core, and what it gets. config.h is generated: it numbers the variables, the
+ * inputs first, counts them, states and contacts, names the later input that is the rate of one (INPUT_RATES, -1 for none) and
  * where a validity box ends. A Model is plain numbers, so copying it saves it. */
 #ifndef MODEL_H
 #define MODEL_H
@@ -18,6 +18,15 @@ typedef struct {
     Severity severity;
     const char *reason; /* NULL if fine */
 } Fault;
+
+/* A fault, or none where there is no reason. */
+static inline Fault fault(Severity severity, const char *reason)
+{
+    Fault f;
+    f.severity = reason == NULL ? FINE : severity;
+    f.reason = reason;
+    return f;
+}
 
 /* What the inputs of a step mean; the values of the parameter input_meaning. */
 typedef enum { EXTRAPOLATED = 1, AT_THE_END = 2, HELD = 3 } Meaning;

@@ -14,7 +14,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2R
     if (fault.severity != FINE) {
         return outcome(instance, fault, "fmi2DoStep");
     }
-    notice(instance, "fmi2DoStep");
+    warn_if_outside(instance, "fmi2DoStep");
     return fmi2OK;
 }
 
@@ -42,21 +42,10 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
                                         const fmi2Integer order[], fmi2Real value[])
 {
     Instance *instance = enter_as(c, CO_SIMULATION, STEPPING | TERMINATED, "fmi2GetRealOutputDerivatives");
-    size_t i;
     if (instance == NULL || missing(vr, value, nvr) || missing(vr, order, nvr)) {
         return fmi2Error;
     }
-    for (i = 0; i < nvr; i++) {
-        Fault fault;
-        if (order[i] != 1) {
-            return fail(instance, "fmi2GetRealOutputDerivatives", "only first derivatives are provided");
-        }
-        fault = core_output_slope(&instance->state, vr[i], &value[i]);
-        if (fault.severity != FINE) {
-            return outcome(instance, fault, "fmi2GetRealOutputDerivatives");
-        }
-    }
-    return fmi2OK;
+    return (fmi2Status)get_slopes(instance, vr, nvr, order, value, "fmi2GetRealOutputDerivatives");
 }
 
 /* ---- status ---- */

@@ -3,12 +3,12 @@
 
 fmi2Status fmi2EnterEventMode(fmi2Component c)
 {
-    return (fmi2Status)go_on_as(c, MODEL_EXCHANGE, CONTINUOUS, EVENT, "fmi2EnterEventMode");
+    return (fmi2Status)enter_phase_as(c, MODEL_EXCHANGE, CONTINUOUS, EVENT, "fmi2EnterEventMode");
 }
 
 fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c)
 {
-    return (fmi2Status)go_on_as(c, MODEL_EXCHANGE, EVENT, CONTINUOUS, "fmi2EnterContinuousTimeMode");
+    return (fmi2Status)enter_phase_as(c, MODEL_EXCHANGE, EVENT, CONTINUOUS, "fmi2EnterContinuousTimeMode");
 }
 
 fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *eventInfo)

@@ -1,4 +1,4 @@
-/* What the files of the FMI 2.0 glue share. */
+/* Helpers of the FMI 2.0 interface. */
 #ifndef FMI2_INSTANCE_H
 #define FMI2_INSTANCE_H
 
@@ -12,10 +12,10 @@ static inline fmi2Status fail(const Instance *instance, const char *function, co
     return (fmi2Status)failed(instance, function, message);
 }
 
-/* Logs what a fault says and returns its status; fmi2OK for none. */
+/* Logs the reason of a fault and returns its status; fmi2OK for none. */
 static inline fmi2Status outcome(const Instance *instance, Fault fault, const char *function)
 {
-    return fault.severity == FINE ? fmi2OK : (fmi2Status)told(instance, fault, function);
+    return fault.severity == FINE ? fmi2OK : (fmi2Status)report(instance, fault, function);
 }
 
 /* NULL arrays are legal only for no elements. */

@@ -19,61 +19,51 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
     return outcome(instance, core_set(&instance->state, vr, nvr, REAL, value), "fmi2SetReal");
 }
 
+/* ---- flags and input_meaning ---- */
+
+static void put_boolean(void *values, size_t i, double value)
+{
+    ((fmi2Boolean *)values)[i] = value > 0.0 ? fmi2True : fmi2False;
+}
+
+static void put_integer(void *values, size_t i, double value)
+{
+    ((fmi2Integer *)values)[i] = (fmi2Integer)value;
+}
+
+static double take_integer(const void *values, size_t i)
+{
+    return ((const fmi2Integer *)values)[i];
+}
+
 fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Boolean value[])
 {
     Instance *instance = enter(c, READABLE, "fmi2GetBoolean");
-    size_t i;
     if (instance == NULL || missing(vr, value, nvr)) {
         return fmi2Error;
     }
-    for (i = 0; i < nvr; i++) {
-        double found = 0.0;
-        const Fault fault = core_get(&instance->state, &vr[i], 1, BOOLEAN, &found);
-        if (fault.severity != FINE) {
-            return outcome(instance, fault, "fmi2GetBoolean");
-        }
-        value[i] = found > 0.0 ? fmi2True : fmi2False;
-    }
-    return fmi2OK;
+    return (fmi2Status)get_values(instance, vr, nvr, BOOLEAN, value, put_boolean, "fmi2GetBoolean");
 }
 
 fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Integer value[])
 {
     Instance *instance = enter(c, READABLE, "fmi2GetInteger");
-    size_t i;
     if (instance == NULL || missing(vr, value, nvr)) {
         return fmi2Error;
     }
-    for (i = 0; i < nvr; i++) {
-        double found = 0.0;
-        const Fault fault = core_get(&instance->state, &vr[i], 1, ENUMERATION, &found);
-        if (fault.severity != FINE) {
-            return outcome(instance, fault, "fmi2GetInteger");
-        }
-        value[i] = (fmi2Integer)found;
-    }
-    return fmi2OK;
+    return (fmi2Status)get_values(instance, vr, nvr, ENUMERATION, value, put_integer, "fmi2GetInteger");
 }
-/* All values or none, as `core_set` has it for real ones. */
+
 fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer value[])
 {
     Instance *instance = enter(c, ANY_PHASE, "fmi2SetInteger");
-    size_t i;
     if (instance == NULL || missing(vr, value, nvr)) {
         return fmi2Error;
     }
-    for (i = 0; i < nvr; i++) {
-        const Fault fault = core_may_set(&instance->state, vr[i], ENUMERATION, value[i]);
-        if (fault.severity != FINE) {
-            return outcome(instance, fault, "fmi2SetInteger");
-        }
-    }
-    for (i = 0; i < nvr; i++) {
-        const double number = value[i];
-        core_set(&instance->state, &vr[i], 1, ENUMERATION, &number);
-    }
-    return fmi2OK;
+    return (fmi2Status)set_values(instance, vr, nvr, ENUMERATION, value, take_integer, "fmi2SetInteger");
 }
+
+/* ---- partial derivatives ---- */
 
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference vUnknown_ref[], size_t nUnknown,
                                         const fmi2ValueReference vKnown_ref[], size_t nKnown,

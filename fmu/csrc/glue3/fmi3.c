@@ -27,7 +27,7 @@ fmi3Status fmi3SetDebugLogging(fmi3Instance c, fmi3Boolean loggingOn, size_t nCa
     return (fmi3Status)choose_logging(c, loggingOn, nCategories, categories, "fmi3SetDebugLogging");
 }
 
-/* ---- what the core asks ---- */
+/* ---- callbacks of the importer, and memory ---- */
 
 static void log_text(const Instance *instance, int status, const char *category, const char *text)
 {
@@ -49,46 +49,20 @@ static void release(const Instance *instance, void *memory)
     free(memory);
 }
 
-static const Version version = {"FMI 3.0 " MODEL_TOKEN, log_text, allocate, release};
+static const Version version = {"FMI 3.0 " MODEL_TOKEN, "wrong instantiation token, expected " MODEL_TOKEN, log_text,
+                                allocate, release};
 
 /* ---- creation and destruction ---- */
 
 static Unit *make(fmi3String name, fmi3String token, fmi3Boolean loggingOn, fmi3InstanceEnvironment environment,
-                  fmi3LogMessageCallback log, Kind kind)
+                  fmi3LogMessageCallback log, Kind kind, const char *function)
 {
-    const char *reason = NULL;
-    Unit *unit = NULL;
-    size_t length;
-    if (name == NULL || name[0] == '\0') {
-        reason = "fmi3Instantiate: the instance has no name.";
-    } else if (token == NULL || strcmp(token, MODEL_TOKEN) != 0) {
-        reason = "fmi3Instantiate: wrong instantiation token, expected " MODEL_TOKEN ".";
-    } else {
-        length = strlen(name) + 1;
-        unit = (Unit *)calloc(1, sizeof *unit);
-        if (unit != NULL) {
-            unit->common.name = (char *)malloc(length);
-        }
-        if (unit == NULL || unit->common.name == NULL) {
-            free(unit);
-            unit = NULL;
-            reason = "fmi3Instantiate: out of memory.";
-        } else {
-            memcpy(unit->common.name, name, length);
-        }
-    }
-    if (unit == NULL) {
-        if (log != NULL) {
-            log(environment, fmi3Error, log_categories[LOG_ERROR], reason);
-        }
-        return NULL;
-    }
-    unit->common.version = &version;
-    unit->environment = environment;
-    unit->log = log;
-    set_logging(&unit->common, loggingOn);
-    core_start(&unit->common.state, kind);
-    return unit;
+    Unit like;
+    memset(&like, 0, sizeof like);
+    like.common.version = &version;
+    like.environment = environment;
+    like.log = log;
+    return (Unit *)make_instance(&like.common, sizeof like, name, token, loggingOn, kind, function);
 }
 
 fmi3Instance fmi3InstantiateModelExchange(fmi3String instanceName, fmi3String instantiationToken,
@@ -97,7 +71,8 @@ fmi3Instance fmi3InstantiateModelExchange(fmi3String instanceName, fmi3String in
                                           fmi3LogMessageCallback logMessage)
 {
     (void)resourcePath, (void)visible; /* nothing is read from there, nothing shown */
-    return make(instanceName, instantiationToken, loggingOn, instanceEnvironment, logMessage, MODEL_EXCHANGE);
+    return make(instanceName, instantiationToken, loggingOn, instanceEnvironment, logMessage, MODEL_EXCHANGE,
+                "fmi3Instantiate");
 }
 
 fmi3Instance fmi3InstantiateCoSimulation(fmi3String instanceName, fmi3String instantiationToken,
@@ -112,7 +87,8 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String instanceName, fmi3String ins
     Unit *unit;
     (void)resourcePath, (void)visible;
     (void)requiredIntermediateVariables, (void)nRequiredIntermediateVariables; /* all can be read there */
-    unit = make(instanceName, instantiationToken, loggingOn, instanceEnvironment, logMessage, CO_SIMULATION);
+    unit = make(instanceName, instantiationToken, loggingOn, instanceEnvironment, logMessage, CO_SIMULATION,
+                "fmi3Instantiate");
     if (unit != NULL) {
         unit->event_mode = eventModeUsed;
         unit->early_return = earlyReturnAllowed;
@@ -139,11 +115,7 @@ fmi3Instance fmi3InstantiateScheduledExecution(fmi3String instanceName, fmi3Stri
 
 void fmi3FreeInstance(fmi3Instance c)
 {
-    Unit *unit = (Unit *)c;
-    if (unit != NULL) {
-        free(unit->common.name);
-        free(unit);
-    }
+    free_instance(c);
 }
 
 /* ---- call sequence ---- */
@@ -151,33 +123,15 @@ void fmi3FreeInstance(fmi3Instance c)
 fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean toleranceDefined, fmi3Float64 tolerance,
                                        fmi3Float64 startTime, fmi3Boolean stopTimeDefined, fmi3Float64 stopTime)
 {
-    Instance *instance = enter(c, INSTANTIATED, "fmi3EnterInitializationMode");
-    Fault fault;
-    if (instance == NULL) {
-        return fmi3Error;
-    }
-    fault = core_setup(&instance->state, startTime, stopTimeDefined, stopTime, toleranceDefined, tolerance);
-    if (fault.severity == FINE) {
-        instance->state.phase = INITIALIZATION;
-    }
-    return outcome(instance, fault, "fmi3EnterInitializationMode");
+    const char *function = "fmi3EnterInitializationMode";
+    const int status = set_up(c, startTime, stopTimeDefined, stopTime, toleranceDefined, tolerance, function);
+    return (fmi3Status)(status == DONE ? enter_phase(c, INSTANTIATED, INITIALIZATION, function) : status);
 }
 
 fmi3Status fmi3ExitInitializationMode(fmi3Instance c)
 {
-    Instance *instance = enter(c, INITIALIZATION, "fmi3ExitInitializationMode");
-    Fault fault;
-    if (instance == NULL) {
-        return fmi3Error;
-    }
-    fault = core_exit_initialization(&instance->state);
-    if (fault.severity == FINE) {
-        if (instance->state.kind == CO_SIMULATION && ((const Unit *)c)->event_mode) {
-            instance->state.phase = EVENT;
-        }
-        notice(instance, "fmi3ExitInitializationMode");
-    }
-    return outcome(instance, fault, "fmi3ExitInitializationMode");
+    const int event_mode = c != NULL && ((const Unit *)c)->event_mode;
+    return (fmi3Status)exit_initialization(c, event_mode, "fmi3ExitInitializationMode");
 }
 
 fmi3Status fmi3EnterEventMode(fmi3Instance c)
@@ -186,12 +140,12 @@ fmi3Status fmi3EnterEventMode(fmi3Instance c)
     if (unit != NULL && unit->common.state.kind == CO_SIMULATION && !unit->event_mode) {
         return fail(&unit->common, "fmi3EnterEventMode", "this instance was made without event mode");
     }
-    return (fmi3Status)go_on(c, CONTINUOUS | STEPPING, EVENT, "fmi3EnterEventMode");
+    return (fmi3Status)enter_phase(c, CONTINUOUS | STEPPING, EVENT, "fmi3EnterEventMode");
 }
 
 fmi3Status fmi3Terminate(fmi3Instance c)
 {
-    return (fmi3Status)go_on(c, STEPPING | EVENT | CONTINUOUS, TERMINATED, "fmi3Terminate");
+    return (fmi3Status)enter_phase(c, STEPPING | EVENT | CONTINUOUS, TERMINATED, "fmi3Terminate");
 }
 
 fmi3Status fmi3Reset(fmi3Instance c)

@@ -7,11 +7,11 @@
 
 fmi3Status fmi3EnterStepMode(fmi3Instance c)
 {
-    return (fmi3Status)go_on_as(c, CO_SIMULATION, EVENT, STEPPING, "fmi3EnterStepMode");
+    return (fmi3Status)enter_phase_as(c, CO_SIMULATION, EVENT, STEPPING, "fmi3EnterStepMode");
 }
 
 /* Lets the importer read what there is at the end of a step, where it returns anyway. */
-static void tell(Unit *unit)
+static void call_update(Unit *unit)
 {
     const State *state = &unit->common.state;
     fmi3Boolean return_requested = fmi3False;
@@ -80,8 +80,8 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 currentCommunicationPoint, fmi
         }
     }
     *lastSuccessfulTime = instance->state.time;
-    notice(instance, "fmi3DoStep");
-    tell(unit);
+    warn_if_outside(instance, "fmi3DoStep");
+    call_update(unit);
     return fmi3OK;
 }
 
@@ -90,7 +90,6 @@ fmi3Status fmi3GetOutputDerivatives(fmi3Instance c, const fmi3ValueReference val
                                     size_t nValues)
 {
     Instance *instance = (Instance *)c;
-    size_t i;
     if (instance != NULL && instance->state.kind != CO_SIMULATION) {
         return fail(instance, "fmi3GetOutputDerivatives", "this instance is for model exchange");
     }
@@ -100,15 +99,5 @@ fmi3Status fmi3GetOutputDerivatives(fmi3Instance c, const fmi3ValueReference val
         || (nValueReferences > 0 && orders == NULL)) {
         return fmi3Error;
     }
-    for (i = 0; i < nValueReferences; i++) {
-        Fault fault;
-        if (orders[i] != 1) {
-            return fail(instance, "fmi3GetOutputDerivatives", "only first derivatives are provided");
-        }
-        fault = core_output_slope(&instance->state, valueReferences[i], &values[i]);
-        if (fault.severity != FINE) {
-            return outcome(instance, fault, "fmi3GetOutputDerivatives");
-        }
-    }
-    return fmi3OK;
+    return (fmi3Status)get_slopes(instance, valueReferences, nValueReferences, orders, values, "fmi3GetOutputDerivatives");
 }

@@ -3,7 +3,7 @@
 
 fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance c)
 {
-    return (fmi3Status)go_on_as(c, MODEL_EXCHANGE, EVENT, CONTINUOUS, "fmi3EnterContinuousTimeMode");
+    return (fmi3Status)enter_phase_as(c, MODEL_EXCHANGE, EVENT, CONTINUOUS, "fmi3EnterContinuousTimeMode");
 }
 
 fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean noSetFMUStatePriorToCurrentPoint,

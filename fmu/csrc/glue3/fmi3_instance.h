@@ -1,4 +1,4 @@
-/* One FMI 3.0 instance, and what the files of the FMI 3.0 glue share. */
+/* An instance of FMI 3.0, and helpers of the FMI 3.0 interface. */
 #ifndef FMI3_INSTANCE_H
 #define FMI3_INSTANCE_H
 
@@ -30,10 +30,10 @@ static inline fmi3Status fail(const Instance *instance, const char *function, co
     return (fmi3Status)failed(instance, function, message);
 }
 
-/* Logs what a fault says and returns its status; fmi3OK for none. */
+/* Logs the reason of a fault and returns its status; fmi3OK for none. */
 static inline fmi3Status outcome(const Instance *instance, Fault fault, const char *function)
 {
-    return fault.severity == FINE ? fmi3OK : (fmi3Status)told(instance, fault, function);
+    return fault.severity == FINE ? fmi3OK : (fmi3Status)report(instance, fault, function);
 }
 
 /* Whether these arrays cannot be: NULL though there are elements, or of unequal lengths. */

@@ -57,66 +57,55 @@ fmi3Status fmi3SetFloat64(fmi3Instance c, const fmi3ValueReference valueReferenc
 
 /* ---- flags and input_meaning ---- */
 
+static void put_boolean(void *values, size_t i, double value)
+{
+    ((fmi3Boolean *)values)[i] = value > 0.0;
+}
+
+static void put_integer(void *values, size_t i, double value)
+{
+    ((fmi3Int64 *)values)[i] = (fmi3Int64)value;
+}
+
+static double take_integer(const void *values, size_t i)
+{
+    return (double)((const fmi3Int64 *)values)[i];
+}
+
 fmi3Status fmi3GetBoolean(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                           fmi3Boolean values[], size_t nValues)
 {
     Instance *instance = enter_to_read(c, ANY_PHASE, "fmi3GetBoolean");
-    size_t i;
     if (instance == NULL
         || unsuitable(instance, valueReferences, nValueReferences, values, nValues, "fmi3GetBoolean")) {
         return fmi3Error;
     }
-    for (i = 0; i < nValueReferences; i++) {
-        double found = 0.0;
-        const Fault fault = core_get(&instance->state, &valueReferences[i], 1, BOOLEAN, &found);
-        if (fault.severity != FINE) {
-            return outcome(instance, fault, "fmi3GetBoolean");
-        }
-        values[i] = found > 0.0;
-    }
-    return fmi3OK;
+    return (fmi3Status)get_values(instance, valueReferences, nValueReferences, BOOLEAN, values, put_boolean,
+                                  "fmi3GetBoolean");
 }
 
 fmi3Status fmi3GetInt64(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                         fmi3Int64 values[], size_t nValues)
 {
     Instance *instance = enter_to_read(c, ANY_PHASE, "fmi3GetInt64");
-    size_t i;
     if (instance == NULL
         || unsuitable(instance, valueReferences, nValueReferences, values, nValues, "fmi3GetInt64")) {
         return fmi3Error;
     }
-    for (i = 0; i < nValueReferences; i++) {
-        double found = 0.0;
-        const Fault fault = core_get(&instance->state, &valueReferences[i], 1, ENUMERATION, &found);
-        if (fault.severity != FINE) {
-            return outcome(instance, fault, "fmi3GetInt64");
-        }
-        values[i] = (fmi3Int64)found;
-    }
-    return fmi3OK;
+    return (fmi3Status)get_values(instance, valueReferences, nValueReferences, ENUMERATION, values, put_integer,
+                                  "fmi3GetInt64");
 }
 
 fmi3Status fmi3SetInt64(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                         const fmi3Int64 values[], size_t nValues)
 {
     Instance *instance = enter(c, ANY_PHASE, "fmi3SetInt64");
-    size_t i;
     if (instance == NULL
         || unsuitable(instance, valueReferences, nValueReferences, values, nValues, "fmi3SetInt64")) {
         return fmi3Error;
     }
-    for (i = 0; i < nValueReferences; i++) {
-        const Fault fault = core_may_set(&instance->state, valueReferences[i], ENUMERATION, (double)values[i]);
-        if (fault.severity != FINE) {
-            return outcome(instance, fault, "fmi3SetInt64");
-        }
-    }
-    for (i = 0; i < nValueReferences; i++) {
-        const double number = (double)values[i];
-        core_set(&instance->state, &valueReferences[i], 1, ENUMERATION, &number);
-    }
-    return fmi3OK;
+    return (fmi3Status)set_values(instance, valueReferences, nValueReferences, ENUMERATION, values, take_integer,
+                                  "fmi3SetInt64");
 }
 
 /* ---- partial derivatives ---- */

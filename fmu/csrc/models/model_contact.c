@@ -26,14 +26,6 @@ typedef struct {
 
 static const Fault fine = {FINE, NULL};
 
-static Fault fault(Severity severity, const char *reason)
-{
-    Fault f;
-    f.severity = severity;
-    f.reason = reason;
-    return f;
-}
-
 /* ---- the spring between the ends ---- */
 
 #ifdef LAW_POWER
@@ -270,7 +262,7 @@ static Response contact(Dual u, Dual v, const Law *law)
     return r;
 }
 
-/* ---- what the core asks ---- */
+/* ---- functions of model.h ---- */
 
 Fault model_prepare(Model *m)
 {

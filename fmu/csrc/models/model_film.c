@@ -14,14 +14,6 @@ static const double smooth = 0.02; /* change of theta, and of phi's slope, withi
 
 static const Fault fine = {FINE, NULL};
 
-static Fault fault(Severity severity, const char *reason)
-{
-    Fault f;
-    f.severity = severity;
-    f.reason = reason;
-    return f;
-}
-
 /* ---- units ---- */
 
 static double own_approach(double approach)

@@ -7,14 +7,6 @@
 
 static const Fault fine = {FINE, NULL};
 
-static Fault fault(Severity severity, const char *reason)
-{
-    Fault f;
-    f.severity = reason == NULL ? FINE : severity;
-    f.reason = reason;
-    return f;
-}
-
 /* ---- mounts ---- */
 
 double rotor_rate(int mount, const double velocity[])
@@ -62,8 +54,7 @@ static double pointing(double angle, int k)
     return k + 2 - AXES == 0 ? cos(angle) : sin(angle);
 }
 
-/* Along the axis k, of the force of the shaft on the disc. */
-static double shaft(const double value[], const double d[], const double v[], int k)
+double rotor_shaft(const double value[], const double d[], const double v[], int k)
 {
     return -value[VR_shaft_stiffness] * (d[DISC + k] - d[JOURNAL + k])
            - value[VR_shaft_damping] * (v[DISC + k] - v[JOURNAL + k]);
@@ -88,13 +79,13 @@ void rotor_accelerations(const double value[], const double applied[], const dou
     const double *d = &value[POSITION], *v = &value[VELOCITY];
     int k;
     for (k = 0; k < AXES; k++) {
-        const double pull = shaft(value, d, v, k);
+        const double pull = rotor_shaft(value, d, v, k);
         accelerations[DISC + k] = (applied[DISC + k] + pull - value[VR_disc_damping] * v[DISC + k]) / value[VR_disc_mass];
         accelerations[JOURNAL + k] = (applied[JOURNAL + k] - pull - carried[k]) / value[VR_journal_mass];
     }
 }
 
-/* ---- what the core asks ---- */
+/* ---- functions of model.h ---- */
 
 Fault model_prepare(Model *m)
 {
@@ -179,8 +170,7 @@ void model_direction(const Model *m, const double seed[], double along[])
     for (k = 0; k < AXES; k++) {
         /* a quarter of a turn on, the pointer is its own derivative by the angle */
         const double turned = k + 2 - AXES == 0 ? -sin(angle) : cos(angle);
-        const double pull = -m->value[VR_shaft_stiffness] * (d[DISC + k] - d[JOURNAL + k])
-                            - m->value[VR_shaft_damping] * (v[DISC + k] - v[JOURNAL + k]);
+        const double pull = rotor_shaft(m->value, d, v, k);
         applied[DISC + k] = swing * pointing(angle, k) + unbalance * omega * omega * turned * seed[ANGLE]
                             + seed[DISC_FORCE + k];
         applied[JOURNAL + k] = seed[JOURNAL_FORCE + k];

@@ -46,6 +46,9 @@ const char *rotor_mounts(Model *model);
 /* Adds what a force of a contact, in all bearings, takes from the journal. */
 void rotor_carry(int mount, double force, double carried[]);
 
+/* Force of the shaft on the disc along the axis k, at displacements d and velocities v of disc and journal. */
+double rotor_shaft(const double value[], const double d[], const double v[], int k);
+
 /* Forces applied to the degrees of freedom at an angle of the unbalance, with these inputs. */
 void rotor_applied(const double value[], const double inputs[], double angle, double applied[]);
 

@@ -12,14 +12,6 @@ static const double by_rounding = 1e-9;    /* of an inner step, that a step of t
 
 static const Fault fine = {FINE, NULL};
 
-static Fault fault(Severity severity, const char *reason)
-{
-    Fault f;
-    f.severity = reason == NULL ? FINE : severity;
-    f.reason = reason;
-    return f;
-}
-
 /* What a step of length h makes of the linear part. */
 typedef struct {
     double h, alpha_m, alpha_f, weight;
@@ -60,8 +52,7 @@ static Condensed condense(const double value[], double h)
 /* Force of shaft and dampers on disc and journal along an axis. */
 static void pulled(const double value[], const double d[], const double v[], int k, double force[2])
 {
-    const double pull = value[VR_shaft_stiffness] * (d[JOURNAL + k] - d[DISC + k])
-                        + value[VR_shaft_damping] * (v[JOURNAL + k] - v[DISC + k]);
+    const double pull = rotor_shaft(value, d, v, k);
     force[0] = pull - value[VR_disc_damping] * v[DISC + k];
     force[1] = -pull;
 }
