@@ -14,10 +14,10 @@ from ehlcontact.errors import ConvergenceError
 from ehlcontact.status import Status
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.validity import OutsideValidityWarning
-from reduced_models.rotor.contact import ScaledContact
 from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
 from reduced_models.rotor.linearise import linearise
 from reduced_models.rotor.result import RotorResult
+from reduced_models.rotor.scaled_contact import ScaledContact
 from reduced_models.rotor.settling import run_until_settled
 from reduced_models.rotor.simulate import simulate_rotor
 
