@@ -28,8 +28,8 @@ from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
-from ehlcontact.solver.memory import Solve
-from ehlcontact.solver.mesh_choice import Mesh, Purpose, mesh_for, require_room, wider_meshes
+from ehlcontact.solver.mesh import Mesh, Solve
+from ehlcontact.solver.mesh_choice import Purpose, mesh_for, wider_meshes
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
@@ -110,7 +110,7 @@ def _steady(point: Point, grid: Grid, threads: int) -> SteadyResult:
     """The film to linearise; on a wider region where none is given and light load needs it."""
     moes = moes_point(point)
     mesh = mesh_for(moes, Purpose.DAMPING, grid)
-    require_room(mesh, moes, Solve.IMPEDANCE)
+    mesh.require_memory(Solve.IMPEDANCE)
     for tried in wider_meshes(mesh, moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE):
         own = Grid(tried.n, tried.domain, grid.deflection)
         steady = solve_steady(point, grid=own, threads=threads, throw=False)
@@ -144,7 +144,7 @@ class LinearisedContact:
     """
 
     def __init__(self, film: SteadyResult, deflection: str = "fft", threads: int = 1) -> None:
-        mesh = Mesh(film.n, film.domain)
+        mesh = Mesh(film.n, film.domain, film.point.kappa)
         self._multigrid = Multigrid(film.point, mesh, deflection=deflection, threads=threads)
         level = self._level = self._multigrid.finest
         level.P[...] = film.P.T

@@ -356,25 +356,22 @@ def require_solvable(point: Point, largest_load: float = 1.0, given: Given | Non
         An input that is no rolling contact's; M, L, kappa or a pressure outside `checks.admissible_range`.
     """
     moes = moes_point(point)
-    if isinstance(point, OperatingPoint):
-        inputs = _si_inputs(point) if given is None else given
-    else:
-        inputs = {name: (getattr(moes, name), INPUTS[name]) for name in ("alpha", "eta0")}
-        for name, (value, quantity) in inputs.items():
-            quantity.require(name, value)
-    require_admissible(_range_numbers(moes), inputs)
+    cases = {"": moes}
     if largest_load > 1.0:
-        require_admissible(
-            _range_numbers(replace(moes, M=moes.M * largest_load)), inputs, " under the largest load"
-        )
+        cases[" under the largest load"] = replace(moes, M=moes.M * largest_load)
+    inputs = given if given is not None and isinstance(point, OperatingPoint) else _inputs(point)
+    require_admissible({when: _range_numbers(case) for when, case in cases.items()}, inputs)
     return moes
 
 
-def _si_inputs(point: OperatingPoint) -> Given:
-    """What an operating point was made of."""
-    body, oil = point.geometry, point.lubricant
-    values = {name: getattr(body, name) for name in ("radius_x", "radius_y", "e1", "e2")}
-    values |= {"eta0": oil.eta0, "alpha": oil.alpha, "load": point.load, "u_sum": point.u_sum}
+def _inputs(point: Point) -> Given:
+    """SI inputs of a point."""
+    if isinstance(point, MoesPoint):
+        values = {"alpha": point.alpha, "eta0": point.eta0}
+    else:
+        body, oil = point.geometry, point.lubricant
+        values = {name: getattr(body, name) for name in ("radius_x", "radius_y", "e1", "e2")}
+        values |= {"eta0": oil.eta0, "alpha": oil.alpha, "load": point.load, "u_sum": point.u_sum}
     return {name: (value, INPUTS[name]) for name, value in values.items()}
 
 

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import replace
-from functools import partial
-from typing import Any, NamedTuple
+from collections.abc import Callable
 
 import numpy as np
 
@@ -17,25 +14,13 @@ from ehlcontact.point import MoesPoint, Point, Scales, require_solvable, scales_
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.acceleration import AcceleratedCycles
+from ehlcontact.solver.attempts import METHODS, Method, attempts
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.error_grids import estimate_error
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
-from ehlcontact.solver.memory import Solve
-from ehlcontact.solver.mesh_choice import (
-    FAILED,
-    LARGEST_ATTEMPTS,
-    Mesh,
-    Purpose,
-    allows_newton,
-    is_last,
-    mesh_for,
-    newton_mesh,
-    remedy,
-    require_room,
-)
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.status import Status
@@ -45,28 +30,6 @@ LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7
 MAX_CYCLES = 80  # of V cycles: films of the box take up to 18
 LARGEST_APPROACH = 1e9  # beyond all that is solved, and its power still a number
-
-
-class Method(NamedTuple):
-    """Solution method on one mesh."""
-
-    newton: bool
-    sweep_factor: int  # of the cycles, and of those that lead to the start of Newton steps
-    load_continuation: bool = False  # during full multigrid
-
-
-LAST_RESORT = Method(newton=True, sweep_factor=2)  # as the attempt before, whose start was no worse
-# Twice the sweeps settle some films that single ones do not; a second attempt at once costs less than Newton.
-METHODS = {
-    "automatic": (Method(False, 1), Method(False, 2), LAST_RESORT),
-    "multigrid": (Method(False, 1),),
-    "newton": (Method(True, 1),),
-}
-# Where lines lie close, twice the sweeps settle nothing that single ones do not; load continuation does, at up to
-# three times the cost. Newton steps come last: on grids of this kind they cost more, and fail where it does not.
-CONTINUATION = Method(newton=False, sweep_factor=1, load_continuation=True)
-CLOSE_LAST_RESORT = Method(newton=True, sweep_factor=1)
-CLOSE_METHODS = (Method(False, 1), CONTINUATION, CLOSE_LAST_RESORT)
 
 
 @one_blas_thread()
@@ -133,7 +96,6 @@ def solve_steady(
         Not converged; ``error.result`` holds the partial result.
     """
     started = time.perf_counter()
-    moes = require_solvable(point)
     require_integer("max_cycles", max_cycles, "a whole number > 0", 1)
     require_positive("tol", tol)
     require_instance("refine", refine, bool | np.bool_, "True or False")
@@ -141,77 +103,29 @@ def solve_steady(
     require_grid(grid)
     threads = require_threads("threads", threads)
     if approach is None:
-        balance = Balance.of_load()
+        balance, load = Balance.of_load(), 1.0
     else:
         balance = Balance.of_approach(require_finite("approach", approach))
         load = min(max(approach, 1.0), LARGEST_APPROACH) ** 1.5  # of a dry contact
-        require_solvable(point, load)
-        if load > 1.0 and grid.domain is None:
-            grid = replace(grid, domain=Domain.for_point(moes, load))
-    mesh = mesh_for(moes, Purpose.FILM, grid)
-    require_room(mesh, moes, Solve.NEWTON if method == "newton" else Solve.CYCLES)
-    work = partial(
-        _solve,
-        moes,
-        deflection=grid.deflection,
-        threads=threads,
-        balance=balance,
-        tol=tol,
-        most=max_cycles,
-        watch=callback,
-    )
-    solved, status = work(mesh, _methods(method, mesh, moes))
-    for _ in range(1, LARGEST_ATTEMPTS):
-        error = solved.error_estimate if refine else None
-        other = remedy(solved.mesh, status, moes, grid=grid, error=error)
-        if other is None or _cut_short(status, max_cycles):
-            break
-        attempt, ended = work(other, _methods(method, other, moes)[: 1 if status.ok else None])
-        if status.ok and not ended.ok:  # a film that is solved stays, whatever becomes of a finer one
-            status = ended if ended is Status.INTERRUPTED else status
-            break
-        solved, status = attempt, ended
-    coarser = newton_mesh(solved.mesh, moes)
-    hopeless = status in FAILED and not _cut_short(status, max_cycles)
-    if grid.n is None and hopeless and LAST_RESORT in METHODS[method] and coarser != solved.mesh:
-        attempt, ended = work(coarser, _methods(method, coarser, moes)[-1:])
-        if ended not in FAILED:  # its smallest film may be far off, and says so; better than none
-            solved, status = attempt, ended
-    result = solved.result(status, scales_of(point), time.perf_counter() - started)
+    moes, scales = require_solvable(point, load), scales_of(point)
+    cut_short = max_cycles < MAX_CYCLES  # the caller's own limit: nothing else is what was asked for
+    for attempt in attempts(moes, grid, method, largest_load=load, refine=refine, cut_short=cut_short):
+        film = _Film(moes, attempt.mesh, attempt.method, grid.deflection, threads)
+        attempt.status = film.run(balance=balance, tol=tol, most=max_cycles, watch=callback)
+        attempt.error_estimate = film.error_estimate
+        if attempt.is_better:
+            solved, status = film, attempt.status
+        elif attempt.status is Status.INTERRUPTED:
+            status = attempt.status
+    result = solved.result(status, scales, time.perf_counter() - started)
     if throw and not status.ok and status is not Status.INTERRUPTED:
         where = f"after {result.cycles} iterations on n = {result.n}"
         raise ConvergenceError(f"steady solve {status} {where}: {status.advice}", result)
     return result
 
 
-def _methods(method: str, mesh: Mesh, point: MoesPoint) -> tuple[Method, ...]:
-    """What is tried on this mesh, one after the other."""
-    if mesh.y_refinement == 1 or LAST_RESORT not in METHODS[method]:
-        return METHODS[method]
-    return (CONTINUATION,) if is_last(mesh, point) else CLOSE_METHODS
-
-
-def _solve(
-    point: MoesPoint, mesh: Mesh, methods: Sequence[Method], *, deflection: str, threads: int, **run: Any
-) -> tuple[_Attempt, Status]:
-    """The first of `methods` that solves the film on this mesh, or the last that could be tried."""
-    for way in methods:
-        if (way is LAST_RESORT or way is CLOSE_LAST_RESORT) and not allows_newton(mesh, point):
-            break
-        attempt = _Attempt(point, mesh, way, deflection, threads)
-        status = attempt.run(**run)
-        if status not in FAILED or _cut_short(status, run["most"]):
-            break
-    return attempt, status
-
-
-def _cut_short(status: Status, most: int) -> bool:
-    """Whether the caller's own limit of cycles ended a solve: nothing else is what was asked for."""
-    return status is Status.MAX_CYCLES and most < MAX_CYCLES
-
-
-class _Attempt:
-    """One solve on one mesh, from full multigrid to a judged status."""
+class _Film:
+    """Solve of a film on one mesh, from full multigrid to a judged status."""
 
     def __init__(self, point: MoesPoint, mesh: Mesh, method: Method, deflection: str, threads: int) -> None:
         self.mesh, self.method = mesh, method
@@ -255,7 +169,7 @@ class _Attempt:
         return status
 
     def result(self, status: Status, scales: Scales | None, seconds: float) -> SteadyResult:
-        """Result of the attempt."""
+        """Result of the solve."""
         mg, level, track = self.multigrid, self.multigrid.finest, self.track
         return SteadyResult(
             point=mg.point,

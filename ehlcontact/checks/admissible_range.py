@@ -89,34 +89,36 @@ LIMITS = Limits((0.1, 60000.0), (0.0, 40.0), (0.04, 8.0), 5e9, 120.0)
 Given = Mapping[str, tuple[float, Quantity]]  # a user's inputs, by the user's name for each
 
 
-def require_admissible(numbers: Mapping[str, float], given: Given, when: str = "") -> None:
-    """Raise `InputError` for the first number outside `LIMITS`, with the slips that the inputs betray.
+def require_admissible(cases: Mapping[str, Mapping[str, float]], given: Given) -> None:
+    """Raise `InputError` for the first input or number outside its range, with the slips that the inputs betray.
 
     Parameters
     ----------
-    numbers : mapping
-        ``M``, ``L``, ``kappa``, ``p_hertz`` [Pa] and ``log_viscosity``.
+    cases : mapping
+        For each load ``M``, ``L``, ``kappa``, ``p_hertz`` [Pa] and ``log_viscosity``; the key is added to the name
+        of the number in messages, such as " under the largest load".
     given : mapping
         What they were made of.
-    when : str
-        Added to the name of the number: under which load, for one.
     """
+    for name, (value, quantity) in given.items():
+        quantity.require(name, value)
     slips = [f"{name} = {value:g} {guess}" for name, (value, q) in given.items() if (guess := q.slip(value))]
-    pressure = numbers["p_hertz"] * 1e-9
-    here = ", ".join(f"{name} = {numbers[name]:.4g}" for name in ("M", "L", "kappa"))
-    note = f", {MADE_FOR} ({'; '.join(slips) or f'{here}, {pressure:.3g} GPa'})"
-    if 0.0 < numbers["L"] < SMALLEST_L:
-        raise InputError(f"L{when}", numbers["L"], f"0, or between {SMALLEST_L:g} and {LIMITS.L[1]:g}{note}")
-    for name in ("M", "L", "kappa"):
-        low, high = getattr(LIMITS, name)
-        if not low <= numbers[name] <= high:
-            raise InputError(name + when, _short(numbers[name]), f"between {low:g} and {high:g}{note}")
-    if not numbers["p_hertz"] <= LIMITS.p_hertz:
-        allowed = f"at most {LIMITS.p_hertz * 1e-9:g}{note}"
-        raise InputError(f"Hertz pressure{when} in GPa", _short(pressure), allowed)
-    if not numbers["log_viscosity"] <= LIMITS.log_viscosity:
-        field, allowed = f"ln(eta/eta0) at the Hertz pressure{when}", f"at most {LIMITS.log_viscosity:g}{note}"
-        raise InputError(field, _short(numbers["log_viscosity"]), allowed)
+    for when, numbers in cases.items():
+        pressure = numbers["p_hertz"] * 1e-9
+        here = ", ".join(f"{name} = {numbers[name]:.4g}" for name in ("M", "L", "kappa"))
+        note = f", {MADE_FOR} ({'; '.join(slips) or f'{here}, {pressure:.3g} GPa'})"
+        if 0.0 < numbers["L"] < SMALLEST_L:
+            raise InputError(f"L{when}", numbers["L"], f"0, or between {SMALLEST_L:g} and {LIMITS.L[1]:g}{note}")
+        for name in ("M", "L", "kappa"):
+            low, high = getattr(LIMITS, name)
+            if not low <= numbers[name] <= high:
+                raise InputError(name + when, _short(numbers[name]), f"between {low:g} and {high:g}{note}")
+        if not numbers["p_hertz"] <= LIMITS.p_hertz:
+            allowed = f"at most {LIMITS.p_hertz * 1e-9:g}{note}"
+            raise InputError(f"Hertz pressure{when} in GPa", _short(pressure), allowed)
+        if not numbers["log_viscosity"] <= LIMITS.log_viscosity:
+            field, allowed = f"ln(eta/eta0) at the Hertz pressure{when}", f"at most {LIMITS.log_viscosity:g}{note}"
+            raise InputError(field, _short(numbers["log_viscosity"]), allowed)
 
 
 def _short(value: float) -> float:

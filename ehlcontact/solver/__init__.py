@@ -3,11 +3,12 @@
 ================ ==========================================================================================
 module           responsibility
 ================ ==========================================================================================
+``mesh``         `Mesh`: intervals, region, refinement across; its nodes and the memory that a solve takes
 ``mesh_choice``  `mesh_for`, `remedy`: region and fineness of a film, and the mesh to try after a failure
+``attempts``     `attempts`: meshes and methods for a steady film, in the order in which they are tried
 ``grid_rules``   conditions on ellipse ratio, inlet width and load; coarsest grid and load of coarse levels
 ``grid``         `Grid`: intervals, region and engine of the deflection, as a user gives them
 ``domain``       `Domain`: the computed region
-``memory``       estimate of the memory that a grid takes
 ``level``        `Level`: arrays and equations on one mesh; the hierarchy of levels
 ``deflection/``  elastic deflection: fast Fourier transforms, multi-integration, direct sum
 ``kernels/``     compiled kernels: Reynolds residual, derivatives, relaxation, grid transfer

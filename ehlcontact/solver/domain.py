@@ -77,10 +77,6 @@ class Domain:
         """
         return cls(-2.0, 1.35, 1.6)
 
-    def scaled(self, factor: float) -> Domain:
-        """Return the region stretched by `factor`."""
-        return Domain(self.x_in * factor, self.x_out * factor, self.y_max * factor)
-
     def as_tuple(self) -> tuple[float, float, float]:
         """(x_in, x_out, y_max)."""
         return self.x_in, self.x_out, self.y_max

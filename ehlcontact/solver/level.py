@@ -16,7 +16,7 @@ from ehlcontact.solver.grid_rules import LINES_APART, is_long, longer_axis
 from ehlcontact.solver.kernels import cavitation, flanks, relax, reynolds
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS
 from ehlcontact.solver.lowest_film import lowest_film
-from ehlcontact.solver.mesh_choice import Mesh
+from ehlcontact.solver.mesh import Mesh
 
 Array = NDArray[np.float64]
 

@@ -2,19 +2,18 @@
 
 The expected film decides. Beside a dry contact the gap opens like x^(3/2), so the pressure of the inlet rises to
 the dry one over about (Hc)^(2/3) semi-axes (`MoesPoint.inlet_width`), which the mesh has to resolve. The
-conditions on kappa, inlet width and load are those of `solver.regime`. Mesh sizes are in the longer semi-axis.
+conditions on kappa, inlet width and load are those of `solver.grid_rules`. Mesh sizes are in the longer semi-axis.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
-from math import log2
 from typing import NamedTuple
 
 from ehlcontact.point import MoesPoint
-from ehlcontact.solver.domain import MOST_INTERVALS, Domain
+from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.grid import AUTOMATIC, Grid
 from ehlcontact.solver.grid_rules import (
@@ -24,10 +23,8 @@ from ehlcontact.solver.grid_rules import (
     has_thin_sides,
     has_very_thin_inlet,
     is_long,
-    longer_axis,
-    x_coarsenings,
 )
-from ehlcontact.solver.memory import Solve, fits, require_memory
+from ehlcontact.solver.mesh import Mesh, Solve
 from ehlcontact.status import Status
 
 
@@ -88,48 +85,6 @@ LARGEST_ATTEMPTS = 4  # meshes for one film, the first one included
 LARGEST_NEWTON = 300_000  # nodes for Newton as a last resort: sparse factors take minutes and gigabytes beyond
 
 
-@dataclass(frozen=True, slots=True)
-class Mesh:
-    """Mesh of a film: intervals along X, region, refinement across.
-
-    Attributes
-    ----------
-    n : int
-        Intervals along X.
-    domain : Domain
-    y_refinement : int
-        Distance of nodes along X over the distance of lines, both in metres: 1, or a power of two in contacts that
-        are long in the rolling direction (kappa > 1).
-    """
-
-    n: int
-    domain: Domain
-    y_refinement: int = 1
-
-    def nodes(self, kappa: float) -> float:
-        """Nodes of the grid, about; infinite beyond `MOST_INTERVALS`."""
-        if self.n > MOST_INTERVALS:
-            return float("inf")
-        return self.n * self.n * self.y_refinement * self.domain.y_max / (self._length * longer_axis(kappa))
-
-    def levels(self, kappa: float) -> float:
-        """Nodes of all levels over those of this grid, about: the first may be halved in one direction alone."""
-        halvings = x_coarsenings(kappa) + round(log2(self.y_refinement))
-        return 2.0 - 2.0 / 3.0 * 0.5**halvings
-
-    def fits(self, kappa: float, solve: Solve = Solve.CYCLES) -> bool:
-        """Whether there is memory for it."""
-        return fits(self.nodes(kappa), solve, self.levels(kappa))
-
-    def size(self, kappa: float) -> float:
-        """Mesh size over the longer semi-axis."""
-        return self._length / self.n * max(1.0, kappa / self.y_refinement)
-
-    @property
-    def _length(self) -> float:
-        return self.domain.x_out - self.domain.x_in
-
-
 def mesh_for(point: MoesPoint, purpose: Purpose, grid: Grid = AUTOMATIC, *, largest_load: float = 1.0) -> Mesh:
     """Return the mesh that the expected film needs, with the intervals and the region that the caller gave.
 
@@ -144,11 +99,11 @@ def mesh_for(point: MoesPoint, purpose: Purpose, grid: Grid = AUTOMATIC, *, larg
     """
     n, domain = grid.n, grid.domain
     if domain is None:
-        closes_in = purpose is Purpose.DAMPING or (purpose is Purpose.FILM and n is None)
+        closes_in = purpose is Purpose.DAMPING or (purpose is Purpose.FILM and n is None and largest_load <= 1.0)
         domain = (closes_in and _thin_film_domain(point)) or Domain.for_point(point, largest_load)
     if n is None:
         n = _intervals(point, domain, purpose)
-    return Mesh(n, domain)
+    return Mesh(n, domain, point.kappa)
 
 
 def remedy(
@@ -171,23 +126,23 @@ def remedy(
     if status is Status.OUT_OF_DOMAIN:
         if grid.domain is not None:
             return None
-        wider = mesh.domain.scaled(DOMAIN_GROWTH)
+        wider = Domain(*(DOMAIN_GROWTH * end for end in mesh.domain.as_tuple()))
         if purpose is Purpose.FILM:
-            return Mesh(mesh.n, wider)
+            return replace(mesh, domain=wider, y_refinement=1)
         return mesh_for(point, purpose, replace(grid, domain=wider))
     inexact = status.ok and error is not None and not error.within(ACCURACY)
     if purpose is not Purpose.FILM or not (inexact or status in REFINED):
         return None
     far = grid.domain is None and mesh.domain not in {NEAR_DOMAIN, NEAREST_DOMAIN}
     if far and not inexact and has_thin_inlet(point):
-        return Mesh(mesh.n, NEAR_DOMAIN)
+        return replace(mesh, domain=NEAR_DOMAIN, y_refinement=1)
     finer = replace(mesh, n=2 * mesh.n)
-    if is_long(point) and mesh.y_refinement == 1 and (status in REFINED or not _affordable(finer, point)):
+    if is_long(point) and mesh.y_refinement == 1 and (status in REFINED or not _affordable(finer)):
         finer = _with_close_lines(mesh.domain, point)
     elif mesh.y_refinement > 1 and status in REFINED:
         finer = _last(mesh)
-        return finer if finer.nodes(point.kappa) <= LAST_GRID and finer.fits(point.kappa) else None
-    return finer if _affordable(finer, point) else None
+        return finer if finer.nodes <= LAST_GRID and finer.fits() else None
+    return finer if _affordable(finer) else None
 
 
 def wider_meshes(
@@ -215,32 +170,28 @@ def wider_meshes(
     """
     wider: Mesh | None = mesh
     for _ in range(LARGEST_ATTEMPTS):
-        if wider is None or not (wider is mesh or wider.fits(point.kappa, solve)):
+        if wider is None or not (wider is mesh or wider.fits(solve)):
             return
         yield wider
         wider = remedy(wider, Status.OUT_OF_DOMAIN, point, purpose, grid)
 
 
-def allows_newton(mesh: Mesh, point: MoesPoint) -> bool:
+def allows_newton(mesh: Mesh) -> bool:
     """Whether the factors of Newton steps on this mesh are affordable."""
-    return mesh.nodes(point.kappa) <= LARGEST_NEWTON and mesh.fits(point.kappa, Solve.NEWTON)
+    return mesh.nodes <= LARGEST_NEWTON and mesh.fits(Solve.NEWTON)
 
 
-def is_last(mesh: Mesh, point: MoesPoint) -> bool:
+def is_last(mesh: Mesh) -> bool:
     """Whether it is so large that a film is tried on it only after all others."""
-    return mesh.nodes(point.kappa) > FINENESS[Purpose.FILM].largest
+    return mesh.nodes > FINENESS[Purpose.FILM].largest
 
 
-def newton_mesh(mesh: Mesh, point: MoesPoint) -> Mesh:
-    """Return the mesh, with as many halvings as it takes until Newton steps are affordable."""
-    while not allows_newton(mesh, point) and mesh.n > DOUBLED[0]:
-        mesh = replace(mesh, n=mesh.n // 2)
-    return mesh
-
-
-def require_room(mesh: Mesh, point: MoesPoint, solve: Solve = Solve.CYCLES) -> None:
-    """Raise `InputError` for a mesh that would not fit into memory."""
-    require_memory(mesh.n, mesh.nodes(point.kappa), solve, mesh.levels(point.kappa))
+def newton_mesh(mesh: Mesh) -> Mesh | None:
+    """Return a coarser mesh on which Newton steps are affordable; None where they are on `mesh`, or on none."""
+    coarser = mesh
+    while not allows_newton(coarser) and coarser.n > DOUBLED[0]:
+        coarser = replace(coarser, n=coarser.n // 2)
+    return coarser if coarser != mesh and allows_newton(coarser) else None
 
 
 def _thin_film_domain(point: MoesPoint) -> Domain | None:
@@ -260,23 +211,24 @@ def _intervals(point: MoesPoint, domain: Domain, purpose: Purpose) -> int:
     needed = (MESH_OF_THIN_SIDES if sides else share) * width
     if has_side_lobes(point):  # the smallest film, in the side lobes, needs more than to be positive
         n = _first(point, domain, (FINE_THIN_SIDES if sides else FINE_SIDES) * width, counts, AFFORDABLE_GRID)
-        if Mesh(n, domain).size(point.kappa) <= needed:
+        if Mesh(n, domain, point.kappa).size <= needed:
             return n
     return _first(point, domain, needed, counts, largest)
 
 
-def _affordable(mesh: Mesh, point: MoesPoint) -> bool:
+def _affordable(mesh: Mesh) -> bool:
     """Whether a steady film may be tried on it."""
-    return mesh.nodes(point.kappa) <= FINENESS[Purpose.FILM].largest and mesh.fits(point.kappa)
+    return mesh.nodes <= FINENESS[Purpose.FILM].largest and mesh.fits()
 
 
 def _with_close_lines(domain: Domain, point: MoesPoint) -> Mesh:
     """Mesh whose lines show the side lobes of thin films, and its nodes the inlet; as fine as is affordable."""
     _, counts, largest = FINENESS[Purpose.FILM]
     wanted = FINE_SIDES * point.inlet_width
-    mesh = Mesh(_first(point, domain, wanted, counts, largest, CLOSE_LINES), domain, CLOSE_LINES)
-    finer = Mesh(2 * mesh.n, domain, CLOSE_LINES // 2)  # no fewer lines
-    return finer if mesh.size(point.kappa) > wanted and _affordable(finer, point) else mesh
+    n = _first(point, domain, wanted, counts, largest, CLOSE_LINES)
+    mesh = Mesh(n, domain, point.kappa, CLOSE_LINES)
+    finer = replace(mesh, n=2 * mesh.n, y_refinement=CLOSE_LINES // 2)  # no fewer lines
+    return finer if mesh.size > wanted and _affordable(finer) else mesh
 
 
 def _last(mesh: Mesh) -> Mesh:
@@ -292,8 +244,6 @@ def _first(
     point: MoesPoint, domain: Domain, wanted: float, counts: Sequence[int], largest: int, y_refinement: int = 1
 ) -> int:
     """First of `counts` that meshes as finely as `wanted` and as pressure needs; the last of `largest` nodes."""
-    wanted = min(wanted, LARGEST_MESH)
-    affordable = [n for n in counts if Mesh(n, domain, y_refinement).nodes(point.kappa) <= largest] or counts[:1]
-    return next(
-        (n for n in affordable if Mesh(n, domain, y_refinement).size(point.kappa) <= wanted), affordable[-1]
-    )
+    meshes = [Mesh(n, domain, point.kappa, y_refinement) for n in counts]
+    affordable = [mesh for mesh in meshes if mesh.nodes <= largest] or meshes[:1]
+    return next((mesh.n for mesh in affordable if mesh.size <= min(wanted, LARGEST_MESH)), affordable[-1].n)

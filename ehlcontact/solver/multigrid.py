@@ -30,7 +30,7 @@ from ehlcontact.solver.grid_rules import (
 )
 from ehlcontact.solver.kernels import transfer
 from ehlcontact.solver.level import Array, Level, build_hierarchy
-from ehlcontact.solver.mesh_choice import Mesh
+from ehlcontact.solver.mesh import Mesh
 
 PRE_SWEEPS, POST_SWEEPS = 2, 1
 REPEATED_LEVELS = 2  # of a long contact: the finest, which alone repeat their sweeps

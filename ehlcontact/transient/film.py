@@ -21,7 +21,7 @@ from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.error_grids import estimate_error
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Array, Level
-from ehlcontact.solver.mesh_choice import Mesh
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.transient.features import SurfaceStep

@@ -15,7 +15,7 @@ from ehlcontact.checks import require_instance, require_nonnegative, require_pos
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
-from ehlcontact.solver.mesh_choice import Mesh
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.time_step import default_tol
 

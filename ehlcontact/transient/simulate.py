@@ -16,7 +16,8 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
-from ehlcontact.solver.mesh_choice import Mesh, Purpose, mesh_for, require_room, wider_meshes
+from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import Purpose, mesh_for, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.store import load
 from ehlcontact.transient.bodies import Motion
@@ -94,7 +95,7 @@ def simulate(
     require_grid(grid)
     require_groups(time, keep, run)
     mesh = mesh_for(moes, Purpose.RUN, grid, largest_load=motion.largest_load)
-    require_room(mesh, moes)
+    mesh.require_memory()
     require_surface(surface)
     _warn_of_shape(surface, moes.kappa)
     spacing = (mesh.domain.x_out - mesh.domain.x_in) / mesh.n

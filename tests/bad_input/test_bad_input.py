@@ -145,7 +145,7 @@ def test_whole_numbers_are_numbers(good, monkeypatch):
 
 def test_a_grid_beyond_the_memory(refused, monkeypatch, good):
     """Refused before anything is tried or written."""
-    monkeypatch.setattr("ehlcontact.solver.memory.available_bytes", lambda: 5e6)
+    monkeypatch.setattr("ehlcontact.solver.mesh.available_bytes", lambda: 5e6)
     words = ("n = 256", "fits into memory", "nodes take about", "GB", "0.005 GB are free")
     for command in (("steady",), ("simulate", "--free", "5"), ("impedance", "--Omega", "1")):
         refused(at(*command, n="256"), ("--" + words[0], *words[1:]))

@@ -31,7 +31,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
-from ehlcontact.solver.mesh_choice import Mesh, require_room
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.steady import APPROACH_TOLERANCE, LARGEST_RESIDUAL, LOAD_TOLERANCE, MAX_CYCLES
@@ -89,10 +89,10 @@ def solve_finer(row: Row) -> Row:
     """The same film on twice the grid, and how far its films and its approach have moved, of the finer ones."""
     domain, point = Domain(*row["domain"]), MoesPoint(row["M"], row["L"], row["kappa"])
     lines = 2 ** round(-log2(row["apart"])) if row["apart"] < CLOSE else 1  # the number of lines was rounded up
-    mesh = Mesh(2 * row["n"], domain, lines)
+    mesh = Mesh(2 * row["n"], domain, point.kappa, lines)
     found: Row = {"of": row["key"], "M": row["M"], "L": row["L"], "kappa": row["kappa"], "n": mesh.n}
     found["estimate"] = row["error_estimate"]["h_min"]
-    if not mesh.nodes(point.kappa) <= LARGEST_GRID:
+    if not mesh.nodes <= LARGEST_GRID:
         return found | {"status": "not solved: the grid has too many nodes", "move": None}
     try:
         result = (
@@ -122,7 +122,7 @@ class Finer(NamedTuple):
 def finer_close_lines(point: MoesPoint, mesh: Mesh) -> Finer:
     """As `solve_steady`, which has no close lines where n is given: cycles, then with load continuation."""
     started = time.perf_counter()
-    require_room(mesh, point)
+    mesh.require_memory()
     for load_continuation in (False, True):
         film, load = Multigrid(point, mesh, load_continuation=load_continuation), Balance.of_load()
         scale = film.finest.dry_residual()

@@ -55,7 +55,7 @@ POINTS: tuple[tuple[float, float, float], ...] = (
 
 def resolved(point: MoesPoint, n: int) -> bool:
     """Whether the mesh of n intervals sees the inlet of the film."""
-    return mesh_for(point, Purpose.FILM, grid=Grid(n=n)).size(point.kappa) <= RESOLVED * point.inlet_width
+    return mesh_for(point, Purpose.FILM, grid=Grid(n=n)).size <= RESOLVED * point.inlet_width
 
 
 def chosen(texts: list[str]) -> list[tuple[float, float, float]]:

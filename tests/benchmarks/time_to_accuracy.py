@@ -25,7 +25,8 @@ from ehlcontact import FreeVibration, Grid, HarmonicLoad, MoesPoint, solve_stead
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.iterate import LARGEST_SWEEP_FACTOR, falls_slowly
-from ehlcontact.solver.mesh_choice import Mesh, Purpose, allows_newton, mesh_for
+from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import Purpose, allows_newton, mesh_for
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.transient import film as film_module
@@ -172,7 +173,7 @@ def converge(point: MoesPoint, mesh: Mesh, most: int = MOST, ways: tuple[str, ..
     """Return the converged solution by the first of `ways` that finds it, else the best known."""
     best: Reference | None = None
     for way in ways:
-        if way.endswith("newton") and not allows_newton(mesh, point):
+        if way.endswith("newton") and not allows_newton(mesh):
             continue
         film, start, advance = film_on(point, mesh, way)
         start()
@@ -320,7 +321,7 @@ def measure(
         }
         if default:
             row["solve_steady"] = _as_asked_for(point, n, exact)
-    if newton_nodes >= mesh.nodes(point.kappa) and not exact.way.endswith("newton") and exact.knows(FULL):
+    if newton_nodes >= mesh.nodes and not exact.way.endswith("newton") and exact.knows(FULL):
         row["newton_gap"] = _newton_gap(point, mesh, exact, most)
     described = point.to_dict() | {"n": n, "region": list(mesh.domain.as_tuple()), "way": way, "repeat": repeat}
     return bracket.ratios(described | row | {"peak_mb": memory} | circumstances())

@@ -8,7 +8,8 @@ import pytest
 from ehlcontact import Domain, Grid, InputError, MoesPoint
 from ehlcontact.impedance import LinearisedContact, impedance
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
-from ehlcontact.solver.mesh_choice import NEAR_DOMAIN, Mesh, Purpose, mesh_for
+from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import NEAR_DOMAIN, Purpose, mesh_for
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.steady import solve_steady
 from ehlcontact.transient.full_contact import FullContact
@@ -21,7 +22,7 @@ OMEGA = np.array([0.0, 0.25, pi, 4.0 * pi, 30.0])
 
 def dense(contact, film, n):
     """J and B of a linearised contact as matrices, by the kernel that the coarse grids use."""
-    level = Multigrid(POINT, Mesh(n, film.domain)).finest
+    level = Multigrid(POINT, Mesh(n, film.domain, POINT.kappa)).finest
     level.P[...] = film.P.T
     level.update_film(film.approach)
     level.update_residual()

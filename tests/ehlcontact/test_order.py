@@ -19,7 +19,7 @@ from ehlcontact import (
     solve_steady,
 )
 from ehlcontact.solver.level import Level
-from ehlcontact.solver.mesh_choice import Mesh
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.transient.film import TransientFilm
 from ehlcontact.transient.record import History
 from ehlcontact.transient.run import Run
@@ -133,7 +133,12 @@ def test_uneven_time_steps_are_second_order(motion):
         s = np.linspace(0.0, 1.0, steps + 1)
         T = until * (s - 0.6 * np.sin(2.0 * pi * s) / (2.0 * pi))
         run = Run(
-            TransientFilm(POINT, Mesh(32, Domain()), 1e-6), motion, None, History(()), None, lambda run: None
+            TransientFilm(POINT, Mesh(32, Domain(), POINT.kappa), 1e-6),
+            motion,
+            None,
+            History(()),
+            None,
+            lambda run: None,
         )
         assert run.start().ok
         for before, after in pairwise(T):

@@ -23,7 +23,7 @@ from ehlcontact.hertz import shape_factor
 from ehlcontact.solver import mesh_choice as mesh
 from ehlcontact.solver.grid_rules import coarsest_intervals
 from ehlcontact.solver.level import build_hierarchy
-from ehlcontact.solver.mesh_choice import Mesh
+from ehlcontact.solver.mesh import Mesh
 
 POINT = MoesPoint(200, 10, 0.5)
 CASES = [(200, 10, 0.5), (20, 10, 1.0), (500, 15, 0.12)]
@@ -46,7 +46,9 @@ def test_complementarity(steady, case):
     """P >= 0 everywhere; where P = 0 no residual asks for pressure beyond the tolerance."""
     result = steady(*case, 128)
     assert (result.P >= 0.0).all()
-    level = build_hierarchy(result.point, Mesh(128, result.domain), coarsest_intervals(result.point, 128))[-1]
+    level = build_hierarchy(
+        result.point, Mesh(128, result.domain, result.point.kappa), coarsest_intervals(result.point, 128)
+    )[-1]
     level.P[...] = result.P.T
     level.update_film(result.approach)
     np.testing.assert_allclose(level.H.T, result.H, atol=1e-12)
@@ -242,12 +244,12 @@ def test_film_at_l_0_is_the_limit_of_small_l(M, kappa):
 @pytest.fixture
 def cycles_fail(monkeypatch):
     """No V cycles settle a film; Newton steps are for grids with at most so many nodes."""
-    run = steady_module._Attempt.run
+    run = steady_module._Film.run
 
     def failing(attempt, **settings):
         return run(attempt, **settings) if attempt.method.newton else Status.STAGNATED
 
-    monkeypatch.setattr(steady_module._Attempt, "run", failing)
+    monkeypatch.setattr(steady_module._Film, "run", failing)
     return lambda nodes: monkeypatch.setattr(mesh, "LARGEST_NEWTON", nodes)
 
 
@@ -255,7 +257,7 @@ def test_newton_on_a_coarser_grid_where_cycles_fail_on_one_too_large_for_it(cycl
     """Better a film whose error estimate tells what the coarser mesh costs than none; but not where n is given."""
     thin = MoesPoint(500, 10, 0.8)
     wanted = mesh.mesh_for(thin, mesh.Purpose.FILM)
-    cycles_fail(wanted.nodes(thin.kappa) / 3.9)
+    cycles_fail(wanted.nodes / 3.9)
     found = solve_steady(thin)
     assert found.status.ok and found.n == wanted.n // 2 and found.domain == wanted.domain
     alone = solve_steady(thin, grid=Grid(n=found.n, domain=wanted.domain), method="newton")
@@ -275,8 +277,8 @@ def test_a_contact_five_times_as_long_as_wide():
 @pytest.mark.parametrize("given", [{}, {"n": 32}, {"method": "newton", "n": 32}, {"refine": False}])
 def test_a_limit_of_cycles_ends_the_solve(monkeypatch, given):
     """No finer grid, no other method: that is not what whoever limits the work asks for."""
-    runs, run = [], steady_module._Attempt.run
-    monkeypatch.setattr(steady_module._Attempt, "run", lambda *a, **k: runs.append(1) or run(*a, **k))
+    runs, run = [], steady_module._Film.run
+    monkeypatch.setattr(steady_module._Film, "run", lambda *a, **k: runs.append(1) or run(*a, **k))
     with pytest.raises(
         ConvergenceError, match=r"max_cycles after 1 iterations on n = \d+: The cycles ran out"
     ) as caught:

@@ -6,7 +6,8 @@ import numpy as np
 
 from ehlcontact import Domain, Grid, InputError, MoesPoint, Status
 from ehlcontact.solver.grid_rules import coarsest_intervals, resolved_load
-from ehlcontact.solver.mesh_choice import Mesh, Purpose, allows_newton, mesh_for, remedy
+from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import Purpose, allows_newton, mesh_for, remedy
 from reduced_models.atlas.mesh import film_grid, impedance_grid, near_grid
 
 PICKED = [
@@ -54,7 +55,7 @@ def table(point, choose):
     """Mesh of a point of the atlas; None for too thin a film."""
     try:
         grid = choose(point)
-        return plain(Mesh(grid.n, grid.domain))
+        return plain(Mesh(grid.n, grid.domain, point.kappa))
     except InputError:
         return None
 
@@ -82,5 +83,5 @@ def decisions(M, L, kappa):
         "table near": table(point, near_grid),
         "coarsest": [coarsest_intervals(point, n) for n in (32, 128, 512)],
         "resolved load": [resolved_load(point, mesh) for mesh in (0.2, 0.05)],
-        "newton": [allows_newton(Mesh(n, default), point) for n in (256, 1024, 2048)],
+        "newton": [allows_newton(Mesh(n, default, kappa)) for n in (256, 1024, 2048)],
     }

@@ -80,12 +80,11 @@ def run(
 
 def _require_room(study: Study, path: Path) -> None:
     """Raise `InputError` for a grid of the study that would not fit into memory."""
-    from ehlcontact.solver.memory import Solve
-    from ehlcontact.solver.mesh_choice import Mesh, require_room
+    from ehlcontact.solver.mesh import Mesh, Solve
 
     for name, solve in (("n", Solve.CYCLES), ("n_transient", Solve.IMPEDANCE)):
         try:
-            require_room(Mesh(getattr(study.solver, name), study.domain), moes_point(study.point), solve)
+            Mesh(getattr(study.solver, name), study.domain, moes_point(study.point).kappa).require_memory(solve)
         except InputError as error:
             raise InputError(f"{path}: solver.{name}", error.value, error.allowed) from None
 

@@ -125,12 +125,11 @@ def _show(found: Forecast, json_to: str | None) -> None:
 
 def _show_stages(found: Forecast) -> None:
     """One row per stage."""
-    kappa = found.study.point.moes.kappa
     table = Table(pad_edge=False, box=None)
     for column in ("stage", "n", "nodes", "steps", "step in T", "wall time"):
         table.add_column(column, justify="left" if column == "stage" else "right")
     for plan in found.plans:
-        nodes = f"{plan.mesh.nodes(kappa):.0f}" + (f" x {plan.contacts}" if plan.contacts > 1 else "")
+        nodes = f"{plan.mesh.nodes:.0f}" + (f" x {plan.contacts}" if plan.contacts > 1 else "")
         cost = "kept" if plan.kept else _time(plan.seconds)
         step = "" if plan.step is None else numeral(plan.step, 3)
         table.add_row(plan.stage.title, str(plan.mesh.n), nodes, str(plan.steps or ""), step, cost)

@@ -17,7 +17,8 @@ from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import Stage, stages_of
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
-from ehlcontact.solver.mesh_choice import FINENESS, LARGEST_MESH, Mesh, Purpose, mesh_for
+from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import FINENESS, LARGEST_MESH, Purpose, mesh_for
 
 CONV = 2.3e-3  # seconds of one when those studies were run
 REST = 10.0 / CONV  # fits, impedance, FMU, reduced rotors and report, of either study
@@ -41,13 +42,13 @@ class Plan:
     seconds: float  # estimated
     kept: bool  # finished in the folder already
 
-    def to_dict(self, kappa: float) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, Any]:
         """All of it in numbers."""
         return {
             "name": self.stage.name,
             "title": self.stage.title,
             "n": self.mesh.n,
-            "nodes": round(self.mesh.nodes(kappa)),
+            "nodes": round(self.mesh.nodes),
             "contacts": self.contacts,
             "steps": self.steps,
             "step": self.step,
@@ -109,13 +110,12 @@ class Forecast:
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, in SI units."""
-        kappa = self.study.point.moes.kappa
         return {
             "title": self.study.title,
             "operating_point": self.operating_point,
             "domain": self.study.domain.as_tuple(),
             "folder": str(self.folder),
-            "stages": [plan.to_dict(kappa) for plan in self.plans],
+            "stages": [plan.to_dict() for plan in self.plans],
             "jobs": self.jobs,
             "seconds": self.seconds,
             "warnings": list(self.warnings),
@@ -145,7 +145,7 @@ def forecast(study: Study, folder: Path, jobs: int) -> Forecast:
 def stage_cost(stage: Stage, study: Study) -> float:
     """Estimated cost of a stage, in convolutions."""
     contacts, steps, _ = _steps(stage, study)
-    return float(stage.cost * max(1, steps) * contacts * _mesh(stage, study).nodes(study.point.moes.kappa) * 1e-3)
+    return float(stage.cost * max(1, steps) * contacts * _mesh(stage, study).nodes * 1e-3)
 
 
 def closing_cost(study: Study) -> float:
@@ -167,7 +167,8 @@ def convolution_seconds() -> float:
 
 
 def _mesh(stage: Stage, study: Study) -> Mesh:
-    return Mesh(study.solver.n if stage.steps is None else study.solver.n_transient, study.domain)
+    n = study.solver.n if stage.steps is None else study.solver.n_transient
+    return Mesh(n, study.domain, study.point.moes.kappa)
 
 
 def _steps(stage: Stage, study: Study) -> tuple[int, int, float | None]:
@@ -191,7 +192,7 @@ def _coarse(study: Study) -> list[str]:
         ("n", study.solver.n, Purpose.FILM, FILM_TOO_THIN),
         ("n_transient", study.solver.n_transient, Purpose.RUN, DAMPING_OFF),
     ):
-        size = Mesh(n, domain).size(point.kappa)
+        size = Mesh(n, domain, point.kappa).size
         wanted = min(FINENESS[purpose].share * point.inlet_width, LARGEST_MESH)
         if size > wanted * (1.0 + 1e-9):
             better = mesh_for(point, purpose, grid=Grid(domain=domain)).n

@@ -9,7 +9,7 @@ from ehlcontact import MoesPoint
 from ehlcontact.solver.acceleration import REMEMBERED, SLOW_FACTOR, AcceleratedCycles
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.mesh_choice import Mesh
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 
 LOAD = Balance.of_load()
@@ -131,7 +131,7 @@ def test_a_film_that_runs_away_is_told(value):
 def changes_of(M, L, kappa, accelerated, n=128, most=40):
     """Changes of P by each cycle until they are 1e-8, and the pressure."""
     point = MoesPoint(M, L, kappa)
-    film = Multigrid(point, Mesh(n, Domain.for_point(point)))
+    film = Multigrid(point, Mesh(n, Domain.for_point(point), point.kappa))
     film.full_multigrid(LOAD)
     advance = AcceleratedCycles(film).step if accelerated else film.cycle
     changes = []

@@ -10,7 +10,8 @@ from ehlcontact import Domain, Grid, MoesPoint, Status, load, save, solve_steady
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.error_estimate import ALL, ErrorEstimate, regular_error
 from ehlcontact.solver.error_grids import estimate_error
-from ehlcontact.solver.mesh_choice import ACCURACY, Mesh, Purpose, mesh_for, remedy
+from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import ACCURACY, Purpose, mesh_for, remedy
 from ehlcontact.solver.multigrid import Multigrid
 
 NUMBERS = ("approach", "h_central", "h_min")
@@ -86,12 +87,14 @@ def test_a_cheaper_grid_is_an_option():
 
 
 def test_remedy_asks_for_finer_meshes_only_where_they_pay():
-    mesh, bad = Mesh(128, Domain()), replace(ACCURACY, h_min=0.031)
-    assert remedy(mesh, Status.CONVERGED, PAPER, error=bad) == Mesh(256, Domain())
+    mesh, bad = Mesh(128, Domain(), PAPER.kappa), replace(ACCURACY, h_min=0.031)
+    assert remedy(mesh, Status.CONVERGED, PAPER, error=bad) == Mesh(256, Domain(), PAPER.kappa)
     assert remedy(mesh, Status.CONVERGED, PAPER, error=ACCURACY) is None
     assert remedy(mesh, Status.CONVERGED, PAPER) is None
     assert remedy(mesh, Status.CONVERGED, PAPER, grid=Grid(n=128), error=bad) is None
-    assert remedy(Mesh(1024, Domain()), Status.CONVERGED, PAPER, error=bad) is None  # two million nodes
+    assert (
+        remedy(Mesh(1024, Domain(), PAPER.kappa), Status.CONVERGED, PAPER, error=bad) is None
+    )  # two million nodes
     assert remedy(mesh, Status.CONVERGED, MoesPoint(30000, 0, 0.3), error=bad).domain == Domain()
 
 
@@ -120,9 +123,9 @@ def test_a_finer_grid_that_fails_takes_nothing_away(monkeypatch):
 
 
 def test_estimate_leaves_the_film_alone_and_knows_its_end():
-    mg = Multigrid(PAPER, Mesh(16, Domain()))
+    mg = Multigrid(PAPER, Mesh(16, Domain(), PAPER.kappa))
     assert len(mg.levels) == 1 and estimate_error(mg, Balance.of_load()) is None
-    mg = Multigrid(PAPER, Mesh(32, Domain()))
+    mg = Multigrid(PAPER, Mesh(32, Domain(), PAPER.kappa))
     mg.full_multigrid(Balance.of_load())
     P, u = mg.finest.P.copy(), mg.u
     error = estimate_error(mg, Balance.of_load())
@@ -137,7 +140,7 @@ def test_estimate_leaves_the_film_alone_and_knows_its_end():
 def test_estimates_of_wide_contacts_count_their_lines(kappa):
     """Where the level below keeps its lines, as in wide contacts, the estimate is that of half of them."""
     point, domain = MoesPoint(50, 10, kappa), Domain()
-    mg = Multigrid(point, Mesh(128, domain))
+    mg = Multigrid(point, Mesh(128, domain, point.kappa))
     finest, half = mg.finest, mg.halved().finest
     assert (half.nx, half.ny) == (finest.nx // 2, finest.ny // 2)
     assert (mg.levels[-2].ny == finest.ny) is (kappa < 0.2)

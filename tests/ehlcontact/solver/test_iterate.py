@@ -13,7 +13,7 @@ from ehlcontact.solver.iterate import (
     iterate,
     pressure_error,
 )
-from ehlcontact.solver.mesh_choice import Mesh
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 
 NAN, INF = float("nan"), float("inf")
@@ -107,7 +107,7 @@ def test_scale_is_what_counts():
 @pytest.fixture
 def film():
     """Full multigrid of a circular contact, and its scale."""
-    multigrid = Multigrid(MoesPoint(20, 8, 1.0), Mesh(32, Domain()))
+    multigrid = Multigrid(MoesPoint(20, 8, 1.0), Mesh(32, Domain(), 1.0))
     scale = multigrid.finest.dry_residual()
     multigrid.full_multigrid(LOAD)
     return multigrid, scale

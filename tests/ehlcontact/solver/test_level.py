@@ -11,7 +11,7 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse_newton import CoarseNewton
 from ehlcontact.solver.kernels import transfer
 from ehlcontact.solver.level import Level, build_hierarchy
-from ehlcontact.solver.mesh_choice import Mesh
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import initial_approach
 
 
@@ -46,7 +46,7 @@ def test_border_of_the_residual_stays_zero(level):
 @pytest.mark.parametrize("coarsest", [16, 32])
 def test_hierarchy(n, coarsest):
     domain = Domain(-5.0, 3.0, 4.0)
-    levels = build_hierarchy(MoesPoint(20, 5, 0.5), Mesh(n, domain), coarsest)
+    levels = build_hierarchy(MoesPoint(20, 5, 0.5), Mesh(n, domain, 0.5), coarsest)
     assert levels[-1].nx == n
     assert levels[0].nx < 2 * max(coarsest, 16) or levels[0].nx % 2
     for coarse, fine in itertools.pairwise(levels):
@@ -76,7 +76,7 @@ def apart(level, kappa):
 def test_lines_far_apart_are_coarsened_along_x_first(kappa, n, coarsest, alone):
     """So many halvings along X alone; the coarsest grid is the same as by halving both."""
     domain = Domain(-2.0, 1.35, 1.6)
-    levels = build_hierarchy(MoesPoint(20, 5, kappa), Mesh(n, domain), coarsest)
+    levels = build_hierarchy(MoesPoint(20, 5, kappa), Mesh(n, domain, kappa), coarsest)
     ratios = [(fine.nx // coarse.nx, fine.ny // coarse.ny) for coarse, fine in itertools.pairwise(levels)][::-1]
     along = int(np.log2(n // coarsest))
     assert ratios == [(2, 1)] * alone + [(2, 2)] * (along - alone) + [(1, 2)] * alone
@@ -92,8 +92,8 @@ def test_lines_far_apart_are_coarsened_along_x_first(kappa, n, coarsest, alone):
 def test_close_lines_are_halved_first(lines, alone):
     """So many halvings across alone; nodes along X, and all coarser grids, are those without."""
     point, domain = MoesPoint(5000, 2, 3.7), Domain(-1.5, 1.2, 1.25)
-    plain = build_hierarchy(point, Mesh(256, domain), 64)
-    levels = build_hierarchy(point, Mesh(256, domain, lines), 64)
+    plain = build_hierarchy(point, Mesh(256, domain, point.kappa), 64)
+    levels = build_hierarchy(point, Mesh(256, domain, point.kappa, lines), 64)
     sizes, usual = ([(level.nx, level.ny) for level in some] for some in (levels, plain))
     assert sizes == usual + [(256, usual[-1][1] * 2**k) for k in range(1, alone + 1)]
     assert apart(levels[-1], 3.7) * lines == pytest.approx(apart(plain[-1], 3.7), rel=1e-12)

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -17,10 +18,10 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.solver import memory
+from ehlcontact.solver import mesh as memory
 from ehlcontact.solver.level import build_hierarchy
-from ehlcontact.solver.memory import Solve, fits, needed_bytes, require_memory
-from ehlcontact.solver.mesh_choice import Mesh, Purpose, allows_newton, remedy
+from ehlcontact.solver.mesh import Mesh, Solve
+from ehlcontact.solver.mesh_choice import Purpose, allows_newton, remedy
 from ehlcontact.status import Status
 
 POINT = MoesPoint(200, 10, 0.5)
@@ -77,9 +78,7 @@ def test_estimate_is_within_30_percent_of_what_is_taken(what, n, kappa):
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     solve = Solve.CYCLES if what == "run" else Solve(what)
-    mesh = Mesh(n, Domain())
-    told = needed_bytes(mesh.nodes(kappa), solve, mesh.levels(kappa))
-    assert told == pytest.approx(float(done.stdout), rel=0.3)
+    assert Mesh(n, Domain(), kappa).needed_bytes(solve) == pytest.approx(float(done.stdout), rel=0.3)
 
 
 @pytest.mark.parametrize(
@@ -87,27 +86,28 @@ def test_estimate_is_within_30_percent_of_what_is_taken(what, n, kappa):
 )
 def test_nodes_of_all_levels(kappa, lines):
     """Against the hierarchy itself: levels of wide contacts keep their lines at first, close lines nodes."""
-    mesh = Mesh(256, Domain(), lines)
+    mesh = Mesh(256, Domain(), kappa, lines)
     sizes = [level.gap.size for level in build_hierarchy(MoesPoint(200, 10, kappa), mesh, 32)]
-    assert mesh.levels(kappa) == pytest.approx(sum(sizes) / sizes[-1], rel=0.05)
+    assert mesh.levels == pytest.approx(sum(sizes) / sizes[-1], rel=0.05)
 
 
 def test_in_a_small_memory(free):
-    nodes = 1e6
-    free(needed_bytes(nodes))
-    assert fits(nodes) and fits(0.9 * nodes)
-    assert not fits(1.1 * nodes) and not fits(nodes, Solve.NEWTON)
-    require_memory(1024, nodes)
+    mesh = Mesh(1024, Domain(), 0.5)
+    free(mesh.needed_bytes())
+    assert mesh.fits() and replace(mesh, n=960).fits()
+    assert not replace(mesh, n=1088).fits() and not mesh.fits(Solve.NEWTON)
+    mesh.require_memory()
     with pytest.raises(
-        InputError, match=r"^n = 1024: must be such that the grid fits into memory: 2e\+06 nodes take"
+        InputError, match=r"^n = 1088: must be such that the grid fits into memory: 5\.92e\+05 nodes take"
     ):
-        require_memory(1024, 2 * nodes)
+        replace(mesh, n=1088).require_memory()
 
 
-def test_where_nobody_tells_what_is_free(free):
+def test_where_the_free_memory_is_not_known(free):
     free(None)
-    assert fits(1e12)
-    require_memory(2048, 1e12)
+    mesh = Mesh(2048, Domain(-1.2, 1.2, 100.0), 0.5)
+    assert mesh.fits(Solve.IMPEDANCE)
+    mesh.require_memory()
 
 
 CALLS = {
@@ -136,15 +136,15 @@ def test_refused_before_anything_is_tried(call, free, monkeypatch):
 
 def test_a_grid_beyond_any_memory():
     """Without a stand-in for the machine."""
-    with pytest.raises(InputError, match=r"^n = 2048: .* 1e\+15 nodes take about 3.09e\+08 GB \(cycles\), and"):
-        require_memory(2048, 1e15)
+    with pytest.raises(InputError, match=r"^n = 2048: .* 2\.25e\+15 nodes take about 1\.04e\+09 GB"):
+        Mesh(2048, Domain(), 0.5, 2**30).require_memory()
 
 
 def test_remedies_fit(free):
     """What fails is not tried again on a grid that does not fit: what was reached is kept."""
-    mesh = Mesh(256, Domain())
-    assert remedy(mesh, Status.STAGNATED, POINT, Purpose.FILM) == Mesh(512, Domain())
-    assert allows_newton(mesh, POINT)
+    mesh = Mesh(256, Domain(), POINT.kappa)
+    assert remedy(mesh, Status.STAGNATED, POINT, Purpose.FILM) == Mesh(512, Domain(), POINT.kappa)
+    assert allows_newton(mesh)
     free(2e7)
     assert remedy(mesh, Status.STAGNATED, POINT, Purpose.FILM) is None
-    assert not allows_newton(mesh, POINT)
+    assert not allows_newton(mesh)

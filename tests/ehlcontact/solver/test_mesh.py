@@ -1,5 +1,6 @@
 """Regions and grids chosen from the film to be expected; `tests/golden/golden.json` has what is chosen where."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -27,7 +28,8 @@ from ehlcontact.solver import grid_rules
 from ehlcontact.solver import mesh_choice as m
 from ehlcontact.solver.domain import check_intervals
 from ehlcontact.solver.error_estimate import ErrorEstimate
-from ehlcontact.solver.mesh_choice import Mesh, Purpose, mesh_for
+from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import Purpose, mesh_for
 
 
 def test_default_is_the_documented_region():
@@ -79,14 +81,14 @@ def test_steady_mesh_resolves_the_inlet_or_is_the_finest(M, L, kappa):
     mesh = mesh_for(point, Purpose.FILM)
     share = m.MESH_OF_THIN_SIDES if grid_rules.has_thin_sides(point) else rule.share
     wanted = min(share * point.inlet_width, m.LARGEST_MESH)
-    finer = Mesh(2 * mesh.n, mesh.domain).nodes(kappa)
-    assert mesh.size(kappa) <= wanted or finer > rule.largest
-    assert mesh.nodes(kappa) <= rule.largest
+    finer = replace(mesh, n=2 * mesh.n).nodes
+    assert mesh.size <= wanted or finer > rule.largest
+    assert mesh.nodes <= rule.largest
     if kappa <= grid_rules.SIDE_LOBES:
-        assert mesh.n == 128 or 2.0 * mesh.size(kappa) > wanted  # no finer than needed
+        assert mesh.n == 128 or 2.0 * mesh.size > wanted  # no finer than needed
     else:
         fine = (m.FINE_THIN_SIDES if grid_rules.has_thin_sides(point) else m.FINE_SIDES) * point.inlet_width
-        assert mesh.size(kappa) <= fine or finer > m.AFFORDABLE_GRID
+        assert mesh.size <= fine or finer > m.AFFORDABLE_GRID
 
 
 def test_region_closes_in_on_thin_films():
@@ -117,7 +119,7 @@ def test_what_is_given_is_kept(M, L, kappa, purpose):
         point = MoesPoint(200, 10, 0.5)
     assert mesh_for(point, purpose, grid=Grid(domain=domain)).domain == domain
     assert mesh_for(point, purpose, grid=Grid(n=48)).n == 48
-    assert mesh_for(point, purpose, grid=Grid(n=48, domain=domain)) == Mesh(48, domain)
+    assert mesh_for(point, purpose, grid=Grid(n=48, domain=domain)) == Mesh(48, domain, point.kappa)
 
 
 @pytest.mark.parametrize("purpose", Purpose)
@@ -135,13 +137,13 @@ def test_meshes_of_moving_films_follow_the_inlet():
         for M, L, kappa in BOX:
             point = MoesPoint(M, L, kappa)
             mesh = mesh_for(point, purpose, grid=Grid(domain=Domain()))
-            resolved = mesh.size(kappa) <= min(rule.share * point.inlet_width, m.LARGEST_MESH)
+            resolved = mesh.size <= min(rule.share * point.inlet_width, m.LARGEST_MESH)
             following = next((k for k in rule.counts if k > mesh.n), None)
-            assert resolved or following is None or Mesh(following, Domain()).nodes(kappa) > rule.largest
+            assert resolved or following is None or Mesh(following, Domain(), kappa).nodes > rule.largest
 
 
 def test_no_remedy_for_what_was_asked_for_or_is_done():
-    point, mesh = MoesPoint(200, 10, 0.5), Mesh(128, Domain())
+    point, mesh = MoesPoint(200, 10, 0.5), Mesh(128, Domain(), 0.5)
     for purpose in m.FINENESS:
         assert m.remedy(mesh, Status.CONVERGED, point, purpose) is None
         assert m.remedy(mesh, Status.INTERRUPTED, point, purpose) is None
@@ -149,7 +151,7 @@ def test_no_remedy_for_what_was_asked_for_or_is_done():
     for status in (*m.REFINED, Status.OUT_OF_DOMAIN):
         assert m.remedy(mesh, status, point, grid=Grid(n=128)) is None
         assert m.remedy(mesh, status, point) is not None
-    assert m.remedy(Mesh(2048, Domain()), Status.UNRESOLVED, point) is None
+    assert m.remedy(Mesh(2048, Domain(), point.kappa), Status.UNRESOLVED, point) is None
 
 
 POOR = ErrorEstimate(approach=1e-5, h_central=1e-3, h_min=0.5)
@@ -165,12 +167,12 @@ def test_lines_lie_close_where_side_lobes_are_not_resolved(M, L, kappa):
     close = m.remedy(first, Status.UNRESOLVED, point)
     assert first.y_refinement == 1 < close.y_refinement and close.domain == first.domain
     assert close.n * close.y_refinement >= 2 * first.n or close.n * close.y_refinement == 2 * 1024
-    assert close.nodes(kappa) <= m.FINENESS[Purpose.FILM].largest
-    assert close.nodes(kappa) == pytest.approx(Mesh(close.n, close.domain).nodes(kappa) * close.y_refinement)
+    assert close.nodes <= m.FINENESS[Purpose.FILM].largest
+    assert close.nodes == pytest.approx(Mesh(close.n, close.domain, kappa).nodes * close.y_refinement)
     finer = m.remedy(close, Status.CONVERGED, point, error=POOR)
-    assert finer is None or finer == Mesh(2 * close.n, close.domain, close.y_refinement)
+    assert finer is None or finer == replace(close, n=2 * close.n)
     # a film that is solved, but not its smallest: lines before more nodes than are affordable
-    finest = Mesh(2048, first.domain)
+    finest = Mesh(2048, first.domain, kappa)
     assert m.remedy(finest, Status.CONVERGED, point, error=POOR) == close
 
 
@@ -180,18 +182,18 @@ def test_one_more_grid_is_tried_after_the_finest_that_is_affordable(M, L, kappa,
     """With four lines for a node, beyond what a film is tried on at first; never for one that is solved."""
     point = MoesPoint(M, L, kappa)
     mesh = m._with_close_lines(m.NEAREST_DOMAIN, point)
-    assert not m.is_last(mesh, point)
+    assert not m.is_last(mesh)
     assert m.remedy(mesh, Status.CONVERGED, point, error=POOR) is None
     last = m.remedy(mesh, status, point)
-    assert last is not None and m.is_last(last, point)
-    assert last == Mesh(2048, mesh.domain, m.CLOSE_LINES) and last.nodes(kappa) <= m.LAST_GRID
+    assert last is not None and m.is_last(last)
+    assert last == Mesh(2048, mesh.domain, kappa, m.CLOSE_LINES) and last.nodes <= m.LAST_GRID
     assert m.remedy(last, status, point) is None
 
 
 def test_the_last_grid_has_to_fit_into_memory(monkeypatch):
     point = MoesPoint(9355, 0.72, 3.7)
     mesh = m._with_close_lines(m.NEAREST_DOMAIN, point)
-    monkeypatch.setattr(m, "fits", lambda nodes, *_: nodes < m.FINENESS[Purpose.FILM].largest)
+    monkeypatch.setattr(Mesh, "fits", lambda mesh, *_: mesh.nodes < m.FINENESS[Purpose.FILM].largest)
     assert m.remedy(mesh, Status.UNRESOLVED, point) is None
 
 
@@ -208,12 +210,8 @@ def test_contacts_that_are_not_long_keep_their_lines(M, L, kappa):
 def test_spikes_of_stiff_oil_have_their_mesh_where_the_film_moves(purpose):
     """Not a thick film, which has none, and not a steady one, which is judged by its own estimate."""
     stiff, less, thick = (MoesPoint(*at) for at in ((1000, 24, 0.2), (1000, 20, 0.2), (5, 25, 0.08)))
-    assert (
-        mesh_for(stiff, purpose).size(stiff.kappa)
-        <= m.SPIKE_MESH
-        < mesh_for(less, purpose, grid=Grid(n=96)).size(0.2)
-    )
-    assert mesh_for(thick, purpose).size(thick.kappa) > m.SPIKE_MESH
+    assert mesh_for(stiff, purpose).size <= m.SPIKE_MESH < mesh_for(less, purpose, grid=Grid(n=96)).size
+    assert mesh_for(thick, purpose).size > m.SPIKE_MESH
     assert mesh_for(stiff, Purpose.FILM).n == mesh_for(less, Purpose.FILM).n == 128
 
 
@@ -263,6 +261,10 @@ def test_default_region_grows_without_a_kink(kappa):
 LIGHT = MoesPoint(6.0748, 2.7586, 0.08827)
 
 
+def widened(domain):
+    return Domain(*(m.DOMAIN_GROWTH * end for end in domain.as_tuple()))
+
+
 @pytest.fixture
 def tight(monkeypatch):
     """A default region that pressure reaches beyond: none is known that the real one does not hold."""
@@ -275,7 +277,7 @@ def test_every_solve_widens_its_region_alike():
     film = solve_steady(LIGHT, grid=Grid(n=128), throw=False)
     assert film.status is Status.OUT_OF_DOMAIN  # a given n is judged as it is
     wide = solve_steady(LIGHT, refine=False).domain
-    assert wide == Domain.for_point(LIGHT).scaled(m.DOMAIN_GROWTH)
+    assert wide == widened(Domain.for_point(LIGHT))
     motion = FreeVibration(Omega_n=5.13)
     run = simulate(LIGHT, motion, grid=Grid(n=128), time=TimeSteps(until=0.05, dt=0.025))
     contact = FullContact(LIGHT, grid=Grid(n=128))
@@ -326,7 +328,7 @@ def test_a_run_that_leaves_its_region_begins_again(monkeypatch):
     )
     assert given.status is Status.OUT_OF_DOMAIN and given.T[-1] > 0.0
     run = simulate(point, motion, grid=Grid(n=64), time=TimeSteps(until=0.2))
-    assert run.domain == inside.scaled(m.DOMAIN_GROWTH) and run.T[-1] == 0.2
+    assert run.domain == widened(inside) and run.T[-1] == 0.2
 
 
 @pytest.mark.parametrize("kappa", [0.05, 0.5, 4.0])
@@ -338,10 +340,10 @@ def test_default_region_holds_the_pressure_of_light_loads(kappa, N):
 
 def test_widened_ends_with_what_was_given():
     given = Domain(-3.0, 1.4, 2.0)
-    first = Mesh(64, given)
+    first = Mesh(64, given, LIGHT.kappa)
     assert list(m.wider_meshes(first, LIGHT, Purpose.RUN, grid=Grid(domain=given))) == [first]
     regions = [mesh.domain for mesh in m.wider_meshes(first, LIGHT, Purpose.RUN)]
-    assert regions[1] == given.scaled(m.DOMAIN_GROWTH) and len(regions) == m.LARGEST_ATTEMPTS
+    assert regions[1] == widened(given) and len(regions) == m.LARGEST_ATTEMPTS
 
 
 def test_the_page_of_notation_has_the_numbers_of_the_code():

@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 
 from ehlcontact import Domain, Grid, MoesPoint, Status, solve_steady, steady
+from ehlcontact.solver.attempts import CLOSE_LAST_RESORT, CLOSE_METHODS, CONTINUATION, METHODS
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid_rules import coarsest_intervals
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Level
-from ehlcontact.solver.mesh_choice import NEAREST_DOMAIN, Mesh, is_last
+from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import NEAREST_DOMAIN, is_last
 from ehlcontact.solver.multigrid import CONTINUATION_LOADING, Multigrid, initial_approach
 
 LOAD = Balance.of_load()
@@ -25,7 +27,7 @@ def test_two_algorithms_one_discretisation(solve_by_newton, kappa):
     """Cycles over two grids end where Newton on the finest alone ends."""
     point = MoesPoint(20, 8, kappa)
     level, u = solve_by_newton(point)
-    cycles = Multigrid(point, Mesh(32, Domain()))
+    cycles = Multigrid(point, Mesh(32, Domain(), point.kappa))
     assert len(cycles.levels) == 2
     cycles.full_multigrid(LOAD)
     for _ in range(25):
@@ -36,7 +38,7 @@ def test_two_algorithms_one_discretisation(solve_by_newton, kappa):
 
 
 def test_solution_is_a_fixed_point_of_the_cycle():
-    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()))
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain(), 0.5))
     mg.full_multigrid(LOAD)
     for _ in range(30):
         mg.cycle(LOAD)
@@ -49,7 +51,7 @@ def test_solution_is_a_fixed_point_of_the_cycle():
 
 @pytest.mark.parametrize("balance", [Balance.of_approach(0.7), Balance(3.0, 1.0, 3.2)], ids=["approach", "motion"])
 def test_other_balances_close_the_cycle(balance):
-    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()))
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain(), 0.5))
     mg.full_multigrid(balance)
     for _ in range(20):
         mg.cycle(balance)
@@ -122,19 +124,19 @@ def test_each_way_of_a_method_is_tried_in_turn(monkeypatch):
         tried.append((attempt.method, attempt.multigrid.sweep_factor, attempt.multigrid.least_sweep_factor))
         return Status.STAGNATED
 
-    monkeypatch.setattr(steady._Attempt, "run", failing)
-    monkeypatch.setattr(steady, "remedy", lambda *_, **__: None)
+    monkeypatch.setattr(steady._Film, "run", failing)
+    monkeypatch.setattr("ehlcontact.solver.attempts.remedy", lambda *_, **__: None)
     for name, sweep_factors in (("automatic", [1, 2, 2]), ("multigrid", [1]), ("newton", [1])):
         tried.clear()
         assert solve_steady(MoesPoint(20, 8, 0.5), grid=Grid(n=32), method=name, throw=False).status == "stagnated"
-        assert tried == [(way, e, e) for way, e in zip(steady.METHODS[name], sweep_factors, strict=True)]
-    assert [way.newton for way in steady.METHODS["automatic"]] == [False, False, True]
+        assert tried == [(way, e, e) for way, e in zip(METHODS[name], sweep_factors, strict=True)]
+    assert [way.newton for way in METHODS["automatic"]] == [False, False, True]
 
 
 @pytest.mark.parametrize("sweep_factor", [1, 2, 4])
 def test_effort_repeats_the_sweeps_of_a_cycle(monkeypatch, sweep_factor):
     """Two sweeps on the way down, one on the way up, flanks before the last of each; all of it so many times."""
-    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()), sweep_factor=sweep_factor)
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain(), 0.5), sweep_factor=sweep_factor)
     mg.full_multigrid(LOAD)
     moves = []
     for name in ("relax", "relax_flanks"):
@@ -152,14 +154,14 @@ def test_more_effort_makes_a_cycle_converge_faster(M, L, kappa):
     """Where sweeps are what limits it, as in isoviscous oil."""
     ends = []
     for sweep_factor in (1, 2):
-        mg = Multigrid(MoesPoint(M, L, kappa), Mesh(128, Domain()), sweep_factor=sweep_factor)
+        mg = Multigrid(MoesPoint(M, L, kappa), Mesh(128, Domain(), kappa), sweep_factor=sweep_factor)
         mg.full_multigrid(LOAD)
         ends.append([mg.cycle(LOAD) for _ in range(4)][-1])
     assert ends[1] < 0.2 * ends[0]
 
 
 def test_a_cycle_tells_the_largest_change_of_the_pressure():
-    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()))
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain(), 0.5))
     mg.full_multigrid(LOAD)
     for _ in range(4):
         before = mg.finest.P.copy()
@@ -168,7 +170,7 @@ def test_a_cycle_tells_the_largest_change_of_the_pressure():
 
 
 def test_a_cycle_leaves_film_and_residual_of_its_pressure():
-    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()))
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain(), 0.5))
     mg.full_multigrid(LOAD)
     mg.cycle(LOAD)
     H, r = mg.finest.H.copy(), mg.finest.r.copy()
@@ -181,7 +183,7 @@ def test_coarsening_along_x_alone_ends_where_newton_ends(solve_by_newton, kappa)
     """The same film from levels halved along X, both, and Y; the restricted equations lose nothing on the way."""
     point = MoesPoint(20, 8, kappa)
     level, u = solve_by_newton(point)
-    mg = Multigrid(point, Mesh(32, Domain()))
+    mg = Multigrid(point, Mesh(32, Domain(), point.kappa))
     assert (mg.finest.nx, mg.finest.ny) == (level.nx, level.ny)
     assert [(k.nx, k.ny) for k in mg.levels] == [(16, 8), (16, 16), (32, 16)]
     mg.full_multigrid(LOAD)
@@ -195,7 +197,7 @@ def test_coarsening_along_x_alone_ends_where_newton_ends(solve_by_newton, kappa)
 @pytest.mark.parametrize("kappa", [0.05, 0.09, 0.3])
 def test_lines_far_apart_cost_no_cycles(kappa):
     """Halved along X first, the change of the pressure falls fivefold a cycle, however far the lines lie apart."""
-    mg = Multigrid(MoesPoint(200, 10, kappa), Mesh(128, Domain()))
+    mg = Multigrid(MoesPoint(200, 10, kappa), Mesh(128, Domain(), kappa))
     mg.full_multigrid(LOAD)
     changes = [mg.cycle(LOAD) for _ in range(8)]
     assert (changes[1] / changes[7]) ** (1.0 / 6.0) >= 5.0
@@ -204,8 +206,8 @@ def test_lines_far_apart_cost_no_cycles(kappa):
 def test_close_lines_show_side_lobes():
     """Of a film that comes out negative on lines as far apart as the nodes; cycles fall as fast as elsewhere."""
     point, domain = MoesPoint(1351.4385, 3.4935, 4.7044), Domain(-1.5, 1.2, 1.25)
-    mg = Multigrid(point, Mesh(512, domain, 4))
-    assert mg.halved().mesh == Mesh(256, domain, 4)
+    mg = Multigrid(point, Mesh(512, domain, point.kappa, 4))
+    assert mg.halved().mesh == Mesh(256, domain, point.kappa, 4)
     mg.full_multigrid(LOAD)
     for _ in range(10):
         change = mg.cycle(LOAD)
@@ -219,7 +221,7 @@ LOBES = MoesPoint(11268.36, 1.25058, 3.411192)  # of the box: side lobes a thirt
 @pytest.mark.slow
 def test_a_careful_start_finds_side_lobes_that_cycles_lose():
     """From a coarsest level of six lines across, in steps of the load by four, the first cycles swing for good."""
-    film = steady._Attempt(LOBES, Mesh(1024, NEAREST_DOMAIN, 4), steady.CLOSE_METHODS[1], "fft", 1)
+    film = steady._Film(LOBES, Mesh(1024, NEAREST_DOMAIN, LOBES.kappa, 4), CLOSE_METHODS[1], "fft", 1)
     assert film.run(LOAD, 1e-5, 20, None) is Status.CONVERGED
     assert film.multigrid.levels[0].nx == 128
     assert film.multigrid.finest.lowest_film() == pytest.approx(2.08e-5, rel=0.01)
@@ -228,7 +230,7 @@ def test_a_careful_start_finds_side_lobes_that_cycles_lose():
 @pytest.mark.parametrize("most", [1.3, 1.0], ids=["small steps settle", "none does"])
 def test_careful_steps_of_the_load_are_taken_back_where_they_do_not_settle(monkeypatch, most):
     """Halved from a factor of two until one settles, and on with that; pressure and approach as before it."""
-    mg = Multigrid(LOBES, Mesh(64, Domain()), load_continuation=True)
+    mg = Multigrid(LOBES, Mesh(64, Domain(), LOBES.kappa), load_continuation=True)
     level, settled, tried = mg.finest, [100.0], []
     mg.u = 0.25
 
@@ -256,7 +258,7 @@ def test_careful_steps_of_the_load_are_taken_back_where_they_do_not_settle(monke
 @pytest.mark.parametrize("fault", ["swings", "negative"])
 def test_a_start_of_a_finer_grid_carries_what_leaves_its_film_positive(monkeypatch, fault):
     """The finer one goes on from there: on half the intervals side lobes may be negative under the whole load."""
-    mg = Multigrid(LOBES, Mesh(128, Domain()), load_continuation=True).halved()
+    mg = Multigrid(LOBES, Mesh(128, Domain(), LOBES.kappa), load_continuation=True).halved()
     level, most = mg.finest, 300.0
     mg.u = 0.25
 
@@ -276,7 +278,7 @@ def test_a_start_of_a_finer_grid_carries_what_leaves_its_film_positive(monkeypat
 @pytest.mark.parametrize(("load_continuation", "sweep_factor"), [(False, 4), (True, 1)])
 def test_sweeps_of_a_careful_film_are_not_repeated(load_continuation, sweep_factor):
     """However slowly its changes fall: repeated, they let side lobes grow."""
-    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain()), load_continuation=load_continuation)
+    mg = Multigrid(MoesPoint(20, 8, 0.5), Mesh(64, Domain(), 0.5), load_continuation=load_continuation)
     mg.full_multigrid(LOAD)
     iterate(mg, LOAD, lambda balance: 1.0, StoppingCriteria(1e9, 1e-9, 8, 1e-7, 1e-7), IterationHistory())
     assert mg.sweep_factor == sweep_factor
@@ -289,7 +291,7 @@ def test_where_cycles_fail_on_close_lines_a_careful_start_follows(monkeypatch):
         tried.append((attempt.method.load_continuation, attempt.mesh.y_refinement))
         return Status.CONVERGED if attempt.method.load_continuation else Status.DIVERGED
 
-    monkeypatch.setattr(steady._Attempt, "run", run)
+    monkeypatch.setattr(steady._Film, "run", run)
     assert solve_steady(LOBES, throw=False).status is Status.CONVERGED
     assert tried[-2:] == [(False, 4), (True, 4)]
     assert set(tried[:-2]) == {(False, 1)}
@@ -306,11 +308,11 @@ def test_after_all_affordable_grids_one_more_is_tried_carefully(monkeypatch):
         tried.append((attempt.mesh, attempt.method))
         return Status.DIVERGED
 
-    monkeypatch.setattr(steady._Attempt, "run", run)
+    monkeypatch.setattr(steady._Film, "run", run)
     assert solve_steady(LOBES, throw=False).status is Status.DIVERGED
-    last = [(mesh, method) for mesh, method in tried if is_last(mesh, LOBES)]
-    assert last == [(Mesh(2048, NEAREST_DOMAIN, 4), steady.CONTINUATION)]
-    assert tried[-2:] == [*last, (Mesh(512, NEAREST_DOMAIN, 4), steady.CLOSE_LAST_RESORT)]
+    last = [(mesh, method) for mesh, method in tried if is_last(mesh)]
+    assert last == [(Mesh(2048, NEAREST_DOMAIN, LOBES.kappa, 4), CONTINUATION)]
+    assert tried[-2:] == [*last, (Mesh(512, NEAREST_DOMAIN, LOBES.kappa, 4), CLOSE_LAST_RESORT)]
 
 
 def test_initial_approach_is_bounded():

@@ -19,7 +19,7 @@ from ehlcontact.solver.linear import (
     solve_linear,
     stencil_matrix,
 )
-from ehlcontact.solver.mesh_choice import Mesh
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.status import Status
@@ -33,7 +33,7 @@ FINEST = [pytest.param(*point, 256, marks=pytest.mark.slow) for point in POINTS]
 
 def hierarchy(M, L, kappa, n):
     point = MoesPoint(M, L, kappa)
-    multigrid = Multigrid(point, Mesh(n, Domain.for_point(point)))
+    multigrid = Multigrid(point, Mesh(n, Domain.for_point(point), point.kappa))
     return multigrid, multigrid.finest.dry_residual()
 
 
@@ -255,7 +255,7 @@ def test_transient_steps_agree_and_share_factors(M, L, kappa, monkeypatch):
     point, dT, omega_n = MoesPoint(M, L, kappa), 0.02, 5.13
     results = []
     for by_newton in (False, True):
-        film = TransientFilm(point, Mesh(64, Domain.for_point(point)), tol=1e-8)
+        film = TransientFilm(point, Mesh(64, Domain.for_point(point), point.kappa), tol=1e-8)
         film.start_steady(LOAD)
         solver = NewtonKrylov(film.multigrid)
         if by_newton:

@@ -14,7 +14,7 @@ from programs import ROOT, dask_cluster, environment
 
 from ehlcontact import Domain, InputError, MoesPoint
 from ehlcontact.content_store import ContentStore
-from ehlcontact.solver.mesh_choice import Mesh
+from ehlcontact.solver.mesh import Mesh
 from ehlcontact.store import load, save
 from reduced_models.atlas.build import BOX, RATES, assemble, build_atlas, smooth_gains
 from reduced_models.atlas.mesh import GRIDS, LIGHT_INTERVALS, impedance_grid
@@ -69,7 +69,7 @@ def test_mesh_is_finer_for_thinner_films_and_ends():
             assert point.inlet_width < GRIDS[-1].least_inlet
         else:
             widths.append(point.inlet_width)
-            steps.append(Mesh(mesh.n, mesh.domain).size(0.6) / widths[-1])
+            steps.append(Mesh(mesh.n, mesh.domain, 0.6).size / widths[-1])
     assert len(widths) > 25 and max(steps) < 0.55
 
 
