@@ -5,6 +5,7 @@ import shutil
 
 import pytest
 
+from ehlcontact.cli import main
 from ehlcontact.cli.study.forecast import forecast
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import STAGES, stages_of
@@ -12,14 +13,18 @@ from ehlcontact.cli.study.stages import STAGES, stages_of
 HALF_STEP = ("rotor_half_step", "decay_half_step")
 
 
-@pytest.fixture
-def unchecked(finished, tmp_path):
+@pytest.fixture(scope="module")
+def unchecked(finished, tmp_path_factory):
     """The tiny study without its [check], and the folder of its run, which finds all its stages in a copy."""
-    file, folder = tmp_path / "tiny.toml", tmp_path / "out"
+    root = tmp_path_factory.mktemp("unchecked")
+    file, folder = root / "tiny.toml", root / "out"
     file.write_text(finished[0].read_text().replace("[check]\nhalf_step = true\n", ""))
     shutil.copytree(finished[1], folder)
     for name in HALF_STEP:
         (folder / f"{name}.h5").unlink()
+    with pytest.raises(SystemExit) as stop:
+        main(["run", str(file), "-o", str(folder)])
+    assert not stop.value.code
     return file, folder
 
 
@@ -32,11 +37,9 @@ def test_stages_of_the_check_are_opt_in(finished, unchecked):
     assert plans == set(names) - set(HALF_STEP)
 
 
-def test_results_of_a_study_without_a_check(call, finished, unchecked):
+def test_results_of_a_study_without_a_check(finished, unchecked):
     """Its numbers are those of the study with the check, whose stages it keeps."""
-    file, folder = unchecked
-    result = call("run", file, "-o", folder)
-    assert result.code == 0, result.err
+    _, folder = unchecked
     assert not any((folder / f"{name}.h5").exists() for name in HALF_STEP)
     own, checked = (json.loads((path / "results.json").read_text()) for path in (folder, finished[1]))
     for name in ("half_step", "step_full", "step_reduced"):
@@ -49,8 +52,6 @@ def test_results_of_a_study_without_a_check(call, finished, unchecked):
     assert "half the step" in (finished[1] / "report.html").read_text()
 
 
-def test_a_check_that_is_switched_on_later_is_all_that_is_solved(call, finished, unchecked):
-    file, folder = unchecked
-    assert call("run", file, "-o", folder).code == 0
-    plans = forecast(load_study(finished[0]), folder, 2).plans
+def test_a_check_that_is_switched_on_later_is_all_that_is_solved(finished, unchecked):
+    plans = forecast(load_study(finished[0]), unchecked[1], 2).plans
     assert {plan.stage.name for plan in plans if not plan.kept} == set(HALF_STEP)

@@ -16,8 +16,11 @@ FULL = "ehlcontact: stdout = 'No space left on device': must be able to take the
 CLOSED = "ehlcontact: stdout was closed before everything was written to it\n"
 
 
-@pytest.mark.parametrize("arguments", [ELEMENT, (*ELEMENT, "--json", "-"), ("--help",), ("--version",)], ids=len)
-@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize(
+    ("arguments", "unbuffered"),
+    [(ELEMENT, ""), (ELEMENT, "1"), ((*ELEMENT, "--json", "-"), ""), (("--help",), "1"), (("--version",), "")],
+    ids=["table", "table unbuffered", "json", "help unbuffered", "version"],
+)
 def test_full(arguments, unbuffered):
     with open("/dev/full", "w") as full:
         found = program(*arguments, stdout=full, env=environment(PYTHONUNBUFFERED=unbuffered))

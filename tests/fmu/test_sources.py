@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import zipfile
+from collections.abc import Sequence
 from pathlib import Path
 
 import fmpy
@@ -27,7 +28,9 @@ from fmu.sources import CSRC, source_files
 
 pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 STRICT = ["-pedantic", "-Wall", "-Wextra", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Werror"]
-SANITIZE = ["-g", "-O1", "-fsanitize=address,undefined,float-divide-by-zero", "-fno-sanitize-recover=all"]
+SANITIZE = ["-fsanitize=address,undefined,float-divide-by-zero", "-fno-sanitize-recover=all"]
+SANITIZED = [*STRICT, "-g", "-O1", *SANITIZE]
+HERE = Path(__file__).parent
 CONTACTS = ["cubic", "polynomial", "power_si", "wide_si", "memory"]
 ROTORS = ["rotor alone", "rotor mixed", "rotor wide in y"]
 FUZZ = {2: "fuzz.c", 3: "fuzz3.c"}
@@ -55,24 +58,37 @@ def models(elements, rotors):
     return elements | {f"rotor {name}": rotor for name, rotor in rotors.items()}
 
 
-@pytest.fixture
-def compiled(compiler, models, tmp_path):
-    """``compiled("cubic", 2, flags)``: sources of an FMU as a library, or with a program of this folder."""
+@pytest.fixture(scope="module")
+def compiled(compiler, models, tmp_path_factory):
+    """``compiled("cubic", 2, flags)``: sources of an FMU as a library, or with a program of this folder.
 
-    def make(name: str, fmi: int, flags: list[str], program: str | None = None) -> Path:
-        spec = fmu_model(models[name]).spec
-        folder = tmp_path / f"{name}{fmi}"
-        folder.mkdir()
-        for file, content in source_files(spec, content_guid(spec, fmi), fmi).items():
-            (folder / file).write_bytes(content)
-        files = [*sorted(folder.glob("*.c")), *([] if program is None else [Path(__file__).with_name(program)])]
-        how = ["-fPIC", "-shared"] if program is None else ["-ffp-contract=off"]
-        include = ["-I", folder, "-I", CSRC / "fmi3"] if fmi == 3 else ["-I", folder]
-        built = run([compiler, "-std=c99", *flags, *how, *include, *files, "-lm", "-o", folder / "made"])
+    The sources are compiled once for all programs that are linked with them.
+    """
+    folders = {}
+
+    def compile_(*line):
+        built = run([compiler, "-std=c99", *line])
         if built.returncode != 0 and "sanitize" in built.stderr:
             pytest.skip("no sanitizer runtime")
         assert (built.returncode, built.stderr) == (0, "")
-        return folder / "made"
+
+    def make(
+        name: str, fmi: int, flags: list[str], program: str | None = None, macros: Sequence[str] = ()
+    ) -> Path:
+        how = [*flags, "-fPIC" if program is None else "-ffp-contract=off"]
+        include = ["-I", CSRC / "fmi3"] if fmi == 3 else []
+        folder = folders.get((name, fmi, *how))
+        if folder is None:
+            folder, spec = tmp_path_factory.mktemp(f"{name}{fmi}".replace(" ", "_")), fmu_model(models[name]).spec
+            for file, content in source_files(spec, content_guid(spec, fmi), fmi).items():
+                (folder / file).write_bytes(content)
+            for unit in folder.glob("*.c"):
+                compile_(*how, *include, "-I", folder, "-c", unit, "-o", unit.with_suffix(".o"))
+            folders[(name, fmi, *how)] = folder
+        source = ["-shared"] if program is None else [*macros, *include, "-I", folder, HERE / program]
+        made = folder / ("library" if program is None else Path(program).stem)
+        compile_(*how, *source, *sorted(folder.glob("*.o")), "-lm", "-o", made)
+        return made
 
     return make
 
@@ -86,12 +102,9 @@ def random_calls_of(name):
     return [f"-DFUZZ_{macro}={text}" for macro, text in given.items()]
 
 
-def test_strict_warnings(compiled, any_kind):
-    compiled(any_kind, 2, [*STRICT, "-O2"])
-
-
 @pytest.mark.parametrize("name", [*ROTORS, "rotor alone in y", "rotor cubic"])
 def test_strict_warnings_of_rotors(compiled, name):
+    """Those of contacts: in the tests of libraries and of the driver."""
     compiled(name, 2, [*STRICT, "-O2"])
 
 
@@ -117,7 +130,7 @@ def test_a_library_exports_fmi(compiled, extracted, fmi, name):
 )
 def test_random_calls_under_sanitizers(compiled, fmi, name):
     calls = 2 * FEW if name in ROTORS else FEW
-    done = run([compiled(name, fmi, [*SANITIZE, *random_calls_of(name)], FUZZ[fmi]), calls, 1])
+    done = run([compiled(name, fmi, SANITIZED, FUZZ[fmi], random_calls_of(name)), calls, 1])
     assert done.returncode == 0, done.stderr
 
 
@@ -125,7 +138,7 @@ def test_random_calls_under_sanitizers(compiled, fmi, name):
 @pytest.mark.parametrize("name", CONTACTS)
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_a_million_random_calls_under_sanitizers(compiled, fmi, name):
-    program = compiled(name, fmi, SANITIZE, FUZZ[fmi])
+    program = compiled(name, fmi, SANITIZED, FUZZ[fmi])
     for seed in (2, 3):
         done = run([program, MANY // len(CONTACTS) // 2, seed])
         assert done.returncode == 0, done.stderr
@@ -135,7 +148,7 @@ def test_driver_under_sanitizers_agrees_with_python(compiled, elements, any_kind
     element = elements[any_kind]
     h, u, v, expected, scales = wanted(element)
     text = "".join(f"{a!r} {b!r} {c!r}\n" for a, b, c in zip(h.tolist(), u.tolist(), v.tolist(), strict=True))
-    done = run([compiled(any_kind, 2, [*STRICT, *SANITIZE], "driver.c")], input=text)
+    done = run([compiled(any_kind, 2, SANITIZED, "driver.c")], input=text)
     assert done.returncode == 0, done.stderr
     found = np.array(done.stdout.split(), dtype=float).reshape(-1, 3)
     assert found.shape == (u.size, 3)
