@@ -7,6 +7,7 @@ slow ones, which take all cores themselves, stay in one process; so does all wit
 import os
 import signal
 import subprocess
+import time
 from functools import cache
 
 import pytest
@@ -30,6 +31,7 @@ def pytest_cmdline_main(config):
         return
     if option.dist == "no" and cores() > 1:
         option.numprocesses, option.dist = cores(), "loadfile"  # fixtures of a file are made once
+        option.loadscopereorder = False  # long files come first: those of the command line
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # a solve has as many threads, and the cores are taken
 
 
@@ -73,11 +75,37 @@ def no_room(monkeypatch):
     return lambda: monkeypatch.setattr(os, "fsync", write)
 
 
-@pytest.fixture(scope="session", autouse=True)
-def own_cache(tmp_path_factory):
-    """Libraries of FMUs are compiled by the tests, not found in the user's cache."""
+@pytest.fixture(scope="session")
+def common_folder(tmp_path_factory):
+    """The folder that all workers of pytest-xdist have in common."""
     base = tmp_path_factory.getbasetemp()
-    shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base  # what one worker compiled, all have
+    return base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+
+
+@pytest.fixture(scope="session")
+def made_once(common_folder):
+    """``made_once(name, make)``: a folder that ``make(folder)`` has filled, in the first worker that needs it."""
+
+    def folder(name, make):
+        place, done = common_folder / name, common_folder / f"{name}.done"
+        try:
+            place.mkdir()
+        except FileExistsError:
+            while not done.exists():
+                time.sleep(0.05)
+        else:
+            try:
+                make(place)
+            finally:
+                done.touch()
+        return place
+
+    return folder
+
+
+@pytest.fixture(scope="session", autouse=True)
+def own_cache(common_folder):
+    """Libraries of FMUs are compiled by the tests, not found in the user's cache."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("EHLCONTACT_CACHE", str(shared / "compiled"))
+        patch.setenv("EHLCONTACT_CACHE", str(common_folder / "compiled"))
         yield

@@ -52,17 +52,18 @@ def quiet(monkeypatch):
 
 
 @pytest.fixture(scope="session")
-def finished(tmp_path_factory):
+def finished(made_once):
     """A study file and the folder of its finished run."""
     from ehlcontact.cli import main
 
-    root = tmp_path_factory.mktemp("run")
-    study = root / "tiny.toml"
-    study.write_text(STUDY)
-    with pytest.raises(SystemExit) as stop:
-        main(["run", str(study), "-o", str(root / "out")])
-    assert not stop.value.code
-    return study, root / "out"
+    def run(folder):
+        (folder / "tiny.toml").write_text(STUDY)
+        with pytest.raises(SystemExit) as stop:
+            main(["run", str(folder / "tiny.toml"), "-o", str(folder / "out")])
+        assert not stop.value.code
+
+    root = made_once("finished study", run)
+    return root / "tiny.toml", root / "out"
 
 
 @pytest.fixture(scope="session")

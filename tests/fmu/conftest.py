@@ -145,9 +145,13 @@ class Slave:
 
 
 @pytest.fixture(scope="session")
-def fmus(tmp_path_factory) -> dict[str, Path]:
-    folder = tmp_path_factory.mktemp("fmus")
-    return {name: export_contact(element, folder / f"{name}.fmu") for name, element in (SPRINGS | FILMS).items()}
+def fmus(made_once) -> dict[str, Path]:
+    def export(folder):
+        for name, element in (SPRINGS | FILMS).items():
+            export_contact(element, folder / f"{name}.fmu")
+
+    folder = made_once("fmus", export)
+    return {name: folder / f"{name}.fmu" for name in SPRINGS | FILMS}
 
 
 @pytest.fixture(scope="session")

@@ -37,16 +37,18 @@ def parts() -> tuple[JeffcottRotor, list[Any]]:
 
 
 @pytest.fixture(scope="session")
-def system(parts, tmp_path_factory) -> System:
+def system(parts, made_once) -> System:
     """In FMI 2."""
-    path = tmp_path_factory.mktemp("system") / "rotor on contacts.ssp"
-    return System(*parts, export_system(*parts, path))
+    name = "rotor on contacts.ssp"
+    folder = made_once("system", lambda folder: export_system(*parts, folder / name))
+    return System(*parts, folder / name)
 
 
 @pytest.fixture(scope="session")
-def system_3(parts, tmp_path_factory) -> System:
+def system_3(parts, made_once) -> System:
     """In FMI 3, of a rotor that moves in y only."""
     rotor, contacts = parts
     upright = dataclasses.replace(rotor, directions="y")
-    path = tmp_path_factory.mktemp("system") / "upright.ssp"
-    return System(upright, contacts, export_system(upright, contacts, path, fmi=3))
+    name = "upright.ssp"
+    folder = made_once("system 3", lambda folder: export_system(upright, contacts, folder / name, fmi=3))
+    return System(upright, contacts, folder / name)
