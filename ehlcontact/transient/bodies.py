@@ -4,6 +4,9 @@ There are three kinds: a prescribed approach (`prescribed.PrescribedApproach`), 
 without inertia. With inertia the approach obeys ``u''/Omega_n^2 + f = f_ext`` (eq. 5), integrated by Newmark's
 rule; without it the film carries the load at every instant (eq. 6). A `Motion` gives the `Balance` that closes
 a step and the state of the bodies after it, so that no other code depends on the kind.
+
+Every motion is dimensionless: times in 2a/u_sum, loads over the static one, approaches over the dry one. The class
+method `at` of each makes it for an `OperatingPoint` from SI: seconds, newton, metres, kilograms, rad/s or Hz.
 """
 
 from __future__ import annotations
@@ -17,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
+from ehlcontact.point import OperatingPoint, Scales
 from ehlcontact.solver.balance import Balance
 
 Array = NDArray[np.float64]
@@ -37,6 +41,14 @@ class MotionState:
     u: float  # mutual approach / dry approach
     rate: float  # du/dT
     acceleration: float  # d2u/dT2; 0 where no equation of motion gives it
+
+
+def scales_at(point: object, dimensionless: str) -> Scales:
+    """Return the SI units of a point, or raise `InputError`; `dimensionless` is the call for a `MoesPoint`."""
+    if not isinstance(point, OperatingPoint):
+        allowed = f"an OperatingPoint; a dimensionless one takes {dimensionless}"
+        raise InputError("point", type(point).__name__, allowed)
+    return point.scales
 
 
 class Start(NamedTuple):

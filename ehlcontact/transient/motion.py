@@ -1,7 +1,4 @@
-"""The motions of the paper as functions of dimensionless time T: free vibration, harmonic load, ramp.
-
-They are dimensionless by definition; ``at`` makes them for an `OperatingPoint` from a mass or a frequency in SI.
-"""
+"""The motions of the paper as functions of dimensionless time T: free vibration, harmonic load, ramp."""
 
 from __future__ import annotations
 
@@ -13,9 +10,9 @@ from ehlcontact.checks import require_finite, require_positive
 from ehlcontact.checks.frequency import dimensionless, fields_by_name, is_given, one
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
-from ehlcontact.point import OperatingPoint, Scales
+from ehlcontact.point import OperatingPoint
 from ehlcontact.solver.balance import Balance
-from ehlcontact.transient.bodies import LONGEST_ABRUPT, Start, UnderLoad
+from ehlcontact.transient.bodies import LONGEST_ABRUPT, Start, UnderLoad, scales_at
 
 SMALL_VIBRATION = 1.5**0.5  # dry angular frequency over Omega_n
 STEPS_PER_PERIOD = 80
@@ -29,13 +26,6 @@ def _require_frequency(field: str, value: object) -> None:
     if not SLOWEST <= require_positive(field, value) <= FASTEST:
         unit = "in units of u_sum/(2a), not rad/s or Hz"
         raise InputError(field, value, f"between {SLOWEST:g} and {FASTEST:g} ({unit})")
-
-
-def _scales(instead: str, point: object) -> Scales:
-    """SI units of the point; `instead` is what a dimensionless one takes."""
-    if not isinstance(point, OperatingPoint):
-        raise InputError("point", type(point).__name__, f"an OperatingPoint; a dimensionless one takes {instead}")
-    return point.scales
 
 
 @fields_by_name(0, omega_n="Omega_n, dimensionless; FreeVibration.at(point, hz=...) takes SI")
@@ -98,7 +88,7 @@ class FreeVibration(UnderLoad):
         InputError
             Not exactly one of mass, omega and hz; a dimensionless point.
         """
-        scales = _scales("FreeVibration(Omega_n)", point)
+        scales = scales_at(point, "FreeVibration(Omega_n)")
         if (mass is not None) == is_given(omega=omega, hz=hz):
             raise InputError("mass", mass, "given, or omega (rad/s) or hz in its place")
         if mass is not None:
@@ -203,7 +193,7 @@ class HarmonicLoad(UnderLoad):
         InputError
             Not exactly one frequency; a dimensionless point.
         """
-        scales = _scales("HarmonicLoad(Omega)", point)
+        scales = scales_at(point, "HarmonicLoad(Omega)")
         Omega = one("frequency", dimensionless(scales.time, omega=omega, hz=hz, rpm=rpm))
         return cls(Omega=Omega, amplitude=amplitude, Omega_n=None if mass is None else point.Omega_n(mass))
 
@@ -251,6 +241,8 @@ class HarmonicLoad(UnderLoad):
 class RampLoad(UnderLoad):
     """Load rising linearly from 1 to `ratio` within `duration`, then constant, on bodies with inertia.
 
+    All of it is dimensionless; `at` takes load, time and mass at an `OperatingPoint` in SI.
+
     Parameters
     ----------
     ratio : float
@@ -271,6 +263,20 @@ class RampLoad(UnderLoad):
         for name in ("ratio", "duration"):
             require_positive(name, getattr(self, name))
         _require_frequency("Omega_n", self.Omega_n)
+
+    @classmethod
+    @takes(load="N", duration="s", mass="kg")
+    def at(cls, point: OperatingPoint, *, load: float, duration: float, mass: float) -> RampLoad:
+        """The same in SI: to a load [N] within a duration [s], on bodies of a mass [kg].
+
+        Raises
+        ------
+        InputError
+            A number that is not positive; a dimensionless point.
+        """
+        scales = scales_at(point, "RampLoad(ratio, duration, Omega_n)")
+        ratio = require_positive("load", load) / scales.force
+        return cls(ratio, require_positive("duration", duration) / scales.time, Omega_n=point.Omega_n(mass))
 
     def load(self, T: float) -> float:
         """Applied load."""

@@ -12,20 +12,23 @@ from numpy.typing import ArrayLike
 
 from ehlcontact.checks import as_column, require_positive
 from ehlcontact.checks.frequency import by_name, fields_by_name
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
+from ehlcontact.point import OperatingPoint
 from ehlcontact.solver.balance import Balance
-from ehlcontact.transient.bodies import LONGEST_ABRUPT, Array, Motion, MotionState, Start, UnderLoad
+from ehlcontact.transient.bodies import LONGEST_ABRUPT, Array, Motion, MotionState, Start, UnderLoad, scales_at
 
 CORNER = 0.3  # jump of a table's slope, over its steepest, that counts as a corner; 1/20 period of a sine is 0.31
 Table = tuple[Array, Array]  # times and values, shape (k,) each
 
 
-def _as_table(T: ArrayLike, values: ArrayLike) -> Table:
-    """Copies of both columns: four rows or more, with times that increase from 0."""
-    times = as_column("T", T, least=4, increasing=True)
-    if times[0] != 0.0:
-        raise InputError("T[0]", float(times[0]), "0, where the run begins")
-    return times, as_column("values", values, size=times.size)
+def _as_table(times: ArrayLike, values: ArrayLike, names: tuple[str, str] = ("T", "values")) -> Table:
+    """Copies of both columns: four rows or more, with times that increase from 0; `names` are for messages."""
+    of_times, of_values = names
+    column = as_column(of_times, times, least=4, increasing=True)
+    if column[0] != 0.0:
+        raise InputError(f"{of_times}[0]", float(column[0]), "0, where the run begins")
+    return column, as_column(of_values, values, size=column.size)
 
 
 class Tabulated(Motion):
@@ -50,6 +53,8 @@ class Tabulated(Motion):
 @dataclass(frozen=True, slots=True, eq=False)
 class PrescribedLoad(Tabulated, UnderLoad):
     """Load given by a table (linear interpolation) on bodies with (`Omega_n`) or without inertia.
+
+    All of it is dimensionless; `at` takes a table in seconds and newton at an `OperatingPoint`.
 
     Parameters
     ----------
@@ -79,6 +84,23 @@ class PrescribedLoad(Tabulated, UnderLoad):
         if self.Omega_n is not None:
             require_positive("Omega_n", self.Omega_n)
         object.__setattr__(self, "_table", table)
+
+    @classmethod
+    @takes(t="s", load="N", mass="kg")
+    def at(
+        cls, point: OperatingPoint, t: ArrayLike, load: ArrayLike, *, mass: float | None = None
+    ) -> PrescribedLoad:
+        """The same in SI: loads [N] over times [s], shape (k,) each, on bodies of a mass [kg] or without inertia.
+
+        Raises
+        ------
+        InputError
+            As of the class; a dimensionless point.
+        """
+        scales = scales_at(point, "PrescribedLoad(T, values)")
+        times, values = _as_table(t, load, ("t", "load"))
+        Omega_n = None if mass is None else point.Omega_n(mass)
+        return cls(times / scales.time, values / scales.force, Omega_n=Omega_n)
 
     @classmethod
     @by_name(4, "given as Omega_n, dimensionless", omega_n="Omega_n, dimensionless")
@@ -122,6 +144,8 @@ class PrescribedLoad(Tabulated, UnderLoad):
 class PrescribedApproach(Tabulated):
     """Approach u(T) given by a table (cubic spline, so that the rate is continuous).
 
+    All of it is dimensionless; `at` takes a table in seconds and metres at an `OperatingPoint`.
+
     Parameters
     ----------
     T : array_like, shape (k,)
@@ -147,6 +171,20 @@ class PrescribedApproach(Tabulated):
         table = _as_table(self.T, self.values)
         object.__setattr__(self, "_table", table)
         object.__setattr__(self, "_spline", CubicSpline(*table))
+
+    @classmethod
+    @takes(t="s", approach="m")
+    def at(cls, point: OperatingPoint, t: ArrayLike, approach: ArrayLike) -> PrescribedApproach:
+        """The same in SI: approaches [m] over times [s], shape (k,) each.
+
+        Raises
+        ------
+        InputError
+            As of the class; a dimensionless point.
+        """
+        scales = scales_at(point, "PrescribedApproach(T, values)")
+        times, values = _as_table(t, approach, ("t", "approach"))
+        return cls(times / scales.time, values / scales.length)
 
     def approach(self, T: float) -> float:
         """Prescribed approach."""

@@ -60,6 +60,8 @@ def simulate(
     ----------
     point : MoesPoint or OperatingPoint
     motion : FreeVibration, HarmonicLoad, RampLoad, PrescribedLoad or PrescribedApproach
+        Dimensionless at every point; its class method ``at(point, ...)`` takes seconds, newton and metres, for an
+        `OperatingPoint`.
     grid : Grid
         Intervals along X, by default as many as the inlet needs, 128 or more; computed region, by default wide
         enough for the largest load of the motion (where the film leaves it, the run begins again on a wider one);

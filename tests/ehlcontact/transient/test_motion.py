@@ -5,7 +5,18 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import FreeVibration, HarmonicLoad, PrescribedApproach, PrescribedLoad, RampLoad
+from ehlcontact import (
+    FreeVibration,
+    Geometry,
+    HarmonicLoad,
+    InputError,
+    Lubricant,
+    MoesPoint,
+    OperatingPoint,
+    PrescribedApproach,
+    PrescribedLoad,
+    RampLoad,
+)
 from ehlcontact.transient.bodies import Motion
 
 NAN, INF = float("nan"), float("inf")
@@ -51,6 +62,41 @@ def test_prescribed_load():
     assert motion.default_step == pytest.approx(0.25)
     assert motion.largest_load == pytest.approx(1.2)
     assert PrescribedLoad.from_function(lambda t: 1.0 + t, 3.0, steps=30).load(1.5) == pytest.approx(2.5)
+
+
+SI = OperatingPoint(Geometry(0.01, 0.02), Lubricant(eta0=0.04, alpha=2.2e-8), load=50.0, u_sum=2.0)
+
+
+def test_tables_and_ramps_in_si():
+    """Seconds, newton, metres and kilograms over the units of the point, as the frequencies of other motions."""
+    s, mass = SI.scales, 0.02
+    t, load = [0.0, 1e-4, 2e-4, 4e-4], [50.0, 60.0, 55.0, 50.0]
+    given = PrescribedLoad.at(SI, t, load, mass=mass)
+    assert given.load(1e-4 / s.time) == pytest.approx(1.2) and given.load(1.5e-4 / s.time) == pytest.approx(1.15)
+    assert given.default_end * s.time == pytest.approx(4e-4)
+    assert given.Omega_n == SI.Omega_n(mass) == FreeVibration.at(SI, mass=mass).Omega_n
+    assert PrescribedLoad.at(SI, t, load).Omega_n is None
+    driven = PrescribedApproach.at(SI, t, np.array([0.9, 0.95, 0.97, 1.0]) * s.length)
+    assert driven.approach(2e-4 / s.time) == pytest.approx(0.97)
+    ramp = RampLoad.at(SI, load=75.0, duration=1e-4, mass=mass)
+    assert (ramp.ratio, ramp.duration * s.time) == pytest.approx((1.5, 1e-4))
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (
+            lambda: PrescribedLoad.at(SI, [1e-4, 2e-4, 3e-4, 4e-4], [50.0] * 4),
+            r"t\[0\] = 0.0001: must be 0",
+        ),
+        (lambda: PrescribedApproach.at(SI, [0.0, 1e-4, 2e-4, 3e-4], [1e-6] * 3), "length of approach = 3"),
+        (lambda: PrescribedLoad.at(MoesPoint(200, 10, 0.5), T, T), "an OperatingPoint; a dimensionless one takes"),
+        (lambda: RampLoad.at(SI, load=-1.0, duration=1.0, mass=1.0), r"load = -1.0: must be"),
+    ],
+)
+def test_bad_tables_in_si(make, message):
+    with pytest.raises(InputError, match=message):
+        make()
 
 
 def test_load_period_is_that_of_a_load_that_swings():
