@@ -8,6 +8,7 @@ import json
 import time
 
 from ehlcontact.cli.study.points.tasks import Answer
+from ehlcontact.content_store import checksum
 from ehlcontact.executors import ProcessExecutor
 
 FMU = {"passes": True, "file": "contact.fmu"}
@@ -41,7 +42,7 @@ class StubTasks:
         entry = self._begin(key)
         return Answer(entry, key.encode() if entry["status"] == "converged" else b"some")
 
-    def finalise_point(self, key, document, folder):
+    def finalise_point(self, key, document, folder, seconds):
         entry = self._begin(key)
         speed, load = document["bearing"]["speed_rpm"], document["bearing"]["radial_load"]
         results = {
@@ -64,4 +65,5 @@ class StubTasks:
         }
         (folder / "results.json").write_text(json.dumps(results))
         (folder / "report.html").write_text(document.get("title", ""))
-        return Answer(entry | {"whole": results["fmu"]["passes"], "warnings": ["a warning"], "files": {}})
+        files = {name: checksum(folder / name) for name in ("results.json", "report.html")}
+        return Answer(entry | {"whole": results["fmu"]["passes"], "warnings": ["a warning"], "files": files})

@@ -31,7 +31,6 @@ from ehlcontact import (
     solve_steady,
 )
 from ehlcontact.cli import main
-from ehlcontact.cli.study.points.index import read_index
 from reduced_models import BallBearing, CubicContact
 
 ROOT = Path(__file__).parents[2]
@@ -183,14 +182,6 @@ def test_files(refused, sound, place, kind, name):
 @pytest.mark.parametrize("name", files.MISSING)
 def test_files_that_are_not_there(refused, place, kind, name):
     refused(files.COMMANDS[kind](files.missing(place, kind, name), place / "out"), ("must be",), place)
-
-
-def test_a_bad_index_is_no_index(tmp_path):
-    """Of the folder of a study; its stages are made again."""
-    entries = '{"steady": {"status": "converged"}}', '{"steady": {"status": []}}', '{"steady": 3}', '{"sofa": {}}'
-    for text in ("", "{", "[]", "5", files.DEEP, *entries, "\ud83d"):
-        (tmp_path / "stages.json").write_bytes(text.encode("utf-8", "surrogatepass"))
-        assert read_index(tmp_path) == {}
 
 
 @pytest.mark.parametrize("name", CALLS)

@@ -212,26 +212,33 @@ def test_what_only_the_report_shows_solves_nothing(run, stub):
 
 
 def test_contents_are_found_wherever_they_are(run, stub):
-    """From a study of one point to a list and back: nothing is solved twice."""
+    """From a study of one point to a list and back, a folder gone meanwhile: nothing is solved twice."""
     run(STUDY)
     assert len(stub()) == TASKS
     run(with_lists("[3000.0, 4000]"))
     assert stub() == sorted([*of("4000rpm_20N"), "3000rpm_20N report"])
     shutil.rmtree(run.folder / "points" / "4000rpm_20N")
     run(with_lists("4000.0"))
-    assert stub() == of("4000rpm_20N")
+    assert stub() == ["4000rpm_20N report"]
     run(STUDY)
     assert stub() == ["3000rpm_20N report"]
 
 
-def test_files_that_are_damaged_or_gone_are_made_again(run, stub):
+def test_files_that_are_damaged_or_gone_are_written_again(run, stub):
+    """From the store; what is damaged there is solved again."""
     run(with_lists("[3000.0, 4000]"))
     stub()
-    point = run.folder / "points" / "4000rpm_20N"
-    (point / "free.h5").write_text("else")
+    files = [run.folder / "points" / "4000rpm_20N" / f"{name}.h5" for name in ("free", "steady")]
+    before = [file.read_bytes() for file in files]
+    files[0].write_text("else")
+    files[1].unlink()
+    found = run(with_lists("[3000.0, 4000]"))
+    assert stub() == [] and found.err == "" and [file.read_bytes() for file in files] == before
+    (kept,) = (file for file in (run.folder / "store").iterdir() if file.read_bytes().endswith(before[0]))
+    kept.write_bytes(kept.read_bytes()[:-1])
     found = run(with_lists("[3000.0, 4000]"))
     assert stub() == ["4000rpm_20N free", "4000rpm_20N report"]
-    assert f"{point / 'free.h5'} is damaged" in found.err
+    assert "4000rpm_20N: free vibration: what was kept is damaged" in found.err
 
 
 def test_points_that_fail_do_not_stop_the_others(run, stub):

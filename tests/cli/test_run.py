@@ -21,7 +21,7 @@ from tiny_study import STUDY
 
 from ehlcontact import Status, assumptions, load
 from ehlcontact.cli.study import reduction, runner
-from ehlcontact.cli.study.points.index import is_done, read_index
+from ehlcontact.cli.study.points.kept import Kept, stage_key
 from ehlcontact.cli.study.points.lists import load_points
 from ehlcontact.cli.study.points.log import Log
 from ehlcontact.cli.study.schema import load_study
@@ -31,10 +31,10 @@ from reduced_models import RotorResult
 
 
 def run_stages(folder, jobs=1):
-    """The stages of the study in a folder, and its index then; nothing is made of them."""
+    """The stages of the study in a folder, and how they ended; nothing is made of them."""
     points = load_points(folder / "study.toml", folder)
     done = runner.run_points(points, folder, runner.Share(jobs), Log(None), final=False)
-    return done.indices[points[0].name]
+    return done.ended[points[0].name]
 
 
 def test_everything_is_there(finished, results):
@@ -102,31 +102,37 @@ def test_second_run_keeps_what_is_finished(finished, call):
     assert json.loads((folder / "summary.json").read_text())["run"]["solved"] == []
 
 
-@pytest.mark.parametrize("damage", ["cut", "byte", "text", "another", "no checksum"])
-def test_a_damaged_file_is_made_again(finished, tmp_path, capsys, monkeypatch, damage):
-    """One line says so; the rest is kept."""
+@pytest.mark.parametrize("damage", ["cut", "byte", "text"])
+def test_what_is_kept_and_damaged_is_made_again(finished, tmp_path, capsys, monkeypatch, damage):
+    """One line says so; the rest is kept, and the file of the stage is the same."""
     folder = shutil.copytree(finished[1], tmp_path / "out")
     monkeypatch.setattr(runner, "STAGES", tuple(stage for stage in STAGES if stage.name in ("steady", "free")))
-    file, before = folder / "steady.h5", (folder / "steady.h5").read_bytes()
+    film = load(folder / "steady.h5").approach
+    file = folder / "store" / stage_key(stage_named("steady"), load_study(finished[0]))
+    before = file.read_bytes()
     if damage == "cut":
         file.write_bytes(before[: len(before) // 2])
     elif damage == "byte":
         file.write_bytes(before[:-100] + bytes([before[-100] ^ 1]) + before[-99:])
-    elif damage == "text":
-        file.write_text("not HDF5")
-    elif damage == "another":
-        shutil.copy(folder / "free.h5", file)
     else:
-        notes = json.loads((folder / "stages.json").read_text())
-        del notes["steady"]["sha256"]
-        (folder / "stages.json").write_text(json.dumps(notes))
+        file.write_text("not HDF5")
     kept = (folder / "free.h5").stat().st_mtime_ns
-    index = run_stages(folder)
+    ended = run_stages(folder)
     told = capsys.readouterr().err.splitlines()
-    assert told[0] == f"ehlcontact: {file} is damaged: it is made again" and len(told) == 2
-    assert index["steady"]["status"] == "converged" and (folder / "free.h5").stat().st_mtime_ns == kept
-    assert load(file).approach == load(finished[1] / "steady.h5").approach
-    assert run_stages(folder) == index
+    assert told[0] == "ehlcontact: steady film: what was kept is damaged: it is made again" and len(told) == 2
+    assert ended["steady"]["status"] == "converged" and (folder / "free.h5").stat().st_mtime_ns == kept
+    assert load(folder / "steady.h5").approach == film
+    assert run_stages(folder) == ended
+
+
+def test_a_damaged_file_of_a_stage_is_written_again(finished, tmp_path, capsys, monkeypatch):
+    """From the store, bit for bit: nothing is solved."""
+    folder = shutil.copytree(finished[1], tmp_path / "out")
+    monkeypatch.setattr(runner, "STAGES", (stage_named("steady"),))
+    before = (folder / "steady.h5").read_bytes()
+    shutil.copy(folder / "free.h5", folder / "steady.h5")
+    run_stages(folder)
+    assert capsys.readouterr().err == "" and (folder / "steady.h5").read_bytes() == before
 
 
 def test_no_worker_outlives_a_run_that_is_killed(tmp_path):
@@ -150,8 +156,8 @@ def test_only_what_changed_is_computed_again(finished, tmp_path):
     _, folder = finished
     changed = tmp_path / "changed.toml"
     changed.write_text(STUDY.replace("unbalance = 8e-6", "unbalance = 9e-6"))
-    study, index = load_study(changed), read_index(folder)
-    kept = [stage.name for stage in STAGES if is_done(stage, study, folder, index)]
+    study, store = load_study(changed), Kept(folder)
+    kept = [stage.name for stage in STAGES if store.stage(stage, study) is not None]
     assert kept == ["steady", "free", "harmonic"]
 
 
@@ -161,18 +167,16 @@ def test_ctrl_c_and_resume(finished, tmp_path):
     longer = STUDY.replace("[free]\nsteps_per_period = 20", "[free]\nsteps_per_period = 200\nperiods = 100")
     study.write_text(longer.replace("[harmonic]\nsteps_per_period = 20", "[harmonic]\nsteps_per_period = 60"))
     process = begin("run", study, "-o", folder, stdout=subprocess.PIPE)
-    index = folder / "stages.json"
-    before = json.loads(index.read_text())["harmonic"]
+    kept = folder / "store" / stage_key(stage_named("harmonic"), load_study(study))
     deadline = time.monotonic() + 50.0
-    while time.monotonic() < deadline and json.loads(index.read_text()).get("harmonic") in (None, before):
+    while time.monotonic() < deadline and not kept.exists():
         assert process.poll() is None, process.stderr.read()
         time.sleep(0.2)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=30)
     assert process.returncode == 130 and out == "" and "Traceback" not in err
     assert "resumes" in err.splitlines()[-1]
-    notes = json.loads(index.read_text())
-    assert notes["free"]["status"] == "interrupted" and notes["steady"]["status"] == "converged"
+    assert "free vibration: interrupted" in (folder / "run.log").read_text()
     assert load(folder / "free.partial.h5").steps > 10
 
 
@@ -242,7 +246,7 @@ def test_a_second_ctrl_c_waits_for_no_worker(monkeypatch, tmp_path):
         signal.signal(signal.SIGINT, before)
     assert time.monotonic() - started < runner.PATIENCE / 2.0
     assert not any(is_running(int(pid)) for pid in (tmp_path / "pids").read_text().split())
-    assert json.loads((tmp_path / "stages.json").read_text())["steady"]["status"] == Status.FAILED
+    assert not any((tmp_path / "store").iterdir())
 
     def broken(*_, **__):
         raise ValueError("ours")
@@ -265,9 +269,9 @@ def test_a_stage_that_fails(call, tmp_path, monkeypatch):
     study.write_text(STUDY.replace("n = 32\n", "n = 32\ndomain = [-4.5, 1.2, 1.2]\n").replace("20.0", "2000.0", 1))
     result = call("run", study, "-o", tmp_path / "out")
     assert result.code == 1 and "Traceback" not in result.err
-    notes = json.loads((tmp_path / "out" / "stages.json").read_text())
-    failed = [name for name, note in notes.items() if note["status"] != "converged"]
-    assert {note["status"] for note in notes.values()} <= set(Status)
+    (point,) = json.loads((tmp_path / "out" / "summary.json").read_text())["points"]
+    failed = [name for name, status in point["stages"].items() if status != "converged"]
+    assert set(point["stages"].values()) <= set(Status)
     assert failed and all(
         any(f"ehlcontact: {name}: " in line for line in result.err.splitlines()) for name in failed
     )

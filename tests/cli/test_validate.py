@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from ehlcontact.cli.study.forecast import forecast
+from ehlcontact.cli.study.points.kept import Kept
 from ehlcontact.cli.study.schema import load_study
-from ehlcontact.cli.study.stages import STAGES
+from ehlcontact.cli.study.stages import STAGES, stage_named
 from ehlcontact.solver.mesh_choice import Purpose, mesh_for
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -84,18 +85,11 @@ def test_nothing_is_solved(call, monkeypatch, tmp_path):
 
 
 def test_what_is_finished_is_kept(call, tmp_path):
-    """As the runner judges: the file, and in the ledger a fingerprint of this study."""
+    """As the runner finds it: in the store, by the inputs of this study."""
     study, folder = load_study(SMALL), tmp_path / "out"
     folder.mkdir()
-    steady = next(stage for stage in STAGES if stage.name == "steady")
-    steady.file(folder).write_bytes(b"")
-    note = {
-        "status": "converged",
-        "message": "",
-        "seconds": 1.0,
-        "fingerprint": study.fingerprint(*steady.sections),
-    }
-    (folder / "stages.json").write_text(json.dumps({"steady": note}))
+    entry = {"status": "converged", "message": "", "seconds": 1.0}
+    Kept(folder).put_stage(stage_named("steady"), study, entry, b"")
     found = forecast(study, folder, 2)
     assert [plan.stage.name for plan in found.plans if plan.kept] == ["steady"]
     assert "kept" in call("validate", SMALL, "-o", folder).out

@@ -117,7 +117,7 @@ def _tell(points: Sequence[Point], folder: Path, done: Scheduler, seconds: float
     from ehlcontact.cli.study.points import summary as s
     from ehlcontact.cli.study.points.finalise import REPORT, read_results
 
-    rows = [s.row_of(point, done.indices[point.name], folder) for point in points]
+    rows = [s.row_of(point, done.ended[point.name], folder) for point in points]
     several, log = len(rows) > 1, done.log
     run = {"seconds": seconds, "solved": done.solved, "kept": done.kept, "warnings": log.warnings}
     document = s.summary(rows, points[0].study_title, run)
@@ -136,7 +136,7 @@ def _tell(points: Sequence[Point], folder: Path, done: Scheduler, seconds: float
         _show(rows, json_to)
         write_json(document, json_to)
     elif failed:
-        write_json({"status": "not converged", "stages": done.indices[rows[0].point.name]}, json_to)
+        write_json({"status": "not converged", "stages": done.ended[rows[0].point.name]}, json_to)
     else:
         report = folder / REPORT
         write_json(read_results(folder), json_to)
@@ -150,7 +150,7 @@ def _tell(points: Sequence[Point], folder: Path, done: Scheduler, seconds: float
     log.line("done", f"{len(done.solved)} solved, {len(done.kept)} kept, {seconds:.1f} s")
     if failed or any(row.faults for row in rows):
         bad_input = not several and any(
-            done.indices[row.point.name].get("report", {}).get("bad_input") for row in rows
+            done.ended[row.point.name].get("report", {}).get("bad_input") for row in rows
         )
         raise typer.Exit(USAGE if bad_input else FAILED)
 

@@ -34,7 +34,7 @@ def validate(
     points = load_points(study_file, folder)
     out.check(study_file)
     check_place(folder)
-    found = [forecast(point.study, point.folder, options.side_by_side) for point in points]
+    found = [forecast(point.study, point.folder, options.side_by_side, folder) for point in points]
     if len(found) == 1:
         out.deliver(found[0].to_dict(), partial(_show, found[0], out.json_to))
         return

@@ -11,7 +11,7 @@ import numpy as np
 from scipy import fft
 
 from ehlcontact.checks.admissible_range import MEASURED
-from ehlcontact.cli.study.points.index import is_done, is_final, read_index
+from ehlcontact.cli.study.points.kept import STORE, Kept
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import Stage, stages_of
@@ -122,7 +122,7 @@ class Forecast:
         }
 
 
-def forecast(study: Study, folder: Path, jobs: int) -> Forecast:
+def forecast(study: Study, folder: Path, jobs: int, root: Path | None = None) -> Forecast:
     """Estimate a study, less what its folder holds already.
 
     Parameters
@@ -132,13 +132,17 @@ def forecast(study: Study, folder: Path, jobs: int) -> Forecast:
         Of its results; it need not exist.
     jobs : int
         Computations side by side.
+    root : Path, optional
+        Folder of all points of the study, by default `folder`.
     """
-    conv, index = convolution_seconds(), read_index(folder)
+    conv, root = convolution_seconds(), folder if root is None else root
+    store = Kept(root) if (root / STORE).is_dir() else None
     plans = []
     for stage in stages_of(study):
-        estimate, kept = conv * stage_cost(stage, study), is_done(stage, study, folder, index)
+        estimate = conv * stage_cost(stage, study)
+        kept = store is not None and store.stage(stage, study) is not None
         plans.append(Plan(stage, _mesh(stage, study), *_steps(stage, study), estimate, kept))
-    closed = all(plan.kept for plan in plans) and is_final(study, folder, index)
+    closed = store is not None and all(p.kept for p in plans) and store.final(study, folder) is not None
     return Forecast(study, folder, jobs, conv, tuple(plans), closed, tuple(cautions(study)))
 
 

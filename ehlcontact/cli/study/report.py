@@ -28,7 +28,7 @@ FILES = {
     "elements/*.json": "the same, dimensionless",
     "on_bearings_*.h5": "motion of the rotor on whole bearings",
     "*.h5": "STAGE: fields or histories",
-    "stages.json": "what was computed, when it was done, and checksums",
+    "store": "what was computed, by its inputs: a run resumes from it, and nothing else needs it",
 }
 STAGE_TITLES = {stage.name: stage.title for stage in STAGES}
 TITLES = RECORDS | {MEMORY: "all bands, with film memory"}

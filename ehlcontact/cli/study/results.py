@@ -28,7 +28,6 @@ from ehlcontact.cli.study.reduction import (
 )
 from ehlcontact.cli.study.rotor import film_response, stiffness_and_damping
 from ehlcontact.cli.study.schema import Study
-from ehlcontact.cli.study.stages import stages_of
 from ehlcontact.errors import InputError
 from ehlcontact.results import SteadyResult
 from ehlcontact.store import load
@@ -224,8 +223,11 @@ class Findings:
         }
 
 
-def evaluate(study: Study, folder: Path, index: Mapping[str, Mapping[str, Any]]) -> Findings:
-    """Reduce, export and compare what the stages left in the folder; files are written on the way."""
+def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findings:
+    """Reduce, export and compare what the stages left in the folder; files are written on the way.
+
+    `seconds` are the wall times of the stages.
+    """
     started = time.perf_counter()
     steady = load(folder / "steady.h5", SteadyResult)
     simulations = {name: load(folder / f"{name}.h5", SimulationResult) for name in RECORDS}
@@ -242,11 +244,9 @@ def evaluate(study: Study, folder: Path, index: Mapping[str, Mapping[str, Any]])
     film = reduction.memory_si
     exported_film = None if film is None else export_fmu(film, folder / "contact_film.fmu")
     rotors = compare_rotors(study, response, reduction.rotor_elements, folder)
-    computed = {stage.name for stage in stages_of(study)}
-    seconds = {name: float(note["seconds"]) for name, note in index.items() if name in computed}
-    seconds["elements, FMUs, reduced rotors"] = time.perf_counter() - started
+    times = {**seconds, "elements, FMUs, reduced rotors": time.perf_counter() - started}
     started = time.perf_counter()
     whole = run_whole(study, folder)
     if whole is not None:
-        seconds["rotor on whole bearings"] = time.perf_counter() - started
-    return Findings(study, steady, histories, reduction, rotors, whole, exported, exported_film, seconds)
+        times["rotor on whole bearings"] = time.perf_counter() - started
+    return Findings(study, steady, histories, reduction, rotors, whole, exported, exported_film, times)

@@ -1,7 +1,7 @@
 """Run of a study: tasks of all points on worker processes or a cluster, with progress, resume and interruption.
 
 Separate processes use the cores better than threads of one film: each gets one thread, unless told otherwise. What
-is computed is entered in the index of its point (`points.index`) and kept the next time.
+is computed is kept by content (`points.kept`) and found the next time.
 """
 
 from __future__ import annotations
@@ -21,7 +21,6 @@ from ehlcontact.cli.study.points.scheduler import Scheduler, StorageError, Task
 from ehlcontact.cli.study.points.summary import withdraw
 from ehlcontact.cli.study.points.tasks import Answer, finalise_point, solve_stage
 from ehlcontact.cli.study.stages import STAGES
-from ehlcontact.errors import InputError
 from ehlcontact.executors import ProcessExecutor, executor_for
 from ehlcontact.status import Status
 
@@ -38,7 +37,7 @@ class Share(NamedTuple):
 
 
 def run_points(points: Sequence[Point], root: Path, share: Share, log: Log, *, final: bool = True) -> Scheduler:
-    """Run what is not computed yet; every task is entered in the index of its point when it ends.
+    """Run what is not computed yet; what a task computed is kept when it ends.
 
     A task that fails does not stop others, but its point is not finalised. Ctrl-C, SIGTERM, SIGHUP and a file that
     cannot be written let the workers save their partial results, and are raised then, signals as
@@ -61,7 +60,7 @@ def run_points(points: Sequence[Point], root: Path, share: Share, log: Log, *, f
     StorageError
         There is no room for the result of a stage.
     InputError
-        There is no room for an index; no cluster at that address.
+        There is no room for what is kept; no cluster at that address.
     """
     scheduler = Scheduler(points, STAGES, root, log, final=final)
     if gone := withdraw(root, [point.name for point in points], bool(scheduler.todo)) if final else ():
@@ -91,7 +90,9 @@ def _run(
                 scheduler.begin(task)
                 study = task.point.study.model_dump(exclude_unset=True, exclude_none=True)
                 if task.stage is None:
-                    future = here.submit(finalise_point, task.key, study, task.point.folder)
+                    future = here.submit(
+                        finalise_point, task.key, study, task.point.folder, scheduler.seconds(task.point)
+                    )
                 else:
                     future = there.submit(solve_stage, task.key, study, task.stage.name)
                 running[future] = task
@@ -105,7 +106,7 @@ def _run(
         here.interrupt(PATIENCE, lambda: interruptions() > 1)
         for future, task in running.items():
             if future.done() and not future.cancelled():
-                with suppress(InputError, StorageError):  # the first error is raised
+                with suppress(StorageError):  # the first error is raised
                     scheduler.end(task, _answer(future))
         raise
 

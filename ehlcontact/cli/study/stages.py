@@ -49,7 +49,7 @@ class Stage:
     ----------
     name, title : str
     sections : tuple of str
-        Sections of the study that, with bearing and oil, decide whether an earlier file still holds.
+        Sections of the study that, with bearing and oil, decide whether an earlier result still holds.
     cost : float
         Of one step of one contact, or of a steady solve, in convolutions ("conv", docs/solver_development.md) per
         thousand nodes: geometric mean of the two studies in examples/, whose own costs are up to a factor 1.5 on

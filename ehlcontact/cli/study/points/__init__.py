@@ -7,7 +7,7 @@ module         responsibility
 ``scheduler``  tasks of all points: what is to do, what runs, what is done
 ``tasks``      what a worker does: solve a stage, finalise a point
 ``finalise``   elements, FMUs, rotors, results and report from the stages of a point
-``index``      ``stages.json``: what is computed in a folder, by hashes of inputs and of files
+``kept``       what is computed, in one store by content
 ``lock``       one run at a time in a folder
 ``log``        ``run.log``
 ``summary``    ``summary.json`` and ``summary.csv``: every point in numbers, with units and files

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ehlcontact.cli.output import one_line, write_json
-from ehlcontact.cli.study.points.index import read_index
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.content_store import checksum
 from ehlcontact.errors import ConvergenceError, InputError
@@ -30,8 +29,11 @@ class Final(NamedTuple):
     files: Mapping[str, str | None] = {}  # checksums, by where they are in the folder
 
 
-def finalise(study: Study, folder: Path) -> Final:
-    """Compute results of a point and write them, with report, elements and FMUs, to its folder."""
+def finalise(study: Study, folder: Path, seconds: Mapping[str, float]) -> Final:
+    """Compute results of a point and write them, with report, elements and FMUs, to its folder.
+
+    `seconds` are the wall times of its stages, whose files are there.
+    """
     from ehlcontact.cli.study.headline import document
     from ehlcontact.cli.study.report import write_report
     from ehlcontact.cli.study.results import evaluate
@@ -39,7 +41,7 @@ def finalise(study: Study, folder: Path) -> Final:
     said: list[warnings.WarningMessage]
     try:
         with warnings.catch_warnings(record=True) as said:
-            found = evaluate(study, folder, read_index(folder))
+            found = evaluate(study, folder, seconds)
             results = document(found)
             write_json(results, str(folder / RESULTS), "file")
             write_report(found, folder / REPORT)

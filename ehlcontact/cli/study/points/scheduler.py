@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,22 +10,11 @@ from typing import Any
 from ehlcontact.cli.progress import Bars, Lines
 from ehlcontact.cli.study.forecast import closing_cost, stage_cost
 from ehlcontact.cli.study.points.finalise import TITLE
-from ehlcontact.cli.study.points.index import (
-    FINALISE,
-    Index,
-    copied,
-    final_fingerprint,
-    is_done,
-    is_final,
-    is_sound,
-    read_index,
-    write_index,
-)
-from ehlcontact.cli.study.points.lists import POINTS, Point
+from ehlcontact.cli.study.points.kept import FINALISE, Entry, Kept
+from ehlcontact.cli.study.points.lists import Point
 from ehlcontact.cli.study.points.log import Log
 from ehlcontact.cli.study.points.tasks import Answer
 from ehlcontact.cli.study.stages import Stage
-from ehlcontact.content_store import checksum
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_bytes
 from ehlcontact.status import Status
@@ -46,7 +35,7 @@ class Task:
 
     @property
     def name(self) -> str:
-        """Name in the index."""
+        """Name among the tasks of a point."""
         return FINALISE if self.stage is None else self.stage.name
 
     @property
@@ -75,7 +64,7 @@ class Scheduler:
     stages : sequence of Stage
         The longest first.
     root : Path
-        Folder of the study: stages with the same inputs are looked for there and in the folders of points.
+        Folder of the study, with the store of what is computed.
     log : Log
     final : bool
         Whether points are finalised.
@@ -84,54 +73,50 @@ class Scheduler:
     def __init__(
         self, points: Sequence[Point], stages: Sequence[Stage], root: Path, log: Log, *, final: bool = True
     ) -> None:
-        self.indices: dict[str, Index] = {point.name: read_index(point.folder) for point in points}
+        self.ended: dict[str, dict[str, Entry]] = {point.name: {} for point in points}
         self.log = log
+        self._store = Kept(root)
         self.todo: list[Task] = []
         self.solved: list[str] = []
         self.kept: list[str] = []
         self._shown: Bars | Lines | None = None
         self._bars: dict[Task | None, Any] = {}
-        others = [root, *sorted(path for path in (root / POINTS).glob("*") if path.is_dir())]
         for point in points:
-            self._look(point, stages, others, final)
+            self._look(point, stages, final)
         self._tasks = {task.key: task for task in self.todo}
         self._costs = {task: task.cost for task in self.todo}
         self._shares = dict.fromkeys(self.todo, 0.0)
         self._open = {point.name: {task.name for task in self.todo if task.point is point} for point in points}
 
-    def _look(self, point: Point, stages: Sequence[Stage], others: Iterable[Path], final: bool) -> None:
-        """Enter the tasks that a point lacks, and log those that it has."""
-        index, lacking = self.indices[point.name], []
-        for stage in (stage for stage in stages if stage.wanted(point.study)):
-            if self._has(point, stage, others):
-                self._keep(Task(point, stage))
+    def _look(self, point: Point, stages: Sequence[Stage], final: bool) -> None:
+        """Enter the tasks that a point lacks, log those that it has, and write their files where they are not."""
+        study, lacking = point.study, []
+        for stage in (stage for stage in stages if stage.wanted(study)):
+            task, found = Task(point, stage), self._store.stage(stage, study)
+            if found is not None:
+                entry, content = found
+                _write(stage.file(point.folder), content)
+                self._keep(task, entry)
+                continue
+            if self._store.is_damaged(stage, study):
+                self.log.warn(f"{task.title}: what was kept is damaged: it is made again")
+            lacking.append(task)
+        if final:
+            entry_of_all = None if lacking else self._store.final(study, point.folder)
+            if entry_of_all is None:
+                lacking.append(Task(point, None))
             else:
-                index.pop(stage.name, None)
-                lacking.append(Task(point, stage))
-        if final and (lacking or not is_final(point.study, point.folder, index)):
-            index.pop(FINALISE, None)
-            lacking.append(Task(point, None))
-        elif final:
-            self._keep(Task(point, None))
+                self._keep(Task(point, None), entry_of_all)
         self.todo += lacking
 
-    def _has(self, point: Point, stage: Stage, others: Iterable[Path]) -> bool:
-        """Whether a stage is computed, in the folder of its point or in another one, from which it is copied."""
-        study, folder, index = point.study, point.folder, self.indices[point.name]
-        if is_done(stage, study, folder, index):
-            if is_sound(stage, folder, index[stage.name]):
-                return True
-            self.log.warn(f"{stage.file(folder)} is damaged: it is made again")
-        entry = copied(stage, study, folder, others)
-        if entry is None:
-            return False
-        index[stage.name] = entry
-        write_index(index, folder)
-        return True
-
-    def _keep(self, task: Task) -> None:
+    def _keep(self, task: Task, entry: Entry) -> None:
+        self.ended[task.point.name][task.name] = entry
         self.kept.append(task.key)
         self.log.line("kept", task.title)
+
+    def seconds(self, point: Point) -> dict[str, float]:
+        """Wall time of the stages of a point."""
+        return {name: entry["seconds"] for name, entry in self.ended[point.name].items() if name != FINALISE}
 
     def show(self, shown: Bars | Lines) -> None:
         """Show progress there from now on, that of the whole study first."""
@@ -177,30 +162,24 @@ class Scheduler:
             self._shown.update(self._bars[None], share, 1.0 if share >= FORESEEN else None, note)
 
     def end(self, task: Task, answer: Answer) -> None:
-        """Write the file of a stage, and enter in the index how the task ended.
+        """Keep what converged, write the file of a stage, and note how the task ended.
 
         Raises
         ------
         StorageError
-            There is no room for the file.
-        InputError
-            There is no room for the index.
+            There is no room.
         """
-        point, index, entry = task.point, self.indices[task.point.name], answer.entry
-        full = "" if task.stage is None or answer.content is None else _write(task.stage, point, answer)
-        if full:
+        point, entry, full = task.point, answer.entry, ""
+        try:
+            self._write_files(task, answer)
+        except InputError as error:
+            full = str(error)
             entry = entry | {"status": str(Status.FAILED), "message": full}
         done = entry["status"] == Status.CONVERGED
         self._show_end(task, entry, done)
-        if task.stage is None:
-            index[FINALISE] = entry | {"fingerprint": final_fingerprint(point.study, index)}
-            for text in entry.get("warnings", ()):
-                self.log.warn(point.titled(f"warning: {text}"))
-        else:
-            index[task.name] = entry | {"fingerprint": point.study.fingerprint(*task.stage.sections)}
-            if done:
-                index[task.name]["sha256"] = checksum(task.stage.file(point.folder))
-        write_index(index, point.folder)
+        self.ended[point.name][task.name] = entry
+        for text in entry.get("warnings", ()):
+            self.log.warn(point.titled(f"warning: {text}"))
         self._open[point.name].discard(task.name)
         if done:
             self.solved.append(task.key)
@@ -208,6 +187,19 @@ class Scheduler:
             self.todo = [other for other in self.todo if other.point is not point or other.stage is not None]
         if full:
             raise StorageError(full)
+
+    def _write_files(self, task: Task, answer: Answer) -> None:
+        """The file of a stage, of a converged result or of a partial one, and the entry of what converged."""
+        point, stage, entry, content = task.point, task.stage, answer.entry, answer.content
+        done = entry["status"] == Status.CONVERGED
+        if stage is None:
+            if done and entry["whole"]:
+                self._store.put_final(point.study, entry)
+        elif content is not None:
+            _write((stage.file if done else stage.partial)(point.folder), content)
+            if done:
+                stage.partial(point.folder).unlink(missing_ok=True)
+                self._store.put_stage(stage, point.study, entry, content)
 
     def _show_end(self, task: Task, entry: dict[str, Any], done: bool) -> None:
         self._shares[task] = 1.0
@@ -223,13 +215,7 @@ class Scheduler:
             self._shown.end(self._bars.pop(None))
 
 
-def _write(stage: Stage, point: Point, answer: Answer) -> str:
-    """Write the file of a stage, of a converged result or of a partial one; why that failed, or empty."""
-    done = answer.entry["status"] == Status.CONVERGED
-    try:
-        write_bytes((stage.file if done else stage.partial)(point.folder), answer.content or b"", "file")
-        if done:
-            stage.partial(point.folder).unlink(missing_ok=True)
-    except InputError as error:
-        return str(error)
-    return ""
+def _write(path: Path, content: bytes) -> None:
+    """Write a file that does not hold this yet; raises `InputError` where there is no room."""
+    if not path.is_file() or path.read_bytes() != content:
+        write_bytes(path, content, "file")

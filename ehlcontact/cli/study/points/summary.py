@@ -17,7 +17,7 @@ from typing import Any
 from ehlcontact.cli.output import plain
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.points.finalise import REPORT, faults, products, read_results
-from ehlcontact.cli.study.points.index import FINALISE, Entry
+from ehlcontact.cli.study.points.kept import FINALISE, Entry
 from ehlcontact.cli.study.points.lists import STUDY_FILE, Point
 from ehlcontact.cli.study.points.log import LOG, versions
 from ehlcontact.cli.study.stages import stages_of
@@ -89,11 +89,11 @@ class Row:
         }
 
 
-def row_of(point: Point, index: Mapping[str, Entry], root: Path) -> Row:
-    """Row of a point from its folder and its index."""
+def row_of(point: Point, ended: Mapping[str, Entry], root: Path) -> Row:
+    """Row of a point from its folder and how its tasks ended."""
     computed = stages_of(point.study)
     names = [*(stage.name for stage in computed), FINALISE]
-    stages = {name: index[name]["status"] for name in names if name in index}
+    stages = {name: ended[name]["status"] for name in names if name in ended}
     lacking = [name for name, status in stages.items() if status != Status.CONVERGED]
     final = stages.get(FINALISE) == Status.CONVERGED
     results = read_results(point.folder) if final else None
@@ -111,11 +111,11 @@ def row_of(point: Point, index: Mapping[str, Entry], root: Path) -> Row:
     return Row(
         point=point,
         status=str(Status.CONVERGED) if final else _worst(stages, lacking),
-        messages=tuple(f"{name}: {stages[name]}: {index[name]['message']}" for name in lacking),
+        messages=tuple(f"{name}: {stages[name]}: {ended[name]['message']}" for name in lacking),
         warnings=(
             *cautions(point.study),
             *_outside(results),
-            *index.get(FINALISE, {}).get("warnings", ()),
+            *ended.get(FINALISE, {}).get("warnings", ()),
             *broken,
         ),
         numbers=_numbers(point, results),

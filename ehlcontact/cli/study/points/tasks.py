@@ -25,7 +25,7 @@ SPACING = 0.1  # seconds between reports
 class Answer(NamedTuple):
     """How a task ended."""
 
-    entry: dict[str, Any]  # of the index
+    entry: dict[str, Any]  # status, message, seconds; of a point also what `Final` has
     content: bytes | None = None  # of the file of a stage, converged or not
 
 
@@ -41,11 +41,11 @@ def solve_stage(key: str, document: dict[str, Any], name: str) -> Answer:
     return Answer(_entry(outcome, started), content)
 
 
-def finalise_point(key: str, document: dict[str, Any], folder: Path) -> Answer:
-    """Finalise the study of one point in its folder; `key` is for the reports."""
+def finalise_point(key: str, document: dict[str, Any], folder: Path, seconds: dict[str, float]) -> Answer:
+    """Finalise the study of one point in its folder; `key` is for the reports, `seconds` of its stages."""
     started = time.perf_counter()
     with _progress():
-        return Answer(_entry(finalise(study_of(document), folder), started))
+        return Answer(_entry(finalise(study_of(document), folder, seconds), started))
 
 
 def _entry(outcome: Outcome | Final, started: float) -> dict[str, Any]:
