@@ -33,6 +33,7 @@ from reduced_models.atlas.table import AtlasTable
 from reduced_models.bearing import ball_bearing, equilibrium, impedance, race
 from reduced_models.bearing.catalogue import ROWS
 from reduced_models.elements import film_curve, film_response
+from reduced_models.rotor.bearing_models import USUAL_DAMPING
 
 # In the order in which they are joined: each stands on those before it; the last two are about the page itself.
 SCRIPTS = ("numbers", "hertz", "oil", "atlas", "race", "bearing", "plot", "page")
@@ -68,7 +69,6 @@ def write_explorer(path: Path) -> Path:
         The file cannot be written.
     """
     from ehlcontact.cli.page import write_page
-    from ehlcontact.cli.study.bearing_rotor import USUAL_DAMPING
 
     usual = MineralOil(GRADES[0], 40.0)  # what is left out is as in `Lubricant.iso_vg`
     content: dict[str, Any] = {"script": script(), "version": __version__, "ratio": USUAL_DAMPING}

@@ -1,6 +1,6 @@
 """Ball bearings in a page: load zone, films, Campbell diagram, and the rotor on whole bearings.
 
-`found` is what `cli.study.bearing_rotor` found.
+`found` is a `BearingModels`.
 """
 
 from __future__ import annotations

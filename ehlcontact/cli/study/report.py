@@ -10,11 +10,12 @@ from ehlcontact.cli.page import write_page
 from ehlcontact.cli.plots import bearing, film, motion, rotor
 from ehlcontact.cli.plots.impedance import impedance
 from ehlcontact.cli.plots.instants import instants
-from ehlcontact.cli.study.bearing_rotor import NAMES, USUAL_DAMPING
+from ehlcontact.cli.study.bearing_rotor import NAMES
 from ehlcontact.cli.study.headline import findings, reservations
 from ehlcontact.cli.study.reduction import CONTACTS, FULL, MEMORY, RECORDS
 from ehlcontact.cli.study.results import Findings
 from ehlcontact.cli.study.stages import STAGES
+from reduced_models.rotor.bearing_models import USUAL_DAMPING
 from reduced_models.rotor.events import LOST
 from reduced_models.rotor.settling import MOST_REVOLUTIONS
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.assumptions import Assumptions, assumptions
-from ehlcontact.cli.study.bearing_rotor import WholeFindings, run_whole
+from ehlcontact.cli.study.bearing_rotor import run_whole
 from ehlcontact.cli.study.differences import RotorFindings, compare_rotors
 from ehlcontact.cli.study.points.log import versions
 from ehlcontact.cli.study.reduction import (
@@ -32,6 +32,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.results import SteadyResult
 from ehlcontact.store import load
 from ehlcontact.transient.result import SimulationResult
+from reduced_models.rotor.bearing_models import BearingModels
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ class Findings:
     simulations: Mapping[str, SimulationResult]
     reduction: Reduction
     rotors: RotorFindings
-    whole: WholeFindings | None  # where the study has whole bearings
+    whole: BearingModels | None  # where the study has whole bearings
     fmu: Mapping[str, Any]  # of the cubic of the rotor's band
     film_fmu: Mapping[str, Any] | None  # of the element with a film memory, where there is one
     seconds: Mapping[str, float]  # wall time by stage
