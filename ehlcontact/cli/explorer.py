@@ -26,7 +26,7 @@ from ehlcontact.lubricant.oil import GRADES
 from ehlcontact.lubricant.oil_laws import ROELANDS_LOG, ROELANDS_P0
 from ehlcontact.store import load
 from reduced_models import BallBearing
-from reduced_models.atlas import frequency
+from reduced_models.atlas import frequency_curve
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.interpolation import AtlasSurface
 from reduced_models.atlas.table import AtlasTable
@@ -41,7 +41,7 @@ COMPUTING = SCRIPTS[:6]
 UNITS = {"ball_diameter": "mm", "pitch_diameter": "mm", "eta0": "mPa s", "alpha": "1/GPa"}  # others as in Python
 # Numbers of the library's own rules, by the modules that have them
 RULES: Mapping[Any, tuple[str, ...]] = {
-    frequency: ("SPLINE_SHARE",),
+    frequency_curve: ("SPLINE_SHARE",),
     race: ("INSIDE", "PER_DECADE", "NEAR"),
     film_curve: ("DECADE", "RIGID_SLOPE"),
     film_response: ("DRY", "LEAST_VISCOUS", "SMALL_OMEGA"),
@@ -112,7 +112,7 @@ def _atlas(table: AtlasTable) -> dict[str, Any]:
 
 
 def _spline_slopes(x: np.ndarray) -> np.ndarray:
-    """What makes slopes at the nodes out of values there, shape (k, k): splines of `atlas.frequency.Between`."""
+    """Matrix from values to slopes at the nodes, shape (k, k): as `FrequencyCurve` of the atlas."""
     return np.asarray(CubicSpline(x, np.eye(x.size), bc_type=((1, np.zeros(x.size)), "not-a-knot"))(x, 1))
 
 

@@ -5,7 +5,7 @@ module         responsibility
 =============  =====================================================================================
 ``structure``  components and wires to ``SystemStructure.ssd``
 ``export``     `export_system`: rotor and contacts in, archive out
-``check``      nothing unverified is written: the schema, and a load step beside `simulate_rotor`
-``master``     the plainest master for such archives, through fmpy
+``check``      `verify_system`: the schema, and a load step against `simulate_rotor`
+``master``     a master for such archives, through fmpy
 =============  =====================================================================================
 """

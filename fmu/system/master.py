@@ -1,6 +1,6 @@
 """A master for system archives: set, doStep and get of all components, then the wires; through fmpy.
 
-The plainest there is, for checks: what any importer of such an archive may be expected to do.
+For checks: it does no more than any importer of such an archive.
 """
 
 from __future__ import annotations

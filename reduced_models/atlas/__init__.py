@@ -3,15 +3,15 @@
 | module | is responsible for |
 |---|---|
 | atlas | `Atlas`: answers with error bars, and elements, at a point |
-| answer | `AtlasAnswer`: one contact with error bars; `AtlasAnswers`: many at once |
-| frequency | K and C between the frequencies of the table |
-| table | what it holds: box, points, answers, the numbers of its interpolation; the file |
+| answer | `AtlasAnswer`: one contact with error bars; `AtlasImpedance`; `AtlasAnswers`: many contacts |
+| frequency_curve | K or C between the frequencies of the table |
+| table | `AtlasTable`: box, points, answers, settings of the interpolation; the file |
 | interpolation | interpolation of the table, and its error bars |
-| elements | contact elements from answers under one or several loads |
+| atlas_elements | contact elements from answers under one or several loads |
 | build | `build_atlas`: sample, solve what is missing, put together; the numbers of a build |
 | sample | the points of a build |
 | mesh | grids of a point, by the width of its inlet |
-| solve | one of them solved |
-| work | points solved by an executor, and kept in a store by content |
-| tune | how the numbers of a build were found |
+| solve | steady film and impedance of one point |
+| solved_points | points solved by an executor, and kept in a store by content |
+| tune | search for the settings of a build: weights, rates, slopes for other oils |
 """

@@ -1,4 +1,4 @@
-"""Answers of the atlas, with error bars: of one contact, and of many at once."""
+"""Answers of the atlas, with error bars: one contact, its impedance, and many contacts at once."""
 
 from __future__ import annotations
 
@@ -11,12 +11,36 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, LENGTH, MOMENT, NUMBER, STIFFNESS
-from ehlcontact.results.frequency import FrequencyResponse
+from ehlcontact.results.frequency import FrequencyResponse, ScaledResponse
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable, plain
 from ehlcontact.summary import contact_text, span
-from reduced_models.atlas.frequency import AtlasImpedance, Between
+from reduced_models.atlas.frequency_curve import FrequencyCurve
 
 _Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class AtlasImpedance(ScaledResponse):
+    """Impedance of an `AtlasAnswer` at given frequencies, dimensionless; ``si`` has it in SI.
+
+    Attributes
+    ----------
+    Omega : ndarray, shape (k,)
+        Angular frequencies, per unit 2a/u_sum of time; in SI ``omega`` [rad/s] and ``hz``.
+    stiffness, damping : ndarray, shape (k,)
+        K(Omega) in f0/delta_H, the static tangent at Omega = 0, and C(Omega) in that times 2a/u_sum; in SI [N/m]
+        and [N s/m].
+    error_bars : dict
+        Half widths of the error bars of stiffness and damping, in the same units and shapes.
+    scales : Scales or None
+        Its units in SI; None for a dimensionless point.
+    """
+
+    Omega: Annotated[_Floats, FREQUENCY.over("Omega")]
+    stiffness: Annotated[_Floats, STIFFNESS.over("Omega")]
+    damping: Annotated[_Floats, DAMPING.over("Omega")]
+    error_bars: dict[str, _Floats]
+    scales: Scales | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +133,7 @@ class AtlasAnswer(ScaledTable):
         """
         time = None if self.scales is None else self.scales.time
         w = dimensionless(time, Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=float(self.Omega[-1]))
-        K, C = (Between(self.Omega, getattr(self, n), self.error_bars[n]) for n in ("stiffness", "damping"))
+        K, C = (FrequencyCurve(self.Omega, getattr(self, n), self.error_bars[n]) for n in ("stiffness", "damping"))
         error = {"stiffness": K.bars(w), "damping": C.bars(w)}
         return AtlasImpedance(Omega=w, stiffness=K.at(w), damping=C.at(w), error_bars=error, scales=self.scales)
 

@@ -20,7 +20,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.store import load as read_file
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
-from reduced_models.atlas.elements import (
+from reduced_models.atlas.atlas_elements import (
     Loads,
     cubic_element,
     damper_band,
@@ -28,13 +28,13 @@ from reduced_models.atlas.elements import (
     passive_gains,
     wide_element,
 )
-from reduced_models.atlas.frequency import Between
+from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.atlas.interpolation import AtlasSurface
 from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Box
+from reduced_models.elements.film_memory import FilmMemoryContact
 from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
-from reduced_models.elements.memory import FilmMemoryContact
 from reduced_models.elements.polynomial import CubicContact
-from reduced_models.elements.wide import WideRangeContact
+from reduced_models.elements.wide_range import WideRangeContact
 
 _Floats = NDArray[np.float64]
 
@@ -192,7 +192,7 @@ class Atlas:
         moes, scales, k = self._inside(point), scales_of(point), self._table.omega.size
         values, _ = self._surface.at(_rows(moes, np.ones(1)))
         at, nodes = np.array([w]), self._table.omega
-        K, C = Between(nodes, values[0, HEAD : HEAD + k]), Between(nodes, values[0, HEAD + k :])
+        K, C = FrequencyCurve(nodes, values[0, HEAD : HEAD + k]), FrequencyCurve(nodes, values[0, HEAD + k :])
         tangent, damper, band = float(K.at(at)[0]), float(C.at(at)[0]), damper_band(nodes, C, w)
         cubic = cubic_element(float(values[0, 0]), tangent, damper, band, self._whence(point))
         return cubic if scales is None else cubic.to_si(scales)

@@ -24,8 +24,8 @@ from ehlcontact.store import save
 from reduced_models.atlas import interpolation
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import FILM, OMEGAS, solve_point
+from reduced_models.atlas.solved_points import Solve, solve_points
 from reduced_models.atlas.table import AtlasTable, Box, Interpolation, OtherOil
-from reduced_models.atlas.work import Solve, solve_points
 from reduced_models.elements.film_response import DRY, WEIGHT_C, WEIGHT_K, FilterRates
 
 _Floats = NDArray[np.float64]

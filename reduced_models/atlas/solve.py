@@ -14,7 +14,7 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
 from reduced_models.atlas.mesh import film_grid, impedance_grid, near_grid
 
-# Dense enough for the cubic between them (`reduced_models.atlas.frequency`), where lags make K and C wave.
+# Dense enough for the cubic between them (`reduced_models.atlas.frequency_curve`), where lags make K and C wave.
 OMEGAS = (
     0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.25, 1.5, 1.75, 2.0, 2.25, 2.5, 2.75, np.pi, 3.5, 4.0, 4.5, 5.0,
     5.5, 2.0 * np.pi, 7.0, 8.0, 9.0, 10.0, 11.0, 4.0 * np.pi, 13.5, 15.0, 16.5, 18.0, 20.0, 22.5, 8.0 * np.pi,

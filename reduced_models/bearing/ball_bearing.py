@@ -51,7 +51,7 @@ from reduced_models.bearing.race import RACES, Race, films_under, race_of, requi
 from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
 from reduced_models.bearing.state import BearingState
 from reduced_models.bearing.summary import BearingSummary
-from reduced_models.elements.wide import WideRangeContact
+from reduced_models.elements.wide_range import WideRangeContact
 
 _Floats = NDArray[np.float64]
 

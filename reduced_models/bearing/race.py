@@ -18,7 +18,7 @@ from ehlcontact.hertz import hertz_contact, radius_ratio
 from reduced_models.atlas.atlas import Atlas
 from reduced_models.bearing.kinematics import RADIANS, rolling_radius, rolling_torque
 from reduced_models.bearing.race_contact import film_cutoff
-from reduced_models.elements.wide import WideRangeContact
+from reduced_models.elements.wide_range import WideRangeContact
 
 _Floats = NDArray[np.float64]
 

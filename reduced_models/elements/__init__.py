@@ -2,22 +2,22 @@
 
 | module | is responsible for |
 |---|---|
-| base | what every element carries: validity box, quality, source, units |
-| validity | what the data covered, and the warning for leaving it |
-| design_point | the speed, the oil and the shape of the contact it was made for |
+| base | `ContactElement`: the interface of all elements; validity box, quality, source, units |
+| validity | approach, rate, load and frequency that the data covered; the warning outside them |
+| design_point | speed, oil and shape of the contact that an element was made for |
 | spring | elements without memory: spring, Hertz ends, damper and clipping in one law |
 | polynomial | `LinearContact`, `CubicContact`, `PolynomialContact` |
 | power | `PowerLawContact` |
 | jet | compiled: values with two partial derivatives |
 | film_filters | compiled: the filters of the film memory over a step and in continuous time |
 | film_law | compiled: a dry Hertz spring on a film with memory: a step, and the equations in continuous time |
-| film_curve | its static curve from a table of loads |
-| film_response | transfer functions of its filters: gains from an impedance, passivity |
+| film_curve | static curve of a film law from a table of loads |
+| film_response | transfer functions of the filters: gains from an impedance, passivity |
 | small_motion | linear law about rest, of elements and bearings alike: impedance and state space |
 | film_element | elements with a film memory: state, steps, tangents, impedance |
-| memory | `FilmMemoryContact`: one load |
-| wide | `WideRangeContact`: every load |
-| summary | summary and figure of an element |
+| film_memory | `FilmMemoryContact`: one load |
+| wide_range | `WideRangeContact`: every load |
+| element_summary | summary and figure of an element |
 
 A new element is a frozen dataclass with its coefficients, ``low`` and ``high`` in a file of its own, registered
 by `ehlcontact.store.stored`; the contract tests then ask for an example of it. Without memory it derives from

@@ -1,4 +1,4 @@
-"""What every contact element carries: coefficients, validity box, quality and source, units, file."""
+"""`ContactElement`: interface of all contact elements; coefficients, validity box, quality, source, units."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from ehlcontact.checks.frequency import (
 from ehlcontact.errors import InputError
 from ehlcontact.point import Point, Scales
 from reduced_models.elements.design_point import DesignPoint, known_scale, require_own_scales
+from reduced_models.elements.element_summary import ElementSummary
 from reduced_models.elements.small_motion import StateSpace
-from reduced_models.elements.summary import ElementSummary
 from reduced_models.elements.validity import UNITS, Band, OutsideValidityWarning, Validity, numbers
 
 UNWATCHED = (-math.inf, math.inf, math.inf, -math.inf, math.inf)  # a reach that nothing leaves

@@ -1,4 +1,4 @@
-"""What contact an element was made for: its speed, its oil, its shape; and how another differs from that."""
+"""`DesignPoint`: speed, oil and shape of the contact that an element was made for; differences from another."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the contact elements with a film memory have in common: state, steps, tangents, impedance."""
+"""Base of the contact elements with a film memory: state, steps, tangents, impedance."""
 
 from __future__ import annotations
 
@@ -35,6 +35,11 @@ from reduced_models.elements.validity import numbers
 
 _Floats = NDArray[np.float64]
 _SCALES = tuple(f.name for f in fields(Scales))
+
+
+def units_of(scales: Scales | None) -> tuple[float, float, float]:
+    """Units of force, approach and time: N, m and s, or 1 of a dimensionless element."""
+    return (1.0, 1.0, 1.0) if scales is None else (scales.force, scales.length, scales.time)
 
 
 class FilmContact(ContactElement):
@@ -108,8 +113,7 @@ class FilmContact(ContactElement):
 
     @cached_property
     def _units(self) -> tuple[float, float, float]:
-        s = self.scales
-        return (1.0, 1.0, 1.0) if s is None else (s.force, s.length, s.time)
+        return units_of(self.scales)
 
     def advance(self, dt: float, approach: float, rate: float) -> float:
         """Force at the end of a step `dt` > 0, at the approach and rate of that end; moves the state there.

@@ -1,4 +1,4 @@
-"""Linear response of the film memory: gains from an impedance, and the test that they dissipate.
+"""Linear response of the film memory: transfer functions, gains from an impedance, and whether they dissipate.
 
 A small motion about rest under load F has, in the units of that load (force F, length F^(2/3), time F^(1/3)),
 
@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import Chebyshev
@@ -56,6 +57,11 @@ class FilterRates:
             raise InputError("lags", self.lags, allowed)
         for name in ("lag_rate", "inlet_rate", "fast_rate"):
             object.__setattr__(self, name, require_positive(name, getattr(self, name)))
+
+    @property
+    def coefficients(self) -> dict[str, Any]:
+        """Rates by name, as arguments of the elements with a film memory."""
+        return {"lag_rate": self.lag_rate, "inlet_rate": self.inlet_rate, "fast_rate": self.fast_rate}
 
     def basis(self, omega: ArrayLike) -> _Complex:
         """Response of every filter to a vibration, shape of `omega` + (3 + lags,)."""

@@ -43,7 +43,7 @@ def cubic(u, law):
 
 
 class _PolynomialContact(MemorylessContact):
-    """What the three have in common: one law, in which coefficients that an element does not have are zero."""
+    """Base of the three: one law, in which coefficients that an element does not have are zero."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -58,7 +58,7 @@ class _PolynomialContact(MemorylessContact):
 
 
 class ViscousContact(_PolynomialContact):
-    """What `LinearContact` and `CubicContact` have in common: no damper but C1."""
+    """Base of `LinearContact` and `CubicContact`, whose only damper is C1."""
 
     C1: float
 

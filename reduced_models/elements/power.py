@@ -1,4 +1,4 @@
-"""The power-law element of the literature that followed Nonato and Cavalca (2010)."""
+"""The power-law element, F = K (u + u0)^n + F0 + C u', of the literature after Nonato and Cavalca (2010)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where an element stands for data, and the warning for leaving it."""
+"""`Validity`: approach, rate, load and frequency that the data of an element covered; the warning outside it."""
 
 from __future__ import annotations
 

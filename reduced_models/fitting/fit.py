@@ -13,10 +13,10 @@ from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
 from reduced_models.elements.spring import MemorylessContact
 from reduced_models.elements.validity import Validity
-from reduced_models.fitting.memory import fit_memory
+from reduced_models.fitting.memory_fit import fit_memory
 from reduced_models.fitting.models import ESTIMATORS, Estimate
 from reduced_models.fitting.records import ContactRecord
-from reduced_models.fitting.result import ElementFit, FitResult, MemoryFit, rms_error, sum_error, valid_of
+from reduced_models.fitting.result import ElementFit, FitResult, MemoryFit, rms_error, sum_error
 from reduced_models.fitting.samples import Samples, Window
 from reduced_models.fitting.uncertainty import Uncertainty
 
@@ -102,7 +102,7 @@ def _least_squares(records: Records, model: str, window: Window | None) -> FitRe
         e_acc=samples.acceleration_error(estimate.fitted),
         root=root,
         tangent=tangent,
-        valid=valid_of(element),
+        valid=element.validity.to_dict(),
         condition=estimate.condition,
         window=samples.windows,
         samples=int(samples.force.size),

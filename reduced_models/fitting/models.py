@@ -12,7 +12,7 @@ from reduced_models.elements.polynomial import CubicContact, LinearContact, Poly
 from reduced_models.elements.power import PowerLawContact
 from reduced_models.elements.spring import MemorylessContact
 from reduced_models.fitting.least_squares import linear_fit
-from reduced_models.fitting.power import fit_power_law
+from reduced_models.fitting.power_law_fit import fit_power_law
 from reduced_models.fitting.samples import Samples
 
 _Floats = NDArray[np.float64]

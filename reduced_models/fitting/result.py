@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ehlcontact.results.table import frame_of, plain
 from ehlcontact.summary import Summary
 from reduced_models.elements.base import ContactElement
-from reduced_models.elements.memory import FilmMemoryContact
+from reduced_models.elements.film_memory import FilmMemoryContact
 from reduced_models.elements.spring import MemorylessContact
 
 _Floats = NDArray[np.float64]
@@ -38,7 +38,7 @@ class ElementFit(Summary):
     root, tangent : float or None
         Approach where the spring carries the static load (1, dimensionless), and its tangent there.
     valid : mapping
-        low, high: approach that was fitted; rate: largest magnitude of the rate; load, omega: (low, high).
+        low, high: approach that was fitted; rate: largest magnitude of the rate; load, omega: [low, high].
     condition : float or None
         Of the column-scaled design matrix, or Jacobian; None where there is none.
     """
@@ -176,9 +176,3 @@ def rms_error(force: _Floats, fitted: _Floats) -> float:
 def sum_error(force: _Floats, fitted: _Floats) -> float:
     """Eq. 13 for the force."""
     return float(np.sum(force - fitted) / np.sum(force))
-
-
-def valid_of(element: ContactElement) -> dict[str, Any]:
-    """The validity box of an element as `ElementFit.valid` has it."""
-    box = {"low": element.low, "high": element.high, "rate": element.rate}
-    return box | {"load": element.load_range, "omega": element.omega_range}

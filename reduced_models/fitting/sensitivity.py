@@ -61,7 +61,8 @@ class Sensitivity(Summary):
     Attributes
     ----------
     rows : tuple of SensitivityRow
-        The full model, then without one term each.
+        The full model, then without one term each: ``removed``, ``rms``, ``e_f`` and ``e_acc`` (eq. 13), ``aic``,
+        ``bic``, and ``rms_without_refit``.
     samples : int
         Of all records.
     independent_samples : float

@@ -24,7 +24,7 @@ from ehlcontact import Domain, Grid, MoesPoint, impedance
 from reduced_models import Atlas
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.solve import OMEGAS, solve_point
-from reduced_models.atlas.work import solve_points
+from reduced_models.atlas.solved_points import solve_points
 
 NAMES = ("approach", "h_central", "h_min", "moment")
 
@@ -88,7 +88,7 @@ def between(atlas, entries):
 
     Those of the interpolation over frequency alone: solves at the frequencies of the atlas are interpolated too.
     """
-    from reduced_models.atlas.frequency import Between
+    from reduced_models.atlas.frequency_curve import FrequencyCurve
 
     nodes = np.array(OMEGAS)
     middle = 0.5 * (nodes[1:] + nodes[:-1])
@@ -96,7 +96,7 @@ def between(atlas, entries):
     for entry in entries[::10]:
         point = MoesPoint(entry["M"], entry["L"], entry["kappa"])
         truth = impedance(point, Omega=middle, grid=Grid(n=entry["n"], domain=Domain(*entry["domain"])))
-        K, C = (Between(nodes, np.array(entry[name])).at(middle) for name in ("stiffness", "damping"))
+        K, C = (FrequencyCurve(nodes, np.array(entry[name])).at(middle) for name in ("stiffness", "damping"))
         worst.append(
             [np.abs(K / truth.stiffness - 1.0).max(), np.abs(C - truth.damping).max() / entry["damping"][1]]
         )

@@ -28,7 +28,7 @@ from reduced_models import (
     without_damper,
 )
 from reduced_models.elements.validity import frequency_text
-from reduced_models.fitting.memory import OMEGAS
+from reduced_models.fitting.memory_fit import OMEGAS
 
 RECORDS = {
     "free": "free vibration",

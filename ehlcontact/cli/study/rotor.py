@@ -27,7 +27,7 @@ from reduced_models import (
     linearise,
     local_contact,
 )
-from reduced_models.fitting.memory import OMEGAS
+from reduced_models.fitting.memory_fit import OMEGAS
 from reduced_models.rotor.free_decay import initial_velocity, simulate_decay
 from reduced_models.rotor.full_films import (
     ELEMENT_TOLERANCE,

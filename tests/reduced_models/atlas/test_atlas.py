@@ -23,8 +23,8 @@ from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.store import load as load_file
 from reduced_models import Atlas
 from reduced_models.atlas.atlas import MODELS, SHIPPED
+from reduced_models.atlas.atlas_elements import LEAST_APPROACH
 from reduced_models.atlas.build import BOX, INTERPOLATION
-from reduced_models.atlas.elements import LEAST_APPROACH
 from reduced_models.atlas.mesh import impedance_grid
 from reduced_models.atlas.sample import sample_points
 from reduced_models.atlas.solve import OMEGAS, solve_point

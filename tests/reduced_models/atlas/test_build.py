@@ -20,8 +20,8 @@ from reduced_models.atlas.build import BOX, RATES, assemble, build_atlas, smooth
 from reduced_models.atlas.mesh import GRIDS, LIGHT_INTERVALS, impedance_grid
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import OMEGAS, solve_point
+from reduced_models.atlas.solved_points import solve_points
 from reduced_models.atlas.table import AtlasTable
-from reduced_models.atlas.work import solve_points
 from reduced_models.elements.film_response import DRY
 
 DRAWS, LIGHT = 24, 24

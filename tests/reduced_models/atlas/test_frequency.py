@@ -14,7 +14,7 @@ from ehlcontact import (
     OperatingPoint,
     impedance,
 )
-from reduced_models.atlas.frequency import Between
+from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.atlas.mesh import impedance_grid
 from reduced_models.atlas.solve import OMEGAS
 
@@ -46,7 +46,7 @@ def test_between_the_nodes_it_is_what_is_solved_there(point):
         (solved.stiffness, solved.stiffness[0], 1e-3),
         (solved.damping, solved.damping[1], 3e-3),
     ):
-        off = np.abs(Between(NODES, values[:k]).at(middle) - values[k:]) / size
+        off = np.abs(FrequencyCurve(NODES, values[:k]).at(middle) - values[k:]) / size
         line = np.abs(np.interp(middle, NODES, values[:k]) - values[k:]) / size
         assert off.max() < limit and off.max() < 0.7 * line.max() and np.mean(off) < 0.3 * np.mean(line)
 

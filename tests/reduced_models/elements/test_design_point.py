@@ -14,8 +14,8 @@ from reduced_models import (
     ScaledContact,
     simulate_rotor,
 )
-from reduced_models.atlas.elements import damper_band
-from reduced_models.atlas.frequency import Between
+from reduced_models.atlas.atlas_elements import damper_band
+from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.elements.design_point import DesignPoint
 
 RACE = {"ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3, "conformity": 0.52}
@@ -147,7 +147,7 @@ def test_every_reason_warns_once(shipped):
 def test_band_of_a_damper_is_where_it_is_right(shipped):
     answer = shipped.at(POINT)
     for w in (0.0, 0.012, 1.0, 6.0, 60.0):
-        low, high = damper_band(answer.Omega, Between(answer.Omega, answer.damping), w)
+        low, high = damper_band(answer.Omega, FrequencyCurve(answer.Omega, answer.damping), w)
         inside = np.linspace(low, high, 50)
         C = answer.impedance(Omega=inside).damping / answer.impedance(Omega=w).damping
         assert low <= w <= high and np.all(np.abs(C - 1.0) <= 0.05)

@@ -271,4 +271,4 @@ def test_validity_box_is_what_the_records_covered(record):
     assert element.rate == np.abs(cut.rate).max()
     assert element.load_range == (cut.force.min(), cut.force.max())
     assert element.omega_range == (pytest.approx(6.0, rel=0.02), 9.0)
-    assert result.valid["omega"] == element.omega_range and element.rms == result.rms
+    assert result.valid["omega"] == list(element.omega_range) and element.rms == result.rms

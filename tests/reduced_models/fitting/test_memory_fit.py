@@ -47,7 +47,7 @@ def test_one_element_fits_impedance_and_records(coarse):
 
 
 def test_cross_validation_chooses_the_order_and_the_impedance_alone_will_do(coarse, monkeypatch):
-    monkeypatch.setattr("reduced_models.fitting.memory.CHAIN_LENGTHS", (2, 8))
+    monkeypatch.setattr("reduced_models.fitting.memory_fit.CHAIN_LENGTHS", (2, 8))
     result = fit_memory(coarse[0])
     assert result.validation[2] > 1.5 * result.validation[8] and result.element.lags == 8
     assert result.rms is None and result.element.inlet_saturation == 0.0

@@ -14,11 +14,11 @@ from ehlcontact import Domain, Grid, ImpedanceResult, impedance
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
 from reduced_models.elements.film_law import film_drive
+from reduced_models.elements.film_memory import FilmMemoryContact, approach_under, film_and_exponent
 from reduced_models.elements.film_response import WEIGHT_C, WEIGHT_K, FilterRates, GainFit, fit_gains
-from reduced_models.elements.memory import FilmMemoryContact, film_and_exponent
 from reduced_models.elements.validity import Validity
 from reduced_models.fitting.records import ContactRecord, as_records
-from reduced_models.fitting.result import MemoryFit, rms_error, sum_error, valid_of
+from reduced_models.fitting.result import MemoryFit, rms_error, sum_error
 
 _Floats = NDArray[np.float64]
 
@@ -123,9 +123,8 @@ class Target:
                 for name in ("approach", "rate", "force")
             )
             return u, v, f
-        film, exponent = self.film
         loads = np.array([1.0 - LOAD_RANGE_OF_IMPEDANCE, 1.0 + LOAD_RANGE_OF_IMPEDANCE])
-        return loads ** (2.0 / 3.0) - film * loads**-exponent, None, loads
+        return approach_under(loads, *self.film), None, loads
 
     def part(self, fold: int, inside: bool) -> Target:
         """The data of one fold, or all but those; the lowest frequency belongs to all."""
@@ -187,7 +186,7 @@ def fit_memory(
         e_f=sum_error(*whole) if taken else None,
         root=root,
         tangent=element.spring_tangent(root),
-        valid=valid_of(element),
+        valid=element.validity.to_dict(),
         condition=None,
         record_rms=tuple(rms_error(*pair) for pair in forces),
         damping_error=gains.damping / target.damping - 1.0,
@@ -265,9 +264,7 @@ def _element(target: Target, rates: FilterRates, gains: GainFit, inlet_saturatio
         film=film,
         exponent=exponent,
         inlet_saturation=inlet_saturation,
-        lag_rate=rates.lag_rate,
-        inlet_rate=rates.inlet_rate,
-        fast_rate=rates.fast_rate,
+        **rates.coefficients,
         gains=tuple(gains.gains.tolist()),
         **Validity.of(*target.motion, target.Omega).fields(),
     )

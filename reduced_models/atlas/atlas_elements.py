@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from reduced_models.atlas.frequency import Between
+from reduced_models.atlas.frequency_curve import FrequencyCurve
+from reduced_models.elements.film_element import units_of
+from reduced_models.elements.film_memory import FilmMemoryContact, approach_under, film_and_exponent
 from reduced_models.elements.film_response import FilterRates
-from reduced_models.elements.memory import FilmMemoryContact, film_and_exponent
 from reduced_models.elements.polynomial import CubicContact
 from reduced_models.elements.validity import MARGIN, Band
-from reduced_models.elements.wide import WideRangeContact
+from reduced_models.elements.wide_range import WideRangeContact
 
 _Floats = NDArray[np.float64]
 
@@ -52,15 +53,13 @@ def passive_gains(rates: FilterRates, gains: _Floats) -> _Floats:
 def memory_element(at: Loads, scales: Scales | None) -> FilmMemoryContact:
     """Film-memory element about one load; film and its slope over the load follow from approach and tangent."""
     film, exponent = film_and_exponent(float(at.approach[0]), float(at.tangent[0]))
-    low, high = (load ** (2.0 / 3.0) - film * load**-exponent for load in LOAD_BAND)
-    force, length, time = _units(scales)
+    low, high = (approach_under(load, film, exponent) for load in LOAD_BAND)
+    force, length, time = units_of(scales)
     return FilmMemoryContact(
         film=film,
         exponent=exponent,
         inlet_saturation=0.0,
-        lag_rate=at.rates.lag_rate,
-        inlet_rate=at.rates.inlet_rate,
-        fast_rate=at.rates.fast_rate,
+        **at.rates.coefficients,
         gains=at.gains[0],
         low=low * length,
         high=high * length,
@@ -81,10 +80,8 @@ def wide_element(at: Loads, scales: Scales | None) -> WideRangeContact:
         gain_loads=at.loads,  # type: ignore[arg-type]
         gains=at.gains,  # type: ignore[arg-type]
         inlet_saturation=0.0,
-        lag_rate=at.rates.lag_rate,
-        inlet_rate=at.rates.inlet_rate,
-        fast_rate=at.rates.fast_rate,
-        omega_range=(0.0, at.highest_omega / _units(scales)[2]),
+        **at.rates.coefficients,
+        omega_range=(0.0, at.highest_omega / units_of(scales)[2]),
         units="dimensionless" if scales is None else "SI",
         scales=scales,
         fit=at.fit,
@@ -92,7 +89,7 @@ def wide_element(at: Loads, scales: Scales | None) -> WideRangeContact:
     )
 
 
-def damper_band(Omega: _Floats, damping: Between, w: float) -> Band:
+def damper_band(Omega: _Floats, damping: FrequencyCurve, w: float) -> Band:
     """The frequencies about `w`, from the first to the last of `Omega`, at which C is C(w) within a twentieth."""
     places = np.unique(np.concatenate([*(np.linspace(a, b, 65) for a, b in pairwise(Omega.tolist())), [w]]))
     C, at = damping.at(places), int(np.searchsorted(places, w))
@@ -133,7 +130,3 @@ def cubic_element(
         omega_range=band,
         source=source,
     )
-
-
-def _units(scales: Scales | None) -> tuple[float, float, float]:
-    return (1.0, 1.0, 1.0) if scales is None else (scales.force, scales.length, scales.time)

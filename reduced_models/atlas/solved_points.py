@@ -1,4 +1,4 @@
-"""Work of an atlas build: points are solved by an executor, and kept in a store by content as they come."""
+"""Points of an atlas build: solved by an executor, and kept in a store by content as they come."""
 
 from __future__ import annotations
 

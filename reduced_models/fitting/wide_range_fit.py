@@ -16,10 +16,10 @@ from ehlcontact.checks.frequency import by_name
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
 from ehlcontact.point import Point, moes_point, require_solvable, scales_of
+from reduced_models.elements.film_memory import FilmMemoryContact
 from reduced_models.elements.film_response import FilterRates, fit_gains
-from reduced_models.elements.memory import FilmMemoryContact
-from reduced_models.elements.wide import WideRangeContact
-from reduced_models.fitting.memory import OMEGAS, RATE_STARTS, SEARCH, SEARCH_LIMITS, TRANSIT_TIME, Response
+from reduced_models.elements.wide_range import WideRangeContact
+from reduced_models.fitting.memory_fit import OMEGAS, RATE_STARTS, SEARCH, SEARCH_LIMITS, TRANSIT_TIME, Response
 
 _Floats = NDArray[np.float64]
 
@@ -83,9 +83,7 @@ def wide_range_contact(
         gain_loads=places,  # type: ignore[arg-type]
         gains=gains,  # type: ignore[arg-type]
         inlet_saturation=inlet_saturation,
-        lag_rate=rates.lag_rate,
-        inlet_rate=rates.inlet_rate,
-        fast_rate=rates.fast_rate,
+        **rates.coefficients,
         omega_range=(min(low for low, _ in bands), max(high for _, high in bands)),
         source=source,
     )

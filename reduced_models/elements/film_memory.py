@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,11 @@ def film_and_exponent(approach: float, tangent: float) -> tuple[float, float]:
     """
     film = 1.0 - approach
     return film, max((1.0 / tangent - 2.0 / 3.0) / film, LEAST_EXPONENT)
+
+
+def approach_under(load: Any, film: float, exponent: float) -> Any:
+    """Static approach u = F^(2/3) - film F^-exponent under a load F, a number or an array."""
+    return load ** (2.0 / 3.0) - film * load**-exponent
 
 
 @stored("contact element")
