@@ -19,7 +19,8 @@
 | integrate_python | the same steps in Python, for supports without a compiled kernel |
 | simulate | `simulate_rotor`: a rotor over time, from the rotor by arrays and steps to the result |
 | result | `RotorResult`: histories of a run |
-| impedance | impedance of a contact over the frequency |
+| impedance | a contact about rest: an element as a state space, any other by its impedance |
+| linear_system | a rotor on linear supports as one system of first order |
 | linearise | `linearise`: a rotor about rest at a speed, `LinearRotor`; `unbalance_response` over the speed |
 | modes | `RotorMode`: damped vibrations, exact with film memory |
 | campbell | `campbell`: modes over the speed, critical speeds |

@@ -30,8 +30,9 @@ from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.state_space import PER_METRE, bearing_system
 from reduced_models.elements.film_filters import DIRECT
-from reduced_models.elements.small_motion import FILTERS, StateSpace
-from reduced_models.rotor.rotor import Matrices, Rotor
+from reduced_models.elements.small_motion import FILTERS
+from reduced_models.rotor.linear_system import rotor_system
+from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.supports import BearingMount
 
 _Floats = NDArray[np.float64]
@@ -73,30 +74,6 @@ def linear_block(
         states=_states(size, shapes),
         name=name,
     )
-
-
-def rotor_system(matrices: Matrices, to_rings: _Floats, bearings: Sequence[StateSpace]) -> tuple[_Floats, _Floats]:
-    """A, and B of forces on all degrees of freedom, for the states q, q' and those of the bearings."""
-    M, damping, K = matrices
-    size = len(M)
-    total = 2 * size + sum(len(bearing.A) for bearing in bearings)
-    A, driven = np.zeros((total, total)), np.zeros((total, size))
-    A[:size, size : 2 * size] = np.eye(size)
-    pull = np.zeros((size, total))  # forces that act on the masses
-    pull[:, :size], pull[:, size : 2 * size] = -K, -damping
-    at = 2 * size
-    for b, bearing in enumerate(bearings):
-        ring, here = to_rings[2 * b : 2 * b + 2], slice(at, at + len(bearing.A))
-        both = np.zeros((4, total))
-        both[:2, :size], both[2:, size : 2 * size] = ring, ring
-        A[here] += bearing.B @ both
-        A[here, here] += bearing.A
-        pull -= ring.T @ bearing.D @ both
-        pull[:, here] -= ring.T @ bearing.C
-        at = here.stop
-    A[size : 2 * size] = np.linalg.solve(M, pull)
-    driven[size : 2 * size] = np.linalg.inv(M)
-    return A, driven
 
 
 def rotor_to_control(

@@ -1,4 +1,4 @@
-"""Impedances of contacts about rest, over the frequency: of an element, and of a solved film.
+"""Contacts of a rotor about rest: elements as state spaces; solved films and others as impedances.
 
 Contacts stay as their speed makes them: only the frequency of the excitation varies, not the speed that draws the
 oil in.
@@ -15,6 +15,7 @@ from scipy.interpolate import PchipInterpolator
 from ehlcontact import ImpedanceResult
 from ehlcontact.errors import InputError
 from reduced_models.elements.base import ContactElement
+from reduced_models.elements.small_motion import StateSpace
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -76,3 +77,24 @@ class ContactImpedance:
         Z = complex(self._impedance(np.array([omega]))[0])
         found = Z if s == 1j * omega else Z.real + s * Z.imag / omega
         return np.array([[self._count * found]])
+
+
+class LinearElement:
+    """Elements at one place of a rotor about rest, exact at every complex frequency with their film memory.
+
+    Parameters
+    ----------
+    space : StateSpace
+        Of one element, from approach and rate to the force, SI.
+    count : int
+        How many there are.
+    """
+
+    def __init__(self, space: StateSpace, count: int) -> None:
+        self.space = StateSpace(space.A, space.B, count * space.C, count * space.D)
+
+    def impedance(self, s: complex) -> _Complex:
+        """Of all of them, shape (1, 1) [N/m], at s [1/s]."""
+        A, driven, C, D = self.space
+        moved = np.array([[1.0], [s]])
+        return np.asarray(C @ np.linalg.solve(s * np.eye(len(A)) - A, driven @ moved) + D @ moved)

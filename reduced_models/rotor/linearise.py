@@ -19,8 +19,9 @@ from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.control import Signals, linear_block
-from reduced_models.rotor.impedance import ContactImpedance, impedance_about
+from reduced_models.rotor.impedance import ContactImpedance, LinearElement
 from reduced_models.rotor.jeffcott import JeffcottRotor
+from reduced_models.rotor.linear_system import eigenmodes
 from reduced_models.rotor.modes import (
     CANDIDATES,
     CLOSED,
@@ -41,6 +42,7 @@ from reduced_models.rotor.unbalance import UnbalanceResponse
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
+NEAR = 0.5  # relative distance of an eigenvalue from that with frozen supports, within which it may be its own
 SHOWN = 8  # modes, unless another number is given
 SLOW = 1e-3  # rad/s, stands for rest where damping is computed: films forget in less than a second
 FREE = 1e-9  # of the largest stiffness, what rounding leaves where a rotor is free
@@ -59,10 +61,10 @@ class LinearSupport(Protocol):
 class LinearRotor(Summary):
     """A rotor about rest under its load, made by `linearise`.
 
-    Ball bearings are exact at complex frequencies, the memory of their films included; contacts have the impedance
-    of the frequency. Films are those of the speed. Balls stand still while the rotor vibrates, at the angle of
-    their mount or, over a ball passage, at all positions of the cage: then the impedance of a bearing is the mean
-    of those, each with the ring where the bearing's share of the load puts it. That bearings change while the
+    Ball bearings and elements are exact at complex frequencies, the memory of their films included; impedances are
+    those of the frequency. Films are those of the speed. Balls stand still while the rotor vibrates, at the angle
+    of their mount or, over a ball passage, at all positions of the cage: then the impedance of a bearing is the
+    mean of those, each with the ring where the bearing's share of the load puts it. That bearings change while the
     rotor vibrates is left out: a mode across the load of the beam in the tests, where stiffness changes by a
     quarter as balls pass, has 0.7 % more decrement and 0.2 % less frequency by that; one along the load nothing.
 
@@ -88,7 +90,7 @@ class LinearRotor(Summary):
     passage: bool
     rest: _Floats
     loads: _Floats
-    contacts: tuple[ContactImpedance, ...]
+    contacts: tuple[LinearElement | ContactImpedance, ...]
     balls: tuple[SmallBalls, ...]
 
     def _summary_lines(self) -> list[str]:
@@ -253,19 +255,36 @@ class LinearRotor(Summary):
         share = in_supports / (in_supports + in_shaft)
         return RotorMode(s, shape, whirl_of(shape, pairs), share, *flat_nodes(self.rotor.nodes))
 
+    @cached_property
+    def _exact(self) -> tuple[_Complex, _Complex] | None:
+        """Eigenvalues and shapes on contacts that all have states; those of many balls are too many."""
+        spaces = [contact.space for contact in self.contacts if isinstance(contact, LinearElement)]
+        if self.balls or len(spaces) < len(self.contacts):
+            return None
+        return eigenmodes(self.matrices, self._rows, spaces)
+
     def _root(
         self, s: complex, q: _Complex, found: list[tuple[complex, _Complex]]
     ) -> list[tuple[complex, _Complex]]:
         """The root near a mode without damping, none of those found; nothing where damping leaves fewer modes."""
         values, vectors = eigenvectors(self.matrices, self.support_impedance(1j * s.imag), s.imag)
-        closed = CLOSED_BY_STEPS if self.contacts else CLOSED
         for k in np.argsort(unlike(s, q, values, vectors))[:CANDIDATES].tolist():
-            root, shape = close(self.dynamic_stiffness, complex(values[k]), vectors[:, k], closed)
-            if is_new(root, shape, found):
-                return [(root, shape)]
+            for root, shape in self._near(complex(values[k]), vectors[:, k]):
+                if is_new(root, shape, found):
+                    return [(root, shape)]
         if len(values) < self.rotor.size:
             return []
         raise ConvergenceError(f"mode near {s.imag / (2.0 * np.pi):.4g} Hz not found", None)
+
+    def _near(self, s: complex, q: _Complex) -> list[tuple[complex, _Complex]]:
+        """Roots near one of frozen bearings: of one eigenvalue problem, or by Newton's method."""
+        if self._exact is None:
+            closed = CLOSED_BY_STEPS if self.contacts else CLOSED
+            return [close(self.dynamic_stiffness, s, q, closed)]
+        values, vectors = self._exact
+        off = np.abs(values - s)
+        near = [j for j in np.argsort(off).tolist() if off[j] < NEAR * abs(s)]
+        return [(complex(values[j]), vectors[:, j]) for j in near]
 
 
 @takes(speed_rpm="rev/min")
@@ -330,13 +349,13 @@ def _is_impedance(contact: object) -> bool:
     return callable(contact) and not isinstance(contact, ContactElement)
 
 
-def _linear_contact(mount: ContactMount, approach: float) -> ContactImpedance:
+def _linear_contact(mount: ContactMount, approach: float) -> LinearElement | ContactImpedance:
     """A contact about the approach at which it rests."""
     contact = mount.contact
     if isinstance(contact, ScaledContact) and isinstance(contact.contact, ContactElement):
         contact = contact.contact.to_si(contact.scales)
     if isinstance(contact, ContactElement):
-        return ContactImpedance(impedance_about(contact, float(contact.spring(approach))), mount.count)
+        return LinearElement(contact.state_space(float(contact.spring(approach))), mount.count)
     if not _is_impedance(contact):
         raise InputError(
             "contacts", type(contact).__name__, "elements, or impedances over omega: see film_impedance"

@@ -2,11 +2,12 @@
 
     T(s) = s^2 M + s (C + omega G) + K + B^T Z(s) B
 
-Each is found from the eigenvectors of the matrices that the bearings have at a frequency, first 0 (without their
-damping, which may be large there), then its own, and closed by Newton's method on (q, s) together: what memory and
-damping make of Z off the imaginary axis is in. Where Z is known on that axis alone, K and C of the mode's own
-frequency stand for it, K + s C: exact where it is hardly damped, and to first order in the damping otherwise. A
-root found already is not taken again: the next best is tried.
+On contacts whose elements have states the roots are eigenvalues of one system of first order. Otherwise each is
+found from the eigenvectors of the matrices that the bearings have at a frequency, first 0 (without their damping,
+which may be large there), then its own, and closed by Newton's method on (q, s) together: what memory and damping
+make of Z off the imaginary axis is in. Where Z is known on that axis alone, K and C of the mode's own frequency
+stand for it, K + s C: exact where it is hardly damped, and to first order in the damping otherwise. A root found
+already is not taken again: the next best is tried.
 """
 
 from __future__ import annotations

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from reduced_models.rotor.linearise import LinearRotor
 from reduced_models.rotor.modes import RotorMode
+from reduced_models.rotor.nodes import PLANE
 
 SPAN = (0.3, 1.7)  # of the slowest mode, and of the fastest shown, at the ends of the frequencies
 SHOWN = (0.75, 1.25)  # likewise, of what a picture shows
@@ -71,7 +72,8 @@ def resonances(rotors: Mapping[str, LinearRotor], eccentricity: float, node: str
     """
     slowest = {name: linear.slowest() for name, linear in rotors.items()}
     hz = frequencies_near([mode for by_direction in slowest.values() for mode in by_direction.values()])
-    columns = next(iter(rotors.values())).rotor.nodes[node]
+    places = next(iter(rotors.values())).rotor.nodes[node]
+    columns = {direction: place for direction, place in places.items() if direction in PLANE}
     curves: dict[str, dict[str, NDArray[np.complex128]]] = {direction: {} for direction in columns}
     peaks: dict[str, dict[str, Resonance]] = {direction: {} for direction in columns}
     for name, linear in rotors.items():

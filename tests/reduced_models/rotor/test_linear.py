@@ -129,3 +129,19 @@ def test_refused():
         linearise(one_mass(), contacts=[spring, spring])
     with pytest.raises(InputError, match="OperatingPoint"):
         film_impedance(impedance(MoesPoint(20, 5, 0.5), Omega=[0.0, 0.1], grid=Grid(n=32)))
+
+
+def test_modes_on_elements_are_roots_with_the_memory_of_their_films():
+    """Of the dynamic stiffness at the eigenvalue itself, beside the imaginary axis."""
+    element = Atlas().wide(POINT, np.geomspace(0.2, 5.0, 8))
+    rotor = JeffcottRotor.vee(
+        half_angle=0.5, disc_mass=4.0, journal_mass=0.5, shaft_stiffness=5e7, shaft_damping=200.0, speed_rpm=3000.0
+    )
+    at = linearise(rotor, contacts=[element, element.copy()])
+    modes = at.modes(None)
+    assert len(modes) == 4 and at.stable
+    for mode in modes:
+        T, s = at.dynamic_stiffness(mode.eigenvalue), mode.eigenvalue
+        assert np.abs(T @ mode.shape).max() < 1e-9 * np.abs(T).max()
+        frozen = at.support_impedance(1j * s.imag)
+        assert abs(s.real) > 1e-3 * s.imag and not np.allclose(at.support_impedance(s), frozen, rtol=1e-6)
