@@ -4,6 +4,7 @@
 module                   responsibility
 =======================  ===========================================================================
 ``spec``                 `ModelSpec`: name, value reference, unit and start value of every variable
+``variable_list``        `VariableList`: variables in their order; the meaning of inputs, of all FMUs
 ``contact_variables``    variables that the FMUs of all contact elements have
 ``spring_spec``          variables and C text of the elements without film memory
 ``film_spec``            variables, C text and tables of the elements with a film memory

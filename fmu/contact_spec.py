@@ -6,11 +6,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 
 from ehlcontact.errors import InputError
-from fmu.contact_variables import MEANINGS, Element, Film
+from fmu.contact_variables import Element, Film
 from fmu.film_spec import film_parts
 from fmu.spec import ModelSpec
 from fmu.spring_spec import spring_parts
 from fmu.steps import default_step, step_advice
+from fmu.variable_list import MEANINGS
 from reduced_models.elements.validity import frequency_text, text_of
 
 LONGEST_NAME = 200  # characters of the name of a contact in the description of an FMU

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from fmu.c_headers import c_double
-from fmu.spec import Choice, Variable
+from fmu.variable_list import VariableList
 from reduced_models import (
     CubicContact,
     FilmMemoryContact,
@@ -22,33 +21,17 @@ Film = FilmMemoryContact | WideRangeContact
 
 ALLOWED_ERROR = 1e-4  # of the force in a step that is cut inside, where the importer gives no tolerance
 
-MEANINGS = Choice(
-    "InputMeaning",
-    (
-        (
-            "extrapolated",
-            "inputs are those of the step's start: approach goes on by its rate, rate by its last change",
-        ),
-        ("end", "inputs are those of the step's end, for masters that iterate"),
-        ("held", "inputs are those of the step's start and stay so: the force got is that of the start"),
-    ),
-)
 
-
-class ContactVariables:
-    """The variables of one contact, numbered as they are appended."""
+class ContactVariables(VariableList):
+    """The variables of one contact, in the units of its element."""
 
     def __init__(self, element: Element) -> None:
+        super().__init__()
         self.element = element
-        self.variables: list[Variable] = []
 
     def unit(self, si: str) -> str:
         """The unit of a quantity of the element."""
         return si if self.element.units == "SI" else "1"
-
-    def add(self, name: str, causality: str, variability: str, text: str, **more: Any) -> None:
-        """Append a variable."""
-        self.variables.append(Variable(name, len(self.variables), causality, variability, text, **more))
 
     def input(self, name: str, si: str, start: float, nominal: float, text: str) -> None:
         """Append an input."""
@@ -69,14 +52,6 @@ class ContactVariables:
     def constant(self, name: str, si: str, value: float, text: str) -> None:
         """Append a constant of the element."""
         self.add(name, "local", "constant", text, unit=self.unit(si), start=float(value))
-
-    def meaning(self) -> None:
-        """Append the parameter `input_meaning`."""
-        self.add(
-            "input_meaning", "parameter", "fixed",
-            "What the inputs of a co-simulation step mean: 1 extrapolated, 2 end, 3 held",
-            type="Enumeration", start=1, minimum=1, maximum=len(MEANINGS.items),
-        )  # fmt: skip
 
     def flags(self, depends: tuple[str, ...], *, first: bool) -> None:
         """Append outside_validity (`first`), or the flags of its bounds."""

@@ -70,10 +70,7 @@ def _states(common: ContactVariables, states: tuple[str, ...], nominal: float) -
             depends: tuple[str, ...] = ("approach", "rate", name)
         else:
             depends = ("approach", "s" if k == len(texts) else states[k - 1], name)
-        common.add(
-            f"der({name})", "local", "continuous", f"Derivative of {name}",
-            unit=unit, depends=depends, derivative_of=name,
-        )  # fmt: skip
+        common.derivative(name, unit, depends)
 
 
 def _macros(element: Film) -> dict[str, str]:

@@ -24,6 +24,11 @@ LOG_CATEGORIES = {
 TIME = "time"  # name of the independent variable of FMI 3.0
 FLANGE = "Modelica.Mechanics.Translational.Interfaces.Flange_a"
 MEMBERS = (("s", "signal"), ("v", "signal"), ("f", "inflow"))  # of a flange: approach, rate, force
+SECTIONS_2 = {
+    "Output": "Outputs",
+    "ContinuousStateDerivative": "Derivatives",
+    "InitialUnknown": "InitialUnknowns",
+}
 TYPES_3 = {"Real": "Float64", "Boolean": "Boolean", "Enumeration": "Enumeration"}
 CAPABILITIES_3 = {
     "canGetAndSetFMUState": "true",
@@ -62,10 +67,10 @@ def model_description(spec: ModelSpec, token: str, fmi: int) -> bytes:
     ElementTree.SubElement(root, "DefaultExperiment", default_experiment(spec))
     variables = _child(root, "ModelVariables")
     for variable in spec.variables:
-        (_variable_2 if fmi == 2 else _variable_3)(variables, variable, spec)
+        _variable(variables, variable, spec, fmi)
     if fmi == 3:
         _time_and_indicators(variables, spec)
-    (_structure_2 if fmi == 2 else _structure_3)(root, spec)
+    _structure(root, spec, fmi)
     return _text(root)
 
 
@@ -152,40 +157,28 @@ def _types(root: Element, spec: ModelSpec, fmi: int) -> None:
 # ---- variables
 
 
-def _variable_2(parent: Element, variable: Variable, spec: ModelSpec) -> None:
-    scalar = _child(
-        parent,
-        "ScalarVariable",
-        name=variable.name,
-        valueReference=str(variable.value_reference),
-        causality=variable.causality,
-        variability=variable.variability,
-        initial="calculated" if variable.start is None else "exact",
-        description=variable.description,
-    )
-    if variable.causality == "input":
-        del scalar.attrib["initial"]  # FMI 2.0 forbids it there
-    value = _child(scalar, variable.type)
-    _set_value(value, variable, spec)
-    if variable.derivative_of is not None:
-        value.set("derivative", str(spec.index(variable.derivative_of)))
-
-
-def _variable_3(parent: Element, variable: Variable, spec: ModelSpec) -> None:
-    entry = _child(
-        parent,
-        TYPES_3[variable.type],
-        name=variable.name,
-        valueReference=str(variable.value_reference),
-        causality=variable.causality,
-        variability=variable.variability,
-        description=variable.description,
-    )
-    if variable.causality != "input":
-        entry.set("initial", "calculated" if variable.start is None else "exact")
+def _variable(parent: Element, variable: Variable, spec: ModelSpec, fmi: int) -> None:
+    facts = {
+        "name": variable.name,
+        "valueReference": str(variable.value_reference),
+        "causality": variable.causality,
+        "variability": variable.variability,
+        "description": variable.description,
+    }
+    if variable.causality != "input":  # FMI 2.0 forbids it there
+        facts["initial"] = "calculated" if variable.start is None else "exact"
+    if fmi == 2:
+        entry = _child(_child(parent, "ScalarVariable", **facts), variable.type)
+    else:
+        entry = _child(parent, TYPES_3[variable.type], **facts)
     _set_value(entry, variable, spec)
     if variable.derivative_of is not None:
-        entry.set("derivative", str(spec[variable.derivative_of].value_reference))
+        entry.set("derivative", str(_place(spec, variable.derivative_of, fmi)))
+
+
+def _place(spec: ModelSpec, name: str, fmi: int) -> int:
+    """Number by which other entries refer to a variable: its index in FMI 2.0, its value reference in FMI 3.0."""
+    return spec.index(name) if fmi == 2 else spec[name].value_reference
 
 
 def _set_value(entry: Element, variable: Variable, spec: ModelSpec) -> None:
@@ -237,47 +230,33 @@ def _time_and_indicators(parent: Element, spec: ModelSpec) -> None:
 # ---- structure
 
 
-def _sections(spec: ModelSpec) -> tuple[tuple[tuple[Variable, ...], bool], ...]:
-    """Outputs, derivatives and initial unknowns; whether parameters are knowns of these, as at initialization."""
+def _sections(spec: ModelSpec) -> dict[str, tuple[Variable, ...]]:
+    """Outputs, derivatives and initial unknowns, by the names of FMI 3.0."""
     computed = [variable for variable in (*spec.outputs, *spec.derivatives) if variable.start is None]
     initial = tuple(sorted(computed, key=lambda variable: variable.value_reference))
-    return (spec.outputs, False), (spec.derivatives, False), (initial, True)
+    return {"Output": spec.outputs, "ContinuousStateDerivative": spec.derivatives, "InitialUnknown": initial}
 
 
-def _moving(spec: ModelSpec) -> set[str]:
-    return {variable.name for variable in (*spec.inputs, *spec.states)}
+def _structure(root: Element, spec: ModelSpec, fmi: int) -> None:
+    structure = _child(root, "ModelStructure")
+    moving = {variable.name for variable in (*spec.inputs, *spec.states)}
 
+    def unknown(parent: Element, tag: str, place: int, depends: tuple[str, ...], initial: bool = False) -> None:
+        knowns = [_place(spec, name, fmi) for name in depends if initial or name in moving]
+        entry = _child(parent, tag, **{"index" if fmi == 2 else "valueReference": str(place)})
+        entry.set("dependencies", " ".join(map(str, sorted(knowns))))
+        entry.set("dependenciesKind", " ".join(["dependent"] * len(knowns)))
 
-def _dependencies(knowns: list[int]) -> dict[str, str]:
-    return {
-        "dependencies": " ".join(map(str, sorted(knowns))),
-        "dependenciesKind": " ".join(["dependent"] * len(knowns)),
-    }
-
-
-def _structure_2(root: Element, spec: ModelSpec) -> None:
-    structure, moving = _child(root, "ModelStructure"), _moving(spec)
-    names = "Outputs", "Derivatives", "InitialUnknowns"
-    for section, (variables, initial) in zip(names, _sections(spec), strict=True):
+    for name, variables in _sections(spec).items():
         if not variables:
             continue
-        unknowns = _child(structure, section)
+        # FMI 2.0 has a list of unknowns in each section, FMI 3.0 an entry of that name for each unknown
+        parent, tag = (_child(structure, SECTIONS_2[name]), "Unknown") if fmi == 2 else (structure, name)
         for variable in variables:
-            knowns = [spec.index(name) for name in variable.depends if initial or name in moving]
-            _child(unknowns, "Unknown", index=str(spec.index(variable.name)), **_dependencies(knowns))
-
-
-def _structure_3(root: Element, spec: ModelSpec) -> None:
-    structure, moving = _child(root, "ModelStructure"), _moving(spec)
-    names = "Output", "ContinuousStateDerivative", "InitialUnknown"
-    for section, (variables, initial) in zip(names, _sections(spec), strict=True):
-        for variable in variables:
-            knowns = [spec[name].value_reference for name in variable.depends if initial or name in moving]
-            _child(structure, section, valueReference=str(variable.value_reference), **_dependencies(knowns))
-    for k, (_, output) in enumerate(spec.indicators, start=1):
-        knowns = [spec[name].value_reference for name in spec[output].depends if name in moving]
-        reference = str(len(spec.variables) + k)
-        _child(structure, "EventIndicator", valueReference=reference, **_dependencies(knowns))
+            unknown(parent, tag, _place(spec, variable.name, fmi), variable.depends, name == "InitialUnknown")
+    if fmi == 3:
+        for k, (_, output) in enumerate(spec.indicators, start=1):
+            unknown(structure, "EventIndicator", len(spec.variables) + k, spec[output].depends)
 
 
 # ---- further files of FMI 3.0

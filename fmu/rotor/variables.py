@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
 from fmu.c_headers import c_double, c_table
 from fmu.contact_spec import checked_name, contact_spec, source_text
-from fmu.contact_variables import ALLOWED_ERROR, MEANINGS
+from fmu.contact_variables import ALLOWED_ERROR
 from fmu.rotor.laws import law_tables, numbers_of_laws
 from fmu.rotor.model import RotorModel
-from fmu.spec import ModelSpec, Variable
+from fmu.spec import ModelSpec
+from fmu.variable_list import MEANINGS, VariableList
 
 BODIES = ("disc", "journal")
 LEAST_INNER_STEP = 1e-6  # of the default: below it, importers repeat what is refused without end
@@ -71,14 +71,14 @@ def rotor_spec(model: RotorModel, model_name: str | None = None) -> ModelSpec:
     )
 
 
-class _Variables:
+class _Variables(VariableList):
     """The variables of a rotor, numbered as they are made."""
 
     def __init__(self, model: RotorModel) -> None:
+        super().__init__()
         self.model, self.rotor = model, model.rotor
         self.axes = [("x", "y")[k] for k in model.rotor.axes]
         self.mounts = range(1, len(model.rotor.mounts) + 1)
-        self.variables: list[Variable] = []
         self.first: dict[str, int] = {}  # value references of the first of many
         load = float(np.abs(self.rotor.static_load).max())
         self.force = load if load > 0.0 else 1.0
@@ -87,10 +87,6 @@ class _Variables:
         self.length = max(bend, eccentric, *(e.validity.approach[1] for e in model.elements), 0.0)
         omega = math.sqrt(self.rotor.shaft_stiffness / self.rotor.disc_mass)
         self.rate = self.length * max(omega, self.rotor.omega)
-
-    def add(self, name: str, causality: str, variability: str, text: str, **more: Any) -> None:
-        """Append a variable."""
-        self.variables.append(Variable(name, len(self.variables), causality, variability, text, **more))
 
     def fill(self) -> None:
         """All of them."""
@@ -158,8 +154,8 @@ class _Variables:
                     depends += tuple(n for i in self.mounts for n in contacts[i]) if contacts else tuple(
                         f"force[{i}]" for i in self.mounts
                     )  # fmt: skip
-            self._derivative(name, "m/s" if "velocity" not in name else "m/s2", tuple(dict.fromkeys(depends)))
-        self._derivative("angle", "rad/s", ("speed_rpm",))
+            self.derivative(name, "m/s" if "velocity" not in name else "m/s2", tuple(dict.fromkeys(depends)))
+        self.derivative("angle", "rad/s", ("speed_rpm",))
         moving = {
             what: tuple(f"journal{part}_{axis}" for axis in self.axes)
             for what, part in (("approach", ""), ("rate", "_velocity"))
@@ -167,13 +163,7 @@ class _Variables:
         for i, spec in self._films():
             for v in spec.derivatives:
                 depends = tuple(m for name in v.depends for m in moving.get(name, (f"contact[{i}].{name}",)))
-                self._derivative(f"contact[{i}].{v.derivative_of}", v.unit, depends)
-
-    def _derivative(self, name: str, unit: str | None, depends: tuple[str, ...]) -> None:
-        self.add(
-            f"der({name})", "local", "continuous", f"Derivative of {name}",
-            unit=unit, depends=depends, derivative_of=name,
-        )  # fmt: skip
+                self.derivative(f"contact[{i}].{v.derivative_of}", v.unit, depends)
 
     def _contact_depends(self) -> dict[int, tuple[str, ...]]:
         """States that the force of each contact inside depends on."""
@@ -217,11 +207,7 @@ class _Variables:
             ("speed_rpm", "rev/min", "Speed of the unbalance; the films of contacts stay as made"),
         ):
             self.add(name, "parameter", "tunable", text, unit=unit, start=float(getattr(r, name)), minimum=0.0)
-        self.add(
-            "input_meaning", "parameter", "fixed",
-            "What the inputs of a co-simulation step mean: 1 extrapolated, 2 end, 3 held",
-            type="Enumeration", start=1, minimum=1, maximum=len(MEANINGS.items),
-        )  # fmt: skip
+        self.meaning()
         self.add(
             "inner_step", "parameter", "fixed", "Longest step inside one of co-simulation, which is cut evenly",
             unit="s", start=self.model.inner_step, minimum=LEAST_INNER_STEP * self.model.inner_step,

@@ -17,8 +17,9 @@ from fmu.archive import content_guid, fmu_files
 from fmu.binaries import this_machine
 from fmu.binaries.compiler import compilers
 from fmu.contact_spec import contact_spec
-from fmu.contact_variables import MEANINGS, Element
+from fmu.contact_variables import Element
 from fmu.sources import CSRC
+from fmu.variable_list import MEANINGS
 from reduced_models import Atlas, CubicContact
 
 # Motion about the place of the static load, over 2a/u_sum: u = 0.87 + 0.2 sin 2.5 T in steps of 0.02.
