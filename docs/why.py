@@ -21,8 +21,15 @@ from ehlcontact import Grid, ImpedanceResult, simulate
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.study.rotor import film_response, linear_rotors
 from ehlcontact.cli.study.schema import Study, load_study
-from reduced_models import Atlas, ContactElement, ContactRecord, dry_contact, fit, impedance_about
+from reduced_models import (
+    Atlas,
+    ContactElement,
+    ContactRecord,
+    dry_contact,
+    fit,
+)
 from reduced_models.rotor.baselines import local_contact
+from reduced_models.rotor.impedance import impedance_about
 from reduced_models.rotor.resonance import Resonances, resonances
 
 ROOT = Path(__file__).parents[1]

@@ -11,7 +11,8 @@ import sys
 import numpy as np
 
 from ehlcontact import Lubricant
-from reduced_models import BallBearing, BearingCoefficients, BearingState
+from reduced_models import BallBearing, BearingState
+from reduced_models.bearing.coefficients import BearingCoefficients
 
 
 def five_lines() -> tuple[BearingState, BearingCoefficients]:

@@ -22,7 +22,6 @@ from ehlcontact import Lubricant
 from reduced_models import (
     BallBearing,
     Campbell,
-    CriticalSpeed,
     Disc,
     Rotor,
     RotorResult,
@@ -34,6 +33,7 @@ from reduced_models import (
     rotor_on_bearings,
     simulate_rotor,
 )
+from reduced_models.rotor.campbell import CriticalSpeed
 
 STEEL = {"youngs_modulus": 211e9, "poisson_ratio": 0.2993, "density": 7810.0}
 RANGE, SECONDS, DT = (500.0, 9000.0), 5.0, 5e-5  # rev/min, s, s

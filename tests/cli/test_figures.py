@@ -88,7 +88,7 @@ def test_loops_show_the_element_that_was_fitted():
 def test_spectrum_shows_amplitudes():
     """Of a run with known ones, over its settled part: 3 um twice a revolution, 7 N once, whatever the means."""
     from ehlcontact.cli.plots.rotor import spectrum
-    from reduced_models import Settling
+    from reduced_models.rotor.settling import Settling
 
     t = np.arange(3 * 40 + 1) / 2000.0
     turned = 2.0 * np.pi * 50.0 * t

@@ -19,7 +19,9 @@ from ehlcontact.cli.study.results import evaluate
 from ehlcontact.cli.study.rotor import film_response, frequencies
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.errors import ConvergenceError
-from reduced_models import ContactEvents, RotorResult, Settling
+from reduced_models import RotorResult
+from reduced_models.rotor.events import ContactEvents
+from reduced_models.rotor.settling import Settling
 
 
 @pytest.fixture(scope="module")

@@ -76,7 +76,6 @@ from reduced_models import (
     film_impedance,
     fit,
     fit_memory,
-    impedance_about,
     linearise,
     log_decrement,
     rotor_on_bearings,
@@ -86,6 +85,7 @@ from reduced_models import (
     unbalance_response,
     wide_range_from_solves,
 )
+from reduced_models.rotor.impedance import impedance_about
 
 sys.path.insert(0, str(Path(__file__).parents[1]))  # the tests' own helpers
 

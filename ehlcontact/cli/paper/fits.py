@@ -15,7 +15,6 @@ from reduced_models import (
     ContactRecord,
     ElementFit,
     FitResult,
-    OscillatorResult,
     OutsideValidityWarning,
     Sensitivity,
     fit,
@@ -23,6 +22,7 @@ from reduced_models import (
     simulate_oscillator,
 )
 from reduced_models.fitting.result import rms_error
+from reduced_models.rotor.oscillator import OscillatorResult
 
 BEYOND = 0.25  # of the range of a motion that an element of the paper reaches beyond it on either side
 PAPER_METHOD, STIFF_METHOD = "RK23", "Radau"  # Bogacki and Shampine as in the paper, and a stiff integrator

@@ -22,9 +22,10 @@ from ehlcontact.cli.plots.style import (
     shaded,
     vertical,
 )
-from reduced_models import Decrement, RotorResult, Settling
+from reduced_models import RotorResult
+from reduced_models.rotor.decay import Decrement
 from reduced_models.rotor.resonance import Resonances
-from reduced_models.rotor.settling import steps_per_revolution
+from reduced_models.rotor.settling import Settling, steps_per_revolution
 
 MICRO = "\N{MICRO SIGN}m"
 # How each contact is drawn, wherever it is.

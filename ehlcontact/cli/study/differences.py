@@ -14,20 +14,20 @@ from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.results import ImpedanceResult
 from reduced_models import (
-    Comparison,
     ContactElement,
-    ContactEvents,
-    Decrement,
     LinearRotor,
-    RotorMode,
     RotorResult,
-    Settling,
     compare,
     contact_events,
     settling,
 )
+from reduced_models.rotor.compare import Comparison
+from reduced_models.rotor.decay import Decrement
+from reduced_models.rotor.events import ContactEvents
 from reduced_models.rotor.free_decay import decay_decrement
+from reduced_models.rotor.modes import RotorMode
 from reduced_models.rotor.resonance import Resonances, resonances
+from reduced_models.rotor.settling import Settling
 
 DECIDES = 0.2  # share of a full decrement that contacts without a film must miss for the film to decide it
 

@@ -25,10 +25,10 @@ from reduced_models import (
     dry_contact,
     fit,
     fit_memory,
-    without_damper,
 )
 from reduced_models.elements.validity import frequency_text
 from reduced_models.fitting.memory_fit import OMEGAS
+from reduced_models.rotor.baselines import without_damper
 
 RECORDS = {
     "free": "free vibration",

@@ -19,11 +19,9 @@ from reduced_models import (
     JeffcottRotor,
     LinearRotor,
     OutsideValidityWarning,
-    RotorMode,
     RotorResult,
     RotorState,
     film_impedance,
-    impedance_about,
     linearise,
     local_contact,
 )
@@ -37,6 +35,8 @@ from reduced_models.rotor.full_films import (
     settled_run,
     simulate_on_films,
 )
+from reduced_models.rotor.impedance import impedance_about
+from reduced_models.rotor.modes import RotorMode
 
 BELOW = 0.5  # of the rotor's frequency: the lowest one of the impedance, but for rest
 

@@ -12,10 +12,10 @@ from reduced_models import (
     JeffcottRotor,
     LinearContact,
     film_impedance,
-    impedance_about,
     linearise,
     simulate_rotor,
 )
+from reduced_models.rotor.impedance import impedance_about
 
 
 def test_mode_of_one_mass():
