@@ -29,26 +29,18 @@ room              responsibility
 ``jit``           the numba decorators of the library
 ``cli/``          the command line; stands above all packages
 ================= ==========================================================================================
+
+Public names are those that a user calls or passes on. Classes that are only returned (`film.Film`, `point.Scales`)
+stay in their modules.
 """
 
 from ehlcontact import process as process  # first: from here on Ctrl-C ends the command line in one line
-from ehlcontact.assumptions import Assumption, Assumptions, assumptions
+from ehlcontact.assumptions import assumptions
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.film import (
-    Film,
-    FilmHistory,
-    FilmWave,
-    Interferogram,
-    WaveTrack,
-    film_history,
-    film_of,
-    film_wave,
-    interferogram,
-    track_wave,
-)
+from ehlcontact.film import film_history, film_of, film_wave, interferogram, track_wave
 from ehlcontact.impedance import impedance
 from ehlcontact.lubricant import Lubricant
-from ehlcontact.point import Geometry, MoesPoint, OperatingPoint, Scales
+from ehlcontact.point import Geometry, MoesPoint, OperatingPoint
 from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
@@ -59,21 +51,16 @@ from ehlcontact.transient.features import Dent, TransverseRidge, Waviness
 from ehlcontact.transient.full_contact import FullContact
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 from ehlcontact.transient.prescribed import PrescribedApproach, PrescribedLoad
-from ehlcontact.transient.result import Instants, SimulationResult
+from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.roughness import Roughness
 from ehlcontact.transient.settings import KeepSettings, RunSettings, TimeSteps
 from ehlcontact.transient.simulate import simulate
 from ehlcontact.version import __version__
 
 __all__ = [
-    "Assumption",
-    "Assumptions",
     "ConvergenceError",
     "Dent",
     "Domain",
-    "Film",
-    "FilmHistory",
-    "FilmWave",
     "FreeVibration",
     "FullContact",
     "Geometry",
@@ -81,8 +68,6 @@ __all__ = [
     "HarmonicLoad",
     "ImpedanceResult",
     "InputError",
-    "Instants",
-    "Interferogram",
     "KeepSettings",
     "Lubricant",
     "MoesPoint",
@@ -92,13 +77,11 @@ __all__ = [
     "RampLoad",
     "Roughness",
     "RunSettings",
-    "Scales",
     "SimulationResult",
     "Status",
     "SteadyResult",
     "TimeSteps",
     "TransverseRidge",
-    "WaveTrack",
     "Waviness",
     "__version__",
     "assumptions",

@@ -30,8 +30,12 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
+from ehlcontact.assumptions.table import Assumption, Assumptions
+from ehlcontact.film import Film, FilmHistory, FilmWave, Interferogram, WaveTrack
+from ehlcontact.point import Scales
 from ehlcontact.results.table import QuantityTable, SIView
 from ehlcontact.summary import Summary, span
+from ehlcontact.transient.result import Instants
 from fmu.references.check import Interface
 from reduced_models import (
     Atlas,
@@ -61,6 +65,8 @@ from reduced_models.bearing.coefficients import BearingCoefficients
 from reduced_models.rotor.impedance import impedance_about
 from reduced_models.rotor.settling import Settling
 
+# Classes that are only returned: no public names, but results like the others.
+RETURNED = Assumption, Assumptions, Film, FilmHistory, FilmWave, Instants, Interferogram, Scales, WaveTrack
 # What a user gives, or a few numbers: shown as they are.
 SHOWN = "PrescribedApproach", "PrescribedLoad", "Roughness"
 INPUT, NUMBERS, KIND = "an input", "a few numbers, which its summary has", "no result: it is used by its kind"
@@ -198,22 +204,18 @@ def test_they_say_what_is_there(point, results):
 def test_every_public_result_of_arrays_has_a_summary():
     """So that a new one that dumps them is seen here."""
     left = []
-    for package in (ehlcontact, reduced_models, fmu):
-        for name, value in vars(package).items():
-            if inspect.isclass(value) and is_dataclass(value) and name not in SHOWN:
-                kinds = [str(field.type) for field in fields(value)]
-                if any("NDArray" in kind or "Array" in kind or "_Floats" in kind for kind in kinds):
-                    left += [] if issubclass(value, Summary) else [name]
+    for name, value in public_classes().items():
+        if is_dataclass(value) and name not in SHOWN:
+            kinds = [str(field.type) for field in fields(value)]
+            if any("NDArray" in kind or "Array" in kind or "_Floats" in kind for kind in kinds):
+                left += [] if issubclass(value, Summary) else [name]
     assert left == []
 
 
 def public_classes():
-    return {
-        name: value
-        for package in (ehlcontact, reduced_models, fmu)
-        for name in dir(package)
-        if inspect.isclass(value := getattr(package, name))
-    }
+    """Those that a package shows, and those that are only returned."""
+    shown = [getattr(package, name) for package in (ehlcontact, reduced_models, fmu) for name in dir(package)]
+    return {value.__name__: value for value in (*shown, *RETURNED) if inspect.isclass(value)}
 
 
 def test_every_public_result_has_a_figure():

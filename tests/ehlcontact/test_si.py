@@ -9,8 +9,6 @@ import numpy as np
 import pytest
 
 from ehlcontact import (
-    Film,
-    FilmHistory,
     FreeVibration,
     FullContact,
     Grid,
@@ -24,6 +22,7 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
+from ehlcontact.film import Film, FilmHistory
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import Geometry, OperatingPoint
 from ehlcontact.quantities import quantities_of, si_quantities
