@@ -227,11 +227,29 @@ def show_table(title: str, rows: Iterable[tuple[str, str, str]], json_to: str | 
     """Compact table of quantity, value and unit on stdout, unless JSON goes there."""
     if json_to == STDOUT:
         return
-    title = spelled(title, sys.stdout)
-    table = Table(title=title, title_justify="left", show_header=False, pad_edge=False, box=None)
+    table = _table(title, show_header=False)
     table.add_column(style="bold")
     table.add_column(justify="right")
     table.add_column(style="dim", overflow="fold")
+    _print(table, rows)
+
+
+def show_columns(
+    heads: Iterable[str], rows: Iterable[Iterable[str]], title: str = "", *, named: bool = False, **look: Any
+) -> None:
+    """Table of columns on stdout, set to the right; `named`: but for the first one. `look` is for rich's Table."""
+    table = _table(title, **look)
+    for k, head in enumerate(heads):
+        table.add_column(spelled(head, sys.stdout), justify="left" if named and k == 0 else "right")
+    _print(table, rows)
+
+
+def _table(title: str, **look: Any) -> Table:
+    shown = spelled(title, sys.stdout) or None
+    return Table(title=shown, title_justify="left", pad_edge=False, box=None, **look)
+
+
+def _print(table: Table, rows: Iterable[Iterable[str]]) -> None:
     for row in rows:
         table.add_row(*(spelled(text, sys.stdout) for text in row))
     Console().print(table)

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import math
-import sys
 from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
-from rich.table import Table
 
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
-from ehlcontact.cli.numerals import numeral, spelled
-from ehlcontact.cli.output import STDOUT, show_table
+from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.output import STDOUT, show_columns, show_table
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row, in_unit
 from ehlcontact.cli.study.schema import oil_grade
@@ -178,7 +175,7 @@ def _show(report: BearingReport, json_to: str | None) -> None:
     show_table(f"{bearing.name or 'ball bearing'}, {numeral(report.job.load)} N", _rows(bearing), json_to)
     for state, found in zip(report.states, report.coefficients, strict=True):
         show_table(f"at {numeral(state.speed_rpm)} rpm", _at_speed(bearing, state, found), json_to)
-        Console().print(_balls(state))
+        _show_balls(state)
 
 
 def _rows(b: BallBearing) -> list[Row]:
@@ -226,17 +223,14 @@ def _defects(found: DefectFrequencies, digits: int, unit: str) -> list[Row]:
     return [(name, f"{numeral(a, digits)}, {numeral(b, digits)}", unit) for name, a, b in names]
 
 
-def _balls(state: BearingState) -> Table:
+def _show_balls(state: BearingState) -> None:
     """Every ball of a bearing at rest, from the one under the load on."""
-    table = Table(pad_edge=False, box=None)
-    names = ["ball", "force [N]", *(["smallest film [µm]"] if state.h_min is not None else [])]
-    names += ["lambda"] if state.lambda_ratio is not None else []
-    for name in names:
-        table.add_column(spelled(name, sys.stdout), justify="right")
+    films = None if state.h_min is None else state.h_min * 1e6
+    columns = {"force [N]": state.force, "smallest film [µm]": films, "lambda": state.lambda_ratio}
+    known = {head: values for head, values in columns.items() if values is not None}
     turned = [math.degrees(angle - state.angles[0]) for angle in state.angles.tolist()]
-    for k, degrees in enumerate(turned):
-        columns = [state.force[k], *([state.h_min[k] * 1e6] if state.h_min is not None else [])]
-        columns += [state.lambda_ratio[k]] if state.lambda_ratio is not None else []
-        cells = (f"{numeral(inner)}, {numeral(outer)}" for inner, outer in columns)
-        table.add_row(spelled(f"{degrees:.0f}°", sys.stdout), *cells)
-    return table
+    rows = [
+        [f"{degrees:.0f}°", *(", ".join(map(numeral, values[k])) for values in known.values())]
+        for k, degrees in enumerate(turned)
+    ]
+    show_columns(["ball", *known], rows)

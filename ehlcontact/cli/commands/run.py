@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
-from rich.table import Table
 
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.cli import options as o
-from ehlcontact.cli.numerals import spelled
 from ehlcontact.cli.output import (
     FAILED,
     STDOUT,
@@ -22,6 +18,7 @@ from ehlcontact.cli.output import (
     complain,
     prepare_folder,
     say,
+    show_columns,
     write_json,
 )
 from ehlcontact.errors import InputError
@@ -161,15 +158,5 @@ def _show(rows: Sequence[Row], json_to: str | None) -> None:
         return
     from ehlcontact.cli.study.points.page import NARROW, cells
 
-    table = Table(
-        title=spelled(rows[0].point.study_title, sys.stdout),
-        title_justify="left",
-        padding=(0, 1, 0, 0),
-        pad_edge=False,
-        box=None,
-    )
-    for head in (*(head for head, *_ in NARROW), "status"):
-        table.add_column(spelled(head, sys.stdout), justify="right")
-    for row in rows:
-        table.add_row(*(spelled(text, sys.stdout) for text in cells(row, NARROW)), row.status)
-    Console().print(table)
+    heads, lines = [head for head, *_ in NARROW], [[*cells(row, NARROW), row.status] for row in rows]
+    show_columns([*heads, "status"], lines, rows[0].point.study_title, padding=(0, 1, 0, 0))

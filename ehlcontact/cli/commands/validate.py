@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
-from rich.table import Table
-
 from ehlcontact.cli import options as o
-from ehlcontact.cli.numerals import numeral, spelled
-from ehlcontact.cli.output import STDOUT, check_place, say, show_table
+from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.output import STDOUT, check_place, say, show_columns, show_table
 from ehlcontact.cli.rows import domain_text
 
 if TYPE_CHECKING:
@@ -67,16 +63,15 @@ def _show_points(document: Mapping[str, Any], json_to: str | None) -> None:
     """One row per point."""
     if json_to == STDOUT:
         return
-    table = Table(title=spelled(document["title"], sys.stdout), title_justify="left", pad_edge=False, box=None)
-    for column in ("point", "M", "L", "kappa", "p_h [GPa]", "h_c by formula [µm]", "kept", "to do"):
-        table.add_column(spelled(column, sys.stdout), justify="left" if column == "point" else "right")
+    rows = []
     for one in document["points"]:
         p, kept = one["operating_point"], sum(stage["kept"] for stage in one["stages"])
         numbers = (numeral(p[key]) for key in ("M", "L", "kappa"))
         pressure, film = numeral(p["p_hertz"] * 1e-9, 3), numeral(p["h_central_expected"] * 1e6, 2)
         stages = f"{kept} of {len(one['stages'])}"
-        table.add_row(one["name"], *numbers, pressure, film, stages, _time(one["seconds"]))
-    Console().print(table)
+        rows.append([one["name"], *numbers, pressure, film, stages, _time(one["seconds"])])
+    heads = ("point", "M", "L", "kappa", "p_h [GPa]", "h_c by formula [µm]", "kept", "to do")
+    show_columns(heads, rows, document["title"], named=True)
     for warning in document["warnings"]:
         say(f"warning: {warning}")
     _say_whole(document["seconds"], document["jobs"])
@@ -125,15 +120,13 @@ def _show(found: Forecast, json_to: str | None) -> None:
 
 def _show_stages(found: Forecast) -> None:
     """One row per stage."""
-    table = Table(pad_edge=False, box=None)
-    for column in ("stage", "n", "nodes", "steps", "step in T", "wall time"):
-        table.add_column(column, justify="left" if column == "stage" else "right")
+    rows = []
     for plan in found.plans:
         nodes = f"{plan.mesh.nodes:.0f}" + (f" x {plan.contacts}" if plan.contacts > 1 else "")
         cost = "kept" if plan.kept else _time(plan.seconds)
         step = "" if plan.step is None else numeral(plan.step, 3)
-        table.add_row(plan.stage.title, str(plan.mesh.n), nodes, str(plan.steps or ""), step, cost)
-    Console().print(table)
+        rows.append([plan.stage.title, str(plan.mesh.n), nodes, str(plan.steps or ""), step, cost])
+    show_columns(("stage", "n", "nodes", "steps", "step in T", "wall time"), rows, named=True)
 
 
 def _time(seconds: float) -> str:
