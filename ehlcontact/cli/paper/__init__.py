@@ -6,7 +6,7 @@ module        responsibility
 ``data``      what the paper printed: numbers of its tables and text, from the CSV files here
 ``runs``      its simulations, each kept in one file, so that an interrupted run resumes
 ``fits``      records and elements of the cases, and reduced models integrated over them
-``tables``    Tables 1 to 6, and the limits that three grids show
+``tables``    Tables 1 to 6
 ``pictures``  the figures, made with plotly
 ``figures``   what each figure needs, shows and says, and the numbers beside it
 ``page``      one HTML page and one JSON document

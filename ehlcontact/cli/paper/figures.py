@@ -95,14 +95,14 @@ def static_numbers(fits: Fits) -> dict[str, Any]:
 
 def films_at_rest(fits: Fits) -> dict[str, Any]:
     """Minimum over central film before the ramp: the paper's two, and ours."""
-    run = fits.runs.cases["validation", fits.runs.n]
+    run = fits.runs.cases["validation"]
     theirs = {f"the paper's, {source}": {"h_min/h_c at rest": ratio} for source, ratio in paper_films().items()}
     return theirs | {"ours": {"h_min/h_c at rest": float(run.h_min[0] / run.h_central[0])}}
 
 
 def first_turns(fits: Fits) -> dict[str, Any]:
     """When the central film first turns for good."""
-    run = fits.runs.cases["2", fits.runs.n]
+    run = fits.runs.cases["2"]
     depth = TURN * float(np.ptp(run.h_central))
     turns = {
         name: find_peaks(sign * run.h_central, prominence=depth)[0] for name, sign in (("peak", 1), ("valley", -1))

@@ -33,32 +33,32 @@ class Fits:
     """Elements of the cases, each fitted once."""
 
     runs: Runs
-    _fits: dict[tuple[str, str, int, bool], ElementFit | str] = field(default_factory=dict)
+    _fits: dict[tuple[str, str, bool], ElementFit | str] = field(default_factory=dict)
 
-    def record(self, case: str, n: int | None = None) -> ContactRecord:
-        """History of a case that converged, on the grid with `n` intervals (by default the finer)."""
-        return ContactRecord.from_result(self.runs.cases[case, self.runs.n if n is None else n])
+    def record(self, case: str) -> ContactRecord:
+        """History of a case that converged."""
+        return ContactRecord.from_result(self.runs.cases[case])
 
-    def fit(self, case: str, model: str = "cubic", n: int | None = None, whole: bool = False) -> FitResult | None:
+    def fit(self, case: str, model: str = "cubic", whole: bool = False) -> FitResult | None:
         """Fit of the last two thirds or of the whole record; None if there is no record or no contact."""
-        found = self._fitted(case, model, self.runs.n if n is None else n, whole)
+        found = self._fitted(case, model, whole)
         return found if isinstance(found, FitResult) else None
 
-    def refusal(self, case: str, model: str = "cubic", whole: bool = False, n: int | None = None) -> str | None:
+    def refusal(self, case: str, model: str = "cubic", whole: bool = False) -> str | None:
         """Why there is no fit."""
-        found = self._fitted(case, model, self.runs.n if n is None else n, whole)
+        found = self._fitted(case, model, whole)
         return found if isinstance(found, str) else None
 
-    def _fitted(self, case: str, model: str, n: int, whole: bool) -> ElementFit | str:
-        key = (case, model, n, whole)
+    def _fitted(self, case: str, model: str, whole: bool) -> ElementFit | str:
+        key = (case, model, whole)
         if key not in self._fits:
             self._fits[key] = self._refused_or_fitted(*key)
         return self._fits[key]
 
-    def _refused_or_fitted(self, case: str, model: str, n: int, whole: bool) -> ElementFit | str:
-        if (case, n) not in self.runs.cases:
+    def _refused_or_fitted(self, case: str, model: str, whole: bool) -> ElementFit | str:
+        if case not in self.runs.cases:
             return "no simulation"
-        record = self.record(case, n)
+        record = self.record(case)
         span = (float(record.T[0]), float(record.T[-1])) if whole else None
         try:
             return fit(record, model, span)
@@ -79,7 +79,7 @@ class Fits:
 
     def sensitivity(self, case: str) -> Sensitivity | None:
         """Table 2 of the case."""
-        return sensitivity(self.record(case)) if (case, self.runs.n) in self.runs.cases else None
+        return sensitivity(self.record(case)) if case in self.runs.cases else None
 
     def integrated(self, element: ContactElement, case: str, method: str = PAPER_METHOD) -> OscillatorResult:
         """The reduced model under the load of the case, from the start of its fitted window.

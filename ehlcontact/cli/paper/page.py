@@ -13,7 +13,7 @@ from ehlcontact.cli.paper.data import CITATION
 from ehlcontact.cli.paper.figures import ELEMENTS_OF, FIGURES, PaperFigure
 from ehlcontact.cli.paper.fits import Fits
 from ehlcontact.cli.paper.runs import POINT, VALIDATION_POINT, compute
-from ehlcontact.cli.paper.tables import EXTRAPOLATED, TABLE_CASES, Table, make_table
+from ehlcontact.cli.paper.tables import TABLE_CASES, Table, make_table
 from ehlcontact.version import __version__
 
 LABELS = {
@@ -48,7 +48,6 @@ class Reproduction:
             "paper": CITATION,
             "version": __version__,
             "n": runs.n,
-            "coarser": {f"case {case}, n = {n}": why for (case, n), why in runs.without.items()},
             "tables": {str(table.number): table.to_dict() for table in self.tables},
             "figures": {
                 str(figure.number): {
@@ -60,7 +59,7 @@ class Reproduction:
             },
             "missing_figures": {str(number): why for number, why in self.missing.items()},
             "failed": self.failed,
-            "seconds": {f"case {case}, n = {n}": run.seconds for (case, n), run in self.fits.runs.cases.items()},
+            "seconds": {f"case {case}": run.seconds for case, run in runs.cases.items()},
         }
 
 
@@ -74,11 +73,10 @@ def reproduce(tables: Sequence[int], figures: Sequence[int], folder: Path, n: in
     """
     wanted = {case for number in tables for case in TABLE_CASES[number]}
     wanted |= {case for number in figures for case in (*FIGURES[number].cases, *ELEMENTS_OF.get(number, ()))}
-    coarse = {case for number in tables if number in EXTRAPOLATED for case in TABLE_CASES[number]}
-    fits = Fits(compute(folder, n, sorted(wanted), sorted(coarse), 2 in figures))
+    fits = Fits(compute(folder, n, sorted(wanted), 2 in figures))
     missing = {}
     for number in figures:
-        absent = [case for case in FIGURES[number].cases if (case, n) not in fits.runs.cases]
+        absent = [case for case in FIGURES[number].cases if case not in fits.runs.cases]
         if absent:
             missing[number] = "no simulation of case " + ", ".join(absent)
     drawn = [FIGURES[number] for number in figures if number not in missing]
@@ -99,7 +97,5 @@ def write_reproduction(found: Reproduction, path: Path) -> Path:
         runs=found.fits.runs,
         ramp=VALIDATION_POINT,
         point=POINT,
-        compared=[table.number for table in found.tables if table.number in EXTRAPOLATED],
-        coarser=sorted({n for _, n in found.fits.runs.cases if n != found.fits.runs.n}),
         labels=LABELS,
     )

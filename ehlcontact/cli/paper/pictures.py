@@ -80,7 +80,7 @@ def fringes(case: str) -> Draw:
     """Fringes of a case at its snapshots, which has no unit of length: three to the central film at rest."""
 
     def draw(fits: Fits) -> go.Figure:
-        run = fits.runs.cases[case, fits.runs.n]
+        run = fits.runs.cases[case]
         kappa, growth = moes_point(run.point).kappa, max(1.0, float(run.load.max())) ** (1.0 / 3.0)
         films = [refined(film_of(run, float(T)), POINTS, growth) for T in run.snapshot_T]
         columns = min(len(films), 4)
@@ -107,7 +107,7 @@ def approaches(table: int, *cases: str) -> Draw:
 
     def panel(fits: Fits, figure: go.Figure, col: int) -> None:
         for case, colour in zip(cases, COLOURS, strict=False):
-            run, root = fits.runs.cases[case, fits.runs.n], paper_fits()[table, case].root
+            run, root = fits.runs.cases[case], paper_fits()[table, case].root
             figure.add_scatter(x=run.T, y=run.approach, line_color=colour, name=CASES[case].title, row=1, col=col)
             look = {"name": f"root of the paper's cubic, case {case}", "line": {"color": colour, "dash": "dot"}}
             figure.add_scatter(x=run.T[[0, -1]], y=[root] * 2, **look, row=1, col=col)
@@ -120,7 +120,7 @@ def film(case: str) -> Draw:
     """Central and minimum film, and when the first film made by the motion reaches the centre."""
 
     def panel(fits: Fits, figure: go.Figure, col: int) -> None:
-        add_films(figure, fits.runs.cases[case, fits.runs.n])
+        add_films(figure, fits.runs.cases[case])
         vertical(figure, 1.0, "inlet edge to centre at dX/dT = 1")
         label_axes(figure, TIME, _NAMES.film.label)
 

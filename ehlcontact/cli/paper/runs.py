@@ -14,7 +14,7 @@ from ehlcontact.cli.progress import progress
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import MoesPoint
 from ehlcontact.results import SteadyResult
-from ehlcontact.solver.domain import Domain, check_intervals
+from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
@@ -85,18 +85,12 @@ class Runs:
     """What has been computed; cases that did not converge are in ``failed``, with the reason."""
 
     n: int
-    cases: dict[tuple[str, int], SimulationResult] = field(default_factory=dict)
+    cases: dict[str, SimulationResult] = field(default_factory=dict)
     static: dict[tuple[float, float], SteadyResult] = field(default_factory=dict)  # by (M, L)
     failed: dict[str, str] = field(default_factory=dict)
-    without: dict[tuple[str, int], str] = field(default_factory=dict)  # cases missing on coarser grids, and why
-
-    @property
-    def levels(self) -> tuple[int, int, int]:
-        """Intervals of three grids, coarse to fine: the two coarser ones only show the order in the mesh."""
-        return self.n // 4, self.n // 2, self.n
 
 
-def compute(folder: Path, n: int, names: Sequence[str], coarse: Sequence[str], static: bool) -> Runs:
+def compute(folder: Path, n: int, names: Sequence[str], static: bool) -> Runs:
     """Compute what is not in the folder yet.
 
     Parameters
@@ -105,8 +99,8 @@ def compute(folder: Path, n: int, names: Sequence[str], coarse: Sequence[str], s
         Of the files.
     n : int
         Intervals along X.
-    names, coarse : sequence of str
-        Cases wanted on n intervals, and those also wanted on n/2 and n/4, as far as these are grids.
+    names : sequence of str
+        Cases that are wanted.
     static : bool
         Whether the steady solves of Fig. 2 are wanted.
 
@@ -115,27 +109,16 @@ def compute(folder: Path, n: int, names: Sequence[str], coarse: Sequence[str], s
     KeyboardInterrupt
         After Ctrl-C; what was finished is in the folder.
     """
-    runs = Runs(n)
-    wanted = [(CASES[name], n) for name in names]
-    for level in runs.levels[:-1]:
-        cases = [CASES[name] for name in coarse]
-        if _is_grid(level):
-            wanted += [(case, level) for case in cases]
-        else:
-            runs.without |= {(case.name, level): "no grid" for case in cases}
+    runs, wanted = Runs(n), [CASES[name] for name in names]
     points = [MoesPoint(M, L, 1.0) for L in STATIC_OILS for M in STATIC_LOADS] if static else []
     todo = len(wanted) + len(points)
-    for k, (case, level) in enumerate(wanted, start=1):
-        label = f"{k} of {todo}: {case.title}, n = {level}"
-        result = _simulated(folder / case.file(level), case, level, label)
+    for k, case in enumerate(wanted, start=1):
+        result = _simulated(folder / case.file(n), case, n, f"{k} of {todo}: {case.title}, n = {n}")
         if result.status.ok:
-            runs.cases[case.name, level] = result
-            continue
-        at = f"{result.status} at T = {numeral(result.T[-1])}" if result.T.size else str(result.status)
-        if level == n:
-            runs.failed[f"case {case.name}, n = {level}"] = f"{at}: {result.status.advice}"
+            runs.cases[case.name] = result
         else:
-            runs.without[case.name, level] = at
+            at = f"{result.status} at T = {numeral(result.T[-1])}" if result.T.size else str(result.status)
+            runs.failed[f"case {case.name}, n = {n}"] = f"{at}: {result.status.advice}"
     for k, point in enumerate(points, start=len(wanted) + 1):
         steady = _solved(folder, point, n, f"{k} of {todo}: steady film, M = {point.M:g}, L = {point.L:g}", runs)
         if steady is not None:
@@ -161,14 +144,6 @@ def _simulated(path: Path, case: Case, n: int, label: str) -> SimulationResult:
     if result.status.ok:
         save(result, path)
     return result
-
-
-def _is_grid(n: int) -> bool:
-    try:
-        check_intervals(n)
-    except InputError:
-        return False
-    return True
 
 
 def _until(case: Case) -> Sequence[float]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -15,7 +14,6 @@ from reduced_models import FitResult
 
 Cell = float | str | None
 TABLE_CASES: dict[int, tuple[str, ...]] = {1: FREE, 2: FREE, 3: FREE, 4: HARMONIC, 5: HARMONIC, 6: RAMP}
-EXTRAPOLATED = (3, 5, 6)  # also computed on coarser grids
 EQUATION_13 = "e_f (eq. 13 as printed)"  # simulated less fitted
 ACCELERATION = "e_acc (fitted less simulated)"
 SIGNED = "e_f (fitted less simulated)"  # as the paper's tables seem to have it
@@ -95,7 +93,7 @@ def _judged(number: int, fits: Fits) -> list[str]:
         return []
     every = [(case, found) for made in (whole, late) for case, found in made.items()]
     missed = between((100.0 * found.rms for _, found in every), 2, "%")
-    at_rest = {case: fits.runs.cases[case, fits.runs.n].static_approach for case, _ in every}
+    at_rest = {case: fits.runs.cases[case].static_approach for case, _ in every}
     secant = between((100.0 * (found.parameters["K1"] * at_rest[case] - 1.0) for case, found in every), 2, "%")
     notes = [
         f"The straight line through the origin misses the force by {missed} of its standard deviation (rms); its "
@@ -177,99 +175,37 @@ def _ranked(sums: Mapping[str, Mapping[str, float]]) -> str:
     )
 
 
-# Tables 3, 5 and 6: a cubic spring and a damper, on three grids
+# Tables 3, 5 and 6: a cubic spring and a damper
 
-ORDER = 2.0  # of the scheme
-# Orders taken for the second: what is extrapolated is then still five times nearer the limit than the finest grid.
-SEEN = 1.8, 2.2
-
-
-@dataclass(frozen=True)
-class Limit:
-    """A number on meshes halved twice, and its limit where they show one."""
-
-    order: float | None  # seen; None where the changes do not shrink in one direction, or a grid is missing
-    extrapolated: float | None  # None unless the second order is seen
-    verdict: str  # in words
-
-
-def limit(values: Sequence[float | None]) -> Limit:
-    """The limit of a number as the mesh goes to zero, where three grids show the order of the scheme.
-
-    The scheme is second order on fine meshes, but a number read off a fit on coarse ones need not be there yet:
-    extrapolating it all the same took the roots of Table 3 further from their limit than the finer grid was.
-
-    Parameters
-    ----------
-    values : sequence of float or None, length 3
-        On n/4, n/2 and n intervals; None where there is none.
-
-    Returns
-    -------
-    Limit
-        ``order`` is log2 of the first change over the second one.
-    """
-    coarse, middle, fine = values
-    if coarse is None or middle is None or fine is None:
-        return Limit(None, None, "-")
-    first, second = middle - coarse, fine - middle
-    if first * second <= 0.0 or abs(second) >= abs(first):
-        return Limit(None, None, "none")
-    order = math.log2(first / second)
-    if not SEEN[0] <= order <= SEEN[1]:
-        return Limit(order, None, numeral(order, 3))
-    return Limit(order, fine + second / (2.0**ORDER - 1.0), numeral(order, 3))
-
-
-_COMPARED = ("C1", "root", "tangent")
-_KEYS = ("K1", "K2", "K3", *_COMPARED)
+_KEYS = ("K1", "K2", "K3", "C1", "root", "tangent")
 _REST = ("K1 95 %", "C1 95 %", SIGNED, EQUATION_13, ACCELERATION, "rms / std of force", "condition")
 _COLUMNS = ("case", "source", *_KEYS, *_REST)
 
 
 def cubic_table(number: int, fits: Fits) -> Table:
-    """Every case: the paper's row, ours on each grid, the order they show, and the distance from the paper."""
-    cases = TABLE_CASES[number]
-    limits = {case: _limits([fits.fit(case, "cubic", n) for n in fits.runs.levels]) for case in cases}
-    rows = tuple(row for case in cases for row in _rows(number, case, fits, limits[case]))
-    notes = [*_printed(number), *_identified(number, fits), _extrapolation(fits, limits)]
-    if number == 6:
-        notes += _ramp(fits)
-    return Table(
-        number,
-        "Cubic spring and damper, " + {3: "free vibration", 5: "harmonic load", 6: "load ramp"}[number],
-        _COLUMNS,
-        rows,
-        tuple(notes),
-    )
+    """Every case: the paper's row, ours, and the distance between them."""
+    rows = tuple(row for case in TABLE_CASES[number] for row in _rows(number, case, fits))
+    notes = [*_printed(number), *_identified(number, fits), *(_ramp(fits) if number == 6 else ())]
+    motion = {3: "free vibration", 5: "harmonic load", 6: "load ramp"}[number]
+    return Table(number, f"Cubic spring and damper, {motion}", _COLUMNS, rows, tuple(notes))
 
 
-def _rows(number: int, case: str, fits: Fits, limits: dict[str, Limit]) -> list[tuple[Cell, ...]]:
-    paper, levels = paper_fits()[number, case], fits.runs.levels
+def _rows(number: int, case: str, fits: Fits) -> list[tuple[Cell, ...]]:
+    paper, found = paper_fits()[number, case], fits.fit(case)
     theirs = (paper.K1, paper.K2, paper.K3, paper.C1, paper.root, paper.tangent)
     rows = [_row(CASES[case].title, "paper", theirs, (None, None, paper.e_f, None, paper.e_second))]
-    for n in levels:
-        found = fits.fit(case, "cubic", n)
-        if found is None:
-            rows.append(_row("", f"n = {n}: {_why(fits, case, n)}"))
-            continue
-        errors = (-found.e_f, found.e_f, None if found.e_acc is None else -found.e_acc, found.rms, found.condition)
-        rows.append(
-            _row("", f"ours, n = {n}", _of(found), (_interval(found, "K1"), _interval(found, "C1"), *errors))
-        )
-    rows.append(_row("", "order seen", (None, None, None, *(limits[key].verdict for key in _COMPARED))))
-    best = {key: limits[key].extrapolated for key in _COMPARED}
-    finest = fits.fit(case)
-    compared: list[tuple[str, Sequence[float | None]]] = []
-    if finest is not None:
-        compared.append((f"n = {levels[-1]}", _of(finest)[3:]))
-    if any(value is not None for value in best.values()):
-        rows.append(_row("", "extrapolated", (None, None, None, *best.values())))
-        compared.append(("extrapolated", tuple(best.values())))
-    for name, values in compared:
-        off = [_off(mine, his) for mine, his in zip(values, theirs[3:], strict=True)]
-        rows.append(_row("", f"{name} less paper, in % of the paper's", (None, None, None, *off)))
-    return rows
+    if found is None:
+        why = fits.runs.failed.get(f"case {case}, n = {fits.runs.n}") or fits.refusal(case)
+        return [*rows, _row("", f"ours: {why}")]
+    p = found.parameters
+    ours = p["K1"], p["K2"], p["K3"], p["C1"], found.root, found.tangent
+    errors = (-found.e_f, found.e_f, _negative(found.e_acc), found.rms, found.condition)
+    off = [_off(mine, his) for mine, his in zip(ours[3:], theirs[3:], strict=True)]
+    return [
+        *rows,
+        _row("", "ours", ours, (_interval(found, "K1"), _interval(found, "C1"), *errors)),
+        _row("", "ours less paper, in % of the paper's", (None, None, None, *off)),
+    ]
 
 
 def _row(case: str, source: str, values: Sequence[Cell] = (), rest: Sequence[Cell] = ()) -> tuple[Cell, ...]:
@@ -279,28 +215,12 @@ def _row(case: str, source: str, values: Sequence[Cell] = (), rest: Sequence[Cel
     return case, source, *known, *rest, *blank * (len(_REST) - len(rest))
 
 
-def _of(found: FitResult) -> tuple[float | None, ...]:
-    p = found.parameters
-    return p["K1"], p["K2"], p["K3"], p["C1"], found.root, found.tangent
-
-
 def _off(mine: float | None, his: float | None) -> str | None:
     return None if mine is None or his is None else f"{100.0 * (mine / his - 1.0):+.2f} %"
 
 
-def _why(fits: Fits, case: str, n: int) -> str:
-    """Why there is no element on this grid."""
-    runs = fits.runs
-    return runs.without.get((case, n)) or runs.failed.get(f"case {case}, n = {n}") or fits.refusal(case, n=n) or ""
-
-
 def _interval(found: FitResult, name: str) -> str:
     return " .. ".join(numeral(bound, 3) for bound in found.intervals[name])
-
-
-def _limits(levels: Sequence[FitResult | None]) -> dict[str, Limit]:
-    """Limits of what is compared, from fits on three grids."""
-    return {key: limit([None if f is None else _of(f)[_KEYS.index(key)] for f in levels]) for key in _COMPARED}
 
 
 def _printed(number: int) -> list[str]:
@@ -325,9 +245,7 @@ def _identified(number: int, fits: Fits) -> list[str]:
         )
         for key in ("K1", "K2", "K3", "C1")
     }
-    at_rest = {
-        fits.runs.cases[case, fits.runs.n].static_approach for case in TABLE_CASES[number] if fits.fit(case)
-    }
+    at_rest = {fits.runs.cases[case].static_approach for case in TABLE_CASES[number] if fits.fit(case)}
     return [
         f"Width of the 95 % intervals at n = {fits.runs.n}, in % of the coefficient: "
         + ", ".join(f"{key} {width}" for key, width in widths.items())
@@ -337,28 +255,12 @@ def _identified(number: int, fits: Fits) -> list[str]:
     ]
 
 
-def _extrapolation(fits: Fits, limits: dict[str, dict[str, Limit]]) -> str:
-    """What the three grids showed, and what was done about it."""
-    grids = ", ".join(map(str, fits.runs.levels))
-    made = sum(found.extrapolated is not None for case in limits.values() for found in case.values())
-    rule = (
-        f"Order seen: log2 of the change from n/4 to n/2 over that from n/2 to n (n = {grids}); a dash where a "
-        "grid is missing, 'none' where the changes do not shrink in one direction. Only an order of "
-        f"{SEEN[0]:g} to {SEEN[1]:g} is taken for the second order of the scheme, and extrapolated by it, "
-        "fine + (fine - middle)/3: "
-    )
-    if made == 0:
-        return rule + "none is, so the finest grid's values stand."
-    total = sum(len(case) for case in limits.values())
-    return rule + f"{made} of {total} are; of the others the finest grid's values stand."
-
-
 def _ramp(fits: Fits) -> list[str]:
     case = TABLE_CASES[6][0]
     found = fits.fit(case)
     if found is None:
         return []
-    run, (start, end) = fits.runs.cases[case, fits.runs.n], found.window[0]
+    run, (start, end) = fits.runs.cases[case], found.window[0]
     d = run.domain
     return [
         f"The record is T = 0 to {numeral(run.T[-1])} on [{d.x_in:g}, {d.x_out:g}] x [-{d.y_max:g}, {d.y_max:g}], "

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 LINE = 1200  # points of a line: about one to a pixel of the widest page
-MAP = (120, 180)  # points of a map, down and across
 FINENESS = 2e4  # steps of a number over the span of its axis, so that zooming in shows no stairs at once
 DIGITS = 5  # significant, where the axis is logarithmic
 
@@ -63,9 +62,3 @@ def thin_line(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, str
     ends = [start + pick(y[start : start + stretch]) for start in starts for pick in (np.argmin, np.argmax)]
     kept = np.unique([0, *ends, x.size - 1])
     return x[kept], y[kept], f"lines: of every {stretch} samples the lowest and the highest"
-
-
-def thin_map(values: np.ndarray) -> tuple[np.ndarray, tuple[int, int]]:
-    """A map of at most `MAP` points, and the strides it was thinned by."""
-    strides = tuple(ceil(size / most) for size, most in zip(values.shape, MAP, strict=True))
-    return values[:: strides[0], :: strides[1]], (strides[0], strides[1])
