@@ -57,11 +57,11 @@ def contact_spec(element: Element, model_name: str | None = None) -> ModelSpec:
 def source_text(elements: Iterable[Element]) -> str:
     """Bearing, oil, load and speed of elements in words, where their source names them.
 
-    A description is one line: what is not printable, as of a file that somebody wrote by hand, is left out.
+    A description is one line: characters that are not printable are left out.
     """
     given = (str((element.source or {}).get("contact") or "") for element in elements)
-    said = ("".join(filter(str.isprintable, " ".join(text.split())))[:LONGEST_NAME] for text in given)
-    return "".join(f"; {text}" for text in dict.fromkeys(said) if text)
+    texts = ("".join(filter(str.isprintable, " ".join(text.split())))[:LONGEST_NAME] for text in given)
+    return "".join(f"; {text}" for text in dict.fromkeys(texts) if text)
 
 
 def checked_name(name: object) -> str:

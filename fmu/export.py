@@ -35,7 +35,7 @@ def export_contact(
     Inputs `approach` and `rate`, output `force` with its tangents `stiffness` and `damping`, and
     `outside_validity` with the bound that is left. Coefficients of elements without memory, and their interval,
     are tunable parameters that start at the element's values; those of a film memory are constants, for others
-    could put energy into a vibration. The fixed parameter `input_meaning` says what the inputs of a
+    could put energy into a vibration. The fixed parameter `input_meaning` sets what the inputs of a
     co-simulation step are: extrapolated (1, the default), those of its end (2), or held (3). Units are the
     element's: SI, or "1" for a dimensionless element. Reference inputs and results of the element are inside, for
     `verify_references`. The same element, name, library version and compiler give the same bytes.
@@ -57,7 +57,7 @@ def export_contact(
     overwrite : bool
         Whether a file of that name may be replaced.
     progress : callable, optional
-        Told (libraries compiled, libraries in all).
+        Called with (libraries compiled, libraries in all).
 
     Returns
     -------
@@ -72,7 +72,7 @@ def export_contact(
     BuildError
         No C compiler, or one that failed.
     VerificationError
-        What was built is not what it should be; nothing is written.
+        The FMU differs from the element; nothing is written.
 
     Notes
     -----

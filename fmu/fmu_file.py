@@ -85,7 +85,7 @@ def opened(file: Path) -> Iterator[FmuFile]:
         except Exception as error:  # fmpy raises bare Exception among others
             reason = " ".join(str(error).split()) or type(error).__name__
             raise InputError("path", str(file), f"a readable FMU ({reason})") from None
-        # not fmpy.supported_platforms, which knows no Linux on arm
+        # not fmpy.supported_platforms, which lacks Linux on arm
         there = {path.name for path in Path(folder, "binaries").glob("*")}
         if description.coSimulation is None or not {fmpy.platform, fmpy.platform_tuple} & there:
             raise InputError("path", str(file), f"an FMU for co-simulation on {fmpy.platform}")

@@ -60,7 +60,7 @@ class Variable:
     variability: str  # continuous, tunable, fixed, discrete, constant
     description: str
     type: str = "Real"  # Real, Boolean, Enumeration
-    unit: str | None = None  # key of UNITS; None of a Boolean, or where no unit of the SI says it
+    unit: str | None = None  # key of UNITS; None of a Boolean, or of a unit that FMI cannot express
     start: float | None = None
     minimum: float | None = None
     maximum: float | None = None

@@ -18,7 +18,10 @@ _POLYNOMIAL = {
     "B4": ("N.s.m-2", "Coefficient of approach times rate"),
 }
 _POWER = {
-    "K": (None, "Factor K of the spring force K (u + u0)^n + F0"),  # N/m^n: no unit of FMI says it
+    "K": (
+        None,
+        "Factor K of the spring force K (u + u0)^n + F0",
+    ),  # N/m^n: not a unit of FMI
     "n": ("1", "Exponent of the spring force"),
     "u0": ("m", "Shift of the approach in the spring force"),
     "F0": ("N", "Offset of the spring force"),

@@ -14,11 +14,11 @@ from fmu.references.check import check_references
 from fmu.verification import Verification
 from fmu.verify import verify_opened
 
-REACH = 3.0  # validity intervals above `high` up to which `verify` asks for a force
+REACH = 3.0  # validity intervals above `high` up to which `verify` compares the force
 
 
 class VerificationError(RuntimeError):
-    """An FMU that is not what it was exported from: one line; ``found`` says what is wrong, if it came to that."""
+    """An FMU that differs from its model, in one line; ``found``: its `Verification`, None if it did not run."""
 
     def __init__(self, message: str, found: Verification | None = None) -> None:
         self.found = found

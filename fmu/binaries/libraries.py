@@ -61,7 +61,7 @@ def build_binaries(
     fmi : int
         Version of FMI.
     progress : callable, optional
-        Told (number done, number of all).
+        Called with (number done, number of all).
 
     Returns
     -------
@@ -90,14 +90,14 @@ def _libraries(
     work: Work, platforms: Sequence[Platform], progress: Progress | None
 ) -> list[tuple[bytes, Compiler]]:
     """Library and compiler of each platform, compiled in as many threads as there are processors."""
-    tell = progress or (lambda done, of: None)
-    tell(0, len(platforms))
+    report = progress or (lambda done, of: None)
+    report(0, len(platforms))
     with ThreadPoolExecutor(min(len(platforms), os.cpu_count() or 1)) as pool:
         waiting = [pool.submit(_library, work, one) for one in platforms]
         try:
             for done, one in enumerate(as_completed(waiting), start=1):
                 one.result()
-                tell(done, len(platforms))
+                report(done, len(platforms))
         except BaseException:  # Ctrl-C too
             work.stop.set()
             pool.shutdown(wait=False, cancel_futures=True)
@@ -171,7 +171,7 @@ def _compile(work: Work, target: Platform, compiler: Compiler) -> bytes:
     except OSError as error:
         raise BuildError(f"no room to compile in {tempfile.gettempdir()} ({error.strerror or error})") from None
     if compiler.is_zig:
-        _tick_off(target, compiler)
+        _mark_built(target, compiler)
     return found
 
 
@@ -216,7 +216,7 @@ def _mark(target: Platform, compiler: Compiler) -> Path | None:
     return folder / f"ehlcontact-{cache.key_of([compiler.identity.encode(), target.target.encode()])[:16]}"
 
 
-def _tick_off(target: Platform, compiler: Compiler) -> None:
+def _mark_built(target: Platform, compiler: Compiler) -> None:
     mark = _mark(target, compiler)
     if mark is not None:
         with suppress(OSError):  # a warning too many, next time

@@ -15,7 +15,7 @@ ARCHITECTURES = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "a
 # For all: no symbol is seen from outside that is not marked, and no rounding depends on the machine. No vectors:
 # loops are short, and a vector waits for numbers that were just written one by one.
 COMMON = ("-std=c99", "-O3", "-fno-tree-vectorize", "-fvisibility=hidden", "-ffp-contract=off", "-shared", "-s")
-# What is missing is told when linking, and not by an importer.
+# A missing function is an error when linking, not in an importer.
 LINUX = ("-fPIC", "-Wl,-z,defs")
 
 
@@ -30,7 +30,7 @@ class Platform:
     fmi2 : str or None
         Folder of FMI 2; None where it has none for this platform.
     target : str
-        What zig calls it, with the oldest system that the binary runs on.
+        Name for zig, with the oldest system that the binary runs on.
     suffix : str
         Of the library.
     flags : tuple of str
@@ -88,7 +88,7 @@ def choose(names: str | Iterable[str] | None, fmi: int) -> tuple[Platform, ...]:
         Names of FMI 3 (``x86_64-linux``) or FMI 2 (``linux64``; ``darwin64`` is both Macs), or ``all`` there are
         in this version of FMI; this machine's by default.
     fmi : int
-        Version of FMI: FMI 2 knows no Linux on aarch64.
+        Version of FMI; FMI 2 has no folder for Linux on aarch64.
 
     Raises
     ------

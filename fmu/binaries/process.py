@@ -31,17 +31,17 @@ def run(line: Sequence[str], folder: Path, more: Mapping[str, str], stop: Event 
     Raises
     ------
     BuildError
-        It cannot be started, fails, is killed, takes too long or is told to stop.
+        It cannot be started, fails, is killed, takes too long, or `stop` is set.
     """
     shown = shlex.join(line)
     # Into a file: a compiler's children may outlive it and would hold a pipe open for ever.
-    with tempfile.TemporaryFile(dir=folder) as said:
+    with tempfile.TemporaryFile(dir=folder) as output_file:
         try:
             process = subprocess.Popen(
                 line,
                 cwd=folder,
                 stdin=subprocess.DEVNULL,
-                stdout=said,
+                stdout=output_file,
                 stderr=subprocess.STDOUT,
                 env=os.environ | more,
                 start_new_session=True,  # so that its children can be ended with it
@@ -51,10 +51,10 @@ def run(line: Sequence[str], folder: Path, more: Mapping[str, str], stop: Event 
             raise BuildError(f"cannot start the C compiler {shown} ({reason})") from None
         try:
             code = _wait(process, stop, shown)
-        finally:  # Ctrl-C too: in a session of its own it does not hear of it
+        finally:  # Ctrl-C too: in a session of its own it does not get the signal
             _end(process)
-        said.seek(0)
-        output = said.read().decode("utf-8", "replace")
+        output_file.seek(0)
+        output = output_file.read().decode("utf-8", "replace")
     if code < 0:
         raise BuildError(f"the C compiler was killed ({_signal(-code)}): {shown}", output)
     if code != 0:
@@ -66,7 +66,7 @@ def _wait(process: subprocess.Popen[bytes], stop: Event | None, shown: str) -> i
     until = time.monotonic() + LONGEST_RUN
     while True:
         try:
-            return process.wait(0.1)  # s, until it is asked again whether to stop
+            return process.wait(0.1)  # s, between two looks at `stop`
         except subprocess.TimeoutExpired:
             if stop is not None and stop.is_set():
                 raise BuildError(f"the C compiler was told to stop: {shown}") from None

@@ -89,8 +89,8 @@ def verify_references(path: str | os.PathLike[str]) -> ReferenceCheck:
     Returns
     -------
     ReferenceCheck
-        For co-simulation and model exchange the largest difference, and in which variable; and what fmpy's
-        validation and the checksums of the files tell.
+        For co-simulation and model exchange the largest difference, and in which variable; and the
+        findings of fmpy's validation and of the checksums.
 
     Raises
     ------

@@ -130,7 +130,7 @@ def _manifest(files: Mapping[str, bytes]) -> bytes:
 
 
 def _digest(content: bytes) -> str:
-    return hashlib.sha3_256(content).hexdigest()  # what the layered standard takes where it is not told
+    return hashlib.sha3_256(content).hexdigest()  # default of the layered standard
 
 
 def _annotate(root: ElementTree.Element, text: str) -> None:

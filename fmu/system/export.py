@@ -70,7 +70,7 @@ def export_system(
     model_name : str
         Name of the system.
     step : float, optional
-        Of the default experiment [s]; Ecos has to be told it. By default one that adds less than 5 % to the
+        Of the default experiment [s]; to be set by hand in Ecos. By default one that adds less than 5 % to the
         damping of a contact at the fastest vibration of the journal: 1, 2 or 5 times a power of ten.
     platforms, overwrite, progress
         As for `export_contact`.
@@ -88,7 +88,7 @@ def export_system(
     BuildError
         No C compiler, or one that failed.
     VerificationError
-        What was built is not what it should be, or `step` is too long for this system; nothing is written.
+        The system differs from the rotor, or `step` is too long for it; nothing is written.
     """
     return export_verified_system(
         RotorModel(rotor, contacts),  # with copies of the contacts, in SI
@@ -167,8 +167,8 @@ def _require_verified(content: bytes, system: _System) -> SystemVerification:
     found = verify_system(content, system.made, system.step)
     if not found.passes:
         off = f"the journal is {found.deviation:.2g} of its way after a load step off, allowed {ALLOWED:g}"
-        told = "; ".join(found.findings) or f"{off}, at steps of {system.step:g} s"
-        raise VerificationError(f"the system is not what it was made from: {told}")
+        reason = "; ".join(found.findings) or f"{off}, at steps of {system.step:g} s"
+        raise VerificationError(f"the system is not what it was made from: {reason}")
     return found
 
 
@@ -186,7 +186,7 @@ class _System:
         fmi, names = self.fmi, [one.name for one in platforms]
         with tempfile.TemporaryDirectory(prefix="ehlcontact-system-", ignore_cleanup_errors=True) as folder:
             files = {part: Path(folder, f"{part}.fmu") for part in self._parts}
-            told = iter(_shared(progress, len(files)))
+            parts = iter(_shared(progress, len(files)))
             export_rotor(
                 self.made.rotor,
                 files["rotor"],
@@ -194,11 +194,11 @@ class _System:
                 fmi=fmi,
                 model_name="rotor",
                 platforms=names,
-                progress=next(told),
+                progress=next(parts),
             )
             for part, element in zip(self._parts[1:], self.made.elements, strict=True):
                 export_contact(
-                    element, files[part], fmi=fmi, model_name=part, platforms=names, progress=next(told)
+                    element, files[part], fmi=fmi, model_name=part, platforms=names, progress=next(parts)
                 )
             content = {f"resources/{part}.fmu": file.read_bytes() for part, file in files.items()}
             return pack(content | {"SystemStructure.ssd": self._description(files)})

@@ -105,7 +105,7 @@ def build_atlas(
         No folder, no scheduler at that address, or too few points that converged.
     """
     points = sample_points(draws, light_draws, seed)
-    if len(points) < FEWEST:  # told before they are solved
+    if len(points) < FEWEST:  # before they are solved
         allowed = f"at least {FEWEST}; draws = {draws} and light_draws = {light_draws} have too few in the box"
         raise InputError("points", len(points), allowed)
     if scheduler is not None:

@@ -184,7 +184,7 @@ class ContactElement(ElementSummary, _Common, ABC):
 
     @property
     def time(self) -> float | None:
-        """Unit of time [s] of an element in SI that knows its scales; None of any other."""
+        """Unit of time [s] of an element in SI whose scales are known; None of any other."""
         return self._known("time") if self.units == "SI" else None
 
     @by_name(1)
@@ -205,7 +205,7 @@ class ContactElement(ElementSummary, _Common, ABC):
             By default the static load that the element was made at.
         Omega, omega, hz, rpm : float or sequence of float
             Frequencies, in exactly one of these. A dimensionless element takes Omega; one in SI rad/s, Hz or
-            rev/min, and Omega too where it knows its scales.
+            rev/min, and Omega too where its scales are known.
 
         Returns
         -------
@@ -281,11 +281,11 @@ class ContactElement(ElementSummary, _Common, ABC):
         **frequency
             Its frequency, named as for `impedance`.
         """
-        said = {
+        found = {
             "motion": self.validity.excess(approach, rate, None, force, self.units),
             "frequency": self.validity.excess(omega=self._frequency(frequency), units=self.units),
         }
-        new = {reason: words for reason, words in said.items() if words and reason not in self._warned}
+        new = {reason: words for reason, words in found.items() if words and reason not in self._warned}
         if new:
             self._note(set(new))
             left = ", ".join(word for words in new.values() for word in words)
@@ -306,13 +306,14 @@ class ContactElement(ElementSummary, _Common, ABC):
         """
         force: list[float] = []
         if point is not None:
-            said = self.design_point.differences(point)
-            if said and "point" not in self._warned:
+            others = self.design_point.differences(point)
+            if others and "point" not in self._warned:
                 self._note({"point"})
-                message = f"{type(self).__name__} used for another contact than it was made for: {', '.join(said)}"
+                words = ", ".join(others)
+                message = f"{type(self).__name__} used for another contact than it was made for: {words}"
                 warnings.warn(message, OutsideValidityWarning, stacklevel=stacklevel)
             load, unit = self.design_point.load_of(point), self._known("force") if self.units == "SI" else 1.0
-            if load is not None and unit is not None and not said:
+            if load is not None and unit is not None and not others:
                 force = [load * unit]
         self.warn_outside(force=force, stacklevel=stacklevel, **frequency)
 
@@ -330,7 +331,7 @@ class ContactElement(ElementSummary, _Common, ABC):
 
     @property
     def design_point(self) -> DesignPoint:
-        """Speed, oil and shape of the contact that it was made for, as far as its source tells."""
+        """Speed, oil and shape of the contact that it was made for, as far as its source has them."""
         return DesignPoint.of(self.source, self.units == "SI")
 
     def _frequencies(self, **frequency: Unpack[Frequency]) -> NDArray[np.float64]:
@@ -367,14 +368,14 @@ class ContactElement(ElementSummary, _Common, ABC):
         Raises
         ------
         InputError
-            The element is in SI already, or its ``source`` knows the scales and they are others.
+            The element is in SI already, or its ``source`` has other scales.
         """
         require_instance("scales", scales, Scales, "the Scales of an operating point")
         if self.units == "SI":
             raise InputError("units", self.units, "dimensionless, to be taken to SI")
         require_own_scales(scales, self.source)
         changes = self._si_coefficients(scales) | self.validity.to_si(scales).fields()
-        source = {**(self.source or {}), "scales": asdict(scales)}  # so that it knows its unit of time
+        source = {**(self.source or {}), "scales": asdict(scales)}  # for its unit of time
         return replace(self, **changes, units="SI", source=source)
 
     def to_dict(self) -> dict[str, Any]:

@@ -23,7 +23,7 @@ def known_scale(source: Mapping[str, Any] | None, name: str) -> float | None:
 
 
 def require_own_scales(scales: Scales, source: Mapping[str, Any] | None) -> None:
-    """Raise `InputError` where the source of an element knows its scales, and they are others."""
+    """Raise `InputError` where the source of an element has other scales."""
     made_at = {name: known_scale(source, name) for name in ("force", "length", "time")}
     known = {name: value for name, value in made_at.items() if value is not None}
     given = {name: getattr(scales, name) for name in known}
@@ -56,7 +56,7 @@ class DesignPoint:
 
     @classmethod
     def of(cls, source: Mapping[str, Any] | None, in_si: bool) -> Self:
-        """As the source of an element tells it."""
+        """Design point from the source of an element."""
         entries = (source or {}).get("point")
         point = entries if isinstance(entries, Mapping) else {}
         a, time = (known_scale(source, name) if in_si else None for name in ("a", "time"))
@@ -67,16 +67,16 @@ class DesignPoint:
         """How a point differs from this one in all but its load, in words; a twentieth goes unmentioned."""
         moes = moes_point(point)
         theirs = {"eta0": moes.eta0, "alpha": moes.alpha, "kappa": moes.kappa}
-        # Where both speeds are known, L says nothing that speed, oil and shape have not said.
+        # Where both speeds are known, L follows from speed, oil and shape.
         by_speed = isinstance(point, OperatingPoint) and self.u_sum is not None
         theirs |= {"u_sum": point.u_sum} if by_speed else {"L": moes.L}  # type: ignore[union-attr]
-        said = []
+        found = []
         for name in ("u_sum", "L", "eta0", "alpha", "kappa"):
             made = getattr(self, name)
             if name in theirs and made is not None and _differs(theirs[name], made, POWER.get(name, 1.0)):
                 unit = UNIT.get(name, "")
-                said.append(f"{name} = {theirs[name]:.4g}{unit} (made for {made:.4g}{unit})")
-        return said
+                found.append(f"{name} = {theirs[name]:.4g}{unit} (made for {made:.4g}{unit})")
+        return found
 
     def load_of(self, point: Point) -> float | None:
         """Static load of a point in units of the load that this was made at; None where that is not known."""

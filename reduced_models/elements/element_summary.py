@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from reduced_models.elements.validity import Band, Validity
 
 
-BAND = 0.01, 30.0  # Omega of figures, of an element that knows no band
+BAND = 0.01, 30.0  # Omega of figures, of an element without a known band
 BEYOND = 0.25  # of the interval of approach, that figures show on either side of it
 
 
@@ -41,8 +41,8 @@ class ElementSummary(Summary):
     def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
         """Matplotlib figure of static force, and of K and C over frequency; into a file too where a path is given.
 
-        Beyond the interval that the element stands for, the force has another colour. An element in SI that knows
-        neither its unit of time nor its band has no frequencies to show.
+        Beyond the interval that the element stands for, the force has another colour. An element in SI without
+        unit of time and band has no such panels.
 
         Raises
         ------

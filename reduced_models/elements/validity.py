@@ -98,21 +98,21 @@ class Validity:
         Those are a twentieth of the intervals of approach and load and of the largest rate, and an octave of
         frequency. `omega` is in the units of the box, which are `units`.
         """
-        said = []
+        found = []
         m, speed, newton = (" m", " m/s", " N") if units == "SI" else ("", "", "")
         worst = _outside(approach, self.approach)
         if worst is not None:
-            said.append(f"approach {worst:.4g}{m} (fitted {text_of(self.approach)}{m})")
+            found.append(f"approach {worst:.4g}{m} (fitted {text_of(self.approach)}{m})")
         v = np.abs(np.asarray(rate, float))
         if v.size and v.max() > self.reach[2]:
-            said.append(f"rate {float(v.max()):.4g}{speed} (fitted up to {self.rate:.4g}{speed})")
+            found.append(f"rate {float(v.max()):.4g}{speed} (fitted up to {self.rate:.4g}{speed})")
         worst = None if self.load is None else _outside(force, self.load)
         if self.load is not None and worst is not None:
-            said.append(f"force {worst:.4g}{newton} (fitted {text_of(self.load)}{newton})")
+            found.append(f"force {worst:.4g}{newton} (fitted {text_of(self.load)}{newton})")
         if omega is not None and self.omega is not None:
             if not self.omega[0] / OCTAVE <= omega <= self.omega[1] * OCTAVE:
-                said.append(f"{frequency_text((omega,), units)} (fitted {frequency_text(self.omega, units)})")
-        return said
+                found.append(f"{frequency_text((omega,), units)} (fitted {frequency_text(self.omega, units)})")
+        return found
 
     def to_si(self, scales: Scales) -> Validity:
         """The same box in m, m/s, N and rad/s."""

@@ -50,7 +50,7 @@ def fit(records: Records, model: str = "cubic", window: Window | None = None) ->
     window : (start, end), optional
         Part of T to fit, in every record. Left out, each record gives up its first third
         (`ContactRecord.default_window`): the film of the steady start has to leave the contact first. A film
-        memory knows that film, and takes whole records only.
+        memory includes that film and is fitted to whole records only.
 
     Returns
     -------

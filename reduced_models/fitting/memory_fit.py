@@ -173,7 +173,7 @@ def fit_memory(
         scores = {length: cross_validate(target, length) for length in CHAIN_LENGTHS}
         best = min(scores.values())
         lags = min(length for length, score in scores.items() if score <= SHORTER_CHAIN * best)
-    FilterRates(lags, 1.0, 1.0, 1.0)  # says what is wrong with the number of lags
+    FilterRates(lags, 1.0, 1.0, 1.0)  # raises InputError for a wrong number of lags
     element, gains = _solve(target, lags)
     forces = [(record.force, _force(element, record)) for record in taken]
     whole = [np.concatenate(parts) for parts in zip(*forces, strict=True)]

@@ -45,7 +45,7 @@ def fit_power_law(u: _Floats, v: _Floats, f: _Floats) -> tuple[dict[str, float],
     InputError
         No more samples than parameters, or a record that varies too little; it names the columns.
     """
-    # Refuses what no power law could tell apart: a record without curvature or without rate.
+    # Raises InputError for a record without curvature or rate, which leaves the parameters open.
     linear_fit({"1": np.ones_like(u), "approach": u, "approach^2": u**2, "rate": v}, f)
     record = _Projected.of(u, v, f)
     best, rms = record.search()

@@ -21,7 +21,7 @@ from reduced_models.elements.validity import UNITS
 
 _Floats = NDArray[np.float64]
 
-# Samples below which there is no history to speak of; a fit asks for more than its parameters itself.
+# Least samples of a record; a fit needs more samples than parameters besides.
 FEWEST_SAMPLES = 4
 # Largest distance of approach and integrated rate, as a share of the motion: 8 samples per period of a true rate
 # stay below it, a wrong sign, unit or delay does not.

@@ -21,7 +21,7 @@ from reduced_models.fitting.samples import Samples, Window
 from reduced_models.fitting.uncertainty import autocorrelation, independent_samples
 
 TERMS = PolynomialContact.parameter_names
-# Autocorrelation of neighbouring residuals above which AIC and BIC of all samples mislead, and `warning` says so.
+# Autocorrelation of neighbouring residuals above which AIC and BIC of all samples mislead: `warning`.
 CORRELATED_FROM = 0.5
 
 
@@ -134,7 +134,7 @@ def sensitivity(records: ContactRecord | Sequence[ContactRecord], window: Window
     """Fit eq. 11 in full, then seven times with one coefficient left out.
 
     As in the paper, the others are fitted again. The signed sums of its eq. 13 are near zero by construction
-    whatever is missing, so that rms decides; the error without a new fit tells how large the term is.
+    whatever is missing, so that rms decides; the error without a new fit shows how large the term is.
 
     Parameters
     ----------
