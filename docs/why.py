@@ -29,7 +29,7 @@ from reduced_models import (
     fit,
 )
 from reduced_models.rotor.baselines import local_contact
-from reduced_models.rotor.impedance import impedance_about
+from reduced_models.rotor.linear_contact import impedance_about
 from reduced_models.rotor.resonance import Resonances, resonances
 
 ROOT = Path(__file__).parents[1]

@@ -46,9 +46,9 @@ from reduced_models.rotor.compare import compare as compare
 from reduced_models.rotor.control import rotor_to_control as rotor_to_control
 from reduced_models.rotor.decay import log_decrement as log_decrement
 from reduced_models.rotor.events import contact_events as contact_events
-from reduced_models.rotor.impedance import film_impedance as film_impedance
 from reduced_models.rotor.jeffcott import JeffcottRotor as JeffcottRotor
 from reduced_models.rotor.jeffcott import RotorState as RotorState
+from reduced_models.rotor.linear_contact import film_impedance as film_impedance
 from reduced_models.rotor.linearise import LinearRotor as LinearRotor
 from reduced_models.rotor.linearise import linearise as linearise
 from reduced_models.rotor.linearise import unbalance_response as unbalance_response
@@ -57,8 +57,8 @@ from reduced_models.rotor.parts import Disc as Disc
 from reduced_models.rotor.parts import Shaft as Shaft
 from reduced_models.rotor.parts import Support as Support
 from reduced_models.rotor.result import RotorResult as RotorResult
-from reduced_models.rotor.ross import RossCallback as RossCallback
-from reduced_models.rotor.ross import from_ross as from_ross
+from reduced_models.rotor.ross_rotor import RossCallback as RossCallback
+from reduced_models.rotor.ross_rotor import from_ross as from_ross
 from reduced_models.rotor.rotor import Rotor as Rotor
 from reduced_models.rotor.rotor import Unbalance as Unbalance
 from reduced_models.rotor.scaled_contact import ScaledContact as ScaledContact

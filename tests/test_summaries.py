@@ -62,7 +62,7 @@ from reduced_models import (
 )
 from reduced_models.atlas.answer import AtlasAnswers
 from reduced_models.bearing.coefficients import BearingCoefficients
-from reduced_models.rotor.impedance import impedance_about
+from reduced_models.rotor.linear_contact import impedance_about
 from reduced_models.rotor.settling import Settling
 
 # Classes that are only returned: no public names, but results like the others.

@@ -30,7 +30,7 @@ from reduced_models.atlas import frequency_curve
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.interpolation import AtlasSurface
 from reduced_models.atlas.table import AtlasTable
-from reduced_models.bearing import ball_bearing, equilibrium, impedance, race
+from reduced_models.bearing import ball_bearing, equilibrium, linear_balls, race
 from reduced_models.bearing.catalogue import ROWS
 from reduced_models.elements import film_curve, film_response
 from reduced_models.rotor.bearing_models import USUAL_DAMPING
@@ -47,7 +47,7 @@ RULES: Mapping[Any, tuple[str, ...]] = {
     film_response: ("DRY", "LEAST_VISCOUS", "SMALL_OMEGA"),
     ball_bearing: ("LARGEST_PLAY", "POSITIONS"),
     equilibrium: ("SEATED",),
-    impedance: ("TINY_OMEGA",),
+    linear_balls: ("TINY_OMEGA",),
 }
 OF_INPUTS = ("ball_diameter", "pitch_diameter", "conformity", "speed_rpm", "eta0", "alpha")
 

@@ -12,12 +12,12 @@
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
 | equilibrium | springs under a load; the ring of a bearing on its balls: `ring_equilibrium` |
 | coefficients | stiffness and damping over frequency |
-| impedance | impedance of all balls at complex frequencies |
-| state_space | balls and films about rest as matrices of first order |
+| linear_balls | impedance of all balls at complex frequencies |
+| ball_states | balls and films about rest as matrices of first order |
 | continuous_time | derivatives of the states of balls and films, compiled |
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
 | state | `BearingState`: a bearing at rest, ball by ball |
-| ross | bearings as elements of ROSS |
+| ross_bearing | bearings as elements of ROSS |
 | picture | figures |
 | summary | summary of a bearing for the prompt |
 """

@@ -36,7 +36,6 @@ from reduced_models.bearing.equilibrium import (
     radial_load,
     ring_equilibrium,
 )
-from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import (
     HERTZ,
     RADIANS,
@@ -46,6 +45,7 @@ from reduced_models.bearing.kinematics import (
     cage_ratio,
     rolling_radius,
 )
+from reduced_models.bearing.linear_balls import SmallBalls
 from reduced_models.bearing.loss import loss_of, require_loss_factor
 from reduced_models.bearing.race import RACES, Race, films_under, race_of, require_roughness
 from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
@@ -328,7 +328,7 @@ class BallBearing(BearingSummary):
         InputError
             ROSS is not installed; a load or a speed that the bearing does not take.
         """
-        from reduced_models.bearing.ross import bearing_element
+        from reduced_models.bearing.ross_bearing import bearing_element
 
         frequency = {"omega": omega, "hz": hz, "rpm": rpm}
         return bearing_element(self, node, speeds_rpm, load, frequency, **options)

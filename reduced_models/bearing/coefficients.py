@@ -1,4 +1,4 @@
-"""`BearingCoefficients`: stiffness and damping over frequency, computed in `reduced_models.bearing.impedance`."""
+"""`BearingCoefficients`: stiffness and damping over frequency, by `reduced_models.bearing.linear_balls`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Balls and films of a bearing in continuous time, compiled: rates of the states of `state_space`, for any motion.
+"""Balls and films of a bearing in continuous time, compiled: rates of the states of `ball_states`, for any motion.
 
 Both contacts of a ball have the force
 

@@ -19,14 +19,14 @@
 | integrate_python | the same steps in Python, for supports without a compiled kernel |
 | simulate | `simulate_rotor`: a rotor over time, from the rotor by arrays and steps to the result |
 | result | `RotorResult`: histories of a run |
-| impedance | a contact about rest: an element as a state space, any other by its impedance |
+| linear_contact | a contact about rest: an element as a state space, any other by its impedance |
 | linear_system | a rotor on linear supports as one system of first order |
 | linearise | `linearise`: a rotor about rest at a speed, `LinearRotor`; `unbalance_response` over the speed |
 | modes | `RotorMode`: damped vibrations, exact with film memory |
 | campbell | `campbell`: modes over the speed, critical speeds |
 | unbalance | `UnbalanceResponse`: amplitudes over the rate at which unbalances turn |
 | control | python-control: `rotor_to_control`, and the state space of a `LinearRotor` |
-| ross | rotors of ROSS on our bearings: `from_ross`, `RossCallback` |
+| ross_rotor | rotors of ROSS on our bearings: `from_ross`, `RossCallback` |
 | picture | figures of runs, Campbell diagrams and unbalance responses |
 | oscillator | `simulate_oscillator`: one mass on one element |
 | compare | `compare`: full against reduced response |

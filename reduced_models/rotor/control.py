@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_instance, require_integer, require_nonnegative
 from ehlcontact.errors import InputError
+from reduced_models.bearing.ball_states import PER_METRE, bearing_system
 from reduced_models.bearing.balls import (
     PLACE,
     Balls,
@@ -26,9 +27,8 @@ from reduced_models.bearing.balls import (
     speed_state,
 )
 from reduced_models.bearing.continuous_time import bearing_rates
-from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS
-from reduced_models.bearing.state_space import PER_METRE, bearing_system
+from reduced_models.bearing.linear_balls import SmallBalls
 from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.small_motion import FILTERS
 from reduced_models.rotor.linear_system import rotor_system

@@ -15,12 +15,12 @@ from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.summary import Summary
-from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.linear_balls import SmallBalls
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.control import Signals, linear_block
-from reduced_models.rotor.impedance import ContactImpedance, LinearElement
 from reduced_models.rotor.jeffcott import JeffcottRotor
+from reduced_models.rotor.linear_contact import ContactImpedance, LinearElement
 from reduced_models.rotor.linear_system import eigenmodes
 from reduced_models.rotor.modes import (
     CANDIDATES,

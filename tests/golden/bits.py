@@ -85,7 +85,7 @@ from reduced_models import (
     unbalance_response,
     wide_range_from_solves,
 )
-from reduced_models.rotor.impedance import impedance_about
+from reduced_models.rotor.linear_contact import impedance_about
 
 sys.path.insert(0, str(Path(__file__).parents[1]))  # the tests' own helpers
 

@@ -35,7 +35,7 @@ from reduced_models.rotor.full_films import (
     settled_run,
     simulate_on_films,
 )
-from reduced_models.rotor.impedance import impedance_about
+from reduced_models.rotor.linear_contact import impedance_about
 from reduced_models.rotor.modes import RotorMode
 
 BELOW = 0.5  # of the rotor's frequency: the lowest one of the impedance, but for rest

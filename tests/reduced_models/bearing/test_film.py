@@ -8,7 +8,7 @@ import pytest
 from reduced_models import BallBearing
 from reduced_models.bearing.balls import Balls
 from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
-from reduced_models.bearing.impedance import SmallBalls
+from reduced_models.bearing.linear_balls import SmallBalls
 from reduced_models.bearing.race import shared_atlas
 from reduced_models.bearing.race_table import tabulate_race
 

@@ -15,8 +15,8 @@ from reduced_models import (
 )
 from reduced_models.bearing.balls import PLACE, speed_state
 from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
-from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.linear_balls import SmallBalls
 
 RPM = 3000.0
 

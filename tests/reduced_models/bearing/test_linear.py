@@ -10,8 +10,8 @@ from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingMotion
 from reduced_models.bearing.balls import speed_state
 from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
-from reduced_models.bearing.impedance import SmallBalls, small_motion
 from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.linear_balls import SmallBalls, small_motion
 
 RPM = 3000.0
 

@@ -19,8 +19,8 @@ from reduced_models import (
 from reduced_models.bearing import loss as loss_room
 from reduced_models.bearing.balls import speed_state
 from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
-from reduced_models.bearing.impedance import SmallBalls
 from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.linear_balls import SmallBalls
 from reduced_models.bearing.loss import BAND, loss_of, response, seat_of
 
 RPM = 3000.0

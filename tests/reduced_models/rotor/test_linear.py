@@ -15,7 +15,7 @@ from reduced_models import (
     linearise,
     simulate_rotor,
 )
-from reduced_models.rotor.impedance import impedance_about
+from reduced_models.rotor.linear_contact import impedance_about
 
 
 def test_mode_of_one_mass():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from reduced_models import linearise, simulate_rotor
-from reduced_models.bearing.impedance import SmallBalls
+from reduced_models.bearing.linear_balls import SmallBalls
 
 RPM, DISC = 3000.0, 12
 POSITIONS, HARMONICS = 24, 2

@@ -18,7 +18,7 @@ from ehlcontact.errors import InputError
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.motion import BearingMotion
-from reduced_models.bearing.ross import import_ross, ross_entries
+from reduced_models.bearing.ross_bearing import import_ross, ross_entries
 from reduced_models.rotor.rotor import Rotor, Unbalance
 from reduced_models.rotor.supports import BearingMount
 

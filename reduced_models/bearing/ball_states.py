@@ -17,7 +17,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from reduced_models.bearing.impedance import SmallBalls
+from reduced_models.bearing.linear_balls import SmallBalls
 from reduced_models.bearing.loss import Loss
 from reduced_models.elements.small_motion import SmallMotion, StateSpace
 
