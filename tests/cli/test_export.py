@@ -4,12 +4,13 @@ import json
 import os
 import shutil
 import subprocess
+import tempfile
 import zipfile
 from pathlib import Path
 
 import fmpy
 import pytest
-from programs import ROOT, command, environment, program
+from programs import ROOT, command, environment
 
 from ehlcontact import save
 from ehlcontact.cli.study.reduction import export_fmu
@@ -115,20 +116,21 @@ def test_a_compiler_may_be_named_from_here(call, element, monkeypatch):
     assert call("export", element, "-o", "x.fmu").code == 0
 
 
-def test_a_disk_without_room(full_disk, element, tmp_path_factory):
+def test_a_disk_without_room(call, refused, full_disk, element, tmp_path_factory, monkeypatch):
     """For the FMU itself, for the compiler, or for what is kept of it: the last only costs time."""
     where, fresh = element.with_name("x.fmu"), str(tmp_path_factory.mktemp("cache"))
-    found = program("export", element, "-o", full_disk / "x.fmu")
-    assert (found.returncode, found.stdout) == (2, "") and "No space left on device" in found.stderr
-    for cache, word in ((fresh, "no room to compile"), (os.environ["EHLCONTACT_CACHE"], "no room to verify")):
-        own = environment(TMPDIR=str(full_disk), EHLCONTACT_CACHE=cache)
-        found = program("export", element, "-o", where, env=own)
-        assert (found.returncode, found.stdout) == (2, "")
-        (line,) = found.stderr.splitlines()
+    refused(("No space left on device",), "export", element, "-o", full_disk / "x.fmu")
+    for cache, word in ((os.environ["EHLCONTACT_CACHE"], "no room to verify"), (fresh, "no room to compile")):
+        with monkeypatch.context() as patch:
+            patch.setattr(tempfile, "tempdir", str(full_disk))
+            patch.setenv("EHLCONTACT_CACHE", cache)
+            found = call("export", element, "-o", where)
+        assert (found.code, found.out) == (2, "")
+        (line,) = found.err.splitlines()
         assert line.startswith(f"ehlcontact: no FMU was written: {word} in {full_disk} (No space left")
     assert not where.exists()
-    own = environment(EHLCONTACT_CACHE=str(full_disk))
-    assert program("export", element, "-o", where, env=own).returncode == 0
+    monkeypatch.setenv("EHLCONTACT_CACHE", str(full_disk))
+    assert call("export", element, "-o", where).code == 0
     assert zipfile.is_zipfile(where)
 
 

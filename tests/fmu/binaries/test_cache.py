@@ -144,9 +144,9 @@ def test_several_processes_export_at_once(kept, tmp_path):
         "import sys; from fmu import export_contact; from reduced_models import CubicContact;"
         "export_contact(CubicContact(K1=.624, K2=.75, K3=-.174, C1=.013, low=.75, high=1.), sys.argv[1])"
     )
-    paths = [tmp_path / f"{n}.fmu" for n in range(3)]
+    paths = [tmp_path / f"{n}.fmu" for n in range(2)]
     running = [subprocess.Popen([sys.executable, "-c", code, str(path)]) for path in paths]
-    assert [process.wait(300) for process in running] == [0, 0, 0]
+    assert [process.wait(300) for process in running] == [0, 0]
     assert len({path.read_bytes() for path in paths}) == 1
     assert {path.suffix for path in kept.iterdir()} == {".library"}
 
