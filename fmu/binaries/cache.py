@@ -26,12 +26,12 @@ def cache_folder() -> Path | None:
 
     ``EHLCONTACT_CACHE`` if set, else the place that the system has for caches.
     """
-    chosen = os.environ.get(CACHE_VARIABLE, "").strip()
-    try:
-        folder = Path(chosen).absolute() if chosen else _caches() / "ehlcontact"
-    except RuntimeError:  # no home
-        return None
-    return _usable(folder)
+    return _folder(CACHE_VARIABLE, "ehlcontact")
+
+
+def zig_folder() -> Path | None:
+    """Folder of zig's global cache (its own default); None if it cannot be written."""
+    return _folder(ZIG_VARIABLE, "zig")
 
 
 def key_of(parts: Iterable[bytes]) -> str:
@@ -89,20 +89,13 @@ def _shrink(folder: Path) -> None:
         total -= size
 
 
-def zig_folder() -> Path | None:
-    """Folder of zig's global cache (its own default); None if it cannot be written."""
-    chosen = os.environ.get(ZIG_VARIABLE, "").strip()
+def _folder(variable: str, name: str) -> Path | None:
+    """Folder that an environment variable names, else `name` in the user's cache; None if it cannot be written."""
+    chosen = os.environ.get(variable, "").strip()
     try:
-        folder = Path(chosen).absolute() if chosen else _caches() / "zig"
-    except RuntimeError:  # no home
-        return None
-    return _usable(folder)
-
-
-def _usable(folder: Path) -> Path | None:
-    try:
+        folder = Path(chosen).absolute() if chosen else _caches() / name
         folder.mkdir(parents=True, exist_ok=True)
-    except (OSError, ValueError):  # a file in the way, nothing that can be written to, no path at all
+    except (OSError, ValueError, RuntimeError):  # a file in the way, read-only, no path at all; no home
         return None
     return folder if os.access(folder, os.W_OK | os.X_OK) else None
 
