@@ -7,8 +7,9 @@ import pytest
 
 from ehlcontact.cli import main
 from ehlcontact.cli.study.forecast import forecast
+from ehlcontact.cli.study.points.kept import stage_key
 from ehlcontact.cli.study.schema import load_study
-from ehlcontact.cli.study.stages import STAGES, stages_of
+from ehlcontact.cli.study.stages import STAGES, stage_named, stages_of
 
 HALF_STEP = ("rotor_half_step", "decay_half_step")
 
@@ -22,6 +23,7 @@ def unchecked(finished, tmp_path_factory):
     shutil.copytree(finished[1], folder)
     for name in HALF_STEP:
         (folder / f"{name}.h5").unlink()
+        (folder / "store" / stage_key(stage_named(name), load_study(finished[0]))).unlink()
     with pytest.raises(SystemExit) as stop:
         main(["run", str(file), "-o", str(folder)])
     assert not stop.value.code
