@@ -14,6 +14,7 @@ small least-squares problem, whose residual is the error measure: the frequency 
 from __future__ import annotations
 
 import time
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,14 +23,14 @@ from scipy import linalg
 from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.point import Point, moes_point, require_solvable, scales_of
+from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
 from ehlcontact.solver.mesh import Mesh, Solve
-from ehlcontact.solver.mesh_choice import Purpose, mesh_for, wider_meshes
+from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
@@ -81,17 +82,18 @@ def impedance(
         The steady state did not converge.
     """
     started = time.perf_counter()
-    moes_point(point)
-    w = dimensionless(_time(point), Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=LARGEST_OMEGA)
+    moes, scales = require_solvable(point), scales_of(point)
+    time_unit = None if scales is None else scales.time
+    w = dimensionless(time_unit, Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=LARGEST_OMEGA)
     require_grid(grid)
-    moes = require_solvable(point)
     threads = require_threads("threads", threads)
-    steady = _steady(point, grid, threads)
+    meshes = wider_meshes(moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE)
+    steady = _steady(point, meshes, grid.deflection, threads)
     contact = LinearisedContact(steady, grid.deflection, threads)
     Z, residual = contact.respond(np.maximum(w, NEAR_ZERO), TOLERANCE)
     return ImpedanceResult(
         point=moes,
-        scales=scales_of(point),
+        scales=scales,
         domain=steady.domain,
         n=steady.n,
         Omega=w,
@@ -106,13 +108,10 @@ def impedance(
     )
 
 
-def _steady(point: Point, grid: Grid, threads: int) -> SteadyResult:
-    """The film to linearise; on a wider region where none is given and light load needs it."""
-    moes = moes_point(point)
-    mesh = mesh_for(moes, Purpose.DAMPING, grid)
-    mesh.require_memory(Solve.IMPEDANCE)
-    for tried in wider_meshes(mesh, moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE):
-        own = Grid(tried.n, tried.domain, grid.deflection)
+def _steady(point: Point, meshes: Iterable[Mesh], deflection: str, threads: int) -> SteadyResult:
+    """The film to linearise, on the first of the meshes whose region holds it."""
+    for mesh in meshes:
+        own = Grid(mesh.n, mesh.domain, deflection)
         steady = solve_steady(point, grid=own, threads=threads, throw=False)
         if steady.status is not Status.OUT_OF_DOMAIN:
             break
@@ -121,11 +120,6 @@ def _steady(point: Point, grid: Grid, threads: int) -> SteadyResult:
     if not steady.status.ok:
         raise ConvergenceError(f"steady solve {steady.status}: {steady.status.advice}", steady)
     return steady
-
-
-def _time(point: Point) -> float | None:
-    scales = scales_of(point)
-    return None if scales is None else scales.time
 
 
 class LinearisedContact:

@@ -146,34 +146,38 @@ def remedy(
 
 
 def wider_meshes(
-    mesh: Mesh,
     point: MoesPoint,
     purpose: Purpose,
     grid: Grid = AUTOMATIC,
     *,
+    largest_load: float = 1.0,
     solve: Solve = Solve.CYCLES,
 ) -> Iterator[Mesh]:
-    """Yield `mesh`, then meshes on wider regions, for a caller whose film leaves the region of the one before.
+    """Yield the mesh of `mesh_for`, then meshes on wider regions, for a film that leaves the region before.
 
-    The iteration ends before a mesh that would not fit into memory.
+    The iteration ends before a wider mesh that would not fit into memory.
 
     Parameters
     ----------
-    mesh : Mesh
-        That of `mesh_for`.
-    point : MoesPoint
-    purpose : Purpose
-    grid : Grid
-        Intervals and region given by the caller of `mesh_for`.
+    point, purpose, grid, largest_load
+        As in `mesh_for`.
     solve : Solve
         What the mesh is solved with.
+
+    Raises
+    ------
+    InputError
+        The first mesh would not fit into memory.
     """
-    wider: Mesh | None = mesh
-    for _ in range(LARGEST_ATTEMPTS):
-        if wider is None or not (wider is mesh or wider.fits(solve)):
+    mesh = mesh_for(point, purpose, grid, largest_load=largest_load)
+    mesh.require_memory(solve)
+    yield mesh
+    for _ in range(1, LARGEST_ATTEMPTS):
+        wider = remedy(mesh, Status.OUT_OF_DOMAIN, point, purpose, grid)
+        if wider is None or not wider.fits(solve):
             return
         yield wider
-        wider = remedy(wider, Status.OUT_OF_DOMAIN, point, purpose, grid)
+        mesh = wider
 
 
 def allows_newton(mesh: Mesh) -> bool:

@@ -14,7 +14,7 @@ from ehlcontact.results.steady import grid_doubt
 from ehlcontact.results.table import SIView
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
-from ehlcontact.solver.mesh_choice import Purpose, mesh_for, wider_meshes
+from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, contact_text
 from ehlcontact.transient.film import FilmState, Step, TransientFilm
@@ -77,11 +77,9 @@ class FullContact(Summary):
         load = require_positive("largest_load", largest_load)
         self.point, self.scales = require_solvable(point, load), scales_of(point)
         require_grid(grid)
-        first = mesh_for(self.point, Purpose.CONTACT, grid, largest_load=load)
-        first.require_memory()
         tol, threads = require_positive("tol", tol), require_threads("threads", threads)
         left: Step | None = None
-        for mesh in wider_meshes(first, self.point, Purpose.CONTACT, grid):
+        for mesh in wider_meshes(self.point, Purpose.CONTACT, grid, largest_load=load):
             self._film = TransientFilm(self.point, mesh, tol, grid.deflection, threads)
             self.n, self.domain = mesh.n, mesh.domain
             start = self._film.start_steady(Balance.of_load())

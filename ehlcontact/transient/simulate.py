@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import chain
 from time import perf_counter
 from typing import Any
 
@@ -17,7 +18,7 @@ from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.mesh import Mesh
-from ehlcontact.solver.mesh_choice import Purpose, mesh_for, wider_meshes
+from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.store import load
 from ehlcontact.transient.bodies import Motion
@@ -96,8 +97,9 @@ def simulate(
     moes = require_solvable(point, motion.largest_load)
     require_grid(grid)
     require_groups(time, keep, run)
-    mesh = mesh_for(moes, Purpose.RUN, grid, largest_load=motion.largest_load)
-    mesh.require_memory()
+    wider = wider_meshes(moes, Purpose.RUN, grid, largest_load=motion.largest_load)
+    mesh = next(wider)
+    meshes = chain([mesh], wider)
     require_surface(surface)
     _warn_of_shape(surface, moes.kappa)
     spacing = (mesh.domain.x_out - mesh.domain.x_in) / mesh.n
@@ -108,7 +110,6 @@ def simulate(
     if keep.checkpoint is not None:
         require_replaceable(keep.checkpoint, keep.restart)
     threads = require_threads("threads", run.threads)
-    meshes = wider_meshes(mesh, moes, Purpose.RUN, grid)
 
     def film_on(mesh: Mesh) -> TransientFilm:
         film = TransientFilm(moes, mesh, steps.tol, grid.deflection, threads)
@@ -119,7 +120,7 @@ def simulate(
     earlier = None
     if keep.restart is not None:
         earlier = load(keep.restart, Checkpoint, "restart")
-        mesh = next((wider for wider in meshes if wider == earlier.inputs.mesh), mesh)
+        mesh = next((other for other in meshes if other == earlier.inputs.mesh), mesh)
         film = film_on(mesh)
         given = time.step_of(motion, unit)
         earlier.check(replace(inputs, mesh=mesh), given, surface, film.level, keep.restart)

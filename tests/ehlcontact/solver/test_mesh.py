@@ -341,9 +341,10 @@ def test_default_region_holds_the_pressure_of_light_loads(kappa, N):
 def test_widened_ends_with_what_was_given():
     given = Domain(-3.0, 1.4, 2.0)
     first = Mesh(64, given, LIGHT.kappa)
-    assert list(m.wider_meshes(first, LIGHT, Purpose.RUN, grid=Grid(domain=given))) == [first]
-    regions = [mesh.domain for mesh in m.wider_meshes(first, LIGHT, Purpose.RUN)]
-    assert regions[1] == widened(given) and len(regions) == m.LARGEST_ATTEMPTS
+    assert list(m.wider_meshes(LIGHT, Purpose.RUN, Grid(n=64, domain=given))) == [first]
+    regions = [mesh.domain for mesh in m.wider_meshes(LIGHT, Purpose.RUN)]
+    assert regions[0] == Domain.for_point(LIGHT) and regions[1] == widened(regions[0])
+    assert len(regions) == m.LARGEST_ATTEMPTS
 
 
 def test_the_page_of_notation_has_the_numbers_of_the_code():
