@@ -61,7 +61,7 @@ from reduced_models import (
     unbalance_response,
 )
 from reduced_models.atlas.answer import AtlasAnswers
-from reduced_models.bearing.coefficients import BearingCoefficients
+from reduced_models.bearing.linear_balls import BearingCoefficients
 from reduced_models.rotor.linear_contact import impedance_about
 from reduced_models.rotor.settling import Settling
 

@@ -11,13 +11,11 @@
 | balls | compiled: all balls, two contacts in series on each, as one force with tangents |
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
 | equilibrium | springs under a load; the ring of a bearing on its balls: `ring_equilibrium` |
-| coefficients | stiffness and damping over frequency |
-| linear_balls | impedance of all balls at complex frequencies |
+| linear_balls | a bearing about rest: impedance at complex frequencies, stiffness and damping over frequency |
 | ball_states | balls and films about rest as matrices of first order |
 | continuous_time | derivatives of the states of balls and films, compiled |
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
 | state | `BearingState`: a bearing at rest, ball by ball |
 | ross_bearing | bearings as elements of ROSS |
 | picture | figures |
-| summary | summary of a bearing for the prompt |
 """

@@ -25,9 +25,9 @@ from ehlcontact.checks.frequency import by_name, radians_per_second
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.store import stored
+from ehlcontact.summary import Summary
 from reduced_models.bearing.balls import Balls, SpeedState, speed_state
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
-from reduced_models.bearing.coefficients import BearingCoefficients
 from reduced_models.bearing.equilibrium import (
     RingEquilibrium,
     StaticBalls,
@@ -45,12 +45,11 @@ from reduced_models.bearing.kinematics import (
     cage_ratio,
     rolling_radius,
 )
-from reduced_models.bearing.linear_balls import SmallBalls
+from reduced_models.bearing.linear_balls import BearingCoefficients, SmallBalls
 from reduced_models.bearing.loss import loss_of, require_loss_factor
 from reduced_models.bearing.race import RACES, Race, films_under, race_of, require_roughness
 from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
 from reduced_models.bearing.state import BearingState
-from reduced_models.bearing.summary import BearingSummary
 from reduced_models.elements.wide_range import WideRangeContact
 
 _Floats = NDArray[np.float64]
@@ -65,7 +64,7 @@ POSITIONS = 12  # of the cage over a ball passage for means: those of 6205 are w
     youngs_modulus="Pa", density="kg/m3",
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
-class BallBearing(BearingSummary):
+class BallBearing(Summary):
     """Deep-groove ball bearing under radial load, the outer ring standing still. SI units, y upwards.
 
     Every ball has a contact with either race, each with a film and its memory; both carry the ball in series, the
@@ -125,6 +124,18 @@ class BallBearing(BearingSummary):
     name: str = ""
     atlas: str | None = None
     _known: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
+
+    def _summary_lines(self) -> list[str]:
+        play = 1e6 * self.clearance
+        lines = [
+            f"{self.name or 'ball bearing'}, {self.balls} balls of {1e3 * self.ball_diameter:.4g} mm "
+            f"on {1e3 * self.pitch_diameter:.4g} mm",
+            f"conformity {self.conformity_inner:.4g} and {self.conformity_outer:.4g}, clearance {play:.4g} µm",
+            "dry"
+            if self.oil is None
+            else f"oil of {self.oil.eta0:.4g} Pa s, alpha {1e9 * self.oil.alpha:.4g} 1/GPa, flooded",
+        ]
+        return [*lines, f"loss factor {self.loss_factor:.3g}"] if self.loss_factor else lines
 
     def __post_init__(self) -> None:
         require_integer("balls", self.balls, "a whole number >= 3", 3)

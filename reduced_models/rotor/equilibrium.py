@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from collections.abc import Sequence
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.rotor.scaled_contact import has_tangents
-from reduced_models.rotor.supports import BearingMount, ContactMount, is_ball_bearing
+from reduced_models.rotor.supports import (
+    BearingMount,
+    ContactMount,
+    Mount,
+    is_ball_bearing,
+    support_columns,
+    support_rows,
+)
 
 _Floats = NDArray[np.float64]
 
@@ -32,33 +39,6 @@ class StaticSupport(Protocol):
         """Its derivative, shape (directions, directions) [N/m]."""
 
 
-class SupportedRotor(Protocol):
-    """What the equilibrium takes of a `Rotor`."""
-
-    @property
-    def mounts(self) -> tuple[Any, ...]:
-        """Supports."""
-
-    @property
-    def load(self) -> _Floats:
-        """Constant forces, shape (N,) [N]."""
-
-    @property
-    def size(self) -> int:
-        """Number N of degrees of freedom."""
-
-    @property
-    def support_rows(self) -> _Floats:
-        """Motions of all supports from the displacements, shape (directions of all supports, N)."""
-
-    @property
-    def support_columns(self) -> tuple[slice, ...]:
-        """Directions of each support among those of all."""
-
-    def matrices(self, omega: float) -> tuple[_Floats, _Floats, _Floats]:
-        """Mass, damping and stiffness at a speed [rad/s]."""
-
-
 class StaticContact:
     """A contact at rest, or several alike, after its static law; its state stays."""
 
@@ -77,7 +57,7 @@ class StaticContact:
         return np.array([[self._count * self._contact.spring_tangent(float(r[0]) + self._offset)]])
 
 
-def static_supports(rotor: SupportedRotor, speed_rpm: float) -> list[tuple[slice, StaticSupport]]:
+def static_supports(mounts: Sequence[Mount], speed_rpm: float) -> list[tuple[slice, StaticSupport]]:
     """Every support that is not linear, with its place among the directions of all supports.
 
     Raises
@@ -86,7 +66,7 @@ def static_supports(rotor: SupportedRotor, speed_rpm: float) -> list[tuple[slice
         A speed that a bearing does not take, a contact without static law.
     """
     found: list[tuple[slice, StaticSupport]] = []
-    for columns, mount in zip(rotor.support_columns, rotor.mounts, strict=True):
+    for columns, mount in zip(support_columns(mounts), mounts, strict=True):
         if isinstance(mount, ContactMount):
             found.append((columns, StaticContact(mount)))
         elif is_ball_bearing(mount):
@@ -95,10 +75,9 @@ def static_supports(rotor: SupportedRotor, speed_rpm: float) -> list[tuple[slice
     return found
 
 
-def equilibrium(rotor: SupportedRotor, speed_rpm: float) -> _Floats:
+def equilibrium(mounts: Sequence[Mount], load: _Floats, stiffness: _Floats, speed_rpm: float) -> _Floats:
     """Displacements, shape (N,), at which supports and stiffness carry the load: see `Rotor.equilibrium`."""
-    supports, rows = static_supports(rotor, speed_rpm), rotor.support_rows
-    load, (_, _, stiffness) = rotor.load, rotor.matrices(speed_rpm * RADIANS)
+    supports, rows = static_supports(mounts, speed_rpm), support_rows(mounts, load.size)
 
     def imbalance(q: _Floats) -> _Floats:
         r, forces = rows @ q, np.zeros(len(rows))
@@ -106,9 +85,9 @@ def equilibrium(rotor: SupportedRotor, speed_rpm: float) -> _Floats:
             forces[columns] = support.force(r[columns])
         return np.asarray(stiffness @ q + rows.T @ forces - load)
 
-    allowed = BALANCED_BALLS if any(isinstance(mount, BearingMount) for mount in rotor.mounts) else BALANCED
-    loose = _across(rotor)  # springs in both directions where a rotor stands on contacts
-    offsets = np.array([getattr(mount, "offset", 0.0) for mount in rotor.mounts for _ in mount.directions])
+    allowed = BALANCED_BALLS if any(isinstance(mount, BearingMount) for mount in mounts) else BALANCED
+    loose = _across(mounts, load.size)  # springs in both directions where a rotor stands on contacts
+    offsets = np.array([getattr(mount, "offset", 0.0) for mount in mounts for _ in mount.directions])
     springs = stiffness + GUESS * (rows.T @ rows) + GUESS * loose
     q: _Floats = np.asarray(np.linalg.solve(springs, load - GUESS * rows.T @ offsets), np.float64)
     residual, size = imbalance(q), float(np.linalg.norm(load))
@@ -133,10 +112,10 @@ def equilibrium(rotor: SupportedRotor, speed_rpm: float) -> _Floats:
     )
 
 
-def _across(rotor: SupportedRotor) -> _Floats:
+def _across(mounts: Sequence[Mount], size: int) -> _Floats:
     """Unit springs at the degrees of freedom of contacts, shape (N, N): a contact alone holds one direction."""
-    held = np.zeros((rotor.size, rotor.size))
-    for mount in rotor.mounts:
+    held = np.zeros((size, size))
+    for mount in mounts:
         if isinstance(mount, ContactMount):
             at = [place for place in mount.ends[0] if place is not None]
             held[at, at] = 1.0

@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import pairwise
 from math import pi
 from types import MappingProxyType
 from typing import Any
@@ -30,14 +29,15 @@ from reduced_models.rotor.supports import (
     BearingMount,
     ContactMount,
     LinearBearing,
+    Mount,
     SupportGeometry,
     is_ball_bearing,
     support_geometry,
+    support_rows,
 )
 
 _Floats = NDArray[np.float64]
 Matrices = tuple[_Floats, _Floats, _Floats]
-Mount = BearingMount | ContactMount
 
 
 class _Nodes(dict[str, Mapping[str, int]]):
@@ -175,13 +175,7 @@ class Rotor(Summary):
     @property
     def support_rows(self) -> _Floats:
         """Motions of all supports from the displacements of the rotor, shape (directions of all supports, N)."""
-        return np.concatenate([mount.rows(self.size) for mount in self.mounts])
-
-    @property
-    def support_columns(self) -> tuple[slice, ...]:
-        """Where the directions of each support are among those of all."""
-        ends = np.cumsum([0, *(len(mount.directions) for mount in self.mounts)]).tolist()
-        return tuple(slice(first, end) for first, end in pairwise(ends))
+        return support_rows(self.mounts, self.size)
 
     @property
     def contacts(self) -> tuple[ContactMount, ...]:
@@ -231,4 +225,5 @@ class Rotor(Summary):
         ConvergenceError
             The supports do not hold it; ``result`` is the last displacement.
         """
-        return equilibrium(self, speed_rpm)
+        _, _, stiffness = self.matrices(speed_rpm * RADIANS)
+        return equilibrium(self.mounts, self.load, stiffness, speed_rpm)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import cos, pi, sin
 from typing import Any, NamedTuple
 
@@ -197,13 +198,27 @@ class ContactMount:
         return rows
 
 
+Mount = BearingMount | ContactMount
+
+
+def support_rows(mounts: Sequence[Mount], size: int) -> _Floats:
+    """Motions of all supports from the displacements of a rotor, shape (directions of all supports, size)."""
+    return np.concatenate([mount.rows(size) for mount in mounts])
+
+
+def support_columns(mounts: Sequence[Mount]) -> tuple[slice, ...]:
+    """Where the directions of each support are among those of all."""
+    ends = np.cumsum([0, *(len(mount.directions) for mount in mounts)]).tolist()
+    return tuple(slice(first, end) for first, end in pairwise(ends))
+
+
 def require_bearing(name: str, bearing: object) -> None:
     """Raise `InputError` for what is no bearing of a shaft."""
     if not isinstance(bearing, LinearBearing):
         require_instance(name, bearing, BallBearing, "a BallBearing")
 
 
-def is_ball_bearing(mount: BearingMount | ContactMount) -> bool:
+def is_ball_bearing(mount: Mount) -> bool:
     """Whether the support is a ball bearing."""
     return isinstance(mount, BearingMount) and isinstance(mount.bearing, BallBearing)
 

@@ -22,8 +22,8 @@ from ehlcontact.errors import InputError
 if TYPE_CHECKING:
     from ehlcontact.cli.study.bearing import BearingJob
     from reduced_models import BallBearing, BearingState
-    from reduced_models.bearing.coefficients import BearingCoefficients
     from reduced_models.bearing.kinematics import DefectFrequencies
+    from reduced_models.bearing.linear_balls import BearingCoefficients
 
 CURVE = 15  # speeds of the curves of a figure
 BESIDE = (0.5, 2.0)  # over a single speed: where its curves begin and end
