@@ -8,8 +8,6 @@ import tomllib
 from importlib.resources import files
 from pathlib import Path
 
-import pytest
-
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("ehlcontact", "reduced_models", "fmu")
 SOURCES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
@@ -79,28 +77,17 @@ def relative(folder, pattern):
     return {str(path.relative_to(folder)) for path in Path(str(folder)).rglob(pattern)}
 
 
-@pytest.mark.parametrize(
-    ("package", "pattern"),
-    [
-        ("fmu", "*.c"),
-        ("fmu", "*.h"),
-        ("fmu", "*.txt"),
-        ("fmu", "*.png"),
-        ("ehlcontact", "*.j2"),
-        ("ehlcontact", "*.js"),
-        ("ehlcontact", "*.css"),
-        ("ehlcontact", "py.typed"),
-        ("reduced_models", "py.typed"),
-        ("fmu", "py.typed"),
-        ("ehlcontact", "*.csv"),
-        ("reduced_models", "*.h5"),
-    ],
-)
-def test_data_files_are_installed(package, pattern):
+def test_data_files_are_installed():
     """What the checkout has, the imported package has too: in CI that is the one from the wheel."""
-    wanted = relative(ROOT / package, pattern)
-    assert wanted
-    assert wanted <= relative(files(package), pattern)
+    data = {
+        "fmu": ("*.c", "*.h", "*.txt", "*.png", "py.typed"),
+        "ehlcontact": ("*.j2", "*.js", "*.css", "py.typed", "*.csv"),
+        "reduced_models": ("py.typed", "*.h5"),
+    }
+    for package, patterns in data.items():
+        for pattern in patterns:
+            wanted = relative(ROOT / package, pattern)
+            assert wanted and wanted <= relative(files(package), pattern), (package, pattern)
 
 
 def test_wheel_takes_whole_packages():
@@ -113,12 +100,11 @@ def test_wheel_takes_whole_packages():
     )  # hatchling leaves out what git ignores
 
 
-@pytest.mark.parametrize("package", PACKAGES)
-def test_import_is_light(package):
+def test_import_is_light():
     """Heavy or optional libraries are imported where they are used."""
     heavy = ("matplotlib", "fmpy", "control", "typer", "rich", "pydantic", "jinja2", "ross", "plotly")
     heavy += ("xarray", "pandas", "pint")
-    code = f"import sys, {package}; print(*[m for m in {heavy!r} if m in sys.modules])"
+    code = f"import sys, {', '.join(PACKAGES)}; print(*[m for m in {heavy!r} if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == []
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core.h"
+#include "fuzz_numbers.h"
 
 #ifndef FUZZ_INPUTS /* two inputs, three outputs of which the first is not negative; for a rotor others are given */
 #define FUZZ_INPUTS VR_approach, VR_rate
@@ -15,26 +16,6 @@
 #define FUZZ_USUAL 0.0 /* of the inputs: none, but their start value */
 #define FUZZ_STEP 1e-6
 #endif
-
-static unsigned long long seed = 1;
-
-static unsigned int any(unsigned int count)
-{
-    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-    return (unsigned int)(seed >> 33) % count;
-}
-
-static double anything(double usual)
-{
-    static const double odd[] = {0.0, -1.0, 1e-300, 1e300, -1e300, 1e-6, 1e10, -1e10};
-    switch (any(12)) {
-    case 0: return NAN;
-    case 1: return INFINITY;
-    case 2:
-    case 3: return odd[any(8)];
-    default: return usual * (0.5 + (double)any(1000) / 1000.0);
-    }
-}
 
 static int bytes_of(fmi2Component c, char *bytes, size_t size)
 {

@@ -1,4 +1,4 @@
-"""The mesh chosen for every purpose at sixty points, and what follows a failure there."""
+"""The mesh chosen for every purpose at thirty points, and what follows a failure there."""
 
 from math import exp, log
 
@@ -23,7 +23,7 @@ WIDER = ("out_of_domain", "stagnated", "out_of_domain")
 def points():
     """M and kappa even in their logarithm, L denser where it is small; some beyond the box of the atlas."""
     draw, found = np.random.default_rng(9), list(PICKED)
-    for _ in range(44):
+    for _ in range(14):
         M, L = exp(draw.uniform(0.0, log(4e4))), 25.0 * draw.uniform() ** 1.5
         found.append((round(M, 2), round(L, 2), round(exp(draw.uniform(log(0.05), log(5.0))), 3)))
     return {"{} {} {}".format(*point): tuple(map(float, point)) for point in found}
