@@ -173,7 +173,7 @@ def test_the_papers_elements_are_drawn_as_printed(reproduction):
     """Fig. 19, left: K1 u + K2 u^2 + K3 u^3 + C1 u' of Table 6 along our motion."""
     (figure,) = (figure for figure in reproduction.figures if figure.number == 19)
     line = next(trace for trace in figure.draw(reproduction.fits).data if trace.name == "paper's cubic")
-    run = reproduction.fits.runs.cases["validation", 32]
+    run = reproduction.fits.runs.cases["validation"]
     u = run.approach
     np.testing.assert_allclose(line.y, 0.8674 * u + 0.3823 * u**2 - 0.0185 * u**3 + 0.033 * run.rate)
 
