@@ -236,7 +236,7 @@ def require_scheduler(scheduler: str) -> None:
     Raises
     ------
     InputError
-        ``dask.distributed`` is not installed, no address, or nobody there.
+        ``dask.distributed`` is not installed, no address, or no scheduler there.
     """
     try:
         from distributed.comm import get_address_host_port

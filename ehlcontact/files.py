@@ -22,7 +22,7 @@ from ehlcontact.errors import InputError
 LARGEST_TEXT = 2**28  # bytes of a JSON or TOML file: a hundred times the largest of ours; /dev/zero has no end
 DEEPEST = 50  # levels of nested JSON: ours have six, and Python writes and compares some hundred at most
 LONGEST_INTEGER = 300  # digits: what is longer is no float any more
-STALE = 5.0  # seconds without a write after which nobody is at a file any more
+STALE = 5.0  # seconds without a write after which no process is writing a file any more
 _TEMPORARY = re.compile(r"\.[0-9a-f]{12}\.tmp")
 _LONE_SURROGATE = re.compile("[\ud800-\udfff]")
 

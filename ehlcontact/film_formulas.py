@@ -17,7 +17,7 @@ LIGHT_LOAD, LIGHT_BLEND = 3.0, 2.0
 
 
 def load_number(M: float, kappa: float) -> float:
-    """N = sqrt(Rx/Ry) M, which tells thick films from thin ones at any kappa; Wijnant, thesis, Twente 1998."""
+    """N = sqrt(Rx/Ry) M, which separates thick films from thin ones at any kappa; Wijnant, thesis, Twente 1998."""
     return radius_ratio(kappa) ** 0.5 * M
 
 

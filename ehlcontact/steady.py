@@ -62,8 +62,8 @@ def solve_steady(
         Prescribe the approach (dry Hertz value 1) instead of the load; above 1 the default domain widens for the
         force it takes.
     tol : float
-        Largest change of the pressure that further cycles would still make, over the Hertz pressure: the last one
-        and its factor from cycle to cycle tell.
+        Largest change of the pressure that further cycles would still make, over the Hertz pressure, estimated
+        from the last change and its factor from cycle to cycle.
     max_cycles : int
         Limit of V(2,1) cycles, or of Newton steps, on the finest grid. Where one below the default is reached,
         nothing else is tried.

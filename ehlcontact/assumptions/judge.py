@@ -42,7 +42,7 @@ def assumptions(
     ----------
     point : OperatingPoint or MoesPoint
     film : SteadyResult, ImpedanceResult or AtlasAnswer, optional
-        The film solved at this point, or what the atlas says of it: ``film=Atlas().at(point)``. The region of a
+        The film solved at this point, or the answer of the atlas: ``film=Atlas().at(point)``. The region of a
         solved one counts as the flooded one.
     domain : Domain, optional
         Region computed elsewhere, in place of that of `film`.

@@ -1,7 +1,7 @@
 """Quantities with a unit, such as those of `pint`, as inputs in SI.
 
 Duck typed, so that nothing has to be installed: what has ``m_as(unit)``, or ``to_base_units`` and ``to(unit)``
-with a ``magnitude``. What asks for no unit (a dimensionless input) refuses them, like all that is no number.
+with a ``magnitude``. Dimensionless inputs refuse them.
 Frequencies keep their meaning, which libraries of units lose: 50 Hz are 3000 rev/min and 314 rad/s, and 1/s is
 refused, for it may be either.
 """

@@ -7,7 +7,7 @@ module              responsibility
 ``worker``          worker process of an executor: tasks in, answers out, the end with its parent
 ``threads``         `Team`: threads that share the loops of a solve; their default number
 ``blas``            limit of BLAS to one thread during a solve
-``memory``          memory that is still available to this process
+``free_memory``     memory that is still available to this process
 =================== ================================================================================
 """
 

@@ -1,19 +1,19 @@
 """Results of a steady solve and of an impedance, and what all results share: tables, SI values, figures.
 
-============= =================================================================================
-module        responsibility
-============= =================================================================================
-``steady``    `SteadyResult`: the film at rest
-``impedance`` `ImpedanceResult`: stiffness and damping over frequency
-``frequency`` `FrequencyResponse`: impedance and python-control system of K and C
-``table``     `QuantityTable`: values in SI, dictionary, xarray, pandas and figure of declared quantities
-``contact_map`` pressure and film of a contact as a figure
-``picture``   plain figures; matplotlib is imported where one is drawn
-============= =================================================================================
+==================== =================================================================================
+module               responsibility
+==================== =================================================================================
+``steady_result``    `SteadyResult`: the film at rest
+``impedance_result`` `ImpedanceResult`: stiffness and damping over frequency
+``frequency``        `FrequencyResponse`: impedance and python-control system of K and C
+``table``            `QuantityTable`: values in SI, dictionary, xarray, pandas and figure of declared quantities
+``contact_map``      pressure and film of a contact as a figure
+``picture``          plain figures; matplotlib is imported where one is drawn
+==================== =================================================================================
 """
 
-from ehlcontact.results.impedance import ImpedanceResult
-from ehlcontact.results.steady import SteadyResult
+from ehlcontact.results.impedance_result import ImpedanceResult
+from ehlcontact.results.steady_result import SteadyResult
 
 __all__ = [
     "ImpedanceResult",

@@ -7,7 +7,7 @@ from enum import StrEnum
 from math import log2
 
 from ehlcontact.errors import InputError
-from ehlcontact.process.memory import available_bytes
+from ehlcontact.process.free_memory import available_bytes
 from ehlcontact.solver.domain import MOST_INTERVALS, Domain
 from ehlcontact.solver.grid_rules import longer_axis, x_coarsenings
 

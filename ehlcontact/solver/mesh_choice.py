@@ -1,4 +1,4 @@
-"""Mesh of a film: region and fineness that it needs, and the mesh to try after a failure.
+"""Choice of a mesh: region and fineness that a film needs, and the mesh to try after a failure.
 
 The expected film decides. Beside a dry contact the gap opens like x^(3/2), so the pressure of the inlet rises to
 the dry one over about (Hc)^(2/3) semi-axes (`MoesPoint.inlet_width`), which the mesh has to resolve. The

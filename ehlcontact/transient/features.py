@@ -47,7 +47,7 @@ def require_surface(surface: object) -> None:
     if fits:
         try:
             signature(surface).bind(0.0, 0.0, 0.0)  # type: ignore[arg-type]
-        except ValueError:  # one that does not tell, as some written in C
+        except ValueError:  # no signature is known of some functions written in C
             pass
         except TypeError:
             fits = False

@@ -10,7 +10,7 @@ from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.quantities import FORCE, LENGTH
-from ehlcontact.results.steady import grid_doubt
+from ehlcontact.results.steady_result import grid_doubt
 from ehlcontact.results.table import SIView
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
@@ -51,7 +51,7 @@ class FullContact(Summary):
         Film in the centre, and the smallest, over the dry approach; in SI [m].
     film_error : ErrorEstimate or None
         How far approach (dry approaches) and films at rest may be from those of an endless fine mesh on the same
-        region; None where no coarser grid tells.
+        region; None without a coarser grid to compare with.
 
     Raises
     ------

@@ -26,7 +26,7 @@ from ehlcontact.quantities import (
     RATE,
     TIME,
 )
-from ehlcontact.results.steady import film_bars, grid_doubt
+from ehlcontact.results.steady_result import film_bars, grid_doubt
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.status import Status

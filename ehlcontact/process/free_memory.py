@@ -17,9 +17,9 @@ GROUP_FILES = (
 
 
 def available_bytes() -> float | None:
-    """Bytes that are free on the machine and within the limits of our control groups; None where nothing is told.
+    """Bytes that are free on the machine and within the limits of our control groups; None where unknown.
 
-    Where a machine does not tell what is free, that is all it has.
+    Where a machine does not report its free memory, all of its memory counts.
     """
     known = [*_of_machine(), *_of_groups()]
     return min(known, default=None)

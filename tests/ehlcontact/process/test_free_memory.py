@@ -2,7 +2,7 @@
 
 import pytest
 
-from ehlcontact.process import memory
+from ehlcontact.process import free_memory as memory
 
 
 @pytest.fixture
