@@ -4,11 +4,12 @@
 module                   responsibility
 =======================  ===========================================================================
 ``spec``                 `ModelSpec`: name, value reference, unit and start value of every variable
-``variable_list``        `VariableList`: variables in their order; the meaning of inputs, of all FMUs
+``variable_list``        `VariableList`: variables in their order; the lead of forces, of all FMUs
 ``contact_variables``    variables that the FMUs of all contact elements have
 ``spring_spec``          variables and C text of the elements without film memory
 ``film_spec``            variables, C text and tables of the elements with a film memory
 ``contact_spec``         `contact_spec`: specification of the FMU of a contact element
+``lead``                 `Lead`: the parameter `lead` of contacts, `force_lead` of rotors
 ``steps``                default communication step of a contact; advice on longer ones
 ``fmu_model``            `FmuModel`: specification, references and comparison of an element or rotor
 ``export``               `export_contact`: element to model, files, verification, FMU file

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fmu.spec import ModelSpec
 
-_TYPES = {"Real": "REAL", "Boolean": "BOOLEAN", "Enumeration": "ENUMERATION"}
+_TYPES = {"Real": "REAL", "Boolean": "BOOLEAN"}
 _PER_LINE = 4
 
 

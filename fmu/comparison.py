@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu.lead import CONTACT
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
 from reduced_models.elements.film_filters import CHAIN, DIRECT, INLET, film_entering
@@ -15,7 +16,6 @@ from reduced_models.elements.film_law import RATE, THETA, film_rest, film_step, 
 
 _Floats = NDArray[np.float64]
 
-END = 2  # of input_meaning
 STEPS = (1e-3, 1e-2, 0.05, 0.2, 0.02, 1.0)  # of 2a/u_sum, in turn, of the motion that a film is compared on
 DURATION = 25.0  # of it
 LEAST_THETA = 0.01  # below which the FMU bounds the clock of the film: csrc/film_law.h
@@ -48,7 +48,7 @@ def run(slave: Any, approach: _Floats, rate: _Floats) -> tuple[_Floats, _Floats,
     """Step through all states; returns force and tangents, partial derivatives of the force, and flags."""
     values, partials = np.empty((approach.size, 3)), np.empty((approach.size, 2))
     flags = np.empty(approach.size, dtype=bool)
-    slave.start(input_meaning=END)
+    slave.start(lead=CONTACT.at_end)
     for n, (u, v) in enumerate(zip(approach.tolist(), rate.tolist(), strict=True)):
         slave.set(approach=u, rate=v)
         slave.step(1.0)
@@ -158,7 +158,7 @@ def compare_film(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> Ve
     f, length, time = element._units
     T, u, v = film_motion(element)
     names = [variable.name for variable in spec.states]
-    slave.start(input_meaning=END, approach=u[0], rate=v[0])
+    slave.start(lead=CONTACT.at_end, approach=u[0], rate=v[0])
     exchange.start()
     rows: list[list[float]] = []  # force, step tangents, tangents, derivatives, force in model exchange
     wanted: list[list[float]] = []

@@ -8,10 +8,10 @@ from dataclasses import asdict
 from ehlcontact.errors import InputError
 from fmu.contact_variables import Element, Film
 from fmu.film_spec import film_parts
+from fmu.lead import HELD_PARALLEL
 from fmu.spec import ModelSpec
 from fmu.spring_spec import spring_parts
 from fmu.steps import default_step, step_advice
-from fmu.variable_list import MEANINGS
 from reduced_models.elements.validity import frequency_text, text_of
 
 LONGEST_NAME = 200  # characters of the name of a contact in the description of an FMU
@@ -19,7 +19,7 @@ LONGEST_NAME = 200  # characters of the name of a contact in the description of 
 _DIMENSIONLESS = "dimensionless: force in static loads, approach in dry Hertz approaches, time in 2a/u_sum"
 
 
-def contact_spec(element: Element, model_name: str | None = None) -> ModelSpec:
+def contact_spec(element: Element, model_name: str | None = None, lead: float = HELD_PARALLEL) -> ModelSpec:
     """Specification of a contact element's FMU.
 
     Units follow the element: SI, or "1" throughout for a dimensionless one. A linear element is the cubic one
@@ -32,22 +32,23 @@ def contact_spec(element: Element, model_name: str | None = None) -> ModelSpec:
         Of any kind.
     model_name : str, optional
         Name of the model; the class of the element by default.
+    lead : float
+        Start value of the parameter `lead`, 0 to 2 communication steps.
 
     Raises
     ------
     InputError
-        No contact element, or a name that is empty, too long or not printable.
+        No contact element, a name that is empty, too long or not printable, or another lead.
     """
     if not isinstance(element, Element):
         raise InputError("element", type(element).__name__, "a contact element (linear, cubic, ..., wide)")
     name = checked_name(type(element).__name__ if model_name is None else model_name)
-    parts = film_parts(element) if isinstance(element, Film) else spring_parts(element)
+    parts = film_parts(element, lead) if isinstance(element, Film) else spring_parts(element, lead)
     system = "SI units" if element.units == "SI" else _DIMENSIONLESS
     return ModelSpec(
         name=name,
         description=f"{parts.pop('description')}; {system}{source_text([element])}",
         notes=_notes(element),
-        choices=(MEANINGS,),
         step=default_step(element),
         time_unit="s" if element.units == "SI" else "1",
         **parts,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from fmu.c_headers import c_double
+from fmu.lead import CONTACT
 from fmu.variable_list import VariableList
 from reduced_models import (
     CubicContact,
@@ -94,6 +95,7 @@ class ContactVariables(VariableList):
             "BOX_LEAST_FORCE": c_double(least),
             "BOX_MOST_FORCE": c_double(most),
             "DEFAULT_TOLERANCE": c_double(ALLOWED_ERROR),
+            **CONTACT.macros,
         }
 
 

@@ -46,7 +46,7 @@ class _Instance:
     def _initialize(self, **values: float) -> None:
         if self.fmi == 2:
             self.raw.setupExperiment(startTime=0.0)
-        self.assign(**values)
+        self.set(**values)
         self.raw.enterInitializationMode()
         self.raw.exitInitializationMode()
         self.time = 0.0
@@ -58,19 +58,6 @@ class _Instance:
     def set(self, **values: float) -> None:
         """Set real variables."""
         self._set([self.reference[name] for name in values], [float(value) for value in values.values()])
-
-    def choose(self, **values: int) -> None:
-        """Set enumerations."""
-        put = self._named("setInteger", "setInt64")
-        put([self.reference[name] for name in values], list(values.values()))
-
-    def assign(self, **values: float) -> None:
-        """Set real variables and enumerations."""
-        choices = {name: int(value) for name, value in values.items() if self.types[name] == "Enumeration"}
-        if choices:
-            self.choose(**choices)
-        if len(values) > len(choices):
-            self.set(**{name: value for name, value in values.items() if name not in choices})
 
     def get(self, *names: str) -> list[float]:
         """Read real variables."""

@@ -26,6 +26,7 @@ def export_contact(
     *,
     fmi: int = 2,
     model_name: str | None = None,
+    lead: float | None = None,
     platforms: str | Iterable[str] | None = None,
     overwrite: bool = False,
     progress: Progress | None = None,
@@ -35,8 +36,8 @@ def export_contact(
     Inputs `approach` and `rate`, output `force` with its tangents `stiffness` and `damping`, and
     `outside_validity` with the bound that is left. Coefficients of elements without memory, and their interval,
     are tunable parameters that start at the element's values; those of a film memory are constants, for others
-    could put energy into a vibration. The fixed parameter `input_meaning` sets what the inputs of a
-    co-simulation step are: extrapolated (1, the default), those of its end (2), or held (3). Units are the
+    could put energy into a vibration. The fixed parameter `lead` is the time, in communication
+    steps, from the inputs of a step to that for which the force is given: see `lead` below. Units are the
     element's: SI, or "1" for a dimensionless element. Reference inputs and results of the element are inside, for
     `verify_references`. The same element, name, library version and compiler give the same bytes.
 
@@ -50,6 +51,12 @@ def export_contact(
         FMI version, 2 or 3.
     model_name : str, optional
         Name of the model; the class of the element by default.
+    lead : float, optional
+        Start value of `lead`, 0 to 2 communication steps; 1.5 by default. What is right depends on what the force
+        is given to: 1.5 for a mass that holds the force over its step while master and FMU step in parallel, which
+        is what most co-simulation tools do, 1 if it advances by symplectic Euler; 0.5 and 0 for the same where the
+        FMU is given the motion of the end of the step (serial masters). A wrong value costs the damping C as much
+        as stiffness times step times the difference: ``docs/coupling.md``.
     platforms : str or iterable of str, optional
         For which the FMU has binaries: ``x86_64-linux``, ``x86_64-windows``, ``x86_64-darwin``,
         ``aarch64-darwin`` (in FMI 3 ``aarch64-linux`` as well), or ``all``; also by the names of FMI 2,
@@ -87,6 +94,7 @@ def export_contact(
         path,
         fmi=fmi,
         model_name=model_name,
+        lead=lead,
         platforms=platforms,
         overwrite=overwrite,
         progress=progress,
@@ -99,6 +107,7 @@ def export_verified(
     *,
     fmi: int = 2,
     model_name: str | None = None,
+    lead: float | None = None,
     platforms: str | Iterable[str] | None = None,
     overwrite: bool = False,
     progress: Progress | None = None,
@@ -106,7 +115,7 @@ def export_verified(
     """Export an element or rotor; returns file and verification (None if this machine cannot run the FMU)."""
     if isinstance(fmi, bool) or fmi not in FMI_FILES:
         raise InputError("fmi", fmi, "2 or 3")
-    model = fmu_model(element, model_name)
+    model = fmu_model(element, model_name, lead)
     require_finite(model)
     wanted = choose(platforms, fmi)
     target = free_target(path, overwrite)  # before compiling

@@ -9,11 +9,12 @@ from numpy.typing import NDArray
 
 from fmu.c_headers import c_double, c_table
 from fmu.contact_variables import ContactVariables, Film
+from fmu.lead import CONTACT
 
 LAW = "film_law", "film_filters", "film_curve"  # C files of the film law, each with its header
 
 
-def film_parts(element: Film) -> dict[str, Any]:
+def film_parts(element: Film, lead: float) -> dict[str, Any]:
     """Fields of the `ModelSpec` of an element with a film memory."""
     common, lags = ContactVariables(element), element.lags
     states = ("s", "y", *(f"q[{k}]" for k in range(1, lags + 1)))
@@ -32,7 +33,7 @@ def film_parts(element: Film) -> dict[str, Any]:
     words = "at the end of the last inner step, through the film's memory too"
     for name, of, unit in (("step_stiffness", "approach", "N/m"), ("step_damping", "rate", "N.s/m")):
         common.add(name, "local", "discrete", f"d(force)/d({of}) {words}", unit=common.unit(unit))
-    common.meaning()
+    common.lead(CONTACT, lead)
     common.flags(depends, first=False)
     common.box(low_high=True)
     nominal = max(rate * time / length, 1e-3)

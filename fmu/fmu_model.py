@@ -10,6 +10,7 @@ from ehlcontact.errors import InputError
 from fmu.comparison import compare_film, compare_spring
 from fmu.contact_spec import contact_spec
 from fmu.contact_variables import Element, Film
+from fmu.lead import HELD_PARALLEL
 from fmu.references.contact_references import contact_references
 from fmu.references.series import References
 from fmu.rotor.comparison import compare_rotor
@@ -43,23 +44,25 @@ class FmuModel:
     compare: Callable[[Any, Any], Verification]
 
 
-def fmu_model(source: Element | RotorModel, model_name: str | None = None) -> FmuModel:
+def fmu_model(source: Element | RotorModel, model_name: str | None = None, lead: float | None = None) -> FmuModel:
     """Model of the FMU of a contact element or a rotor.
+
+    `lead` is the start value of `lead` or `force_lead`, by default that of the kind.
 
     Raises
     ------
     InputError
-        Neither of them, or a name that is empty, too long or not printable.
+        Neither of them, a name that is empty, too long or not printable, or another lead.
     """
     if isinstance(source, JeffcottRotor):
         allowed = "RotorModel(rotor, contacts), of `fmu`: what export_rotor makes an FMU of"
         raise InputError("element", type(source).__name__, allowed)
     if isinstance(source, RotorModel):
-        spec, elements = rotor_spec(source, model_name), source.elements
+        spec, elements = rotor_spec(source, model_name, lead), source.elements
         compare: Any = compare_rotor
         references: Any = rotor_references
     else:
-        spec, elements = contact_spec(source, model_name), (source,)
+        spec, elements = contact_spec(source, model_name, HELD_PARALLEL if lead is None else lead), (source,)
         compare = compare_film if isinstance(source, Film) else compare_spring
         references = contact_references
     return FmuModel(

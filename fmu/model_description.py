@@ -29,7 +29,7 @@ SECTIONS_2 = {
     "ContinuousStateDerivative": "Derivatives",
     "InitialUnknown": "InitialUnknowns",
 }
-TYPES_3 = {"Real": "Float64", "Boolean": "Boolean", "Enumeration": "Enumeration"}
+TYPES_3 = {"Real": "Float64", "Boolean": "Boolean"}
 CAPABILITIES_3 = {
     "canGetAndSetFMUState": "true",
     "canSerializeFMUState": "true",
@@ -60,7 +60,6 @@ def model_description(spec: ModelSpec, token: str, fmi: int) -> bytes:
         root.set("numberOfEventIndicators", str(len(spec.indicators)))
     (_interfaces_2 if fmi == 2 else _interfaces_3)(root, spec)
     _units(root, spec)
-    _types(root, spec, fmi)
     categories = _child(root, "LogCategories")
     for name, text in LOG_CATEGORIES.items():
         _child(categories, "Category", name=name, description=text)
@@ -143,17 +142,6 @@ def _units(root: Element, spec: ModelSpec) -> None:
             _child(unit, "DisplayUnit", name=display, factor=repr(factor))
 
 
-def _types(root: Element, spec: ModelSpec, fmi: int) -> None:
-    definitions = _child(root, "TypeDefinitions")
-    for choice in spec.choices:
-        if fmi == 2:
-            parent = _child(_child(definitions, "SimpleType", name=choice.name), "Enumeration")
-        else:
-            parent = _child(definitions, "EnumerationType", name=choice.name)
-        for value, (name, text) in enumerate(choice.items, start=1):
-            _child(parent, "Item", name=name, value=str(value), description=text)
-
-
 # ---- variables
 
 
@@ -171,7 +159,7 @@ def _variable(parent: Element, variable: Variable, spec: ModelSpec, fmi: int) ->
         entry = _child(_child(parent, "ScalarVariable", **facts), variable.type)
     else:
         entry = _child(parent, TYPES_3[variable.type], **facts)
-    _set_value(entry, variable, spec)
+    _set_value(entry, variable)
     if variable.derivative_of is not None:
         entry.set("derivative", str(_place(spec, variable.derivative_of, fmi)))
 
@@ -181,11 +169,8 @@ def _place(spec: ModelSpec, name: str, fmi: int) -> int:
     return spec.index(name) if fmi == 2 else spec[name].value_reference
 
 
-def _set_value(entry: Element, variable: Variable, spec: ModelSpec) -> None:
-    """Set declared type, unit, bounds, nominal value and start value."""
-    number = str if variable.type == "Enumeration" else repr
-    if variable.type == "Enumeration":
-        entry.set("declaredType", spec.choices[0].name)
+def _set_value(entry: Element, variable: Variable) -> None:
+    """Set unit, bounds, nominal value and start value."""
     numbers = {
         "min": variable.minimum,
         "max": variable.maximum,
@@ -198,7 +183,7 @@ def _set_value(entry: Element, variable: Variable, spec: ModelSpec) -> None:
             entry.set("displayUnit", DISPLAY_UNITS[variable.unit][0])
     for name, value in numbers.items():
         if value is not None:
-            entry.set(name, number(value))
+            entry.set(name, repr(value))
 
 
 def _time_and_indicators(parent: Element, spec: ModelSpec) -> None:

@@ -59,7 +59,7 @@ class Variable:
     causality: str  # input, parameter, output, local
     variability: str  # continuous, tunable, fixed, discrete, constant
     description: str
-    type: str = "Real"  # Real, Boolean, Enumeration
+    type: str = "Real"  # Real, Boolean
     unit: str | None = None  # key of UNITS; None of a Boolean, or of a unit that FMI cannot express
     start: float | None = None
     minimum: float | None = None
@@ -68,14 +68,6 @@ class Variable:
     depends: tuple[str, ...] = ()  # names of inputs, parameters and states
     derivative_of: str | None = None  # name of a state
     rate: str | None = None  # of an input: name of the input that is its rate
-
-
-@dataclass(frozen=True, slots=True)
-class Choice:
-    """Values of an Enumeration, from 1, by name and description."""
-
-    name: str
-    items: tuple[tuple[str, str], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +86,6 @@ class ModelSpec:
     notes: tuple[tuple[str, str], ...] = ()  # label and text, for the documentation only
     macros: Mapping[str, str] = field(default_factory=dict)  # of config.h, name to C text
     tables: Mapping[str, str] = field(default_factory=dict)  # generated files, name to C text; a .c is compiled
-    choices: tuple[Choice, ...] = ()
     step: float = 1e-3  # that resolves the contact
     tolerance: float = 1e-6  # relative, that model exchange needs for three digits of what moves
     time_unit: str = "s"

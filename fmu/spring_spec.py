@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from fmu.contact_variables import ContactVariables, band_text
+from fmu.lead import CONTACT
 from reduced_models import CubicContact, LinearContact, PolynomialContact, PowerLawContact
 
 # Unit and description of every coefficient.
@@ -37,7 +38,7 @@ _VISCOUS = ("C1", "C")
 Spring = LinearContact | CubicContact | PolynomialContact | PowerLawContact
 
 
-def spring_parts(element: Spring) -> dict[str, Any]:
+def spring_parts(element: Spring, lead: float) -> dict[str, Any]:
     """Fields of the `ModelSpec` of an element without memory."""
     common = ContactVariables(element)
     coefficients = dict(_POWER if isinstance(element, PowerLawContact) else _POLYNOMIAL)
@@ -48,7 +49,7 @@ def spring_parts(element: Spring) -> dict[str, Any]:
     damper = "seven-term" if seven else "viscous"
     levels_off = seven and element.rate is not None
     law = (*coefficients, *_ENDS, *(("rate_max",) if levels_off else ()))
-    _variables(element, common, coefficients, law, levels_off)
+    _variables(element, common, coefficients, law, levels_off, lead)
     return {
         "description": f"Rolling contact as a {element.kind} spring with a {damper} damper",
         "sources": ("core.c", "core_step.c", "validity.c", "model_contact.c"),
@@ -59,7 +60,12 @@ def spring_parts(element: Spring) -> dict[str, Any]:
 
 
 def _variables(
-    element: Spring, common: ContactVariables, coefficients: dict[str, Any], law: tuple[str, ...], levels_off: bool
+    element: Spring,
+    common: ContactVariables,
+    coefficients: dict[str, Any],
+    law: tuple[str, ...],
+    levels_off: bool,
+    lead: float,
 ) -> None:
     values = {"K2": 0.0, "K3": 0.0} | element.parameters | {"low": element.low, "high": element.high}
     force, stiffness, damping = element.step_tangents(1.0, float(element.high), 0.0)
@@ -86,7 +92,7 @@ def _variables(
             "rate_max", "parameter", "tunable", "Largest rate of the data, beyond which the damper levels off",
             unit=common.unit("m/s"), start=float(element.rate or 0.0), minimum=0.0,
         )  # fmt: skip
-    common.meaning()
+    common.lead(CONTACT, lead)
     common.flags(depends, first=False)
     common.box(low_high=False, rate=not levels_off)
 

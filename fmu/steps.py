@@ -12,6 +12,8 @@ from fmu.contact_variables import Element
 
 SHARE_OF_TRANSIT = 0.05  # default step, over the transit time 2a/u_sum of the film
 FAST_STEP = 0.1  # step times angular frequency of the fastest motion for which steps are advised
+ADDED_DAMPING = 2.4  # extrapolated motion adds this times K h (w h)^4 to the damping, at most: docs/coupling.md
+ALLOWED_DAMPING = 0.05  # of a contact, that such steps may add
 
 
 def default_step(element: Element) -> float:
@@ -55,20 +57,20 @@ def step_advice(element: Element) -> list[tuple[str, str, str]]:
     return [
         *lines,
         (
-            "largest step, inputs held",
-            f"{late:.3g}{unit}",
-            f"a force one step h late takes K h off the damping C; K = {K:.4g}, C = {C:.4g}",
+            "largest step, with the right lead",
+            f"{late * ALLOWED_DAMPING / (ADDED_DAMPING * FAST_STEP**4):.3g}{unit}",
+            f"and at most {FAST_STEP:g}/w for the fastest motion w: then C is {ALLOWED_DAMPING:.0%} too large at"
+            f" most, as {ADDED_DAMPING:g} K h (w h)^4 is added; K = {K:.4g}, C = {C:.4g}",
         ),
         (
-            "largest step, inputs extrapolated",
-            f"{late / FAST_STEP**2:.3g}{unit}",
-            f"where K h (w h)^2 is C, twice the damping then, at w h = {FAST_STEP:g} of the fastest "
-            "motion w; it goes like (w h)^-2",
+            "largest step, with a lead half a step too small",
+            f"{2.0 * late:.3g}{unit}",
+            "where K h/2 is C and the contact damps no more: beyond, vibrations grow",
         ),
         (
-            "largest step, force read after inputs are set, or iterated",
+            "largest step, force iterated",
             "the master's",
-            "set, get, then doStep has no delay; input_meaning 2 (end) is for rollback",
+            "for rollback lead is 0; set, get, then doStep has no delay either",
         ),
     ]
 

@@ -1,22 +1,11 @@
-"""`VariableList`: variables in the order of their value references; the parameter `input_meaning` of all FMUs."""
+"""`VariableList`: variables in the order of their value references; the lead of forces, of all FMUs."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from fmu.spec import Choice, Variable
-
-MEANINGS = Choice(
-    "InputMeaning",
-    (
-        (
-            "extrapolated",
-            "inputs are those of the step's start: approach goes on by its rate, rate by its last change",
-        ),
-        ("end", "inputs are those of the step's end, for masters that iterate"),
-        ("held", "inputs are those of the step's start and stay so: the force got is that of the start"),
-    ),
-)
+from fmu.lead import Lead
+from fmu.spec import Variable
 
 
 class VariableList:
@@ -36,10 +25,9 @@ class VariableList:
             unit=unit, depends=depends, derivative_of=name,
         )  # fmt: skip
 
-    def meaning(self) -> None:
-        """Append the parameter `input_meaning`."""
+    def lead(self, kind: Lead, start: float) -> None:
+        """Append the lead of forces."""
         self.add(
-            "input_meaning", "parameter", "fixed",
-            "What the inputs of a co-simulation step mean: 1 extrapolated, 2 end, 3 held",
-            type="Enumeration", start=1, minimum=1, maximum=len(MEANINGS.items),
+            kind.name, "parameter", "fixed", kind.text,
+            unit="1", start=kind.check(start), minimum=0.0, maximum=kind.most,
         )  # fmt: skip

@@ -11,9 +11,12 @@ from ehlcontact.errors import InputError
 from fmu.contact_variables import Element
 from fmu.fmu_file import FmuFile, opened
 from fmu.fmu_model import FmuModel, fmu_model
+from fmu.lead import CONTACT, ROTOR
 from fmu.rotor.model import RotorModel
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
+
+EXPORT_OPTIONS = {CONTACT.name, ROTOR.name}  # whose start values are chosen at export
 
 
 def verify(path: str | os.PathLike[str], element: Element | RotorModel) -> Verification:
@@ -79,7 +82,7 @@ def _declarations(spec: ModelSpec, known: dict[str, Any]) -> tuple[str, ...]:
     for variable in spec.variables:
         declared = known[variable.name]
         start = None if declared.start is None else float(declared.start)
-        if (declared.unit, start) != (variable.unit, variable.start):
+        if (declared.unit, start) != (variable.unit, variable.start) and variable.name not in EXPORT_OPTIONS:
             found.append(
                 f"{variable.name}: start {start} [{declared.unit}] in the FMU, "
                 f"{variable.start} [{variable.unit}] in the element"

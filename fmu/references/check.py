@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.summary import Summary
-from fmu.comparison import END, each_over, floored
+from fmu.comparison import each_over, floored
 from fmu.fmu_file import FmuFile, opened
+from fmu.lead import inputs_at_end
 from fmu.references.files import POINTS, STEPS, changed_files, read_references
 from fmu.references.series import References, Trial
 from fmu.verification import findings_text
@@ -144,11 +145,11 @@ def _walk(slave: Any, references: References) -> _Floats:
     assert trial is not None
     names = tuple(trial.unknowns)
     rows = _rows(trial)
-    ends = references.parameters.get("input_meaning") == END
+    ends = inputs_at_end(references.parameters)
     slave.start(**references.parameters, **rows[0])
     found = [slave.read(*names)]
     for k in range(1, trial.time.size):
-        slave.assign(**rows[k if ends else k - 1])
+        slave.set(**rows[k if ends else k - 1])
         slave.step_to(float(trial.time[k]))
         found.append(slave.read(*names))
     return np.array(found)

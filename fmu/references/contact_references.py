@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu.comparison import END, STEPS, bounds, film_rates_at, film_walk, tangents
+from fmu.comparison import STEPS, bounds, film_rates_at, film_walk, tangents
 from fmu.contact_variables import Element, Film
+from fmu.lead import CONTACT
 from fmu.references.series import References, Trial
 from fmu.spec import ModelSpec
 from fmu.steps import SHARE_OF_TRANSIT, round_down
@@ -45,7 +46,7 @@ def contact_references(element: Element, spec: ModelSpec) -> References:
         every = slice(None, None, EVEN[0] // POINTS)
         points = _spring(element, np.arange(time[every].size, dtype=float), approach[every], rate[every])
     about = "A vibration from rest, with a pulse of load and a lift-off, computed by the element in Python"
-    return References(steps, points, {"input_meaning": END}, about=about)
+    return References(steps, points, {CONTACT.name: CONTACT.at_end}, about=about)
 
 
 def _reach_of_film(element: Film) -> tuple[float, float, float, float]:

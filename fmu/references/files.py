@@ -109,8 +109,7 @@ def _parameters(values: Mapping[str, float], spec: ModelSpec) -> bytes:
     for name, value in values.items():
         entry = ElementTree.SubElement(parent, f"{{{PARAMETER_SET}}}Parameter", name=name)
         kind = spec[name].type
-        shown = spec.choices[0].items[int(value) - 1][0] if kind == "Enumeration" else repr(float(value))
-        ElementTree.SubElement(entry, f"{{{PARAMETER_SET}}}{kind}", value=shown)
+        ElementTree.SubElement(entry, f"{{{PARAMETER_SET}}}{kind}", value=repr(float(value)))
     return _xml(root)
 
 
@@ -234,11 +233,9 @@ def _read_parameters(path: Path, known: Mapping[str, Any]) -> dict[str, float]:
     values = {}
     for entry in ElementTree.parse(path).getroot().iter(f"{{{PARAMETER_SET}}}Parameter"):
         name, value = entry.get("name", ""), entry[0].get("value", "")
-        kind = known[name]
-        if kind.type == "Enumeration":
-            values[name] = {item.name: float(item.value) for item in kind.declaredType.items}[value]
-        else:
-            values[name] = float(value)
+        if name not in known:
+            raise KeyError(name)
+        values[name] = float(value)
     return values
 
 

@@ -40,11 +40,11 @@ class References:
     ----------
     steps : Trial or None
         Co-simulation, one step from each row to the next. The inputs of a row are set before the step that ends
-        there where `parameters` has ``input_meaning`` 2 (end), else before the one that begins there.
+        there where `parameters` has ``lead`` 0 or ``force_lead`` 1, else before the one that begins there.
     points : Trial or None
         Model exchange: inputs and states, and the derivatives and outputs there.
     parameters : mapping of str to float
-        What is set before initialization; of an enumeration its number.
+        What is set before initialization.
     tolerance : float
         Largest difference that passes, over the number itself and at least 1e-3 of the largest of its column.
     about : str

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu.comparison import END, difference
+from fmu.comparison import difference
+from fmu.lead import ROTOR
 from fmu.rotor.model import RotorModel
 from fmu.rotor.reference_rotor import Felt, accelerations, felt_by, load_size
 from fmu.spec import ModelSpec
@@ -26,7 +27,7 @@ def compare_rotor(slave: Any, exchange: Any, model: RotorModel, spec: ModelSpec)
     moving = names[: run.motion.shape[1]]
     settings = {"unbalance": run.rotor.unbalance, "speed_rpm": run.rotor.speed_rpm, "inner_step": run.dt}
     start = dict(zip(moving, run.motion[0].tolist(), strict=True)) | {k: v[0] for k, v in run.inputs.items()}
-    slave.start(input_meaning=END, **settings, **start)
+    slave.start(force_lead=ROTOR.at_end, **settings, **start)
     exchange.start(**settings)
     equations = _Equations(model, exchange, moving)
     ours, wrong = [run.motion[0]], 0

@@ -21,6 +21,7 @@ def export_rotor(
     start: RotorState | None = None,
     fmi: int = 2,
     model_name: str | None = None,
+    force_lead: float | None = None,
     platforms: str | Iterable[str] | None = None,
     overwrite: bool = False,
     progress: Progress | None = None,
@@ -45,6 +46,10 @@ def export_rotor(
     start : RotorState, optional
         Where it starts: by default at its static equilibrium; without contacts, with the journal at the origin and
         the shaft bent by the static load.
+    force_lead : float, optional
+        Start value of the parameter `force_lead`: the forces given are those of the time `force_lead`
+        communication steps after the start of the step, 0 to 1. By default 1/2 without contacts, for the FMUs of
+        contacts give those of the middle of the step, and 0 with them.
     fmi, model_name, platforms, overwrite, progress
         As of `export_contact`.
 
@@ -70,6 +75,7 @@ def export_rotor(
         path,
         fmi=fmi,
         model_name=model_name,
+        lead=force_lead,
         platforms=platforms,
         overwrite=overwrite,
         progress=progress,

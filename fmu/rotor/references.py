@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu.comparison import END
+from fmu.lead import ROTOR
 from fmu.references.series import References, Trial
 from fmu.rotor.model import RotorModel
 from fmu.rotor.reference_rotor import accelerations, felt_by
@@ -31,7 +31,7 @@ def rotor_references(model: RotorModel, spec: ModelSpec) -> References:
     run = model.run
     names = [variable.name for variable in spec.states]
     count = run.motion.shape[1]
-    parameters = {"input_meaning": float(END), "unbalance": run.rotor.unbalance, "speed_rpm": run.rotor.speed_rpm}
+    parameters = {ROTOR.name: ROTOR.at_end, "unbalance": run.rotor.unbalance, "speed_rpm": run.rotor.speed_rpm}
     parameters |= {"inner_step": run.dt} | dict(zip(names[:count], run.motion[0].tolist(), strict=True))
     # positions: of velocities the errors of the balance show more
     results = dict(zip(names[: count // 2], run.motion.T[: count // 2], strict=True))

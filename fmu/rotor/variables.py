@@ -9,10 +9,11 @@ import numpy as np
 from fmu.c_headers import c_double, c_table
 from fmu.contact_spec import checked_name, contact_spec, source_text
 from fmu.contact_variables import ALLOWED_ERROR
+from fmu.lead import HELD_PARALLEL, ROTOR, force_lead_for
 from fmu.rotor.laws import law_tables, numbers_of_laws
 from fmu.rotor.model import RotorModel
 from fmu.spec import ModelSpec
-from fmu.variable_list import MEANINGS, VariableList
+from fmu.variable_list import VariableList
 
 BODIES = ("disc", "journal")
 LEAST_INNER_STEP = 1e-6  # of the default: below it, importers repeat what is refused without end
@@ -20,7 +21,7 @@ EXCHANGE_TOLERANCE = 1e-8  # an orbit is some thousandths of the approach; 1e-6 
 _FORCES = {"journal": "Further force on the journal", "disc": "Further force on the disc"}
 
 
-def rotor_spec(model: RotorModel, model_name: str | None = None) -> ModelSpec:
+def rotor_spec(model: RotorModel, model_name: str | None = None, force_lead: float | None = None) -> ModelSpec:
     """Specification of a rotor's FMU.
 
     Parameters
@@ -28,6 +29,9 @@ def rotor_spec(model: RotorModel, model_name: str | None = None) -> ModelSpec:
     model : RotorModel
     model_name : str, optional
         Name of the model; the class of the rotor by default.
+    force_lead : float, optional
+        Start value of the parameter, 0 to 1 communication steps. By default 1/2 between FMUs of contacts, whose
+        forces are those of the middle of a step, and 0 with the contacts inside.
 
     Raises
     ------
@@ -35,7 +39,7 @@ def rotor_spec(model: RotorModel, model_name: str | None = None) -> ModelSpec:
         A name that is empty, too long or not printable.
     """
     name = checked_name(type(model.rotor).__name__ if model_name is None else model_name)
-    made = _Variables(model)
+    made = _Variables(model, force_lead)
     made.fill()
     closed = bool(model.elements)
     mounts = range(1, len(model.rotor.mounts) + 1)
@@ -54,7 +58,6 @@ def rotor_spec(model: RotorModel, model_name: str | None = None) -> ModelSpec:
         notes=_notes(model),
         macros=_macros(model, made),
         tables={"rotor_data.h": _data(model), **(law_tables(model.elements) if closed else {})},
-        choices=(MEANINGS,),
         step=model.inner_step,
         tolerance=EXCHANGE_TOLERANCE,
         indicators=tuple((f"contact_indicator[{i}]", f"force[{i}]") for i in mounts) if closed else (),
@@ -74,9 +77,11 @@ def rotor_spec(model: RotorModel, model_name: str | None = None) -> ModelSpec:
 class _Variables(VariableList):
     """The variables of a rotor, numbered as they are made."""
 
-    def __init__(self, model: RotorModel) -> None:
+    def __init__(self, model: RotorModel, lead: float | None) -> None:
         super().__init__()
         self.model, self.rotor = model, model.rotor
+        between_contacts = 0.0 if model.elements else force_lead_for(HELD_PARALLEL)
+        self.start_of_lead = between_contacts if lead is None else lead
         self.axes = [("x", "y")[k] for k in model.rotor.axes]
         self.mounts = range(1, len(model.rotor.mounts) + 1)
         self.first: dict[str, int] = {}  # value references of the first of many
@@ -207,7 +212,7 @@ class _Variables(VariableList):
             ("speed_rpm", "rev/min", "Speed of the unbalance; the films of contacts stay as made"),
         ):
             self.add(name, "parameter", "tunable", text, unit=unit, start=float(getattr(r, name)), minimum=0.0)
-        self.meaning()
+        self.lead(ROTOR, self.start_of_lead)
         self.add(
             "inner_step", "parameter", "fixed", "Longest step inside one of co-simulation, which is cut evenly",
             unit="s", start=self.model.inner_step, minimum=LEAST_INNER_STEP * self.model.inner_step,
@@ -255,7 +260,9 @@ def _macros(model: RotorModel, made: _Variables) -> dict[str, str]:
         "DEFAULT_TOLERANCE": ALLOWED_ERROR,
         "LEAST_INNER_STEP": LEAST_INNER_STEP * model.inner_step,
     }
-    return {k: str(v) for k, v in counts.items()} | {k: c_double(v) for k, v in numbers.items()}
+    return (
+        {k: str(v) for k, v in counts.items()} | {k: c_double(v) for k, v in numbers.items()} | dict(ROTOR.macros)
+    )
 
 
 def _notes(model: RotorModel) -> tuple[tuple[str, str], ...]:

@@ -41,11 +41,11 @@ class SystemVerification:
         return asdict(self) | {"passes": self.passes}
 
 
-def verify_system(content: bytes, made: RotorModel, step: float) -> SystemVerification:
+def verify_system(content: bytes, made: RotorModel, step: float, *, serial: bool = False) -> SystemVerification:
     """Hold an archive against the schema, and run it beside the Python rotor from equilibrium.
 
     At the start a force comes on the disc, a tenth of the static load along it and across, where the rotor moves
-    that way; compared is the journal over 400 steps.
+    that way; compared is the journal over 400 steps. `serial`: the rotor steps first, then its contacts.
 
     Raises
     ------
@@ -58,7 +58,7 @@ def verify_system(content: bytes, made: RotorModel, step: float) -> SystemVerifi
     watched = [("rotor", f"journal_{'xy'[axis]}") for axis in rotor.axes]
     try:
         forces = dict(zip(names, push[list(rotor.axes)].tolist(), strict=True))
-        with SystemRun(content, {"rotor": forces}) as run:
+        with SystemRun(content, {"rotor": forces}, serial=serial) as run:
             ours = run.run(step, STEPS, watched)
     except Exception as error:  # fmpy raises bare Exception among others, also for a call that an FMU refuses
         raise VerificationError(f"the system does not run at steps of {step:g} s: {error}") from None

@@ -21,10 +21,11 @@ from fmu.binaries import Platform, choose, this_machine
 from fmu.binaries.libraries import Progress
 from fmu.contact_spec import checked_name
 from fmu.export import export_contact, free_target
+from fmu.lead import CONTACT, HELD_PARALLEL, force_lead_for
 from fmu.rotor.export import export_rotor
 from fmu.rotor.model import RotorModel
 from fmu.sources import FMI_FILES
-from fmu.steps import damping_at, round_down
+from fmu.steps import ADDED_DAMPING, damping_at, round_down
 from fmu.system.check import ALLOWED, SystemVerification, verify_system
 from fmu.system.structure import Component, Connector, Wire, system_structure
 from fmu.verify_before_write import VerificationError
@@ -45,6 +46,7 @@ def export_system(
     fmi: int = 2,
     model_name: str = NAME,
     step: float | None = None,
+    lead: float = HELD_PARALLEL,
     platforms: str | Iterable[str] | None = None,
     overwrite: bool = False,
     progress: Progress | None = None,
@@ -72,6 +74,9 @@ def export_system(
     step : float, optional
         Of the default experiment [s]; to be set by hand in Ecos. By default one that adds less than 5 % to the
         damping of a contact at the fastest vibration of the journal: 1, 2 or 5 times a power of ten.
+    lead : float
+        Of the FMUs of the contacts, as for `export_contact`; that of the rotor, `force_lead`, follows from it.
+        1.5 is for importers that step all components at once, 0.5 for those that step the rotor first.
     platforms, overwrite, progress
         As for `export_contact`.
 
@@ -96,6 +101,7 @@ def export_system(
         fmi=fmi,
         model_name=model_name,
         step=step,
+        lead=lead,
         platforms=platforms,
         overwrite=overwrite,
         progress=progress,
@@ -109,6 +115,7 @@ def export_verified_system(
     fmi: int = 2,
     model_name: str = NAME,
     step: float | None = None,
+    lead: float = HELD_PARALLEL,
     platforms: str | Iterable[str] | None = None,
     overwrite: bool = False,
     progress: Progress | None = None,
@@ -125,7 +132,7 @@ def export_verified_system(
     wanted = choose(platforms, fmi)
     target = free_target(path, overwrite, ".ssp")
     step = default_system_step(made) if step is None else require_positive("step", step)
-    system = _System(made, model_name, step, fmi)
+    system = _System(made, model_name, step, CONTACT.check(lead), fmi)
     content = system.archive(wanted, progress)
     own = this_machine()
     found = None
@@ -139,9 +146,9 @@ def export_verified_system(
 def default_system_step(made: RotorModel) -> float:
     """A step [s] that leaves the contacts their damping, 1, 2 or 5 times a power of ten.
 
-    Contact and rotor extrapolate what they have of each other, which adds about K h (w h)^2/3 to the damping of a
-    vibration of w; the fastest is that of the journal on the contacts. Such a loop is stable up to w h = 0.7, and
-    as long as h resolves how fast their dampers alone would stop the journal.
+    Contacts extrapolate the motion of the rotor, which adds about 2.4 K h (w h)^4 to the damping of a vibration of
+    w; the fastest is that of the journal on the contacts. Such a loop is stable up to w h = 0.57, and as long as h
+    resolves how fast their dampers alone would stop the journal.
     """
     rotor, contacts = made.rotor, made.elements
     approaches = rotor.approaches(made.state.journal).tolist()
@@ -152,7 +159,7 @@ def default_system_step(made: RotorModel) -> float:
     w = sqrt(_fastest(rotor, K, rotor.shaft_stiffness))
     rate = max(w, _fastest(rotor, C, rotor.shaft_damping))
     times = C[C > 0.0] / K[C > 0.0]
-    h = (3.0 * FOREIGN_DAMPING * float(times.min(initial=inf)) / (w * w)) ** (1.0 / 3.0)
+    h = (FOREIGN_DAMPING / ADDED_DAMPING * float(times.min(initial=inf)) / w**4) ** 0.2
     return round_down(min(h, LONGEST / rate))
 
 
@@ -164,7 +171,7 @@ def _fastest(rotor: JeffcottRotor, of_contacts: NDArray[np.float64], of_shaft: f
 
 
 def _require_verified(content: bytes, system: _System) -> SystemVerification:
-    found = verify_system(content, system.made, system.step)
+    found = verify_system(content, system.made, system.step, serial=system.lead < 1.0)
     if not found.passes:
         off = f"the journal is {found.deviation:.2g} of its way after a load step off, allowed {ALLOWED:g}"
         reason = "; ".join(found.findings) or f"{off}, at steps of {system.step:g} s"
@@ -179,6 +186,7 @@ class _System:
     made: RotorModel
     name: str
     step: float
+    lead: float
     fmi: int
 
     def archive(self, platforms: Sequence[Platform], progress: Progress | None) -> bytes:
@@ -191,6 +199,7 @@ class _System:
                 self.made.rotor,
                 files["rotor"],
                 start=self.made.state,
+                force_lead=force_lead_for(self.lead),
                 fmi=fmi,
                 model_name="rotor",
                 platforms=names,
@@ -198,7 +207,13 @@ class _System:
             )
             for part, element in zip(self._parts[1:], self.made.elements, strict=True):
                 export_contact(
-                    element, files[part], fmi=fmi, model_name=part, platforms=names, progress=next(parts)
+                    element,
+                    files[part],
+                    fmi=fmi,
+                    model_name=part,
+                    lead=self.lead,
+                    platforms=names,
+                    progress=next(parts),
                 )
             content = {f"resources/{part}.fmu": file.read_bytes() for part, file in files.items()}
             return pack(content | {"SystemStructure.ssd": self._description(files)})

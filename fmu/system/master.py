@@ -1,4 +1,4 @@
-"""A master for system archives: set, doStep and get of all components, then the wires; through fmpy.
+"""Master for system archives: all components step at once, or one after the other; through fmpy.
 
 For checks: it does no more than any importer of such an archive.
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 import io
 import tempfile
 import zipfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import ExitStack, chdir
 from pathlib import Path
 from typing import Any
@@ -35,6 +35,8 @@ class SystemRun:
         The archive.
     starts : mapping
         Values of inputs and states to start from, by component and name, beside those of the archive.
+    serial : bool
+        Whether components step one after the other, each with the new outputs of those before it.
 
     Raises
     ------
@@ -42,9 +44,11 @@ class SystemRun:
         No archive with FMUs that this machine runs.
     """
 
-    def __init__(self, content: bytes, starts: Mapping[str, Mapping[str, float]] | None = None):
+    def __init__(
+        self, content: bytes, starts: Mapping[str, Mapping[str, float]] | None = None, *, serial: bool = False
+    ):
         self.messages: list[str] = []
-        self.time = 0.0
+        self.time, self.serial = 0.0, serial
         with ExitStack() as stack:
             folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="ehlcontact-system-"))
             try:
@@ -89,13 +93,20 @@ class SystemRun:
         self._slaves[component].set(**values)
 
     def step(self, h: float) -> None:
-        """All components make a step [s]; then outputs go to the inputs they are wired to."""
-        for slave in self._slaves.values():
+        """All components make a step [s], and outputs go to the inputs they are wired to."""
+        for name, slave in self._slaves.items():
             slave.step(h)
-        sent = [(sink, self.get(*source)[0]) for source, sink in self._wires]
+            if self.serial:
+                self._send([name])
+        if not self.serial:
+            self._send(self._slaves)
+        self.time += h
+
+    def _send(self, components: Collection[str]) -> None:
+        """Outputs of these components to the inputs they are wired to."""
+        sent = [(sink, self.get(*source)[0]) for source, sink in self._wires if source[0] in components]
         for (component, name), value in sent:
             self._slaves[component].set(**{name: value})
-        self.time += h
 
     def run(self, h: float, steps: int, watched: Sequence[tuple[str, str]]) -> _Floats:
         """Make steps; values of the watched variables (component, name), shape (steps + 1, watched)."""

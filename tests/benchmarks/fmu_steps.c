@@ -1,5 +1,5 @@
 /* Times the usual loop of a co-simulation master on an FMU of FMI 2.0: fmi2SetReal of approach and rate, fmi2DoStep,
- * fmi2GetReal. Arguments: library, GUID, URI of the resources, input_meaning and its value reference (-1 for none),
+ * fmi2GetReal. Arguments: library, GUID, URI of the resources, lead and its value reference (-1 for none),
  * number of outputs (value references from 2 on), step, mean, amplitude and steps per period of the approach, periods,
  * repetitions. Prints a line for each repetition: seconds of the wall and of the processor per step. Exit code 0 if
  * every call was answered. */
@@ -52,11 +52,10 @@ int main(int count, char **arguments)
     static const fmi2CallbackFunctions callbacks = {log_nothing, calloc, free, NULL, NULL};
     const fmi2ValueReference inputs[] = {0, 1};
     fmi2ValueReference outputs[MOST_OUTPUTS], reference;
-    double values[MOST_OUTPUTS], h, mean, amplitude, time = 0.0;
+    double values[MOST_OUTPUTS], chosen, h, mean, amplitude, time = 0.0;
     double (*motion)[2];
-    fmi2Integer chosen;
     size_t n, i;
-    int meaning;
+    int lead;
     long steps, periods, repetitions, k, j, r;
     fmi2Component c;
     fmi2SetRealTYPE *set;
@@ -66,9 +65,9 @@ int main(int count, char **arguments)
         fprintf(stderr, "no library: %s\n", count != 13 ? "12 arguments are needed" : dlerror());
         return EXIT_FAILURE;
     }
-    chosen = atoi(arguments[4]);
-    meaning = atoi(arguments[5]);
-    reference = (fmi2ValueReference)meaning;
+    chosen = atof(arguments[4]);
+    lead = atoi(arguments[5]);
+    reference = (fmi2ValueReference)lead;
     n = (size_t)atoi(arguments[6]);
     h = atof(arguments[7]);
     mean = atof(arguments[8]);
@@ -94,8 +93,8 @@ int main(int count, char **arguments)
         fprintf(stderr, "no instance\n");
         return EXIT_FAILURE;
     }
-    if (meaning >= 0) {
-        require(((fmi2SetIntegerTYPE *)function("fmi2SetInteger"))(c, &reference, 1, &chosen), "fmi2SetInteger");
+    if (lead >= 0) {
+        require(((fmi2SetRealTYPE *)function("fmi2SetReal"))(c, &reference, 1, &chosen), "fmi2SetReal");
     }
     require(((fmi2SetupExperimentTYPE *)function("fmi2SetupExperiment"))(c, fmi2False, 0.0, 0.0, fmi2False, 0.0),
             "fmi2SetupExperiment");

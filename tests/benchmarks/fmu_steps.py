@@ -19,7 +19,6 @@ from fmu.binaries.compiler import compilers
 from fmu.contact_spec import contact_spec
 from fmu.contact_variables import Element
 from fmu.sources import CSRC
-from fmu.variable_list import MEANINGS
 from reduced_models import Atlas, CubicContact
 
 # Motion about the place of the static load, over 2a/u_sum: u = 0.87 + 0.2 sin 2.5 T in steps of 0.02.
@@ -37,16 +36,16 @@ def subject(kind: str) -> Element:
     return Atlas().element(MoesPoint(200, 10, 0.5), model="wide")
 
 
-def fmu_steps(kind: str, meaning: str) -> Row:
-    """A million steps of an FMU, its inputs of that meaning; ``us`` are processor microseconds of one."""
+def fmu_steps(kind: str, lead: float) -> Row:
+    """A million steps of an FMU, with that lead; ``us`` are processor microseconds of one."""
     with tempfile.TemporaryDirectory() as folder:
-        timed = prepare(kind, meaning, Path(folder))
+        timed = prepare(kind, lead, Path(folder))
         with Bracket() as bracket:
             row = median_step(timed)
         return bracket.ratios(row) | circumstances()
 
 
-def prepare(kind: str, meaning: str, folder: Path) -> list[str]:
+def prepare(kind: str, lead: float, folder: Path) -> list[str]:
     """The command that times an FMU, both compiled here."""
     machine, spec = this_machine(), contact_spec(subject(kind), kind)
     if machine is None:
@@ -54,8 +53,7 @@ def prepare(kind: str, meaning: str, folder: Path) -> list[str]:
     files = fmu_files(spec, (machine,), 2)
     library = folder / f"{kind}{machine.suffix}"
     library.write_bytes(files[f"binaries/{machine.folder(2)}/{library.name}"])
-    value = 1 + [name for name, _ in MEANINGS.items].index(meaning)
-    asked = (value, spec["input_meaning"].value_reference, OUTPUTS[kind])
+    asked = (lead, spec["lead"].value_reference, OUTPUTS[kind])
     return command(timer(folder), library, content_guid(spec, 2), "", asked, PERIODS[kind])
 
 
@@ -70,9 +68,9 @@ def timer(folder: Path) -> Path:
 
 
 def command(
-    program: Path, library: Path, guid: str, resources: str, asked: tuple[int, int, int], periods: int
+    program: Path, library: Path, guid: str, resources: str, asked: tuple[float, int, int], periods: int
 ) -> list[str]:
-    """Its command line; `asked`: input_meaning, its value reference (-1 for none), number of outputs."""
+    """Its command line; `asked`: lead, its value reference (-1 for none), number of outputs."""
     motion = (STEP, MEAN, AMPLITUDE, STEPS_PER_PERIOD, periods, REPETITIONS)
     return [str(program), str(library), guid, resources, *map(str, (*asked, *motion))]
 

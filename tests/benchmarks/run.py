@@ -121,9 +121,9 @@ def tasks(grids: tuple[int, ...], repeat: int | None = None, threads: int = 1) -
     found.append(Task("impedance, 12 frequencies", impedance_of_twelve, (), 5.0))
     found += [Task(f"bearing, 1000 steps, {kernel}", bearing, (kernel,), 5.0) for kernel in ("kernel", "elements")]
     found += [
-        Task(f"FMU, a million steps, {kind} {meaning}", fmu_steps, (kind, meaning), 6.0)
+        Task(f"FMU, a million steps, {kind}, lead {lead:g}", fmu_steps, (kind, lead), 6.0)
         for kind in ("cubic", "film")
-        for meaning in ("extrapolated", "end")
+        for lead in (1.5, 0.0)
     ]
     return found + [
         Task(f"deflection {engine} {n}", deflection, (engine, n), 3.0)

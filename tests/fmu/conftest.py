@@ -45,7 +45,7 @@ WIDE = WideRangeContact(LOADS, CURVE, (0.03, 0.3, 2.0), ROWS, **FILTERS, **BOX)
 SPRINGS = ELEMENTS | {"polynomial": POLYNOMIAL, "power": POWER, "power_si": POWER.to_si(SCALES)}
 SPRINGS["polynomial without rate"] = PolynomialContact(0.62, 0.02, 0.75, 0.0, -0.17, 0.0, 0.01, 0.75, 1.0)
 FILMS = {"memory": MEMORY, "wide": WIDE, "wide_si": WIDE.to_si(SCALES)}
-EXTRAPOLATED, END, HELD = 1, 2, 3  # values of input_meaning
+EXTRAPOLATED, END = 1.0, 0.0  # values of lead
 
 BALL = 850.0  # N, on a contact at rest
 BODIES = {
@@ -98,16 +98,16 @@ def instantiate(folder: str, description: Any, logger: Callable) -> fmi2.FMU2Sla
 class Slave:
     """fmpy's co-simulation slave with variables by name; started, and freed at the end.
 
-    Its inputs are those of the end of a step, unless another meaning is asked for.
+    Its inputs are those of the end of a step, unless another lead is asked for.
     """
 
-    def __init__(self, folder: str, start: bool = True, meaning: int = END, **values: float):
+    def __init__(self, folder: str, start: bool = True, lead: float = END, **values: float):
         description = fmpy.read_model_description(folder)
         self.reference = {v.name: v.valueReference for v in description.modelVariables}
         self.log: list[tuple[int, str, str]] = []  # status, category, message
         self.raw = instantiate(folder, description, self._logged)
         self.time = 0.0
-        self.raw.setInteger([self.reference["input_meaning"]], [meaning])
+        self.raw.setReal([self.reference["lead"]], [lead])
         self.set(**values)
         if start:
             self.raw.setupExperiment(startTime=0.0)

@@ -55,13 +55,13 @@ static double clock_of_steps = 0.0; /* of the instance started last */
 
 static fmi2Component started(const char *name)
 {
-    const fmi2ValueReference meaning[] = {VR_input_meaning};
-    const fmi2Integer end = 2, nonsense = 4;
+    const fmi2ValueReference lead[] = {VR_lead};
+    const fmi2Real end = 0.0, nonsense = 2.5;
     fmi2Component c = instantiate(name);
     CHECK(c != NULL);
     CHECK(fmi2SetupExperiment(c, fmi2False, 0.0, 0.0, fmi2False, 0.0) == fmi2OK);
-    CHECK(fmi2SetInteger(c, meaning, 1, &nonsense) == fmi2Error);
-    CHECK(fmi2SetInteger(c, meaning, 1, &end) == fmi2OK);
+    CHECK(fmi2SetReal(c, lead, 1, &nonsense) == fmi2Error);
+    CHECK(fmi2SetReal(c, lead, 1, &end) == fmi2OK);
     CHECK(fmi2EnterInitializationMode(c) == fmi2OK);
     CHECK(fmi2ExitInitializationMode(c) == fmi2OK);
     clock_of_steps = 0.0;

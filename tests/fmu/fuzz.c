@@ -28,10 +28,10 @@ static fmi2Component start(fmi2Type type)
 {
     static const fmi2CallbackFunctions callbacks = {NULL, NULL, NULL, NULL, NULL};
     fmi2Component c = fmi2Instantiate("fuzz", type, MODEL_TOKEN, NULL, &callbacks, fmi2False, fmi2False);
-    const fmi2ValueReference meaning = VR_input_meaning;
-    const fmi2Integer value = 1 + (fmi2Integer)any(3);
+    const fmi2ValueReference lead = VR_LEAD;
+    const fmi2Real value = 0.5 * any(2 * (unsigned int)MOST_LEAD + 1);
     fmi2SetupExperiment(c, any(2) ? fmi2True : fmi2False, 1e-5, 0.0, fmi2False, 0.0);
-    fmi2SetInteger(c, &meaning, 1, &value);
+    fmi2SetReal(c, &lead, 1, &value);
     fmi2EnterInitializationMode(c);
     return c;
 }

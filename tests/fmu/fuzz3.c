@@ -20,13 +20,13 @@ static int bytes_of(fmi3Instance c, uint8_t *bytes, size_t size)
 /* A slave, with event mode and early return or without, or a model. */
 static fmi3Instance start(int slave)
 {
-    const fmi3ValueReference meaning = VR_input_meaning;
-    const fmi3Int64 value = 1 + (fmi3Int64)any(3);
+    const fmi3ValueReference lead = VR_LEAD;
+    const fmi3Float64 value = 0.5 * any(2 * (unsigned int)MOST_LEAD + 1);
     const bool events = any(2) != 0, early = any(2) != 0;
     fmi3Instance c = slave ? fmi3InstantiateCoSimulation("fuzz", MODEL_TOKEN, NULL, fmi3False, fmi3False, events, early,
                                                          NULL, 0, NULL, NULL, NULL)
                            : fmi3InstantiateModelExchange("fuzz", MODEL_TOKEN, NULL, fmi3False, fmi3False, NULL, NULL);
-    fmi3SetInt64(c, &meaning, 1, &value, 1);
+    fmi3SetFloat64(c, &lead, 1, &value, 1);
     fmi3EnterInitializationMode(c, any(2) != 0, 1e-5, 0.0, fmi3False, 0.0);
     return c;
 }

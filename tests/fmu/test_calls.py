@@ -202,9 +202,9 @@ def test_variables_that_are_not_there(logged):
     assert fails(unit.raw.setReal, [unit.reference["K1"], 99], [1.0, 1.0]) == STATUS["error"]
     assert fails(unit.raw.getInteger, [0]) == STATUS["error"]
     assert fails(unit.raw.getString, [0]) == STATUS["error"]
-    assert fails(unit.gradient, "force", "input_meaning") == STATUS["error"]
+    assert fails(unit.gradient, "force", "lead") == STATUS["error"]
     assert fails(unit.gradient, "K1", "approach") == STATUS["error"]
-    assert fails(unit.raw.setInteger, [unit.reference["input_meaning"]], [1]) == STATUS["error"]  # is fixed
+    assert fails(unit.set, lead=1.0) == STATUS["error"]  # is fixed
     assert len(lines) == 10
     assert snapshot(unit) == before
 

@@ -38,7 +38,7 @@ def test_fmpy_master_gives_the_elements_force(fmus, elements, kind):
         stop_time=1.0,
         output_interval=0.005,
         input=given,
-        start_values={"input_meaning": 3},
+        start_values={"lead": 0.0},
         output=["approach", "rate", "force", "stiffness", "damping", "outside_validity"],
     )
     u, v = result["approach"], result["rate"]

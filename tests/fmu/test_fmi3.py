@@ -12,7 +12,7 @@ from fmpy.validation import validate_fmu
 from fmu import export_contact, verify
 from fmu.driver import Exchange, Slave
 
-EXTRAPOLATED, END, HELD = 1, 2, 3
+EXTRAPOLATED, END, MIDDLE = 1.0, 0.0, 0.5  # values of lead
 
 
 @pytest.fixture(scope="module")
@@ -30,15 +30,15 @@ def folders3(fmus3, tmp_path_factory):
 
 @pytest.fixture
 def made3(folders3):
-    """Make instances of FMI 3.0: ``made3(Slave, "wide", meaning)``."""
+    """Make instances of FMI 3.0: ``made3(Slave, "wide", lead)``."""
     made = []
 
-    def make(kind, name, meaning=None, **options):
+    def make(kind, name, lead=None, **options):
         values = options.pop("values", {})
         unit = kind(folders3[name], fmpy.read_model_description(folders3[name]), [], **options)
         made.append(unit)
-        if kind is Slave and meaning is not None:
-            unit.start(input_meaning=meaning, **values)
+        if kind is Slave and lead is not None:
+            unit.start(lead=lead, **values)
         elif kind is Exchange:
             unit.start()
         return unit
@@ -79,7 +79,7 @@ def test_archive_has_what_the_standard_wants(fmus3):
 
 @pytest.mark.parametrize("kind", ["cubic", "wide_si"])
 def test_both_versions_give_the_same_digits(made3, slave, kind, elements):
-    old, new = slave(kind, meaning=EXTRAPOLATED), made3(Slave, kind, EXTRAPOLATED)
+    old, new = slave(kind, lead=EXTRAPOLATED), made3(Slave, kind, EXTRAPOLATED)
     _, length, time = getattr(elements[kind], "_units", (1.0, 1.0, 1.0))
     for k in range(200):
         at = {"approach": (0.4 + 0.9 * np.cos(0.05 * k)) * length, "rate": -0.9 * np.sin(0.05 * k) * length / time}
@@ -141,10 +141,10 @@ def test_event_mode_at_lift_off(made3, elements, kind):
         fine.raw.enterEventMode()
 
 
-@pytest.mark.parametrize("meaning", [END, HELD])
-def test_only_an_extrapolated_step_returns_early(made3, meaning):
+@pytest.mark.parametrize("lead", [END, MIDDLE])
+def test_only_an_extrapolated_step_returns_early(made3, lead):
     """Of the others no motion within the step is known."""
-    unit = made3(Slave, "cubic", meaning, eventModeUsed=True, earlyReturnAllowed=True, values={"approach": 0.9})
+    unit = made3(Slave, "cubic", lead, eventModeUsed=True, earlyReturnAllowed=True, values={"approach": 0.9})
     unit.raw.updateDiscreteStates()
     unit.raw.enterStepMode()
     unit.set(approach=-0.5)
@@ -165,7 +165,7 @@ def test_intermediate_update_may_read_and_nothing_else(made3):
             failed.append(True)
 
     unit = made3(Slave, "wide", intermediateUpdate=update)
-    unit.start(input_meaning=END)
+    unit.start(lead=END)
     for _ in range(3):
         unit.set(approach=0.9)
         unit.step(0.1)

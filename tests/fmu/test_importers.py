@@ -16,7 +16,7 @@ import pytest
 from fmu import export_contact
 from reduced_models import CubicContact
 
-EXTRAPOLATED = 1  # what inputs mean, unless another is asked for
+DEFAULT = 1.5  # lead
 STEP = 0.01  # in units of 2a/u_sum
 SPEED_OUTSIDE = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 VALUES = ("approach", "rate", "force", "stiffness", "damping")
@@ -93,7 +93,7 @@ def mass_on(advance, steps=400):
 @pytest.mark.parametrize("importer", [libcosimpy, ecospy])
 def test_the_same_motion_as_by_fmpy(fmus, slave, importer):
     """Set, step, get, in contact and out of it."""
-    with by_fmpy(slave("cubic", meaning=EXTRAPOLATED)) as advance:
+    with by_fmpy(slave("cubic", lead=DEFAULT)) as advance:
         expected = mass_on(advance)
     assert min(row[2] for row in expected) == 0.0 < max(row[2] for row in expected)  # it bounces
     with importer(fmus["cubic"], STEP) as advance:

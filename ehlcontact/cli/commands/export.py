@@ -46,6 +46,16 @@ def export(
             help="Of a study: the element in every contact of its rotor; the atlas's, for any load, by default.",
         ),
     ] = None,
+    lead: Annotated[
+        float | None,
+        typer.Option(
+            "--lead",
+            metavar="STEPS",
+            help="Time from the inputs of a contact to its force, 0 to 2 communication steps: 1.5, the default,"
+            " for masses that hold the force and step beside the FMU; 0.5 where they step first; see"
+            " docs/coupling.md.",
+        ),
+    ] = None,
     fmi: Annotated[int, typer.Option("--fmi", help="FMI version, 2 or 3.")] = 2,
     name: Annotated[str | None, typer.Option("--name", help="Model name.")] = None,
     platform: Annotated[
@@ -68,6 +78,8 @@ def export(
     if not study and output.suffix.lower() == ".ssp":
         allowed = "a file name ending in .fmu: a system (.ssp) is made of a study (.toml) with a rotor"
         raise InputError("--output", str(output), allowed)
+    if lead is not None and study and output.suffix.lower() == ".fmu":
+        raise InputError("--lead", lead, "left out: the contacts of this rotor are inside its FMU")
     out.check(file, contact, beside={"--output": (output, (".fmu", ".ssp") if study else (".fmu",))})
     check_new("--output", output, force)
     from fmu import BuildError, VerificationError
@@ -77,7 +89,13 @@ def export(
     exported: Any = _rotor_of(file, contact) if study else load(file, ContactElement)
     system = output.suffix.lower() == ".ssp"
     try:
-        names = {"model_name": "--name", "platforms": "--platform", "path": "--output", "element": str(file)}
+        names = {
+            "model_name": "--name",
+            "platforms": "--platform",
+            "path": "--output",
+            "lead": "--lead",
+            "element": str(file),
+        }
         with progress("compiling") as told, o.called(**names):
             built = [one.name for one in choose(platform or None, fmi)]
             _, found = _exporter(system)(
@@ -88,6 +106,7 @@ def export(
                 overwrite=force,
                 progress=told,
                 **({} if name is None else {"model_name": name}),
+                **({} if lead is None else {"lead": lead}),
             )
     except (BuildError, VerificationError) as error:
         complain(f"no {'system' if system else 'FMU'} was written: {error}")

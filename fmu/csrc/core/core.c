@@ -55,8 +55,8 @@ Fault core_may_set(const State *s, unsigned int reference, Type type, double val
     if ((phases & s->phase) == 0) {
         return refuse("this variable cannot be set at this point of the call sequence");
     }
-    if (reference == VR_input_meaning && !(value >= (double)EXTRAPOLATED && value <= (double)HELD)) {
-        return refuse("input_meaning is 1 (extrapolated), 2 (end) or 3 (held)");
+    if (reference == VR_LEAD && !(value >= 0.0 && value <= MOST_LEAD)) {
+        return refuse(LEAD_NAME " is from 0 to " LEAD_MOST " steps");
     }
     return fine;
 }

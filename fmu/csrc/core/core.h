@@ -23,7 +23,7 @@ enum {
 };
 
 typedef enum { CO_SIMULATION, MODEL_EXCHANGE } Kind;
-typedef enum { REAL, BOOLEAN, ENUMERATION } Type;
+typedef enum { REAL, BOOLEAN } Type;
 typedef enum { INPUT, TUNABLE, FIXED, CONSTANT, STATE, DERIVATIVE, OUTPUT, MEASURE } Role;
 
 /* One variable, by value reference: the generated variables.h has the table. */
@@ -45,13 +45,13 @@ typedef struct {
     Model model;
     double time, stop_time, tolerance;
     double now[N_INPUTS];                /* the inputs at `time`, as far as the model has come */
-    double last_time, last[N_INPUTS];    /* where the last step began, and the inputs that were set there */
+    double given_time[2], given[2][N_INPUTS]; /* where the two last steps began, the later one first, and their inputs */
     double turn[N_INPUTS];               /* their slopes at `time`, for the derivatives of outputs */
     double input_slope[2][N_INPUTS];     /* first and second derivatives of the inputs, for the next step alone */
     unsigned long long slopes_set[2];    /* which of them were set: bit k is input k */
     unsigned long long contact, noticed; /* bits: contacts that push; bounds whose leaving has been logged */
     int phase, kind;
-    int has_stop_time, has_last;
+    int has_stop_time, n_given; /* n_given: steps in given, at most 2 */
     int stale, unused;
 } State;
 
@@ -80,8 +80,10 @@ Fault core_rates(State *state);
 Fault core_setup(State *state, double start, int has_stop, double stop, int has_tolerance, double tolerance);
 Fault core_exit_initialization(State *state);
 
-/* One step of co-simulation; `outputs` then belong to its end. */
+/* One step of co-simulation; outputs then are those of its end, or of the time that `lead` says. */
 Fault core_step(State *state, double time, double h);
+int core_extrapolates(const State *state);  /* whether inputs go on beyond what was given */
+int core_path_is_known(const State *state); /* whether a step can end early: its inputs are known within it */
 Fault core_may_set_slope(const State *state, unsigned int reference, int order, double value);
 void core_set_slope(State *state, unsigned int reference, int order, double value);
 

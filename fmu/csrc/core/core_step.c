@@ -6,8 +6,6 @@
 
 static const Fault fine = {FINE, NULL};
 
-/* ---- steps ---- */
-
 static Fault check_step(const State *s, double time, double h)
 {
     const double end = time + h;
@@ -28,124 +26,237 @@ static Fault check_step(const State *s, double time, double h)
 
 static const int rate_of[N_INPUTS] = INPUT_RATES;
 
+int core_extrapolates(const State *s)
+{
+#ifdef LEAD_OF_INPUTS
+    return s->model.value[VR_LEAD] < 1.0;
+#else
+    return s->model.value[VR_LEAD] > 0.0;
+#endif
+}
+
+int core_path_is_known(const State *s)
+{
+#ifdef LEAD_OF_INPUTS
+    return s->model.value[VR_LEAD] < 1.0;
+#else
+    return s->model.value[VR_LEAD] >= 1.0;
+#endif
+}
+
 static int is_set(const State *s, int order, int k)
 {
     return (s->slopes_set[order - 1] >> k & 1U) != 0;
 }
 
-static int has_history(const State *s, double time)
+/* ---- how inputs go on: from the inputs of this step and of the two before ---- */
+
+/* Paths that begin at the inputs. */
+static void begin_at_inputs(const State *s, Motion *motion)
 {
-    return s->has_last && time > s->last_time;
+    int k;
+    motion->known = 1;
+    for (k = 0; k < N_INPUTS; k++) {
+        Path *p = &motion->input[k];
+        p->end = s->model.value[k];
+        p->bend = 0.0;
+        p->slope = is_set(s, 1, k) ? s->input_slope[0][k] : rate_of[k] < 0 ? 0.0 : s->model.value[rate_of[k]];
+    }
 }
 
-/* The slope of an input that is no approach, at the start of a step. */
-static double turn_of(const State *s, int k, double time)
+#ifdef LEAD_OF_INPUTS
+
+/* Forces that are those of the time `lead` steps after the start go through a step straight, those of its middle are held:
+ * a slope from forces before would take K h (w h)^2/6 off the damping of contacts outside. */
+static double motion_of(const State *s, double time, double h, Motion *motion, Motion *ahead)
 {
+    const double lead = s->model.value[VR_LEAD];
+    int k;
+    (void)ahead;
+    begin_at_inputs(s, motion);
+    for (k = 0; k < N_INPUTS; k++) {
+        Path *p = &motion->input[k];
+        const double x = p->end, before = s->n_given > 0 ? (1.0 - lead) * (time - s->given_time[0]) + lead * h : 0.0;
+        if (lead >= 1.0) {
+            p->start = s->now[k];
+            p->slope = (x - p->start) / h;
+        } else {
+            if (!is_set(s, 1, k) && before > 0.0 && lead != 0.5) {
+                p->slope = (x - s->given[0][k]) / before;
+            }
+            p->start = x - lead * h * p->slope;
+            p->end = x + (1.0 - lead) * h * p->slope;
+        }
+    }
+    return 0.0;
+}
+
+#else
+
+/* Mean slopes of an input over the last steps, the later one first, and the lengths of these steps; returns how many. */
+static int slopes_before(const State *s, int k, double time, double slope[2], double length[2])
+{
+    double x = s->model.value[k];
+    int n;
+    for (n = 0; n < s->n_given; n++) {
+        length[n] = time - s->given_time[n];
+        slope[n] = (x - s->given[n][k]) / length[n];
+        if (!(length[n] > 0.0 && isfinite(slope[n]))) {
+            break;
+        }
+        time = s->given_time[n];
+        x = s->given[n][k];
+    }
+    return n;
+}
+
+/* The slope of an input at some time after the inputs. A mass under a force that is held has a constant slope of its rate in
+ * every step: the slopes of the last two steps, at their middles, go on along a straight line, in steps like those. */
+static double slope_after(const State *s, int k, double time, double after)
+{
+    double slope[2], length[2], reach;
+    const int n = slopes_before(s, k, time, slope, length);
     if (is_set(s, 1, k)) {
         return s->input_slope[0][k];
     }
-    return has_history(s, time) ? (s->model.value[k] - s->last[k]) / (time - s->last_time) : 0.0;
-}
-
-/* The bend that the mean rate has missed in the last change of the approach, for the step to come. A master that advances the
- * approach by the rate at the end of its steps (symplectic Euler) misses half the change of the rate, in the next step
- * again; more than that is a jump, which tells nothing of the next step. */
-static double missed(const State *s, int k, double turn, double time)
-{
-    const double before = time - s->last_time, most = fabs(turn);
-    const double mean = 0.5 * (s->model.value[rate_of[k]] + s->last[rate_of[k]]);
-    const double again = 2.0 * (s->model.value[k] - s->last[k] - before * mean) / before / before;
-    return again > most ? most : again < -most ? -most : isfinite(again) ? again : 0.0;
-}
-
-/* An input that goes on by its derivatives: those that were set, or an approach by its rate, others by their last change. */
-static void extrapolate(const State *s, int k, double time, double h, Motion *motion)
-{
-    const double x = s->model.value[k];
-    Path *p = &motion->input[k];
-    p->bend = 0.0;
-    if (rate_of[k] < 0) {
-        p->slope = turn_of(s, k, time);
-        p->end = x + h * p->slope;
-        return;
+    if (n < 2) {
+        return n == 0 ? 0.0 : slope[0];
     }
-    p->slope = is_set(s, 1, k) ? s->input_slope[0][k] : s->model.value[rate_of[k]];
-    if (is_set(s, 2, k)) {
-        p->bend = s->input_slope[1][k];
+    reach = (2.0 * after + length[0]) / (length[0] + length[1]);
+    return slope[0] + (reach < 2.0 ? reach : 2.0) * (slope[0] - slope[1]);
+}
+
+/* What masters add to the approach in a step beyond its mean rate, over what the change of the rate adds: 0 where masses go
+ * through their steps exactly, 1 where they advance the approach by the rate at the end of a step (symplectic Euler). More is
+ * a jump, which says nothing of the next step. */
+static double missed_share(const State *s, int k, double time)
+{
+    double slope[2], length[2], missed;
+    if ((s->slopes_set[0] | s->slopes_set[1]) != 0 || slopes_before(s, rate_of[k], time, slope, length) == 0 || slope[0] == 0.0) {
+        return 0.0;
+    }
+    missed = (s->model.value[k] - s->given[0][k]) / length[0] - 0.5 * (s->model.value[rate_of[k]] + s->given[0][rate_of[k]]);
+    missed /= 0.5 * length[0] * slope[0];
+    return missed > 1.0 ? 1.0 : missed < -1.0 ? -1.0 : isfinite(missed) ? missed : 0.0;
+}
+
+/* Lengthens paths by `length` from where they end; `middle` of the master's step there, from the inputs. */
+static void go_on(const State *s, double time, double middle, double length, Motion *motion)
+{
+    int k;
+    for (k = N_INPUTS - 1; k >= 0; k--) { /* a rate before its approach */
+        Path *p = &motion->input[k];
+        p->start = p->end;
+        if (rate_of[k] < 0) {
+            p->slope = slope_after(s, k, time, middle);
+        } else {
+            p->bend = is_set(s, 2, k) ? s->input_slope[1][k]
+                                      : motion->input[rate_of[k]].slope * (1.0 + missed_share(s, k, time));
+        }
+        p->end = p->start + length * (p->slope + 0.5 * length * p->bend);
+    }
+}
+
+/* The motion of a step, and what follows it until the time that the outputs are for; returns how long that is. With a lead of
+ * a step and more the inputs are those of the step's start, with less those of its end. */
+static double motion_of(const State *s, double time, double h, Motion *motion, Motion *ahead)
+{
+    const double lead = s->model.value[VR_LEAD], length = lead < 1.0 ? 0.0 : h, beyond = lead * h - length;
+    int k;
+    begin_at_inputs(s, motion);
+    *ahead = *motion;
+    if (lead < 1.0) {
+        motion->known = 0;
+        for (k = 0; k < N_INPUTS; k++) {
+            Path *p = &motion->input[k];
+            p->start = s->now[k];
+            p->slope = rate_of[k] < 0 ? (p->end - p->start) / h : 0.0;
+        }
     } else {
-        p->bend = motion->input[rate_of[k]].slope;
-        if ((s->slopes_set[0] | s->slopes_set[1]) == 0 && has_history(s, time)) {
-            p->bend += missed(s, k, p->bend, time);
+        go_on(s, time, 0.5 * h, h, motion);
+        *ahead = *motion;
+        for (k = 0; k < N_INPUTS; k++) {
+            ahead->input[k].slope += h * ahead->input[k].bend;
         }
     }
-    p->end = x + h * (p->slope + 0.5 * h * p->bend);
+    go_on(s, time, length + 0.5 * h, beyond, ahead);
+    return beyond;
 }
 
-/* The motion of a step, from the inputs and what they mean. */
-static Fault motion_of(const State *s, double time, double h, Motion *motion)
+#endif
+
+static Fault check_motion(const Motion *motion)
 {
     const Fault too_large = {DISCARD, "the motion of the inputs within the step is too large for a floating-point number"};
-    const double meaning = s->model.value[VR_input_meaning];
     int k;
-    motion->meaning = meaning < 1.5 ? EXTRAPOLATED : meaning < 2.5 ? AT_THE_END : HELD;
-    for (k = N_INPUTS - 1; k >= 0; k--) { /* a rate before its approach */
-        const double x = s->model.value[k];
-        Path *p = &motion->input[k];
-        if (!isfinite(x)) {
-            return refuse(INPUT_NAMES " must be finite");
-        }
-        p->start = p->end = x;
-        p->slope = p->bend = 0.0;
-        if (motion->meaning == EXTRAPOLATED) {
-            extrapolate(s, k, time, h, motion);
-        } else if (motion->meaning == AT_THE_END) {
-            p->start = s->now[k];
-            p->slope = rate_of[k] < 0 ? (x - p->start) / h : 0.0;
-        }
-        if (!(isfinite(p->end) && isfinite(p->slope))) {
+    for (k = 0; k < N_INPUTS; k++) {
+        const Path *p = &motion->input[k];
+        if (!(isfinite(p->start) && isfinite(p->end) && isfinite(p->slope) && isfinite(p->bend))) {
             return too_large;
         }
     }
     return fine;
 }
 
-/* Parameters that were tuned, before a step; on a copy, so that a law that is refused changes nothing. */
-static Fault prepared(const State *s, Model *model)
+/* ---- steps ---- */
+
+static Fault check_inputs(const State *s)
 {
-    *model = s->model;
-    return model_prepare(model);
+    int k;
+    for (k = 0; k < N_INPUTS && isfinite(s->model.value[k]); k++) {
+    }
+    return k == N_INPUTS ? fine : refuse(INPUT_NAMES " must be finite");
+}
+
+/* Outputs of a later time, the states as they are. */
+static Fault look_ahead(Model *model, const Motion *ahead, double length, double tolerance)
+{
+    Model later = *model;
+    const Fault fault = model_step(&later, ahead, length, tolerance);
+    int i;
+    for (i = 0; i < N_VARIABLES && fault.severity == FINE; i++) {
+        if (core_variables[i].role == OUTPUT && core_variables[i].type == REAL) {
+            model->value[i] = later.value[i];
+        }
+    }
+    return fault;
 }
 
 Fault core_step(State *s, double time, double h)
 {
+    Model next = s->model;
+    Motion motion, ahead;
     Fault fault = check_step(s, time, h);
-    Model tuned;
-    Motion motion;
+    double beyond = 0.0;
     int k;
+    if (fault.severity == FINE) {
+        fault = check_inputs(s);
+    }
+    if (fault.severity == FINE) {
+        beyond = motion_of(s, time, h, &motion, &ahead);
+        fault = check_motion(&motion);
+    }
+    if (fault.severity == FINE && beyond > 0.0) {
+        fault = check_motion(&ahead);
+    }
+    if (fault.severity == FINE && (s->stale & STALE_LAW) != 0) {
+        fault = model_prepare(&next);
+    }
+    if (fault.severity == FINE) {
+        fault = model_step(&next, &motion, h, s->tolerance);
+    }
+    if (fault.severity == FINE && beyond > 0.0) {
+        fault = look_ahead(&next, &ahead, beyond, s->tolerance);
+    }
     if (fault.severity != FINE) {
         return fault;
     }
-    fault = motion_of(s, time, h, &motion);
-    if (fault.severity != FINE) {
-        return fault;
-    }
-    if ((s->stale & STALE_LAW) != 0) {
-        fault = prepared(s, &tuned);
-        if (fault.severity == FINE) {
-            fault = model_step(&tuned, &motion, h, s->tolerance);
-        }
-        if (fault.severity == FINE) {
-            s->model = tuned;
-        }
-    } else {
-        fault = model_step(&s->model, &motion, h, s->tolerance);
-    }
-    if (fault.severity != FINE) {
-        return fault;
-    }
-    s->last_time = time;
-    memcpy(s->last, s->model.value, sizeof s->last);
-    s->has_last = 1;
+    s->model = next;
+    memmove(s->given[1], s->given[0], sizeof s->given[0]);
+    memcpy(s->given[0], s->model.value, sizeof s->given[0]);
+    s->given_time[1] = s->given_time[0];
+    s->given_time[0] = time;
+    s->n_given = s->n_given < 2 ? s->n_given + 1 : 2;
     s->time = time + h;
     for (k = 0; k < N_INPUTS; k++) {
         s->now[k] = motion.input[k].end;
@@ -166,8 +277,8 @@ Fault core_may_set_slope(const State *s, unsigned int reference, int order, doub
     if (!isfinite(value)) {
         return refuse("a derivative must be finite");
     }
-    if (s->model.value[VR_input_meaning] > 1.5) {
-        return refuse("derivatives of inputs are for input_meaning = 1 (extrapolated)");
+    if (!core_extrapolates(s)) {
+        return refuse("derivatives of inputs need a " LEAD_NAME " that " LEAD_EXTRAPOLATES);
     }
     return fine;
 }

@@ -28,9 +28,6 @@ static inline Fault fault(Severity severity, const char *reason)
     return f;
 }
 
-/* What the inputs of a step mean; the values of the parameter input_meaning. */
-typedef enum { EXTRAPOLATED = 1, AT_THE_END = 2, HELD = 3 } Meaning;
-
 typedef struct {
     double value[N_VARIABLES];   /* by value reference; a Boolean is 0 or 1 */
     double input[N_INPUTS];      /* that the outputs belong to: those that were set, or those of the end of a step */
@@ -43,9 +40,9 @@ typedef struct {
     double start, slope, bend, end;
 } Path;
 
-/* The inputs of a step; with AT_THE_END only both ends of an approach are known. */
+/* The inputs of a step. Where they are not `known` within it, only their ends are. */
 typedef struct {
-    Meaning meaning;
+    int known;
     Path input[N_INPUTS];
 } Motion;
 

@@ -19,21 +19,11 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
     return outcome(instance, core_set(&instance->state, vr, nvr, REAL, value), "fmi2SetReal");
 }
 
-/* ---- flags and input_meaning ---- */
+/* ---- flags ---- */
 
 static void put_boolean(void *values, size_t i, double value)
 {
     ((fmi2Boolean *)values)[i] = value > 0.0 ? fmi2True : fmi2False;
-}
-
-static void put_integer(void *values, size_t i, double value)
-{
-    ((fmi2Integer *)values)[i] = (fmi2Integer)value;
-}
-
-static double take_integer(const void *values, size_t i)
-{
-    return ((const fmi2Integer *)values)[i];
 }
 
 fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Boolean value[])
@@ -43,24 +33,6 @@ fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t
         return fmi2Error;
     }
     return (fmi2Status)get_values(instance, vr, nvr, BOOLEAN, value, put_boolean, "fmi2GetBoolean");
-}
-
-fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Integer value[])
-{
-    Instance *instance = enter(c, READABLE, "fmi2GetInteger");
-    if (instance == NULL || missing(vr, value, nvr)) {
-        return fmi2Error;
-    }
-    return (fmi2Status)get_values(instance, vr, nvr, ENUMERATION, value, put_integer, "fmi2GetInteger");
-}
-
-fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer value[])
-{
-    Instance *instance = enter(c, ANY_PHASE, "fmi2SetInteger");
-    if (instance == NULL || missing(vr, value, nvr)) {
-        return fmi2Error;
-    }
-    return (fmi2Status)set_values(instance, vr, nvr, ENUMERATION, value, take_integer, "fmi2SetInteger");
 }
 
 /* ---- partial derivatives ---- */
@@ -93,6 +65,18 @@ fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t 
 {
     (void)vr, (void)value;
     return no_variables(c, nvr, "fmi2GetString");
+}
+
+fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Integer value[])
+{
+    (void)vr, (void)value;
+    return no_variables(c, nvr, "fmi2GetInteger");
+}
+
+fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer value[])
+{
+    (void)vr, (void)value;
+    return no_variables(c, nvr, "fmi2SetInteger");
 }
 
 fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Boolean value[])

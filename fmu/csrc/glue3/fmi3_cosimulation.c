@@ -73,8 +73,7 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 currentCommunicationPoint, fmi
         instance->state.contact = core_contact(&instance->state);
     } else if (core_contact(&instance->state) != instance->state.contact) {
         *eventHandlingNeeded = fmi3True;
-        /* only an extrapolated motion is known within the step */
-        if (unit->early_return && instance->state.model.value[VR_input_meaning] < 1.5) {
+        if (unit->early_return && core_path_is_known(&instance->state)) {
             stop_at_event(&instance->state, &before, currentCommunicationPoint, communicationStepSize);
             *earlyReturn = instance->state.time < currentCommunicationPoint + communicationStepSize;
         }

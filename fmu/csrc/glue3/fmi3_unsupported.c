@@ -35,6 +35,7 @@ NONE_OF(Int16, fmi3Int16)
 NONE_OF(UInt16, fmi3UInt16)
 NONE_OF(Int32, fmi3Int32)
 NONE_OF(UInt32, fmi3UInt32)
+NONE_OF(Int64, fmi3Int64)
 NONE_OF(UInt64, fmi3UInt64)
 NONE_OF(String, fmi3String)
 

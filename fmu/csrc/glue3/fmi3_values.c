@@ -55,21 +55,11 @@ fmi3Status fmi3SetFloat64(fmi3Instance c, const fmi3ValueReference valueReferenc
                    "fmi3SetFloat64");
 }
 
-/* ---- flags and input_meaning ---- */
+/* ---- flags ---- */
 
 static void put_boolean(void *values, size_t i, double value)
 {
     ((fmi3Boolean *)values)[i] = value > 0.0;
-}
-
-static void put_integer(void *values, size_t i, double value)
-{
-    ((fmi3Int64 *)values)[i] = (fmi3Int64)value;
-}
-
-static double take_integer(const void *values, size_t i)
-{
-    return (double)((const fmi3Int64 *)values)[i];
 }
 
 fmi3Status fmi3GetBoolean(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences,
@@ -82,30 +72,6 @@ fmi3Status fmi3GetBoolean(fmi3Instance c, const fmi3ValueReference valueReferenc
     }
     return (fmi3Status)get_values(instance, valueReferences, nValueReferences, BOOLEAN, values, put_boolean,
                                   "fmi3GetBoolean");
-}
-
-fmi3Status fmi3GetInt64(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                        fmi3Int64 values[], size_t nValues)
-{
-    Instance *instance = enter_to_read(c, ANY_PHASE, "fmi3GetInt64");
-    if (instance == NULL
-        || unsuitable(instance, valueReferences, nValueReferences, values, nValues, "fmi3GetInt64")) {
-        return fmi3Error;
-    }
-    return (fmi3Status)get_values(instance, valueReferences, nValueReferences, ENUMERATION, values, put_integer,
-                                  "fmi3GetInt64");
-}
-
-fmi3Status fmi3SetInt64(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                        const fmi3Int64 values[], size_t nValues)
-{
-    Instance *instance = enter(c, ANY_PHASE, "fmi3SetInt64");
-    if (instance == NULL
-        || unsuitable(instance, valueReferences, nValueReferences, values, nValues, "fmi3SetInt64")) {
-        return fmi3Error;
-    }
-    return (fmi3Status)set_values(instance, valueReferences, nValueReferences, ENUMERATION, values, take_integer,
-                                  "fmi3SetInt64");
 }
 
 /* ---- partial derivatives ---- */

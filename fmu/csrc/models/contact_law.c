@@ -47,7 +47,6 @@ static const char *law_step(double numbers[], const double before[], double afte
     Motion along;
     Fault fault;
     memset(&along, 0, sizeof along);
-    along.meaning = AT_THE_END;
     along.input[VR_approach].start = motion->start_approach;
     along.input[VR_approach].end = motion->end_approach;
     along.input[VR_rate].start = motion->start_rate;

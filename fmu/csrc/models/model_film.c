@@ -150,12 +150,9 @@ static int walk(const Motion *motion, double h, int parts, double first[FILM_SIZ
     for (i = 1; i <= parts; i++) {
         const double t = i * part;
         double u = approach->end, v = rate->end;
-        if (i < parts && motion->meaning == EXTRAPOLATED) {
+        if (i < parts && motion->known) {
             u = approach->start + t * (approach->slope + 0.5 * t * approach->bend);
             v = rate->start + t * rate->slope;
-        }
-        if (motion->meaning == HELD) { /* an approach that moves on, so that the rate is what it is throughout */
-            from[APPROACH] = own_approach(u) - own_rate(v) * (part / SCALE_TIME);
         }
         if (own_approach(u) != rest->u) {
             film_static(own_approach(u), rest, rest);
@@ -199,7 +196,7 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
     if (!walk(motion, h, 1, first, state, &rest, &found)) {
         return fault(DISCARD, too_large);
     }
-    if (motion->meaning != AT_THE_END && unevenness(first, state) > smooth) {
+    if (motion->known && unevenness(first, state) > smooth) {
         for (parts = 2; parts <= MOST_PARTS; parts *= 2) {
             const double coarse = found.step.argument;
             double scale;

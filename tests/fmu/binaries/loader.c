@@ -1,6 +1,6 @@
 /* A master of a few lines: loads an FMI 2.0 library by its path and steps through states, as any C program would.
  * Usage: loader LIBRARY GUID REFERENCES..., with the references of approach, rate, force, stiffness, damping and
- * input_meaning. Reads lines "time approach rate", the first one for the start, the others for the ends of steps;
+ * lead. Reads lines "time approach rate", the first one for the start, the others for the ends of steps;
  * writes a line "force stiffness damping" after each step, hexadecimal, so that no digit is lost. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,7 +37,7 @@ static void (*function(Library library, const char *name))(void)
 int main(int count, char **arguments)
 {
     fmi2CallbackFunctions callbacks = {NULL, calloc, free, NULL, NULL};
-    const fmi2Integer end = 2; /* inputs are those of the end of a step */
+    const fmi2Real end = 0.0; /* inputs are those of the end of a step */
     fmi2ValueReference references[6];
     fmi2Real in[2], out[3];
     double time, next;
@@ -61,7 +61,6 @@ int main(int count, char **arguments)
         GET(fmi2EnterInitializationModeTYPE *, EnterInitializationMode)
         GET(fmi2ExitInitializationModeTYPE *, ExitInitializationMode)
         GET(fmi2SetRealTYPE *, SetReal)
-        GET(fmi2SetIntegerTYPE *, SetInteger)
         GET(fmi2DoStepTYPE *, DoStep)
         GET(fmi2GetRealTYPE *, GetReal)
         GET(fmi2TerminateTYPE *, Terminate)
@@ -69,7 +68,7 @@ int main(int count, char **arguments)
         instance = Instantiate("loader", fmi2CoSimulation, arguments[2], NULL, &callbacks, fmi2False, fmi2False);
         if (instance == NULL || scanf("%lf %lf %lf", &time, &in[0], &in[1]) != 3
             || SetupExperiment(instance, fmi2False, 0.0, time, fmi2False, 0.0) != fmi2OK
-            || SetInteger(instance, references + 5, 1, &end) != fmi2OK
+            || SetReal(instance, references + 5, 1, &end) != fmi2OK
             || SetReal(instance, references, 2, in) != fmi2OK || EnterInitializationMode(instance) != fmi2OK
             || ExitInitializationMode(instance) != fmi2OK) {
             return 4;

@@ -31,7 +31,7 @@ def run_on(platform, element, folder, command):
     folder.mkdir()
     path = folder / f"x{platform.suffix}"
     path.write_bytes(library)
-    names = ("approach", "rate", "force", "stiffness", "damping", "input_meaning")
+    names = ("approach", "rate", "force", "stiffness", "damping", "lead")
     references = [str(spec[name].value_reference) for name in names]
     T, u, v = motion(element)
     done = subprocess.run(

@@ -10,7 +10,7 @@ ERROR, DISCARD = 3, 2
 
 def started(instance, name="mixed", **settings):
     slave = instance(name)
-    slave.start(input_meaning=1, **settings)
+    slave.start(force_lead=0.0, **settings)
     return slave
 
 
@@ -27,7 +27,7 @@ def status_of(call, *arguments, **named):
 )  # fmt: skip
 def test_impossible_settings_are_refused_at_the_start(instance, name, value):
     slave = instance("mixed")
-    assert status_of(slave.start, input_meaning=1, **{name: value}) == ERROR
+    assert status_of(slave.start, force_lead=0.0, **{name: value}) == ERROR
 
 
 def test_a_refused_step_changes_nothing(instance):
@@ -128,7 +128,7 @@ def test_the_log_names_the_contact_that_left_its_box(unit):
     one = unit("cubic")
     slave = Slave(one.folder, one.description, messages)
     slave.raw.fmi2SetDebugLogging(slave.raw.component, True, 0, None)
-    slave.start(input_meaning=1)
+    slave.start(force_lead=0.0)
     slave.set(journal_force_x=3e3)
     for _ in range(40):
         slave.step(1e-5)

@@ -201,7 +201,7 @@ def test_it_is_much_faster_than_simulate_rotor(instance, rotors):
 
     model, steps, dt = rotors["wide"], 400, 1e-5
     slave = instance("wide")
-    slave.start(input_meaning=1, inner_step=dt)
+    slave.start(force_lead=0.0, inner_step=dt)
     slave.step(dt)
     ratios = []
     for _ in range(3):

@@ -8,19 +8,19 @@ from scipy.linalg import expm
 
 from reduced_models import RotorState, simulate_rotor
 
-EXTRAPOLATED, END, HELD = 1, 2, 3
+EXTRAPOLATED, END, HELD = 0.0, 1.0, 0.5  # values of force_lead
 # the elements are for other frequencies than that of the speed
 pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 
 
-def run(slave, names, steps, h, *, meaning=EXTRAPOLATED, inputs=None, **settings):
+def run(slave, names, steps, h, *, lead=EXTRAPOLATED, inputs=None, **settings):
     """What is read at the start and after every step; `inputs` are histories of those of the ends."""
     inputs = inputs or {}
-    slave.start(input_meaning=meaning, **settings, **{name: values[0] for name, values in inputs.items()})
+    slave.start(force_lead=lead, **settings, **{name: values[0] for name, values in inputs.items()})
     found = [slave.get(*names)]
     for n in range(1, steps + 1):
         if inputs:
-            slave.set(**{name: values[n if meaning == END else n - 1] for name, values in inputs.items()})
+            slave.set(**{name: values[n if lead == END else n - 1] for name, values in inputs.items()})
         slave.step(h)
         found.append(slave.get(*names))
     return np.array(found)
@@ -96,7 +96,7 @@ def test_rotor_alone_under_the_forces_of_its_contacts(instance, rotors, moving, 
     wanted = motion_of(expected)
     names = [*moving(model.rotor), "approach[1]", "approach[2]", "rate[1]", "rate[2]"]
     start = dict(zip(names, wanted[0], strict=False))
-    found = run(instance("alone"), names, steps, dt, meaning=END, inputs=inputs, inner_step=dt, **start)
+    found = run(instance("alone"), names, steps, dt, lead=END, inputs=inputs, inner_step=dt, **start)
     wanted = np.hstack([wanted, expected.approach, expected.rate])
     assert (np.abs(found - wanted).max(axis=0) <= 1e-5 * np.ptp(wanted, axis=0)).all()
     assert (np.abs(found - wanted).max(axis=0)[:4] <= 1e-7 * np.ptp(wanted, axis=0)[:4]).all()
@@ -127,7 +127,7 @@ def test_rotor_alone_converges_to_its_analytic_twin(instance, rotors, moving, na
     axes = [("x", "y")[k] for k in rotor.axes]
     names = moving(rotor)
     errors = {}
-    for meaning in (EXTRAPOLATED, END, HELD):
+    for lead in (EXTRAPOLATED, END, HELD):
         for refined in (1, 2):
             steps, h = 200 * refined, 1e-5 / refined
             T = h * np.arange(steps + 1)
@@ -143,13 +143,13 @@ def test_rotor_alone_converges_to_its_analytic_twin(instance, rotors, moving, na
             applied = np.array([rotor.applied_force(t) for t in T])
             forces = applied + np.hstack([disc, journal - rotor.bearings * carried])
             wanted = twin(rotor, T, forces)
-            inner = 1e-6 if meaning == HELD else h
-            found = run(instance(name), names, steps, h, meaning=meaning, inputs=inputs, inner_step=inner)
-            errors[meaning, refined] = np.abs(found - wanted).max(axis=0) / np.ptp(wanted, axis=0)
-    for meaning, order in ((EXTRAPOLATED, 2.0), (END, 2.0), (HELD, 1.0)):
-        assert errors[meaning, 1].max() < 0.1
-        ratio = np.log2(np.linalg.norm(errors[meaning, 1]) / np.linalg.norm(errors[meaning, 2]))
-        assert ratio == pytest.approx(order, abs=0.3), meaning
+            inner = 1e-6 if lead == HELD else h
+            found = run(instance(name), names, steps, h, lead=lead, inputs=inputs, inner_step=inner)
+            errors[lead, refined] = np.abs(found - wanted).max(axis=0) / np.ptp(wanted, axis=0)
+    for lead, order in ((EXTRAPOLATED, 2.0), (END, 2.0), (HELD, 1.0)):
+        assert errors[lead, 1].max() < 0.1
+        ratio = np.log2(np.linalg.norm(errors[lead, 1]) / np.linalg.norm(errors[lead, 2]))
+        assert ratio == pytest.approx(order, abs=0.3), lead
 
 
 def test_a_force_that_jumps_is_felt_at_once(instance, rotors):
@@ -157,7 +157,7 @@ def test_a_force_that_jumps_is_felt_at_once(instance, rotors):
     slave, rotor, h, force = instance("alone"), rotors["alone"].rotor, 1e-6, 1000.0
     carried = rotor.static_load / rotor.bearings
     F = dict(zip(("force[1]", "force[2]"), np.linalg.solve(rotor.normals.T, carried), strict=True))
-    slave.start(input_meaning=HELD, inner_step=h, unbalance=0.0, **F)
+    slave.start(force_lead=HELD, inner_step=h, unbalance=0.0, **F)
     for _ in range(3):
         slave.step(h)
     before = np.array(slave.get("journal_x", "journal_y"))
@@ -173,7 +173,7 @@ def test_speed_and_unbalance_can_be_tuned_on_the_way(instance, rotors, motion_of
     """The angle goes on; the unbalance is of the new speed from there."""
     model, dt = rotors["wide"], 1e-5
     slave = instance("wide")
-    slave.start(input_meaning=EXTRAPOLATED, inner_step=dt)
+    slave.start(force_lead=EXTRAPOLATED, inner_step=dt)
     for _ in range(300):
         slave.step(dt)
     turned = slave.get("angle")[0]
@@ -189,7 +189,7 @@ def test_speed_and_unbalance_can_be_tuned_on_the_way(instance, rotors, motion_of
 
 def test_angle_loses_nothing_in_many_steps(instance, rotors):
     slave = instance("alone in y")
-    slave.start(input_meaning=EXTRAPOLATED, inner_step=1e-6, speed_rpm=7654.321)
+    slave.start(force_lead=EXTRAPOLATED, inner_step=1e-6, speed_rpm=7654.321)
     for _ in range(200):
         slave.step(1e-4)
     assert slave.get("angle")[0] == pytest.approx(200 * 1e-4 * 7654.321 * np.pi / 30.0, rel=3e-15)
