@@ -14,6 +14,7 @@ from typing import NamedTuple
 from ehlcontact.checks import require_choice, require_nonnegative, require_positive
 from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.quantity import fields_take, takes
+from ehlcontact.elementary import exponential, logarithm
 from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_node
 from ehlcontact.lubricant.oil import ALPHA_SCATTER, GOLD_PRESSURE, GRADE_SCATTER, MineralOil
@@ -172,19 +173,19 @@ def alpha_through(secant: float, eta0: float, viscosity: str) -> float:
 
 @jit_node
 def density(P, law):
-    """Density at P = p/p_h over ambient density, Dowson-Higginson or 1, and its derivative."""
+    """Density at P = p/p_h over ambient density, Dowson-Higginson or 1, and its derivative; P a float or lanes."""
     if law.compressible:
         inverse = 1.0 / (law.d + P)
         # 0.34 = C2 - 1, written out because the difference would be rounded
         return (law.d + DOWSON_HIGGINSON_C2 * P) * inverse, 0.34 * law.d * inverse * inverse
-    return 1.0, 0.0
+    return 1.0 + 0.0 * P, 0.0 * P  # of the type of P
 
 
 @jit_node
 def log_viscosity(P, law):
-    """Logarithm of viscosity over eta0 at P = p/p_h, Roelands or Barus, and its derivative."""
+    """Logarithm of viscosity over eta0 at P = p/p_h, Roelands or Barus, and its derivative; P a float or lanes."""
     if law.roelands:
         base = 1.0 + law.s * P
-        power = math.exp(law.z * math.log(base)) if P != 0.0 else 1.0  # many nodes are dry: two functions less
+        power = exponential(law.z * logarithm(base))
         return law.q * (power - 1.0), law.q * law.z * law.s * power / base
-    return law.alpha_bar * P, law.alpha_bar
+    return law.alpha_bar * P, law.alpha_bar + 0.0 * P

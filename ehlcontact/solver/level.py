@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.hertz import shape_factor
+from ehlcontact.lanes import LANES
 from ehlcontact.point import MoesPoint
 from ehlcontact.process.threads import CALLING_THREAD, Kernel, team_of
 from ehlcontact.solver.deflection import make_deflection
@@ -45,10 +46,13 @@ class Level:
     """One mesh of nx intervals along X and ny along Y >= 0, with its state P, H and its equations.
 
     The equations are ``N(P, H) = rhs`` and ``H = film_shift - u + gap + deflection(P)``; the right-hand sides
-    carry history terms on the finest level and the full-approximation corrections below it.
+    carry history terms on the finest level and the full-approximation corrections below it. The kernels take eight
+    nodes at a time, from the third on: a line has 11 intervals at least.
     """
 
     def __init__(self, point: MoesPoint, domain: Domain, nx: int, ny: int, deflection: str = "fft") -> None:
+        if nx < LANES + 3:
+            raise ValueError(f"nx = {nx}: at least {LANES + 3}")
         self.nx, self.ny = nx, ny
         self.X = np.linspace(domain.x_in, domain.x_out, nx + 1)
         self.Y = np.linspace(0.0, domain.y_max, ny + 1)
@@ -175,8 +179,8 @@ class Level:
         for colour in (0, 1):
             if colour == 1:
                 self._update_flow()
-            coloured = (lines + 1 - colour) // 2
-            self.team.run(relax.relax_lines, coloured, colour, f, self.rhs, numbers, self.c_t, self.near)
+            groups = -(-((lines + 1 - colour) // 2) // LANES)
+            self.team.run(relax.relax_lines, groups, colour, f, self.rhs, numbers, self.c_t, self.near, least=1)
             self.team.run(relax.apply_lines, lines, colour, f, self.near)
         own = self.near[0, 0]
         given = (f.P, f.H, f.flow, self.rhs, self.law, numbers, self.c_t, own, self.nodes, self.marks)

@@ -8,13 +8,14 @@ relaxed several times after the sweeps: segments of lines in two colours, with t
 
 import numpy as np
 
-from ehlcontact.jit import jit
+from ehlcontact.jit import jit, jit_loop
+from ehlcontact.lanes import LANES
 from ehlcontact.solver.kernels.relax import (
     NEAR,
     change_at,
     distribution_weight,
     line_work,
-    relax_line,
+    relax_segments,
     response,
     shares_at,
     switch_value,
@@ -31,7 +32,7 @@ LEAST_ALONG_ROLLING = 6  # fewest in a long contact: with three, cycles diverge 
 SOLVED, FELT = 2, 1  # marks: the larger one stands where both fall
 
 
-@jit
+@jit_loop
 def mark_front(first, last, P, eps, marks):
     """Mark the nodes of lines `first` to `last` - 1 within FRONT_REACH of a front, and all that feel their film.
 
@@ -50,7 +51,7 @@ def mark_front(first, last, P, eps, marks):
                     _mark(max(low - NEAR, 0), min(high + NEAR, ny), i, FRONT_REACH + NEAR, FELT, marks)
 
 
-@jit
+@jit_loop
 def _mark(low, high, i, reach, mark, marks):
     for j in range(low, high):
         for ii in range(max(i - reach, 1), min(i + reach + 2, marks.shape[1] - 1)):
@@ -82,7 +83,7 @@ def segments(first, last, marks, mark):
     return found
 
 
-@jit
+@jit_loop
 def add_films(solved, colour, theta, w, near, H):
     """Add to film H what the changes of the segments on lines of one colour cause within NEAR lines and nodes."""
     ny, nx = H.shape[0] - 1, H.shape[1] - 1
@@ -101,13 +102,19 @@ def add_films(solved, colour, theta, w, near, H):
 
 @jit
 def solve_segments(solved, colour, fields, rhs, stencil, c_t, near, work):
-    """`relax_line` on those segments that lie on lines of one colour; `work` by `line_work`."""
+    """`relax_segments` on those segments that lie on lines of one colour; `work` by `line_work`."""
+    found = np.empty((LANES, 3), np.int64)
+    count = 0
     for s in range(solved.shape[0]):
         if solved[s, 0] % 2 == colour:
-            relax_line(solved[s, 0], solved[s, 1], solved[s, 2], fields, rhs, stencil, c_t, near, work)
+            found[count] = solved[s]
+            count += 1
+        if count == LANES or (count > 0 and s == solved.shape[0] - 1):
+            relax_segments(found[:count], fields, rhs, stencil, c_t, near, work)
+            count = 0
 
 
-@jit
+@jit_loop
 def spread_segments(solved, felt, colour, fields, law, stencil, near):
     """P, film and flow at the nodes of segments `felt` by the changes of those `solved` on lines of one colour."""
     P, H, flow, theta, w = fields.P, fields.H, fields.flow, fields.theta, fields.w
@@ -119,7 +126,7 @@ def spread_segments(solved, felt, colour, fields, law, stencil, near):
             update_node(j, i, P, H, law, stencil, flow)
 
 
-@jit
+@jit_loop
 def update_between_segments(felt, flow):
     """Flow between the nodes of segments and all their neighbours.
 
@@ -135,7 +142,7 @@ def update_between_segments(felt, flow):
                 update_across(j - 1, i, flow)
 
 
-@jit
+@jit_loop
 def weigh_segments(felt, fields, stencil, c_t):
     """Weights of the distributed changes at the nodes of segments."""
     switch = switch_value(stencil, c_t)

@@ -6,12 +6,13 @@ C, W, E, S, N, WW. The elastic part ``dH = -du + K dP`` is left to the caller: t
 
 import numpy as np
 
-from ehlcontact.jit import jit, jit_node
+from ehlcontact.jit import jit, jit_loop, jit_node
+from ehlcontact.lanes import at
 
 NEIGHBOURS = 6
 
 
-@jit
+@jit_loop
 def neighbour(q, j, i):
     """Line and column of neighbour q of node (j, i); the line below the symmetry line is its image."""
     if q == 1:
@@ -33,38 +34,43 @@ def _face(flow, jq, iq, coupling, mean, skew, drop):
     other = drop * coupling * (0.5 * mean - skew)
     a = coupling * mean
     own = drop * coupling * (0.5 * mean + skew)
-    return a, own, a + other * flow.eps_slope[jq, iq], other * flow.film_slope[jq, iq]
+    return a, own, a + other * at(flow.eps_slope, jq, iq), other * at(flow.film_slope, jq, iq)
 
 
 @jit_node
 def linearise_at(j, i, P, flow, stencil, c_t, share):
-    """Derivatives at one interior node: six to P, then six to H; `share` is `flow_slope` of `linearise`."""
+    """Derivatives at one interior node, or eight from the second on: six to P, then six to H.
+
+    `share` is `flow_slope` of `linearise`.
+    """
     js, face, side = (j - 1, j - 1, -1.0) if j > 0 else (1, 0, 1.0)  # the line below line 0 is its image
-    p, cx, cy = P[j, i], stencil.cx, stencil.cy
+    p, cx, cy, inv_hx = at(P, j, i), stencil.cx, stencil.cy, stencil.inv_hx
     along, skew, across, slant = flow.along, flow.along_skew, flow.across, flow.across_skew
-    aw, dw, pw, hw = _face(flow, j, i - 1, cx, along[j, i - 1], -skew[j, i - 1], share * (P[j, i - 1] - p))
-    ae, de, pe, he = _face(flow, j, i + 1, cx, along[j, i], skew[j, i], share * (P[j, i + 1] - p))
-    as_, ds, ps, hs = _face(flow, js, i, cy, across[face, i], side * slant[face, i], share * (P[js, i] - p))
-    an, dn, pn, hn = _face(flow, j + 1, i, cy, across[j, i], slant[j, i], share * (P[j + 1, i] - p))
+    west, east = share * (at(P, j, i - 1) - p), share * (at(P, j, i + 1) - p)
+    south, north = share * (at(P, js, i) - p), share * (at(P, j + 1, i) - p)
+    aw, dw, pw, hw = _face(flow, j, i - 1, cx, at(along, j, i - 1), -at(skew, j, i - 1), west)
+    ae, de, pe, he = _face(flow, j, i + 1, cx, at(along, j, i), at(skew, j, i), east)
+    as_, ds, ps, hs = _face(flow, js, i, cy, at(across, face, i), side * at(slant, face, i), south)
+    an, dn, pn, hn = _face(flow, j + 1, i, cy, at(across, j, i), at(slant, j, i), north)
     # the wedge term of `reynolds.transport_at`
     if i > 1:
-        c0, c1, c2, c5 = 0.5 * stencil.inv_hx, -stencil.inv_hx, stencil.inv_hx / 3.0, stencil.inv_hx / 6.0
-        pww, hww = -c5 * flow.mass_slope[j, i - 2], -c5 * flow.rho[j, i - 2]
+        c0, c1, c2, c5 = 0.5 * inv_hx, -inv_hx, inv_hx / 3.0, inv_hx / 6.0
+        pww, hww = -c5 * at(flow.mass_slope, j, i - 2), -c5 * at(flow.rho, j, i - 2)
     else:
-        c0, c1, c2 = 0.0, -0.5 * stencil.inv_hx, 0.5 * stencil.inv_hx
-        pww, hww = 0.0, 0.0
+        c0, c1, c2 = 0.0, -0.5 * inv_hx, 0.5 * inv_hx
+        pww, hww = 0.0 * p, 0.0 * p  # of the type of P
     c0 += c_t
     jumps = dw + de + ds + dn
-    pc = jumps * flow.eps_slope[j, i] - (aw + ae + as_ + an) - c0 * flow.mass_slope[j, i]
-    hc = jumps * flow.film_slope[j, i] - c0 * flow.rho[j, i]
-    pw -= c1 * flow.mass_slope[j, i - 1]
-    hw -= c1 * flow.rho[j, i - 1]
-    pe -= c2 * flow.mass_slope[j, i + 1]
-    he -= c2 * flow.rho[j, i + 1]
+    pc = jumps * at(flow.eps_slope, j, i) - (aw + ae + as_ + an) - c0 * at(flow.mass_slope, j, i)
+    hc = jumps * at(flow.film_slope, j, i) - c0 * at(flow.rho, j, i)
+    pw -= c1 * at(flow.mass_slope, j, i - 1)
+    hw -= c1 * at(flow.rho, j, i - 1)
+    pe -= c2 * at(flow.mass_slope, j, i + 1)
+    he -= c2 * at(flow.rho, j, i + 1)
     return pc, pw, pe, ps, pn, pww, hc, hw, he, hs, hn, hww
 
 
-@jit
+@jit_loop
 def linearise(P, flow, stencil, c_t, flow_slope, p_coef, h_coef):
     """Derivatives at all interior nodes; `p_coef` and `h_coef`, both (6, ny+1, nx+1), written.
 

@@ -13,11 +13,16 @@ The flow factor eps falls by orders of magnitude from one node to the next on th
 nodes there never settle; with its full derivatives they overshoot. Three quarters of them serve everywhere. And
 the change of a whole line is cut where it is too large for its linear equations: cut node by node, it would no
 longer be distributed.
+
+Eight lines of one colour, or segments of such lines, are solved side by side, one in each lane of a register: a
+solve by itself is a chain of short steps that wait for each other. Their equations are made line by line, eight
+nodes at a time.
 """
 
 import numpy as np
 
-from ehlcontact.jit import jit, jit_node
+from ehlcontact.jit import jit, jit_loop, jit_node
+from ehlcontact.lanes import LANES, at, eight, larger, put, smaller, where_positive
 from ehlcontact.solver.kernels.linearise import linearise_at
 from ehlcontact.solver.kernels.reynolds import operator_at
 
@@ -36,18 +41,21 @@ FLOW_SLOPE = 0.75  # share of the derivatives of eps; see above
 LARGEST_CHANGE = 0.3  # of P in one sweep, along one line; far from the solution the linear model overshoots
 FILM_CHANGE = 1.0  # of the film there by the near coefficient alone, over the film: more would turn it negative
 LEAST_OPENING = 0.003  # of a node's own term, from which the film of the next lines counts in its equation
+ROWS = 16  # of eight systems made at a time: what they take up stays in the nearest cache
+FROM_SOUTH, FROM_NORTH, OPENING, RESIDUAL = BAND, BAND + 1, BAND + 2, BAND + 3  # behind the entries of a row
 
 
 @jit_node
 def distribution_weight(j, i, P, flow, stencil, switch):
-    """Weight theta of the distributed change at one interior node; a dry one has no pressure to take back from."""
-    if P[j, i] <= 0.0:
-        return 0.0
+    """Weight theta of the distributed change at an interior node, or eight.
+
+    A dry one has no pressure to take back from.
+    """
     face = j - 1 if j > 0 else 0
-    along = stencil.cx * max(flow.along[j, i - 1], flow.along[j, i])
-    across = stencil.cy * max(flow.across[face, i], flow.across[j, i])
-    ratio = max(along, across) / switch
-    return 1.0 / (1.0 + ratio * ratio * ratio * ratio)
+    along = stencil.cx * larger(at(flow.along, j, i - 1), at(flow.along, j, i))
+    across = stencil.cy * larger(at(flow.across, face, i), at(flow.across, j, i))
+    ratio = larger(along, across) / switch
+    return where_positive(at(P, j, i), 1.0 / (1.0 + ratio * ratio * ratio * ratio), 0.0)
 
 
 @jit_node
@@ -60,69 +68,81 @@ def switch_value(stencil, c_t):
     return SWITCH * stencil.crowding * (1.0 + SQUEEZE * c_t / (1.5 * stencil.inv_hx))
 
 
-@jit
+@jit_loop
 def distribution_weights(first, last, P, flow, stencil, c_t, theta):
     """Weights theta at the interior nodes of lines `first` to `last` - 1; `theta` written."""
-    switch = switch_value(stencil, c_t)
+    switch, nx = switch_value(stencil, c_t), P.shape[1] - 1
     for j in range(first, last):
-        for i in range(1, P.shape[1] - 1):
-            theta[j, i] = distribution_weight(j, i, P, flow, stencil, switch)
+        for k in range(1, nx, LANES):
+            i = eight(min(k, nx - LANES))
+            put(theta, j, i, distribution_weight(j, i, P, flow, stencil, switch))
 
 
-@jit
-def solve_band(band, b, m):
-    """Solve the banded system in place; no pivoting, the leading part being upstream-triangular.
+@jit_loop
+def solve_bands(band, b, m):
+    """Solve `LANES` banded systems of `m` rows in place; no pivoting, the leading part being upstream-triangular.
 
-    ``band[PAD + c, BAND_UPPER + r - c]`` couples row r to row c: column by column, so that what one row does to
-    the next ones lies side by side. The right-hand side ``b[PAD + r]`` becomes the solution. Both have `PAD`
-    columns on either side, so that the inner loops need no limits.
+    ``band[PAD + c, (BAND_UPPER + r - c) LANES + k]`` couples row r to row c of system k: column by column, so that
+    what one row does to the next ones lies side by side. The right-hand side ``b[PAD + r, k]`` becomes the
+    solution. Both have `PAD` columns on either side, so that the inner loops need no limits.
     """
     for c in range(max(m - BAND_LOWER, 0), m):
-        band[PAD + c, BAND_UPPER + m - c :] = 0.0  # not read, but what is left there would grow from line to line
+        band[PAD + c, (BAND_UPPER + m - c) * LANES :] = 0.0  # not read, but what is left there would grow
     for r in range(m):
-        own = band[PAD + r]
-        pivot = 1.0 / own[BAND_UPPER]
-        own[BAND_UPPER] = pivot
-        factors = lower_factors(own, pivot)  # a tuple: read from the array they would be so for every column
+        pivot = 1.0 / at(band, PAD + r, eight(BAND_UPPER * LANES))
+        put(band, PAD + r, eight(BAND_UPPER * LANES), pivot)
+        factors = lower_factors(band, PAD + r, pivot)
+        own = at(b, PAD + r, eight(0))
         for s in range(BAND_LOWER):
-            b[PAD + r + 1 + s] -= factors[s] * b[PAD + r]
+            add(b, PAD + r + 1 + s, eight(0), -factors[s] * own)
         for c in range(1, BAND_UPPER + 1):
-            other = band[PAD + r + c]
-            above = other[BAND_UPPER - c]
+            above = at(band, PAD + r + c, eight((BAND_UPPER - c) * LANES))
             for s in range(BAND_LOWER):
-                other[BAND_UPPER - c + 1 + s] -= factors[s] * above
+                add(band, PAD + r + c, eight((BAND_UPPER - c + 1 + s) * LANES), -factors[s] * above)
     for r in range(m - 1, -1, -1):
-        own = band[PAD + r]
-        value = b[PAD + r] * own[BAND_UPPER]
-        b[PAD + r] = value
+        value = at(b, PAD + r, eight(0)) * at(band, PAD + r, eight(BAND_UPPER * LANES))
+        put(b, PAD + r, eight(0), value)
         for c in range(1, BAND_UPPER + 1):
-            b[PAD + r - c] -= own[BAND_UPPER - c] * value
+            add(b, PAD + r - c, eight(0), -at(band, PAD + r, eight((BAND_UPPER - c) * LANES)) * value)
 
 
 @jit_node
-def columns_around(band, r):
-    """Columns of `band` that row r has an entry in."""
-    return band[PAD + r - BAND_LOWER : PAD + r + BAND_UPPER + 1]
+def add(a, j, i, value):
+    """Add to one entry of an array, or to eight."""
+    put(a, j, i, at(a, j, i) + value)
 
 
 @jit_node
-def lower_factors(column, pivot):
+def lower_factors(band, column, pivot):
     """The `BAND_LOWER` entries of a column below its diagonal, times `pivot`."""
-    a, b, c, d = column[BAND_UPPER + 1], column[BAND_UPPER + 2], column[BAND_UPPER + 3], column[BAND_UPPER + 4]
-    e, f, g, h = column[BAND_UPPER + 5], column[BAND_UPPER + 6], column[BAND_UPPER + 7], column[BAND_UPPER + 8]
-    return a * pivot, b * pivot, c * pivot, d * pivot, e * pivot, f * pivot, g * pivot, h * pivot
+    below = eight((BAND_UPPER + 1) * LANES)
+    return (
+        at(band, column, below) * pivot,
+        at(band, column, below + LANES) * pivot,
+        at(band, column, below + 2 * LANES) * pivot,
+        at(band, column, below + 3 * LANES) * pivot,
+        at(band, column, below + 4 * LANES) * pivot,
+        at(band, column, below + 5 * LANES) * pivot,
+        at(band, column, below + 6 * LANES) * pivot,
+        at(band, column, below + 7 * LANES) * pivot,
+    )
+
+
+@jit_node
+def share(j, i, jq, iq, theta):
+    """Share of a change at an interior node, or eight, that a neighbour takes back; the same for both."""
+    return SHARE * smaller(at(theta, j, i), at(theta, jq, iq))
 
 
 @jit_node
 def shares_at(j, i, theta):
-    """Shares of a change at one interior node that its neighbours W, E, S, N take back."""
-    t = theta[j, i]
+    """Shares of a change at an interior node, or eight, that the neighbours W, E, S, N take back."""
     south = j - 1 if j > 0 else 1
     return (
-        SHARE * min(t, theta[j, i - 1]),
-        SHARE * min(t, theta[j, i + 1]),
-        SHARE * min(t, theta[south, i]),
-        SHARE * min(t, theta[j + 1, i]),
+        share(j, i, j, i - 1, theta),
+        share(j, i, j, i + 1, theta),
+        share(j, i, south, i, theta),
+        share(j, i, j + 1, i, theta),
     )
 
 
@@ -135,128 +155,213 @@ def response(line, shift, shares, near):
     return film - south * near[abs(line + 1), abs(shift)] - north * near[abs(line - 1), abs(shift)]
 
 
-@jit
-def responses(line, j, start, stop, theta, near, reach, films):
-    """`response` of nodes `start` to `stop` - 1 of line j, `line` lines further and up to `reach` nodes aside.
+@jit_node
+def responses(j, start, stop, theta, near, films):
+    """`response` along line j of its nodes `start` to `stop` - 1.
 
-    ``films[PAD + i, centre + shift]`` written, and 0 for `PAD` nodes beside them.
+    ``films[ALONG + FILM_MARGIN + shift, PAD + i]`` written, and 0 for `PAD` nodes beside them.
     """
-    centre = films.shape[1] // 2
-    films[start : PAD + start] = 0.0
-    films[PAD + stop : 2 * PAD + stop] = 0.0
-    here, beyond, before = near[abs(line)], near[abs(line + 1)], near[abs(line - 1)]
-    for i in range(start, stop):
+    centre, nx = ALONG + FILM_MARGIN, theta.shape[1] - 1
+    here, beside = near[0], near[1]
+    for k in range(start, stop, LANES):
+        i = eight(min(k, nx - LANES))
         west, east, south, north = shares_at(j, i, theta)
-        film = films[PAD + i]
-        film[centre] = here[0] - (west + east) * here[1] - south * beyond[0] - north * before[0]
-        for shift in range(1, reach + 1):
-            even = here[shift] - south * beyond[shift] - north * before[shift]
-            film[centre + shift] = even - west * here[shift + 1] - east * here[shift - 1]
-            film[centre - shift] = even - west * here[shift - 1] - east * here[shift + 1]
+        across = south + north
+        put(films, centre, i + PAD, here[0] - (west + east) * here[1] - across * beside[0])
+        for shift in range(1, ALONG + 1):
+            even = here[shift] - across * beside[shift]
+            put(films, centre + shift, i + PAD, even - west * here[shift + 1] - east * here[shift - 1])
+            put(films, centre - shift, i + PAD, even - west * here[shift - 1] - east * here[shift + 1])
+    for row in range(centre - ALONG, centre + ALONG + 1):
+        put(films, row, eight(start), 0.0)
+        put(films, row, eight(PAD + stop), 0.0)
 
 
 @jit_node
-def assemble_at(j, i, P, flow, theta, stencil, c_t, films, near, band, r):
-    """Row `r`, of one node, in the matrix of the distributed changes of its line; `band` written for `solve_band`.
+def assemble_at(j, i, P, flow, theta, rhs, stencil, c_t, films, near, rows, k):
+    """Row of one node in the matrix of distributed changes of its line, or rows of eight; ``rows[:, k]`` written.
 
-    A unit change at node k of the line raises P there by 1, lowers its neighbours by their shares and deflects the
-    film near it by ``films[k]``. The film of the next lines counts where oil flows there: beside the side lobes of
-    long contacts pressure opens its own way out, by more than the flow that it drives through the gap as it is.
-    Without that the last lines of a lobe move by twice what they should and more, and sweeps diverge. Where oil
-    comes from the next line that term has the other sign: it would take away what holds the solve together.
+    A unit change at a node of the line raises P there by 1, lowers its neighbours by their shares and deflects the
+    film near it by its column of `films`. ``rows[BAND_LOWER + o]`` is what a change `o` nodes further does.
     """
     pc, pw, pe, ps, pn, pww, hc, hw, he, hs, hn, hww = linearise_at(j, i, P, flow, stencil, c_t, FLOW_SLOPE)
-    last = P.shape[1] - 1
-    # Views, whose indices are constants: the columns of the row, and the films by these nodes.
-    around, sources = columns_around(band, r), films[PAD + i - BAND_LOWER : PAD + i + BAND_UPPER + 1]
     for o in range(-BAND_LOWER, BAND_UPPER + 1):
-        by, at = sources[BAND_LOWER + o], ALONG + FILM_MARGIN - o
-        film = hc * by[at] + hw * by[at - 1] + hww * by[at - 2] + he * by[at + 1]
-        around[BAND_LOWER + o, BAND_UPPER - o] = film
-    hs, hn = min(hs, 0.0), min(hn, 0.0)
-    if -(hs + hn) * near[1, 0] > LEAST_OPENING * abs(pc + hc * near[0, 0]):
-        for o in range(max(-NEAR, 1 - i), min(NEAR, last - 1 - i) + 1):
-            shares = shares_at(j, i + o, theta)
-            film = hs * response(-1, -o, shares, near) + hn * response(1, -o, shares, near)
-            around[BAND_LOWER + o, BAND_UPPER - o] += film
-    own = theta[j, i]
-    far_west = SHARE * min(theta[j, max(i - 3, 0)], theta[j, max(i - 2, 0)])
-    west = SHARE * min(theta[j, max(i - 2, 0)], theta[j, i - 1])
-    near_west, near_east = SHARE * min(theta[j, i - 1], own), SHARE * min(own, theta[j, i + 1])
-    east = SHARE * min(theta[j, i + 1], theta[j, min(i + 2, last)])
-    south = SHARE * min(own, theta[j - 1 if j > 0 else 1, i])
-    north = SHARE * min(own, theta[j + 1, i])
-    around[BAND_LOWER - 3, BAND_UPPER + 3] -= pww * far_west
-    around[BAND_LOWER - 2, BAND_UPPER + 2] += pww - pw * west
-    around[BAND_LOWER - 1, BAND_UPPER + 1] += pw - pww * west - pc * near_west
+        q, n = ALONG + FILM_MARGIN - o, i + (PAD + o)
+        film = hc * at(films, q, n) + hw * at(films, q - 1, n)
+        put(rows, BAND_LOWER + o, k, film + hww * at(films, q - 2, n) + he * at(films, q + 1, n))
+    near_west, near_east, south, north = shares_at(j, i, theta)
+    east = share(j, i + 1, j, i + 2, theta)
+    if i > 2:
+        far_west, west = share(j, i - 3, j, i - 2, theta), share(j, i - 2, j, i - 1, theta)
+    else:
+        far_west, west = 0.0 * pc, 0.0 * pc  # the border takes nothing back
+    add(rows, BAND_LOWER - 3, k, -pww * far_west)
+    add(rows, BAND_LOWER - 2, k, pww - pw * west)
+    add(rows, BAND_LOWER - 1, k, pw - pww * west - pc * near_west)
     # line 1 gives to the symmetry line twice: itself and its image
-    across = pn * north + (2.0 * ps if j == 1 else ps) * south
-    around[BAND_LOWER, BAND_UPPER] += pc - pw * near_west - pe * near_east - across
-    around[BAND_LOWER + 1, BAND_UPPER - 1] += pe - pc * near_east
-    around[BAND_LOWER + 2, BAND_UPPER - 2] -= pe * east
+    across = pn * north + (2.0 if j == 1 else 1.0) * ps * south
+    add(rows, BAND_LOWER, k, pc - pw * near_west - pe * near_east - across)
+    add(rows, BAND_LOWER + 1, k, pe - pc * near_east)
+    add(rows, BAND_LOWER + 2, k, -pe * east)
+    hs, hn = smaller(hs, 0.0), smaller(hn, 0.0)
+    own = pc + hc * near[0, 0]
+    put(rows, FROM_SOUTH, k, hs)
+    put(rows, FROM_NORTH, k, hn)
+    put(rows, OPENING, k, -(hs + hn) * near[1, 0] - LEAST_OPENING * larger(own, -own))
+    put(rows, RESIDUAL, k, at(rhs, j, i) - operator_at(j, i, P, flow, stencil, c_t))
 
 
-@jit
-def relax_line(j, start, stop, fields, rhs, stencil, c_t, near, work):
-    """Solve nodes `start` to `stop` - 1 of line j for their distributed changes; ``fields.w`` written there.
+@jit_loop
+def add_film_of_next_lines(j, i, theta, near, rows, k):
+    """Add the film of the next lines to the row of node i, ``rows[:, k]``.
 
-    A node joins the solve if P > 0 or if its residual asks for pressure (complementarity). `work` is
-    ``(films, band, b)`` of `line_work`.
+    It counts where oil flows there: beside the side lobes of long contacts pressure opens its own way out, by more
+    than the flow that it drives through the gap as it is. Without that the last lines of a lobe move by twice what
+    they should and more, and sweeps diverge. Where oil comes from the next line that term has the other sign: it
+    would take away what holds the solve together.
     """
-    P, flow, theta, w = fields.P, fields.flow, fields.theta, fields.w
-    films, band, b = work
-    responses(0, j, start, stop, theta, near, ALONG, films)
-    for i in range(start, stop):
-        r = i - start
-        b[PAD + r] = rhs[j, i] - operator_at(j, i, P, flow, stencil, c_t)
-        if P[j, i] > 0.0 or b[PAD + r] < 0.0:
-            assemble_at(j, i, P, flow, theta, stencil, c_t, films, near, band, r)
-        else:
-            around = columns_around(band, r)
-            for o in range(-BAND_LOWER, BAND_UPPER + 1):
-                around[BAND_LOWER + o, BAND_UPPER - o] = 0.0
-            around[BAND_LOWER, BAND_UPPER] = 1.0
-            b[PAD + r] = 0.0
-    m = stop - start
-    solve_band(band, b, m)
+    last = theta.shape[1] - 1
+    for o in range(max(-NEAR, 1 - i), min(NEAR, last - 1 - i) + 1):
+        shares = shares_at(j, i + o, theta)
+        film = rows[FROM_SOUTH, k] * response(-1, -o, shares, near)
+        rows[BAND_LOWER + o, k] += film + rows[FROM_NORTH, k] * response(1, -o, shares, near)
+
+
+@jit_node
+def take_row(j, i, r, lane, P, theta, near, work, k):
+    """Row r of a system from ``rows[:, k]``, of node i; returns whether the node joins the solve.
+
+    It does if P > 0 or if its residual asks for pressure (complementarity).
+    """
+    _, band, b, rows = work
+    if not (at(P, j, i) > 0.0 or at(rows, RESIDUAL, k) < 0.0):
+        set_idle(r, lane, band, b)
+        return False
+    if at(rows, OPENING, k) > 0.0:
+        add_film_of_next_lines(j, i, theta, near, rows, k)
+    for o in range(BAND):
+        put(band, PAD + r - BAND_LOWER + o, (BAND - 1 - o) * LANES + lane, at(rows, o, k))
+    put(b, PAD + r, lane, at(rows, RESIDUAL, k))
+    return True
+
+
+@jit_node
+def set_idle(r, lane, band, b):
+    """Row r of a system: no change."""
+    for o in range(BAND):
+        put(band, PAD + r - BAND_LOWER + o, (BAND - 1 - o) * LANES + lane, 0.0)
+    put(band, PAD + r, BAND_UPPER * LANES + lane, 1.0)
+    put(b, PAD + r, lane, 0.0)
+
+
+@jit_node
+def assemble_rows(j, start, stop, first, lane, fields, rhs, stencil, c_t, near, work):
+    """Rows `first` to ``first + ROWS - 1`` of system `lane`, which is nodes `start` to `stop` - 1 of line j.
+
+    Returns the number of the last node of them that joins, from 1, or 0.
+    """
+    P, flow, theta = fields.P, fields.flow, fields.theta
+    films, _, _, rows = work
+    nx, m = P.shape[1] - 1, 0
+    begin, end = start + first, min(start + first + ROWS, stop)
+    responses(j, max(begin - PAD, start), min(end + PAD, stop), theta, near, films)
+    for i in range(begin, min(end, 3)):  # beside the border
+        assemble_at(j, i, P, flow, theta, rhs, stencil, c_t, films, near, rows, 0)
+        if take_row(j, i, i - start, lane, P, theta, near, work, 0):
+            m = i - start + 1
+    for k in range(max(begin, 3), end, LANES):
+        i = min(k, nx - LANES)
+        assemble_at(j, eight(i), P, flow, theta, rhs, stencil, c_t, films, near, rows, eight(0))
+        for q in range(k - i, min(LANES, end - i)):
+            if take_row(j, i + q, i + q - start, lane, P, theta, near, work, q):
+                m = i + q - start + 1
+    return m
+
+
+@jit_loop
+def relax_segments(found, fields, rhs, stencil, c_t, near, work):
+    """Solve at most `LANES` segments of lines of one colour for distributed changes; ``fields.w`` written there.
+
+    `found` has line, first node, and node after the last, of each; `work` is that of `line_work`.
+    """
+    _, band, b, _ = work
+    m, longest = 0, 0
+    for lane in range(len(found)):
+        longest = max(longest, found[lane, 2] - found[lane, 1])
+    for first in range(0, longest, ROWS):
+        for lane in range(len(found)):
+            j, start, stop = found[lane]
+            if start + first < stop:
+                m = max(m, assemble_rows(j, start, stop, first, lane, fields, rhs, stencil, c_t, near, work))
+    for lane in range(LANES):
+        own = found[lane, 2] - found[lane, 1] if lane < len(found) else 0
+        for r in range(own, m):
+            set_idle(r, lane, band, b)
+    solve_bands(band, b, m)
+    for lane in range(len(found)):
+        j, start, stop = found[lane]
+        take_change(j, start, stop, lane, m, fields, near, b)
+
+
+@jit_node
+def take_change(j, start, stop, lane, m, fields, near, b):
+    """Change of one segment, scaled where it is too large; ``fields.w`` written there."""
+    w, H = fields.w, fields.H
     largest = LARGEST_CHANGE
-    for r in range(m):
-        H = fields.H[j, start + r]
-        relative = LARGEST_CHANGE / FILM_CHANGE * near[0, 0] / H if H > 0.0 else 0.0
-        largest = max(largest, abs(b[PAD + r]) * max(1.0, relative))
-    for r in range(m):
-        w[j, start + r] = LARGEST_CHANGE / largest * b[PAD + r]
+    for i in range(start, stop):
+        change = at(b, PAD + i - start, lane) if i - start < m else 0.0
+        put(w, j, i, change)
+        film = at(H, j, i)
+        relative = LARGEST_CHANGE / FILM_CHANGE * near[0, 0] / film if film > 0.0 else 0.0
+        largest = max(largest, abs(change) * max(1.0, relative))
+    for i in range(start, stop):
+        w[j, i] *= LARGEST_CHANGE / largest
 
 
 @jit
 def line_work(nodes):
-    """Work arrays of `relax_line` for lines of so many nodes."""
+    """Work arrays of `relax_segments` for lines of so many nodes: films, matrices, right-hand sides, rows."""
     columns = nodes + 2 * PAD
-    return np.zeros((columns, 2 * (ALONG + FILM_MARGIN) + 1)), np.zeros((columns, BAND)), np.zeros(columns)
+    films, rows = aligned(2 * (ALONG + FILM_MARGIN) + 1, columns), aligned(BAND + 4, LANES)
+    films[...] = 0.0
+    return films, aligned(columns, BAND * LANES), aligned(columns, LANES), rows
+
+
+@jit
+def aligned(lines, columns):
+    """An array of which eight numbers, from a multiple of eight on, are one line of the cache."""
+    numbers = np.empty(lines * columns + LANES)
+    first = (-numbers.ctypes.data % (8 * LANES)) // 8
+    return numbers[first : first + lines * columns].reshape(lines, columns)
 
 
 @jit
 def relax_lines(first, last, colour, fields, rhs, stencil, c_t, near):
-    """`relax_line` for the whole lines ``colour + 2 k``, k from `first` to `last` - 1, which are independent."""
-    nodes = fields.P.shape[1]
+    """`relax_segments` for groups `first` to `last` - 1 of eight of the whole lines ``colour + 2 k`` each."""
+    ny, nodes = fields.P.shape[0] - 1, fields.P.shape[1]
     work = line_work(nodes)
-    for k in range(first, last):
-        relax_line(colour + 2 * k, 1, nodes - 1, fields, rhs, stencil, c_t, near, work)
+    found = np.empty((LANES, 3), np.int64)
+    for group in range(first, last):
+        start = colour + 2 * LANES * group
+        count = min(LANES, (ny + 1 - start) // 2)
+        for lane in range(count):
+            found[lane, 0], found[lane, 1], found[lane, 2] = start + 2 * lane, 1, nodes - 1
+        relax_segments(found[:count], fields, rhs, stencil, c_t, near, work)
 
 
 @jit_node
 def change_at(j, i, colour, P, theta, w):
-    """Change of P at one interior node by the distributed changes of the lines of one colour."""
-    if P[j, i] <= 0.0:
-        return w[j, i] if (j - colour) % 2 == 0 else 0.0
+    """Change of P at an interior node, or eight, by the distributed changes of the lines of one colour."""
     if (j - colour) % 2 == 0:
-        change = w[j, i]
-        change -= SHARE * min(theta[j, i - 1], theta[j, i]) * w[j, i - 1]
-        return change - SHARE * min(theta[j, i + 1], theta[j, i]) * w[j, i + 1]
-    north = SHARE * min(theta[j, i], theta[j + 1, i]) * w[j + 1, i]
+        own = at(w, j, i)
+        taken = share(j, i, j, i - 1, theta) * at(w, j, i - 1) + share(j, i, j, i + 1, theta) * at(w, j, i + 1)
+        return where_positive(at(P, j, i), own - taken, own)
+    taken = share(j, i, j + 1, i, theta) * at(w, j + 1, i)
     if j == 0:
-        return -2.0 * north  # line 1 and its image
-    return -north - SHARE * min(theta[j, i], theta[j - 1, i]) * w[j - 1, i]
+        taken = 2.0 * taken  # line 1 and its image
+    else:
+        taken += share(j, i, j - 1, i, theta) * at(w, j - 1, i)
+    return where_positive(at(P, j, i), -taken, 0.0)
 
 
 @jit
@@ -266,25 +371,39 @@ def apply_lines(first, last, colour, fields, near):
     H is for the odd lines, which are solved after the even ones (colour 0); only near coefficients, and neighbour
     lines, count for it.
     """
-    P, theta, w = fields.P, fields.theta, fields.w
+    P, H, theta, w = fields.P, fields.H, fields.theta, fields.w
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
-    films = np.zeros((nx + 1 + 2 * PAD, 2 * NEAR + 1))
+    films = np.zeros((2 * NEAR + 1, nx + 1 + 2 * PAD))
+    change = np.zeros((1, nx + 1))
     for j in range(first, last):
+        for k in range(1, nx, LANES):
+            i = eight(min(k, nx - LANES))
+            put(change, 0, i, change_at(j, i, colour, P, theta, w))
         for i in range(1, nx):
-            P[j, i] = max(P[j, i] + change_at(j, i, colour, P, theta, w), 0.0)
+            P[j, i] = max(P[j, i] + change[0, i], 0.0)
         if colour == 0 and j % 2 == 1:
             for source in (j - 1, j + 1):
                 if source < ny:
-                    responses(j - source, source, 1, nx, theta, near, NEAR, films)
-                    near_film(fields.H[j], w[source], films)
+                    near_film(j - source, source, theta, w, near, films, change)
+                    for i in range(1, nx):
+                        H[j, i] += change[0, i]
 
 
-@jit
-def near_film(H, w, films):
-    """Add to a line `H` of film what the distributed changes `w` of a line cause there; `films` by `responses`."""
-    nx = H.shape[0] - 1
-    for i in range(1, nx):
-        change = 0.0
-        for k in range(max(i - NEAR, 1), min(i + NEAR, nx - 1) + 1):
-            change += w[k] * films[PAD + k, NEAR + i - k]
-        H[i] += change
+@jit_loop
+def near_film(line, j, theta, w, near, films, change):
+    """Film that the distributed changes of line j cause `line` lines further; ``change[0]`` written.
+
+    `films` is work space, 0 beside the nodes of a line.
+    """
+    nx = theta.shape[1] - 1
+    for k in range(1, nx, LANES):
+        i = eight(min(k, nx - LANES))
+        shares, own = shares_at(j, i, theta), at(w, j, i)
+        for shift in range(-NEAR, NEAR + 1):
+            put(films, NEAR + shift, i + PAD, own * response(line, shift, shares, near))
+    for k in range(1, nx, LANES):
+        i = eight(min(k, nx - LANES))
+        film = at(films, NEAR, i + PAD)
+        for shift in range(1, NEAR + 1):
+            film += at(films, NEAR + shift, i + (PAD - shift)) + at(films, NEAR - shift, i + (PAD + shift))
+        put(change, 0, i, film)

@@ -11,10 +11,11 @@ term. After Venner and Lubrecht (2000), ch. 6, whose arithmetic mean and second-
 of the film ten to thirty times larger on the same grid.
 """
 
-import math
 from typing import Any, NamedTuple
 
-from ehlcontact.jit import jit, jit_node
+from ehlcontact.elementary import exponential
+from ehlcontact.jit import jit_loop, jit_node
+from ehlcontact.lanes import LANES, at, eight, larger, put, root
 from ehlcontact.lubricant import density, log_viscosity
 
 FILM_FLOOR = 1e-8  # where iterates overlap; keeps eps > 0 without touching any converged film
@@ -62,7 +63,7 @@ def flow_mean(a, b):
     for neighbours that are alike (it differs by x^4/8), arithmetic for those far apart, and a flow that always
     falls with the downstream pressure and rises with the upstream one.
     """
-    g = math.sqrt(a * b) + TINY
+    g = root(a * b) + TINY
     s = 0.5 * (a + b) / g - 1.0
     share = 1.0 / (2.0 + s)
     return g * (1.0 + s * s * share), 0.25 * (a - b) * s * (4.0 + s) * share * share
@@ -70,50 +71,56 @@ def flow_mean(a, b):
 
 @jit_node
 def update_node(j, i, P, H, law, stencil, flow):
-    """What `flow` holds at one node."""
-    rho, rho_slope = density(P[j, i], law)
-    thickness, thickness_slope = log_viscosity(P[j, i], law)
-    h = max(H[j, i], FILM_FLOOR)
-    flow.eps[j, i] = rho * h * h * h * math.exp(-thickness) / stencil.lam
-    flow.eps_slope[j, i] = rho_slope / rho - thickness_slope
-    flow.film_slope[j, i] = 3.0 / h
-    flow.mass[j, i] = rho * H[j, i]
-    flow.mass_slope[j, i] = rho_slope * H[j, i]
-    flow.rho[j, i] = rho
+    """What `flow` holds at one node, or eight."""
+    p, film = at(P, j, i), at(H, j, i)
+    rho, rho_slope = density(p, law)
+    thickness, thickness_slope = log_viscosity(p, law)
+    h = larger(film, FILM_FLOOR)
+    put(flow.eps, j, i, rho * h * h * h * exponential(-thickness) / stencil.lam)
+    put(flow.eps_slope, j, i, rho_slope / rho - thickness_slope)
+    put(flow.film_slope, j, i, 3.0 / h)
+    put(flow.mass, j, i, rho * film)
+    put(flow.mass_slope, j, i, rho_slope * film)
+    put(flow.rho, j, i, rho)
 
 
 @jit_node
 def update_along(j, i, flow):
-    """Mean and skew between nodes i and i + 1."""
-    flow.along[j, i], flow.along_skew[j, i] = flow_mean(flow.eps[j, i], flow.eps[j, i + 1])
+    """Mean and skew between nodes i and i + 1; of eight nodes likewise."""
+    mean, skew = flow_mean(at(flow.eps, j, i), at(flow.eps, j, i + 1))
+    put(flow.along, j, i, mean)
+    put(flow.along_skew, j, i, skew)
 
 
 @jit_node
 def update_across(j, i, flow):
-    """Mean and skew between nodes j and j + 1."""
-    flow.across[j, i], flow.across_skew[j, i] = flow_mean(flow.eps[j, i], flow.eps[j + 1, i])
+    """Mean and skew between nodes j and j + 1; of eight nodes likewise."""
+    mean, skew = flow_mean(at(flow.eps, j, i), at(flow.eps, j + 1, i))
+    put(flow.across, j, i, mean)
+    put(flow.across_skew, j, i, skew)
 
 
-@jit
+@jit_loop
 def update_lines(first, last, P, H, law, stencil, flow):
     """All of `flow` on lines `first` to `last` - 1."""
     nx = P.shape[1] - 1
     for j in range(first, last):
-        for i in range(nx + 1):
-            update_node(j, i, P, H, law, stencil, flow)
-        for i in range(nx):
-            update_along(j, i, flow)
+        for i in range(0, nx + 1, LANES):  # the last eight overlap those before
+            update_node(j, eight(min(i, nx + 1 - LANES)), P, H, law, stencil, flow)
+        for i in range(0, nx, LANES):
+            update_along(j, eight(min(i, nx - LANES)), flow)
 
 
-@jit
+@jit_loop
 def update_between_lines(first, last, flow):
     """Flow between lines `first` to `last` - 1 and the ones after them."""
+    nodes = flow.eps.shape[1]
     for j in range(first, last):
-        for i in range(flow.eps.shape[1]):
-            update_across(j, i, flow)
+        for i in range(0, nodes, LANES):
+            update_across(j, eight(min(i, nodes - LANES)), flow)
 
 
-@jit
+@jit_loop
 def update_flow(P, H, law, stencil, flow):
     """All of `flow` from P and H."""
     update_lines(0, P.shape[0], P, H, law, stencil, flow)
@@ -122,39 +129,43 @@ def update_flow(P, H, law, stencil, flow):
 
 @jit_node
 def transport_at(j, i, mass, stencil, c_t):
-    """``d(mass)/dX + c_t mass`` at one interior node."""
+    """``d(mass)/dX + c_t mass`` at one interior node, or eight from the second on."""
+    east, own, west = at(mass, j, i + 1), at(mass, j, i), at(mass, j, i - 1)
     if i > 1:
-        change = 2.0 * mass[j, i + 1] + 3.0 * mass[j, i] - 6.0 * mass[j, i - 1] + mass[j, i - 2]
+        change = 2.0 * east + 3.0 * own - 6.0 * west + at(mass, j, i - 2)
     else:
-        change = 3.0 * (mass[j, i + 1] - mass[j, i - 1])
-    return stencil.inv_hx / 6.0 * change + c_t * mass[j, i]
+        change = 3.0 * (east - west)
+    return stencil.inv_hx / 6.0 * change + c_t * own
 
 
 @jit_node
 def operator_at(j, i, P, flow, stencil, c_t):
-    """N(P, H) at one interior node."""
+    """N(P, H) at one interior node, or eight from the second on."""
     below, face = (j - 1, j - 1) if j > 0 else (1, 0)  # the line below the symmetry line is its image
-    p = P[j, i]
-    along = flow.along[j, i] * (P[j, i + 1] - p) + flow.along[j, i - 1] * (P[j, i - 1] - p)
-    across = flow.across[j, i] * (P[j + 1, i] - p) + flow.across[face, i] * (P[below, i] - p)
+    p = at(P, j, i)
+    along = at(flow.along, j, i) * (at(P, j, i + 1) - p) + at(flow.along, j, i - 1) * (at(P, j, i - 1) - p)
+    across = at(flow.across, j, i) * (at(P, j + 1, i) - p) + at(flow.across, face, i) * (at(P, below, i) - p)
     return stencil.cx * along + stencil.cy * across - transport_at(j, i, flow.mass, stencil, c_t)
 
 
-@jit
+@jit_loop
 def residual_lines(first, last, P, flow, stencil, c_t, rhs, out):
     """`residual` on lines `first` to `last` - 1."""
+    nx = P.shape[1] - 1
     for j in range(first, last):
-        for i in range(1, P.shape[1] - 1):
-            out[j, i] = rhs[j, i] - operator_at(j, i, P, flow, stencil, c_t)
+        out[j, 1] = rhs[j, 1] - operator_at(j, 1, P, flow, stencil, c_t)
+        for k in range(2, nx, LANES):
+            i = eight(min(k, nx - LANES))
+            put(out, j, i, at(rhs, j, i) - operator_at(j, i, P, flow, stencil, c_t))
 
 
-@jit
+@jit_loop
 def residual(P, flow, stencil, c_t, rhs, out):
     """``rhs - N(P, H)`` at all interior nodes; `out` written, its boundary left alone."""
     residual_lines(0, P.shape[0] - 1, P, flow, stencil, c_t, rhs, out)
 
 
-@jit
+@jit_loop
 def transport(mass, stencil, c_t, known, out):
     """``d(mass)/dX + c_t mass + known`` at all interior nodes; `out` written, its boundary left alone."""
     for j in range(mass.shape[0] - 1):

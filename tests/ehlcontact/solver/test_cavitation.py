@@ -62,9 +62,9 @@ def test_flow_at_marked_nodes_is_up_to_date(level, kernel):
     f.P[f.P > 0.0] *= 1.3
     kernel(0, level.ny, f.P, f.H, level.law, level.stencil, f.flow, marks)
     assert {(j, i) for j, i in np.argwhere(marks == boundary.UPDATED)} == {k for k in around if k[1] >= 0}
-    got = [operator_at.py_func(j, i, f.P, f.flow, level.stencil, level.c_t) for j, i in marked]
+    got = [operator_at(j, i, f.P, f.flow, level.stencil, level.c_t) for j, i in marked]
     level.update_residual()
-    expected = [operator_at.py_func(j, i, f.P, f.flow, level.stencil, level.c_t) for j, i in marked]
+    expected = [operator_at(j, i, f.P, f.flow, level.stencil, level.c_t) for j, i in marked]
     assert got == expected
 
 

@@ -138,8 +138,8 @@ def test_right_hand_side_is_the_residual_of_the_equations(make_level, point):
 )
 def test_coarse_correction_moves_between_grids_of_any_ratio(point, make_level, ratios):
     """Up: bilinear. Down: its transpose by areas, so that a constant stays, and no force is lost."""
-    fine = make_level(point, nx=32, ny=16)
-    coarse = make_level(point, nx=32 // ratios[0], ny=16 // ratios[1])
+    fine = make_level(point, nx=96, ny=16)
+    coarse = make_level(point, nx=96 // ratios[0], ny=16 // ratios[1])
     inner = np.zeros(coarse.P.shape, dtype=bool)
     inner[:-1, 1:-1] = True
     free = np.zeros(fine.P.shape, dtype=bool)

@@ -5,6 +5,7 @@ import oracles
 import pytest
 
 from ehlcontact import Domain, MoesPoint
+from ehlcontact.lanes import LANES
 from ehlcontact.solver.kernels import relax
 from ehlcontact.solver.kernels.linearise import linearise, neighbour
 from ehlcontact.solver.level import Level
@@ -12,52 +13,51 @@ from ehlcontact.solver.level import Level
 LOWER, UPPER, NEAR, PAD = relax.BAND_LOWER, relax.BAND_UPPER, relax.NEAR, relax.PAD
 
 
-def jit_and_python(kernel):
-    return pytest.mark.parametrize("kernel", [kernel, kernel.py_func], ids=["jit", "python"])
+def relax_segments(level, rhs, *segments):
+    """Solve segments of lines of a level and return all changes."""
+    work = relax.line_work(level.nx + 1)
+    for array in (work[0][relax.FILM_MARGIN : -relax.FILM_MARGIN], *work[1:]):
+        array[...] = 1e6  # left over from other lines; the margins stay zero
+    relax.relax_segments(np.array(segments), level.fields, rhs, level.stencil, level.c_t, level.near, work)
+    return level.fields.w.copy()
 
 
-def relax_line(level, j, rhs, start=1, stop=None, kernel=relax.relax_line):
+def relax_line(level, j, rhs, start=1, stop=None):
     """Solve a line of a level, by default all of it, and return its changes."""
-    nodes = level.nx + 1
-    work = relax.line_work(nodes)
-    for array in (work[0][:, relax.FILM_MARGIN : -relax.FILM_MARGIN], *work[1:]):
-        array[...] = 1e6  # left over from some other line; the margins stay zero
-    kernel(j, start, stop or nodes - 1, level.fields, rhs, level.stencil, level.c_t, level.near, work)
-    return level.fields.w[j].copy()
+    return relax_segments(level, rhs, (j, start, stop or level.nx))[j]
 
 
-@jit_and_python(relax.solve_band)
 @pytest.mark.parametrize("m", [1, 2, 3, 4, 5, 17, 60])
-def test_solve_band(kernel, m):
+def test_solve_bands(m):
+    """Eight systems side by side, each against a dense solve."""
     rng = np.random.default_rng(m)
-    A = np.zeros((m, m))
-    band, b = np.full((m + 2 * PAD, relax.BAND), np.nan), np.full(m + 2 * PAD, np.nan)
+    A = np.zeros((LANES, m, m))
+    band, b = np.full((m + 2 * PAD, relax.BAND, LANES), np.nan), np.full((m + 2 * PAD, LANES), np.nan)
     b[:PAD], band[:PAD] = 0.0, 3.0  # columns before the first are written, and not read
-    b[PAD:-PAD] = rng.normal(size=m)
+    b[PAD:-PAD] = rng.normal(size=(m, LANES))
     b[-PAD:] = 0.0
     for r in range(m):
         for c in range(r - LOWER, r + UPPER + 1):
-            entry = rng.normal() + (8.0 if r == c else 0.0)
-            band[PAD + c, UPPER + r - c] = entry
+            entries = rng.normal(size=LANES) + (8.0 if r == c else 0.0)
+            band[PAD + c, UPPER + r - c] = entries
             if 0 <= c < m:
-                A[r, c] = entry
-    expected = np.linalg.solve(A, b[PAD:-PAD])
-    kernel(band, b, m)
+                A[:, r, c] = entries
+    expected = np.linalg.solve(A, b[PAD:-PAD].T[..., None])[..., 0].T
+    relax.solve_bands(band.reshape(m + 2 * PAD, -1), b, m)
     np.testing.assert_allclose(b[PAD:-PAD], expected, rtol=1e-11, atol=1e-13)
     assert not b[-PAD:].any()  # nothing grows beyond the last row
 
 
-@jit_and_python(relax.distribution_weights)
 @pytest.mark.parametrize("c_t", [0.0, 1.3])
 @pytest.mark.parametrize("lines", [(0, 8), (2, 5)])
-def test_distribution_weights(level, point, kernel, c_t, lines):
+def test_distribution_weights(level, point, c_t, lines):
     f, theta = level.fields, np.full_like(level.P, np.nan)
     exponent = np.random.default_rng(2).uniform(-2, 3, f.P.shape)  # both sides of the switch
     eps = f.flow.eps
     eps[...] = level.hx**2 * 10.0**exponent
     f.flow.along[:, :-1] = np.vectorize(oracles.flow_mean)(eps[:, :-1], eps[:, 1:])
     f.flow.across[:-1] = np.vectorize(oracles.flow_mean)(eps[:-1], eps[1:])
-    kernel(*lines, f.P, f.flow, level.stencil, c_t, theta)
+    relax.distribution_weights(*lines, f.P, f.flow, level.stencil, c_t, theta)
     inner = [(j, i) for j in range(*lines) for i in range(1, level.nx)]
     expected = [oracles.distribution_weight(eps, j, i, level.hx, level.hy, point.kappa, c_t) for j, i in inner]
     dry = [f.P[k] == 0.0 for k in inner]  # have nothing that could be taken back
@@ -91,9 +91,8 @@ def deposits(level, colour):
                 yield (row, i), {node: w[row, i] * part for node, part in parts.items()}
 
 
-@jit_and_python(relax.apply_lines)
 @pytest.mark.parametrize("colour", [0, 1])
-def test_apply_lines_to_the_pressure(level, kernel, colour):
+def test_apply_lines_to_the_pressure(level, colour):
     """Against the same change made on the whole domain, where a line and its image move together."""
     f = level.fields
     assert f.P[f.P > 0.0].min() > 4e-3  # no cell runs dry
@@ -104,13 +103,12 @@ def test_apply_lines_to_the_pressure(level, kernel, colour):
         for where, change in parts.items():
             if where == node or wet[where]:
                 full[where] += change
-    kernel(0, ny, colour, f, level.near)
+    relax.apply_lines(0, ny, colour, f, level.near)
     np.testing.assert_allclose(f.P, full[ny:], rtol=0, atol=1e-14)
 
 
-@jit_and_python(relax.apply_lines)
 @pytest.mark.parametrize("colour", [0, 1])
-def test_apply_lines_to_the_film(level, kernel, colour):
+def test_apply_lines_to_the_film(level, colour):
     """Near coefficients of the lines beside those still to be solved: none are, once the odd ones have been."""
     f, K = level.fields, level.deflection.kernel
     random_change(level, colour)
@@ -121,7 +119,7 @@ def test_apply_lines_to_the_film(level, kernel, colour):
                 for i in range(max(1, k - NEAR), min(level.nx, k + NEAR + 1)):
                     for (r, c), change in parts.items():
                         expected[j, i] += K[abs(r - level.ny - j), abs(c - i)] * change
-    kernel(0, level.ny, colour, f, level.near)
+    relax.apply_lines(0, level.ny, colour, f, level.near)
     np.testing.assert_allclose(f.H, expected, rtol=1e-13)
 
 
@@ -155,10 +153,24 @@ def test_relax_lines_solves_every_line_of_its_colour(level, colour):
     for j in range(colour, level.ny, 2):
         expected[j, 1:-1] = relax_line(level, j, level.rhs)[1:-1]
     f.w[...] = 9.0
-    lines = (level.ny + 1 - colour) // 2
-    for first, last in ((1, lines), (0, 1)):
-        relax.relax_lines(first, last, colour, f, level.rhs, level.stencil, level.c_t, level.near)
-    np.testing.assert_allclose(f.w, expected, rtol=1e-12)
+    relax.relax_lines(0, 1, colour, f, level.rhs, level.stencil, level.c_t, level.near)
+    np.testing.assert_array_equal(f.w, expected)
+
+
+def test_segments_side_by_side_are_those_by_themselves(make_level, point):
+    """Of any length, wherever they begin, one without a node that joins among them; bit for bit."""
+    level = make_level(point, nx=64, ny=24)
+    f = level.fields
+    f.P[9] = 0.0
+    level.rhs[9] = 1e9
+    level.update_residual()
+    segments = [(1, 1, 64), (3, 1, 2), (3, 7, 9), (5, 50, 64), (7, 2, 40), (9, 20, 44), (11, 63, 64), (21, 12, 53)]
+    alone = np.full_like(f.w, 3.0)
+    for j, start, stop in segments:
+        alone[j, start:stop] = relax_line(level, j, level.rhs, start, stop)[start:stop]
+    assert not alone[9, 20:44].any()
+    f.w[...] = 3.0
+    np.testing.assert_array_equal(relax_segments(level, level.rhs, *segments), alone)
 
 
 def line_matrix(level, j):
@@ -198,10 +210,9 @@ def nodes(request):
     return request.param
 
 
-@jit_and_python(relax.relax_line)
 @pytest.mark.parametrize(("pressure", "jumps"), [(0.5, 0.02), (0.01, 0.3)], ids=["stiff", "steep"])
 @pytest.mark.parametrize("j", [0, 1, 2, 5])
-def test_line_solves_its_linear_system(point, kernel, j, pressure, jumps, nodes):
+def test_line_solves_its_linear_system(point, j, pressure, jumps, nodes):
     """Under pressure all along, w solves ``A w = residual`` within the limit on changes, and elsewhere stays."""
     level = Level(point, Domain(), 16, 8)
     f = level.fields
@@ -215,7 +226,7 @@ def test_line_solves_its_linear_system(point, kernel, j, pressure, jumps, nodes)
     level.rhs += 1e-3 * np.random.default_rng(8).normal(size=f.P.shape) - level.r
     level.update_residual()
     f.w[...] = 3.0
-    w = relax_line(level, j, level.rhs, *nodes, kernel)
+    w = relax_line(level, j, level.rhs, *nodes)
     A = line_matrix(level, j)
     below = np.subtract.outer(np.arange(15), np.arange(15))
     A[(below > LOWER) | (-below > UPPER)] = 0.0

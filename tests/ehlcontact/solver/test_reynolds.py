@@ -14,15 +14,14 @@ PAIRS = [(1.0, 1.0), (2.0, 3.0), (1e-12, 40.0), (1e-200, 1e-3), (5.0, 1e-300)]
 
 
 @pytest.mark.parametrize(("a", "b"), PAIRS)
-@pytest.mark.parametrize("kernel", [mean.flow_mean, mean.flow_mean.py_func], ids=["jit", "python"])
-def test_against_the_log_ratio(kernel, a, b):
-    value, skew = kernel(a, b)
+def test_against_the_log_ratio(a, b):
+    value, skew = mean.flow_mean(a, b)
     assert value == pytest.approx(oracles.flow_mean(a, b), rel=1e-10)
-    assert kernel(b, a) == (value, -skew)
+    assert mean.flow_mean(b, a) == (value, -skew)
 
 
 def test_underflow_gives_nothing():
-    value, skew = mean.flow_mean.py_func(0.0, 0.0)
+    value, skew = mean.flow_mean(0.0, 0.0)
     assert value < 1e-200
     assert skew == 0.0
 
@@ -38,9 +37,8 @@ def test_slopes_against_differences(a, b):
         (f(a * exp(h), b) - f(a * exp(-h), b)) / (2.0 * h),
         (f(a, b * exp(h)) - f(a, b * exp(-h))) / (2.0 * h),
     )
-    for kernel in (mean.flow_mean, mean.flow_mean.py_func):
-        value, skew = kernel(a, b)
-        assert (0.5 * value + skew, 0.5 * value - skew) == pytest.approx(expected, rel=1e-7, abs=1e-9 * value)
+    value, skew = mean.flow_mean(a, b)
+    assert (0.5 * value + skew, 0.5 * value - skew) == pytest.approx(expected, rel=1e-7, abs=1e-9 * value)
 
 
 def test_flow_follows_both_pressures():
@@ -58,11 +56,10 @@ def test_nearly_geometric_for_neighbours_alike():
     assert mean.flow_mean(1.0, 2.0)[0] / 2.0**0.5 - 1.0 == pytest.approx(x**4 / 8.0, rel=0.1)
 
 
-@pytest.mark.parametrize("kernel", [reynolds.update_flow, reynolds.update_flow.py_func], ids=["jit", "python"])
-def test_flow_factor_and_mass(level, point, kernel):
+def test_flow_factor_and_mass(level, point):
     level.H[2, 5] = -0.02  # overlapping bodies: eps floored, mass not
     flow = reynolds.Flow(*(np.full_like(level.P, np.nan) for _ in reynolds.Flow._fields))
-    kernel(level.P, level.H, level.law, level.stencil, flow)
+    reynolds.update_flow(level.P, level.H, level.law, level.stencil, flow)
     expected_eps, expected_mass = oracles.flow_and_mass(level.P, level.H, point)
     np.testing.assert_allclose(flow.eps, expected_eps, rtol=1e-11)
     np.testing.assert_allclose(flow.mass, expected_mass, rtol=1e-13)
@@ -93,10 +90,9 @@ def test_slopes_of_the_flow(level):
         np.testing.assert_allclose(mass_slope, (plus.mass - minus.mass) / (2 * h), rtol=1e-6, atol=1e-8)
 
 
-@pytest.mark.parametrize("kernel", [reynolds.residual, reynolds.residual.py_func], ids=["jit", "python"])
-def test_residual(level, point, kernel):
+def test_residual(level, point):
     f, out = level.fields, np.full_like(level.P, 7.0)
-    kernel(f.P, f.flow, level.stencil, level.c_t, level.rhs, out)
+    reynolds.residual(f.P, f.flow, level.stencil, level.c_t, level.rhs, out)
     N = oracles.operator(f.P, f.flow.eps, f.flow.mass, level.hx, level.hy, point.kappa, level.c_t)
     inner = (slice(0, -1), slice(1, -1))  # the symmetry line is interior
     np.testing.assert_allclose(out[inner], (level.rhs - N)[inner], rtol=1e-11, atol=1e-11)
@@ -119,7 +115,7 @@ def test_wedge_is_exact_for_cubics_beyond_the_first_line(level):
     f.P[...] = 0.0
     f.flow.mass[...] = 0.3 + 0.2 * level.X + 0.1 * level.X**2 + 0.05 * level.X**3
     for i in range(2, level.nx):
-        N = reynolds.operator_at.py_func(3, i, f.P, f.flow, level.stencil, 0.0)
+        N = reynolds.operator_at(3, i, f.P, f.flow, level.stencil, 0.0)
         assert -N == pytest.approx(0.2 + 0.2 * level.X[i] + 0.15 * level.X[i] ** 2, abs=1e-12)
 
 
