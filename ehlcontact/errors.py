@@ -7,6 +7,11 @@ from typing import Any
 LONGEST_VALUE = 300  # characters of a value in a message: a whole file given as one is no help
 
 
+def printable(text: str) -> str:
+    """`text` with escapes for what a terminal would obey in place of showing it, such as ESC."""
+    return "".join(one if one.isprintable() else repr(one)[1:-1] for one in text)
+
+
 class InputError(ValueError):
     """An input outside its allowed range.
 
@@ -15,10 +20,13 @@ class InputError(ValueError):
 
     def __init__(self, field: str, value: object, allowed: str) -> None:
         self.field, self.value, self.allowed = field, value, allowed
-        shown = repr(value)
+        try:
+            shown = repr(value)
+        except ValueError:  # Python writes no whole number of more than 4300 digits
+            shown = "a whole number of thousands of digits"
         if len(shown) > LONGEST_VALUE:
             shown = f"{shown[: LONGEST_VALUE // 2]} ... {shown[-LONGEST_VALUE // 2 :]}"
-        super().__init__(" ".join(f"{field} = {shown}: must be {allowed}".split()))
+        super().__init__(printable(" ".join(f"{field} = {shown}: must be {allowed}".split())))
 
 
 class ConvergenceError(RuntimeError):

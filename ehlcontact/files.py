@@ -6,6 +6,7 @@ is too large, nested too deeply or no text at all raises an error that names the
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import re
@@ -92,6 +93,20 @@ def write_bytes(path: str | os.PathLike[str], content: bytes, field: str = "path
     return Path(path)
 
 
+def is_named_pipe(path: str | os.PathLike[str]) -> bool:
+    """Whether it is a pipe that `mkfifo` made, which one may wait at for ever; not /dev/stdin or a <(...)."""
+    try:
+        return stat.S_ISFIFO(os.lstat(os.path.realpath(path)).st_mode)
+    except (OSError, ValueError):
+        return False
+
+
+def require_no_pipe(path: str | os.PathLike[str]) -> None:
+    """Raise `OSError` for a pipe with a name."""
+    if is_named_pipe(path):
+        raise OSError(errno.ESPIPE, "a pipe with a name, in place of a file", str(path))
+
+
 def is_file(path: str | os.PathLike[str]) -> bool:
     """Whether there is a regular file; False, too, where one may not look or no name is that long."""
     try:
@@ -101,20 +116,21 @@ def is_file(path: str | os.PathLike[str]) -> bool:
 
 
 def read_text(path: str | os.PathLike[str]) -> str:
-    """Return the whole of a UTF-8 file.
+    """Return the whole of a UTF-8 file, without the byte order mark that editors on Windows begin it with.
 
     Raises
     ------
     OSError
-        There is none, or it cannot be read.
+        There is none, or it cannot be read, or it is a pipe with a name.
     ValueError
         Not UTF-8, or larger than any file of ours.
     """
+    require_no_pipe(path)
     with Path(path).open("rb") as stream:
         content = stream.read(LARGEST_TEXT + 1)
     if len(content) > LARGEST_TEXT:
         raise ValueError(f"more than {LARGEST_TEXT >> 20} MiB")
-    return content.decode("utf-8")
+    return content.decode("utf-8-sig")
 
 
 def parse_json(text: str | bytes, nan: bool = False) -> Any:
@@ -133,7 +149,7 @@ def parse_json(text: str | bytes, nan: bool = False) -> Any:
     """
     refuse = None if nan else _refuse_constant
     try:
-        document = json.loads(text, parse_int=_integer, parse_constant=refuse)
+        document = json.loads(text, parse_int=_integer, parse_constant=refuse, object_pairs_hook=_object)
     except RecursionError:
         raise ValueError("nested too deeply") from None
     level = [document]
@@ -166,6 +182,15 @@ def _integer(digits: str) -> int:
     if len(digits) > LONGEST_INTEGER:
         raise ValueError(f"a whole number of {len(digits)} digits")
     return int(digits)
+
+
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object of JSON, whose names differ: of two the standard lets a reader take either."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        raise ValueError(f"{next(name for name in names if names.count(name) > 1)!r} twice in an object")
+    return found
 
 
 def _refuse_constant(text: str) -> float:

@@ -24,6 +24,11 @@ jit_exact_node: Any = partial(jit_exact, forceinline=True, _nrt=False)  # likewi
 jit_exact_loop: Any = partial(jit_exact, _nrt=False)  # the same for a loop over such
 
 
+def plain(kernel: Any) -> Any:
+    """The Python function of a kernel; the kernel itself where NUMBA_DISABLE_JIT is set."""
+    return getattr(kernel, "py_func", kernel)
+
+
 class _Compilation(event.Listener):
     def __init__(self, tell: Callable[[], None]) -> None:
         self._tell = tell

@@ -24,6 +24,7 @@ from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.film_formulas import expected_film, film_to_moes, load_number, moes_pressure
 from ehlcontact.hertz import HertzContact, ellipse_ratio, hertz_contact, scaled_axis, shape_factor
+from ehlcontact.jit import plain
 from ehlcontact.lubricant import FluidLaw, Lubricant, log_viscosity
 
 
@@ -378,7 +379,7 @@ def _inputs(point: Point) -> Given:
 def _range_numbers(moes: MoesPoint) -> dict[str, float]:
     """What `require_admissible` looks at."""
     try:
-        exponent = float(log_viscosity.py_func(1.0, moes.law)[0])
+        exponent = float(plain(log_viscosity)(1.0, moes.law)[0])
     except OverflowError:
         exponent = inf
     return {"M": moes.M, "L": moes.L, "kappa": moes.kappa, "p_hertz": moes.p_hertz, "log_viscosity": exponent}

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlcontact.errors import InputError
+from ehlcontact.files import require_no_pipe
 from fmu.driver import Exchange, Slave
 
 
@@ -67,6 +68,7 @@ def opened(file: Path) -> Iterator[FmuFile]:
         Not a readable FMU for this platform.
     """
     try:
+        require_no_pipe(file)
         with zipfile.ZipFile(file) as archive:
             names = set(archive.namelist())
     except (OSError, ValueError, zipfile.BadZipFile) as error:

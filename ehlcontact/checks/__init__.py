@@ -13,24 +13,32 @@ module               responsibility
 
 from ehlcontact.checks.inputs import (
     as_column,
+    as_float,
+    as_numbers,
     as_rows,
+    require_between,
     require_choice,
     require_finite,
     require_instance,
     require_integer,
     require_names,
+    require_no_others,
     require_nonnegative,
     require_positive,
 )
 
 __all__ = [
     "as_column",
+    "as_float",
+    "as_numbers",
     "as_rows",
+    "require_between",
     "require_choice",
     "require_finite",
     "require_instance",
     "require_integer",
     "require_names",
+    "require_no_others",
     "require_nonnegative",
     "require_positive",
 ]

@@ -22,6 +22,7 @@ from typing import ParamSpec, TypedDict, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact.checks.inputs import as_numbers
 from ehlcontact.checks.quantity import in_unit
 from ehlcontact.errors import InputError
 
@@ -172,12 +173,9 @@ def _the_one(time: float | None, values: Mapping[str, ArrayLike | None]) -> tupl
 
 def _checked(name: str, value: ArrayLike, most: float) -> Array:
     try:
-        given = np.atleast_1d(np.asarray(value))
-        if given.dtype.kind not in "fiuO":  # True is no 1 Hz, and what a quoted text means is a guess
-            raise ValueError
-        found = np.array(given, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(name, value, "numbers") from None
+        found = np.atleast_1d(as_numbers(name, value))
+    except InputError as error:  # with the value, which is short
+        raise InputError(name, value, error.allowed) from None
     if found.ndim != 1 or found.size == 0:
         raise InputError(name, f"of shape {np.shape(found)}", "a number, or a flat list of at least one")
     bad = found[~(np.isfinite(found) & (found >= 0.0) & (found <= most))]

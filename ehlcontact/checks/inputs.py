@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from numbers import Integral, Real
 from types import UnionType
 
@@ -40,6 +40,22 @@ def require_finite(field: str, value: object) -> float:
     return number
 
 
+def as_float(field: str, value: object) -> float:
+    """Return `value` as a float, which may be infinite or not a number, or raise `InputError` unless it is one.
+
+    For calls within a time step: a float costs 0.1 us.
+    """
+    return value if type(value) is float else _as_float(field, value, "a number")
+
+
+def require_between(field: str, value: object, low: float, high: float) -> float:
+    """Return `value` as a float, or raise `InputError` unless it is a number from `low` to `high`."""
+    number = _as_float(field, value, f"a number between {low:g} and {high:g}")
+    if not low <= number <= high:
+        raise InputError(field, number, f"between {low:g} and {high:g}")
+    return number
+
+
 def require_integer(field: str, value: object, allowed: str, lowest: int) -> int:
     """Return `value` as an int, or raise `InputError` unless it is a whole number of at least `lowest`."""
     if isinstance(value, bool) or not isinstance(value, Integral) or value < lowest:
@@ -54,11 +70,16 @@ def require_choice(field: str, value: object, choices: tuple[str, ...]) -> str:
     return value
 
 
-def require_names(entries: Collection[str], known: Collection[str], before: str = "") -> None:
-    """Raise `InputError` unless the names of `entries` are those in `known`; messages have `before` in front."""
+def require_no_others(entries: Collection[str], known: Collection[str], before: str = "") -> None:
+    """Raise `InputError` for a name of `entries` that is not in `known`; messages have `before` in front."""
     for name in entries:
         if name not in known:
             raise InputError(f"{before}{name}", "there", f"left out; known are {', '.join(known)}")
+
+
+def require_names(entries: Collection[str], known: Collection[str], before: str = "") -> None:
+    """Raise `InputError` unless the names of `entries` are those in `known`; messages have `before` in front."""
+    require_no_others(entries, known, before)
     for name in known:
         if name not in entries:
             raise InputError(f"{before}{name}", None, "there")
@@ -92,7 +113,7 @@ def as_column(
     InputError
         Anything else; where one entry is to blame, the message names it by its number.
     """
-    array = _numbers(field, values, "a one-dimensional array of numbers")
+    array = as_numbers(field, values, "a one-dimensional array of numbers")
     if array.ndim != 1:
         raise InputError(f"shape of {field}", array.shape, "one-dimensional")
     if array.size < least:
@@ -116,7 +137,7 @@ def as_rows(field: str, values: ArrayLike, rows: int, least: int) -> Array:
     InputError
         Anything else.
     """
-    array = _numbers(field, values, "rows of numbers, all of one length")
+    array = as_numbers(field, values, "rows of numbers, all of one length")
     if array.ndim != 2 or array.shape[0] != rows or array.shape[1] < least:
         raise InputError(f"shape of {field}", array.shape, f"({rows}, {least} or more)")
     _require_finite_entries(field, array)
@@ -124,15 +145,40 @@ def as_rows(field: str, values: ArrayLike, rows: int, least: int) -> Array:
     return array
 
 
-def _numbers(field: str, values: ArrayLike, allowed: str) -> Array:
+def as_numbers(field: str, values: ArrayLike, allowed: str = "numbers") -> Array:
+    """Return `values` as a new array of any shape, of numbers that may be infinite or not a number.
+
+    Raises
+    ------
+    InputError
+        Text, which numpy would read; True and False; masked entries; quantities with a unit; anything else that is
+        no number. The message has `allowed`.
+    """
     if values is None:
         raise InputError(field, None, "given")
     if has_quantity(values):  # numpy would drop its unit, whatever it is
         raise InputError(field, type(values).__name__, f"{allowed}, which takes no quantity with a unit here")
+    if np.ma.is_masked(values):  # numpy would take what is behind the mask
+        raise InputError(field, "a masked array", f"{allowed}, without a masked one")
     try:
-        return np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(field, type(values).__name__, allowed) from None
+        if all(map(_is_number, _entries(values))) and (given := np.asarray(values)).dtype.kind in "fiuO":
+            return np.array(given, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise InputError(field, type(values).__name__, allowed)
+
+
+def _entries(values: object) -> Iterator[object]:
+    """Entries of nested sequences; numpy would make numbers of True among them, and text of numbers."""
+    if isinstance(values, list | tuple) or (isinstance(values, np.ndarray) and values.dtype.kind == "O"):
+        for one in values:
+            yield from _entries(one)
+    elif not isinstance(values, np.ndarray) or values is np.ma.masked:
+        yield values
+
+
+def _is_number(value: object) -> bool:
+    return not isinstance(value, bool | np.bool_ | str | bytes) and value is not np.ma.masked
 
 
 def _require_finite_entries(field: str, array: Array) -> None:
@@ -146,4 +192,7 @@ def _as_float(field: str, value: object, allowed: str) -> float:
     # numbers.Real holds Python's and numpy's numbers, and bool, which is no number to a user
     if isinstance(value, bool) or not isinstance(value, Real):
         raise InputError(field, value, allowed)
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:  # a whole number of more than 308 digits
+        raise InputError(field, value, allowed) from None

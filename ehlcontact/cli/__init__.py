@@ -28,6 +28,7 @@ interrupted, by Ctrl-C or a signal that ends a run, with what was reached saved:
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 from collections.abc import Sequence
@@ -38,6 +39,9 @@ from ehlcontact.process.early_interrupt import INTERRUPTED, NOTHING_COMPUTED, re
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Run the program on `arguments` (the process's own if not given) and exit."""
+    # Pictures go to files: a backend that shows them, as a notebook sets it for its own kernel, may not be there,
+    # and then matplotlib cannot even be imported.
+    os.environ["MPLBACKEND"] = "Agg"
     try:
         from ehlcontact.cli.app import execute
 
@@ -45,6 +49,13 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         code = execute(arguments)
         if arguments is None:  # all is said and done: what is left, the end of Python, is no longer interrupted
             signal.signal(signal.SIGINT, signal.SIG_IGN)
+    except RuntimeError as error:
+        if "cannot cache" not in str(error):
+            raise
+        from ehlcontact.cli.output import USAGE, complain, no_cache
+
+        complain(no_cache("none of them can be written to"))  # numba looked for one as the library was imported
+        code = USAGE
     except KeyboardInterrupt:  # between one guard and the next
         sys.stderr.write(NOTHING_COMPUTED)
         code = INTERRUPTED

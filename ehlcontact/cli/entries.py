@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin
 
-from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, GetCoreSchemaHandler
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, PydanticCustomError
 from pydantic_core.core_schema import no_info_after_validator_function
@@ -61,6 +61,13 @@ def meaning(text: str) -> Any:
     return Field(description=text)
 
 
+def _shown(text: str) -> str:
+    if not text.isprintable():
+        raise PydanticCustomError("printable", "text without control characters")
+    return text
+
+
+Text = Annotated[str, AfterValidator(_shown)]  # heads reports and tables, which a terminal may show
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[Finite, Field(gt=0.0)]
 NotNegative = Annotated[Finite, Field(ge=0.0)]

@@ -18,8 +18,8 @@ from rich.console import Console
 from rich.table import Table
 
 from ehlcontact.cli.numerals import spelled
-from ehlcontact.errors import InputError
-from ehlcontact.files import write_text
+from ehlcontact.errors import InputError, printable
+from ehlcontact.files import is_named_pipe, write_text
 
 FAILED, USAGE = 1, 2
 INTERRUPTED_LINE = "interrupted: nothing was computed that could be kept"
@@ -27,13 +27,20 @@ STDOUT = "-"
 
 
 def one_line(text: str) -> str:
-    """The text without line breaks and runs of blanks."""
-    return " ".join(text.split())
+    """The text without line breaks and runs of blanks, and with escapes for what a terminal would obey."""
+    return printable(" ".join(text.split()))
 
 
 def complain(text: str) -> None:
     """Say one line on stderr."""
     to_stderr(f"ehlcontact: {one_line(text)}")
+
+
+def no_cache(reason: str) -> str:
+    """The line for compiled code that numba finds no room for."""
+    folder = os.environ.get("NUMBA_CACHE_DIR")
+    places = folder or "__pycache__ beside the library, then ~/.cache/numba"
+    return str(InputError("NUMBA_CACHE_DIR", folder, f"a folder with room for compiled code ({places}: {reason})"))
 
 
 def say(text: str, json_to: str | None = None) -> None:
@@ -59,6 +66,8 @@ def check_file(field: str, path: Path | None, suffixes: tuple[str, ...] = ()) ->
             raise InputError(field, str(path), "a file, not a folder")
         if not path.parent.is_dir():
             raise InputError(field, str(path), "in a folder that exists")
+        if is_named_pipe(path):
+            raise InputError(field, str(path), "a file, not a pipe with a name, which may wait for ever")
         if path.exists() and not path.is_file():  # a device, which is written to and not replaced
             return
         path.lstat()  # whether there can be a file of that name

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping
+from html import escape
 from pathlib import Path
+from textwrap import shorten
 from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -36,11 +39,23 @@ def write_page(path: Path, template: str, drawings: Mapping[str, Callable[[], An
         from ehlcontact.cli.plots.bundle import bundle
         from ehlcontact.cli.plots.finish import finished
 
-        found = {name: finished(draw()) for name, draw in drawings.items()}
+        found = {name: finished(_drawn(name, draw)) for name, draw in drawings.items()}
         heights = {name: one["layout"]["height"] for name, one in found.items()}
         packed = bundle(found)
     page = environment.get_template(template).render(heights=heights, bundle=packed, **content)
     return write_text(path, page, "file")
+
+
+def _drawn(name: str, draw: Callable[[], Any]) -> Any:
+    """The figure; where it fails one that says why, for the rest of the page is worth having."""
+    try:
+        return draw()
+    except Exception as error:
+        from ehlcontact.cli.plots.style import grid
+
+        reason = f"the figure {name!r} could not be drawn: {type(error).__name__}: {error}"
+        warnings.warn(reason, stacklevel=2)
+        return grid(titles=[escape(shorten(reason, 100))])
 
 
 def cell(value: float | str | None, digits: int = 5) -> str:

@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 from scipy import linalg, sparse
 from scipy.sparse.linalg import LinearOperator, gcrotmk, splu
 
+from ehlcontact.jit import plain
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse_newton import BALANCE_WEIGHT, bordered_lu, coefficients
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
@@ -38,7 +39,7 @@ Mask = NDArray[np.bool_]
 Offsets = Sequence[tuple[int, int]]
 
 # In plain Python: a first call of anything compiled takes a third of a second, and this is imported everywhere.
-NEIGHBOUR_OFFSETS: Offsets = [(j - 2, i - 2) for j, i in (neighbour.py_func(q, 2, 2) for q in range(NEIGHBOURS))]
+NEIGHBOUR_OFFSETS: Offsets = [(j - 2, i - 2) for j, i in (plain(neighbour)(q, 2, 2) for q in range(NEIGHBOURS))]
 KRYLOV_VECTORS = 20
 KRYLOV_RESTARTS = 3
 REACH = 1  # of the near coefficients; 2 saves few iterations and doubles the time of the factors

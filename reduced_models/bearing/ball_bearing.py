@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact import Lubricant
 from ehlcontact.checks import (
     as_column,
+    as_numbers,
     require_finite,
     require_instance,
     require_integer,
@@ -346,15 +347,12 @@ class BallBearing(Summary):
 
     def _stand(self, load: _Floats, speed: float, angle: float) -> RingEquilibrium:
         standing = ring_equilibrium(self._static_balls(speed, angle), load)
-        if self.oil is not None:
-            for name, most in zip(RACES, standing.force.max(axis=0).tolist(), strict=True):
-                highest = self.race(name).loads(speed)[1]
-                if most > highest:
-                    what, value = ("load", load.tolist()) if load.any() else ("clearance", self.clearance)
-                    allowed = f"such that a ball carries at most {highest:.4g} N on the {name} race"
-                    raise InputError(
-                        what, value, f"{allowed}, the end of the atlas at this speed (here {most:.4g} N)"
-                    )
+        for name, most in zip(RACES, standing.force.max(axis=0).tolist(), strict=True):
+            highest, end = self.race(name).heaviest(speed)
+            if most > highest:
+                what, value = ("load", load.tolist()) if load.any() else ("clearance", self.clearance)
+                allowed = f"such that a ball carries at most {highest:.4g} N on the {name} race"
+                raise InputError(what, value, f"{allowed}, {end} (here {most:.4g} N)")
         return standing
 
     def _static_balls(self, speed: float, angle: float) -> StaticBalls:
@@ -370,7 +368,7 @@ class BallBearing(Summary):
 
         Between two speeds films grow as with the speed to the power of 0.67; outside them the kernels do not ask.
         """
-        speeds = as_column("speeds_rpm", np.atleast_1d(np.asarray(speeds_rpm, float)), increasing=True)
+        speeds = as_column("speeds_rpm", np.atleast_1d(as_numbers("speeds_rpm", speeds_rpm)), increasing=True)
         key = ("kernel", *speeds.tolist())
         if key not in self._known:
             self._known[key] = Balls(

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ehlcontact import Geometry, Lubricant, OperatingPoint
 from ehlcontact.assumptions.judge import ROUGHEST
 from ehlcontact.checks import require_nonnegative
+from ehlcontact.checks.admissible_range import LIMITS
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import hertz_contact, radius_ratio
 from reduced_models.atlas.atlas import Atlas
@@ -92,6 +93,15 @@ class Race:
         box, unit = shared_atlas(self.atlas).box, self.point(1.0, speed_rpm).moes
         highest = min(box.M[1] / unit.M, (box.p_hertz / unit.p_hertz) ** 3)
         return box.M[0] / unit.M * (1.0 + INSIDE), highest * (1.0 - INSIDE)
+
+    def heaviest(self, speed_rpm: float) -> tuple[float, str]:
+        """Largest load [N] of a ball, and what ends there: the atlas at this speed, or elastic steel where dry."""
+        if self.oil is not None:
+            return self.loads(speed_rpm)[1], "the end of the atlas at this speed"
+        body = self.geometry
+        unit = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).pressure
+        most = f"{1e-9 * LIMITS.p_hertz:g} GPa, beyond which no steel stays elastic"
+        return float((LIMITS.p_hertz / unit) ** 3), most
 
     def element(self, speed_rpm: float) -> WideRangeContact:
         """Contact element for all loads of the atlas at this speed, in SI.

@@ -12,7 +12,13 @@ from typing import Any, ClassVar, Self, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import require_choice, require_finite, require_instance, require_positive
+from ehlcontact.checks import (
+    require_choice,
+    require_finite,
+    require_instance,
+    require_no_others,
+    require_positive,
+)
 from ehlcontact.checks.frequency import (
     Frequency,
     by_name,
@@ -406,7 +412,12 @@ class ContactElement(ElementSummary, _Common, ABC):
         for key in ("fit", "source"):
             require_instance(key, entries.get(key), dict | None, "an object, or null")
         values = cls._read_coefficients(entries) | Validity.from_dict(entries["valid"]).fields()
-        return cls(**values, units=entries["units"], fit=entries.get("fit"), source=entries.get("source"))
+        found = cls(**values, units=entries["units"], fit=entries.get("fit"), source=entries.get("source"))
+        known = found.to_dict()
+        require_no_others(entries, known)
+        for key in ("parameters", "valid"):
+            require_no_others(entries[key], known[key], f"{key}.")
+        return found
 
     @classmethod
     def _read_coefficients(cls, entries: Mapping[str, Any]) -> dict[str, Any]:

@@ -13,7 +13,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from ehlcontact.checks import require_finite, require_nonnegative, require_positive
+from ehlcontact.checks import (
+    as_float,
+    as_numbers,
+    require_between,
+    require_finite,
+    require_nonnegative,
+    require_positive,
+)
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from reduced_models.elements.base import ContactElement
@@ -31,9 +38,14 @@ from reduced_models.elements.film_law import (
 )
 from reduced_models.elements.film_response import DRY, FilterRates
 from reduced_models.elements.small_motion import SmallMotion, StateSpace
-from reduced_models.elements.validity import numbers
+from reduced_models.elements.validity import numbers, require_size
 
 _Floats = NDArray[np.float64]
+
+# All of them dimensionless, and of the order of 0.01 to 100 in the atlas.
+RATES = (1e-6, 1e6)
+FILMS = (1e-9, 1e6)
+LARGEST_GAIN = 1e6
 _SCALES = tuple(f.name for f in fields(Scales))
 
 
@@ -71,6 +83,7 @@ class FilmContact(ContactElement):
             fast_rate=self.fast_rate,
             inlet_saturation=self.inlet_saturation,
         )
+        require_size("gains", float(np.abs(law.gains).max()), LARGEST_GAIN)
         require_rising(law)
         object.__setattr__(self, "law", law)
         if not self.rates.passive(law.gains):
@@ -83,8 +96,9 @@ class FilmContact(ContactElement):
 
     def _check_coefficients(self) -> None:
         for name in ("lag_rate", "inlet_rate", "fast_rate"):
-            object.__setattr__(self, name, require_positive(name, getattr(self, name)))
+            object.__setattr__(self, name, require_between(name, getattr(self, name), *RATES))
         saturation = require_nonnegative("inlet_saturation", self.inlet_saturation)
+        require_size("inlet_saturation", saturation, LARGEST_GAIN)
         object.__setattr__(self, "inlet_saturation", saturation)
 
     @property
@@ -121,7 +135,7 @@ class FilmContact(ContactElement):
         The step may have any length: between its ends the approach is taken as the cubic through both
         approaches and rates, and every filter is integrated exactly.
         """
-        u, v = float(approach), float(rate)
+        u, v = as_float("approach", approach), as_float("rate", rate)
         f, length, time = self._units
         force = film_step(self.law, self._state, self._next, _step(dt) / time, u / length, v / length * time)[0]
         if not math.isfinite(force):
@@ -138,7 +152,7 @@ class FilmContact(ContactElement):
         These are the exact derivatives of what `advance` would return, memory included.
         """
         f, length, time = self._units
-        u, v = float(approach) / length, float(rate) / length * time
+        u, v = as_float("approach", approach) / length, as_float("rate", rate) / length * time
         force, stiffness, damping = film_step(self.law, self._state, self._next, _step(dt) / time, u, v)
         return float(force) * f, float(stiffness) * f / length, float(damping) * f / length * time
 
@@ -168,7 +182,7 @@ class FilmContact(ContactElement):
         ndarray, shape (N,)
         """
         f, length, time = self._units
-        t, u, v = (np.ascontiguousarray(values, np.float64) for values in (T, approach, rate))
+        t, u, v = (as_numbers(name, values) for name, values in (("T", T), ("approach", approach), ("rate", rate)))
         if t.ndim != 1 or u.shape != t.shape or v.shape != t.shape or np.any(np.diff(t) <= 0.0):
             raise InputError("T", t.shape, "increasing times, as many as approaches and rates")
         force = np.empty(t.size)
@@ -178,7 +192,7 @@ class FilmContact(ContactElement):
     def spring(self, approach: ArrayLike) -> float | _Floats:
         """Static force."""
         f, length, _ = self._units
-        u = np.asarray(approach, np.float64) / length
+        u = as_numbers("approach", approach) / length
         force = np.empty(u.size)
         static_forces(self.law, u.ravel(), force)
         return force.reshape(u.shape) * f if u.ndim else float(force[0]) * f
@@ -186,7 +200,7 @@ class FilmContact(ContactElement):
     def spring_tangent(self, approach: float) -> float:
         """Slope of the static force."""
         f, length, _ = self._units
-        _, g, g_u = static(float(approach) / length, self.law)
+        _, g, g_u = static(as_float("approach", approach) / length, self.law)
         return 1.5 * math.sqrt(g) * g_u * f / length
 
     def approach_at(self, force: float) -> float:
@@ -273,6 +287,6 @@ class FilmContact(ContactElement):
 
 
 def _step(dt: float) -> float:
-    if not (dt > 0.0 and math.isfinite(dt)):
+    if not 0.0 < as_float("dt", dt) < math.inf:
         raise InputError("dt", dt, "finite and > 0")
     return float(dt)

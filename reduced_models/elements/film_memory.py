@@ -10,15 +10,16 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column, require_finite, require_positive
-from ehlcontact.errors import InputError
+from ehlcontact.checks import as_column, require_between
 from ehlcontact.point import Scales
 from ehlcontact.store import stored
 from reduced_models.elements.film_curve import LEAST_EXPONENT
-from reduced_models.elements.film_element import FilmContact
+from reduced_models.elements.film_element import FILMS, FilmContact
 from reduced_models.elements.film_filters import DIRECT
 
 _Floats = NDArray[np.float64]
+
+LARGEST_EXPONENT = 10.0  # films thin with the load to the power of 0.1 to 1
 
 
 def film_and_exponent(approach: float, tangent: float) -> tuple[float, float]:
@@ -92,10 +93,9 @@ class FilmMemoryContact(FilmContact):
 
     def _check_coefficients(self) -> None:
         super()._check_coefficients()
-        object.__setattr__(self, "film", require_positive("film", self.film))
-        object.__setattr__(self, "exponent", require_finite("exponent", self.exponent))
-        if self.exponent < LEAST_EXPONENT:
-            raise InputError("exponent", self.exponent, f"at least {LEAST_EXPONENT}")
+        object.__setattr__(self, "film", require_between("film", self.film, *FILMS))
+        exponent = require_between("exponent", self.exponent, LEAST_EXPONENT, LARGEST_EXPONENT)
+        object.__setattr__(self, "exponent", exponent)
         gains = as_column("gains", self.gains, least=DIRECT + 1)
         object.__setattr__(self, "gains", tuple(gains.tolist()))
 

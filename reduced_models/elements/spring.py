@@ -23,12 +23,13 @@ import numpy as np
 from numba import extending
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import require_positive
+from ehlcontact.checks import as_float, as_numbers, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_exact
 from ehlcontact.point import Scales
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.small_motion import StateSpace
+from reduced_models.elements.validity import LARGEST, require_size
 
 _Floats = NDArray[np.float64]
 
@@ -89,7 +90,8 @@ def joined(law: Law) -> Law:
             factor = force / reach**1.5
         except ArithmeticError:  # overflow, or a division by what has become zero
             factor = math.nan
-        if not (math.isfinite(u - reach) and 0.0 < factor < math.inf):
+        fits = force <= LARGEST and slope <= LARGEST and math.isfinite(u - reach)
+        if not (fits and 0.0 < factor < math.inf):
             values = f"force {force:g}, tangent {slope:g}"
             raise InputError(f"spring at {name}", values, "smaller or larger (the units may be wrong)")
         ends |= {f"o_{name}": u - reach, f"A_{name}": factor}
@@ -195,6 +197,7 @@ class MemorylessContact(ContactElement):
     def __post_init__(self) -> None:
         super().__post_init__()
         object.__setattr__(self, "law", joined(self._law()))
+        require_size("damping", float(np.abs(self._parts([self.low, self.high])[1]).max()))
 
     @abstractmethod
     def _law(self) -> Law:
@@ -254,7 +257,7 @@ class MemorylessContact(ContactElement):
 
     def spring_tangent(self, approach: float) -> float:
         """Slope of the force at zero rate."""
-        return contact(float(approach), 0.0, self.law)[1]
+        return contact(as_float("approach", approach), 0.0, self.law)[1]
 
     def damper(self, approach: ArrayLike) -> float | _Floats:
         """Damping coefficient c(u) at zero rate, before the force is clipped."""
@@ -314,18 +317,18 @@ class MemorylessContact(ContactElement):
 
     def advance(self, dt: float, approach: float, rate: float) -> float:
         """Force at the end of a step; `dt` is ignored, for the element has no memory."""
-        approach, rate = float(approach), float(rate)
+        approach, rate = as_float("approach", approach), as_float("rate", rate)
         force = contact(approach, rate, self.law)[0]
         self._watch(approach, rate, force)
         return force
 
     def step_tangents(self, dt: float, approach: float, rate: float) -> tuple[float, float, float]:
         """Force, dF/du and dF/du' at the end of a step; `dt` is ignored."""
-        return contact(float(approach), float(rate), self.law)
+        return contact(as_float("approach", approach), as_float("rate", rate), self.law)
 
     def rest(self, approach: float) -> float:
         """Force at rest; there is no state to set."""
-        return contact(float(approach), 0.0, self.law)[0]
+        return contact(as_float("approach", approach), 0.0, self.law)[0]
 
     def save_state(self) -> object:
         """Nothing to save."""
@@ -337,14 +340,14 @@ class MemorylessContact(ContactElement):
     def _value(self, index: int, approach: ArrayLike, rate: ArrayLike) -> float | _Floats:
         if isinstance(approach, float) and isinstance(rate, float):
             return contact(approach, rate, self.law)[index]
-        u, v = np.broadcast_arrays(np.asarray(approach, float), np.asarray(rate, float))
+        u, v = np.broadcast_arrays(as_numbers("approach", approach), as_numbers("rate", rate))
         out = np.empty((3, u.size))
         fill_contact(u.ravel(), v.ravel(), self.law, out)
         return _plain(out[index].reshape(u.shape))
 
     def _parts(self, approach: ArrayLike) -> _Floats:
         """Spring force and damping coefficient at zero rate, stacked on axis 0."""
-        u = np.asarray(approach, float)
+        u = as_numbers("approach", approach)
         out = np.empty((2, u.size))
         fill_parts(u.ravel(), self.law, out)
         return out.reshape((2, *u.shape))

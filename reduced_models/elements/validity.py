@@ -10,13 +10,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import require_finite, require_nonnegative
+from ehlcontact.checks import as_numbers, require_finite, require_nonnegative
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 
 MARGIN = 0.05  # share of the intervals of approach and load, and of the largest rate, that goes unmentioned
 STILL = 1e-6  # spread of an approach over its size, below which its frequency means nothing
 OCTAVE = 2.0  # likewise of frequency: in the contact's own band damping changes by a fifth over an octave
+
+# Magnitude of any number of an element, in SI or not, powers of a length in the divisor apart: stiffnesses in N/m
+# come to 1e10. Beyond it the units are wrong, and products of several overflow.
+LARGEST = 1e15
 
 UNITS = ("dimensionless", "SI")  # of elements and records
 
@@ -51,6 +55,8 @@ class Validity:
         if low >= high:
             raise InputError("low", low, f"below high = {high!r}")
         rate = None if self.rate is None else require_nonnegative("rate", self.rate)
+        for name, size in (("low", low), ("high", high), ("rate", rate or 0.0)):
+            require_size(name, size)
         slack = MARGIN * (high - low)
         fastest = math.inf if rate is None else (1.0 + MARGIN) * rate
         load = _band("load_range", self.load)
@@ -60,7 +66,7 @@ class Validity:
             "approach": (low, high),
             "rate": rate,
             "load": load,
-            "omega": _band("omega_range", self.omega),
+            "omega": _band("omega_range", self.omega, least=0.0),
             "reach": (low - slack, high + slack, fastest, least - more, most + more),
         }
         for name, value in checked.items():
@@ -77,7 +83,7 @@ class Validity:
         self, approach: ArrayLike, rate: ArrayLike = 0.0, omega: float | None = None
     ) -> bool | NDArray[np.bool_]:
         """Whether approach, rate and frequency lie in the box; scalars or arrays that broadcast."""
-        u, v = np.broadcast_arrays(np.asarray(approach, float), np.asarray(rate, float))
+        u, v = np.broadcast_arrays(as_numbers("approach", approach), as_numbers("rate", rate))
         inside = (u >= self.approach[0]) & (u <= self.approach[1])
         if self.rate is not None:
             inside &= np.abs(v) <= self.rate
@@ -192,7 +198,13 @@ def _scaled(band: Band, unit: float) -> Band:
     return band[0] * unit, band[1] * unit
 
 
-def _band(name: str, value: Any) -> Band | None:
+def require_size(field: str, value: float, largest: float = LARGEST) -> None:
+    """Raise `InputError` for a number of an element that is larger in magnitude than any contact has."""
+    if not abs(value) <= largest:
+        raise InputError(field, value, f"at most {largest:g} in magnitude (the units may be wrong)")
+
+
+def _band(name: str, value: Any, least: float = -math.inf) -> Band | None:
     if value is None:
         return None
     try:
@@ -200,8 +212,11 @@ def _band(name: str, value: Any) -> Band | None:
     except (TypeError, ValueError):
         raise InputError(name, value, "a pair (low, high) of numbers") from None
     low, high = require_finite(name, low), require_finite(name, high)
-    if low > high:
-        raise InputError(name, (low, high), "a pair with low <= high")
+    if low > high or low < least:
+        limit = f", both >= {least:g}" if least > -math.inf else ""
+        raise InputError(name, (low, high), f"a pair with low <= high{limit}")
+    for end in (low, high):
+        require_size(name, end)
     return low, high
 
 

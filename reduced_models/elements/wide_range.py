@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column, as_rows, require_positive
+from ehlcontact.checks import as_column, as_rows, require_between
 from ehlcontact.point import Scales
 from ehlcontact.store import stored
 from reduced_models.elements.film_curve import curve_nodes
@@ -15,6 +15,8 @@ from reduced_models.elements.film_element import FilmContact
 from reduced_models.elements.film_filters import DIRECT
 
 _Floats = NDArray[np.float64]
+
+LOADS = (1e-12, 1e12)  # over the reference load
 
 
 @stored("contact element")
@@ -71,7 +73,9 @@ class WideRangeContact(FilmContact):
         for name, least in (("loads", 2), ("approach", 2), ("gain_loads", 1)):
             column = as_column(name, getattr(self, name), least=least, increasing=True)
             object.__setattr__(self, name, tuple(column.tolist()))
-        require_positive("gain_loads[0]", self.gain_loads[0])
+        for name in ("loads", "gain_loads"):
+            require_between(f"{name}[0]", getattr(self, name)[0], *LOADS)
+            require_between(f"{name}[-1]", getattr(self, name)[-1], *LOADS)
         rows = as_rows("gains", self.gains, len(self.gain_loads), DIRECT + 1)
         object.__setattr__(self, "gains", tuple(tuple(row) for row in rows.tolist()))
         force, length = (1.0, 1.0) if self.scales is None else (self.scales.force, self.scales.length)

@@ -30,7 +30,7 @@ from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Point
 from ehlcontact.summary import Summary
-from reduced_models.rotor.rotor import Rotor, Unbalance
+from reduced_models.rotor.rotor import Rotor, Unbalance, require_unbalance
 from reduced_models.rotor.supports import ContactMount
 
 _Floats = NDArray[np.float64]
@@ -137,6 +137,7 @@ class JeffcottRotor(Summary):
             require_positive(name, getattr(self, name))
         for name in ("shaft_damping", "disc_damping", "unbalance", "speed_rpm"):
             require_nonnegative(name, getattr(self, name))
+        require_unbalance("unbalance", self.unbalance, self.disc_mass)
         for name in ("gravity", "load"):
             object.__setattr__(self, name, tuple(as_column(name, getattr(self, name), size=2).tolist()))
         require_choice("directions", self.directions, ("xy", "y"))

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import (
     as_column,
+    as_numbers,
     require_finite,
     require_integer,
     require_nonnegative,
@@ -24,7 +25,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary, span
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.rotor.beam import Piece
-from reduced_models.rotor.rotor import Unbalance
+from reduced_models.rotor.rotor import Unbalance, require_unbalance
 from reduced_models.rotor.supports import BearingMount, LinearBearing, require_bearing
 
 _Floats = NDArray[np.float64]
@@ -90,9 +91,9 @@ class Shaft(Summary):
         ]
 
     def __post_init__(self) -> None:
-        lengths = as_column("length", np.atleast_1d(np.asarray(self.length, float)))
+        lengths = as_column("length", np.atleast_1d(as_numbers("length", self.length)))
         for name in ("length", "diameter", "bore"):
-            given = np.atleast_1d(np.asarray(getattr(self, name), float))
+            given = np.atleast_1d(as_numbers(name, getattr(self, name)))
             column = as_column(
                 name, np.full(lengths.size, given[0]) if given.size == 1 else given, size=lengths.size
             )
@@ -198,6 +199,7 @@ class Disc(Summary):
                 "polar_inertia", self.polar_inertia, f"at most twice the diametral one, {most:.6g} kg m2"
             )
         Unbalance(x=0, y=1, amount=self.unbalance, phase=self.phase)
+        require_unbalance("unbalance", self.unbalance, self.mass)
         object.__setattr__(self, "load", tuple(as_column("load", self.load, size=2).tolist()))
 
     @classmethod
@@ -282,7 +284,7 @@ class Support(Summary):
         if self.housing_mass is not None:
             require_positive("housing_mass", self.housing_mass)
             for name, check in (("housing_stiffness", require_positive), ("housing_damping", require_nonnegative)):
-                given = np.atleast_1d(np.asarray(getattr(self, name), float))
+                given = np.atleast_1d(as_numbers(name, getattr(self, name)))
                 pair = as_column(name, np.full(2, given[0]) if given.size == 1 else given, size=2)
                 for k, value in enumerate(pair.tolist()):
                     check(f"{name}[{k}]", value)

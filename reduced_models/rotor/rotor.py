@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column, as_rows, require_finite, require_instance, require_integer
+from ehlcontact.checks import as_column, as_numbers, as_rows, require_finite, require_instance, require_integer
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary
@@ -38,6 +38,19 @@ from reduced_models.rotor.supports import (
 
 _Floats = NDArray[np.float64]
 Matrices = tuple[_Floats, _Floats, _Floats]
+
+
+# m of a centre of mass: balanced rotors have some 1e-6, and no disc runs with more; and of a rotor of matrices, of
+# whose degrees of freedom it is not known what each moves.
+MOST_ECCENTRIC, MOST_OF_MATRICES = 0.01, 1.0
+
+
+def require_unbalance(field: str, amount: float, mass: float, eccentric: float = MOST_ECCENTRIC) -> None:
+    """Raise `InputError` for an unbalance [kg m] that is more than `eccentric` [m] times the mass [kg]."""
+    most = eccentric * mass
+    if not abs(amount) <= most:
+        guess = f" (in g mm? then {1e-6 * amount:.6g} kg m)" if abs(1e-6 * amount) <= most else ""
+        raise InputError(field, amount, f"at most {most:g} kg m, {1e3 * eccentric:g} mm times the mass{guess}")
 
 
 class _Nodes(dict[str, Mapping[str, int]]):
@@ -119,7 +132,7 @@ class Rotor(Summary):
         ]
 
     def __post_init__(self) -> None:
-        size = len(np.atleast_1d(np.asarray(self.mass, float)))
+        size = len(np.atleast_1d(as_numbers("mass", self.mass)))
         for name in ("mass", "stiffness", "damping", "gyroscopic"):
             given = getattr(self, name)
             matrix = as_rows(name, np.zeros((size, size)) if given is None else given, size, size)
@@ -137,6 +150,8 @@ class Rotor(Summary):
         self._check_mounts()
         for i, unbalance in enumerate(self.unbalances):
             self._require_there(f"unbalances[{i}]", (unbalance.x, unbalance.y))
+            whole = float(np.trace(self.mass))
+            require_unbalance(f"unbalances[{i}].amount", unbalance.amount, whole, MOST_OF_MATRICES)
         named = {name: MappingProxyType(dict(at)) for name, at in self.nodes.items()}
         object.__setattr__(self, "nodes", MappingProxyType(_Nodes(named)))
         for name, at in named.items():

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column, require_finite, require_instance, require_integer
+from ehlcontact.checks import as_column, as_numbers, require_finite, require_instance, require_integer
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.point import Point, moes_point
@@ -53,7 +53,7 @@ class LinearBearing(Summary):
         shape = (2, 2) if speeds is None else (speeds.size, 2, 2)
         object.__setattr__(self, "speeds_rpm", speeds)
         for name in ("stiffness", "damping"):
-            matrices = np.array(getattr(self, name), float)
+            matrices = as_numbers(name, getattr(self, name))
             if matrices.shape != shape or not np.isfinite(matrices).all():
                 raise InputError(name, getattr(self, name), f"finite, of shape {shape}")
             matrices.setflags(write=False)

@@ -1,5 +1,6 @@
 """Python calls with bad input: what a script of a user may hold."""
 
+import copy
 from functools import cache
 from pathlib import Path
 
@@ -74,7 +75,135 @@ def cubic(**changes):
     return rm.CubicContact(**({"K1": 1.0, "K2": 0.1, "K3": 0.1, "C1": 0.01, **BOX} | changes))
 
 
+@cache
+def elements():
+    """Files of an element about one load, and of one for every load."""
+    return {kind: rm.Atlas().element(point(), kind).to_dict() for kind in ("memory", "wide")}
+
+
+def read(kind, section=None, **changes):
+    """An element from the entries of a file, some of them changed."""
+    entries = copy.deepcopy(elements()[kind])
+    (entries if section is None else entries[section]).update(changes)
+    return {"memory": rm.FilmMemoryContact, "wide": rm.WideRangeContact}[kind].from_dict(entries)
+
+
+def rows_of_gains():
+    return len(elements()["wide"]["parameters"]["gains"])
+
+
+def power(**changes):
+    good = {"K": 1.0, "n": 1.5, "u0": 0.0, "F0": 0.0, "C": 0.01}
+    return rm.PowerLawContact(**(good | BOX | changes))
+
+
+def jeffcott(**changes):
+    parts = {"disc_mass": 2.0, "journal_mass": 0.3, "shaft_stiffness": 1e8}
+    return rm.JeffcottRotor.vertical(**(parts | changes))
+
+
+MASKED = np.ma.masked_array(np.linspace(0.0, 1.0, 20), mask=[0] * 19 + [1])
+HUGE = 10**400  # no float holds it
+
 CALLS = {
+    # numbers that are none, or too large for a float
+    "M of 400 digits": (lambda: MoesPoint(HUGE, 10, 0.5), ("M", "a finite number > 0")),
+    "M of 5000 digits": (lambda: MoesPoint(10**5000, 10, 0.5), ("M", "thousands of digits", "a finite number")),
+    "Omega of 400 digits": (lambda: impedance(point(), Omega=HUGE), ("Omega", "numbers")),
+    "Omega masked": (lambda: impedance(point(), Omega=MASKED), ("Omega", "without a masked one")),
+    "until of 400 digits": (lambda: TimeSteps(until=HUGE), ("until", "a finite number > 0")),
+    "until without end": (
+        lambda: simulate(point(), FreeVibration(Omega_n=5.0), time=TimeSteps(until=1e9)),
+        ("dt", "at least until/1 000 000"),
+    ),
+    "times as text": (lambda: PrescribedLoad(["0", "1", "2", "3"], [1.0] * 4), ("T = 'list'", "numbers")),
+    "loads that are true": (lambda: PrescribedLoad([0.0, 1.0, 2.0, 3.0], [True] * 4), ("values", "numbers")),
+    "one load that is true": (lambda: PrescribedLoad([0.0, 1.0, 2.0, 3.0], [1.0, True, 1.0, 1.0]), ("values",)),
+    "record as text": (lambda: record(force=["1"] * 20), ("force", "numbers")),
+    "record masked": (lambda: record(force=MASKED), ("force", "without a masked one")),
+    "one entry masked": (lambda: record(force=[1.0] * 19 + [np.ma.masked]), ("force", "numbers")),
+    "an ESC in the value": (lambda: HarmonicLoad(Omega="\x1b[31m3"), ("Omega", r"'\x1b[31m3'")),
+    # elements: numbers as text, and numbers that no contact has
+    "approach as text": (lambda: cubic().advance(0.1, "0.8", 0.0), ("approach = '0.8'", "a number")),
+    "approach that is true": (lambda: cubic().step_tangents(0.1, True, 0.0), ("approach = True", "a number")),
+    "approach masked": (lambda: cubic().advance(0.1, np.ma.masked, 0.0), ("approach = masked", "a number")),
+    "approaches as text": (lambda: cubic().spring(["0.8"]), ("approach", "numbers")),
+    "approaches masked": (lambda: cubic().spring(MASKED), ("approach", "without a masked one")),
+    "inside as text": (lambda: cubic().is_valid("0.8"), ("approach", "numbers")),
+    "film as text": (lambda: read("memory").advance(0.1, "0.8", 0.0), ("approach = '0.8'", "a number")),
+    "step as text": (lambda: read("memory").advance("1", 0.8, 0.0), ("dt = '1'", "a number")),
+    "record of text": (lambda: read("memory").drive(["0", "1"], [0.8] * 2, [0.0] * 2), ("T", "numbers")),
+    "record masked, driven": (lambda: read("memory").drive(MASKED, MASKED, MASKED), ("T", "masked")),
+    "band below 0": (lambda: cubic(omega_range=(-1.0, 5.0)), ("omega_range", "low <= high, both >= 0")),
+    "band below 0, read": (lambda: read("memory", "valid", omega=[-1, 5]), ("omega_range", ">= 0")),
+    "rate of others": (lambda: read("memory", "valid", rate=1e200), ("rate", "at most 1e+15 in magnitude")),
+    "unknown parameter": (lambda: read("memory", "parameters", fim=1), ("parameters.fim", "left out; known are")),
+    "unknown bound": (lambda: read("wide", "valid", fim=1), ("valid.fim", "left out; known are")),
+    "unknown entry": (lambda: read("wide", fim=1), ("fim", "left out; known are")),
+    "film 1e200": (lambda: read("memory", "parameters", film=1e200), ("film", "between 1e-09 and 1e+06")),
+    "film 1e-200": (lambda: read("memory", "parameters", film=1e-200), ("film", "between 1e-09 and 1e+06")),
+    "exponent 1e200": (lambda: read("memory", "parameters", exponent=1e200), ("exponent", "0.02 and 10")),
+    **{
+        f"{name} {value:g} of {kind}": (
+            lambda kind=kind, name=name, value=value: read(kind, "parameters", **{name: value}),
+            (name, "between 1e-06 and 1e+06"),
+        )
+        for kind in ("memory", "wide")
+        for name in ("lag_rate", "inlet_rate", "fast_rate")
+        for value in (1e200, 1e-200)
+    },
+    "saturation 1e200": (
+        lambda: read("memory", "parameters", inlet_saturation=1e200),
+        ("inlet_saturation", "at most 1e+06 in magnitude"),
+    ),
+    "gains 1e200": (lambda: read("memory", "parameters", gains=[1e200] * 17), ("gains", "at most 1e+06")),
+    "gains as text": (lambda: read("memory", "parameters", gains=["0.1"] * 17), ("gains", "numbers")),
+    "loads 1e200": (
+        lambda: read(
+            "wide", "parameters", gain_loads=[0.1, *np.geomspace(1.0, 1e200, rows_of_gains() - 1).tolist()]
+        ),
+        ("gain_loads[-1]", "between 1e-12 and 1e+12"),
+    ),
+    "K1 1e200": (lambda: cubic(K1=1e200), ("spring at low", "the units may be wrong")),
+    "C1 1e200": (lambda: cubic(C1=1e200), ("damping", "at most 1e+15 in magnitude")),
+    "K 1e200": (lambda: power(K=1e200), ("spring at low", "the units may be wrong")),
+    "F0 1e200": (lambda: power(F0=1e200), ("spring at low", "the units may be wrong")),
+    "u0 1e200": (lambda: power(u0=1e200), ("spring at low", "the units may be wrong")),
+    "exponent of a power 1e200": (lambda: power(n=1e200), ("spring", "must be")),
+    # rotors and bearings
+    "unbalance in g mm": (
+        lambda: jeffcott(unbalance=2000.0),
+        ("unbalance", "at most 0.02 kg m", "in g mm? then 0.002 kg m"),
+    ),
+    "unbalance of a disc": (
+        lambda: rm.Disc(position=0.1, mass=2.0, unbalance=2000.0),
+        ("unbalance", "at most 0.02 kg m", "in g mm? then 0.002 kg m"),
+    ),
+    "unbalance of matrices": (
+        lambda: rm.Rotor(
+            mass=np.eye(2),
+            stiffness=np.eye(2),
+            mounts=(rm.ContactMount(0.0, contact=cubic(), x=0, y=1),),
+            unbalances=(rm.Unbalance(x=0, y=1, amount=2000.0),),
+        ),
+        ("unbalances[0].amount", "at most 2 kg m", "in g mm? then 0.002 kg m"),
+    ),
+    "bore of a disc": (
+        lambda: rm.Disc.cylinder(position=0.1, diameter=0.1, width=0.02, bore=0.2),
+        ("bore", "below the diameter, 0.1 m"),
+    ),
+    "bore of a shaft": (lambda: rm.Shaft(length=0.3, diameter=0.02, bore=0.02), ("bore", "below the diameter")),
+    "shaft as text": (lambda: rm.Shaft(length=0.3, diameter="0.02"), ("diameter", "numbers")),
+    "matrix as text": (
+        lambda: rm.Rotor(mass=[["1"]], stiffness=[[1.0]], mounts=()),
+        ("mass", "numbers"),
+    ),
+    "springs that are true": (lambda: rm.LinearBearing(np.eye(2) > 0.0, np.eye(2)), ("stiffness", "numbers")),
+    "speeds masked": (lambda: rm.SpeedProfile(MASKED, np.ones(20)), ("t", "without a masked one")),
+    "dry and crushed": (
+        lambda: rm.BallBearing.catalogue("6205").equilibrium((0.0, -1e6), speed_rpm=1000.0),
+        ("load", "a ball carries at most", "5 GPa, beyond which no steel stays elastic"),
+    ),
     # operating points
     "kappa of Ry/Rx": (lambda: solve_steady(MoesPoint(200, 10, 12.0)), ("kappa", "between 0.04 and 8, what the")),
     "M of newtons": (lambda: solve_steady(MoesPoint(1e6, 10, 0.5)), ("M", "between 0.1 and 60000, what the")),

@@ -260,7 +260,13 @@ BAD = {
         "half a character in its source": lambda good: good.replace(
             b'"source": null', rb'"source": {"a": "\udfff"}'
         ),
-        "byte order mark": lambda good: b"\xef\xbb\xbf" + good,
+        "a key twice": lambda good: good.replace(b'"K1": 1.0', b'"K1": 2.0, "K1": 1.0'),
+        "a key of others": element(remark="mine"),
+        "a parameter of others": element(parameters={"K4": 1.0}),
+        "a bound of others": element(valid={"temperature": 50.0}),
+        "a band below 0": element(valid={"omega": [-1, 5]}),
+        "stiffness of no contact": element(parameters={"K1": 1e200}),
+        "rate of no contact": element(valid={"rate": 1e200}),
         "no header": element(header=None),
         "a bearing": element(header={"class": "BallBearing"}),
         "another class": element(header={"class": "LinearContact"}),
@@ -306,7 +312,7 @@ BAD = {
 }
 for kind, table in BAD.items():
     table |= {name: made for name, made in ANY.items() if (kind, name) not in {("study", "half")}}
-MISSING = ("missing", "a folder", "too long", "below a file", "not text")
+MISSING = ("missing", "a folder", "too long", "below a file", "not text", "a pipe")
 
 
 def missing(folder, kind, name):
@@ -314,10 +320,12 @@ def missing(folder, kind, name):
     suffix = SUFFIX[kind]
     (folder / "file").write_text("")
     (folder / f"folder{suffix}").mkdir()
+    os.mkfifo(folder / f"pipe{suffix}")
     return {
         "missing": folder / f"none{suffix}",
         "a folder": folder / f"folder{suffix}",
         "too long": folder / ("x" * 300 + suffix),
         "below a file": folder / "file" / f"x{suffix}",
+        "a pipe": folder / f"pipe{suffix}",
         "not text": Path(os.fsdecode(os.fsencode(folder) + b"/\xff" + suffix.encode())),
     }[name]

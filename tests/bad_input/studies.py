@@ -5,6 +5,7 @@ from pathlib import Path
 SMALL = (Path(__file__).parents[2] / "examples" / "small_study.toml").read_text()
 SLIPS = {
     "balls = 9": [
+        ('catalogue = "6305"\nballs = 9', "bearing.balls = 9", "left out", "6305", "has 7"),
         ("balls = 0", "bearing.balls = 0", "between 3 and 200"),
         ("balls = 201", "bearing.balls = 201", "between 3 and 200"),
         ("balls = nan", "bearing.balls = nan", "a whole number (9, not 9.0"),
@@ -89,6 +90,7 @@ SLIPS = {
         ("", "bearing.speed_rpm", "given"),
         ("speed_rpm = false", "bearing.speed_rpm", "False", "a number"),
         ("speed_rpm = 3e9", "bearing.speed_rpm", "rev/min"),
+        ("speed_rpm = [3000, 3000.0000001]", "bearing.speed_rpm = 3000.0000001", "further from 3000"),
         ("speed_rpm = 0.5", "M = ", "in rev/s? then 30 rev/min"),
         ("speed_rpm = 0", "bearing.speed_rpm", "0", "between 0.001"),
     ],
@@ -213,6 +215,9 @@ SLIPS = {
     ],
     "title =": [
         ("title = 3 #", "title = 3", "text in quotes"),
+        (r'title = "a\u001b[31mb" #', "title = ", "text without control characters"),
+        (r'title = "a\u0000b" #', "title = ", "text without control characters"),
+        ('title = "a\x1bb" #', "complete TOML"),
         ("titel =", "titel = ", "title?"),
     ],
     SMALL: [
@@ -222,6 +227,7 @@ SLIPS = {
         (SMALL + SMALL, "complete TOML", "'[bearing]'"),
     ],
     "eta0 = 0.0367": [
+        (r'"a\u001b[31mb" = 3', r"oil.a\x1b[31mb = 3", "left out"),
         ("eta0 = true", "oil.eta0", "True", "a number"),
         ("eta0 = 36.7", "oil.eta0", "in mPa s? then 0.0367 Pa s"),
         ("eta0 = 4.29e-5", "oil.eta0", "in m2/s? then 0.03732 Pa s"),

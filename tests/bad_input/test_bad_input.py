@@ -3,6 +3,8 @@
 The tables beside this file hold command lines, study files, damaged files, Python calls and their arguments.
 """
 
+import errno
+import json
 import os
 import re
 import shlex
@@ -17,6 +19,8 @@ from bad_input.calls import CALLS, full_contact
 from bad_input.commands import COMMANDS, ELEMENT, FILM, OTHER, RECORD, STUDY, at, bearing, steady
 from bad_input.fields import FIELDS, NAMED
 from bad_input.studies import SLIPS, SMALL
+from numba import njit
+from numba.core.caching import FunctionCache
 
 from ehlcontact import (
     Grid,
@@ -24,14 +28,20 @@ from ehlcontact import (
     InputError,
     Lubricant,
     MoesPoint,
+    OperatingPoint,
     RunSettings,
     TimeSteps,
+    load,
     save,
     simulate,
     solve_steady,
 )
 from ehlcontact.cli import main
-from reduced_models import BallBearing, CubicContact
+from ehlcontact.cli.page import _drawn
+from ehlcontact.cli.plots.finish import finished
+from ehlcontact.cli.study.schema import load_study
+from ehlcontact.jit import plain
+from reduced_models import Atlas, BallBearing, CubicContact
 
 ROOT = Path(__file__).parents[2]
 SECONDS = 2.0  # of the processor
@@ -140,6 +150,79 @@ def test_whole_numbers_are_numbers(good, monkeypatch):
     with pytest.raises(SystemExit) as stop:
         main(["validate", "slip.toml", "-o", "none"])
     assert not stop.value.code
+
+
+@pytest.mark.parametrize("command", [("steady", "--json"), ("verify",), ("bearing",)], ids=lambda c: c[0])
+def test_a_pipe_with_a_name(refused, good, command):
+    """Whoever opens one waits for the other end, which may never come."""
+    pipe = good / "pipe.toml"
+    os.mkfifo(pipe)
+    try:
+        refused((*command, pipe) if command[0] != "steady" else steady(command[1], pipe), ("pipe with a name",))
+    finally:
+        pipe.unlink()
+
+
+def test_a_byte_order_mark(good, tmp_path):
+    """As editors on Windows write one: read over."""
+    for name in (STUDY, ELEMENT):
+        (tmp_path / name).write_bytes(b"\xef\xbb\xbf" + (good / name).read_bytes())
+    assert load_study(tmp_path / STUDY) == load_study(good / STUDY)
+    assert load(tmp_path / ELEMENT) == load(good / ELEMENT)
+
+
+def test_the_element_of_another_contact(refused, tmp_path, good):
+    element = Atlas().element(OperatingPoint.ball_bearing(
+        Lubricant(0.02, 2e-8), ball_diameter=7.94e-3, pitch_diameter=39.04e-3, conformity=0.52, speed_rpm=3000.0,
+        load=34.0,
+    ))  # fmt: skip
+    file = save(element, tmp_path / "other.json")
+    words = ("--contact", "an element of the study's contact: ", "eta0 = 0.0367 Pa s (made for 0.02 Pa s)")
+    refused(("export", STUDY, "-o", "new.fmu", "--contact", file), words)
+
+
+def test_a_working_folder_that_is_gone(tmp_path, good, monkeypatch, capsys):
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    for command in (("validate", good / STUDY, "-o", "out"), ("fit", "r.h5"), ("init", "new.toml")):
+        with pytest.raises(SystemExit) as stop:
+            main([str(part) for part in command])
+        (line,) = capsys.readouterr().err.splitlines()
+        assert stop.value.code == 2 and "must be" in line, line
+
+
+def test_no_room_for_compiled_code(monkeypatch, capsys, tmp_path):
+    """A full disk, and no folder that can be written to; the line names the folder."""
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    def no_locator(*_):
+        raise RuntimeError("cannot cache function 'f': no locator available for file 'f.py'")
+
+    monkeypatch.setattr("numba.core.caching.IndexDataCacheFile.save", full)
+    kernel = njit(lambda x: x)
+    kernel._cache = FunctionCache(plain(kernel))
+    monkeypatch.setattr("ehlcontact.steady.solve_steady", lambda *_, **__: kernel(1.0))
+    for way, reason in ((None, "No space left on device"), (no_locator, "none of them can be written to")):
+        if way is not None:
+            monkeypatch.setattr("ehlcontact.steady.solve_steady", lambda *_, **__: no_locator())
+        with pytest.raises(SystemExit) as stop:
+            main(steady(n="16"))
+        (line,) = capsys.readouterr().err.splitlines()
+        assert stop.value.code == 2 and f"{tmp_path}: {reason}" in line, line
+
+
+def test_a_figure_that_fails_costs_no_report(tmp_path):
+    def fails():
+        raise ValueError("no backend <here>")
+
+    with pytest.warns(UserWarning, match="the figure 'convergence' could not be drawn: ValueError: no backend"):
+        figure = finished(_drawn("convergence", fails))
+    assert "no backend &lt;here&gt;" in json.dumps(figure)
 
 
 def test_a_grid_beyond_the_memory(refused, monkeypatch, good):

@@ -155,7 +155,10 @@ def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
     if contact is not None:
         element: Any = load(contact, ContactElement)
         if element.units != "SI":
-            element = element.to_si(study.point.scales)
+            with o.called(scales="--contact"):
+                element = element.to_si(study.point.scales)
+        if others := element.design_point.differences(study.point):
+            raise InputError("--contact", str(contact), f"an element of the study's contact: {', '.join(others)}")
         place = "--contact"
     else:
         with o.called(point=str(file)):

@@ -45,7 +45,7 @@ class Bearing(Section):
     """A bearing of the catalogue, with other values where they are given; or its dimensions."""
 
     catalogue: str | None = None
-    name: str | None = None
+    name: e.Text | None = None
     balls: e.Balls | None = None
     ball_diameter_mm: e.BallDiameter | None = None
     pitch_diameter_mm: e.PitchDiameter | None = None

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, ValidationError
 
 from ehlcontact.cli import entries as e
-from ehlcontact.cli.entries import Section, quantity_of
+from ehlcontact.cli.entries import Section
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.study.schema_errors import first_error, in_other_kind, inputs_of
 from ehlcontact.cli.toml import read_toml
@@ -24,8 +24,8 @@ from ehlcontact.point import OperatingPoint, require_solvable
 from ehlcontact.solver.domain import Domain
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
 from reduced_models.bearing.catalogue import catalogue_row
+from reduced_models.rotor.rotor import require_unbalance
 
-MOST_ECCENTRIC = 0.01  # m of the disc's centre of mass: balanced rotors have some 1e-6, and none runs with more
 BY_NUMBERS = ("eta0", "alpha")  # entries of an oil
 BY_GRADE = ("iso_vg", "temperature", "viscosity_index", "density_15")
 # As on the drum, and as people shorten it: "ISO VG 68", "VG68", "iso-vg 68", "68".
@@ -47,7 +47,7 @@ class Bearing(Section):
     catalogue: Annotated[
         e.Catalogue | None, e.meaning("name in the catalogue, in place of the dimensions below")
     ] = None
-    name: Annotated[str, e.meaning("as the report calls it")] = "ball bearing"
+    name: Annotated[e.Text, e.meaning("as the report calls it")] = "ball bearing"
     balls: e.Balls
     ball_diameter_mm: e.BallDiameter
     pitch_diameter_mm: e.PitchDiameter
@@ -62,7 +62,7 @@ class Bearing(Section):
 class Oil(Section):
     """The oil in the inlet of the contact: a grade and a temperature, or eta0 and alpha in their place."""
 
-    name: Annotated[str, e.meaning("as the report calls it; by its grade where left out")] = "oil"
+    name: Annotated[e.Text, e.meaning("as the report calls it; by its grade where left out")] = "oil"
     eta0: e.Eta0 | None = None
     alpha: e.Alpha | None = None
     iso_vg: e.Grade | None = None
@@ -245,7 +245,7 @@ class Check(Section):
 class Study(Section):
     """A study file of one speed and load."""
 
-    title: Annotated[str, e.meaning("heads the report")] = "contact study"
+    title: Annotated[e.Text, e.meaning("heads the report")] = "contact study"
     bearing: Bearing
     oil: Oil
     surface: Surface = Surface()
@@ -387,7 +387,9 @@ def study_of(document: dict[str, Any]) -> Study:
     """
     bearing = document.get("bearing")
     if isinstance(bearing, dict) and isinstance(bearing.get("catalogue"), str):
-        document = document | {"bearing": catalogue_entries(bearing["catalogue"]) | bearing}
+        entries = catalogue_entries(bearing["catalogue"])
+        require_no_other(bearing, entries)
+        document = document | {"bearing": entries | bearing}
     try:
         study = Study.model_validate(document)
     except ValidationError as error:
@@ -425,16 +427,21 @@ def catalogue_entries(name: str) -> dict[str, Any]:
     return {"name": known, "balls": row.balls, **in_mm, "conformity": row.conformity}
 
 
+def require_no_other(bearing: Mapping[str, Any], entries: Mapping[str, Any]) -> None:
+    """Raise `InputError` for dimensions beside a name of the catalogue that are not those of that name.
+
+    A conformity may be: it is each maker's own.
+    """
+    for key in ("balls", "ball_diameter_mm", "pitch_diameter_mm"):
+        if bearing.get(key) not in (None, entries[key]):
+            allowed = f"left out: catalogue = {bearing['catalogue']!r} has {entries[key]:g}"
+            raise InputError(f"bearing.{key}", bearing[key], allowed)
+
+
 def _require_together(study: Study) -> None:
     """Raise `InputError` for entries that are possible alone and impossible together."""
     bearing, rotor = study.bearing, study.rotor
     if not bearing.pitch_diameter_mm > bearing.ball_diameter_mm:
         allowed = f"above bearing.ball_diameter_mm = {bearing.ball_diameter_mm:g}"
         raise InputError("bearing.pitch_diameter_mm", bearing.pitch_diameter_mm, allowed)
-    if not rotor.unbalance <= MOST_ECCENTRIC * rotor.disc_mass:
-        quantity = quantity_of(Rotor.model_fields["unbalance"])
-        guess = quantity.slip(rotor.unbalance) if quantity else ""
-        allowed = (
-            f"at most {MOST_ECCENTRIC * rotor.disc_mass:g} kg m, {1e3 * MOST_ECCENTRIC:g} mm times the disc's mass"
-        )
-        raise InputError("rotor.unbalance", rotor.unbalance, f"{allowed} ({guess})" if guess else allowed)
+    require_unbalance("rotor.unbalance", rotor.unbalance, rotor.disc_mass)

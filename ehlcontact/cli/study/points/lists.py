@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
+from math import isclose
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from ehlcontact.files import read_text, write_text
 
 LISTS = [name.removeprefix("bearing.") for name in SEVERAL]
 MOST = 100  # points: at some minutes each what a night has room for
+SAME = 1e-6  # share by which two numbers of a list differ at least: they name folders and rows of tables
 TITLE = Study.model_fields["title"].default
 STUDY_FILE, POINTS = "study.toml", "points"
 
@@ -122,6 +124,9 @@ def _values(key: str, given: list[Any]) -> list[Any]:
             raise InputError(field, value, "a number, in a list of numbers")
         if value in given[:i]:
             raise InputError(field, value, "once in its list")
+        for other in given[:i]:
+            if all(isinstance(one, int | float) for one in (value, other)) and isclose(value, other, rel_tol=SAME):
+                raise InputError(field, value, f"further from {other!r}, in its list, than {SAME:g} of it")
     return given
 
 
