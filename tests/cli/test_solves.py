@@ -151,7 +151,20 @@ def test_interrupted_simulation_is_saved(call, point, tmp_path, monkeypatch):
 
 
 def test_interrupted_simulation_goes_on_from_its_checkpoint(call, refused, point, tmp_path, monkeypatch):
-    run = ["simulate", *point, "--n", "16", "--harmonic", "3", "--until", "1", "--error", "1e-3", "--json", "-"]
+    run = [
+        "simulate",
+        *point,
+        "--n",
+        "16",
+        "--harmonic",
+        "3",
+        "--until",
+        "1",
+        "--local-error",
+        "1e-3",
+        "--json",
+        "-",
+    ]
     whole = json.loads(call(*run).out)
     checkpoint = tmp_path / "c.h5"
     with monkeypatch.context() as patch:
@@ -181,7 +194,9 @@ def test_a_finished_run_goes_on_to_a_later_end(call, point, tmp_path):
 
 def test_step_that_cannot_meet_its_error(call, point, tmp_path, monkeypatch):
     monkeypatch.setattr("ehlcontact.transient.run.local_error", lambda before, entry, motion: 1.0)
-    result = call("simulate", *point, "--n", "16", "--free", "5", "--error", "1e-3", "--save", tmp_path / "p.h5")
+    result = call(
+        "simulate", *point, "--n", "16", "--free", "5", "--local-error", "1e-3", "--save", tmp_path / "p.h5"
+    )
     assert result.code == 1 and len(result.err.splitlines()) == 1
     for words in ("step_too_small at T = ", "a step of ", "tolerated error 0.001", "partial result in"):
         assert words in result.err

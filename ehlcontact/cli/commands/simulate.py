@@ -154,14 +154,14 @@ class TimeOptions(o.Options):
     ] = None
     dt: Annotated[
         e.Positive | None,
-        typer.Option("--dt", help="Step in the unit of --until (1/80 period); with --error, the first."),
+        typer.Option("--dt", help="Step in the unit of --until (1/80 period); with --local-error, the first."),
     ] = None
-    error: Annotated[
+    local_error: Annotated[
         e.Positive | None,
         typer.Option(
-            "--error",
-            help="Control the step: local error of each. Over a run of bodies with inertia these "
-            "add up to about its power 2/3.",
+            "--local-error",
+            help="Control the step: error of each step by itself. Over a run of bodies with inertia these "
+            "add up to its power 2/3: for an error of the run within 1 % give 0.001.",
         ),
     ] = None
     tol: Annotated[
@@ -169,14 +169,14 @@ class TimeOptions(o.Options):
         typer.Option(
             "--tol",
             help="Residual at which a step counts as solved, over the central film at rest; by default 0.003, "
-            "less for motions below 0.1, and with --error at most three times that.",
+            "less for motions below 0.1, and with --local-error at most three times that.",
         ),
     ] = None
 
     def chosen(self) -> TimeSteps:
         """The time steps that the options stand for."""
-        with o.called(dt="--dt", local_error="--error"):
-            return TimeSteps(until=self.until, dt=self.dt, local_error=self.error, tol=self.tol)
+        with o.called(dt="--dt", local_error="--local-error"):
+            return TimeSteps(until=self.until, dt=self.dt, local_error=self.local_error, tol=self.tol)
 
 
 class RestartOptions(o.Options):
@@ -218,7 +218,7 @@ def simulate(
     chosen, steps = grid.chosen(), time.chosen()
     out.check(restart.other, beside={"--checkpoint": (restart.checkpoint, o.HDF5)})
     failure, unkept = "", None
-    with progress("transient film") as update, o.called(dt="--dt", local_error="--error"):
+    with progress("transient film") as update, o.called(dt="--dt", local_error="--local-error"):
         try:
             result = integrate(
                 *arguments,
