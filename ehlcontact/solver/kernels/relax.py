@@ -82,28 +82,25 @@ def distribution_weights(first, last, P, flow, stencil, c_t, theta):
 def solve_bands(band, b, m):
     """Solve `LANES` banded systems of `m` rows in place; no pivoting, the leading part being upstream-triangular.
 
-    ``band[PAD + c, (BAND_UPPER + r - c) LANES + k]`` couples row r to row c of system k: column by column, so that
-    what one row does to the next ones lies side by side. The right-hand side ``b[PAD + r, k]`` becomes the
-    solution. Both have `PAD` columns on either side, so that the inner loops need no limits.
+    ``band[r, (BAND_LOWER + c - r) LANES + k]`` couples row r to row c of system k; the right-hand side ``b[r, k]``
+    becomes the solution. Both have `PAD` rows more, so that the inner loops need no limits.
     """
-    for c in range(max(m - BAND_LOWER, 0), m):
-        band[PAD + c, (BAND_UPPER + m - c) * LANES :] = 0.0  # not read, but what is left there would grow
+    band[m : m + PAD] = 0.0
+    b[m : m + PAD] = 0.0
     for r in range(m):
-        pivot = 1.0 / at(band, PAD + r, eight(BAND_UPPER * LANES))
-        put(band, PAD + r, eight(BAND_UPPER * LANES), pivot)
-        factors = lower_factors(band, PAD + r, pivot)
-        own = at(b, PAD + r, eight(0))
-        for s in range(BAND_LOWER):
-            add(b, PAD + r + 1 + s, eight(0), -factors[s] * own)
-        for c in range(1, BAND_UPPER + 1):
-            above = at(band, PAD + r + c, eight((BAND_UPPER - c) * LANES))
-            for s in range(BAND_LOWER):
-                add(band, PAD + r + c, eight((BAND_UPPER - c + 1 + s) * LANES), -factors[s] * above)
+        pivot = 1.0 / at(band, r, eight(BAND_LOWER * LANES))
+        put(band, r, eight(BAND_LOWER * LANES), pivot)
+        right, above = at(b, r, eight(0)), upper_entries(band, r)
+        for s in range(1, BAND_LOWER + 1):
+            factor = at(band, r + s, eight((BAND_LOWER - s) * LANES)) * pivot
+            add(b, r + s, eight(0), -factor * right)
+            for c in range(BAND_UPPER):
+                add(band, r + s, eight((BAND_LOWER + 1 + c - s) * LANES), -factor * above[c])
     for r in range(m - 1, -1, -1):
-        value = at(b, PAD + r, eight(0)) * at(band, PAD + r, eight(BAND_UPPER * LANES))
-        put(b, PAD + r, eight(0), value)
-        for c in range(1, BAND_UPPER + 1):
-            add(b, PAD + r - c, eight(0), -at(band, PAD + r, eight((BAND_UPPER - c) * LANES)) * value)
+        value, above = at(b, r, eight(0)), upper_entries(band, r)
+        for c in range(BAND_UPPER - 1, -1, -1):  # what was solved last comes last
+            value = value - above[c] * at(b, r + 1 + c, eight(0))
+        put(b, r, eight(0), value * at(band, r, eight(BAND_LOWER * LANES)))
 
 
 @jit_node
@@ -113,18 +110,17 @@ def add(a, j, i, value):
 
 
 @jit_node
-def lower_factors(band, column, pivot):
-    """The `BAND_LOWER` entries of a column below its diagonal, times `pivot`."""
-    below = eight((BAND_UPPER + 1) * LANES)
+def upper_entries(band, r):
+    """The `BAND_UPPER` entries of a row behind its diagonal."""
+    first = eight((BAND_LOWER + 1) * LANES)
     return (
-        at(band, column, below) * pivot,
-        at(band, column, below + LANES) * pivot,
-        at(band, column, below + 2 * LANES) * pivot,
-        at(band, column, below + 3 * LANES) * pivot,
-        at(band, column, below + 4 * LANES) * pivot,
-        at(band, column, below + 5 * LANES) * pivot,
-        at(band, column, below + 6 * LANES) * pivot,
-        at(band, column, below + 7 * LANES) * pivot,
+        at(band, r, first),
+        at(band, r, first + LANES),
+        at(band, r, first + 2 * LANES),
+        at(band, r, first + 3 * LANES),
+        at(band, r, first + 4 * LANES),
+        at(band, r, first + 5 * LANES),
+        at(band, r, first + 6 * LANES),
     )
 
 
@@ -240,8 +236,8 @@ def take_row(j, i, r, lane, P, theta, near, work, k):
     if at(rows, OPENING, k) > 0.0:
         add_film_of_next_lines(j, i, theta, near, rows, k)
     for o in range(BAND):
-        put(band, PAD + r - BAND_LOWER + o, (BAND - 1 - o) * LANES + lane, at(rows, o, k))
-    put(b, PAD + r, lane, at(rows, RESIDUAL, k))
+        put(band, r, o * LANES + lane, at(rows, o, k))
+    put(b, r, lane, at(rows, RESIDUAL, k))
     return True
 
 
@@ -249,9 +245,9 @@ def take_row(j, i, r, lane, P, theta, near, work, k):
 def set_idle(r, lane, band, b):
     """Row r of a system: no change."""
     for o in range(BAND):
-        put(band, PAD + r - BAND_LOWER + o, (BAND - 1 - o) * LANES + lane, 0.0)
-    put(band, PAD + r, BAND_UPPER * LANES + lane, 1.0)
-    put(b, PAD + r, lane, 0.0)
+        put(band, r, o * LANES + lane, 0.0)
+    put(band, r, BAND_LOWER * LANES + lane, 1.0)
+    put(b, r, lane, 0.0)
 
 
 @jit_node
@@ -309,7 +305,7 @@ def take_change(j, start, stop, lane, m, fields, near, b):
     w, H = fields.w, fields.H
     largest = LARGEST_CHANGE
     for i in range(start, stop):
-        change = at(b, PAD + i - start, lane) if i - start < m else 0.0
+        change = at(b, i - start, lane) if i - start < m else 0.0
         put(w, j, i, change)
         film = at(H, j, i)
         relative = LARGEST_CHANGE / FILM_CHANGE * near[0, 0] / film if film > 0.0 else 0.0

@@ -32,20 +32,18 @@ def test_solve_bands(m):
     """Eight systems side by side, each against a dense solve."""
     rng = np.random.default_rng(m)
     A = np.zeros((LANES, m, m))
-    band, b = np.full((m + 2 * PAD, relax.BAND, LANES), np.nan), np.full((m + 2 * PAD, LANES), np.nan)
-    b[:PAD], band[:PAD] = 0.0, 3.0  # columns before the first are written, and not read
-    b[PAD:-PAD] = rng.normal(size=(m, LANES))
-    b[-PAD:] = 0.0
+    band, b = np.full((m + PAD, relax.BAND, LANES), np.nan), np.full((m + PAD, LANES), np.nan)
+    b[:m] = rng.normal(size=(m, LANES))
     for r in range(m):
-        for c in range(r - LOWER, r + UPPER + 1):
+        for c in range(r - LOWER, r + UPPER + 1):  # columns before the first and after the last are not read
             entries = rng.normal(size=LANES) + (8.0 if r == c else 0.0)
-            band[PAD + c, UPPER + r - c] = entries
+            band[r, LOWER + c - r] = entries
             if 0 <= c < m:
                 A[:, r, c] = entries
-    expected = np.linalg.solve(A, b[PAD:-PAD].T[..., None])[..., 0].T
-    relax.solve_bands(band.reshape(m + 2 * PAD, -1), b, m)
-    np.testing.assert_allclose(b[PAD:-PAD], expected, rtol=1e-11, atol=1e-13)
-    assert not b[-PAD:].any()  # nothing grows beyond the last row
+    expected = np.linalg.solve(A, b[:m].T[..., None])[..., 0].T
+    relax.solve_bands(band.reshape(m + PAD, -1), b, m)
+    np.testing.assert_allclose(b[:m], expected, rtol=1e-11, atol=1e-13)
+    assert not b[m:].any()  # nothing grows beyond the last row
 
 
 @pytest.mark.parametrize("c_t", [0.0, 1.3])
