@@ -12,7 +12,7 @@ from fmu.lead import CONTACT
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
 from reduced_models.elements.film_filters import CHAIN, DIRECT, INLET, film_entering
-from reduced_models.elements.film_law import RATE, THETA, film_rest, film_step, static
+from reduced_models.elements.film_law import RATE, THETA, film_made, film_rest, film_step, static
 
 _Floats = NDArray[np.float64]
 
@@ -145,9 +145,11 @@ def _terms(element: Any, states: _Floats, approach: float, rate: float) -> _Floa
     """Size of the terms that cancel in each derivative: rate of the filter times its input and its state."""
     _, length, time = element._units
     law = element.law
-    theta = static(approach / length, law)[1] ** 0.5
+    x, g, _ = static(approach / length, law)
+    theta = g**0.5
     moved = theta * rate / length * time
-    fed = np.array([moved, moved, film_entering(states[0], law.inlet_saturation)[0], *states[DIRECT - 1 : -1]])
+    entering = film_made(x, law) * film_entering(states[0], law.inlet_saturation)[0]
+    fed = np.array([moved, moved, entering, *states[DIRECT - 1 : -1]])
     clock = np.full(states.size, law.lag_rate)
     clock[: DIRECT - 1] = law.inlet_rate, law.fast_rate
     return np.asarray(clock * (np.abs(fed) + np.abs(states)) / max(theta, LEAST_THETA) / time)
@@ -206,6 +208,12 @@ def tangents(element: Any, states: _Floats, approach: float, rate: float) -> tup
     inside = 0 <= k < law.gain_x.size - 1
     gains = element.gains_at(x)
     slopes = (law.gains[k + 1] - law.gains[k]) / (law.gain_x[k + 1] - law.gain_x[k]) if inside else 0.0 * gains
+    made = float(film_made(x, law))  # what the chain holds is weighed with shares of it
+    by_x = float(np.abs(law.gains[k + 1 : k + 2, DIRECT:]).sum() - np.abs(law.gains[k : k + 1, DIRECT:]).sum())
+    gains[DIRECT:] /= made
+    if inside:
+        by_x /= law.gain_x[k + 1] - law.gain_x[k]
+        slopes[DIRECT:] = (slopes[DIRECT:] - gains[DIRECT:] * by_x) / made
     theta, x_u = g**0.5, 1.5 * g_u / g
     felt = np.array([theta * v, *states])
     w = g + gains @ felt

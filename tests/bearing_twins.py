@@ -7,7 +7,7 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from reduced_models.elements.film_filters import DIRECT
-from reduced_models.elements.film_law import static
+from reduced_models.elements.film_law import film_made, static
 
 
 def lags_after(held, rate, start, mean, end, span):
@@ -31,7 +31,7 @@ class SlowContact:
 
     def __init__(self, element, cutoff_gap=np.inf):
         self.law, self.scales, self.cutoff_gap = element.law, element.scales, cutoff_gap
-        self.u = self.v = self.own = self.s = self.y = 0.0
+        self.u = self.v = self.own = self.s = self.y = self.entered = 0.0
         self.q = np.zeros(element.lags)
 
     def g(self, u):
@@ -42,7 +42,7 @@ class SlowContact:
         return self.scales.time * sqrt(g / self.scales.length)
 
     def rest(self, u):
-        self.u, self.v, self.own, self.s, self.y = u, 0.0, 0.0, 0.0, 0.0
+        self.u, self.v, self.own, self.s, self.y, self.entered = u, 0.0, 0.0, 0.0, 0.0, 0.0
         self.q[:] = 0.0
 
     def spring(self, u):
@@ -57,18 +57,20 @@ class SlowContact:
         """Force at the end of the step, and the state there."""
         law = self.law
         x, g = self.g(u)
-        span = dt / self.tau(self.g(self.u + 0.5 * dt * self.v)[1])
+        x_middle, middle = self.g(self.u + 0.5 * dt * self.v)
+        span = dt / self.tau(middle)
         end, mean = self.tau(g) * v, (u - self.u) / span
         s = lags_after([self.s], law.inlet_rate, self.own, mean, end, span)[0]
         y = lags_after([self.y], law.fast_rate, self.own, mean, end, span)[0]
-        made = mean - (s - self.s) / (law.inlet_rate * span)
-        q = lags_after(self.q, law.lag_rate, self.s, made, s, span)
+        entered = film_made(x, law) * s
+        between = film_made(x_middle, law) * (mean - (s - self.s) / (law.inlet_rate * span))
+        q = lags_after(self.q, law.lag_rate, self.entered, between, entered, span)
         gains = np.array([np.interp(x, law.gain_x, column) for column in law.gains.T])
-        m = gains[0] * end + gains[1] * s + gains[2] * y + gains[DIRECT:] @ q
-        return self._force(g + m, u), (u, v, end, s, y, q)
+        m = gains[0] * end + gains[1] * s + gains[2] * y + gains[DIRECT:] @ q / film_made(x, law)
+        return self._force(g + m, u), (u, v, end, s, y, q, entered)
 
     def accept(self, state):
-        self.u, self.v, self.own, self.s, self.y, self.q = state
+        self.u, self.v, self.own, self.s, self.y, self.q, self.entered = state
 
 
 class SlowElement:

@@ -18,7 +18,7 @@ from reduced_models.elements.film_memory import FilmMemoryContact, approach_unde
 from reduced_models.elements.film_response import FilterRates
 from reduced_models.elements.polynomial import CubicContact
 from reduced_models.elements.validity import MARGIN, Band
-from reduced_models.elements.wide_range import WideRangeContact
+from reduced_models.elements.wide_range import WideRangeContact, inlet_saturation_of
 
 _Floats = NDArray[np.float64]
 
@@ -74,12 +74,13 @@ def memory_element(at: Loads, scales: Scales | None) -> FilmMemoryContact:
 
 def wide_element(at: Loads, scales: Scales | None) -> WideRangeContact:
     """Wide-range element for all loads at one speed."""
+    approach = at.approach * at.loads ** (2.0 / 3.0)
     return WideRangeContact(
         loads=at.loads,  # type: ignore[arg-type]
-        approach=at.approach * at.loads ** (2.0 / 3.0),  # type: ignore[arg-type]
+        approach=approach,  # type: ignore[arg-type]
         gain_loads=at.loads,  # type: ignore[arg-type]
         gains=at.gains,  # type: ignore[arg-type]
-        inlet_saturation=0.0,
+        inlet_saturation=inlet_saturation_of(at.loads, approach, at.loads, at.gains),
         **at.rates.coefficients,
         omega_range=(0.0, at.highest_omega / units_of(scales)[2]),
         units="dimensionless" if scales is None else "SI",

@@ -102,7 +102,7 @@ def films_of(balls: Balls) -> Films:
     lags = max(law.gains.shape[2] for law in (balls.inner, balls.outer)) - DIRECT
     contacts = 2 * balls.number
     return Films(
-        state=np.zeros((contacts, CHAIN + lags)),
+        state=np.zeros((contacts, CHAIN + lags + 1)),  # the film that enters the chain behind it
         work=np.zeros((contacts, WORK + 3 * lags)),
         interval=np.zeros((contacts, 2), np.int64),
         poisson=np.zeros(lags + 3),

@@ -4,6 +4,7 @@ Both contacts of a ball have the force
 
     F = share k_n (g(u) + c tau u' + sum g_j x_j)_+^(3/2)
 
+with g_j/G for the states of the chain (`film_law`).
 A ball without inertia has F_o = F_i + F_c, from which w' follows: it lies above the rate at which the outer
 contact lets go, and below the rate at which the inner one does or the outer one carries F_c alone. A ball with
 inertia has w' as a state, and m w'' = F_i + F_c - F_o.
@@ -16,8 +17,8 @@ from math import log, nan, sqrt
 import numpy as np
 
 from ehlcontact.jit import jit_exact
-from reduced_models.bearing.race_contact import curve, film_cutoff, gain
-from reduced_models.elements.film_filters import filter_rates
+from reduced_models.bearing.race_contact import curve, film_cutoff, film_made, gain
+from reduced_models.elements.film_filters import DIRECT, filter_rates
 
 SMALL_STEP = 1e-14  # of the rates, that ends the search for w': rounding
 MOST_STEPS = 60  # of it: a handful
@@ -25,22 +26,24 @@ MOST_STEPS = 60  # of it: a handful
 
 @jit_exact
 def _held(law, transit, speed_row, u, states, first):
-    """Film without its dashpot [m], dashpot c tau [s], k_n that the film carries, own time [s]."""
+    """Film without its dashpot [m], dashpot c tau [s], k_n that the film carries, own time [s], film G made."""
     g, _, _ = curve(u, speed_row[0], speed_row[1], law, 0)
     if law.x.size == 0:
-        return g, 0.0, law.kn, 0.0
+        return g, 0.0, law.kn, 0.0, 1.0
     tau, x, last = transit * sqrt(g), law.log_kn + 1.5 * log(g), law.x.size - 2
     row = min(max(np.searchsorted(law.x, x) - 1, 0), last)
     weight = min(max((x - law.x[row]) / (law.x[row + 1] - law.x[row]), 0.0), 1.0)
-    film, dashpot = g, 0.0
+    film, carried, dashpot, made = g, 0.0, 0.0, film_made(law, speed_row, x)
     for j in range(law.gains.shape[2]):
         low, high = gain(law, speed_row, row, j), gain(law, speed_row, row + 1, j)
         here = low + weight * (high - low)
         if j == 0:
             dashpot = here * tau
-        else:
+        elif j < DIRECT:
             film += here * states[first + j - 1]
-    return film, dashpot, law.kn * film_cutoff(u, law.cutoff_gap)[0], tau
+        else:
+            carried += here * states[first + j - 1]
+    return film + carried / made, dashpot, law.kn * film_cutoff(u, law.cutoff_gap)[0], tau, made
 
 
 @jit_exact
@@ -54,8 +57,8 @@ def _pushed(kn, film):
 
 @jit_exact
 def _balance(inner, outer, rate, centrifugal):
-    """Force on the ring and w' of a ball whose contacts are (film, dashpot, k_n, own time)."""
-    (ai, di, ki, _), (ao, do, ko, _) = inner, outer
+    """Force on the ring and w' of a ball whose contacts are (film, dashpot, k_n, own time, film made)."""
+    (ai, di, ki, _, _), (ao, do, ko, _, _) = inner, outer
     if ko <= 0.0:  # nothing at the outer race: the ball stays where it is if nothing presses it outward
         force = _pushed(ki, ai + di * rate)[0]
         return (0.0, 0.0) if force + centrifugal == 0.0 else (nan, nan)
@@ -106,7 +109,7 @@ def bearing_rates(balls, at_speed, normals, states, r, v, rates, force):
         rates[at] = own
         if wet:
             at_i, at_o = slice(at + first, second), slice(second, second + size_o)
-            filter_rates(balls.inner, 0.0, inner[3], rate - own, states[at_i], rates[at_i])
-            filter_rates(balls.outer, 0.0, outer[3], own, states[at_o], rates[at_o])
+            filter_rates(balls.inner, 0.0, inner[4], inner[3], rate - own, states[at_i], rates[at_i])
+            filter_rates(balls.outer, 0.0, outer[4], outer[3], own, states[at_o], rates[at_o])
         force[0] += pushed * x
         force[1] += pushed * y

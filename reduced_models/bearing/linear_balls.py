@@ -24,7 +24,7 @@ from ehlcontact.summary import span
 from reduced_models.bearing.balls import Balls, SpeedState
 from reduced_models.bearing.equilibrium import RingEquilibrium
 from reduced_models.bearing.loss import Loss, response
-from reduced_models.bearing.race_contact import curve, film_cutoff
+from reduced_models.bearing.race_contact import curve, film_cutoff, film_made
 from reduced_models.bearing.race_table import RaceForceTable
 from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.film_response import FilterRates
@@ -50,7 +50,8 @@ def small_motion(law: RaceForceTable, transit: float, speed_row: tuple[int, floa
     rates = FilterRates(gains.size - DIRECT, law.lag_rate, law.inlet_rate, law.fast_rate)
     share, share_u = film_cutoff(u, law.cutoff_gap)
     slope = share * 1.5 * law.kn * root
-    return SmallMotion(slope * by_u + share_u * law.kn * g * root, slope, transit * root, gains, rates)
+    made = film_made(law, speed_row, float(x))
+    return SmallMotion(slope * by_u + share_u * law.kn * g * root, slope, transit * root, gains, rates, made)
 
 
 class SmallBalls(NamedTuple):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from math import ceil, log10
 from typing import Any
@@ -106,14 +106,16 @@ class Race:
     def element(self, speed_rpm: float) -> WideRangeContact:
         """Contact element for all loads of the atlas at this speed, in SI.
 
-        It goes through the same loads in N at every speed, but for its ends: so K and C change smoothly with it.
+        It goes through the same loads in N at every speed, but for its ends: so K and C change smoothly with it. Its
+        inlet does not saturate, as the contacts of a bearing have it (`race_contact`).
         """
         low, high = self.loads(speed_rpm)
         first, last = PER_DECADE * log10(low) + NEAR, PER_DECADE * log10(high) - NEAR
         inside = 10.0 ** (np.arange(ceil(first), ceil(last)) / PER_DECADE)
         loads = np.concatenate([[low], inside, [high]])
         reference = float(np.sqrt(low * high))
-        return shared_atlas(self.atlas).wide(self.point(reference, speed_rpm), loads / reference)
+        found = shared_atlas(self.atlas).wide(self.point(reference, speed_rpm), loads / reference)
+        return replace(found, inlet_saturation=0.0)
 
     def films(self, speed_rpm: float, load: _Floats, gap: _Floats) -> tuple[_Floats, _Floats, _Floats]:
         """Central and smallest film [m], and moment of the pressure [N m], under loads [N] at this speed.

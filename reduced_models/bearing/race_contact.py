@@ -2,12 +2,13 @@
 
 The equations are those of `reduced_models.elements.film_law` without saturation of the inlet. The filters are then
 linear in the own rate e at the end of the step and the travel t of the approach. `prepare_filters` reduces them,
-once per step, to three numbers for each of two nodes of the gains,
+once per step, to two times three numbers for each of two nodes of the gains,
 
-    m = m_0 + m_e e + m_t t,
+    m = m_0 + m_e e + m_t t + (q_0 + q_e e + q_t t)/G,
 
-so that `contact_force`, which every iteration calls, evaluates the curve g(u) and a few products. The length of
-the step in own time has to be known before its end: it is taken at the middle, extrapolated from the start.
+the second for what the chain holds of earlier films and of the middle of the step, with G, the film that the inlet
+makes, at the load of the end; so that `contact_force`, which every iteration calls, evaluates the curve g(u) and a few products. The length of
+the step in own time has to be known before its end: it is taken at the middle, extrapolated from the start, and so is G of the film that is made within the step.
 `film_step` of the elements takes the mean of both ends. Both are of second order.
 """
 
@@ -30,10 +31,12 @@ from reduced_models.elements.film_filters import (
     poisson_shares,
 )
 
-APPROACH, RATE, OWN = range(3)  # entries of a state before those of its filters
-# Entries of the work of a step: inlet, fast and hump as sums of 1, e and t; the sums of two rows of gains; then,
-# of all lags, what they hold, what they make of the film at the end, and of the hump.
-S, Y, HUMP, ROW, NEXT, HELD = 0, 3, 6, 9, 12, 15
+# Entries of a state before those of its filters; the last one, behind the chain, is the film that enters it.
+APPROACH, RATE, OWN = range(3)
+# Entries of the work of a step: inlet, fast and middle of the film made as sums of 1, e and t; the sums of two rows
+# of gains, and of what the chain carries; then, of all lags, what they hold, what they make of the film at the end,
+# and of the hump.
+S, Y, MIDDLE, ROW, NEXT, CARRIED, NEXT_CARRIED, HELD = 0, 3, 6, 9, 12, 15, 18, 21
 WORK = HELD  # entries before those of the lags
 
 
@@ -87,6 +90,30 @@ def gain(law, speed_row, node, k):
 
 
 @jit_exact_node
+def _made_at(law, speed_row, node):
+    """As `film_made`, at a node of the load."""
+    row, weight = speed_row
+    found = law.made[row, node]
+    if weight > 0.0:
+        found += weight * (law.made[row + 1, node] - found)
+    return found
+
+
+@jit_exact_node
+def film_made(law, speed_row, x):
+    """Film that a unit of the inlet's state lets into the chain at x = ln F."""
+    last = law.x.size - 2
+    k = min(max(int((x - law.x[0]) / (law.x[last + 1] - law.x[0]) * last), 0), last)  # near it: nodes are nearly even
+    while k > 0 and x < law.x[k]:
+        k -= 1
+    while k < last and x > law.x[k + 1]:
+        k += 1
+    here = _made_at(law, speed_row, k)
+    weight = min(max((x - law.x[k]) / (law.x[k + 1] - law.x[k]), 0.0), 1.0)
+    return here + weight * (_made_at(law, speed_row, k + 1) - here)
+
+
+@jit_exact_node
 def film_cutoff(u, cutoff_gap):
     """Share of its force that a film carries at approach `u`, and its slope."""
     gap = -u / cutoff_gap
@@ -114,16 +141,17 @@ def prepare_filters(law, transit, speed_row, dt, films, c):
     s_a, s_e, s_t = _lag(inlet, start, p, span)
     work[c, S], work[c, S + 1], work[c, S + 2] = s_a, s_e, s_t
     work[c, Y], work[c, Y + 1], work[c, Y + 2] = _lag(state[c, FAST], start, law.fast_rate, span)
-    # the film that enters is that of both ends, and a hump that keeps its mean: (t - (s - s_0)/p)/span
-    both = 1.0 / (p * span) + 0.5
-    work[c, HUMP] = -(s_a - inlet) / (p * span) - 0.5 * (inlet + s_a)
-    work[c, HUMP + 1], work[c, HUMP + 2] = -s_e * both, 1.0 / span - s_t * both
-    mu, lags = law.lag_rate * span, law.gains.shape[2] - DIRECT
+    # the film that enters is that of both ends, and a hump that keeps its mean: G of the middle, (t - (s - s_0)/p)/span
+    lags = law.gains.shape[2] - DIRECT
+    entered, mu = state[c, CHAIN + lags], law.lag_rate * span
+    made = film_made(law, speed_row, law.log_kn + 1.5 * log(middle))
+    work[c, MIDDLE] = -made * (s_a - inlet) / (p * span) - 0.5 * entered
+    work[c, MIDDLE + 1], work[c, MIDDLE + 2] = -made * s_e / (p * span), made * (1.0 - s_t / p) / span
     poisson_shares(mu, lags + 2, FEW, poisson, share)
     per_mu = 1.0 / mu
     for j in range(lags):
         r0, r1, r2 = chain_moments(j + 1, per_mu, share)
-        work[c, HELD + j], work[c, HELD + lags + j] = inlet * r1, r0 - r1
+        work[c, HELD + j], work[c, HELD + lags + j] = entered * r1, r0 - r1
         work[c, HELD + 2 * lags + j] = 6.0 * (r1 - r2)
     pass_on(state[c, CHAIN : CHAIN + lags], poisson, work[c, HELD : HELD + lags])
     films.interval[c, 1] = -1
@@ -148,19 +176,21 @@ def _weigh(law, speed_row, node, work, c):
         held, next_held = held + here * holds, next_held + after * holds
         ends, next_ends = ends + here * end, next_ends + after * end
         humps, next_humps = humps + here * hump, next_humps + after * hump
-    _add(law, speed_row, node, work, c, ROW, (held, ends, humps))
-    _add(law, speed_row, node + 1, work, c, NEXT, (next_held, next_ends, next_humps))
+    _add(law, speed_row, node, work, c, (ROW, CARRIED), (held, ends, humps))
+    _add(law, speed_row, node + 1, work, c, (NEXT, NEXT_CARRIED), (next_held, next_ends, next_humps))
 
 
 @jit_exact_node
-def _add(law, speed_row, node, work, c, at, chain):
+def _add(law, speed_row, node, work, c, to, chain):
     """Sums of one node from those of its chain."""
+    at, carried = to
     held, ends, humps = chain
-    inlet, fast = gain(law, speed_row, node, 1) + ends, gain(law, speed_row, node, 2)
+    inlet, fast = gain(law, speed_row, node, 1) + ends - 0.5 * humps, gain(law, speed_row, node, 2)
     for k in range(3):
-        work[c, at + k] = inlet * work[c, S + k] + fast * work[c, Y + k] + humps * work[c, HUMP + k]
-    work[c, at] += held
+        work[c, at + k] = inlet * work[c, S + k] + fast * work[c, Y + k]
+        work[c, carried + k] = humps * work[c, MIDDLE + k]
     work[c, at + 1] += gain(law, speed_row, node, 0)
+    work[c, carried] += held
 
 
 @jit_exact_node
@@ -188,7 +218,17 @@ def contact_force(law, transit, speed_row, films, c, u, v):
     step_e, step_t = work[c, NEXT + 1] - me, work[c, NEXT + 2] - mt
     step = work[c, NEXT] - m0 + step_e * e + step_t * t
     me, mt = me + weight * step_e, mt + weight * step_t
-    w = g + m0 + weight * (work[c, NEXT] - m0) + me * e + mt * t
+    # what the chain carries, in shares of the film made at this load
+    here, there = _made_at(law, speed_row, k), _made_at(law, speed_row, k + 1)
+    per_made = 1.0 / (here + weight * (there - here))
+    q0, qe, qt = work[c, CARRIED], work[c, CARRIED + 1], work[c, CARRIED + 2]
+    more_e, more_t = work[c, NEXT_CARRIED + 1] - qe, work[c, NEXT_CARRIED + 2] - qt
+    more = work[c, NEXT_CARRIED] - q0 + more_e * e + more_t * t
+    qe, qt = qe + weight * more_e, qt + weight * more_t
+    carried = per_made * (q0 + weight * (work[c, NEXT_CARRIED] - q0) + qe * e + qt * t)
+    step += per_made * (more - carried * (there - here))
+    w = g + m0 + weight * (work[c, NEXT] - m0) + me * e + mt * t + carried
+    me, mt = me + per_made * qe, mt + per_made * qt
     if w <= 0.0:
         return 0.0, 0.0, 0.0
     w_u = g_u + mt + (0.5 * me * e + 1.5 * per_x * step) * g_u / g
@@ -209,12 +249,14 @@ def accept_contact(law, transit, speed_row, films, c, u, v):
     g, _, films.interval[c, 0] = curve(u, speed_row[0], speed_row[1], law, films.interval[c, 0])
     e = transit * sqrt(g) * v
     s = work[c, S] + work[c, S + 1] * e + work[c, S + 2] * t
-    hump = work[c, HUMP] + work[c, HUMP + 1] * e + work[c, HUMP + 2] * t
+    entered = s * film_made(law, speed_row, law.log_kn + 1.5 * log(g))
+    hump = work[c, MIDDLE] + work[c, MIDDLE + 1] * e + work[c, MIDDLE + 2] * t - 0.5 * entered
     state[c, OWN], state[c, INLET] = e, s
     state[c, FAST] = work[c, Y] + work[c, Y + 1] * e + work[c, Y + 2] * t
     lags = law.gains.shape[2] - DIRECT
     for j in range(HELD, HELD + lags):
-        state[c, CHAIN + j - HELD] = work[c, j] + work[c, j + lags] * s + work[c, j + 2 * lags] * hump
+        state[c, CHAIN + j - HELD] = work[c, j] + work[c, j + lags] * entered + work[c, j + 2 * lags] * hump
+    state[c, CHAIN + lags] = entered
 
 
 @jit_exact_loop

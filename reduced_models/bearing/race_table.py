@@ -27,7 +27,7 @@ from ehlcontact.jit import jit_exact
 from ehlcontact.point import Scales
 from reduced_models.elements.film_element import FilmContact
 from reduced_models.elements.film_filters import DIRECT
-from reduced_models.elements.film_law import FilmLaw, films, static
+from reduced_models.elements.film_law import LEAST_MADE, FilmLaw, films, static
 
 _Floats = NDArray[np.float64]
 
@@ -48,6 +48,7 @@ class RaceForceTable(NamedTuple):
     u: _Floats  # (speeds, n) approach at the nodes [m]
     cells: _Floats  # (speeds, n - 1, CELLS, 4) coefficients of g between them
     gains: _Floats  # (speeds, n, DIRECT + lags)
+    made: _Floats  # (speeds, n) film G that a unit of the inlet's state lets into the chain
     lag_rate: float
     inlet_rate: float
     fast_rate: float
@@ -58,7 +59,7 @@ def tabulate_dry_race(kn: float) -> RaceForceTable:
     """Table of a dry Hertz contact: no nodes, no gains."""
     none = np.zeros((1, 0))
     return RaceForceTable(
-        kn, log(kn), 0.0, none[0], none, np.zeros((1, 0, CELLS, 4)), np.zeros((1, 0, DIRECT)), 1.0, 1.0, 1.0, inf
+        kn, log(kn), 0.0, none[0], none, np.zeros((1, 0, CELLS, 4)), np.zeros((1, 0, DIRECT)), np.zeros((1, 0)), 1.0, 1.0, 1.0, inf
     )
 
 
@@ -77,6 +78,7 @@ def tabulate_race(elements: Sequence[FilmContact], cutoff_gap: float = inf) -> R
     nodes = np.unique(np.concatenate([element.law.x + log(scales_of(element).force) for element in elements]))
     x = _lengthened(nodes[np.append(True, np.diff(nodes) > ALIKE)], elements)
     rows = [_rows(element, x) for element in elements]
+    gains = np.array([row[2] for row in rows])
     scales, law = scales_of(elements[0]), elements[0].law
     kn = scales.force / scales.length**1.5
     return RaceForceTable(
@@ -86,7 +88,8 @@ def tabulate_race(elements: Sequence[FilmContact], cutoff_gap: float = inf) -> R
         x=x,
         u=np.array([row[0] for row in rows]),
         cells=np.array([row[1] for row in rows]),
-        gains=np.array([row[2] for row in rows]),
+        gains=gains,
+        made=np.abs(gains[:, :, DIRECT:]).sum(axis=2) + LEAST_MADE,
         lag_rate=law.lag_rate,
         inlet_rate=law.inlet_rate,
         fast_rate=law.fast_rate,

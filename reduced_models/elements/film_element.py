@@ -29,6 +29,7 @@ from reduced_models.elements.film_filters import CHAIN, DIRECT
 from reduced_models.elements.film_law import (
     FilmLaw,
     film_drive,
+    film_made,
     film_rate,
     film_rates,
     film_rest,
@@ -230,7 +231,9 @@ class FilmContact(ContactElement):
         at = 1.0 if load is None else require_positive("load", load) / f
         own = at ** (1.0 / 3.0)  # length of the contact, and so its time, over that under the reference load
         tangent = self.spring_tangent(self.approach_at(at * f))
-        return SmallMotion(tangent, DRY * own * f / length, own * time, self.gains_at(math.log(at)), self.rates)
+        x = math.log(at)
+        slope, tau, made = DRY * own * f / length, own * time, float(film_made(x, self.law))
+        return SmallMotion(tangent, slope, tau, self.gains_at(x), self.rates, made)
 
     def gains_at(self, x: float | _Floats) -> _Floats:
         """Gains at x = ln F, shape (3 + lags,) + that of x, with F in units of the reference load."""

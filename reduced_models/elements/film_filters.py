@@ -86,12 +86,15 @@ def pass_on(chain, poisson, held):
 
 
 @jit_exact_node
-def filter_rates(law, saturation, tau, v, states, rates):
-    """Fill the time derivatives of the states of one film: inlet, fast, chain; `tau` is its own time, v = u'."""
+def filter_rates(law, saturation, made, tau, v, states, rates):
+    """Fill the time derivatives of the states of one film: inlet, fast, chain; `tau` is its own time, v = u'.
+
+    `made` is the film that a unit of phi lets into the chain.
+    """
     fed = tau * v
     rates[0] = law.inlet_rate * (fed - states[0]) / tau
     rates[1] = law.fast_rate * (fed - states[1]) / tau
-    fed = film_entering(states[0], saturation)[0]
+    fed = made * film_entering(states[0], saturation)[0]
     for k in range(DIRECT - 1, states.size):
         rates[k] = law.lag_rate * (fed - states[k]) / tau
         fed = states[k]

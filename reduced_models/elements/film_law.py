@@ -8,10 +8,13 @@ d sigma = dT/theta with theta = F_s^(1/3). With the rate i = du/d sigma in that 
 
     inlet   s' = p_i (i - s)
     fast    y' = p_f (i - y)
-    chain   q_1' = nu (phi(s) - q_1),  q_k' = nu (q_(k-1) - q_k),     phi(s) = s + beta s^2/(1 + |beta s|)
-    m = c i + g_i s + g_f y + sum_k g_k q_k
+    chain   q_1' = nu (G phi(s) - q_1),  q_k' = nu (q_(k-1) - q_k),   phi(s) = s + beta s^2/(1 + |beta s|)
+    m = c i + g_i s + g_f y + sum_k (g_k/G) q_k,    G = sum_k |g_k|
 
-The chain carries the film made at the inlet through the contact; its gains weigh the film of each age. phi is
+The chain carries the film made at the inlet through the contact, and the shares g_k/G weigh the film of each age.
+All gains depend on the load. G is that of the load at which the film is made: a film that closing surfaces trap
+under a light load keeps its thickness while the load rises, until it has crossed the contact. About one load, and
+so in all small motions, G cancels; with a single row of gains it is set to 1. phi is
 monotone and above -1/beta, the saturation of the inlet: opening cannot take away more film than there is. Between
 the ends of a step u is the cubic through both approaches and rates, and every filter is advanced exactly
 (`film_filters`), so a step of any length is stable and a long one ends on the static force plus damping. In
@@ -45,6 +48,7 @@ _Floats = NDArray[np.float64]
 
 THETA, RATE, APPROACH = range(3)  # entries of a state before those of its filters; the rate is the own one
 NOTHING = -400.0  # ln of a force that is none
+LEAST_MADE = 1e-9  # added to G, so that shares of it exist where a row of gains has no chain
 
 
 class FilmLaw(NamedTuple):
@@ -162,6 +166,19 @@ def _gain(k, law, between):
 
 
 @jit_exact
+def _made(x, law):
+    """Film that a unit of phi lets into the chain at x = ln F, and its slope."""
+    if law.gain_x.size == 1:
+        return 1.0, 0.0
+    row, after, weight, per_x = _between(x, law)
+    here, there = LEAST_MADE, LEAST_MADE
+    for k in range(DIRECT, law.gains.shape[1]):
+        here += abs(law.gains[row, k])
+        there += abs(law.gains[after, k])
+    return here + weight * (there - here), (there - here) * per_x
+
+
+@jit_exact
 def _weighed(k, q, law, between, x_u):
     """Filter `k` times its gain at the load, whose ln F has the slope `x_u`."""
     row, after, _, per_x = between
@@ -190,11 +207,13 @@ def film_step(law, old, new, dt, u, v):
     # the film made: its ends, and a bump that keeps its mean, which the balance of the inlet lag gives
     mean = (travel.x - (s.x - old[INLET]) / p) / span.x
     entered = Jet(mean, (travel.u - s.u / p - mean * span.u) / span.x, -s.v / (p * span.x))
-    f0 = film_entering(old[INLET], law.inlet_saturation)[0]
-    f, f_s = film_entering(s.x, law.inlet_saturation)
-    hump = minus(_entering(entered, law.inlet_saturation), _entering(half(old[INLET], s), law.inlet_saturation))
-
     between, x_u = _between(x, law), 1.5 * g.u / g.x
+    made0, (made_x, by_x) = _made(3.0 * log(old[THETA]), law)[0], _made(x, law)
+    made = Jet(made_x, by_x * x_u, 0.0)
+    f0 = made0 * film_entering(old[INLET], law.inlet_saturation)[0]
+    f = times(made, _entering(s, law.inlet_saturation))
+    hump = minus(times(half(made0, made), _entering(entered, law.inlet_saturation)), half(f0, f))
+
     m = _weighed(0, end, law, between, x_u)
     m = plus(m, _weighed(1, s, law, between, x_u))
     m = plus(m, _weighed(2, y, law, between, x_u))
@@ -202,17 +221,18 @@ def film_step(law, old, new, dt, u, v):
     per_mu, poisson, share, held = 1.0 / mu.x, np.empty(lags + 3), np.empty(lags + 3), np.zeros(lags + 1)
     poisson_shares(mu.x, lags + 2, lags + 2.0, poisson, share)
     pass_on(old[CHAIN:], poisson, held[1:])
+    carried = Jet(0.0, 0.0, 0.0)
     for j in range(1, lags + 1):
         r0, r1, r2 = chain_moments(j, per_mu, share)
         d0, d1 = poisson[j - 1], (j * poisson[j] - r1) * per_mu
         d2 = (j * (j + 1) * poisson[j + 1] * per_mu - 2.0 * r2) * per_mu
-        value = held[j] + f0 * r1 + f * (r0 - r1) + 6.0 * hump.x * (r1 - r2)
-        slope = held[j - 1] - held[j] + f0 * d1 + f * (d0 - d1) + 6.0 * hump.x * (d1 - d2)
-        q = through3(value, slope, mu, (r0 - r1) * f_s, s, 6.0 * (r1 - r2), hump)
-        m = plus(m, _weighed(DIRECT - 1 + j, q, law, between, x_u))
+        value = held[j] + f0 * r1 + f.x * (r0 - r1) + 6.0 * hump.x * (r1 - r2)
+        slope = held[j - 1] - held[j] + f0 * d1 + f.x * (d0 - d1) + 6.0 * hump.x * (d1 - d2)
+        q = through3(value, slope, mu, r0 - r1, f, 6.0 * (r1 - r2), hump)
+        carried = plus(carried, _weighed(DIRECT - 1 + j, q, law, between, x_u))
         new[CHAIN + j - 1] = value
     new[THETA], new[RATE], new[APPROACH], new[INLET], new[FAST] = theta.x, end.x, u, s.x, y.x
-    w = plus(g, m)
+    w = plus(g, plus(m, over(carried, made)))
     if w.x <= 0.0:
         return 0.0, 0.0, 0.0
     w_root = sqrt(w.x)
@@ -241,12 +261,14 @@ def film_drive(law, T, u, v, force):
 
 
 @jit_exact
-def _film_of_states(law, between, states):
+def _film_of_states(law, between, made, states):
     """Film that the states add."""
-    film = 0.0
-    for k in range(states.size):
+    film, carried = 0.0, 0.0
+    for k in range(DIRECT - 1):
         film += _gain(k + 1, law, between) * states[k]
-    return film
+    for k in range(DIRECT - 1, states.size):
+        carried += _gain(k + 1, law, between) * states[k]
+    return film + carried / made
 
 
 @jit_exact
@@ -254,9 +276,9 @@ def film_rates(law, states, u, v, rates):
     """Force at approach `u` and rate `v`; fills the time derivatives of the states."""
     x, g, _ = static(u, law)
     theta = sqrt(g)
-    filter_rates(law, law.inlet_saturation, theta, v, states, rates)
-    between = _between(x, law)
-    w = g + _gain(0, law, between) * (theta * v) + _film_of_states(law, between, states)
+    made, between = _made(x, law)[0], _between(x, law)
+    filter_rates(law, law.inlet_saturation, made, theta, v, states, rates)
+    w = g + _gain(0, law, between) * (theta * v) + _film_of_states(law, between, made, states)
     return w * sqrt(w) if w > 0.0 else 0.0
 
 
@@ -265,7 +287,14 @@ def film_rate(law, states, u, force):
     """Rate at which the contact carries `force` > 0 at approach `u`."""
     x, g, _ = static(u, law)
     between = _between(x, law)
-    return (force ** (2.0 / 3.0) - g - _film_of_states(law, between, states)) / (_gain(0, law, between) * sqrt(g))
+    film = _film_of_states(law, between, _made(x, law)[0], states)
+    return (force ** (2.0 / 3.0) - g - film) / (_gain(0, law, between) * sqrt(g))
+
+
+@jit_exact
+def film_made(x, law):
+    """Film that a unit of phi lets into the chain at x = ln F."""
+    return _made(x, law)[0]
 
 
 @jit_exact

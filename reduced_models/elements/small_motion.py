@@ -45,12 +45,13 @@ class SmallMotion(NamedTuple):
     tau: float | _Floats  # S, own time
     gains: _Floats  # S + (DIRECT + lags,); none in a dry contact
     rates: FilterRates | None  # in own time; None in a dry contact
+    made: float | _Floats = 1.0  # S, film that a unit of the inlet's state lets into the chain; cancels in Z
 
     @classmethod
     def stack(cls, contacts: Sequence[SmallMotion]) -> SmallMotion:
         """Contacts with the same filters as one, shape (k,)."""
-        stiffness, slope, tau, gains, rates = zip(*contacts, strict=True)
-        return cls(np.array(stiffness), np.array(slope), np.array(tau), np.array(gains), rates[0])
+        stiffness, slope, tau, gains, rates, made = zip(*contacts, strict=True)
+        return cls(np.array(stiffness), np.array(slope), np.array(tau), np.array(gains), rates[0], np.array(made))
 
     def impedance(self, s: ArrayLike) -> _Complex:
         """Z of a motion exp(s t) at complex `s`, whose shape broadcasts against that of the contacts."""
@@ -66,10 +67,13 @@ class SmallMotion(NamedTuple):
             return StateSpace(
                 np.zeros((0, 0)), np.zeros((0, 2)), np.zeros((1, 0)), np.array([[float(stiffness), 0.0]])
             )
+        made = float(np.broadcast_to(self.made, np.shape(self.stiffness))[index])
         rates, size = self.rates, FILTERS + self.rates.lags
         A = np.diag(np.array([-rates.inlet_rate, -rates.fast_rate, *[-rates.lag_rate] * rates.lags]) / tau)
         for j in range(FILTERS, size):
-            A[j, 0 if j == FILTERS else j - 1] = rates.lag_rate / tau
+            A[j, 0 if j == FILTERS else j - 1] = rates.lag_rate / tau * (made if j == FILTERS else 1.0)
+        shares = gains[1:].copy()
+        shares[FILTERS:] /= made
         fed = np.zeros((size, 2))
         fed[:FILTERS, 1] = rates.inlet_rate, rates.fast_rate
-        return StateSpace(A, fed, slope * gains[None, 1:], np.array([[float(stiffness), slope * gains[0] * tau]]))
+        return StateSpace(A, fed, slope * shares[None], np.array([[float(stiffness), slope * gains[0] * tau]]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column, as_rows, require_between
 from ehlcontact.point import Scales
@@ -17,6 +17,17 @@ from reduced_models.elements.film_filters import DIRECT
 _Floats = NDArray[np.float64]
 
 LOADS = (1e-12, 1e12)  # over the reference load
+
+
+def inlet_saturation_of(loads: ArrayLike, approach: ArrayLike, gain_loads: ArrayLike, gains: ArrayLike) -> float:
+    """beta at which opening takes away at most the static film at load 1: film made per own rate over that film.
+
+    Parameters as for `WideRangeContact`.
+    """
+    places, x = np.log(np.asarray(gain_loads, float)), np.log(np.asarray(loads, float))
+    made = np.interp(0.0, places, np.abs(np.asarray(gains, float)[:, DIRECT:]).sum(axis=1))
+    film = np.interp(0.0, x, np.exp(2.0 / 3.0 * x) - np.asarray(approach, float))
+    return float(made / film)
 
 
 @stored("contact element")

@@ -18,7 +18,7 @@ from ehlcontact.origin import source_of
 from ehlcontact.point import Point, moes_point, require_solvable, scales_of
 from reduced_models.elements.film_memory import FilmMemoryContact
 from reduced_models.elements.film_response import FilterRates, fit_gains
-from reduced_models.elements.wide_range import WideRangeContact
+from reduced_models.elements.wide_range import WideRangeContact, inlet_saturation_of
 from reduced_models.fitting.memory_fit import OMEGAS, RATE_STARTS, SEARCH, SEARCH_LIMITS, TRANSIT_TIME, Response
 
 _Floats = NDArray[np.float64]
@@ -55,7 +55,7 @@ def wide_range_contact(
         Length of the chain, where `memory` does not set it.
     memory : FilmMemoryContact, optional
         Element fitted at the reference load, whose rates and inlet saturation are taken. Without it the rates are
-        fitted to all impedances together and the inlet does not saturate.
+        fitted to all impedances together, and the saturation is that of `inlet_saturation_of`.
     source : dict, optional
         Kept in the file.
 
@@ -72,17 +72,18 @@ def wide_range_contact(
         raise InputError("number of responses", len(responses), f"one per load of gain_loads, {places.size}")
     u = np.asarray(approach, float) * at ** (2.0 / 3.0)
     if memory is not None:
-        rates, inlet_saturation = memory.rates, memory.inlet_saturation
+        rates = memory.rates
     else:
-        rates, inlet_saturation = _common_rates(responses, lags), 0.0
+        rates = _common_rates(responses, lags)
     gains = [fit_gains(rates, r.Omega, r.stiffness, r.damping, _static(r)).gains.tolist() for r in responses]
+    saturation = inlet_saturation_of(at, u, places, gains) if memory is None else memory.inlet_saturation
     bands = [(float(np.min(r.Omega)), float(np.max(r.Omega))) for r in responses]
     return WideRangeContact(
         loads=at,  # type: ignore[arg-type]
         approach=u,  # type: ignore[arg-type]
         gain_loads=places,  # type: ignore[arg-type]
         gains=gains,  # type: ignore[arg-type]
-        inlet_saturation=inlet_saturation,
+        inlet_saturation=saturation,
         **rates.coefficients,
         omega_range=(min(low for low, _ in bands), max(high for _, high in bands)),
         source=source,

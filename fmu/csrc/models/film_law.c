@@ -9,6 +9,8 @@
 #include "film_gains.h"
 #include "jet.h"
 
+#define LEAST_MADE 1e-9 /* added to G, so that shares of it exist where a row of gains has no chain */
+
 /* Rows of gains on both sides of x = ln F, weight of the second and its slope. */
 typedef struct {
     int row, after;
@@ -64,6 +66,23 @@ static double gain(int k, const Between *b)
 static double gain_slope(int k, const Between *b)
 {
     return (gains[b->after][k] - gains[b->row][k]) * b->per_x;
+}
+
+/* Film G that a unit of phi lets into the chain: 1 with one row of gains. */
+static double made_of(const Between *b, double *slope)
+{
+    double here = LEAST_MADE, there = LEAST_MADE;
+    int k;
+    *slope = 0.0;
+    if (GAIN_ROWS == 1) {
+        return 1.0;
+    }
+    for (k = DIRECT; k < FILM_GAINS; k++) {
+        here += fabs(gains[b->row][k]);
+        there += fabs(gains[b->after][k]);
+    }
+    *slope = (there - here) * b->per_x;
+    return here + b->weight * (there - here);
 }
 
 /* Filter k times its gain at the load, whose ln F has the slope x_u. */
@@ -149,20 +168,24 @@ void film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double d
     const Jet entered = jet(mean, (travel.u - s.u / p - mean * span.u) / span.x, -s.v / (p * span.x));
     const Between b = between(rest->x);
     const double x_u = 1.5 * g.u / g.x;
-    double f0, f, f_s, ignored, by_gain;
+    const Between b0 = between(3.0 * log(before[THETA]));
+    double ignored, by_x, by_gain;
+    const double made0 = made_of(&b0, &ignored), made_x = made_of(&b, &by_x);
+    const Jet made = jet(made_x, by_x * x_u, 0.0);
+    const double f0 = made0 * film_entering(before[INLET], &ignored);
+    const Jet f = times(made, entering(s));
+    const Jet hump = minus(times(half(made0, made), entering(entered)), half(f0, f));
     Chain chain;
-    Jet hump, m, w;
-    f0 = film_entering(before[INLET], &ignored);
-    f = film_entering(s.x, &f_s);
-    hump = minus(entering(entered), entering(half(before[INLET], s)));
-    chain = advance_chain(before, after, LAG_RATE * span.x, f0, f, hump.x, &b);
+    Jet m, w, carried;
+    chain = advance_chain(before, after, LAG_RATE * span.x, f0, f.x, hump.x, &b);
     m = weighed(VISCOUS, end, &b, x_u);
     m = plus(m, weighed(1, s, &b, x_u));
     m = plus(m, weighed(2, y, &b, x_u));
-    m = plus(m, jet(chain.value,
-                    x_u * chain.by_gain + LAG_RATE * span.u * chain.by_mu + chain.by_end * f_s * s.u
-                        + chain.by_hump * hump.u,
-                    chain.by_end * f_s * s.v + chain.by_hump * hump.v));
+    carried = over(jet(chain.value,
+                       x_u * chain.by_gain + LAG_RATE * span.u * chain.by_mu + chain.by_end * f.u
+                           + chain.by_hump * hump.u,
+                       chain.by_end * f.v + chain.by_hump * hump.v), made);
+    m = plus(m, carried);
     after[THETA] = theta.x;
     after[RATE] = end.x;
     after[APPROACH] = rest->u;
@@ -170,7 +193,7 @@ void film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double d
     after[FAST] = y.x;
     w = plus(g, m);
     found->step = force_of(w.x, w.u, w.v);
-    by_gain = gain_slope(1, &b) * s.x + gain_slope(2, &b) * y.x + chain.by_gain;
+    by_gain = gain_slope(1, &b) * s.x + gain_slope(2, &b) * y.x + (chain.by_gain - carried.x * by_x) / made_x;
     found->now = force_of(w.x, frozen_slope(rest, &b, theta.x, theta.u, v, by_gain), gain(VISCOUS, &b) * theta.x);
 }
 
@@ -179,8 +202,9 @@ void film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double d
 /* m and its slopes by approach and rate, the states as they are; the sums of gains and of their slopes over the states. */
 typedef struct {
     double theta, theta_u;
-    double direct, direct_x; /* viscous gain, and its slope by x */
-    double held, held_x;     /* sum of gain_k q_k; of its slopes by x */
+    double direct, direct_x;      /* viscous gain, and its slope by x */
+    double held, held_x, held_xx; /* film that the states add, and its slopes by x */
+    double made, made_x;          /* film that enters the chain, and its slope by x */
     double x_u;
     Between between;
 } Memory;
@@ -188,6 +212,7 @@ typedef struct {
 static Memory film_memory(const double states[FILM_RATES], const Rest *rest)
 {
     Memory m;
+    double carried = 0.0, carried_x = 0.0;
     int k;
     m.between = between(rest->x);
     m.theta = sqrt(rest->g);
@@ -195,11 +220,21 @@ static Memory film_memory(const double states[FILM_RATES], const Rest *rest)
     m.x_u = 1.5 * rest->g_u / rest->g;
     m.direct = gain(VISCOUS, &m.between);
     m.direct_x = gain_slope(VISCOUS, &m.between);
+    m.made = made_of(&m.between, &m.made_x);
     m.held = m.held_x = 0.0;
-    for (k = 0; k < FILM_RATES; k++) {
+    for (k = 0; k < DIRECT - 1; k++) {
         m.held += gain(k + 1, &m.between) * states[k];
         m.held_x += gain_slope(k + 1, &m.between) * states[k];
     }
+    for (k = DIRECT - 1; k < FILM_RATES; k++) {
+        carried += gain(k + 1, &m.between) * states[k];
+        carried_x += gain_slope(k + 1, &m.between) * states[k];
+    }
+    carried /= m.made;
+    carried_x = (carried_x - carried * m.made_x) / m.made;
+    m.held += carried;
+    m.held_x += carried_x;
+    m.held_xx = -2.0 * carried_x * m.made_x / m.made;
     return m;
 }
 
@@ -219,7 +254,7 @@ void film_instant(const double states[FILM_RATES], const Rest *rest, double v, F
     theta_uu = (0.5 * g_uu - m.theta_u * m.theta_u) / m.theta;
     w[0] = rest->g_u + v * (m.direct_x * m.x_u * m.theta + m.direct * m.theta_u) + m.held_x * m.x_u;
     w[1] = m.direct * m.theta;
-    ww[0][0] = g_uu + m.held_x * x_uu
+    ww[0][0] = g_uu + m.held_x * x_uu + m.held_xx * m.x_u * m.x_u
                + v * (m.direct_x * (x_uu * m.theta + 2.0 * m.x_u * m.theta_u) + m.direct * theta_uu);
     ww[0][1] = ww[1][0] = m.direct_x * m.x_u * m.theta + m.direct * m.theta_u;
     ww[1][1] = 0.0;
@@ -237,7 +272,9 @@ void film_instant(const double states[FILM_RATES], const Rest *rest, double v, F
         }
     }
     for (k = 0; k < FILM_RATES; k++) {
-        const double by = gain(k + 1, &m.between), by_u = gain_slope(k + 1, &m.between) * m.x_u;
+        const int lag = k >= DIRECT - 1;
+        const double made = lag ? m.made : 1.0, by = gain(k + 1, &m.between) / made;
+        const double by_u = (gain_slope(k + 1, &m.between) - (lag ? by * m.made_x : 0.0)) / made * m.x_u;
         now->by_state[k] = 1.5 * w_root * by;
         now->second_state[0][k] = 1.5 * (w_root * by_u + 0.5 * w[0] * by / w_root);
         now->second_state[1][k] = 1.5 * (0.5 * w[1] * by / w_root);
@@ -253,11 +290,13 @@ static double clock(double theta)
 void film_rates(const double states[FILM_RATES], const Rest *rest, double v, double rates[FILM_RATES])
 {
     const double theta = sqrt(rest->g), i = theta * v, unit = clock(theta);
+    const Between b = between(rest->x);
     double fed, ignored;
     int k;
     rates[0] = INLET_RATE * (i - states[0]) / unit;
     rates[1] = FAST_RATE * (i - states[1]) / unit;
     fed = film_entering(states[0], &ignored);
+    fed *= made_of(&b, &ignored);
     for (k = 2; k < FILM_RATES; k++) {
         rates[k] = LAG_RATE * (fed - states[k]) / unit;
         fed = states[k];
@@ -270,12 +309,15 @@ void film_rates_along(const double states[FILM_RATES], const Rest *rest, double 
     const double theta = sqrt(rest->g), unit = clock(theta), theta_u = 0.5 * rest->g_u / theta;
     const double i = theta * v, di = theta_u * v * du + theta * dv;
     const double dunit = theta > LEAST_THETA ? theta_u * du / unit : 0.0; /* over the unit */
-    double fed, slope, dfed;
+    const Between b = between(rest->x);
+    double fed, slope, dfed, made_x;
+    const double made = made_of(&b, &made_x);
     int k;
     change[0] = INLET_RATE * ((di - along[0]) - (i - states[0]) * dunit) / unit;
     change[1] = FAST_RATE * ((di - along[1]) - (i - states[1]) * dunit) / unit;
     fed = film_entering(states[0], &slope);
-    dfed = slope * along[0];
+    dfed = made * slope * along[0] + made_x * 1.5 * rest->g_u / rest->g * du * fed;
+    fed *= made;
     for (k = 2; k < FILM_RATES; k++) {
         change[k] = LAG_RATE * ((dfed - along[k]) - (fed - states[k]) * dunit) / unit;
         fed = states[k];

@@ -1,5 +1,6 @@
 """The film of a 6205, VG 68 at 50 C, under 1 kN: against an independent prototype of the same."""
 
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -23,7 +24,8 @@ def as_the_prototype(bearing, rpm, load, omega):
     So had it the prototype: light balls are beyond these laws, which hold their gains there.
     """
     elements = [
-        shared_atlas(None).element(bearing.race(race).point(487.0, rpm), "wide") for race in ("inner", "outer")
+        replace(shared_atlas(None).element(bearing.race(race).point(487.0, rpm), "wide"), inlet_saturation=0.0)
+        for race in ("inner", "outer")
     ]
     kernel = Balls(*(tabulate_race([element]) for element in elements), *bearing._kernel(rpm)[2:])
     at_speed = bearing._speed_state(rpm)
