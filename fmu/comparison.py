@@ -209,11 +209,11 @@ def tangents(element: Any, states: _Floats, approach: float, rate: float) -> tup
     gains = element.gains_at(x)
     slopes = (law.gains[k + 1] - law.gains[k]) / (law.gain_x[k + 1] - law.gain_x[k]) if inside else 0.0 * gains
     made = float(film_made(x, law))  # what the chain holds is weighed with shares of it
-    by_x = float(np.abs(law.gains[k + 1 : k + 2, DIRECT:]).sum() - np.abs(law.gains[k : k + 1, DIRECT:]).sum())
     gains[DIRECT:] /= made
     if inside:
-        by_x /= law.gain_x[k + 1] - law.gain_x[k]
-        slopes[DIRECT:] = (slopes[DIRECT:] - gains[DIRECT:] * by_x) / made
+        width = law.gain_x[k + 1] - law.gain_x[k]
+        low, high = (float(np.abs(row[DIRECT:]).sum()) for row in law.gains[k : k + 2])
+        slopes[DIRECT:] = (slopes[DIRECT:] - gains[DIRECT:] * (high - low) / width) / made
     theta, x_u = g**0.5, 1.5 * g_u / g
     felt = np.array([theta * v, *states])
     w = g + gains @ felt

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from fmu.c_headers import c_double, c_table
 from fmu.contact_variables import ContactVariables, Film
 from fmu.lead import CONTACT
+from reduced_models.elements.film_law import film_made
 
 LAW = "film_law", "film_filters", "film_curve"  # C files of the film law, each with its header
 
@@ -37,7 +38,7 @@ def film_parts(element: Film, lead: float) -> dict[str, Any]:
     common.flags(depends, first=False)
     common.box(low_high=True)
     nominal = max(rate * time / length, 1e-3)
-    _states(common, states, nominal)
+    _states(common, states, nominal, float(film_made(0.0, element.law)))
     law = element.law
     inverse = np.append(0.0, 1.0 / np.arange(1.0, lags + 4.0))
     return {
@@ -60,11 +61,12 @@ def film_parts(element: Film, lead: float) -> dict[str, Any]:
     }
 
 
-def _states(common: ContactVariables, states: tuple[str, ...], nominal: float) -> None:
+def _states(common: ContactVariables, states: tuple[str, ...], nominal: float, made: float) -> None:
     texts = ("State of the inlet lag", "State of the fast lag")
     for k, name in enumerate(states):
         text = texts[k] if k < len(texts) else f"Film at the end of lag {k - 1} of the chain"
-        common.add(name, "local", "continuous", text, unit="1", start=0.0, nominal=nominal)
+        size = nominal if k < len(texts) else max(made * nominal, 1e-6)  # the chain holds film made
+        common.add(name, "local", "continuous", text, unit="1", start=0.0, nominal=size)
     unit = "1/s" if common.element.units == "SI" else "1"
     for k, name in enumerate(states):
         if k < len(texts):

@@ -7,7 +7,7 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from reduced_models.elements.film_filters import DIRECT
-from reduced_models.elements.film_law import film_made, static
+from reduced_models.elements.film_law import static
 
 
 def lags_after(held, rate, start, mean, end, span):
@@ -62,11 +62,14 @@ class SlowContact:
         end, mean = self.tau(g) * v, (u - self.u) / span
         s = lags_after([self.s], law.inlet_rate, self.own, mean, end, span)[0]
         y = lags_after([self.y], law.fast_rate, self.own, mean, end, span)[0]
-        entered = film_made(x, law) * s
-        between = film_made(x_middle, law) * (mean - (s - self.s) / (law.inlet_rate * span))
+        gains, at_middle = (
+            np.array([np.interp(place, law.gain_x, column) for column in law.gains.T]) for place in (x, x_middle)
+        )
+        made = np.abs(gains[DIRECT:]).sum()
+        entered = made * s
+        between = np.abs(at_middle[DIRECT:]).sum() * (mean - (s - self.s) / (law.inlet_rate * span))
         q = lags_after(self.q, law.lag_rate, self.entered, between, entered, span)
-        gains = np.array([np.interp(x, law.gain_x, column) for column in law.gains.T])
-        m = gains[0] * end + gains[1] * s + gains[2] * y + gains[DIRECT:] @ q / film_made(x, law)
+        m = gains[0] * end + gains[1] * s + gains[2] * y + gains[DIRECT:] @ q / made
         return self._force(g + m, u), (u, v, end, s, y, q, entered)
 
     def accept(self, state):

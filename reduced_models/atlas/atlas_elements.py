@@ -75,14 +75,17 @@ def memory_element(at: Loads, scales: Scales | None) -> FilmMemoryContact:
 def wide_element(at: Loads, scales: Scales | None) -> WideRangeContact:
     """Wide-range element for all loads at one speed."""
     approach = at.approach * at.loads ** (2.0 / 3.0)
+    saturation = inlet_saturation_of(at.loads, approach, at.loads, at.gains)
+    _, length, time = units_of(scales)
     return WideRangeContact(
         loads=at.loads,  # type: ignore[arg-type]
         approach=approach,  # type: ignore[arg-type]
         gain_loads=at.loads,  # type: ignore[arg-type]
         gains=at.gains,  # type: ignore[arg-type]
-        inlet_saturation=inlet_saturation_of(at.loads, approach, at.loads, at.gains),
+        inlet_saturation=saturation,
         **at.rates.coefficients,
-        omega_range=(0.0, at.highest_omega / units_of(scales)[2]),
+        rate=length / time / saturation,  # beyond, closing makes more film than the static one
+        omega_range=(0.0, at.highest_omega / time),
         units="dimensionless" if scales is None else "SI",
         scales=scales,
         fit=at.fit,

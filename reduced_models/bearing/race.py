@@ -106,8 +106,8 @@ class Race:
     def element(self, speed_rpm: float) -> WideRangeContact:
         """Contact element for all loads of the atlas at this speed, in SI.
 
-        It goes through the same loads in N at every speed, but for its ends: so K and C change smoothly with it. Its
-        inlet does not saturate, as the contacts of a bearing have it (`race_contact`).
+        It goes through the same loads in N at every speed, but for its ends: so K and C change smoothly with it.
+        Its inlet does not saturate: so the contacts of a bearing have it (`race_contact`).
         """
         low, high = self.loads(speed_rpm)
         first, last = PER_DECADE * log10(low) + NEAR, PER_DECADE * log10(high) - NEAR

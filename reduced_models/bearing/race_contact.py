@@ -7,9 +7,10 @@ once per step, to two times three numbers for each of two nodes of the gains,
     m = m_0 + m_e e + m_t t + (q_0 + q_e e + q_t t)/G,
 
 the second for what the chain holds of earlier films and of the middle of the step, with G, the film that the inlet
-makes, at the load of the end; so that `contact_force`, which every iteration calls, evaluates the curve g(u) and a few products. The length of
-the step in own time has to be known before its end: it is taken at the middle, extrapolated from the start, and so is G of the film that is made within the step.
-`film_step` of the elements takes the mean of both ends. Both are of second order.
+makes, at the load of the end. So `contact_force`, which every iteration calls, evaluates the curve g(u) and a few
+products. The length of the step in own time, and G of the film made within the step, have to be known before its
+end: they are taken at the middle, extrapolated from the start. `film_step` of the elements takes the mean of both
+ends. Both are of second order.
 """
 
 from __future__ import annotations
@@ -33,9 +34,9 @@ from reduced_models.elements.film_filters import (
 
 # Entries of a state before those of its filters; the last one, behind the chain, is the film that enters it.
 APPROACH, RATE, OWN = range(3)
-# Entries of the work of a step: inlet, fast and middle of the film made as sums of 1, e and t; the sums of two rows
-# of gains, and of what the chain carries; then, of all lags, what they hold, what they make of the film at the end,
-# and of the hump.
+# Entries of the work of a step: inlet, fast and middle of the film made as sums of 1, e and t; the sums of
+# two rows of gains, and of what the chain carries; then, of all lags, what they hold, what they make of the film
+# at the end, and of the hump.
 S, Y, MIDDLE, ROW, NEXT, CARRIED, NEXT_CARRIED, HELD = 0, 3, 6, 9, 12, 15, 18, 21
 WORK = HELD  # entries before those of the lags
 
@@ -103,7 +104,9 @@ def _made_at(law, speed_row, node):
 def film_made(law, speed_row, x):
     """Film that a unit of the inlet's state lets into the chain at x = ln F."""
     last = law.x.size - 2
-    k = min(max(int((x - law.x[0]) / (law.x[last + 1] - law.x[0]) * last), 0), last)  # near it: nodes are nearly even
+    k = min(
+        max(int((x - law.x[0]) / (law.x[last + 1] - law.x[0]) * last), 0), last
+    )  # near it: nodes are nearly even
     while k > 0 and x < law.x[k]:
         k -= 1
     while k < last and x > law.x[k + 1]:
@@ -141,7 +144,8 @@ def prepare_filters(law, transit, speed_row, dt, films, c):
     s_a, s_e, s_t = _lag(inlet, start, p, span)
     work[c, S], work[c, S + 1], work[c, S + 2] = s_a, s_e, s_t
     work[c, Y], work[c, Y + 1], work[c, Y + 2] = _lag(state[c, FAST], start, law.fast_rate, span)
-    # the film that enters is that of both ends, and a hump that keeps its mean: G of the middle, (t - (s - s_0)/p)/span
+    # the film that enters is that of both ends, and a hump that keeps its mean: G of the middle times
+    # (t - (s - s_0)/p)/span
     lags = law.gains.shape[2] - DIRECT
     entered, mu = state[c, CHAIN + lags], law.lag_rate * span
     made = film_made(law, speed_row, law.log_kn + 1.5 * log(middle))

@@ -59,7 +59,18 @@ def tabulate_dry_race(kn: float) -> RaceForceTable:
     """Table of a dry Hertz contact: no nodes, no gains."""
     none = np.zeros((1, 0))
     return RaceForceTable(
-        kn, log(kn), 0.0, none[0], none, np.zeros((1, 0, CELLS, 4)), np.zeros((1, 0, DIRECT)), np.zeros((1, 0)), 1.0, 1.0, 1.0, inf
+        kn=kn,
+        log_kn=log(kn),
+        reach=0.0,
+        x=none[0],
+        u=none,
+        cells=np.zeros((1, 0, CELLS, 4)),
+        gains=np.zeros((1, 0, DIRECT)),
+        made=none,
+        lag_rate=1.0,
+        inlet_rate=1.0,
+        fast_rate=1.0,
+        cutoff_gap=inf,
     )
 
 

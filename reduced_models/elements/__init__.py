@@ -17,6 +17,7 @@
 | film_element | elements with a film memory: state, steps, tangents, impedance |
 | film_memory | `FilmMemoryContact`: one load |
 | wide_range | `WideRangeContact`: every load |
+| motion_errors | error of wide-range elements by kind of motion, from full solves |
 | element_summary | summary and figure of an element |
 
 A new element is a frozen dataclass with its coefficients, ``low`` and ``high`` in a file of its own, registered

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +15,7 @@ from ehlcontact.store import stored
 from reduced_models.elements.film_curve import curve_nodes
 from reduced_models.elements.film_element import FilmContact
 from reduced_models.elements.film_filters import DIRECT
+from reduced_models.elements.motion_errors import WITHIN, motion_errors
 
 _Floats = NDArray[np.float64]
 
@@ -20,7 +23,7 @@ LOADS = (1e-12, 1e12)  # over the reference load
 
 
 def inlet_saturation_of(loads: ArrayLike, approach: ArrayLike, gain_loads: ArrayLike, gains: ArrayLike) -> float:
-    """beta at which opening takes away at most the static film at load 1: film made per own rate over that film.
+    """Beta at which opening takes away at most the static film at load 1: film made per own rate over that film.
 
     Parameters as for `WideRangeContact`.
     """
@@ -78,6 +81,9 @@ class WideRangeContact(FilmContact):
         "loads", "approach", "gain_loads", "gains", "inlet_saturation", "lag_rate", "inlet_rate", "fast_rate"
     )  # fmt: skip
     tables = ("loads", "approach", "gain_loads", "gains")
+    beyond: ClassVar[Mapping[str, str]] = {
+        "motion": "`motion_errors` has what fast closing of parted surfaces costs"
+    }
 
     def _check_coefficients(self) -> None:
         super()._check_coefficients()
@@ -95,6 +101,25 @@ class WideRangeContact(FilmContact):
                 object.__setattr__(self, name, end * length)
         if self.load_range is None:
             object.__setattr__(self, "load_range", (self.loads[0] * force, self.loads[-1] * force))
+
+    @property
+    def motion_errors(self) -> dict[str, float]:
+        """RMS error of the force over its standard deviation, by kind of motion (`elements.motion_errors`).
+
+        Estimated from full solves at three points, by the film under the reference load.
+        """
+        f, length, _ = self._units
+        return motion_errors(1.0 - self.approach_at(f) / length)
+
+    @property
+    def rms(self) -> float | None:
+        """RMS error of the force over its standard deviation: of the fit, or else of vibrations within contact."""
+        fitted = super().rms
+        return self.motion_errors[WITHIN] if fitted is None else fitted
+
+    def _summary_lines(self) -> list[str]:
+        said = ", ".join(f"{kind} {100.0 * error:.2g} %" for kind, error in self.motion_errors.items())
+        return [*super()._summary_lines(), f"rms error of the force, about: {said}"]
 
     def _tables(self) -> dict[str, _Floats]:
         gains = {"gain_x": np.log(np.array(self.gain_loads)), "gains": np.array(self.gains)}

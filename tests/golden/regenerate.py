@@ -34,6 +34,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))  # the tests' own helpers
 sys.path.insert(0, str(Path(__file__).parents[2] / "docs" / "site"))
 
 import meshes
+import motions
 import validation
 from argument_groups import grouped
 
@@ -127,6 +128,7 @@ GROUPS = {  # names, the numbers of one, and how far they may be off: relative a
     "fit": (MODELS, fitted, 1e-3, 1e-9),
     "atlas": (ATLAS, answered, 1e-6, 1e-9),
     "meshes": (meshes.points(), lambda name: meshes.decisions(*meshes.points()[name]), 1e-9, 0.0),
+    "motions": (motions.CASES, motions.solved, 1e-3, 1e-4),
     "validation": (validation.SECTIONS, measured, 1e-5, 1e-9),
 }
 

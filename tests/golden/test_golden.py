@@ -16,6 +16,7 @@ STORED = golden.stored()
 # The seven terms are hardly identifiable: rounding of the record is seen through their condition.
 LOOSE = {("fit", "polynomial"): 1e-2, ("fit", "memory"): 1e-2}
 SLOW = {("validation", name) for name in golden.validation.SECTIONS if name not in ("bearings", "formulas")}
+SLOW |= {("motions", name) for name in golden.motions.CASES}
 
 
 def leaves(value, name=""):

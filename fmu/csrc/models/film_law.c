@@ -68,21 +68,26 @@ static double gain_slope(int k, const Between *b)
     return (gains[b->after][k] - gains[b->row][k]) * b->per_x;
 }
 
-/* Film G that a unit of phi lets into the chain: 1 with one row of gains. */
-static double made_of(const Between *b, double *slope)
+/* Film G that a unit of phi lets into the chain, with its slope by x: 1 with one row of gains. */
+typedef struct {
+    double film, by_x;
+} Made;
+
+static Made film_made(const Between *b)
 {
     double here = LEAST_MADE, there = LEAST_MADE;
+    Made made = {1.0, 0.0};
     int k;
-    *slope = 0.0;
     if (GAIN_ROWS == 1) {
-        return 1.0;
+        return made;
     }
     for (k = DIRECT; k < FILM_GAINS; k++) {
         here += fabs(gains[b->row][k]);
         there += fabs(gains[b->after][k]);
     }
-    *slope = (there - here) * b->per_x;
-    return here + b->weight * (there - here);
+    made.film = here + b->weight * (there - here);
+    made.by_x = (there - here) * b->per_x;
+    return made;
 }
 
 /* Filter k times its gain at the load, whose ln F has the slope x_u. */
@@ -169,9 +174,10 @@ void film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double d
     const Between b = between(rest->x);
     const double x_u = 1.5 * g.u / g.x;
     const Between b0 = between(3.0 * log(before[THETA]));
-    double ignored, by_x, by_gain;
-    const double made0 = made_of(&b0, &ignored), made_x = made_of(&b, &by_x);
-    const Jet made = jet(made_x, by_x * x_u, 0.0);
+    double ignored, by_gain;
+    const double made0 = film_made(&b0).film;
+    const Made at_end = film_made(&b);
+    const Jet made = jet(at_end.film, at_end.by_x * x_u, 0.0);
     const double f0 = made0 * film_entering(before[INLET], &ignored);
     const Jet f = times(made, entering(s));
     const Jet hump = minus(times(half(made0, made), entering(entered)), half(f0, f));
@@ -193,7 +199,7 @@ void film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double d
     after[FAST] = y.x;
     w = plus(g, m);
     found->step = force_of(w.x, w.u, w.v);
-    by_gain = gain_slope(1, &b) * s.x + gain_slope(2, &b) * y.x + (chain.by_gain - carried.x * by_x) / made_x;
+    by_gain = gain_slope(1, &b) * s.x + gain_slope(2, &b) * y.x + (chain.by_gain - carried.x * at_end.by_x) / at_end.film;
     found->now = force_of(w.x, frozen_slope(rest, &b, theta.x, theta.u, v, by_gain), gain(VISCOUS, &b) * theta.x);
 }
 
@@ -203,8 +209,9 @@ void film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double d
 typedef struct {
     double theta, theta_u;
     double direct, direct_x;      /* viscous gain, and its slope by x */
-    double held, held_x, held_xx; /* film that the states add, and its slopes by x */
-    double made, made_x;          /* film that enters the chain, and its slope by x */
+    double inlet, fast, carried;  /* film that inlet, fast lag and chain add */
+    double held_x, held_xx;       /* slopes of their sum by x */
+    Made made;
     double x_u;
     Between between;
 } Memory;
@@ -220,28 +227,30 @@ static Memory film_memory(const double states[FILM_RATES], const Rest *rest)
     m.x_u = 1.5 * rest->g_u / rest->g;
     m.direct = gain(VISCOUS, &m.between);
     m.direct_x = gain_slope(VISCOUS, &m.between);
-    m.made = made_of(&m.between, &m.made_x);
-    m.held = m.held_x = 0.0;
-    for (k = 0; k < DIRECT - 1; k++) {
-        m.held += gain(k + 1, &m.between) * states[k];
-        m.held_x += gain_slope(k + 1, &m.between) * states[k];
-    }
+    m.made = film_made(&m.between);
+    m.inlet = gain(1, &m.between) * states[0];
+    m.fast = gain(2, &m.between) * states[1];
     for (k = DIRECT - 1; k < FILM_RATES; k++) {
         carried += gain(k + 1, &m.between) * states[k];
         carried_x += gain_slope(k + 1, &m.between) * states[k];
     }
-    carried /= m.made;
-    carried_x = (carried_x - carried * m.made_x) / m.made;
-    m.held += carried;
-    m.held_x += carried_x;
-    m.held_xx = -2.0 * carried_x * m.made_x / m.made;
+    m.carried = carried / m.made.film;
+    carried_x = (carried_x - m.carried * m.made.by_x) / m.made.film;
+    m.held_x = gain_slope(1, &m.between) * states[0] + gain_slope(2, &m.between) * states[1] + carried_x;
+    m.held_xx = -2.0 * carried_x * m.made.by_x / m.made.film;
     return m;
+}
+
+/* g + m, in the order of film_step. */
+static double film_argument(const Memory *m, const Rest *rest, double v)
+{
+    return rest->g + (m->direct * (m->theta * v) + m->inlet + m->fast + m->carried);
 }
 
 FilmForce film_now(const double states[FILM_RATES], const Rest *rest, double v)
 {
     const Memory m = film_memory(states, rest);
-    return force_of(rest->g + m.direct * (m.theta * v) + m.held,
+    return force_of(film_argument(&m, rest, v),
                     frozen_slope(rest, &m.between, m.theta, m.theta_u, v, m.held_x), m.direct * m.theta);
 }
 
@@ -259,7 +268,7 @@ void film_instant(const double states[FILM_RATES], const Rest *rest, double v, F
     ww[0][1] = ww[1][0] = m.direct_x * m.x_u * m.theta + m.direct * m.theta_u;
     ww[1][1] = 0.0;
     memset(now, 0, sizeof *now);
-    now->argument = rest->g + m.direct * (m.theta * v) + m.held;
+    now->argument = film_argument(&m, rest, v);
     if (now->argument <= 0.0) {
         return;
     }
@@ -273,8 +282,8 @@ void film_instant(const double states[FILM_RATES], const Rest *rest, double v, F
     }
     for (k = 0; k < FILM_RATES; k++) {
         const int lag = k >= DIRECT - 1;
-        const double made = lag ? m.made : 1.0, by = gain(k + 1, &m.between) / made;
-        const double by_u = (gain_slope(k + 1, &m.between) - (lag ? by * m.made_x : 0.0)) / made * m.x_u;
+        const double made = lag ? m.made.film : 1.0, by = gain(k + 1, &m.between) / made;
+        const double by_u = (gain_slope(k + 1, &m.between) - (lag ? by * m.made.by_x : 0.0)) / made * m.x_u;
         now->by_state[k] = 1.5 * w_root * by;
         now->second_state[0][k] = 1.5 * (w_root * by_u + 0.5 * w[0] * by / w_root);
         now->second_state[1][k] = 1.5 * (0.5 * w[1] * by / w_root);
@@ -296,7 +305,7 @@ void film_rates(const double states[FILM_RATES], const Rest *rest, double v, dou
     rates[0] = INLET_RATE * (i - states[0]) / unit;
     rates[1] = FAST_RATE * (i - states[1]) / unit;
     fed = film_entering(states[0], &ignored);
-    fed *= made_of(&b, &ignored);
+    fed *= film_made(&b).film;
     for (k = 2; k < FILM_RATES; k++) {
         rates[k] = LAG_RATE * (fed - states[k]) / unit;
         fed = states[k];
@@ -310,14 +319,14 @@ void film_rates_along(const double states[FILM_RATES], const Rest *rest, double 
     const double i = theta * v, di = theta_u * v * du + theta * dv;
     const double dunit = theta > LEAST_THETA ? theta_u * du / unit : 0.0; /* over the unit */
     const Between b = between(rest->x);
-    double fed, slope, dfed, made_x;
-    const double made = made_of(&b, &made_x);
+    const Made made = film_made(&b);
+    double fed, slope, dfed;
     int k;
     change[0] = INLET_RATE * ((di - along[0]) - (i - states[0]) * dunit) / unit;
     change[1] = FAST_RATE * ((di - along[1]) - (i - states[1]) * dunit) / unit;
     fed = film_entering(states[0], &slope);
-    dfed = made * slope * along[0] + made_x * 1.5 * rest->g_u / rest->g * du * fed;
-    fed *= made;
+    dfed = made.film * slope * along[0] + made.by_x * 1.5 * rest->g_u / rest->g * du * fed;
+    fed *= made.film;
     for (k = 2; k < FILM_RATES; k++) {
         change[k] = LAG_RATE * ((dfed - along[k]) - (fed - states[k]) * dunit) / unit;
         fed = states[k];

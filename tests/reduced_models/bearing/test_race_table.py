@@ -126,7 +126,18 @@ def test_compiled_and_plain_are_twins(film, monkeypatch):
     at_speed = speed_state(kernel, 3000.0 * RADIANS)
     steps = "prepare_filters", "contact_force", "accept_contact"
     names = {
-        contact_room: ("_at", "gain", "_lag", "_weigh", "_add", "_made_at", "film_made", "curve", "film_cutoff", *steps),
+        contact_room: (
+            "_at",
+            "gain",
+            "_lag",
+            "_weigh",
+            "_add",
+            "_made_at",
+            "film_made",
+            "curve",
+            "film_cutoff",
+            *steps,
+        ),
         balls_room: ("_ball", "begin_step", "press_balls", "accept_balls", *steps),
     }
     normals = np.array([[0.0, -1.0]] * 9)

@@ -95,6 +95,41 @@ def test_surfaces_may_part_and_meet_again(wide):
     assert wide.advance(1e6, 0.9, 0.0) == pytest.approx(wide.spring(0.9), rel=1e-5)
 
 
+def test_trapped_film_keeps_its_thickness_while_the_load_rises(wide):
+    """Rows of gains in proportion to each other: what the chain holds adds the same film at every load."""
+    states = np.array([0.0, 0.0, 0.02, 0.03, 0.01, 0.0])
+    film = [
+        wide.continuous(states, u, 0.0)[0] ** (2.0 / 3.0) - wide.spring(u) ** (2.0 / 3.0) for u in (0.01, 0.3, 1.5)
+    ]
+    assert film[0] > 0.01
+    np.testing.assert_allclose(film, film[0], rtol=1e-6)
+
+
+def test_gain_of_a_film_is_that_of_the_load_at_which_it_is_made(wide):
+    """Closing fast from a light load leaves more film than the gains of the heavy load would make."""
+    T = np.linspace(0.0, 0.4, 401)
+    u = -0.05 + 1.0 * (0.5 - 0.5 * np.cos(pi * T / 0.4))
+    v = 0.5 * pi / 0.4 * np.sin(pi * T / 0.4)
+    one_load = replace(wide, gain_loads=(1.0,), gains=(tuple(wide.gains_at(0.0)),))
+    ours, theirs = (element.drive(T, u, v)[-1] for element in (wide, one_load))
+    assert ours > theirs + 0.02 > wide.spring(u[-1]) + 0.02
+
+
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
+def test_no_closed_cycle_creates_energy(wide):
+    """Cycles of any size and speed, through lift-off or not, from rest back to the same approach at rest."""
+    rng = np.random.default_rng(3)
+    for _ in range(150):
+        T = np.linspace(0.0, 10.0 ** rng.uniform(-0.5, 1.8), 1201)
+        phase = T / T[-1]
+        waves = sum(rng.normal() / j * np.sin(2.0 * pi * j * phase) for j in range(1, rng.integers(2, 7)))
+        shape = np.sin(pi * phase) ** 2 * waves
+        u = rng.uniform(-0.1, 1.3) + 10.0 ** rng.uniform(-2.0, 0.2) * shape / np.abs(shape).max()
+        v = np.gradient(u, T, edge_order=2)
+        power = wide.drive(T, u, v) * v
+        assert np.trapezoid(power, T) > -1e-6 * np.trapezoid(np.abs(power), T)
+
+
 def test_slow_cycle_dissipates_and_follows_the_static_curve(wide):
     T = np.linspace(0.0, 2000.0, 201)  # steps of 10: one turn of a rotor
     u = 0.75 - 0.7 * np.cos(2.0 * pi * T / 2000.0)

@@ -1,0 +1,35 @@
+"""Error of wide-range elements by kind of motion, stated from full solves.
+
+Atlas elements of three points against `simulate` under a prescribed approach (``tests/golden/motions.py``), by the
+film of the reference load over its dry approach; times in 2a/u_sum, u_1 the approach under the reference load:
+
+| kind | motion |
+|---|---|
+| small vibration | 0.02 and 0.01 dry approaches about u_1, Omega = pi/2 and 2 pi |
+| vibration within contact | static load 0.4 to 1.8, Omega = pi/2 |
+| slow return | to u_1 - 1.1 within 1, back to u_1 within 4 |
+| fast return | to u_1 - 1.6 within 0.6, back to u_1 + 0.3 within 0.6 |
+| impact | from rest at u_1 - 1.3 to u_1 + 0.2 within 0.4 |
+
+An error is the rms error of the force over the standard deviation of the force. With thick films the slow return
+is dominated by the static force of parted surfaces, which depends on how far the inlet is flooded.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+FILMS = (0.053, 0.367, 0.795)  # of the points (M, L, kappa) = (2900, 19, 0.11), (37, 12, 0.8), (20, 5, 0.3)
+WITHIN = "vibration within contact"
+ERRORS = {  # rms at these films
+    "small vibration": (0.013, 0.029, 0.07),
+    WITHIN: (0.003, 0.02, 0.084),
+    "slow return": (0.01, 0.07, 0.449),
+    "fast return": (0.035, 0.146, 0.189),
+    "impact": (0.068, 0.281, 0.135),
+}
+
+
+def motion_errors(film: float) -> dict[str, float]:
+    """Rms error by kind of motion, straight between the points and held beyond them."""
+    return {kind: float(np.interp(film, FILMS, errors)) for kind, errors in ERRORS.items()}
