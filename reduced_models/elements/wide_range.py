@@ -118,8 +118,9 @@ class WideRangeContact(FilmContact):
         return self.motion_errors[WITHIN] if fitted is None else fitted
 
     def _summary_lines(self) -> list[str]:
-        said = ", ".join(f"{kind} {100.0 * error:.2g} %" for kind, error in self.motion_errors.items())
-        return [*super()._summary_lines(), f"rms error of the force, about: {said}"]
+        errors = list(self.motion_errors.items())[1:]  # small vibrations have K and C
+        said = ", ".join(f"{kind} {100.0 * error:.2g} %" for kind, error in errors)
+        return [*super()._summary_lines(), f"rms error of the force: {said}"]
 
     def _tables(self) -> dict[str, _Floats]:
         gains = {"gain_x": np.log(np.array(self.gain_loads)), "gains": np.array(self.gains)}
