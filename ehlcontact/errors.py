@@ -28,6 +28,10 @@ class InputError(ValueError):
             shown = f"{shown[: LONGEST_VALUE // 2]} ... {shown[-LONGEST_VALUE // 2 :]}"
         super().__init__(printable(" ".join(f"{field} = {shown}: must be {allowed}".split())))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """For processes, which pass errors on: Python's own way is to call the class with the message."""
+        return type(self), (self.field, self.value, self.allowed)
+
 
 class ConvergenceError(RuntimeError):
     """A solve ended without converging; ``result`` holds what was reached, with its status."""

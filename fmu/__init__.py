@@ -21,6 +21,7 @@ module                   responsibility
 ``binaries/``            shared libraries for every platform
 ``references/``          reference results inside an FMU; `verify_references`
 ``fmu_file``             an FMU file, unpacked, and instances of it
+``isolated``             work with an FMU's library in a child process, with limits
 ``driver``               one instance of an FMU, driven through fmpy
 ``comparison``           FMU and Python element: forces, tangents and derivatives
 ``verification``         `Verification`: result of a comparison

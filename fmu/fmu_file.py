@@ -15,6 +15,8 @@ from ehlcontact.errors import InputError
 from ehlcontact.files import require_no_pipe
 from fmu.driver import Exchange, Slave
 
+LARGEST_UNPACKED = 2**29  # bytes: ours, with the libraries of all platforms, have some MB
+
 
 @dataclass(frozen=True, slots=True)
 class FmuFile:
@@ -70,13 +72,16 @@ def opened(file: Path) -> Iterator[FmuFile]:
     try:
         require_no_pipe(file)
         with zipfile.ZipFile(file) as archive:
-            names = set(archive.namelist())
+            names, size = set(archive.namelist()), sum(one.file_size for one in archive.infolist())
     except (OSError, ValueError, zipfile.BadZipFile) as error:
         raise InputError("path", str(file), f"a readable FMU ({' '.join(str(error).split())})") from None
     if "modelDescription.xml" not in names:
         system = "SystemStructure.ssd" in names
         reason = "a system archive, with FMUs in its resources/" if system else "no modelDescription.xml in it"
         raise InputError("path", str(file), f"a readable FMU ({reason})")
+    if size > LARGEST_UNPACKED:  # more than it says, no archive unpacks to
+        allowed = f"an FMU that unpacks to at most {LARGEST_UNPACKED >> 20} MiB, not {size >> 20} MiB"
+        raise InputError("path", str(file), allowed)
     import fmpy
 
     folder = tempfile.mkdtemp(prefix="ehlcontact-verify-")

@@ -11,6 +11,7 @@ from ehlcontact.errors import InputError
 from fmu.contact_variables import Element
 from fmu.fmu_file import FmuFile, opened
 from fmu.fmu_model import FmuModel, fmu_model
+from fmu.isolated import isolated, require_path
 from fmu.lead import CONTACT, ROTOR
 from fmu.rotor.model import RotorModel
 from fmu.spec import ModelSpec
@@ -21,6 +22,9 @@ EXPORT_OPTIONS = {CONTACT.name, ROTOR.name}  # whose start values are chosen at 
 
 def verify(path: str | os.PathLike[str], element: Element | RotorModel) -> Verification:
     """Run the FMU through fmpy and compare it with the element.
+
+    It runs the native code in the FMU, with the rights of whoever calls it: in a child process with limits of time
+    and memory (not on Windows), but behind no other wall. Verify what you would run.
 
     Without memory: one step of co-simulation each for a grid of approaches (inside, below and above the validity
     interval, lift-off included) and rates (both signs, up to where the damper alone cancels the force), and the
@@ -42,15 +46,20 @@ def verify(path: str | os.PathLike[str], element: Element | RotorModel) -> Verif
     Raises
     ------
     InputError
-        Not an FMU of such an element or rotor for this platform.
+        Not an FMU of such an element or rotor for this platform; a library that crashes, ends the process or does
+        not end; an archive that unpacks to more than half a GiB.
 
     See Also
     --------
     fmu.verify_references : without an element, against the reference results inside the FMU.
     """
     model = fmu_model(element)
-    with opened(Path(path)) as file:
-        return verify_opened(file, model)
+
+    def compared(file: Path) -> Verification:
+        with opened(file) as one:
+            return verify_opened(one, model)
+
+    return isolated(compared, require_path(path))
 
 
 def verify_opened(file: FmuFile, model: FmuModel) -> Verification:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ehlcontact.summary import Summary
 from fmu.comparison import each_over, floored
 from fmu.fmu_file import FmuFile, opened
+from fmu.isolated import isolated, require_path
 from fmu.lead import inputs_at_end
 from fmu.references.files import POINTS, STEPS, changed_files, read_references
 from fmu.references.series import References, Trial
@@ -82,6 +83,8 @@ class ReferenceCheck(Summary):
 def verify_references(path: str | os.PathLike[str]) -> ReferenceCheck:
     """Run an FMU through fmpy and compare it with the reference results inside it.
 
+    Its native code runs, as for `fmu.verify`.
+
     Parameters
     ----------
     path : path-like
@@ -96,15 +99,19 @@ def verify_references(path: str | os.PathLike[str]) -> ReferenceCheck:
     Raises
     ------
     InputError
-        Not an FMU for this platform, or one without reference results.
+        Not an FMU for this platform, or one without reference results; otherwise as `fmu.verify`.
 
     See Also
     --------
     fmu.verify : the same against the element in Python, at more states, with the directional derivatives.
     """
-    with opened(Path(path)) as file:
-        from fmpy.validation import validate_fmu
+    return isolated(_checked, require_path(path))
 
+
+def _checked(path: Path) -> ReferenceCheck:
+    from fmpy.validation import validate_fmu
+
+    with opened(path) as file:
         return check_references(file, tuple(validate_fmu(str(file.path))))
 
 

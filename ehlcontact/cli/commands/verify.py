@@ -20,7 +20,10 @@ def verify(
     file: Annotated[Path, typer.Argument(metavar="X.fmu", help="FMU written by `export` or `run`.")],
     out: o.Output,
 ) -> None:
-    """Check an FMU against the reference results inside it; no element is needed.
+    """Check an FMU against the reference results inside it; no element is needed. Runs its native code.
+
+    That code runs with your rights, in a child process with limits of time and memory (not on Windows): verify
+    what you would run.
 
     Exit code 1 if it differs from them, or fmpy finds something in it; 2 if it cannot be read or has none.
     """

@@ -1,0 +1,92 @@
+"""FMUs whose libraries do what no library should: the process of the caller goes on, and nothing stays behind."""
+
+import importlib
+import subprocess
+import tempfile
+import zipfile
+
+import pytest
+
+from ehlcontact import InputError
+from fmu import fmu_file, isolated, verify, verify_references
+
+DEEDS = {
+    "exit": ("exit(0);", "ended the process with exit code 0"),
+    "crash": ("*(volatile int *)0 = 1;", "crashed: SIGSEGV"),
+    "abort": ("abort();", "crashed: SIGABRT"),
+    "hang": ("for (;;) sleep(1);", "still running after 1 s"),
+    "memory": ("for (;;) memset(malloc(1 << 26), 1, 1 << 26);", "crashed: SIGSEGV"),
+}
+CODE = """#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+__attribute__((constructor)) static void deed(void) { const char *name = getenv("DEED"); CASES }
+"""
+
+
+@pytest.fixture(scope="module")
+def rogue(fmus, tmp_path_factory):
+    """An FMU whose library does, as it is loaded, what the variable DEED of the environment says."""
+    folder = tmp_path_factory.mktemp("rogue")
+    cases = " ".join(f'if (!strcmp(name, "{name}")) {{ {code} }}' for name, (code, _) in DEEDS.items())
+    (folder / "rogue.c").write_text(CODE.replace("CASES", cases))
+    command = ["cc", "-shared", "-fPIC", "-w", "-o", str(folder / "rogue.so"), str(folder / "rogue.c")]
+    subprocess.run(command, check=True)
+    with zipfile.ZipFile(fmus["cubic"]) as good, zipfile.ZipFile(folder / "rogue.fmu", "w") as bad:
+        for name in good.namelist():
+            binary = name.startswith("binaries/") and name.endswith(".so")
+            bad.writestr(name, (folder / "rogue.so").read_bytes() if binary else good.read(name))
+    return folder / "rogue.fmu"
+
+
+@pytest.fixture(autouse=True)
+def nothing_stays(tmp_path, monkeypatch):
+    """Temporary folders are in a folder that is empty in the end."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    yield
+    assert list(tmp_path.glob("ehlcontact-*")) == []
+
+
+@pytest.mark.parametrize("deed", DEEDS)
+def test_a_library_that_runs_amok(rogue, elements, monkeypatch, deed):
+    monkeypatch.setenv("DEED", deed)
+    if deed == "hang":
+        monkeypatch.setattr(isolated, "LONGEST", 1.0)
+    monkeypatch.setattr(isolated, "LARGEST", 2**28)
+    calls = [lambda: verify_references(rogue), lambda: verify(rogue, elements["cubic"])]
+    for call in calls if deed == "exit" else calls[:1]:
+        with pytest.raises(InputError, match="an FMU whose library runs to the end") as caught:
+            call()
+        assert DEEDS[deed][1] in str(caught.value) and caught.value.field == "path"
+
+
+def test_an_archive_of_gigabytes(tmp_path, elements):
+    """Refused by what its directory says, before a byte is unpacked."""
+    file = tmp_path / "large.fmu"
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("modelDescription.xml", "<a/>")
+        for k in range(3):
+            archive.writestr(f"resources/{k}", bytes(2**20))
+    data = file.read_bytes()
+    said = (2**20).to_bytes(4, "little")
+    file.write_bytes(data.replace(said, (2**30).to_bytes(4, "little")))  # sizes of the directory, 3 GiB
+    for call in (lambda: verify(file, elements["cubic"]), lambda: verify_references(file)):
+        with pytest.raises(InputError, match="unpacks to at most 512 MiB, not 3072 MiB"):
+            call()
+    assert fmu_file.LARGEST_UNPACKED == 2**29
+
+
+def test_errors_of_the_child_are_those_of_the_call(fmus, elements, monkeypatch):
+    def wrong(*_):
+        raise InputError("path", 3, "another")
+
+    monkeypatch.setattr(importlib.import_module("fmu.verify"), "verify_opened", wrong)
+    with pytest.raises(InputError, match="path = 3: must be another") as caught:
+        verify(fmus["cubic"], elements["cubic"])
+    assert (caught.value.field, caught.value.value, caught.value.allowed) == ("path", 3, "another")
+
+
+@pytest.mark.parametrize("path", [3, None])
+def test_what_is_no_path(path, elements):
+    with pytest.raises(InputError, match="the name of a file"):
+        verify(path, elements["cubic"])
