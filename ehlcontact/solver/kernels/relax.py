@@ -41,7 +41,7 @@ FLOW_SLOPE = 0.75  # share of the derivatives of eps; see above
 LARGEST_CHANGE = 0.3  # of P in one sweep, along one line; far from the solution the linear model overshoots
 FILM_CHANGE = 1.0  # of the film there by the near coefficient alone, over the film: more would turn it negative
 LEAST_OPENING = 0.003  # of a node's own term, from which the film of the next lines counts in its equation
-ROWS = 16  # of eight systems made at a time: what they take up stays in the nearest cache
+ROWS = 128  # of eight systems made one after the other: fewer, and their fields come from memory in pieces
 FROM_SOUTH, FROM_NORTH, OPENING, RESIDUAL = BAND, BAND + 1, BAND + 2, BAND + 3  # behind the entries of a row
 
 
