@@ -43,6 +43,8 @@ class FullContact(Summary):
 
     Attributes
     ----------
+    tol : float
+        As given.
     force : float
         Of the film, over the static load; in SI (``si``) [N].
     static_approach : float
@@ -77,7 +79,8 @@ class FullContact(Summary):
         load = require_positive("largest_load", largest_load)
         self.point, self.scales = require_solvable(point, load), scales_of(point)
         require_grid(grid)
-        tol, threads = require_positive("tol", tol), require_threads("threads", threads)
+        self.tol = tol = require_positive("tol", tol)
+        threads = require_threads("threads", threads)
         left: Step | None = None
         for mesh in wider_meshes(self.point, Purpose.CONTACT, grid, largest_load=load):
             self._film = TransientFilm(self.point, mesh, tol, grid.deflection, threads)
@@ -102,6 +105,11 @@ class FullContact(Summary):
             f"at rest approach {size * self.static_approach:.5g}{unit}",
             *filter(None, [self.reservation]),
         ]
+
+    @property
+    def coarseness(self) -> float:
+        """`tol` over its default: how much coarser the force is than usual."""
+        return self.tol / DEFAULT_TOL
 
     @property
     def reservation(self) -> str:

@@ -116,15 +116,18 @@ def films_of(balls: Balls) -> Films:
 
 @jit_exact_loop
 def speed_state(balls, omega):
-    """Laws, cage and centrifugal force at the shaft speed `omega`, which lies within those of the laws."""
-    row, weight = 0, 0.0
+    """Laws, cage and centrifugal force at the shaft speed `omega`, at most the highest of the laws.
+
+    Below the lowest of the laws, down to standstill, films are those of the lowest.
+    """
+    row, weight, rolling = 0, 0.0, max(omega, balls.speeds[0])
     if balls.speeds.size > 1:
         last = balls.speeds.size - 2
-        row = min(max(np.searchsorted(balls.speeds, omega) - 1, 0), last)
+        row = min(max(np.searchsorted(balls.speeds, rolling) - 1, 0), last)
         low, high = balls.speeds[row] ** FILM_GROWTH, balls.speeds[row + 1] ** FILM_GROWTH
-        weight = (omega**FILM_GROWTH - low) / (high - low)
+        weight = (rolling**FILM_GROWTH - low) / (high - low)
     cage = balls.cage * omega
-    u_sum = balls.rolling * omega
+    u_sum = balls.rolling * rolling
     inner = balls.inner.reach / u_sum if u_sum > 0.0 else 0.0
     outer = balls.outer.reach / u_sum if u_sum > 0.0 else 0.0
     return SpeedState((row, weight), inner, outer, cage, balls.swing * cage * cage)

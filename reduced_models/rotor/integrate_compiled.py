@@ -17,7 +17,7 @@ from ehlcontact.errors import ConvergenceError
 from ehlcontact.jit import jit_exact_loop
 from reduced_models.bearing.balls import accept_balls, begin_step, directions, press_balls, speed_state
 from reduced_models.rotor.prepared_run import PreparedRun
-from reduced_models.rotor.time_step import Steps
+from reduced_models.rotor.time_step import Steps, rounding_hint
 
 _Floats = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ class CompiledSteps:
     made = reached = 0  # steps, and the last one that was begun
 
     def __init__(self, run: PreparedRun, tolerance: float) -> None:
-        self._run = run
+        self._run, self._tolerance = run, tolerance
         load = max(float(np.linalg.norm(run.rotor.load)), float(np.abs(run.turning).max(initial=0.0)))
         farthest = min(mount.ball_bearing.ball_diameter for mount in run.rotor.ball_bearings)
         self._limits = tolerance * max(load, 1.0), FARTHEST * farthest
@@ -86,7 +86,9 @@ class CompiledSteps:
         self.made = first + int(made)
         self.reached = self.made + (how == NO_BALANCE)
         if how == NO_BALANCE:
-            raise ConvergenceError("no balance of the forces was found", None)
+            found = run.histories.motion[self.made]
+            hint = rounding_hint(steps, found, self._limits[0], self._limits[0] / self._tolerance)
+            raise ConvergenceError(f"no balance of the forces was found{hint}", None)
         if how == LOST:
             raise ConvergenceError(self._lost(run.histories.motion[self.made]), None)
         progress(self.made)

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from ehlcontact.errors import ConvergenceError
 from reduced_models.bearing.motion import BallMotion
 from reduced_models.rotor.prepared_run import PreparedRun
-from reduced_models.rotor.time_step import Steps, free_displacement, move_to
+from reduced_models.rotor.scaled_contact import has_tangents
+from reduced_models.rotor.time_step import Steps, free_displacement, move_to, rounding_hint
 
 _Floats = NDArray[np.float64]
 
@@ -93,7 +94,8 @@ class PythonSteps:
         carried = np.abs(self._normals.T @ (counts * force)).max(initial=0.0)
         turning, load = np.abs(run.turning).max(initial=0.0), np.abs(run.rotor.load).sum()
         scale = float(max(load, np.abs(K @ d).max(), turning, carried))
-        self._allowed = tolerance * (scale if scale > 0.0 else 1.0)
+        self._scale = scale if scale > 0.0 else 1.0
+        self._allowed = tolerance * self._scale
         self._supports: list[tuple[slice, RunningSupport]] = []
         first = len(run.rotor.contacts)
         if first:
@@ -178,9 +180,14 @@ class PythonSteps:
                 continue
             previous, last = error, q
             q = q - np.linalg.solve(self._system(steps, slopes), residual)
-        raise ConvergenceError(
-            f"force imbalance {error:.3g} N above {self._allowed:.3g} N in {iteration} iterations", None
-        )
+        found = f"force imbalance {error:.3g} N above {self._allowed:.3g} N in {iteration} iterations"
+        hint = rounding_hint(steps, q, self._allowed, self._scale)
+        if not hint and not all(has_tangents(mount.contact) for mount in self._run.rotor.contacts):
+            hint = (
+                ": the force of a contact that is solved in every step is good to its own tolerance; take a "
+                "smaller tol of FullContact, or a larger tolerance of simulate_rotor"
+            )
+        raise ConvergenceError(found + hint, None)
 
     def _system(self, steps: Steps, slopes: _Floats) -> _Floats:
         return np.asarray(steps.D + steps.weight * (self._pull.T @ slopes @ self._normals))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact import Status
+from ehlcontact import FullContact, Status
 from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
@@ -25,7 +25,7 @@ from reduced_models.rotor.prepared_run import PreparedRun
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.scaled_contact import Contact
-from reduced_models.rotor.speed_profile import SpeedProfile
+from reduced_models.rotor.speed_profile import SpeedProfile, law_speeds
 from reduced_models.rotor.supports import LinearBearing
 
 _Floats = NDArray[np.float64]
@@ -75,7 +75,8 @@ def simulate_rotor(
         in which they are given, and bearings at rest there.
     tolerance : float, optional
         Largest imbalance of the forces at the supports over the load: by default 1e-6 with contacts, where each
-        evaluation may be a solve, and 1e-9 without.
+        evaluation may be a solve, and 1e-9 without; with a `FullContact` of a larger `tol` than its default as
+        many times larger, for the noise of its force grows with it.
     max_iterations : int
         Evaluations of each contact in a step.
     rho_inf : float
@@ -113,8 +114,16 @@ def simulate_rotor(
     if run.balls and not whole.contacts:
         integrator: Integrator = CompiledSteps(run, COMPILED_TOLERANCE if tolerance is None else tolerance)
     else:
-        integrator = PythonSteps(run, TOLERANCE if tolerance is None else tolerance, max_iterations)
+        allowed = default_tolerance(whole) if tolerance is None else tolerance
+        integrator = PythonSteps(run, allowed, max_iterations)
     return _integrate(run, integrator, callback)
+
+
+def default_tolerance(rotor: Rotor) -> float:
+    """Of the balance of forces; larger with full films that are solved more coarsely than by default."""
+    films = (getattr(mount.contact, "contact", mount.contact) for mount in rotor.contacts)
+    coarsest = max((film.coarseness for film in films if isinstance(film, FullContact)), default=1.0)
+    return TOLERANCE * max(coarsest, 1.0)
 
 
 def _integrate(
@@ -220,7 +229,7 @@ def _supports(run: PreparedRun, kept: slice) -> tuple[tuple[str, ...], _Floats, 
 
 def _warn_of_overload(run: PreparedRun) -> None:
     """Warn of balls that carried more than the atlas has."""
-    slowest = float(run.omega.min() / RADIANS)
+    slowest = float(law_speeds(run.omega / RADIANS)[0])
     for mount, balls in zip(run.rotor.ball_bearings, run.balls, strict=True):
         b = run.rotor.bearings.index(mount)
         for name, load in zip(RACES, balls.films.largest.tolist(), strict=True):

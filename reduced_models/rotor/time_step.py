@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 
 _Floats = NDArray[np.float64]
 
+ROUNDED = 0.1  # of the allowed imbalance: rounding in a sum of so much, and a step may not find its balance
+
 
 class Steps(NamedTuple):
     """The linear part of a rotor for steps of one length, at one speed."""
@@ -106,3 +108,25 @@ def move_to(steps: Steps, state: _Floats, new: _Floats) -> None:
     acceleration = a0 * new + a1 * d + a2 * v + a3 * a
     state[1] = v0 * new + (v1 * d + v2 * v + v3 * a)
     state[0], state[2] = new, acceleration
+
+
+def rounding_hint(steps: Steps, r: _Floats, allowed: float, scale: float) -> str:
+    """What to change where a step is so short that rounding of the places `r` hides the balance; else empty.
+
+    Inertia resists with mass/dt^2: rounding of a place is a force that grows as steps get shorter.
+
+    Parameters
+    ----------
+    steps : Steps
+    r : ndarray
+        Motions of the points that supports act at [m].
+    allowed, scale : float
+        Imbalance that a step may have, and the force that the tolerance is over [N].
+    """
+    noise = float(np.finfo(float).eps * np.abs(steps.D).sum(axis=1).max() * np.abs(r).max(initial=0.0))
+    if noise < ROUNDED * allowed:
+        return ""
+    return (
+        f": steps of dt = {steps.dt:g} s are so short that rounding is {noise:.2g} N, where {allowed:.2g} N is "
+        f"allowed; take longer steps, or a tolerance of {2.0 * noise / (ROUNDED * scale):.1g} or more"
+    )

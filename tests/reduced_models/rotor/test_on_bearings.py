@@ -7,18 +7,22 @@ import pytest
 from beam_rotor import NODES, beam, block
 from scipy.integrate import solve_ivp
 
-from ehlcontact import Status, load, save
+from ehlcontact import FullContact, Grid, Lubricant, MoesPoint, Status, load, save
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.point import Scales
 from reduced_models import (
     BallBearing,
     BearingMount,
+    JeffcottRotor,
     OutsideValidityWarning,
     Rotor,
     RotorResult,
+    ScaledContact,
     SpeedProfile,
     Unbalance,
     simulate_rotor,
 )
+from reduced_models.rotor.simulate import default_tolerance
 from reduced_models.rotor.speed_profile import turning_forces
 
 RPM, DT = 3000.0, 2e-5
@@ -220,3 +224,36 @@ def test_angles_of_a_mount_are_in_radians(dry):
         BearingMount(bearing=dry, x=0, y=1, cage_angle=90.0)
     with pytest.raises(InputError, match=r"phase = 90.0: .*radians"):
         Unbalance(x=0, y=1, amount=1.0, phase=90.0)
+
+
+OIL = Lubricant.iso_vg(68, temperature=50.0)
+
+
+def test_a_coast_down_ends_at_standstill():
+    """Below a thousandth of the highest speed films stay as they are there; and the rotor stands on."""
+    rotor = block(BallBearing.catalogue("6205", oil=OIL))
+    course = SpeedProfile.ramp(600.0, 0.0, 0.02)
+    with pytest.warns(OutsideValidityWarning, match="atlas up to"):  # so slow, it has no films of such loads
+        found = simulate_rotor(rotor, speed_rpm=course, dt=4e-5, until=0.024)
+    assert found.status.ok and found.t[-1] >= 0.024
+    assert np.abs(found.displacement[-1]).max() < 1e-4
+
+
+def test_steps_too_short_for_rounding_are_told(dry):
+    with pytest.raises(ConvergenceError, match=r"steps of dt = 1e-09 s are so short .* tolerance"):
+        simulate_rotor(block(dry), speed_rpm=3000.0, dt=1e-9, until=1e-6)
+
+
+SCALES = Scales(force=20.0, length=1e-6, time=2e-5, a=1e-4, b=2e-4, pressure=1e9)
+STILL = np.array([0.0, -1e-6 * 0.5]), np.zeros(2)
+
+
+def test_films_that_are_solved_coarsely_are_balanced_as_coarsely():
+    """Their force is good to their own tolerance; with an explicit one the error says which to change."""
+    films = {tol: FullContact(MoesPoint(20, 5, 0.5), grid=Grid(n=16), tol=tol) for tol in (3e-3, 0.3)}
+    for tol, film in films.items():
+        scaled = ScaledContact(film, SCALES)
+        rotor = JeffcottRotor.vertical(disc_mass=2.0, journal_mass=0.3, shaft_stiffness=1e8).on([scaled])
+        assert default_tolerance(rotor) == pytest.approx(1e-6 * tol / 3e-3)
+    with pytest.raises(ConvergenceError, match="a smaller tol of FullContact, or a larger tolerance"):
+        simulate_rotor(rotor, speed_rpm=0.0, dt=1e-5, until=1e-3, start=STILL, tolerance=1e-9, max_iterations=1)
