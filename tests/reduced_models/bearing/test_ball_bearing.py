@@ -109,7 +109,7 @@ def test_loads_and_preloads_beyond_the_atlas(film, oil):
     assert "a ball carries at most" in said and "here 9" in said
     tight = BallBearing.catalogue("6205", oil=oil, clearance=-1.5e-4)
     refused("clearance = -0.00015: must be such that a ball", lambda: tight.equilibrium((0, 0), speed_rpm=3000.0))
-    assert BallBearing.catalogue("6205").equilibrium((0.0, -2e4)).force.max() > 9000.0  # dry
+    assert BallBearing.catalogue("6205").equilibrium((0.0, -1.4e4)).force.max() > 6000.0  # dry
 
 
 def test_loads_that_seat_no_bearing():
