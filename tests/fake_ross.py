@@ -1,4 +1,4 @@
-"""What ROSS 2.3.0 has of the names that we use, and does with them, on the beams of `beam_rotor`."""
+"""What ROSS 2.3 and 3.1 have of the names that we use, and do with them, on the beams of `beam_rotor`."""
 
 from types import SimpleNamespace
 
@@ -9,37 +9,63 @@ BENDING = (0, 1, 3, 4)
 
 
 class BearingElement:
-    """Two by two coefficients over speed, straight between them."""
+    """Two by two coefficients as in ROSS 3: over speed, whirl frequency or both, straight between points."""
+
+    def __init__(
+        self, n, kxx, cxx, kyy=None, kxy=0.0, kyx=0.0, cyy=None, cxy=0.0, cyx=0.0,
+        speed=None, frequency=None, tag=None, n_link=None,
+    ):  # fmt: skip
+        self.n, self.speed, self.frequency, self.tag, self.n_link = n, speed, frequency, tag, n_link
+        self.k = (kxx, kxy, kyx, kxx if kyy is None else kyy)
+        self.c = (cxx, cxy, cyx, cxx if cyy is None else cyy)
+        self.shape = tuple(np.size(axis) for axis in (speed, frequency) if axis is not None)
+        for values in (*self.k, *self.c):
+            assert np.shape(values) in ((), self.shape)
+
+    def _at(self, values, frequency, speed):
+        found = np.array([np.broadcast_to(value, self.shape) for value in values], float)
+        if self.frequency is not None:
+            found = np.apply_along_axis(lambda row: np.interp(frequency, self.frequency, row), -1, found)
+        if self.speed is not None:
+            found = np.apply_along_axis(lambda row: np.interp(speed, self.speed, row), -1, found)
+        return found.reshape(2, 2)
+
+    def K(self, frequency, speed=None):
+        return self._at(self.k, frequency, frequency if speed is None else speed)
+
+    def C(self, frequency, speed=None):
+        return self._at(self.c, frequency, frequency if speed is None else speed)
+
+
+class BearingElement2(BearingElement):
+    """As in ROSS 2: one axis, `frequency`, over which analyses give the speed."""
 
     def __init__(
         self, n, kxx, cxx, kyy=None, kxy=0.0, kyx=0.0, cyy=None, cxy=0.0, cyx=0.0,
         frequency=None, tag=None, n_link=None,
     ):  # fmt: skip
-        self.n, self.frequency, self.tag, self.n_link = n, frequency, tag, n_link
-        self.k = (kxx, kxy, kyx, kxx if kyy is None else kyy)
-        self.c = (cxx, cxy, cyx, cxx if cyy is None else cyy)
-        for values in (*self.k, *self.c):
-            assert np.size(values) in (1, np.size(frequency if frequency is not None else 0.0))
-
-    def _at(self, values, frequency):
-        if self.frequency is not None:
-            rows = [np.broadcast_to(value, np.shape(self.frequency)) for value in values]
-            values = [np.interp(frequency, self.frequency, row) for row in rows]
-        return np.reshape(values, (2, 2)).astype(float)
+        super().__init__(n, kxx, cxx, kyy, kxy, kyx, cyy, cxy, cyx, None, frequency, tag, n_link)
 
     def K(self, frequency):
-        return self._at(self.k, frequency)
+        return super().K(frequency)
 
     def C(self, frequency):
-        return self._at(self.c, frequency)
+        return super().C(frequency)
 
 
 class SealElement(BearingElement):
     """No bearing, though ROSS derives it from one."""
 
 
+class SealElement2(BearingElement2):
+    """Likewise."""
+
+
+BearingElement2.__name__, SealElement2.__name__ = "BearingElement", "SealElement"
+
+
 class Rotor:
-    """`shaft_elements` are lengths, `disk_elements` (node, diameter, width), point masses (node, mass)."""
+    """As in ROSS 3. Shaft elements are lengths, discs (node, diameter, width), point masses (node, mass)."""
 
     number_dof = 6
 
@@ -54,7 +80,7 @@ class Rotor:
         assert len(tags) == len(set(tags)), "Tags should be unique."
         self.nodes = list(range(len(shaft_elements) + 1))
         self.ndof = 6 * len(self.nodes) + 3 * len(self.point_mass_elements)
-        self._M, self._K, self._G = (np.zeros((self.ndof, self.ndof)) for _ in range(3))
+        self._M, self._K, self._G, self.C0 = (np.zeros((self.ndof, self.ndof)) for _ in range(4))
         size = 6 * (len(shaft_elements) + 1)
         at = np.add.outer(np.arange(0, size, 6), BENDING).ravel()
         for matrix, beams in zip(
@@ -70,10 +96,10 @@ class Rotor:
     def _first(self, node):
         return 6 * min(node, len(self.nodes)) + 3 * max(node - len(self.nodes), 0)
 
-    def _with(self, matrix, name, frequency):
+    def _with(self, matrix, name, *at):
         out = matrix.copy()
         for e in self.bearing_elements:
-            block = getattr(e, name)(frequency)
+            block = getattr(e, name)(*at)
             ends = [(e.n, 1.0), *([(e.n_link, -1.0)] if e.n_link is not None else [])]
             for a, sign_a in ends:
                 for b, sign_b in ends:
@@ -81,22 +107,25 @@ class Rotor:
                     out[i : i + 2, j : j + 2] += sign_a * sign_b * block
         return out
 
-    def M(self, frequency=None):
+    def M(self, frequency=None, speed=None):
         return self._M.copy()
 
-    def K(self, frequency):
-        return self._with(self._K, "K", frequency)
+    def K(self, frequency, speed=None):
+        return self._with(self._K, "K", frequency, speed)
 
-    def C(self, frequency):
-        return self._with(np.zeros_like(self._K), "C", frequency)
+    def C(self, frequency, speed=None):
+        return self._with(self.C0, "C", frequency, speed)
 
     def G(self):
         return self._G.copy()
 
-    def run_modal(self, speed):
+    def run_modal(self, speed, frequency=None):
+        return self._modes(speed, self.K(frequency or speed, speed), self.C(frequency or speed, speed))
+
+    def _modes(self, speed, K, C):
         held = np.abs(self._M).sum(axis=1) > 0.0
         at = np.ix_(held, held)
-        M, C, K = self._M[at], (self.C(speed) + speed * self._G)[at], self.K(speed)[at]
+        M, C, K = self._M[at], (C + speed * self._G)[at], K[at]
         n = len(M)
         roots = np.linalg.eigvals(
             np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(M, K), -np.linalg.solve(M, C)]])
@@ -122,6 +151,24 @@ class Rotor:
         return SimpleNamespace(yout=yout)
 
 
-def module():
+class Rotor2(Rotor):
+    """As in ROSS 2."""
+
+    def M(self, frequency=None):
+        return self._M.copy()
+
+    def K(self, frequency):
+        return self._with(self._K, "K", frequency)
+
+    def C(self, frequency):
+        return self._with(self.C0, "C", frequency)
+
+    def run_modal(self, speed):
+        return self._modes(speed, self.K(speed), self.C(speed))
+
+
+def module(version=3):
     """As `import ross` gives it."""
+    if version == 2:
+        return SimpleNamespace(BearingElement=BearingElement2, SealElement=SealElement2, Rotor=Rotor2)
     return SimpleNamespace(BearingElement=BearingElement, SealElement=SealElement, Rotor=Rotor)

@@ -315,9 +315,9 @@ class BallBearing(Summary):
         *,
         speeds_rpm: ArrayLike,
         load: ArrayLike,
-        omega: float | None = None,
-        hz: float | None = None,
-        rpm: float | None = None,
+        omega: ArrayLike | None = None,
+        hz: ArrayLike | None = None,
+        rpm: ArrayLike | None = None,
         **options: Any,
     ) -> Any:
         """Stiffness and damping as a plain ``ross.BearingElement``, means over a ball passage.
@@ -326,19 +326,22 @@ class BallBearing(Summary):
         ----------
         node : int
         speeds_rpm : float or sequence of float
-            Speeds of the shaft [rev/min], increasing. ROSS goes on beyond their ends by its splines, so they
-            should cover the whole range; from four on they meet damping within 1 N s/m rms only.
+            Speeds of the shaft [rev/min], increasing. ROSS goes on beyond their ends, so they should cover the
+            whole range; from four on the splines of ROSS 2 meet damping within 1 N s/m rms only, those of ROSS 3
+            go through all points.
         load : float or (float, float)
             Force on the inner ring [N]; a number is a weight, in -y.
-        omega, hz, rpm : float, optional
-            Frequency of the vibration; by default that of the shaft at each speed.
+        omega, hz, rpm : float or sequence of float, optional
+            Frequency of the whirl, the vibration. One frequency makes tables over the speed only. In ROSS 3
+            several, increasing, are the second axis of the tables: by default 0, and 41 from 1 Hz to 10 kHz.
+            ROSS 2 has no such axis; there the default is the frequency of the shaft at each speed.
         **options
             Of ``ross.BearingElement``, as ``tag`` or ``n_link``.
 
         Raises
         ------
         InputError
-            ROSS is not installed; a load or a speed that the bearing does not take.
+            ROSS is not installed; a load or a speed that the bearing does not take; several frequencies in ROSS 2.
         """
         from reduced_models.bearing.ross_bearing import bearing_element
 

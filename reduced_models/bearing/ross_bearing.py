@@ -1,24 +1,33 @@
-"""Bearings as elements of ROSS, https://ross.readthedocs.io, from 2.3.0 on.
+"""Bearings as elements of ROSS, https://ross.readthedocs.io, 2.3 to 3.1.
 
 Both have SI units, x and y across the shaft, y upwards, and a rotor that turns from x to y; ROSS has speeds in
 rad/s. It is imported where it is needed: that takes seconds.
+
+An element of ROSS 2 has tables over `frequency`, which is the speed of the shaft. In ROSS 3 `speed` is the speed
+of the shaft and `frequency` that of the whirl (the vibration); tables are over either or both. An analysis of
+ROSS 3 that is given no frequency takes both as equal, the only case of ROSS 2.
 """
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
+from inspect import signature
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column, require_integer
-from ehlcontact.checks.frequency import is_given, one, radians_per_second
+from ehlcontact.checks.frequency import is_given, radians_per_second
 from ehlcontact.errors import InputError
 from reduced_models.bearing.kinematics import RADIANS
 
 _Floats = NDArray[np.float64]
+
+# Whirl frequencies of tables [rad/s] unless others are given: 0, and 1 Hz to 10 kHz in 40 equal ratios. Between
+# them the cubics of ROSS 3 meet damping within 1.6 % (6205, 6305; ISO VG 32 to 220; 60 to 12 000 rev/min).
+WHIRL = 2.0 * np.pi * np.append(0.0, np.geomspace(1.0, 1e4, 41))
 
 
 def import_ross() -> Any:
@@ -30,6 +39,16 @@ def import_ross() -> Any:
     except (ImportError, ValueError) as error:  # the second: ROSS 2.3.0 beside plotly 7
         raise InputError("ross", None, f"installed: pip install 'ehlcontact[ross]' ({error})") from None
     return ross
+
+
+def has_whirl_axis(ross: Any) -> bool:
+    """Whether tables of this ROSS have an axis of whirl frequency beside that of speed: from 3 on."""
+    return "speed" in signature(ross.BearingElement).parameters
+
+
+def name_of(frequency: Mapping[str, ArrayLike | None]) -> str:
+    """Name of the frequency that is given."""
+    return next(name for name, value in frequency.items() if value is not None)
 
 
 def downward(load: ArrayLike) -> ArrayLike:
@@ -49,25 +68,30 @@ def bearing_element(
     ross = import_ross()
     n = require_integer("node", node, "a node of the rotor, a whole number >= 0", 0)
     speeds = as_column("speeds_rpm", np.atleast_1d(np.asarray(speeds_rpm, float)), increasing=True)
-    fixed = one("frequency", radians_per_second(None, **frequency)) if is_given(**frequency) else None
+    whirl = WHIRL if has_whirl_axis(ross) else None  # None: the frequency of the shaft at each speed
+    if is_given(**frequency):
+        whirl = radians_per_second(None, **frequency)
+        name = name_of(frequency)
+        as_column(name, np.atleast_1d(np.asarray(frequency[name], float)), increasing=True)
+        if whirl.size > 1 and not has_whirl_axis(ross):
+            raise InputError(name, f"{whirl.size} numbers", "a single frequency: tables of ROSS 2 have one axis")
     found = [
-        bearing.coefficients(downward(load), speed_rpm=rpm, omega=rpm * RADIANS if fixed is None else fixed)
+        bearing.coefficients(downward(load), speed_rpm=rpm, omega=rpm * RADIANS if whirl is None else whirl)
         for rpm in speeds.tolist()
     ]
-    K, C = (np.array([getattr(at, name)[0] for at in found]) for name in ("stiffness", "damping"))
-    return ross.BearingElement(n=n, **ross_entries(K, C), **_table(speeds), **options)
+    K, C = (np.array([getattr(at, name) for at in found]) for name in ("stiffness", "damping"))
+    axes = {"speed" if has_whirl_axis(ross) else "frequency": speeds * RADIANS} if speeds.size > 1 else {}
+    if whirl is not None and whirl.size > 1:
+        axes["frequency"] = whirl
+    return ross.BearingElement(n=n, **ross_entries(K, C), **axes, **options)
 
 
 def ross_entries(K: _Floats, C: _Floats) -> dict[str, Any]:
-    """Coefficients as ROSS calls them; numbers where there is one speed."""
+    """Coefficients as ROSS calls them, from shape (..., 2, 2): without axes of one value, else numbers."""
     entries = {}
     for name, matrices in (("k", K), ("c", C)):
         for i, row in enumerate("xy"):
             for j, column in enumerate("xy"):
-                values = matrices[:, i, j] + 0.0  # no -0
-                entries[f"{name}{row}{column}"] = values if len(values) > 1 else float(values[0])
+                values = np.squeeze(matrices[..., i, j]) + 0.0  # no -0
+                entries[f"{name}{row}{column}"] = values if values.ndim else float(values)
     return entries
-
-
-def _table(speeds: _Floats) -> dict[str, Any]:
-    return {"frequency": speeds * RADIANS} if speeds.size > 1 else {}

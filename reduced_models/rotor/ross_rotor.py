@@ -1,4 +1,4 @@
-"""Rotors of ROSS on our bearings, and our bearings in its time steps: https://ross.readthedocs.io, from 2.3.0 on.
+"""Rotors of ROSS on our bearings, and our bearings in its time steps: https://ross.readthedocs.io, 2.3 to 3.1.
 
 Both have SI units, x and y across the shaft, y upwards, and a rotor that turns from x to y. ROSS counts nodes, of
 six degrees of freedom each (x, y, z, turns about them), and has speeds in rad/s.
@@ -14,11 +14,12 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.constants import g
 
 from ehlcontact.checks import as_column, require_instance, require_integer
+from ehlcontact.checks.frequency import is_given, one, radians_per_second
 from ehlcontact.errors import InputError
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.motion import BearingMotion
-from reduced_models.bearing.ross_bearing import import_ross, ross_entries
+from reduced_models.bearing.ross_bearing import has_whirl_axis, import_ross, name_of, ross_entries
 from reduced_models.rotor.rotor import Rotor, Unbalance
 from reduced_models.rotor.supports import BearingMount
 
@@ -41,6 +42,9 @@ def from_ross(
     unbalances: Mapping[int, Any] | None = None,
     gravity: bool = True,
     replace: bool = False,
+    omega: float | None = None,
+    hz: float | None = None,
+    rpm: float | None = None,
 ) -> Rotor:
     """Bending of a rotor of ROSS on ball bearings, for `simulate_rotor`.
 
@@ -50,7 +54,8 @@ def from_ross(
     Parameters
     ----------
     rotor : ross.Rotor
-        Seals and other bearing elements of it stay, as they are at `speed_rpm`.
+        Seals and other bearing elements of it stay, as they are at `speed_rpm` and, in ROSS 3, at the frequency of
+        the whirl. Damping of its modes (ROSS 3) stays the matrix that it has there.
     bearings : mapping of int to BallBearing
         By node. The outer ring stands still, or moves with the node that a replaced element was linked to.
     speed_rpm : float, optional
@@ -63,6 +68,8 @@ def from_ross(
         Whether the rotor has weight, in -y.
     replace : bool
         Whether bearing elements at those nodes make place.
+    omega, hz, rpm : float, optional
+        Frequency of the whirl, for tables of ROSS 3 over it; by default that of the shaft.
 
     Raises
     ------
@@ -73,12 +80,9 @@ def from_ross(
     nodes = _nodes(ross, rotor, bearings, replace)
     empty = {node: ross.BearingElement(n=node, kxx=0.0, cxx=0.0, n_link=linked) for node, linked in nodes.items()}
     bare = _rebuilt(ross, rotor, empty)  # with elements that hold nothing, so that all nodes stay
-    changing = [e for e in bare.bearing_elements if e.frequency is not None]
-    if changing and speed_rpm is None:
-        raise InputError("speed_rpm", None, f"given: the element at node {changing[0].n} changes with it")
-    w = (speed_rpm or 0.0) * RADIANS
+    at = _operating_point(ross, bare, speed_rpm, {"omega": omega, "hz": hz, "rpm": rpm})
     dofs = bending(bare)
-    M, C, G, K = _lateral((bare.M(w), bare.C(w), bare.G(), bare.K(w)), dofs)
+    M, C, G, K = _lateral((bare.M(*at), bare.C(*at), bare.G(), bare.K(*at)), dofs)
     upward = np.searchsorted(dofs, [_first(bare, node) + 1 for node in range(_count(bare))])
     load = np.asarray(-g * M[:, upward].sum(axis=1) if gravity else np.zeros(dofs.size))
 
@@ -104,6 +108,25 @@ def from_ross(
     )
 
 
+def _operating_point(
+    ross: Any, rotor: Any, speed_rpm: float | None, frequency: Mapping[str, float | None]
+) -> tuple[float, ...]:
+    """What `rotor.K` takes [rad/s]: the speed in ROSS 2, frequency of the whirl and speed in ROSS 3."""
+    w = (speed_rpm or 0.0) * RADIANS
+    both = has_whirl_axis(ross)
+    if is_given(**frequency) and not both:
+        name = name_of(frequency)
+        raise InputError(name, frequency[name], "left out: before ROSS 3 tables are over the speed only")
+    axes = ("speed", "frequency") if both else ("frequency",)
+    for element in rotor.bearing_elements:
+        tabled = [axis for axis in axes if getattr(element, axis, None) is not None]
+        if speed_rpm is None and tabled and not (tabled == ["frequency"] and is_given(**frequency)):
+            raise InputError("speed_rpm", None, f"given: the element at node {element.n} changes with it")
+    if not both:
+        return (w,)
+    return (one(name_of(frequency), radians_per_second(None, **frequency)) if is_given(**frequency) else w), w
+
+
 class RossCallback:
     """Ball bearings with film memory in ROSS's own Newmark steps: what `add_to_RHS` takes.
 
@@ -116,7 +139,9 @@ class RossCallback:
         found = force.rotor.run_time_response(force.speed, F, t, method="newmark", add_to_RHS=force)
         displacement = force.rest + found.yout
 
-    Steps have one length. `simulate_rotor` does the same with forces at the end of the step.
+    So `weight=True`, which ROSS 2.3 ignores and ROSS 3 adds, would count the weight twice. Elements that stay have
+    their coefficients at the speed of the shaft, and in ROSS 3 at its frequency. Steps have one length.
+    `simulate_rotor` does the same with forces at the end of the step.
 
     Parameters
     ----------
@@ -287,9 +312,13 @@ def _rebuilt(ross: Any, rotor: Any, elements: Mapping[int, Any]) -> Any:
     kept = [e for e in rotor.bearing_elements if id(e) not in gone]
     for k, element in enumerate(elements.values()):
         element.tag = f"EHL {k}"
-    limits = {name: getattr(rotor, name) for name in ("min_w", "max_w", "rated_w")}
+    names = ("min_w", "max_w", "rated_w", "motor_element", "alpha", "beta")  # the last three from ROSS 3 on
+    options = {name: getattr(rotor, name) for name in names if hasattr(rotor, name)}
     parts = rotor.shaft_elements, rotor.disk_elements, [*kept, *elements.values()], rotor.point_mass_elements
-    return ross.Rotor(*parts, **limits, tag=rotor.tag)
+    found = ross.Rotor(*parts, **options, tag=rotor.tag)
+    # Damping of modes (ROSS 3, as a complex matrix) is of those with the bearings that the rotor has.
+    found.C0 = rotor.C0.real.copy()
+    return found
 
 
 def _rings_in(rotor: Any, nodes: Mapping[int, int | None]) -> _Floats:
