@@ -88,7 +88,9 @@ def _answer(work: Callable[[Path], Any], path: Path, folder: str) -> None:
     except MemoryError:
         error = InputError("path", str(path), f"an FMU that runs in {LARGEST / 2**30:g} GiB of memory")
     except Exception as raised:
-        error = raised
+        # its text only: dask has pickle take tracebacks and contexts along, and those of lxml cannot be pickled
+        error = raised.with_traceback(None)
+        error.__context__ = error.__cause__ = None
     content = pickle.dumps((found, error))
     whole = Path(folder, f"{ANSWER}.part")
     whole.write_bytes(content)

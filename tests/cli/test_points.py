@@ -282,6 +282,8 @@ def test_entries_of_the_log(run, stub):
     assert any(text == "5000rpm_20N: free vibration: done, 0.0 s" for _, _, text in lines)
 
 
+# between `open` and the `with` that closes the file, an interrupt leaves it to the garbage collector
+@pytest.mark.filterwarnings("ignore::ResourceWarning", "ignore::pytest.PytestUnraisableExceptionWarning")
 def test_interrupted_at_random_moments_it_gives_the_same(run, stub):
     """Ctrl-C, seeded; the slow test does so with a real study, and with kill -9."""
     stub.orders = ["slow"]

@@ -1,6 +1,7 @@
 """The rotor of a study: its numbers computed a second time from the stored runs, sentences of the headline."""
 
 import html
+import shutil
 from dataclasses import replace
 from math import pi
 from pathlib import Path
@@ -25,9 +26,10 @@ from reduced_models.rotor.settling import Settling
 
 
 @pytest.fixture(scope="module")
-def found(finished):
-    """What was found, put together again from the stages."""
-    return evaluate(load_study(finished[0]), finished[1], {})
+def found(finished, tmp_path_factory):
+    """What was found, put together again from the stages; in a copy, since it writes the runs on whole bearings."""
+    folder = shutil.copytree(finished[1], tmp_path_factory.mktemp("found") / "out")
+    return evaluate(load_study(finished[0]), folder, {})
 
 
 def stored(folder, name):

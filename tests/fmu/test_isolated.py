@@ -90,3 +90,20 @@ def test_errors_of_the_child_are_those_of_the_call(fmus, elements, monkeypatch):
 def test_what_is_no_path(path, elements):
     with pytest.raises(InputError, match="the name of a file"):
         verify(path, elements["cubic"])
+
+
+def test_an_error_whose_context_cannot_be_pickled(fmus):
+    """Such is lxml's, once something has imported dask's pickling of tracebacks."""
+    pickling = pytest.importorskip("tblib.pickling_support")
+
+    def fails(path):
+        try:
+            error = ValueError("inner")
+            error.log = (line for line in "ab")  # no generator can be pickled
+            raise error
+        except ValueError:
+            raise InputError("path", str(path), "readable") from None
+
+    pickling.install()
+    with pytest.raises(InputError, match="readable"):
+        isolated.isolated(fails, fmus["cubic"])
