@@ -27,7 +27,7 @@ from reduced_models.rotor.settling import Settling
 
 @pytest.fixture(scope="module")
 def found(finished, tmp_path_factory):
-    """What was found, put together again from the stages; in a copy, since it writes the runs on whole bearings."""
+    """What was found, put together again from the stages; in a copy, as it writes runs on whole bearings."""
     folder = shutil.copytree(finished[1], tmp_path_factory.mktemp("found") / "out")
     return evaluate(load_study(finished[0]), folder, {})
 
