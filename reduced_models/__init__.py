@@ -8,7 +8,6 @@
 | bearing | ball bearings of such contacts: `BallBearing` |
 | rotor | rotors on contacts, full films and ball bearings: equilibrium, motion over time, responses |
 
-To come: adapters (to other programs' rotors and controllers).
 Symbols and units: `ehlcontact.point`.
 """
 

@@ -31,6 +31,7 @@ from reduced_models.rotor.supports import LinearBearing
 _Floats = NDArray[np.float64]
 
 COMPILED_TOLERANCE, TOLERANCE = 1e-9, 1e-6  # on ball bearings alone; with contacts
+MOST_STEPS = 20_000_000  # of a run: every step is kept in memory, 3 GB of twenty signals
 
 Integrator = CompiledSteps | PythonSteps
 
@@ -99,7 +100,9 @@ def simulate_rotor(
         steps before.
     """
     require_positive("dt", dt)
-    steps = max(1, ceil(require_positive("until", until) / dt - 1e-9))  # but for rounding of the quotient
+    if require_positive("until", until) / dt > MOST_STEPS:
+        raise InputError("until", until, f"at most {MOST_STEPS * dt:g} s: {MOST_STEPS:.0e} steps of dt, all kept")
+    steps = max(1, ceil(until / dt - 1e-9))  # but for rounding of the quotient
     if not 0.0 <= rho_inf <= 1.0:
         raise InputError("rho_inf", rho_inf, "between 0 and 1")
     max_iterations = require_integer("max_iterations", max_iterations, "a whole number >= 1", 1)

@@ -206,6 +206,7 @@ def test_what_is_no_rotor(dry, match, changes):
         ("dt = 0.002: must be at most 0.00034.* s, a 16th of the ball passage", {"dt": 2e-3}),
         ("dt = 0.0: must be", {"dt": 0.0}),
         ("until = -1.0", {"until": -1.0}),
+        ("until = 1000000000.0: must be at most", {"until": 1e9}),
         ("rho_inf = 2.0", {"rho_inf": 2.0}),
         ("start = 'rest'", {"start": "rest"}),
         ("start = 'int'", {"start": 5}),

@@ -258,6 +258,7 @@ def test_bad_calls(rotor, contact, cubic, maxwell):
     for changes in (
         {"dt": 0.0},
         {"until": np.nan},
+        {"until": 1e9},
         {"tolerance": -1.0},
         {"rho_inf": 1.5},
         {"max_iterations": 0},
