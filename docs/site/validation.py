@@ -130,7 +130,7 @@ def bearings() -> list[Row]:
 
     tests, rows = module(BEARINGS), []
     for name, (on, _, tangent, bpfo) in tests.TABLE.items():
-        bearing = BallBearing.catalogue(name, youngs_modulus=2.068e11)
+        bearing = BallBearing.catalogue(name, youngs_modulus=2.068e11, **tests.SIZES.get(name, {}))
         slope = bearing.coefficients(tests.DOWN, hz=0.0).stiffness[0, 1, 1]
         rows.append(row(name, "deflection, µm", tests.deflections(bearing)[0] * 1e6, on))
         rows.append(row(name, "stiffness, N/µm", slope * 1e-6, tangent * 1e-6))

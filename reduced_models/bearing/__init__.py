@@ -4,6 +4,7 @@
 |---|---|
 | ball_bearing | `BallBearing`: dimensions, checks, and what can be asked of it |
 | catalogue | dimensions by name, with their sources |
+| clearance | radial clearance by class and bore |
 | kinematics | cage, balls and defect frequencies |
 | race | one contact and its law at a speed; the one place that asks the atlas |
 | race_table | compiled: static force and memory gains of a race, tabulated over approach and speed |

@@ -29,6 +29,7 @@ from ehlcontact.store import stored
 from ehlcontact.summary import Summary
 from reduced_models.bearing.balls import Balls, SpeedState, speed_state
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
+from reduced_models.bearing.clearance import clearance_of_class
 from reduced_models.bearing.equilibrium import (
     RingEquilibrium,
     StaticBalls,
@@ -156,6 +157,9 @@ class BallBearing(Summary):
             most = int(pi / np.arcsin(self.ball_diameter / self.pitch_diameter))
             raise InputError("balls", self.balls, f"at most {most} on this pitch circle: they overlap")
         play = LARGEST_PLAY * self.ball_diameter
+        if isinstance(self.clearance, str):
+            allowed = 'a number [m]; classes need a bore, as BallBearing.catalogue("6205", clearance="CN") has'
+            raise InputError("clearance", self.clearance, allowed)
         if not abs(require_finite("clearance", self.clearance)) <= play:
             raise InputError("clearance", self.clearance, f"between {-play:.3g} and {play:.3g} m")
         if self.oil is not None:
@@ -172,14 +176,18 @@ class BallBearing(Summary):
         ----------
         name : str
         **changes
-            Any other argument of the bearing, or another value than that of the table.
+            Any other argument of the bearing, or another value than that of the table. ``clearance`` may be a
+            class, "C2", "CN", "C3" or "C4": the middle of its limits at the bore, before mounting.
 
         Raises
         ------
         InputError
-            A name that is not in the table; it names the nearest.
+            A name that is not in the table; it names the nearest. A class of clearance that is none, or a bearing
+            whose bore is not known.
         """
         known, row = catalogue_row(name)
+        if isinstance(changes.get("clearance"), str):
+            changes["clearance"] = clearance_of_class(changes["clearance"], row.bore)
         dimensions = {"balls": row.balls, "ball_diameter": row.ball_diameter, "pitch_diameter": row.pitch_diameter}
         grooves = {"conformity_inner": row.conformity, "conformity_outer": row.conformity}
         return cls(**{"name": known, **dimensions, **grooves, **changes})

@@ -5,7 +5,7 @@ from pathlib import Path
 SMALL = (Path(__file__).parents[2] / "examples" / "small_study.toml").read_text()
 SLIPS = {
     "balls = 9": [
-        ('catalogue = "6305"\nballs = 9', "bearing.balls = 9", "left out", "6305", "has 7"),
+        ('catalogue = "6305"\nballs = 9', "bearing.balls = 9", "left out", "6305", "has 8"),
         ("balls = 0", "bearing.balls = 0", "between 3 and 200"),
         ("balls = 201", "bearing.balls = 201", "between 3 and 200"),
         ("balls = nan", "bearing.balls = nan", "a whole number (9, not 9.0"),

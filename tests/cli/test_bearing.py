@@ -53,6 +53,12 @@ def test_json_is_what_the_library_has(call):
     assert found["orders"]["bpfi"] == pytest.approx(5.4152, abs=1e-4)
 
 
+@pytest.mark.parametrize(("given", "shown"), [("CN", "12.5 µm"), ("c3", "20.5 µm"), ("-2.5", "-2.5 µm")])
+def test_clearance_by_number_or_class(call, given, shown):
+    result = call("bearing", "6205", "--load", "500", "--speed-rpm", "0", "--clearance", given)
+    assert result.code == 0 and shown in next(line for line in result.out.splitlines() if "clearance" in line)
+
+
 def test_numbers_of_the_table(call):
     result = call("bearing", "6205", *OIL, "--rq", "0.1", "--load", "1000", "--speed-rpm", "3000")
     assert result.code == 0

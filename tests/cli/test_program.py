@@ -52,7 +52,7 @@ def test_help_ends_in_examples_that_the_parser_takes(call, name):
     [
         ("ehlcontact imp", ["impedance"]),
         ("ehlcontact steady --bea", ["--bearing"]),
-        ("ehlcontact steady --bearing 630", ["6305", "6306"]),
+        ("ehlcontact steady --bearing 631", ["6310", "6311", "6312"]),
     ],
 )
 def test_completion_in_a_shell(line, offered):

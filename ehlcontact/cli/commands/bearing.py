@@ -107,7 +107,15 @@ class BearingOptions(o.Options):
         ),
     ] = None
     temp: Annotated[e.Temperature | None, typer.Option("--temp", rich_help_panel=_OIL)] = None
-    clearance: Annotated[e.Clearance | None, typer.Option("--clearance", rich_help_panel=_BEARING)] = None
+    clearance: Annotated[
+        str | None,
+        typer.Option(
+            "--clearance",
+            metavar="UM|CLASS",
+            help="Radial internal clearance, um, below 0 a preload; or C2, CN, C3, C4: the middle of that class.",
+            rich_help_panel=_BEARING,
+        ),
+    ] = None
     rq: Annotated[
         e.Roughness | None,
         typer.Option("--rq", rich_help_panel=_BEARING),
@@ -118,7 +126,15 @@ class BearingOptions(o.Options):
         """Values by option, None where one is not given."""
         grade = None if self.oil is None else oil_grade(self.oil, "--oil")
         values = {"--load": self.load, "--speed-rpm": self.speed_rpm or None, "--oil": grade, "--temp": self.temp}
-        return values | {"--clearance": self.clearance, "--rq": self.rq}
+        return values | {"--clearance": _clearance(self.clearance), "--rq": self.rq}
+
+
+def _clearance(text: str | None) -> float | str | None:
+    """A number [um], or the name of a class."""
+    try:
+        return None if text is None else float(text)
+    except ValueError:
+        return text
 
 
 @o.grouped

@@ -51,7 +51,7 @@ class Bearing(Section):
     pitch_diameter_mm: e.PitchDiameter | None = None
     conformity_inner: e.Conformity | None = None
     conformity_outer: e.Conformity | None = None
-    clearance_um: e.Clearance | None = None
+    clearance_um: e.Clearance | str | None = None  # or a class, as CN
     film_limit_um: e.Positive | None = None
     loss_factor: e.NotNegative | None = None  # of rings and fits
     ball_inertia: StrictBool | None = None  # balls vibrate between the rings
@@ -137,7 +137,7 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
 def _bearing(found: BearingFile) -> BallBearing:
     b, surface = found.bearing, found.surface
     in_m = {"ball_diameter": (b.ball_diameter_mm, 1e-3), "pitch_diameter": (b.pitch_diameter_mm, 1e-3),
-            "clearance": (b.clearance_um, 1e-6), "film_limit": (b.film_limit_um, 1e-6),
+            "film_limit": (b.film_limit_um, 1e-6),
             "rq_ball": (surface.rq_ball_um, 1e-6), "rq_race": (surface.rq_race_um, 1e-6)}  # fmt: skip
     lengths = {name: value * unit for name, (value, unit) in in_m.items() if value is not None}
     if surface.rq_um is not None:
@@ -149,6 +149,9 @@ def _bearing(found: BearingFile) -> BallBearing:
     names += ["youngs_modulus", "poisson_ratio"]
     others = {name: getattr(b, name) for name in names if getattr(b, name) is not None}
     oil = found.oil.lubricant if "oil" in found.model_fields_set else None
+    if b.clearance_um is not None:
+        clearance = b.clearance_um
+        others["clearance"] = clearance if isinstance(clearance, str) else clearance * 1e-6
     arguments = {**others, **lengths, "oil": oil}
     if b.catalogue is not None:
         return BallBearing.catalogue(b.catalogue, **arguments)
@@ -166,9 +169,9 @@ def _called(file: str, given: frozenset[str], values: Mapping[str, Any]) -> Iter
     except InputError as error:
         entry, value = ENTRIES.get(error.field, error.field), values.get(error.field, error.value)
         allowed = error.allowed.partition("; any other bearing")[0]
-        if error.field == "clearance":
+        if error.field == "clearance" and not isinstance(error.value, str):
             value, allowed = error.value * 1e6, f"{allowed} (it is given in um)"  # type: ignore[operator]
-        if allowed != error.allowed:
+        if "; any other bearing" in error.allowed:
             allowed += "; any other by its dimensions, in a file as examples/bearing_6205.toml"
         option = next((name for name, known in OPTIONS.items() if entry.startswith(known)), None)
         if option is not None and (option in given or not file):

@@ -48,7 +48,9 @@ def first_error(error: ValidationError, study: type[BaseModel]) -> InputError:
     """The first error of a file; a key that is not known before one that is missing, for they may be one slip."""
     errors = error.errors(include_url=False, include_context=False)
     first = next((e for e in errors if e["type"] == "extra_forbidden"), errors[0])
-    loc, value = first["loc"], first["input"]
+    value = first["input"]
+    # of an entry of several types, pydantic names the type that was tried
+    loc = tuple(part for part in first["loc"] if part not in ("float", "str"))
     field = ".".join(str(part) for part in loc) or "study"
     if first["type"] == "extra_forbidden":
         allowed = "left out; " + _known_instead(study, loc)
