@@ -36,6 +36,19 @@ def approach_under(load: Any, film: float, exponent: float) -> Any:
     return load ** (2.0 / 3.0) - film * load**-exponent
 
 
+def memory_curve(film: float, exponent: float) -> dict[str, _Floats]:
+    """Static curve of `FilmLaw` for that film, with one row of gains."""
+    x = np.array([-1.0, 1.0])  # a straight line: any two points
+    y = math.log(film) - exponent * x
+    return {
+        "x": x,
+        "y": y,
+        "slope": np.full(2, -exponent),
+        "u": np.exp(2.0 / 3.0 * x) - np.exp(y),
+        "gain_x": np.zeros(1),
+    }
+
+
 @stored("contact element")
 @dataclass(frozen=True)
 class FilmMemoryContact(FilmContact):
@@ -100,13 +113,4 @@ class FilmMemoryContact(FilmContact):
         object.__setattr__(self, "gains", tuple(gains.tolist()))
 
     def _tables(self) -> dict[str, _Floats]:
-        x = np.array([-1.0, 1.0])  # a straight line: any two points
-        y = math.log(self.film) - self.exponent * x
-        return {
-            "x": x,
-            "y": y,
-            "slope": np.full(2, -self.exponent),
-            "u": np.exp(2.0 / 3.0 * x) - np.exp(y),
-            "gain_x": np.zeros(1),
-            "gains": np.array([self.gains]),
-        }
+        return memory_curve(self.film, self.exponent) | {"gains": np.array([self.gains])}

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -83,10 +83,22 @@ class FilterRates:
         only where it does not, the eigenvalues of `least_dissipation` do.
         """
         rows = np.atleast_2d(np.asarray(gains, float))
-        values = np.tensordot(rows, _polynomials(self), axes=(1, 2))
+        values = self._on_pieces(rows)
         least, most = values.min(axis=2), values.max(axis=2)
         dip = 0.5 * (most - least) * (1.0 / math.cos(0.5 * math.pi * (2 + self.lags) / POINTS) - 1.0)
-        return all(self.least_dissipation(row) >= 0.0 for row in rows[np.any(least < dip, axis=1)])
+        # The first extrema decide the sign; `least_dissipation` goes on to the minimum itself.
+        return all(
+            self._dissipation(row, self._extrema(row, math.inf)).min() >= 0.0
+            for row in rows[np.any(least < dip, axis=1)]
+        )
+
+    def _on_pieces(self, rows: _Floats) -> _Floats:
+        """The polynomials of rows of gains on the pieces of [0, 1], shape (rows, pieces, points)."""
+        x, t, chain = _pieces()
+        inlet, fast = (1.0 / (1.0 + 1j * t * (self.lag_rate / rate)) for rate in (self.inlet_rate, self.fast_rate))
+        carried = rows[:, 3:] @ chain[: self.lags]
+        G = rows[:, :1] + (rows[:, 1:2] + carried) * inlet + rows[:, 2:3] * fast
+        return np.asarray(G.real * self._factor(x)).reshape(len(rows), PIECES, POINTS)
 
     def least_dissipation(self, gains: ArrayLike) -> float:
         """Smallest Re G over all frequencies from 0 to infinity; the gains are passive where it is >= 0.
@@ -131,16 +143,18 @@ class FilterRates:
         return np.concatenate([[0.0, 1.0], inside])
 
 
-@lru_cache(maxsize=16)
-def _polynomials(rates: FilterRates) -> _Floats:
-    """The polynomial of every filter at the Chebyshev points of the pieces of [0, 1]: (pieces, points, filters).
+@cache
+def _pieces() -> tuple[_Floats, _Floats, _Complex]:
+    """Chebyshev points x of the pieces of [0, 1], Omega/nu there, and the chain of 1, 2 ... lags (lags, points).
 
     The pieces halve towards x = 0, high frequencies, where the polynomials are small.
     """
     ends = np.append(0.0, 0.5 ** np.arange(PIECES - 1, -1, -1))
     place = 0.5 + 0.5 * np.cos(math.pi * (np.arange(POINTS) + 0.5) / POINTS)
     x = (ends[:-1, None] + np.diff(ends)[:, None] * place).ravel()
-    return np.asarray(rates._real_basis(x) * rates._factor(x)[:, None]).reshape(PIECES, POINTS, 3 + rates.lags)
+    t = np.sqrt(1.0 / x - 1.0)
+    chain: _Complex = np.cumprod(np.tile(1.0 / (1.0 + 1j * t), (MOST_LAGS, 1)), axis=0, dtype=complex)
+    return x, t, chain
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,9 +193,8 @@ def fit_gains(
     gains, _ = nnls(rows, target - rows[:, 0] * floor)
     gains[0] += floor
     for _ in range(10):
-        least = rates.least_dissipation(gains)
-        if least >= 0.0:
+        if rates.passive(gains):
             break
-        gains[0] -= 1.001 * least
+        gains[0] -= 1.001 * rates.least_dissipation(gains)
     G = basis @ gains
     return GainFit(gains, static - w * G.imag, G.real, rows @ gains - target)

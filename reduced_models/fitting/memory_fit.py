@@ -13,8 +13,8 @@ from scipy.optimize import least_squares
 from ehlcontact import Domain, Grid, ImpedanceResult, impedance
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
-from reduced_models.elements.film_law import film_drive
-from reduced_models.elements.film_memory import FilmMemoryContact, approach_under, film_and_exponent
+from reduced_models.elements.film_law import FilmLaw, film_drive
+from reduced_models.elements.film_memory import FilmMemoryContact, approach_under, film_and_exponent, memory_curve
 from reduced_models.elements.film_response import WEIGHT_C, WEIGHT_K, FilterRates, GainFit, fit_gains
 from reduced_models.elements.validity import Validity
 from reduced_models.fitting.records import ContactRecord, as_records
@@ -175,7 +175,7 @@ def fit_memory(
         lags = min(length for length, score in scores.items() if score <= SHORTER_CHAIN * best)
     FilterRates(lags, 1.0, 1.0, 1.0)  # raises InputError for a wrong number of lags
     element, gains = _solve(target, lags)
-    forces = [(record.force, _force(element, record)) for record in taken]
+    forces = [(record.force, _force(element.law, record)) for record in taken]
     whole = [np.concatenate(parts) for parts in zip(*forces, strict=True)]
     root = element.approach_at(1.0)
     result = MemoryFit(
@@ -226,25 +226,34 @@ def cross_validate(target: Target, lags: int) -> float:
         squares.append(np.mean((damping[w > 0.0] / WEIGHT_C) ** 2))
         squares.append(np.mean(((Z.real / left_out.stiffness - 1.0) / WEIGHT_K) ** 2))
         for record in left_out.records:
-            error = _force(element, record) - record.force
+            error = _force(element.law, record) - record.force
             squares.append(np.mean((error / np.std(record.force) / FORCE_WEIGHT) ** 2))
     return float(np.sqrt(np.mean(squares)))
 
 
 def _solve(target: Target, lags: int) -> tuple[FilmMemoryContact, GainFit]:
     """Nonlinear least squares over logs of the rates and the inlet saturation, gains projected out."""
+    curve = memory_curve(*target.film)
 
-    def parts(p: _Floats) -> tuple[FilmMemoryContact, GainFit]:
+    def parts(p: _Floats) -> tuple[FilterRates, GainFit, float]:
         rates = FilterRates(lags, *(float(value) for value in np.exp(p[:3])))
         gains = fit_gains(rates, target.Omega, target.stiffness, target.damping, target.static)
-        inlet_saturation = float(p[3]) if target.records else 0.0
-        return _element(target, rates, gains, inlet_saturation), gains
+        return rates, gains, float(p[3]) if target.records else 0.0
 
     def residuals(p: _Floats) -> _Floats:
-        element, gains = parts(p)
+        rates, gains, inlet_saturation = parts(p)
         rows = [gains.residuals / np.sqrt(target.Omega.size)]
+        # The law alone: an element checks and stores far more than a step of the search needs.
+        law = FilmLaw(
+            **curve,
+            gains=gains.gains[None],
+            lag_rate=rates.lag_rate,
+            inlet_rate=rates.inlet_rate,
+            fast_rate=rates.fast_rate,
+            inlet_saturation=inlet_saturation,
+        )
         for record in target.records:
-            error = _force(element, record) - record.force
+            error = _force(law, record) - record.force
             rows.append(error / (FORCE_WEIGHT * np.std(record.force) * np.sqrt(len(record))))
         return np.concatenate(rows)
 
@@ -255,7 +264,8 @@ def _solve(target: Target, lags: int) -> tuple[FilmMemoryContact, GainFit]:
     for inlet, fast in RATE_STARTS:
         start = np.array([np.log(lags / TRANSIT_TIME), np.log(inlet), np.log(fast), SATURATION_START])
         solutions.append(least_squares(residuals, start, bounds=(lower, upper), **tolerances, **SEARCH))
-    return parts(min(solutions, key=lambda solution: solution.cost).x)
+    rates, gains, inlet_saturation = parts(min(solutions, key=lambda solution: solution.cost).x)
+    return _element(target, rates, gains, inlet_saturation), gains
 
 
 def _element(target: Target, rates: FilterRates, gains: GainFit, inlet_saturation: float) -> FilmMemoryContact:
@@ -270,10 +280,10 @@ def _element(target: Target, rates: FilterRates, gains: GainFit, inlet_saturatio
     )
 
 
-def _force(element: FilmMemoryContact, record: ContactRecord) -> _Floats:
-    """Force of the element along the record."""
+def _force(law: FilmLaw, record: ContactRecord) -> _Floats:
+    """Force of the law along the record."""
     force = np.empty(len(record))
-    film_drive(element.law, record.T, record.approach, record.rate, force)
+    film_drive(law, record.T, record.approach, record.rate, force)
     return force
 
 
