@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import os
+from copy import deepcopy
 from dataclasses import asdict, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any, Unpack
 
@@ -18,6 +19,7 @@ from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
+from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.store import load as read_file
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
 from reduced_models.atlas.atlas_elements import (
@@ -65,8 +67,7 @@ class Atlas:
     """
 
     def __init__(self, path: str | os.PathLike[str] | None = None) -> None:
-        self._table = read_file(SHIPPED if path is None else path, AtlasTable, "atlas")
-        self._surface = AtlasSurface(self._table)
+        self._table, self._surface = _opened(SHIPPED if path is None else path)
 
     @property
     def box(self) -> Box:
@@ -76,7 +77,7 @@ class Atlas:
     @property
     def metadata(self) -> dict[str, Any]:
         """Command, version, sample and meshes of the build."""
-        return dict(self._table.metadata)
+        return deepcopy(self._table.metadata)
 
     def at(self, point: Point) -> AtlasAnswer:
         """Approach, films, rolling resistance and impedance at a point.
@@ -299,6 +300,26 @@ class Atlas:
                 "damping": float(bars["damping"][low]),
             },
         }
+
+
+def _opened(path: str | os.PathLike[str]) -> tuple[AtlasTable, AtlasSurface]:
+    """Table and interpolation of a file; read once, and again when the file has been changed or replaced."""
+    try:
+        found = os.stat(os.fspath(path))
+    except (OSError, TypeError, ValueError):
+        return _read(path)  # which says what is wrong with it
+    return _read_once(Path(path).absolute(), (found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns))
+
+
+@lru_cache(maxsize=4)
+def _read_once(path: Path, version: tuple[int, ...]) -> tuple[AtlasTable, AtlasSurface]:
+    return _read(path)
+
+
+@one_blas_thread()
+def _read(path: str | os.PathLike[str]) -> tuple[AtlasTable, AtlasSurface]:
+    table = read_file(path, AtlasTable, "atlas")
+    return table, AtlasSurface(table)
 
 
 def _points(M: ArrayLike, L: ArrayLike, kappa: ArrayLike) -> _Floats:

@@ -104,6 +104,7 @@ class _Radial:
         self.x = x
         plane = np.zeros((1 + x.shape[1], values.shape[1]))
         self.coefficients = np.linalg.solve(_system(x), np.vstack([values, plane]))
+        self.coefficients.setflags(write=False)  # one surface serves every `Atlas` of its file
 
     def at(self, x: _Floats, distance: _Floats, columns: slice = slice(None)) -> _Floats:
         """Some columns at places `x`, given their distances from the nodes."""

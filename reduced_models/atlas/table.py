@@ -135,6 +135,11 @@ class AtlasTable:
     factor: _Floats  # (5 + 2 k,) from the errors of the nearest points to the error bar
     metadata: dict[str, Any]  # box, rates, interpolation, oil; command, version, sample, meshes, failures
 
+    def __post_init__(self) -> None:
+        for value in vars(self).values():
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+
     @property
     def box(self) -> Box:
         """Ranges of M, L, kappa and Hertz pressure."""

@@ -355,6 +355,32 @@ def test_numbers_of_the_interpolation_travel_with_the_file(shipped, tmp_path):
         narrow.at(MoesPoint(200.0, 10.0, 0.5, alpha=1e-8))
 
 
+def test_a_file_is_read_once_and_again_when_it_changes(shipped, tmp_path, monkeypatch):
+    target = tmp_path / "own.h5"
+    first = Atlas(changed(SHIPPED, target, version="first"))
+    reads = []
+    monkeypatch.setattr(
+        "reduced_models.atlas.atlas.read_file", lambda *args: reads.append(args) or load_file(*args)
+    )
+    monkeypatch.chdir(tmp_path)
+    assert [Atlas(path).metadata["version"] for path in (target, str(target), "own.h5")] == ["first"] * 3
+    assert not reads
+    changed(SHIPPED, target, version="second")
+    assert Atlas(target).metadata["version"] == "second"
+    assert len(reads) == 1
+    assert first.metadata["version"] == "first"
+    target.unlink()
+    with pytest.raises(InputError, match=r"own\.h5.*No such file"):
+        Atlas(target)
+
+
+def test_atlases_of_one_file_cannot_change_each_other(shipped):
+    shipped.metadata["box"]["M"] = [0.0, 1.0]
+    assert Atlas().metadata["box"]["M"] != [0.0, 1.0]
+    with pytest.raises(ValueError, match="read-only"):
+        Atlas()._table.approach[0] = 2.0
+
+
 @pytest.mark.parametrize(
     "entry", [{"kernel": "gaussian"}, {"degree": 2}, {"weights": "many"}, {"nearest": None}, {"colour": 3}]
 )
