@@ -66,6 +66,14 @@ def test_numbers_of_the_table(call):
     at = bearing.coefficients((0.0, -1000.0), speed_rpm=3000.0, rpm=3000.0)
     for number in (at.stiffness[0, 1, 1] * 1e-6, at.damping[0, 0, 0], bearing.frequencies(3000.0).bpfo):
         assert f"{number:.4g}" in result.out
+    for name, hz, order in (
+        ("BPFO", "179.2", "3.5848"),
+        ("BPFI", "270.8", "5.4152"),
+        ("FTF", "19.92", "0.39831"),
+        ("BSF", "117.8", "2.3567"),
+    ):
+        line = next(line for line in result.out.splitlines() if line.startswith(name))
+        assert line.split()[1:6] == [hz, "Hz", order, "per", "turn:"]
     assert "lambda" in result.out and "320" in result.out and "21622 rpm" in result.out
     state = bearing.equilibrium((0.0, -1000.0), speed_rpm=3000.0)
     line = next(line for line in result.out.splitlines() if "films resist rolling" in line)

@@ -1,6 +1,7 @@
 """``ehlcontact explore``: numbers of its JavaScript, in a browser and in node, against those of Python."""
 
 import json
+from dataclasses import asdict
 
 import numpy as np
 import pytest
@@ -119,7 +120,7 @@ const state = bearing.ringEquilibrium(atSpeed, asked.load), all = read => state.
 return { q: state.q, stiffness: state.stiffness,
   force: all(ball => ball.force), approach: all(ball => ball.approach),
   films: all(ball => bearing.films(atSpeed, ball).map(film => [film.h_central, film.h_min])),
-  highest: bearing.highestSpeed,
+  highest: bearing.highestSpeed, orders: bearing.orders,
   both: bearing.coefficients(atSpeed, asked.load, asked.hz.map(hz => 2 * Math.PI * hz)) };
 """
 
@@ -176,6 +177,8 @@ def test_bearings_stand_and_vibrate_as_in_python(ask, bearings):
         stood += 1
         state, vibrations, bearing = there
         assert here["highest"] == pytest.approx(bearing.highest_speed, rel=CLOSE)
+        orders = {name.upper(): order for name, order in asdict(bearing.orders).items()}
+        assert here["orders"] == pytest.approx(orders, rel=1e-12)
         films = np.stack([state.h_central, state.h_min], axis=-1)
         np.testing.assert_allclose(here["films"], films, rtol=CLOSE)
         for name, values in (("force", state.force), ("approach", state.approach), ("q", state.displacement)):

@@ -57,7 +57,7 @@ TEXTS = """return { refused: !field("refusal").hidden && field("refusal").textCo
   headline: field("headline").textContent, python: field("python").textContent,
   invalid: [...document.querySelectorAll("[aria-invalid]")].map(input => input.id),
   pictures: document.querySelectorAll("#results svg[role=img]").length,
-  shown: !field("results").hidden, hz: field("at").textContent };"""
+  shown: !field("results").hidden, hz: field("at").textContent, defects: field("defects").textContent };"""
 
 
 def test_it_stands_alone(page):
@@ -101,6 +101,10 @@ def test_what_it_shows_is_what_python_answers(seen):
     ratio = 1.25e-5 * still / C
     assert words[6] == pytest.approx(ratio if ratio > 1.0 else 100.0 * ratio, rel=6e-2)
     assert any(f"{K * 1e-6:.{decimals}f}" in found["hz"] for decimals in (0, 1))
+    hz, orders = bearing.frequencies(2400), bearing.orders
+    for name in ("FTF", "BPFO", "BPFI", "BSF"):
+        shown = f"{getattr(hz, name.lower()):.4g}{getattr(orders, name.lower()):.5g}"
+        assert name in found["defects"] and shown in found["defects"]
 
 
 def test_a_bearing_of_ones_own(seen):

@@ -22,18 +22,24 @@ from ehlcontact.errors import InputError
 if TYPE_CHECKING:
     from ehlcontact.cli.study.bearing import BearingJob
     from reduced_models import BallBearing, BearingState
-    from reduced_models.bearing.kinematics import DefectFrequencies
     from reduced_models.bearing.linear_balls import BearingCoefficients
 
 CURVE = 15  # speeds of the curves of a figure
 BESIDE = (0.5, 2.0)  # over a single speed: where its curves begin and end
+DEFECTS = {  # names of the defect frequencies, and what they are of
+    "FTF": "cage",
+    "BPFO": "balls on the outer race",
+    "BPFI": "balls on the inner race",
+    "BSF": "spin of a ball",
+}
 _OIL, _BEARING = "Oil", "Bearing"
 # Of the entries of the JSON, whatever they are nested in; other entries have no unit, or have it in their name.
 UNITS = {
     "load": "N; (x, y), downwards is -y",
     "force": "N",
     "speed_rpm": "rev/min, of the shaft",
-    "orders": "per turn of the shaft",
+    "orders": "FTF, BPFO, BPFI, BSF: per turn of the shaft",
+    "frequencies_hz": "FTF, BPFO, BPFI, BSF: Hz, at each speed",
     "coefficients": "of small vibrations at frequency_hz, that of the shaft; means over a ball passage; in x, y",
     "stiffness": "N/m; of a state: slope of the static force",
     "damping": "N s/m",
@@ -195,7 +201,7 @@ def _show(report: BearingReport, json_to: str | None) -> None:
 
 
 def _rows(b: BallBearing) -> list[Row]:
-    """Dimensions, oil and defect frequencies of the bearing."""
+    """Dimensions and oil of the bearing."""
     oil = [("oil", "none: dry", "")]
     if b.oil is not None:
         oil = [
@@ -208,7 +214,6 @@ def _rows(b: BallBearing) -> list[Row]:
         ("conformity", conformity, "inner, outer"),
         ("clearance", in_unit(b.clearance, "m"), "below 0: preload"),
         *oil,
-        *_defects(b.orders, 5, "per turn"),
     ]
 
 
@@ -222,7 +227,7 @@ def _at_speed(b: BallBearing, state: BearingState, at: BearingCoefficients) -> l
         ("across it", in_unit(K[0, 0], "N/m"), in_unit(C[0, 0], "N s/m")),
         ("both at", f"{numeral(at.omega[0] / math.tau)} Hz", "that of the shaft"),
         *_resistance(state),
-        *_defects(b.frequencies(at.speed_rpm), 4, "Hz"),
+        *_defects(b, at.speed_rpm),
     ]
 
 
@@ -234,9 +239,13 @@ def _resistance(state: BearingState) -> list[Row]:
     return [("films resist rolling", in_unit(state.rolling_torque, "N m"), loss)]
 
 
-def _defects(found: DefectFrequencies, digits: int, unit: str) -> list[Row]:
-    names = (("cage, ball", found.ftf, found.bsf), ("on outer, inner race", found.bpfo, found.bpfi))
-    return [(name, f"{numeral(a, digits)}, {numeral(b, digits)}", unit) for name, a, b in names]
+def _defects(b: BallBearing, speed_rpm: float) -> list[Row]:
+    """Defect frequencies at a speed in Hz, with their orders."""
+    hz, orders = asdict(b.frequencies(speed_rpm)), asdict(b.orders)
+    return [
+        (name, f"{numeral(hz[name.lower()], 4)} Hz", f"{numeral(orders[name.lower()], 5)} per turn: {meaning}")
+        for name, meaning in DEFECTS.items()
+    ]
 
 
 def _show_balls(state: BearingState) -> None:

@@ -30,6 +30,12 @@ class Bearing {
     return Math.min(this.races.inner.highestSpeed, this.races.outer.highestSpeed);
   }
 
+  // Defect frequencies per turn of the shaft (reduced_models.bearing.kinematics).
+  get orders() {
+    const gamma = this.ball_diameter / this.pitch_diameter, cage = 0.5 * (1 - gamma);
+    return { FTF: cage, BPFO: this.balls * cage, BPFI: this.balls * 0.5 * (1 + gamma), BSF: 0.5 * (1 - gamma * gamma) / gamma };
+  }
+
   // Both contacts and the centrifugal force at a speed [rev/min].
   speedState(rpm) {
     if (!(isFinite(rpm) && rpm >= 0)) throw new InputError("speed_rpm", rpm, "a finite number >= 0");

@@ -5,6 +5,7 @@ const SIZES = ["balls", "ball_diameter", "pitch_diameter", "conformity_inner", "
 const OWN = "own", SIZE = { mm: 1e-3, "µm": 1e-6, "mPa s": 1e-3, "1/GPa": 1e-9 };
 const RANGED = { conformity_inner: "conformity", conformity_outer: "conformity" }; // that share a range of inputs
 const USUAL = [0.25e-5, 2.5e-5]; // s, damping over stiffness: Kraemer, Dynamics of Rotors and Foundations, 1993
+const DEFECTS = { FTF: "cage", BPFO: "balls on the outer race", BPFI: "balls on the inner race", BSF: "spin of a ball" };
 const FREQUENCIES = 90, SHOWN = 14; // of curves; of a table
 const field = name => document.getElementById(name);
 const atlas = new Atlas(DATA.atlas);
@@ -155,6 +156,8 @@ function tables(f) {
   field("python").textContent = inPython();
   field("films").innerHTML = table("Heaviest ball, right under the load", ["", "inner race", "outer race"], filmRows(f));
   field("at").innerHTML = table(`At ${show(f.hz, 4)} Hz`, ["", "stiffness [N/µm]", "damping [N s/m]"], frequencyRows(f));
+  const defects = Object.entries(f.whole.orders).map(([name, order]) => [`${name}, ${DEFECTS[name]}`, show(order * f.rpm / 60, 4), show(order, 5)]);
+  field("defects").innerHTML = table("Defect frequencies", ["", "Hz", "per turn"], defects);
   const balls = f.state.balls.map((ball, k) => [`${degrees(f, k)}°`, ...ball.force.map(one => show(one)),
     ...f.films[k].map(film => show(film.h_min * 1e6)), show(Math.min(...f.films[k].map(film => film.h_min)) / f.rq)]);
   field("balls_table").innerHTML = table("All balls, from the load on", ["ball", "inner [N]", "outer [N]", "film inner [µm]", "outer [µm]", "lambda"], balls);
