@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from html import escape
+from textwrap import shorten
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike
 from ehlcontact.point import MoesPoint, Scales
 
 LINES, WIDTH = 5, 90  # most lines of a summary, and characters of a line
+NOTE = 116  # characters of a line of words
 
 
 class Summary:
@@ -47,6 +49,11 @@ def contact_text(point: MoesPoint | None, scales: Scales | None) -> str:
         return "a contact that is not known"
     text = f"M {point.M:.4g}, L {point.L:.4g}, kappa {point.kappa:.4g}"
     return text if scales is None else f"{text}; {scales.force:.4g} N, {scales.pressure * 1e-9:.3g} GPa"
+
+
+def note_line(text: str) -> list[str]:
+    """A note as the last line of a summary, its end left out where it is long; no line where it is empty."""
+    return [shorten(text, NOTE, placeholder=" ...")] if text else []
 
 
 def span(values: ArrayLike, factor: float = 1.0, unit: str = "") -> str:

@@ -35,7 +35,7 @@ def isothermal(contact: Contact, slope: float, conductivity: float) -> Assumptio
         value, other = gupta_heating(load, s.pressure / modulus), wilson_heating(load)
         details |= {"thermal_load": load, "wilson": other}
         verdict = (
-            f"shear heats the inlet, which takes {_percent(1.0 - value)} off the film, "
+            f"shear heats the inlet: film {_percent(1.0 - value)} thinner, "
             f"{_percent(1.0 - other)} by Wilson and Sheu"
         )
     return Assumption(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import hypot
+from typing import Protocol
 
 from ehlcontact.assumptions.bodies import constant_speed, elastic, one_direction
 from ehlcontact.assumptions.contact import Contact, KnownFilm
@@ -12,8 +13,21 @@ from ehlcontact.checks import require_instance, require_nonnegative, require_pos
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant.oil import typical_temperature_slope
-from ehlcontact.point import OperatingPoint, Point, Scales
+from ehlcontact.point import MoesPoint, OperatingPoint, Point, Scales
 from ehlcontact.solver.domain import Domain
+
+
+class Judged(KnownFilm, Protocol):
+    """A result with films: contact, and units in SI where they are known."""
+
+    @property
+    def point(self) -> MoesPoint:
+        """The contact, dimensionless."""
+
+    @property
+    def scales(self) -> Scales | None:
+        """Its units in SI."""
+
 
 CONDUCTIVITY = 0.134  # W/(m K), measured of FVA 3 (Schwarz et al. 2023, table A1); mineral oils 0.12 to 0.15
 ROUGHEST = 1e-4  # m: no rolling surface, but a slip of unit
@@ -85,6 +99,11 @@ def assumptions(
             elastic(contact),
         )
     )
+
+
+def judged(result: Judged) -> Assumptions:
+    """Judge what a result with films assumes at its own contact, with the typical oil of its viscosity."""
+    return assumptions(result.point, film=result, scales=result.scales)
 
 
 def _composite(roughness: tuple[float, float] | None) -> float | None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field
+from math import inf
 from typing import Any
 
 from ehlcontact.errors import InputError
@@ -94,6 +95,18 @@ class Assumptions:
         """What does not hold, in one sentence; empty where nothing is out of range."""
         broken = [f"{a.name} ({a.verdict.split(';')[0]})" for a in self.out_of_range]
         return f"Outside what is assumed: {'; '.join(broken)}." if broken else ""
+
+    @classmethod
+    def worst_of(cls, contacts: Iterable[Assumptions]) -> Assumptions:
+        """Of each assumption that of the contact where it holds least; those not judged there count as holding."""
+
+        def excess(one: Assumption) -> float:
+            if one.value is None:
+                return -inf
+            return (one.limit - one.value if one.at_least else one.value - one.limit) / one.limit
+
+        rows = zip(*contacts, strict=True)
+        return cls(tuple(max(row, key=excess) for row in rows))
 
     def to_dict(self) -> dict[str, Any]:
         """The whole table, ready for JSON."""

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from math import sqrt
 from typing import Annotated, Any, ClassVar
 
 import typer
 
+from ehlcontact.assumptions import Assumptions, assumptions
+from ehlcontact.assumptions.contact import KnownFilm
 from ehlcontact.checks.admissible_range import INPUTS, Given
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.numerals import numeral
@@ -210,6 +213,11 @@ class Contact(Options):
             ("Hertz pressure", f"{numeral(s.pressure * 1e-9, 3)} GPa", f"on {ellipse}, along and across rolling"),
             ("M, L, kappa", ", ".join(numeral(getattr(point.moes, k)) for k in ("M", "L", "kappa")), ""),
         ]
+
+    def judged(self, point: Point, film: KnownFilm, surfaces: Surfaces | None = None) -> Assumptions:
+        """Assumptions at this contact with its oil and a known film, and with the roughness where one is given."""
+        rq = None if surfaces is None or surfaces.rq is None else (1e-6 * surfaces.rq / sqrt(2.0),) * 2
+        return assumptions(point, film=film, roughness=rq)
 
     @property
     def description(self) -> str:

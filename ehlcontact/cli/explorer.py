@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
 from ehlcontact import __version__
+from ehlcontact.assumptions import film, judge
 from ehlcontact.assumptions.film import LEAST_LAMBDA, MIXED_LAMBDA
 from ehlcontact.checks.admissible_range import INPUTS, Quantity
 from ehlcontact.lubricant import MineralOil, oil
@@ -36,8 +37,8 @@ from reduced_models.elements import film_curve, film_response
 from reduced_models.rotor.bearing_models import USUAL_DAMPING
 
 # In the order in which they are joined: each stands on those before it; the last two are about the page itself.
-SCRIPTS = ("numbers", "hertz", "oil", "atlas", "race", "bearing", "plot", "page")
-COMPUTING = SCRIPTS[:6]
+SCRIPTS = ("numbers", "hertz", "oil", "atlas", "race", "bearing", "assumptions", "plot", "page")
+COMPUTING = SCRIPTS[:7]
 UNITS = {"ball_diameter": "mm", "pitch_diameter": "mm", "eta0": "mPa s", "alpha": "1/GPa"}  # others as in Python
 # Numbers of the library's own rules, by the modules that have them
 RULES: Mapping[Any, tuple[str, ...]] = {
@@ -48,6 +49,9 @@ RULES: Mapping[Any, tuple[str, ...]] = {
     ball_bearing: ("LARGEST_PLAY", "POSITIONS"),
     equilibrium: ("SEATED",),
     linear_balls: ("TINY_OMEGA",),
+    judge: ("CONDUCTIVITY",),
+    film: ("LEAST_HEATING_FACTOR", "EYRING_STRESS", "LARGEST_STRESS"),
+    oil: ("TYPICAL_SLOPE", "TYPICAL_DENSITY", "LEAST_SLOPE"),
 }
 OF_INPUTS = ("ball_diameter", "pitch_diameter", "conformity", "speed_rpm", "eta0", "alpha")
 

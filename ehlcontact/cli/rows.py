@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ehlcontact.assumptions import Assumptions
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.quantities import quantities_of, words
 from ehlcontact.solver.domain import Domain
@@ -63,6 +64,11 @@ def quantity_rows(result: Any, remarks: Mapping[str, str], error: Mapping[str, f
             bars = "" if bar is None else f"± {in_unit(quantity.in_si(bar, result.scales), quantity.unit, 1)}"
         rows.append((words(name), shown, ", ".join(filter(None, (beside, bars, remark)))))
     return rows
+
+
+def outside_rows(found: Assumptions) -> list[Row]:
+    """A row for each assumption that does not hold."""
+    return [(f"NOT {one.name}", "", one.verdict) for one in found.out_of_range]
 
 
 def share_text(error: float) -> str:

@@ -17,6 +17,19 @@ PLAIN_WORDS = {
 }
 
 
+_RADIAL = "bearings here carry a radial load at zero contact angle, without axial load or tilt"
+_FILMS = "films are fully flooded and isothermal, without sliding; what that leaves out stands in the answer"
+# What people ask for and no command computes, by the option that they try.
+NOT_IN_THE_MODEL = {
+    **dict.fromkeys(("--axial", "--axial-load", "--thrust", "--contact-angle", "--angle"), _RADIAL),
+    **dict.fromkeys(("--moment", "--tilt", "--misalignment"), _RADIAL),
+    **dict.fromkeys(("--preload", "--axial-preload"), f"{_RADIAL}; radial preload is a --clearance below 0"),
+    **dict.fromkeys(
+        ("--starvation", "--grease", "--thermal", "--heat", "--sliding", "--slip", "--traction"), _FILMS
+    ),
+}
+
+
 def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
     """A usage error in one line: the option, the value and its allowed range, as far as the error has them.
 
@@ -40,6 +53,8 @@ def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
             few = "one value" if parameter.nargs == 1 else f"{parameter.nargs} values"
             found = InputError(_title(parameter, arguments), None, f"followed by {few}{_about(parameter)}")
             return str(found).replace(" = None", "", 1)
+    if kind == "NoSuchOption" and (asked := getattr(error, "option_name", "")) in NOT_IN_THE_MODEL:
+        return f"{asked}: not in the model; {NOT_IN_THE_MODEL[asked]}"
     if kind == "NoSuchOption" and name:
         options = (option.opts[0] for option in command.params if option.opts[0].startswith("--"))
         return f"{message.rstrip('.')}; `{name}` takes {', '.join(options)}"

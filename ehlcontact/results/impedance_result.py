@@ -8,10 +8,11 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.assumptions.judge import judged
 from ehlcontact.origin import Origin
 from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, LENGTH, MOMENT, NUMBER, STIFFNESS
 from ehlcontact.results.frequency import ScaledResponse
-from ehlcontact.summary import contact_text, span
+from ehlcontact.summary import contact_text, note_line, span
 
 Array = NDArray[np.float64]
 
@@ -58,16 +59,23 @@ class ImpedanceResult(ScaledResponse, Origin):
         """How the films were found, in words."""
         return "solved"
 
+    @property
+    def outside_assumptions(self) -> str:
+        """Assumptions that do not hold at this contact, in words (`ehlcontact.assumptions`); empty where none."""
+        return judged(self).headline
+
     def _summary_lines(self) -> list[str]:
         at = f"{self.Omega.size} frequencies, Omega {span(self.Omega)}"
         if self.scales is None:
-            found = [at, f"stiffness K {span(self.stiffness)}", f"damping C {span(self.damping)}"]
+            found = [at, f"stiffness K {span(self.stiffness)}, damping C {span(self.damping)}"]
         else:
             si = self.si
             found = [f"{at}, {span(si.hz, 1.0, 'Hz')}", f"stiffness K {span(si.stiffness, 1e-6, 'N/µm')}"]
-            found.append(f"damping C {span(si.damping, 1.0, 'N s/m')}")
-        return [contact_text(self.point, self.scales), *found, f"linearised on n = {self.n}"]
+            found[-1] += f", damping C {span(si.damping, 1.0, 'N s/m')}"
+        found += [f"linearised on n = {self.n}", *note_line(self.outside_assumptions)]
+        return [contact_text(self.point, self.scales), *found]
 
     def to_dict(self) -> dict[str, Any]:
         """Quantities and origin, ready for JSON; of an SI point with ``si``."""
-        return ScaledResponse.to_dict(self) | self.origin_dict()
+        said = {"outside_assumptions": self.outside_assumptions}
+        return ScaledResponse.to_dict(self) | said | self.origin_dict()

@@ -10,6 +10,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.assumptions.judge import judged
 from ehlcontact.origin import Origin
 from ehlcontact.quantities import ACROSS, ALONG, FORCE, LENGTH, MOMENT, NUMBER, PRESSURE
 from ehlcontact.results.contact_map import contact_panels
@@ -17,7 +18,7 @@ from ehlcontact.results.table import Display, QuantityTable, ScaledTable
 from ehlcontact.solver.error_estimate import ALL, ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.store import stored
-from ehlcontact.summary import contact_text
+from ehlcontact.summary import contact_text, note_line
 
 Array = NDArray[np.float64]
 
@@ -176,6 +177,11 @@ class SteadyResult(ScaledTable, Origin):
         """What a converged film leaves open, in words: where its mesh does not show a film; else empty."""
         return grid_doubt(self.error_estimate) if self.status.ok else ""
 
+    @property
+    def outside_assumptions(self) -> str:
+        """Assumptions that do not hold at this contact, in words (`ehlcontact.assumptions`); empty where none."""
+        return judged(self).headline if self.status.ok else ""
+
     def _panels(self) -> Iterator[Any]:
         places, fields = (self.X, self.Y), (self.P, self.H)
         yield from contact_panels(places, fields, self.h_central, self.point.kappa, self.scales)
@@ -196,9 +202,11 @@ class SteadyResult(ScaledTable, Origin):
             f"approach {size * self.approach:.5g} {unit}; largest pressure {self.p_max:.4g} of the Hertz pressure",
             f"film {central:.4g}{bars[0]} in the centre, {least:.4g}{bars[1]} at least, {unit}",
             *filter(None, [self.reservation]),
+            *note_line(self.outside_assumptions),
         ]
 
     def to_dict(self) -> dict[str, Any]:
         """Numbers without the fields, status and origin, ready for JSON; of an SI point with ``si``."""
         said = {"status": str(self.status), "advice": self.status.advice, "reservation": self.reservation}
+        said["outside_assumptions"] = self.outside_assumptions
         return ScaledTable.to_dict(self) | said | self.origin_dict()

@@ -8,12 +8,13 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact.assumptions.judge import judged
 from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, LENGTH, MOMENT, NUMBER, STIFFNESS
 from ehlcontact.results.frequency import FrequencyResponse, ScaledResponse
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable, plain
-from ehlcontact.summary import contact_text, span
+from ehlcontact.summary import contact_text, note_line, span
 from reduced_models.atlas.frequency_curve import FrequencyCurve
 
 _Floats = NDArray[np.float64]
@@ -94,6 +95,11 @@ class AtlasAnswer(ScaledTable):
         """How the smallest film was found, and how sure it is, in words."""
         return f"from the atlas, ± {100.0 * self.error_bars['h_min'] / self.h_min:.2g} %"
 
+    @property
+    def outside_assumptions(self) -> str:
+        """Assumptions that do not hold at this contact, in words (`ehlcontact.assumptions`); empty where none."""
+        return judged(self).headline
+
     def _summary_lines(self) -> list[str]:
         s, bar = self.scales, self.error_bars
         size, unit = (1.0, "of the dry approach") if s is None else (s.length * 1e6, "µm")
@@ -106,6 +112,7 @@ class AtlasAnswer(ScaledTable):
             f"{size * self.h_min:.4g} ± {size * bar['h_min']:.1g} at least, {unit}",
             f"static tangent {rigid * self.stiffness[0]:.4g}{names[0]}, "
             f"damping {span(self.damping, damps)}{names[1]}",
+            *note_line(self.outside_assumptions),
         ]
 
     @by_name(1)
@@ -139,7 +146,8 @@ class AtlasAnswer(ScaledTable):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON; of an SI point with ``si``."""
-        return super().to_dict() | {"point": self.point.to_dict(), "scales": plain(self.scales)}
+        found = super().to_dict() | {"point": self.point.to_dict(), "scales": plain(self.scales)}
+        return found | {"outside_assumptions": self.outside_assumptions}
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

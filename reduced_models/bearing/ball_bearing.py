@@ -49,7 +49,7 @@ from reduced_models.bearing.kinematics import (
 )
 from reduced_models.bearing.linear_balls import BearingCoefficients, SmallBalls
 from reduced_models.bearing.loss import loss_of, require_loss_factor
-from reduced_models.bearing.race import RACES, Race, films_under, race_of, require_roughness
+from reduced_models.bearing.race import RACES, Race, assumptions_under, films_under, race_of, require_roughness
 from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
 from reduced_models.bearing.state import BearingState
 from reduced_models.elements.wide_range import WideRangeContact
@@ -303,7 +303,9 @@ class BallBearing(Summary):
         w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
         standings = self.ring_equilibria(force, speed, cage_angle)
         balls = SmallBalls.of(self._kernel(speed), self._speed_state(speed), standings)
-        return BearingCoefficients.of(force, speed, cage_angle, w, balls.coefficients(w), standings)
+        matrices, forces = balls.coefficients(w), np.array([standing.force for standing in standings])
+        outside = "" if self.oil is None else assumptions_under(self, speed, forces).headline
+        return BearingCoefficients.of(force, speed, cage_angle, w, matrices, standings, outside)
 
     def ring_equilibria(
         self, load: ArrayLike, speed_rpm: float, cage_angle: float | None = None

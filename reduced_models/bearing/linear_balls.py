@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, HERTZ, LENGTH, RADIAN, SPEED, STIFFNESS
 from ehlcontact.results.frequency import FrequencyResponse
 from ehlcontact.results.table import Display
-from ehlcontact.summary import span
+from ehlcontact.summary import note_line, span
 from reduced_models.bearing.balls import Balls, SpeedState
 from reduced_models.bearing.equilibrium import RingEquilibrium
 from reduced_models.bearing.loss import Loss, response
@@ -112,6 +112,8 @@ class BearingCoefficients(FrequencyResponse):
         Of the ring [m].
     swing : ndarray, shape (2,)
         How far the ring goes up and down while a ball passes slowly [m]; 0 at a given angle of the cage.
+    outside_assumptions : str
+        Assumptions of films that do not hold at the heaviest ball (`ehlcontact.assumptions`); empty where none.
     """
 
     load: Annotated[_Floats, FORCE.over("axis")]
@@ -122,6 +124,7 @@ class BearingCoefficients(FrequencyResponse):
     damping: Annotated[_Floats, DAMPING.over("hz axis by")]
     displacement: Annotated[_Floats, LENGTH.over("axis")]
     swing: Annotated[_Floats, LENGTH.over("axis")]
+    outside_assumptions: str = ""
 
     DISPLAY: ClassVar[Display] = Display(
         rows="hz", panels=("stiffness", "damping"), labels={"axis": ("x", "y"), "by": ("x", "y")}, logs="x"
@@ -135,7 +138,12 @@ class BearingCoefficients(FrequencyResponse):
             f"K_xx {span(K[:, 0, 0], 1e-6, 'N/µm')}, K_yy {span(K[:, 1, 1], 1e-6, 'N/µm')}",
             f"C_xx {span(C[:, 0, 0], 1.0, 'N s/m')}, C_yy {span(C[:, 1, 1], 1.0, 'N s/m')}",
             "means over a ball passage" if self.cage_angle is None else f"cage at {self.cage_angle:.4g} rad",
+            *note_line(self.outside_assumptions),
         ]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        return super().to_dict() | {"outside_assumptions": self.outside_assumptions}
 
     @property
     def hz(self) -> Annotated[_Floats, HERTZ.over("hz")]:
@@ -151,7 +159,9 @@ class BearingCoefficients(FrequencyResponse):
         omega: _Floats,
         matrices: tuple[_Floats, _Floats],
         standings: Sequence[RingEquilibrium],
+        outside_assumptions: str = "",
     ) -> BearingCoefficients:
         """From the mean `matrices` K and C, shape (k, 2, 2), and the positions that they are the mean of."""
         places = np.array([standing.displacement for standing in standings])
-        return cls(load, speed_rpm, cage_angle, omega, *matrices, places.mean(axis=0), np.ptp(places, axis=0))
+        mean, swing = places.mean(axis=0), np.ptp(places, axis=0)
+        return cls(load, speed_rpm, cage_angle, omega, *matrices, mean, swing, outside_assumptions)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from math import ceil, log10
+from math import ceil, log10, sqrt
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact import Geometry, Lubricant, OperatingPoint
+from ehlcontact import Geometry, Lubricant, OperatingPoint, assumptions
+from ehlcontact.assumptions import Assumptions
 from ehlcontact.assumptions.judge import ROUGHEST
 from ehlcontact.checks import require_nonnegative
 from ehlcontact.checks.admissible_range import LIMITS
@@ -172,7 +173,22 @@ def films_under(bearing: Any, speed_rpm: float, force: _Floats, approach: _Float
         moment *= np.array([[film_cutoff(u, bearing.film_limit)[0] for u in row] for row in approach.tolist()])
     torque = rolling_torque(moment[:, 0], moment[:, 1], bearing.ball_diameter, bearing.pitch_diameter)
     found = {"h_central": h_central, "h_min": h_min, "moment": moment, "rolling_torque": torque}
+    found["outside_assumptions"] = assumptions_under(bearing, speed_rpm, force).headline
     return found | ({} if not bearing.roughness else {"lambda_ratio": h_min / bearing.roughness})
+
+
+def assumptions_under(bearing: Any, speed_rpm: float, force: _Floats) -> Assumptions:
+    """Worst of the assumptions at both races of a `BallBearing` in oil, under its largest forces there [N].
+
+    `force` has shape (..., 2): columns for inner and outer race. Surfaces roll as fast at all balls.
+    """
+    rough = (bearing.roughness / sqrt(2.0),) * 2 if bearing.roughness else None
+    found = []
+    for name, load in zip(RACES, force.reshape(-1, 2).max(axis=0).tolist(), strict=True):
+        race = bearing.race(name)
+        point = race.point(max(load, race.loads(speed_rpm)[0]), speed_rpm)
+        found.append(assumptions(point, film=shared_atlas(bearing.atlas).at(point), roughness=rough))
+    return Assumptions.worst_of(found)
 
 
 def _conformity(race: Race, kappa: float) -> float | None:

@@ -13,6 +13,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.quantities import FORCE, LENGTH, MOMENT, NUMBER, RADIAN, SPEED, STIFFNESS
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
+from ehlcontact.summary import note_line
 from reduced_models.bearing.kinematics import RADIANS
 
 _Floats = NDArray[np.float64]
@@ -54,6 +55,8 @@ class BearingState(QuantityTable):
         Torque on the inner ring [N m] that these moments take: `reduced_models.bearing.kinematics.rolling_torque`.
         The hydrodynamic rolling resistance alone. Not in it: sliding, spin and the slip within curved contacts;
         cage, seals and churned oil; hysteresis of the steel; that a hot or starved inlet resists less.
+    outside_assumptions : str
+        Assumptions of films that do not hold at the heaviest ball (`ehlcontact.assumptions`); empty where none.
     """
 
     name: str
@@ -70,6 +73,7 @@ class BearingState(QuantityTable):
     lambda_ratio: Annotated[_Floats | None, NUMBER.over("ball race")] = None
     moment: Annotated[_Floats | None, MOMENT.over("ball race")] = None
     rolling_torque: Annotated[float | None, MOMENT] = None
+    outside_assumptions: str = ""
 
     DISPLAY: ClassVar[Display] = Display(
         rows="ball",
@@ -105,7 +109,8 @@ class BearingState(QuantityTable):
         else:
             lines.append("no film: dry")
         torque = self.rolling_torque
-        return lines if torque is None else [*lines, f"films resist rolling with {1e3 * torque:.4g} N mm"]
+        lines[-1] += "" if torque is None else f"; films resist rolling with {1e3 * torque:.4g} N mm"
+        return [*lines, *note_line(self.outside_assumptions)]
 
     @property
     def loaded(self) -> int:
@@ -136,4 +141,4 @@ class BearingState(QuantityTable):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        return {"name": self.name, **super().to_dict()}
+        return {"name": self.name, **super().to_dict(), "outside_assumptions": self.outside_assumptions}

@@ -174,3 +174,32 @@ def test_nothing_takes_the_place_of_the_file(refused, file):
     path = file()
     refused(("--json", "which is read"), "bearing", path, "--json", path)
     assert path.read_text() == EXAMPLE.read_text()
+
+
+def test_what_the_films_assume_and_does_not_hold_stands_in_the_answer(call):
+    """30 000 rev/min in VG 68: formulas take half of the film away."""
+    shown = call("bearing", "6205", *OIL, "--load", "1000", "--speed-rpm", "3000", "--speed-rpm", "20000").out
+    slow, fast = shown.split("at 20000 rpm")
+    assert "NOT AS ASSUMED" in fast and "isothermal (shear heats" in fast and "NOT AS ASSUMED" not in slow
+    document = json.loads(
+        call("bearing", "6205", *OIL, "--load", "1000", "--speed-rpm", "20000", "--json", "-").out
+    )
+    bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
+    state = bearing.equilibrium((0.0, -1000.0), speed_rpm=20000.0)
+    assert document["states"][0]["outside_assumptions"] == state.outside_assumptions != ""
+
+
+@pytest.mark.parametrize("command", [("bearing", "6205"), ("steady",), ("element",)])
+@pytest.mark.parametrize("option", ["--axial", "--preload", "--contact-angle", "--tilt", "--starvation"])
+def test_what_is_not_in_the_model_is_said_in_one_line(call, command, option):
+    for given in ((option, "100"), (f"{option}=100",)):
+        result = call(*command, *OIL, *given)
+        assert result.code == 2 and result.out == "" and len(result.err.splitlines()) == 1
+        assert f"{option}: not in the model; " in result.err
+    assert ("--clearance" in result.err) == (option == "--preload")
+
+
+def test_the_help_says_first_what_is_in_the_model(call):
+    lines = call("bearing", "--help").out.splitlines()
+    first = " ".join(lines[: next(k for k, line in enumerate(lines) if "Arguments" in line)])
+    assert "In the model: radial load" in first and "Not in it: axial load" in first

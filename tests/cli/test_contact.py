@@ -5,7 +5,16 @@ from math import pi
 
 import pytest
 
-from ehlcontact import Grid, Lubricant, OperatingPoint, SimulationResult, impedance, load, solve_steady
+from ehlcontact import (
+    Grid,
+    Lubricant,
+    OperatingPoint,
+    SimulationResult,
+    assumptions,
+    impedance,
+    load,
+    solve_steady,
+)
 from ehlcontact.cli.contact import Contact
 from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.errors import InputError
@@ -159,3 +168,23 @@ def test_method_and_tolerance(call, refused, point):
     tight, short = (json.loads(call(*run, *more).out) for more in (("--tol", "1e-6"), ()))
     assert tight["force"] != short["force"] and tight["force"] == pytest.approx(short["force"], rel=1e-2)
     refused(("--tol = 0.0", "> 0"), *run[:-4], "--tol", "0")
+
+
+def test_assumptions_that_do_not_hold_stand_in_every_answer(call):
+    """With the oil of the command, in the table and in JSON; the roughness is judged where it is given."""
+    fast = options(**{"speed-rpm": "25000", "load": "1000"})
+    point = Contact(bearing="6205", oil="68", temp=60.0, speed_rpm=25000.0, load=1000.0).point()
+    motion = ("--harmonic-hz", "20000", "--until", "2e-6", "--dt", "1e-6")
+    wanted = f"{100.0 * (1.0 - assumptions(point)['isothermal'].value):.0f} % thinner"
+    for command, more in (
+        ("steady", COARSE),
+        ("impedance", COARSE),
+        ("element", ()),
+        ("simulate", (*COARSE, *motion)),
+    ):
+        result = call(command, *fast, *more, "--json", "-")
+        assert f"film {wanted}" in json.loads(result.out)["outside_assumptions"], command
+        shown = " ".join(call(command, *fast, *more).out.split())
+        assert "NOT isothermal shear heats the inlet" in shown and "thinner" in shown
+    assert "NOT smooth" in call("element", *fast, "--rq", "0.5").out
+    assert "NOT" not in call("element", *options()).out

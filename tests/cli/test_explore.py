@@ -111,6 +111,7 @@ def test_oils_by_grade_are_those_of_python(ask):
         oil = Lubricant.iso_vg(one["grade"], temperature=one["temperature"])
         assert here["eta0"] == pytest.approx(oil.eta0, rel=CLOSE)
         assert here["alpha"] == pytest.approx(oil.alpha, rel=CLOSE)
+        assert here["temperature_slope"] == pytest.approx(oil.temperature_slope, rel=CLOSE)
     assert refusals == 5  # VG 10 at 120 C is too thin
 
 
@@ -192,6 +193,30 @@ def test_bearings_stand_and_vibrate_as_in_python(ask, bearings):
                 mine = [row[way][name] for row in here["both"]]
                 np.testing.assert_allclose(mine, getattr(vibrations, name)[:, k, k], rtol=CLOSE, err_msg=name)
     assert stood >= 12
+
+
+OUTSIDE = """
+const bearing = new Bearing(asked.bearing, asked.oil, atlas), atSpeed = bearing.speedState(asked.rpm);
+return outsideAssumptions(bearing, atSpeed, bearing.ringEquilibrium(atSpeed, asked.load).balls);
+"""
+
+
+def test_assumptions_that_do_not_hold_are_those_of_python(ask):
+    """Heat of the inlet, for oils by grade and by viscosity; stress of thick oils; at both races."""
+    oils = [Lubricant.iso_vg(grade, temperature=t) for grade, t in ((32, 45.0), (68, 60.0), (460, 50.0))]
+    oils += [Lubricant(eta0=0.024, alpha=1.8e-8), Lubricant(eta0=0.1, alpha=1.05e-8)]
+    names = "eta0", "alpha", "temperature_slope"
+    known = [{name: value for name in names if (value := getattr(oil, name)) is not None} for oil in oils]
+    cases = [case(oil=oil, rpm=rpm, clearance=2e-6) for oil in known for rpm in (300.0, 1300.0)]
+    cases += [case(oil=known[4], rpm=9e4), *(case(oil=known[1], rpm=rpm, load=300.0) for rpm in (9e3, 3e4))]
+    headlines = []
+    for one in cases:
+        bearing = BallBearing(**one["bearing"], oil=Lubricant(**one["oil"]))
+        state = bearing.equilibrium((0.0, -one["load"]), speed_rpm=one["rpm"])
+        headlines.append(state.outside_assumptions)
+    assert ask(OUTSIDE, cases) == headlines
+    assert any("newtonian" in text for text in headlines) and sum(text == "" for text in headlines) > 3
+    assert "isothermal (shear heats the inlet: film 5" in headlines[-1]
 
 
 def same_refusal(here, there):

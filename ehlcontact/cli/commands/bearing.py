@@ -149,7 +149,17 @@ def bearing(
     options: BearingOptions,
     out: o.FigureOutput,
 ) -> None:
-    """Look at a ball bearing: loads, films, lambda and rolling resistance, stiffness and damping over speed."""
+    """Look at a ball bearing: loads, films, lambda and rolling resistance, stiffness and damping over speed.
+
+    In the model: radial load on rigid rings at zero contact angle, and balls
+    with elastic contacts and oil films, memory included, at both races.
+    Films are flooded, isothermal and between smooth surfaces.
+
+    Not in it: axial load and preload, contact angles, tilted or flexible
+    rings; heat in the inlet, starvation, grease, sliding.
+
+    Each answer names the assumptions of films that do not hold in it.
+    """
     from ehlcontact.cli.study.bearing import load_job
 
     out.check(Path(source))
@@ -221,7 +231,9 @@ def _at_speed(b: BallBearing, state: BearingState, at: BearingCoefficients) -> l
     """Deflection, stiffness, damping, resistance and frequencies at a speed."""
     K, C, swing = at.stiffness[0], at.damping[0], at.swing[1] * 1e9
     deflection = in_unit(-at.displacement[1], "m")
+    outside = state.outside_assumptions.removeprefix("Outside what is assumed: ")
     return [
+        *([("NOT AS ASSUMED", "", outside)] if outside else []),
         ("deflection", deflection, f"{numeral(swing, 3)} nm up and down at ball passage"),
         ("along the load", in_unit(K[1, 1], "N/m"), in_unit(C[1, 1], "N s/m")),
         ("across it", in_unit(K[0, 0], "N/m"), in_unit(C[0, 0], "N s/m")),

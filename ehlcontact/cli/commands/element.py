@@ -13,7 +13,7 @@ from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import Contact, Frequencies, Surfaces
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.rows import Row, in_unit, quantity_rows
+from ehlcontact.cli.rows import Row, in_unit, outside_rows, quantity_rows
 from ehlcontact.errors import InputError
 
 SHOWN = 0.05, 1.0, math.tau  # dimensionless frequencies of the atlas that the table shows
@@ -54,19 +54,25 @@ def element(
         answer, made = table.at(point), table.element(point, kind.model, **at)
     if contact.description:
         made = replace(made, source={**(made.source or {}), "contact": contact.description})
+    found = contact.judged(point, answer, surfaces)
     rough = () if surfaces.rq is None else surfaces.rows(answer.si.h_min)
     about = {} if surfaces.rq is None else surfaces.about(answer.si.h_min)
     shown = (
         f"{kind.model} element from the atlas, version {table.metadata['version']}",
         [
             *contact.rows(point),
+            *outside_rows(found),
             *_answer(answer, contact.speed_rpm),
             *rough,
             *_damper(made),
             *_valid(made),
         ],
     )
-    out.deliver({**made.to_dict(), **contact.about(point), **about}, shown, save=made)
+    out.deliver(
+        {**made.to_dict(), **contact.about(point), **about, "outside_assumptions": found.headline},
+        shown,
+        save=made,
+    )
 
 
 def _answer(answer: AtlasAnswer, rpm: float | None) -> list[Row]:

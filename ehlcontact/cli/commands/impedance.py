@@ -8,7 +8,7 @@ from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import Contact, Frequencies
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.progress import progress
-from ehlcontact.cli.rows import Row, in_unit, run_rows
+from ehlcontact.cli.rows import Row, in_unit, outside_rows, run_rows
 
 if TYPE_CHECKING:
     from ehlcontact.results import ImpedanceResult
@@ -24,16 +24,18 @@ def impedance(contact: Contact, grid: o.Grid, frequencies: Frequencies, out: o.O
     out.check()
     with progress("linearised contact"):
         result = solve(point, **at, **chosen)
+    found = contact.judged(point, result)
     static = "static load 1, dry approach 1, time unit 2a/u_sum"
     table = (
         f"impedance: force over approach, {static if result.scales is None else 'small vibrations about rest'}",
         [
             *contact.rows(point),
+            *outside_rows(found),
             *_rows(result),
             *run_rows(result),
         ],
     )
-    out.deliver({**result.to_dict(), **contact.about(point)}, table)
+    out.deliver({**result.to_dict(), **contact.about(point), "outside_assumptions": found.headline}, table)
 
 
 def _rows(result: ImpedanceResult) -> list[Row]:

@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import typer
 
+from ehlcontact.assumptions import assumptions
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import NO_TIME, Contact, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
-from ehlcontact.cli.rows import Row, in_unit, quantity_rows, run_rows, share_text
+from ehlcontact.cli.rows import Row, in_unit, outside_rows, quantity_rows, run_rows, share_text
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.process.early_interrupt import INTERRUPTED
@@ -233,8 +234,9 @@ def simulate(
             result, unkept = error.result, error
     # stopped before the first step, there is nothing to draw
     drawn = partial(_draw, result) if result.steps else None
-    rows = [*contact.rows(point), *_rows(result)]
-    about = contact.about(point)
+    found = assumptions(point, domain=result.domain)
+    rows = [*contact.rows(point), *outside_rows(found), *_rows(result)]
+    about = contact.about(point) | {"outside_assumptions": found.headline}
     if result.scales is not None:
         rows += surfaces.rows(result.si.h_min.min())
         about |= surfaces.about(float(result.si.h_min.min()))

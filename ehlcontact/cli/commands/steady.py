@@ -14,7 +14,7 @@ from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import Contact, Surfaces
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
-from ehlcontact.cli.rows import Row, quantity_rows, run_rows, share_text
+from ehlcontact.cli.rows import Row, outside_rows, quantity_rows, run_rows, share_text
 from ehlcontact.results.contact_map import REACH
 from ehlcontact.solver.domain import Domain
 
@@ -83,7 +83,10 @@ def steady(
         )
     rough = () if result.scales is None else surfaces.rows(result.si.h_min)
     about = contact.about(point) | ({} if result.scales is None else surfaces.about(result.si.h_min))
-    table = "steady film", [*contact.rows(point), *_rows(result), *rough]
+    found = contact.judged(point, result, surfaces) if result.status.ok else None
+    outside = [] if found is None else outside_rows(found)
+    about |= {"outside_assumptions": "" if found is None else found.headline}
+    table = "steady film", [*contact.rows(point), *outside, *_rows(result), *rough]
     out.deliver({**result.to_dict(), **about}, table, save=result, figure=partial(_draw, result))
     if result.reservation:
         complain(f"warning: {result.reservation}")

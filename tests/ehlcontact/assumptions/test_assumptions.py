@@ -8,7 +8,18 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from ehlcontact import Domain, Grid, InputError, Lubricant, MoesPoint, OperatingPoint, assumptions, solve_steady
+from ehlcontact import (
+    Domain,
+    Grid,
+    InputError,
+    Lubricant,
+    MoesPoint,
+    OperatingPoint,
+    assumptions,
+    impedance,
+    solve_steady,
+)
+from ehlcontact.assumptions import Assumptions
 from ehlcontact.assumptions.contact import Contact
 from ehlcontact.film_formulas import (
     flooding_distance,
@@ -17,6 +28,7 @@ from ehlcontact.film_formulas import (
     wilson_heating,
 )
 from ehlcontact.hertz import shape_factor
+from reduced_models import Atlas, BallBearing
 
 OIL = Lubricant.iso_vg(68, temperature=50.0)
 NAMES = ["isothermal", "newtonian", "smooth", "fully flooded", "constant speed", "one direction", "elastic"]
@@ -105,7 +117,7 @@ def test_unknown_slope_is_that_of_a_typical_oil():
 @pytest.mark.parametrize(
     ("name", "arguments", "words"),
     [
-        ("isothermal", dict(point=bearing(10000.0)), "off the film"),
+        ("isothermal", dict(point=bearing(10000.0)), "thinner"),
         ("newtonian", dict(point=bearing(), film_factor=0.1), "shears the inlet"),
         ("smooth", dict(point=bearing(), roughness=(1e-7, 1e-7)), "mixed"),
         ("smooth", dict(point=bearing(), roughness=(4e-7, 4e-7)), "boundary"),
@@ -268,3 +280,43 @@ def test_hertz_pressure_by_hand():
     assert assumptions(point)["elastic"].value == pytest.approx(
         1.5 * point.load / (pi * point.scales.a * point.scales.b), rel=1e-12
     )
+
+
+# In every answer -------------------------------------------------------------------------------------------------
+def test_answers_name_what_does_not_hold():
+    """Film, impedance and answer of the atlas: at the prompt and in JSON; nothing where all holds."""
+    fast, grid = bearing(20000.0), Grid(n=64)
+    for point, outside in ((fast, True), (bearing(1000.0, load=50.0), False)):
+        for found in (solve_steady(point, grid=grid), impedance(point, hz=500.0, grid=grid), Atlas().at(point)):
+            said = found.outside_assumptions
+            assert said == assumptions(found.point, film=found, scales=found.scales).headline
+            assert found.to_dict()["outside_assumptions"] == said and ("isothermal" in said) is outside
+            assert ("heats the inlet: film" in repr(found)) is outside and len(repr(found).splitlines()) <= 5
+    lost = solve_steady(fast, grid=grid, max_cycles=1, throw=False)
+    assert lost.outside_assumptions == "" and not lost.status.ok  # the film is not known
+
+
+def test_a_bearing_names_what_does_not_hold_at_its_worst_contact():
+    kind = BallBearing.catalogue("6205", oil=OIL, rq_race=0.5e-6)
+    state, at = (
+        kind.equilibrium((0.0, -1000.0), speed_rpm=20000.0),
+        kind.coefficients((0.0, -1000.0), speed_rpm=20000.0, hz=100.0),
+    )
+    for found in (state, at):
+        said = found.outside_assumptions
+        assert "isothermal" in said and "smooth" in said and said in found.to_dict().values()
+        assert "isothermal" in repr(found) and len(repr(found).splitlines()) <= 5
+    contacts = []
+    for k, name in enumerate(("inner", "outer")):
+        point = kind.race(name).point(state.force[:, k].max(), 20000.0)
+        contacts.append(assumptions(point, film=Atlas().at(point), roughness=(0.5e-6 / sqrt(2.0),) * 2))
+    worst = min(contact["isothermal"].value for contact in contacts)
+    assert Assumptions.worst_of(contacts)["isothermal"].value == worst
+    assert state.outside_assumptions == Assumptions.worst_of(contacts).headline
+    assert BallBearing.catalogue("6205").equilibrium((0.0, -1000.0)).outside_assumptions == ""  # dry
+
+
+def test_the_worst_of_contacts_is_judged_before_one_that_is_not():
+    rough, unknown = (assumptions(bearing(), roughness=rq) for rq in ((2e-7, 2e-7), None))
+    assert Assumptions.worst_of([unknown, rough])["smooth"].value == rough["smooth"].value
+    assert Assumptions.worst_of([unknown, unknown])["smooth"].value is None

@@ -21,5 +21,8 @@ function mineralOil(data, grade, temperature) {
   // alpha such that Roelands' law passes through Gold's viscosity at 200 MPa
   const q = Math.log(eta0) + data.roelands_log, secant = data.gold_s * nu ** data.gold_t;
   const z = Math.log1p(secant * data.gold_pressure / q) / Math.log1p(data.gold_pressure / data.roelands_p0);
-  return { eta0, alpha: z * q / data.roelands_p0 };
+  // -d ln(eta0)/dT: of Walther's line, and of the density
+  const shifted = nu + data.shift, ofDensity = data.expansion / data.density_15 * (1 + 1.6 * x);
+  const temperature_slope = slope * shifted * Math.log(shifted) / (nu * (temperature + data.kelvin)) + ofDensity;
+  return { eta0, alpha: z * q / data.roelands_p0, temperature_slope };
 }

@@ -64,7 +64,8 @@ function compute() {
   const low = Math.min(1, rpm / 600), hzs = Array.from({ length: FREQUENCIES }, (_, i) => low * (highest / low) ** (i / (FREQUENCIES - 1)));
   const rows = whole.coefficients(atSpeed, load, [0, hz, ...hzs].map(one => 2 * Math.PI * one));
   const contacts = films[0].map(film => film.answer && contact(film));
-  return { whole, rpm, load, rq, ratio, state, films, hz, hzs, contacts, still: rows[0], there: rows[1], over: rows.slice(2) };
+  const outside = outsideAssumptions(whole, atSpeed, state.balls);
+  return { outside, whole, rpm, load, rq, ratio, state, films, hz, hzs, contacts, still: rows[0], there: rows[1], over: rows.slice(2) };
 }
 
 // K and C of one film in SI, with their bars: hz => { K: [value, bar], C: [value, bar] }.
@@ -153,6 +154,8 @@ const degrees = (f, k) => show(360 * k / f.whole.balls, 4);
 
 function tables(f) {
   field("headline").textContent = headline(f);
+  field("outside").textContent = f.outside;
+  field("outside").hidden = f.outside === "";
   field("python").textContent = inPython();
   field("films").innerHTML = table("Heaviest ball, right under the load", ["", "inner race", "outer race"], filmRows(f));
   field("at").innerHTML = table(`At ${show(f.hz, 4)} Hz`, ["", "stiffness [N/µm]", "damping [N s/m]"], frequencyRows(f));

@@ -1,0 +1,41 @@
+// What does not hold of the assumptions of films: ehlcontact.assumptions, at the heaviest contacts of a bearing.
+
+const { CONDUCTIVITY, LEAST_HEATING_FACTOR, EYRING_STRESS, LARGEST_STRESS } = DATA.rules;
+const { TYPICAL_SLOPE, TYPICAL_DENSITY, LEAST_SLOPE } = DATA.rules;
+
+// -d ln(eta)/dT [1/K] of an oil, and of one of which only the viscosity is known.
+function temperatureSlope({ eta0, temperature_slope }) {
+  const typical = TYPICAL_SLOPE * Math.log(eta0 / TYPICAL_DENSITY * 1e6 + DATA.oil.shift);
+  return temperature_slope ?? Math.max(typical, LEAST_SLOPE);
+}
+
+// Film over the isothermal one: gupta_heating and wilson_heating of ehlcontact.film_formulas.
+function guptaHeating(load, pressure) {
+  return Math.max((1 - 13.2 * pressure * load ** 0.42) / (1 + 0.213 * load ** 0.64), 0);
+}
+
+const wilsonHeating = load => 1 / (1 + 0.1 * (4 * load) ** 0.64);
+const shareText = share => `${(100 * share).toFixed(share < 0.1 ? 1 : 0)} %`;
+
+// Assumptions of the contact of a race under a load [N]: how far beyond its limit, relative, and what it says. Balls
+// leave dents at higher pressures than the atlas has.
+function assumptions(race, atSpeed, load) {
+  const carried = Math.max(load, race.loads(atSpeed.rpm)[0]), point = race.point(carried, atSpeed.rpm);
+  const { eta0 } = race.oil, { a } = race.hertz(carried), u = a / point.time;
+  const pressure = 1.5 * carried * race.kappa / (Math.PI * a * a), film = race.atlas.at(point).h_central * point.length;
+  const heat = temperatureSlope(race.oil) * eta0 * u * u / CONDUCTIVITY, left = guptaHeating(heat, pressure / race.eReduced);
+  const stress = 1.5 * (point.L > 0 ? Math.E : 1) * eta0 * u / film;
+  const heated = `shear heats the inlet: film ${shareText(1 - left)} thinner, ${shareText(1 - wilsonHeating(heat))} by Wilson and Sheu`;
+  return [
+    ["isothermal", (LEAST_HEATING_FACTOR - left) / LEAST_HEATING_FACTOR, heated],
+    ["newtonian", (stress / EYRING_STRESS - LARGEST_STRESS) / LARGEST_STRESS, `rolling shears the inlet by ${g(stress * 1e-6, 2)} MPa`],
+  ];
+}
+
+// What does not hold at the largest forces on both races, the worse of them; empty where all does.
+function outsideAssumptions(bearing, atSpeed, balls) {
+  const [inner, outer] = ["inner", "outer"].map((name, i) =>
+    assumptions(bearing.races[name], atSpeed, Math.max(...balls.map(ball => ball.force[i]))));
+  const worst = inner.map((one, k) => (outer[k][1] > one[1] ? outer[k] : one)).filter(one => one[1] > 0);
+  return worst.length ? `Outside what is assumed: ${worst.map(([name, , text]) => `${name} (${text})`).join("; ")}.` : "";
+}
