@@ -1,7 +1,11 @@
 """Limit of BLAS to one thread during a solve.
 
 The matrices have some thousand unknowns at most. A second thread of BLAS gains nothing there, and one without work
-spins: steps in time took twice as much processor time as they lasted.
+spins: steps in time took twice as much processor time as they lasted, answers of an atlas three times.
+
+The rule: a function that solves dense systems, or multiplies matrices, of tens to thousands of rows again and
+again has this decorator (solves, runs and impedances, answers of an atlas, fits and checks of a film memory).
+Systems of a few rows, as a rotor's, do not wake a second thread.
 """
 
 from __future__ import annotations

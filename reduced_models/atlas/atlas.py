@@ -19,7 +19,6 @@ from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
-from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.store import load as read_file
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
 from reduced_models.atlas.atlas_elements import (
@@ -316,7 +315,6 @@ def _read_once(path: Path, version: tuple[int, ...]) -> tuple[AtlasTable, AtlasS
     return _read(path)
 
 
-@one_blas_thread()
 def _read(path: str | os.PathLike[str]) -> tuple[AtlasTable, AtlasSurface]:
     table = read_file(path, AtlasTable, "atlas")
     return table, AtlasSurface(table)

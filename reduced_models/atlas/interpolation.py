@@ -20,6 +20,7 @@ from scipy.spatial.distance import cdist
 
 from ehlcontact.film_formulas import expected_film, lightness
 from ehlcontact.hertz import radius_ratio
+from ehlcontact.process.blas import one_blas_thread
 from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Interpolation
 
 _Floats = NDArray[np.float64]
@@ -115,6 +116,7 @@ class _Radial:
 class AtlasSurface:
     """The table as a function of rows (M, L, kappa)."""
 
+    @one_blas_thread()
     def __init__(self, table: AtlasTable) -> None:
         by = self._by = table.interpolation
         film = films(table.points)
@@ -140,12 +142,14 @@ class AtlasSurface:
         """Median distance of the points from the farthest of their neighbours that make the error bar."""
         return self._usual_reach
 
+    @one_blas_thread()
     def at(self, points: _Floats) -> tuple[_Floats, _Floats]:
         """Answers, shape (n, 5 + 2 k), and gains over the low-frequency damping."""
         film = films(points)
         found, _ = self._interpolated(points, film, slice(None))
         return from_smooth(film, found[:, : self._smooth], self._by)[0], found[:, self._smooth :]
 
+    @one_blas_thread()
     def with_bars(self, points: _Floats, extra: _Floats) -> tuple[_Floats, _Floats]:
         """Answers and half widths of their error bars, both shape (n, 5 + 2 k).
 

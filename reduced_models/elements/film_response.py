@@ -23,6 +23,7 @@ from scipy.optimize import nnls
 
 from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.errors import InputError
+from ehlcontact.process.blas import one_blas_thread
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -75,6 +76,7 @@ class FilterRates:
         chain = (1.0 / (1.0 + s / self.lag_rate)) ** np.arange(1, self.lags + 1)
         return np.concatenate([np.ones_like(s), inlet, 1.0 / (1.0 + s / self.fast_rate), inlet * chain], axis=-1)
 
+    @one_blas_thread()
     def passive(self, gains: ArrayLike) -> bool:
         """Whether every row of `gains`, shape (rows, 3 + lags) or (3 + lags,), has Re G >= 0 at all frequencies.
 

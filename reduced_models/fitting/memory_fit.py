@@ -13,6 +13,7 @@ from scipy.optimize import least_squares
 from ehlcontact import Domain, Grid, ImpedanceResult, impedance
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
+from ehlcontact.process.blas import one_blas_thread
 from reduced_models.elements.film_law import FilmLaw, film_drive
 from reduced_models.elements.film_memory import FilmMemoryContact, approach_under, film_and_exponent, memory_curve
 from reduced_models.elements.film_response import WEIGHT_C, WEIGHT_K, FilterRates, GainFit, fit_gains
@@ -140,6 +141,7 @@ class Target:
         )
 
 
+@one_blas_thread()
 def fit_memory(
     response: Response | None, records: ContactRecord | Sequence[ContactRecord] = (), *, lags: int | None = None
 ) -> MemoryFit:

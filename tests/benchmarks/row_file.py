@@ -78,10 +78,10 @@ def in_processes(tasks: list[Task], jobs: int = 1, lasting: bool = False) -> Ite
     """Rows as they come, each from a fresh process: peak memory is its own, and one that dies takes none along.
 
     With `lasting`, each of the `jobs` processes takes `LASTING` tasks or so, which is for many small ones; where
-    one dies, all that is left of these falls with it. BLAS has one thread in each where there are several.
+    one dies, all that is left of these falls with it. BLAS has one thread in each: outside solves
+    a second one would spin, which counts as processor time.
     """
-    if jobs > 1:
-        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     size = jobs * LASTING if lasting else jobs
     groups = [tasks[k : k + size] for k in range(0, len(tasks), size)]
     for group in groups:
