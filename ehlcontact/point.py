@@ -186,6 +186,22 @@ class Geometry:
         along = 2.0 / D + 2.0 / (dm - D) if race == "inner" else 2.0 / D - 2.0 / (dm + D)
         return cls(1.0 / along, 1.0 / (2.0 / D - 1.0 / (conformity * D)), **materials)
 
+    @classmethod
+    @takes(ball_diameter="m")
+    def ball_on_flat(cls, ball_diameter: float, **materials: float) -> Geometry:
+        """Contact of a ball [m] with a flat, as on a ball-on-disc rig; the ball is the first body.
+
+        A glass disc: ``Geometry.ball_on_flat(19.05e-3, e1=2.1e11, e2=7e10, nu2=0.21)``.
+
+        Raises
+        ------
+        InputError
+            A diameter that no ball has; an impossible material.
+        """
+        D = require_positive("ball_diameter", ball_diameter)
+        INPUTS["ball_diameter"].require("ball_diameter", D)
+        return cls(0.5 * D, 0.5 * D, **materials)
+
     @property
     def e_reduced(self) -> float:
         """E' with 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2 [Pa]."""
@@ -320,6 +336,35 @@ class OperatingPoint:
         # Both surfaces roll at omega dm (1 - gamma^2)/4 seen from the contact, on either race.
         u_sum = omega * pitch_diameter * (1.0 - gamma * gamma) / 2.0
         return cls(geometry, lubricant, load, u_sum)
+
+    @classmethod
+    @takes(ball_diameter="m", entrainment_speed="m/s", load="N")
+    def ball_on_flat(
+        cls,
+        lubricant: Lubricant,
+        *,
+        ball_diameter: float,
+        entrainment_speed: float,
+        load: float,
+        **materials: float,
+    ) -> OperatingPoint:
+        """Operating point of a ball rolling on a flat, as on a ball-on-disc rig.
+
+        Parameters
+        ----------
+        ball_diameter : float
+            In m.
+        entrainment_speed : float
+            Mean of both surface speeds [m/s]: half of `u_sum`.
+        load : float
+            In N.
+        **materials
+            ``e1``, ``nu1`` of the ball, ``e2``, ``nu2`` of the flat, as of `Geometry`; bearing steel by default.
+        """
+        geometry = Geometry.ball_on_flat(ball_diameter, **materials)
+        speed = require_positive("entrainment_speed", entrainment_speed)
+        INPUTS["entrainment_speed"].require("entrainment_speed", speed)
+        return cls(geometry, lubricant, load, 2.0 * speed)
 
     @takes(mass="kg")
     def Omega_n(self, mass: float) -> float:

@@ -65,6 +65,7 @@ INPUTS: Mapping[str, Quantity] = {
     "e2": Quantity("Pa", (1e6, 2e12), (1e9, 1.3e12), {"GPa": 1e9, "MPa": 1e6}),
     "load": Quantity("N", (1e-6, 1e8), (0.1, 1e6), {"kN": 1e3}),
     "u_sum": Quantity("m/s", (1e-6, 1e3), (1e-2, 200.0), {"mm/s": 1e-3}),
+    "entrainment_speed": Quantity("m/s", (5e-7, 500.0), (5e-3, 100.0), {"mm/s": 1e-3}),
     "eta0": Quantity("Pa s", (1e-4, 5.0), (1e-3, 2.0), {"mPa s": 1e-3, "m2/s": 870.0}),
     "alpha": Quantity("1/Pa", (1e-10, 1e-6), (5e-9, 5e-8), {"1/GPa": 1e-9, "1/MPa": 1e-6}),
 }

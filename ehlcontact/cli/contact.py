@@ -1,4 +1,4 @@
-"""Which contact a command is about: a ball of a bearing in SI, or Moes' dimensionless numbers."""
+"""Which contact a command is about: a ball of a bearing or on a disc in SI, or Moes' dimensionless numbers."""
 
 from __future__ import annotations
 
@@ -23,7 +23,11 @@ from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
 
 _SI, _MOES, _LAWS = "A ball of a bearing, in SI", "Or a point without dimensions", "Laws of the oil"
-BESIDE = "or a ball of a bearing: --bearing, --oil, --temp, --speed-rpm, --load"
+_DISC = "Or a ball on a disc, in SI (with --oil, --temp, --load)"
+BESIDE = (
+    "or a ball of a bearing: --bearing, --oil, --temp, --speed-rpm, --load; "
+    "or a ball on a disc: --ball-diameter, --entrainment, --oil, --temp, --load"
+)
 NO_TIME = (
     "a point of --M --L --kappa has no unit of time; its frequencies are given as --Omega, 2a/u_sum times rad/s"
 )
@@ -40,6 +44,10 @@ def _moes(name: str) -> Any:
     return typer.Option(name, rich_help_panel=_MOES, show_default=False)
 
 
+def _disc(name: str, metavar: str | None = None, **more: Any) -> Any:
+    return typer.Option(name, metavar=metavar, rich_help_panel=_DISC, **({"show_default": False} | more))
+
+
 def _law(*names: str, **more: Any) -> Any:
     return typer.Option(*names, rich_help_panel=_LAWS, **more)
 
@@ -48,7 +56,7 @@ OIL_NAME = typer.Option("--oil", metavar="GRADE", help='ISO grade of a mineral o
 
 
 class Contact(Options):
-    """Which contact it is: that of a bearing's most loaded ball, or M, L and kappa."""
+    """Which contact it is: that of a bearing's most loaded ball, of a ball on a disc, or M, L and kappa."""
 
     panel: ClassVar[str | None] = _SI
     bearing: Annotated[
@@ -60,6 +68,9 @@ class Contact(Options):
     speed_rpm: Annotated[e.Speed | None, typer.Option("--speed-rpm", show_default=False)] = None
     load: Annotated[e.Load | None, typer.Option("--load", show_default=False)] = None
     race: Annotated[e.Race | None, typer.Option("--contact", metavar="RACE", show_default="inner")] = None
+    ball_diameter: Annotated[e.BallDiameter | None, _disc("--ball-diameter", "MM")] = None
+    entrainment: Annotated[e.Entrainment | None, _disc("--entrainment", "M/S")] = None
+    flat: Annotated[e.Flat | None, _disc("--flat", "MATERIAL", show_default="steel")] = None
     M: Annotated[float | None, _moes("--M"), e.meaning("Moes load parameter, > 0")] = None
     L: Annotated[float | None, _moes("--L"), e.meaning("Moes lubricant parameter, >= 0")] = None
     kappa: Annotated[float | None, _moes("--kappa"), e.meaning("ellipse ratio a/b, 0.01 to 100")] = None
@@ -76,13 +87,18 @@ class Contact(Options):
 
     @property
     def in_si(self) -> bool:
-        """Whether a bearing is given: answers are in SI then."""
-        return bool(self._of_bearing)
+        """Whether a ball of a bearing or on a disc is given: answers are in SI then."""
+        return bool(self._of_bearing or self._of_disc)
 
     @property
     def _of_bearing(self) -> dict[str, Any]:
         options = {"--bearing": self.bearing, "--oil": self.oil, "--temp": self.temp, "--load": self.load}
         options |= {"--speed-rpm": self.speed_rpm, "--contact": self.race}
+        return {name: value for name, value in options.items() if value is not None}
+
+    @property
+    def _of_disc(self) -> dict[str, Any]:
+        options = {"--ball-diameter": self.ball_diameter, "--entrainment": self.entrainment, "--flat": self.flat}
         return {name: value for name, value in options.items() if value is not None}
 
     def point(self) -> Point:
@@ -91,12 +107,14 @@ class Contact(Options):
         Raises
         ------
         InputError
-            An option of either kind that is missing, or impossible; some of both kinds.
+            An option of a kind that is missing, or impossible; some of two kinds.
         """
         numbers = {"--M": self.M, "--L": self.L, "--kappa": self.kappa}
         given, of_bearing = {k: v for k, v in numbers.items() if v is not None}, self._of_bearing
-        if given and of_bearing:
-            self._refuse_mixture(given, of_bearing)
+        if given and (of_bearing or self._of_disc):
+            self._refuse_mixture(given, self._of_disc or of_bearing)
+        if self._of_disc:
+            return self._ball_on_disc()
         if of_bearing:
             return self._ball()
         for name, value in numbers.items():
@@ -114,7 +132,32 @@ class Contact(Options):
             why = NO_TIME if name == "--speed-rpm" else "that is a point without dimensions"
             raise InputError(name, value, f"left out where {next(iter(numbers))} is given: {why}")
         name, value = next(iter(numbers.items()))
-        raise InputError(name, value, f"left out where {next(iter(of_bearing))} is given: a bearing has its own")
+        other = next(iter(of_bearing))
+        whose = (
+            "a bearing"
+            if other in ("--bearing", "--oil", "--temp", "--speed-rpm", "--load")
+            else "a contact in SI"
+        )
+        raise InputError(name, value, f"left out where {other} is given: {whose} has its own")
+
+    def _ball_on_disc(self) -> OperatingPoint:
+        for name in ("--bearing", "--speed-rpm", "--contact"):
+            if name in self._of_bearing:
+                allowed = f"left out where {next(iter(self._of_disc))} is given: a ball on a disc is of no bearing"
+                raise InputError(name, self._of_bearing[name], allowed)
+        for name in ("ball_diameter", "entrainment", "load"):
+            if getattr(self, name) is None:
+                raise self._missing(name)
+        modulus, ratio = e.FLATS[self.flat or "steel"]
+        with self.called():
+            return OperatingPoint.ball_on_flat(
+                self.lubricant(),
+                ball_diameter=1e-3 * (self.ball_diameter or 0.0),
+                entrainment_speed=self.entrainment or 0.0,
+                load=self.load or 0.0,
+                e2=modulus,
+                nu2=ratio,
+            )
 
     def _ball(self) -> OperatingPoint:
         from reduced_models.bearing.catalogue import catalogue_row
@@ -161,7 +204,8 @@ class Contact(Options):
             yield
             return
         names = {name: f"{name} of this contact" for name in ("M", "L", "kappa")}
-        names |= {"load": "load of the ball"}
+        if not self._of_disc:
+            names |= {"load": "load of the ball"}
         names |= {name: f"{name} of the oil" for name in ("eta0", "alpha") if getattr(self, name) is None}
         with called(**names):
             yield
@@ -179,6 +223,7 @@ class Contact(Options):
             return None
         values = {"--load": (self.load, "load"), "--speed-rpm": (self.speed_rpm, "speed_rpm")}
         values |= {"--eta0": (self.eta0, "eta0"), "--alpha": (self.alpha, "alpha")}
+        values |= {"--entrainment": (self.entrainment, "entrainment_speed")}
         return {name: (value, INPUTS[key]) for name, (value, key) in values.items() if value is not None}
 
     def about(self, point: Point) -> dict[str, Any]:
@@ -186,29 +231,31 @@ class Contact(Options):
         if not isinstance(point, OperatingPoint):
             return {}
         oil = {"name": self._oil_name(), "eta0": point.lubricant.eta0, "alpha": point.lubricant.alpha}
-        return {
-            "contact": {
-                "bearing": self._name,
-                "race": self.race or "inner",
-                "speed_rpm": self.speed_rpm,
-                "radial_load": self.load,
-                "ball_load": point.load,
-                "u_sum": point.u_sum,
-                "p_hertz": point.scales.pressure,
-                "oil": oil,
-            }
-        }
+        of_ball: dict[str, Any] = {"bearing": self._name, "race": self.race or "inner"}
+        of_ball |= {"speed_rpm": self.speed_rpm, "radial_load": self.load}
+        if self._of_disc:
+            of_ball = {"ball_diameter": 2.0 * point.geometry.radius_x, "flat": self.flat or "steel"}
+            of_ball |= {"entrainment_speed": self.entrainment}
+        numbers = {"ball_load": point.load, "u_sum": point.u_sum, "p_hertz": point.scales.pressure, "oil": oil}
+        return {"contact": of_ball | numbers}
 
     def rows(self, point: Point) -> list[Row]:
         """Rows of a table that say which contact this is."""
         if not isinstance(point, OperatingPoint):
             return [("M, L, kappa", ", ".join(map(numeral, (point.M, point.L, point.kappa))), "")]
         s, oil = point.scales, point.lubricant
-        ball = f"{numeral(point.load)} N of {numeral(self.load)} N: the most loaded ball, without clearance"
         ellipse = f"{numeral(2e3 * s.a, 3)} x {numeral(2e3 * s.b, 3)} mm"
+        if self._of_disc:
+            ball = f"steel ball of {numeral(self.ball_diameter)} mm on {self.flat or 'steel'}"
+            whose = [("contact", ball, f"under {numeral(point.load)} N")]
+            whose += [("entrainment", f"{numeral(self.entrainment)} m/s", "mean of both surface speeds")]
+        else:
+            ball = f"{numeral(point.load)} N of {numeral(self.load)} N: the most loaded ball, without clearance"
+            rolls = f"surfaces roll at {numeral(point.u_sum / 2.0)} m/s each"
+            whose = [("contact", f"{self._name}, {self.race or 'inner'} race", ball)]
+            whose += [("speed", f"{numeral(self.speed_rpm)} rpm", rolls)]
         return [
-            ("contact", f"{self._name}, {self.race or 'inner'} race", ball),
-            ("speed", f"{numeral(self.speed_rpm)} rpm", f"surfaces roll at {numeral(point.u_sum / 2.0)} m/s each"),
+            *whose,
             ("oil", self._oil_name(), f"{numeral(oil.eta0, 3)} Pa s, alpha {numeral(oil.alpha, 3)} 1/Pa"),
             ("Hertz pressure", f"{numeral(s.pressure * 1e-9, 3)} GPa", f"on {ellipse}, along and across rolling"),
             ("M, L, kappa", ", ".join(numeral(getattr(point.moes, k)) for k in ("M", "L", "kappa")), ""),
@@ -224,8 +271,11 @@ class Contact(Options):
         """Bearing, race, load, speed and oil in one line; empty for a dimensionless point."""
         if not self.in_si:
             return ""
-        ball = f"most loaded ball of {numeral(self.load)} N at {numeral(self.speed_rpm)} rpm"
         oil = f"oil of {numeral(self.eta0)} Pa s" if self.oil is None else self._oil_name()
+        if self._of_disc:
+            ball = f"steel ball of {numeral(self.ball_diameter)} mm on {self.flat or 'steel'}"
+            return f"{ball}, {numeral(self.load)} N, entrainment {numeral(self.entrainment)} m/s, {oil}"
+        ball = f"most loaded ball of {numeral(self.load)} N at {numeral(self.speed_rpm)} rpm"
         return f"{self._name}, {self.race or 'inner'} race, {ball}, {oil}"
 
     @property
@@ -300,13 +350,17 @@ class Frequencies(Options):
         InputError
             Two names; none, or one with a unit, at a point without a unit of time.
         """
-        first, *others = self.given or ("rpm" if contact.in_si else "Omega",)
+        first, *others = self.given or ("rpm" if contact.speed_rpm is not None else "Omega",)
         values = self.given.get(first)
         if others:
             allowed = f"left out where --{first} is given: a frequency has one name"
             raise InputError(f"--{others[0]}", self.given[others[0]], allowed)
         if first != "Omega" and not contact.in_si:
             raise InputError(f"--{first}", values, f"left out: {NO_TIME}")
+        if values is None and contact.in_si and contact.speed_rpm is None:
+            raise InputError(
+                "--hz", None, "given, or another frequency: a ball on a disc has no shaft whose it could be"
+            )
         if values is None and not contact.in_si:
             raise InputError(
                 "--Omega", None, "given: a dimensionless angular frequency (unit of time 2a/u_sum), >= 0"

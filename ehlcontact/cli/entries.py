@@ -91,6 +91,13 @@ Clearance = Annotated[Finite, meaning("radial internal clearance, um; below 0 th
 Load = Annotated[Positive, Physical(INPUTS["load"]), meaning("radial load on the bearing")]
 Speed = Annotated[Positive, Physical(INPUTS["speed_rpm"]), meaning("speed of the shaft")]
 
+# A ball on a disc, whose materials are known by name: Young's modulus [Pa], Poisson's ratio.
+FLATS = {"steel": (2.06e11, 0.3), "glass": (7.0e10, 0.21)}
+Flat = Annotated[Literal["steel", "glass"], meaning("material of the disc; the ball is of steel")]
+Entrainment = Annotated[
+    Positive, Physical(INPUTS["entrainment_speed"]), meaning("mean of the surface speeds of ball and disc")
+]
+
 # The oil in the inlet of the contact.
 Eta0 = Annotated[Positive, Physical(INPUTS["eta0"]), meaning("viscosity at ambient pressure")]
 Alpha = Annotated[Positive, Physical(INPUTS["alpha"]), meaning("pressure-viscosity coefficient")]

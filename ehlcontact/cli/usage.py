@@ -139,6 +139,7 @@ EXAMPLES = {
     ),
     "steady": (
         f"ehlcontact steady {_BALL} --rq 0.1",
+        "ehlcontact steady --ball-diameter 19.05 --flat glass --entrainment 0.1 --load 20 --oil 100 --temp 40",
         "ehlcontact steady --M 200 --L 10 --kappa 0.5 --figure film.png",
     ),
     "simulate": (

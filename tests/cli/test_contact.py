@@ -188,3 +188,44 @@ def test_assumptions_that_do_not_hold_stand_in_every_answer(call):
         assert "NOT isothermal shear heats the inlet" in shown and "thinner" in shown
     assert "NOT smooth" in call("element", *fast, "--rq", "0.5").out
     assert "NOT" not in call("element", *options()).out
+
+
+DISC = ("--ball-diameter", "19.05", "--flat", "glass", "--entrainment", "0.1", "--load", "20")
+DISC_OIL = ("--eta0", "0.2", "--alpha", "2.5e-8")
+
+
+def on_glass():
+    at = {"ball_diameter": 1e-3 * 19.05, "entrainment_speed": 0.1, "load": 20.0}
+    return OperatingPoint.ball_on_flat(Lubricant(0.2, 2.5e-8), **at, e2=7e10, nu2=0.21)
+
+
+def test_a_ball_on_a_disc(call):
+    found = json.loads(call("steady", *DISC, *DISC_OIL, *COARSE, "--json", "-").out)
+    assert found["si"]["h_central"] == solve_steady(on_glass(), grid=Grid(n=32)).si.h_central
+    assert found["contact"]["flat"] == "glass" and found["contact"]["entrainment_speed"] == 0.1
+    assert found["contact"]["ball_diameter"] == pytest.approx(19.05e-3) and "bearing" not in found["contact"]
+    said = " ".join(call("element", *DISC, *DISC_OIL).out.split())
+    assert "steel ball of 19.05 mm on" in said and "0.1 m/s" in said and "shaft" not in said
+    made = json.loads(call("element", *DISC, *DISC_OIL, "--model", "cubic", "--hz", "100", "--json", "-").out)
+    assert made["parameters"]["C1"] == Atlas().element(on_glass(), "cubic", hz=100).C1
+    assert made["source"]["contact"].startswith("steel ball of 19.05 mm on glass, 20 N, entrainment 0.1 m/s")
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ((*DISC, *DISC_OIL, "--bearing", "6205"), ("--bearing = '6205'", "of no bearing")),
+        ((*DISC, *DISC_OIL, "--M", "200"), ("--M = 200.0", "left out where --ball-diameter is given")),
+        ((*DISC[:4], *DISC[6:], *DISC_OIL), ("--entrainment", "given", "m/s")),
+        ((*DISC[:-2], *DISC_OIL), ("--load", "given")),
+        ((*DISC,), ("--oil", "given")),
+        ((*DISC, "--flat", "wood"), ("--flat = 'wood'", "steel, glass")),
+        (("--ball-diameter", "0.019", *DISC[2:], *DISC_OIL), ("--ball-diameter = 0.019", "in m? then 19 mm")),
+    ],
+)
+def test_slips_about_a_ball_on_a_disc(refused, given, words):
+    refused(words, "steady", *given)
+
+
+def test_a_ball_on_a_disc_has_no_shaft(refused):
+    refused(("--hz", "given", "no shaft"), "impedance", *DISC, *DISC_OIL)

@@ -5,6 +5,7 @@ import re
 import shlex
 import sys
 import warnings
+from dataclasses import replace
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -38,7 +39,7 @@ def no_window(monkeypatch):
 
 def test_pages_are_found():
     assert "README.md" in PAGES and "docs/assumptions.md" in PAGES
-    assert {name.split("/")[-1] for name in TUTORIALS} == {"film.md", "bearing.md", "fmu.md"}
+    assert {name.split("/")[-1] for name in TUTORIALS} == {"film.md", "disc.md", "bearing.md", "fmu.md"}
     assert len(blocks("README.md")) >= 4
     first = blocks("docs/tutorials/film.md")[0]
     assert first.line == 13 and first.code.startswith("from ehlcontact import")
@@ -112,6 +113,21 @@ def test_an_error_tells_its_page_and_line():
     assert "bearing.md" in str(last.path)
     (block,) = (block for block in blocks("docs/tutorials/bearing.md") if block.needs)
     assert block.line <= last.lineno + 1 < block.line + block.code.count("\n")
+
+
+def test_tutorial_of_the_ball_on_a_disc(capsys):
+    """Ratios to measured films as its text says; films over viscosity and coefficient likewise."""
+    found = {}
+    run("docs/tutorials/disc.md", found)
+    ratio = found["ratio"]
+    assert np.median(ratio) == pytest.approx(0.975, abs=0.005)
+    assert np.sum(np.abs(ratio - 1.0) < 0.07) == 8
+    np.testing.assert_allclose(1.0 - 1.0 / ratio[:2], [0.15, 0.08], atol=0.006)
+    assert np.median(found["formula"] / found["measured"]) == pytest.approx(1.011, abs=0.001)
+    oil, usual = found["oil"], found["films"][4].si.h_central
+    for change, more in (("eta0", 0.07), ("alpha", 0.06)):
+        found["oil"] = replace(oil, **{change: 1.1 * getattr(oil, change)})
+        assert found["film"](found["speed"][4]).si.h_central / usual - 1.0 == pytest.approx(more, abs=0.005)
 
 
 def test_tutorial_of_the_film(capsys):

@@ -207,3 +207,17 @@ def test_points_are_values():
     assert replace(a, M=100.0).M == 100.0
     with pytest.raises(AttributeError):
         a.M = 3.0
+
+
+def test_ball_on_flat():
+    glass = {"e1": 2.1e11, "nu1": 0.3, "e2": 7e10, "nu2": 0.21}
+    geometry = Geometry.ball_on_flat(19.05e-3, **glass)
+    assert (geometry.radius_x, geometry.radius_y, geometry.kappa) == (9.525e-3, 9.525e-3, pytest.approx(1.0))
+    assert geometry.e_reduced == pytest.approx(1.112e11, rel=1e-3)
+    oil = Lubricant(eta0=0.2, alpha=2.5e-8)
+    at = {"ball_diameter": 19.05e-3, "entrainment_speed": 0.1, "load": 20.0}
+    assert OperatingPoint.ball_on_flat(oil, **at, **glass) == OperatingPoint(geometry, oil, 20.0, 0.2)
+    with pytest.raises(InputError, match=r"ball_diameter = 19\.05: .*in mm"):
+        Geometry.ball_on_flat(19.05)
+    with pytest.raises(InputError, match=r"entrainment_speed = 900\.0: .*in mm/s\? then 0\.9 m/s"):
+        OperatingPoint.ball_on_flat(oil, **(at | {"entrainment_speed": 900.0}))
