@@ -68,6 +68,16 @@ def test_words_on_logarithmic_axes():
     assert note.x == 2.0 and figure.layout.shapes[0].x0 == 100.0 and figure.layout.shapes[1].x1 == 10.0
 
 
+def test_few_decades_have_few_ticks():
+    """All digits lie upon one another there; over many decades, or hardly any, plotly's own ticks do not."""
+    drawn = grid(3, heights=[100] * 3)
+    for row, values in enumerate(((0.007, 0.1), (1e-5, 1.0), (2.0, 3.0)), start=1):
+        drawn.add_scatter(x=[1.0, 2.0], y=values, row=row, col=1)
+        drawn.update_yaxes(type="log", row=row, col=1)
+    layout = finished(drawn)["layout"]
+    assert [layout[f"yaxis{k}"].get("dtick") for k in ("", "2", "3")] == ["D2", None, None]
+
+
 def test_axes_reach_over_all_frames():
     def one(k):
         return grid().add_scatter(x=[0.0, 1.0], y=[0.0, 10.0 * k], row=1, col=1)

@@ -200,6 +200,40 @@ def test_every_figure_is_drawn_and_nothing_sticks_out(seen, figures, width):
     assert found["flat"] == 0 and found["cloud"] == 0
 
 
+@pytest.mark.parametrize("width", WIDTHS)
+def test_words_of_a_figure_do_not_lie_on_each_other(seen, width):
+    body = """const found = [];
+    for (const figure of all("figure")) {
+      const texts = all(".plot svg text", figure).filter(text => text.textContent.trim());
+      const boxes = texts.map(text => [text.textContent, text.getBoundingClientRect()]);
+      boxes.forEach(([one, p], k) => boxes.slice(k + 1).forEach(([other, q]) => {
+        const wide = Math.min(p.right, q.right) - Math.max(p.left, q.left);
+        const tall = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
+        if (wide > 2 && tall > 3) found.push([figure.id, one, other, wide, tall]);
+      }));
+    }
+    return found;"""
+    assert seen(body, width) == []
+
+
+def test_the_page_opens_with_a_verdict_and_a_table(seen, results):
+    """Both on the first screen of a telephone; solver convergence after all results."""
+    body = """const top = one => Math.round(one.getBoundingClientRect().top);
+    const cells = row => all("th, td", row).filter(one => one.clientWidth).map(one => one.textContent);
+    return { verdict: [document.querySelector(".verdict").textContent, top(document.querySelector(".verdict"))],
+      rows: all("#models + div tr").map(cells), end: top(document.querySelector("#models + div tr:last-child")),
+      heads: all("h2").map(one => one.id) };"""
+    narrow, wide = seen(body, 400), seen(body, 1280)
+    assert wide["verdict"][0] == narrow["verdict"][0] == results["verdict"]
+    assert narrow["verdict"][1] < 120 and narrow["end"] < 900 and wide["end"] < 700
+    assert wide["heads"][:2] == ["models", "findings"] and wide["heads"][-2:] == ["convergence", "made"]
+    decay = results["rotor"]["decay"]
+    assert len(wide["rows"]) == 1 + len(decay["decrements"]) and len(wide["rows"][0]) == 6
+    for row, (name, found) in zip(narrow["rows"][1:], decay["decrements"].items(), strict=True):
+        assert row[1:3] == [f"{found['hz']:.4g}", f"{found['decrement']:.3g}"]
+        assert (row[3] == "-") is (name == "full") and len(row) == 4
+
+
 def test_the_slider_runs_through_the_period(seen, figures):
     body = """const figure = document.getElementById("figure-instants"), plot = figure.querySelector(".plot");
     const input = figure.querySelector("input[type=range]"), told = figure.querySelector("output");

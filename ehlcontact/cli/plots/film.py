@@ -37,13 +37,13 @@ def film_maps(result: SteadyResult) -> go.Figure:
     """Pressure and film over the contact, the surfaces moving upwards."""
     film, kappa = refined(film_of(result), POINTS), moes_point(result.point).kappa
     levels = ", ".join(map(numeral, CONTOURS))
-    titles = "pressure; the surfaces move upwards", f"film; lines at {levels} of the central film"
+    titles = "pressure; the surfaces move upwards", "film"
     figure = grid(2, heights=[HIGHEST] * 2, titles=titles)
     add_pressure(figure, film, kappa, 1, result.p_max)
     add_film(figure, film, kappa, 2, (float(film.H.min()), CONTOURS[-1] * result.h_central))
     move_together(figure)
     _contours(figure, film, film.H / result.h_central)
-    return noted(figure, scale_note(film, kappa))
+    return noted(figure, f"{scale_note(film, kappa)} White lines: {levels} of the central film.".lstrip())
 
 
 def noted(figure: go.Figure, note: str) -> go.Figure:

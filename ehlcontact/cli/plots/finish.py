@@ -10,7 +10,7 @@ import plotly.graph_objects as go
 from ehlcontact.cli.plots.thinned import rounded, thin_line
 
 PAGE, TELEPHONE = 990.0, 370.0  # px that the figures of a wide and of a narrow page are wide
-LEFT, RIGHT, FOOT = 64.0, 14.0, 48.0  # px beside and under the axes
+LEFT, RIGHT, FOOT = 74.0, 14.0, 48.0  # px beside and under the axes
 BETWEEN, BAR, SECOND = 66.0, 78.0, 58.0  # px from panel to panel, of a bar of colours, of a second axis
 BARE, TITLE, TOOLS, KEY, ROUND = (
     18.0,
@@ -20,6 +20,7 @@ BARE, TITLE, TOOLS, KEY, ROUND = (
     30.0,
 )  # px: no label, title, buttons, row of a legend, degrees
 LETTER, SAMPLE = 6.6, 46.0  # px that a letter takes on average, and the line beside a name in a legend
+FEW_DECADES = 0.5, 1.7  # of a logarithmic axis that would have all digits at its ticks: 1, 2 and 5 do there
 MAP_LEVELS = 500.0  # that a map tells apart; a screen shows 256
 COORDINATES = "x", "y", "z", "r", "theta"
 
@@ -33,6 +34,7 @@ def finished(figure: go.Figure) -> dict[str, Any]:
     layout = whole["layout"] = figure.layout.to_plotly_json()
     meta = layout["meta"]
     _name(whole["data"], layout)
+    _ticks(whole["data"], layout)
     found, moving = [], set()
     for frame in whole["frames"]:
         frame["traces"] = list(frame.get("traces") or range(len(frame["data"])))
@@ -70,6 +72,18 @@ def _name(traces: list[dict[str, Any]], layout: dict[str, Any]) -> None:
             trace["hovertemplate"] = f"{words}{field}<extra>{name}</extra>"
 
 
+def _ticks(traces: list[dict[str, Any]], layout: dict[str, Any]) -> None:
+    """Fewer ticks on logarithmic y axes over few decades: digits of all of them lie upon one another."""
+    for key, axis in layout.items():
+        if not key.startswith("yaxis") or axis.get("type") != "log":
+            continue
+        own = [trace for trace in traces if (trace.get("yaxis") or "y").replace("y", "yaxis", 1) == key]
+        values = np.concatenate([[0.0], *(np.asarray(trace.get("y", ()), float).ravel() for trace in own)])
+        shown = np.log10(values[values > 0.0])
+        if shown.size and FEW_DECADES[0] < np.ptp(axis.get("range") or shown) < FEW_DECADES[1]:
+            axis["dtick"] = "D2"
+
+
 def _axis(layout: dict[str, Any], trace: dict[str, Any], side: str) -> Axes:
     """Axis of a trace; the label is that of the last panel of a column where panels share it."""
     key = (trace.get(f"{side}axis") or side).replace(side, f"{side}axis", 1)
@@ -100,7 +114,11 @@ def places(figure: go.Figure, columns: int, width: float, names: list[str]) -> d
     panels = {cell: _panel(figure, cell) for cell in cells}
     beside = max(panels[line[-1]]["right"] for line in lines)
     inner = width - LEFT - beside
-    gaps = [BETWEEN + max(panels[line[k]]["right"] for line in lines) for k in range(columns - 1)]
+    # degrees stand beside a circle, however narrow the page is
+    room = [
+        max(panels[line[k]].get("gap", panels[line[k]]["right"]) for line in lines) for k in range(columns - 1)
+    ]
+    gaps = [BETWEEN + right for right in room]
     wide = (inner - sum(gaps)) / columns
     tall = [min(meta["heights"][line[0][0] - 1], wide * panels[line[0]].get("shape", np.inf)) for line in lines]
     heads = [max(panels[cell]["head"] for cell in line) for line in lines]
@@ -129,7 +147,13 @@ def _panel(figure: go.Figure, cell: tuple[int, int]) -> dict[str, Any]:
     polar = next(figure.select_polars(row=row, col=col), None)
     head = TITLE if figure.layout.meta["titled"] else 8.0
     if polar is not None:
-        return {"polar": polar.plotly_name, "right": RIGHT, "head": max(head, ROUND), "foot": ROUND}
+        return {
+            "polar": polar.plotly_name,
+            "right": RIGHT,
+            "gap": 2.0 * ROUND,
+            "head": max(head, ROUND),
+            "foot": ROUND,
+        }
     x, y = next(figure.select_xaxes(row=row, col=col)), next(figure.select_yaxes(row=row, col=col))
     key = y.plotly_name.replace("axis", "")
     own = [trace for trace in figure.data if getattr(trace, "yaxis", None) in (key, None if key == "y" else key)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from math import hypot
 from typing import Any
 
 from ehlcontact.cli.numerals import numeral, percent
@@ -18,8 +19,34 @@ LARGE_CHANGE = 0.01
 
 def document(found: Findings) -> dict[str, Any]:
     """Content of ``results.json``: the sentences, and all numbers."""
-    said = {"status": "converged", "title": found.study.title, "answer": headline(found)}
+    said = {
+        "status": "converged",
+        "title": found.study.title,
+        "verdict": verdict(found),
+        "answer": headline(found),
+    }
     return said | found.to_dict()
+
+
+def verdict(found: Findings) -> str:
+    """The result in one line: whether the film decides the damping, the nearest element, film and assumptions."""
+    d, op, rough = found.rotors.decay, found.operating_point, found.study.roughness
+    own, nearest = d.decrements[FULL], d.nearest_without
+    said = [f"Log decrement {numeral(own.decrement, 3)} at {numeral(own.hz)} Hz on the full film"]
+    elements = {name: abs(d.off(name)) for name in (CHOSEN[0], MEMORY) if name in d.decrements}
+    if elements:
+        best = min(elements, key=lambda name: elements[name])
+        said.append(f"{percent(elements[best], 2)} off with the {CONTACTS[best]}")
+    if nearest is not None:
+        said.append(f"at least {percent(nearest, 2)} off without a film or its damping")
+    decides = (
+        "" if nearest is None else f"The film {'decides' if d.film_decides else 'does not decide'} the damping. "
+    )
+    ratio = "" if rough is None else f", {numeral(1e-6 * op['h_min_um'] / hypot(*rough), 3)} times the roughness"
+    film = f"Smallest film {numeral(op['h_min_um'], 3)} \N{MICRO SIGN}m{ratio}."
+    outside = ", ".join(one.name for one in found.assumptions.out_of_range)
+    held = f"Does not hold: {outside}." if outside else "All assumptions that can be judged hold."
+    return f"{decides}{', '.join(said)}. {film} {held}"
 
 
 def headline(found: Findings) -> str:

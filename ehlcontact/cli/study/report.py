@@ -11,8 +11,8 @@ from ehlcontact.cli.plots import bearing, film, motion, rotor
 from ehlcontact.cli.plots.impedance import impedance
 from ehlcontact.cli.plots.instants import instants
 from ehlcontact.cli.study.bearing_rotor import NAMES
-from ehlcontact.cli.study.headline import findings, reservations
-from ehlcontact.cli.study.reduction import CONTACTS, FULL, MEMORY, RECORDS
+from ehlcontact.cli.study.headline import findings, reservations, verdict
+from ehlcontact.cli.study.reduction import CHOSEN, CONTACTS, DRY, FULL, MEMORY, RECORDS, UNDAMPED, WRONG
 from ehlcontact.cli.study.results import Findings
 from ehlcontact.cli.study.stages import STAGES
 from reduced_models.rotor.bearing_models import USUAL_DAMPING
@@ -31,6 +31,14 @@ FILES = {
     "*.h5": "STAGE: fields or histories",
     "store": "what was computed, by its inputs: a run resumes from it, and nothing else needs it",
 }
+MEANINGS = {
+    FULL: "film solved in every contact and step: what the others are judged by",
+    CHOSEN[0]: "cubic spring and damper fitted at the frequency of the rotor's speed",
+    MEMORY: "element with the memory of the film, for all frequencies",
+    WRONG[0]: "cubic spring and damper fitted near the contact's own frequency",
+    UNDAMPED: "cubic spring without the damping of the film",
+    DRY: "spring of the steel alone, without a film",
+}
 STAGE_TITLES = {stage.name: stage.title for stage in STAGES}
 TITLES = RECORDS | {MEMORY: "all bands, with film memory"}
 
@@ -42,13 +50,14 @@ def write_report(found: Findings, path: Path) -> Path:
         "report.html.j2",
         drawings(found),
         found=found,
-        story={"findings": findings(found), "reservations": reservations(found)},
+        story={"verdict": verdict(found), "findings": findings(found), "reservations": reservations(found)},
         files=files_beside(path.parent),
         op=found.operating_point,
         scales=found.study.point.scales,
         titles=TITLES,
         ways=ways_of_coupling(found.fmus),
         names=CONTACTS,
+        meanings=MEANINGS,
         lost=LOST,
         most_revolutions=MOST_REVOLUTIONS,
         bearings=NAMES,
