@@ -15,8 +15,8 @@ PAGE = Path(__file__).parents[1] / "guide" / "catalogue.md"
 HEAD = """# Bearings by name
 
 `BallBearing.catalogue("6205", oil=oil, clearance="CN")`, `--bearing 6205` and `catalogue = "6205"` take their
-dimensions from this table. FTF, BPFO, BPFI and BSF are the defect frequencies per turn of the shaft, at zero
-contact angle.
+dimensions from this table. FTF, BPFO, BPFI and BSF are the
+[defect frequencies](glossary.md#bearings-and-rotors) per turn of the shaft, at zero contact angle.
 
 | name | bore, mm | balls | ball, mm | pitch, mm | FTF | BPFO | BPFI | BSF | source |
 |---|---|---|---|---|---|---|---|---|---|

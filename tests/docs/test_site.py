@@ -8,11 +8,13 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+import typer
 from programs import script
 
 import ehlcontact
 import fmu
 import reduced_models
+from ehlcontact.cli.app import app
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -92,6 +94,26 @@ def test_the_explorer_is_part_of_the_site(tmp_path):
     assert list(tmp_path.iterdir()) == []
     connected["build-finished"](app, None)
     assert "Ball bearing explorer" in (tmp_path / "explore.html").read_text(encoding="utf-8")
+
+
+def test_calls_and_commands_of_the_how_to_are_there():
+    """Functions, classes and methods by their names; subcommands and options of the program."""
+    text = (DOCS / "guide" / "howto.md").read_text(encoding="utf-8")
+    shown = {name: getattr(package, name) for package in PACKAGES.values() for name in public(package)}
+    members = {name for value in shown.values() if inspect.isclass(value) for name in dir(value)}
+    code = re.findall(r"`([^`]+)`", text)
+    calls = {name for part in code for name in re.findall(r"([\w.]+)\(", part)}
+    assert len(calls) > 30
+    for call in calls:
+        first, *rest = call.strip(".").split(".")
+        assert first in shown or (rest and rest[0] in members) or first in members, call
+        assert not (rest and first in shown) or hasattr(shown[first], rest[0]), call
+    root = typer.main.get_command(app)
+    options = {name for command in root.commands.values() for one in command.params for name in one.opts}
+    for part in code:
+        words = part.split()
+        assert words[0] != "ehlcontact" or words[1] in root.commands, part
+        assert {word for word in words if word.startswith("--")} <= options, part
 
 
 def test_docs_is_one_room():
