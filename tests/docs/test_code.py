@@ -39,7 +39,13 @@ def no_window(monkeypatch):
 
 def test_pages_are_found():
     assert "README.md" in PAGES and "docs/assumptions.md" in PAGES
-    assert {name.split("/")[-1] for name in TUTORIALS} == {"film.md", "disc.md", "bearing.md", "fmu.md"}
+    assert {name.split("/")[-1] for name in TUTORIALS} == {
+        "film.md",
+        "disc.md",
+        "bearing.md",
+        "rotor.md",
+        "fmu.md",
+    }
     assert len(blocks("README.md")) >= 4
     first = blocks("docs/tutorials/film.md")[0]
     assert first.line == 13 and first.code.startswith("from ehlcontact import")
@@ -140,6 +146,27 @@ def test_tutorial_of_the_film(capsys):
     assert found["si"].h_min < middle[contact].min() * 1.001 and found["C"][0] > 5.0 * found["C"][-1]
     assert abs(found["answer"].si.h_central - found["si"].h_central) < 2.0 * found["bar"]
     assert "isothermal" in capsys.readouterr().out
+
+
+def test_tutorial_of_the_rotor():
+    """Whirl and damping at its critical speeds, the peaks beside them, and the run-up, as its text says."""
+    found = {}
+    run("docs/tutorials/rotor.md", found)
+    tilt, across, along = found["critical"]
+    assert tilt.whirl < -0.99 and abs(across.whirl) < 0.02 and abs(along.whirl) < 0.02
+    bare = found["films_only"].critical_speeds()[-2:]
+    for one, without in zip((across, along), bare, strict=True):
+        assert one.decrement / without.decrement == pytest.approx(12.0, abs=0.5)
+        assert 1.02 < one.speed_rpm / without.speed_rpm < 1.05
+        near = np.abs(found["at"] / one.speed_rpm - 1.0) < 0.02
+        assert found["orbit"][near].max() == pytest.approx(5.5e-6, rel=0.05)
+    seconds = 20 * 60.0 / along.speed_rpm
+    assert seconds == pytest.approx(0.08, abs=0.005) and 2500.0 * seconds == pytest.approx(210.0, abs=5.0)
+    swing, rpm = found["swing"], found["rpm"]
+    assert across.speed_rpm < rpm[swing.argmax()] < along.speed_rpm and swing.max() < found["orbit"].max()
+    # beyond the last one the amplitude goes up and down
+    later = swing[rpm > along.speed_rpm]
+    assert np.sum((np.diff(later)[:-1] > 0.0) & (np.diff(later)[1:] < 0.0)) > 2
 
 
 def test_tutorial_of_the_bearing():
