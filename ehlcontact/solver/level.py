@@ -23,6 +23,7 @@ Array = NDArray[np.float64]
 
 FLANK_SQUEEZE = 0.5  # squeeze term over wedge term, above which a step needs few passes along the flanks
 FORCE_FACTOR = 1.5 / np.pi  # eq. 4: force = 3/(2 pi) iint P
+LEAST_ACROSS = 4  # intervals along Y of the coarsest level
 SHARED_FROM = 20000  # nodes: on smaller levels threads wait longer for each other than they work
 LIGHT = 128  # lines of the smallest chunk of a light kernel: with fewer it is done before another thread wakes
 # Lines of a block of local passes: more than they reach beyond it, so that every other one is apart. Side lobes of
@@ -219,7 +220,9 @@ class Level:
         self.fields.P[...] = np.sqrt(np.maximum(0.0, 1.0 - self.X**2 - self.Y[:, None] ** 2))
 
 
-def build_hierarchy(point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str = "fft") -> list[Level]:
+def build_hierarchy(
+    point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str = "fft", across: int | None = None
+) -> list[Level]:
     """Levels coarse to fine, halving the mesh while at least `coarsest` intervals are left.
 
     Physically, lines across a wide contact lie many node distances apart. The near coefficients of a line then
@@ -231,6 +234,8 @@ def build_hierarchy(point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str
     Where lines lie closer together than nodes (`Mesh.y_refinement`), only their number is halved at first: sweeps
     along X then relax pointwise across, and the next grid has to be coarser across only
     (`tests/benchmarks/modes.py`).
+
+    `across` gives the intervals along Y of the finest level; there are fewer levels then where they do not halve.
     """
     n, domain = mesh.n, mesh.domain
     halvings = 0
@@ -240,7 +245,12 @@ def build_hierarchy(point: MoesPoint, mesh: Mesh, coarsest: int, deflection: str
     # hy as near to hx as the halvings allow, but physically no finer unless asked for: where the lines lie closer
     # together than their nodes, relaxation by lines along X fails if both meshes are halved
     hy = hx * longer_axis(point.kappa)
-    ny = max(4, round(domain.y_max / hy / 2**halvings)) * 2**halvings
+    if across is None:
+        ny = max(LEAST_ACROSS, round(domain.y_max / hy / 2**halvings)) * 2**halvings
+    else:
+        ny = across // mesh.y_refinement
+        while halvings and (ny % 2**halvings or ny >> halvings < LEAST_ACROSS):
+            halvings -= 1
     sizes, last = [(n, ny * mesh.y_refinement)], (n >> halvings, ny >> halvings)
     while sizes[-1] != last:
         nx, ny = sizes[-1]

@@ -63,6 +63,8 @@ class Multigrid:
         negative films grow.
     threads : int
         Threads that share the work; results do not depend on their number.
+    across : int, optional
+        Intervals along Y of the finest level; by default what the mesh asks for.
     """
 
     def __init__(
@@ -74,6 +76,7 @@ class Multigrid:
         sweep_factor: int = 1,
         load_continuation: bool = False,
         threads: int = 1,
+        across: int | None = None,
     ) -> None:
         self.point, self.mesh = point, mesh
         self._options: dict[str, Any] = {
@@ -82,7 +85,7 @@ class Multigrid:
             "load_continuation": load_continuation,
             "threads": threads,
         }
-        levels = build_hierarchy(point, mesh, coarsest_intervals(point, mesh.n), deflection)
+        levels = build_hierarchy(point, mesh, coarsest_intervals(point, mesh.n), deflection, across)
         self.levels = [level for level in levels if level_is_useful(point, level.nx, mesh.n, load_continuation)]
         self.load_continuation = load_continuation
         for level in self.levels:
@@ -98,8 +101,13 @@ class Multigrid:
         return self.levels[-1]
 
     def halved(self) -> Multigrid:
-        """One on half the intervals, made as this one was, as a start; it holds no film yet."""
-        half = Multigrid(self.point, replace(self.mesh, n=self.mesh.n // 2), **self._options)
+        """One on half the intervals along X and Y, made as this one was, as a start; it holds no film yet.
+
+        Left to itself the smaller mesh may have more than half the lines: transfers between both would read nodes
+        that are not there.
+        """
+        mesh, across = replace(self.mesh, n=self.mesh.n // 2), self.finest.ny // 2
+        half = Multigrid(self.point, mesh, across=across, **self._options)
         half.is_start = True
         return half
 

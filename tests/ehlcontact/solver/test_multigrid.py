@@ -323,3 +323,16 @@ def test_initial_approach_is_bounded():
 def test_coarsest_grid_follows_the_load():
     assert coarsest_intervals(MoesPoint(200, 10, 1.0), 128) == 16
     assert coarsest_intervals(MoesPoint(2900, 19, 0.11), 128) > 16
+
+
+@pytest.mark.parametrize("kappa", [0.05, 0.107, 1.0, 1.5, 3.0, 4.7044])
+@pytest.mark.parametrize("y_refinement", [1, 2, 4])
+@pytest.mark.parametrize("domain", [Domain(), NEAREST_DOMAIN])
+def test_half_a_grid_has_half_its_lines(kappa, y_refinement, domain):
+    """The film of the one is restricted to the other node by node; 96 lines to 64 read beyond the array."""
+    point = MoesPoint(1351.4385, 3.4935, kappa)
+    mg = Multigrid(point, Mesh(256, domain, kappa, y_refinement))
+    while mg.finest.nx > mg.levels[0].nx and mg.mesh.n > 64:
+        half = mg.halved()
+        assert (2 * half.finest.nx, 2 * half.finest.ny) == (mg.finest.nx, mg.finest.ny)
+        mg = half
