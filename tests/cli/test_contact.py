@@ -1,6 +1,7 @@
 """A bearing's contact in SI on the command line: the point that Python makes, answers in SI, slips in one line."""
 
 import json
+import re
 from math import pi
 
 import pytest
@@ -229,3 +230,29 @@ def test_slips_about_a_ball_on_a_disc(refused, given, words):
 
 def test_a_ball_on_a_disc_has_no_shaft(refused):
     refused(("--hz", "given", "no shaft"), "impedance", *DISC, *DISC_OIL)
+
+
+@pytest.mark.parametrize("grade", ["68", "320"])
+def test_rows_of_an_element_are_the_answers_of_the_atlas_with_their_bars(call, grade):
+    """Each row by its name, for the oil that was given."""
+    contact = Contact(bearing="6205", oil=grade, temp=60.0, speed_rpm=3000.0, load=100.0)
+    answer = Atlas().at(contact.point())
+    si, shaft = answer.si, answer.impedance(rpm=3000.0).si
+    shown = call("element", *options(oil=grade)).out
+    rows, name = {}, ""
+    for line in shown.splitlines()[1:]:
+        name = line[:24].strip() or name
+        rows[name] = f"{rows.get(name, '')} {' '.join(line[24:].split())}".strip()
+    wanted = {
+        "mutual approach": (si.approach * 1e6, si.error_bars["approach"] * 1e6),
+        "film in the centre": (si.h_central * 1e6, si.error_bars["h_central"] * 1e6),
+        "smallest film": (si.h_min * 1e6, si.error_bars["h_min"] * 1e6),
+        "static tangent": (si.stiffness[0] * 1e-6, si.error_bars["stiffness"][0] * 1e-6),
+        "C at 50 Hz": (shaft.damping[0], shaft.error_bars["damping"][0]),
+    }
+    for start, (value, bar) in wanted.items():
+        found = next(text for name, text in rows.items() if start.startswith(name) or name.startswith(start))
+        numbers = [float(text) for text in re.findall(r"-?\d+\.?\d*(?:e[-+]?\d+)?", found.partition("±")[0])]
+        assert numbers[0] == pytest.approx(value, rel=6e-4), (start, found)
+        told = float(re.search(r"± (\d\S*)", found)[1])
+        assert told == pytest.approx(bar, rel=0.5) and told == float(f"{bar:.1g}"), (start, found)

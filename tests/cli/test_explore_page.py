@@ -4,11 +4,12 @@ import html
 import json
 import re
 
+import numpy as np
 import pytest
 from browsers import dom
 
 from ehlcontact import Lubricant
-from reduced_models import BallBearing
+from reduced_models import Atlas, BallBearing
 
 LARGEST = 3e6  # bytes
 WIDTHS = (400, 768, 1280)
@@ -207,3 +208,45 @@ def test_a_full_disk_keeps_the_old_page(refused, tmp_path, no_room):
     no_room()
     refused(["--output", "No space left"], "explore", "-o", target, "--force")
     assert target.read_text() == "mine"
+
+
+@pytest.mark.parametrize(
+    ("rq", "words"),
+    [("0.05", ""), ("0.1", ", mixed: asperities touch"), ("0.5", ", boundary: asperities carry the load")],
+)
+def test_words_about_the_lambda_ratio(seen, rq, words):
+    """A film of some 0.2 um: above 3, above 1 and below 1 times the roughness; heat, where it takes a tenth."""
+    slow, fast = (seen(LINES, f"#rq={rq}&speed_rpm={rpm}") for rpm in (3000, 20000))
+    bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=60.0), rq_race=1e-6 * float(rq))
+    ratio = bearing.equilibrium((0, -1000), speed_rpm=3000).lambda_ratio[0].min()
+    assert (3.0 <= ratio, ratio < 1.0) == (words == "", "boundary" in words)
+    told = re.search(r"lambda ([\d.]+)(, [^.]*)?\. Along", slow["headline"])
+    assert float(told[1]) == pytest.approx(ratio, rel=6e-3) and (told[2] or "") == words
+    assert slow["outside"] is None and "isothermal (shear heats the inlet" in fast["outside"]
+
+
+LINES = """return { headline: field("headline").textContent,
+  outside: field("outside").hidden ? null : field("outside").textContent };"""
+
+
+def test_bands_are_the_error_bars_and_the_load_zone_has_the_forces(seen):
+    body = """const numbers = (id, what) => document.querySelector(`#${id} .${what}.inner`).getAttribute("points")
+      .split(" ").map(pair => pair.split(",").map(Number));
+    const box = field("contact_c"), y = [...box.querySelectorAll("text[text-anchor=end]")].map(text =>
+      [text.textContent, Number(text.getAttribute("y")) - 4]).filter(([text]) => Number(text) > 0);
+    return { band: numbers("contact_c", "band"), line: numbers("contact_c", "curve"), y, hzs: found.hzs,
+      zone: [...document.querySelectorAll("#zone text")].map(text => Number(text.textContent)) };"""
+    page = seen(body)
+    bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=60.0))
+    state = bearing.equilibrium((0, -1000), speed_rpm=3000)
+    carried = [force for force in state.force[:, 0] if force > 0.01 * state.force.max()]
+    assert sorted(page["zone"]) == pytest.approx(sorted(carried), rel=6e-3)
+    at = Atlas().at(bearing.race("inner").point(state.force[0, 0], 3000.0)).impedance(hz=page["hzs"])
+    C, bar = at.si.damping, at.si.error_bars["damping"]
+    (one, low), (ten, high) = ((float(text), place) for text, place in (page["y"][0], page["y"][-1]))
+    slope = (high - low) / np.log10(ten / one)
+    places = [low + slope * np.log10(values / one) for values in (C - bar, C + bar, C)]
+    shown = np.array(page["band"])[:, 1]
+    np.testing.assert_allclose(shown[: C.size], places[0], atol=0.2)
+    np.testing.assert_allclose(shown[C.size :][::-1], places[1], atol=0.2)
+    np.testing.assert_allclose(np.array(page["line"])[:, 1], places[2], atol=0.2)

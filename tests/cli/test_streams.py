@@ -1,11 +1,13 @@
 """stdout that is full or closed, Ctrl-C while the program is imported: one line and the right exit code."""
 
 import io
+import json
 import os
 import subprocess
 import sys
 from importlib import import_module
 
+import numpy as np
 import pytest
 from programs import environment, program
 
@@ -124,3 +126,34 @@ def test_what_the_system_refuses_is_one_line(call, point, monkeypatch, error, li
     monkeypatch.setattr(import_module("ehlcontact.impedance"), "impedance", stop)
     result = call("impedance", *point, "--Omega", "1")
     assert (result.code, result.err) == (1, f"ehlcontact: {line}\n")
+
+
+DRY = ("bearing", "6205", "--load", "500", "--speed-rpm", "0")
+
+
+def test_a_pipe_whose_reader_is_gone():
+    """As of ``ehlcontact ... | head -0``."""
+    line = f"{sys.executable} -m ehlcontact.cli {' '.join(DRY)} | head -0; exit ${{PIPESTATUS[0]}}"
+    done = subprocess.run(["bash", "-c", line], env=environment(), capture_output=True, text=True, check=False)
+    assert done.stdout == "" and "Traceback" not in done.stderr
+    assert (done.returncode, done.stderr) in ((1, CLOSED), (0, ""))  # head may end after the table
+
+
+def test_the_backend_of_a_notebook_loses_no_figure(tmp_path):
+    """Whether its module is there or not."""
+    for backend in ("module://matplotlib_inline.backend_inline", "module://no_such_module"):
+        figure = tmp_path / "bearing.png"
+        found = program(*DRY, "--figure", figure, env=environment(MPLBACKEND=backend))
+        assert (found.returncode, found.stderr) == (0, "") and figure.read_bytes().startswith(b"\x89PNG")
+        figure.unlink()
+
+
+def test_a_bearing_without_compilation_has_the_same_numbers():
+    wet = ("bearing", "6205", "--oil", "68", "--temp", "60", "--load", "500", "--speed-rpm", "3000", "--json", "-")
+    shown = [program(*wet, env=environment(**more)) for more in ({"NUMBA_DISABLE_JIT": "1"}, {})]
+    assert [one.returncode for one in shown] == [0, 0]
+    plain, compiled = (json.loads(one.stdout) for one in shown)
+    for name in ("stiffness", "damping"):
+        one, other = (found["coefficients"][0][name] for found in (plain, compiled))
+        np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-9 * np.abs(other).max())
+    np.testing.assert_allclose(plain["states"][0]["h_min"], compiled["states"][0]["h_min"], rtol=1e-9)

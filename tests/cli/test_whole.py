@@ -1,9 +1,12 @@
 """The rotor of a study on whole bearings: what may stand in the file, and what becomes of it."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from tiny_study import STUDY
 
+from ehlcontact.cli.plots.bearing import lines
 from ehlcontact.cli.study.bearing_rotor import run_whole, whole_rotor
 from ehlcontact.cli.study.forecast import WHOLE, WHOLE_STEP, forecast
 from ehlcontact.cli.study.headline import whole as sentence
@@ -86,3 +89,16 @@ def test_a_rotor_that_no_bearing_holds_costs_no_study(tmp_path, monkeypatch):
         whole = found
 
     assert "could not be run on whole bearings with: film memory under every ball (rotor at t" in sentence(Holds)
+
+
+@pytest.mark.parametrize(("amplitude", "hz"), [(3e-6, 179.2), (4e-9, 50.0)])
+def test_a_spectrum_shows_the_amplitude_of_a_vibration(amplitude, hz):
+    """Beside a larger offset and another vibration; a frequency between two lines costs at most 15 %."""
+    t = np.arange(8000) * 1e-4
+    y = 1e-5 + amplitude * np.sin(2.0 * np.pi * hz * t + 0.4) + 1e-6 * np.sin(2.0 * np.pi * 500.0 * t)
+    run = SimpleNamespace(t=t, disc=np.column_stack([np.zeros_like(t), y]))
+    frequency, size = lines(run, "disc")
+    near = np.abs(frequency - hz) < 5.0
+    assert 0.85 * amplitude <= size[near].max() <= 1.001 * amplitude
+    assert size[np.abs(frequency - 500.0) < 5.0].max() == pytest.approx(1e-6, rel=1e-3)
+    assert size[0] < 0.1 * amplitude + 1e-12

@@ -483,3 +483,20 @@ def test_sixty_random_points_of_the_box(shipped):
     assert np.mean(covered) >= 0.9
     for name, limit in LIMITS.items():
         assert max(found[name]) < limit, name
+
+
+@pytest.mark.parametrize(("alpha", "eta0"), [(1.2e-8, 0.01), (3.5e-8, 0.4)])
+def test_another_oil_lies_inside_its_error_bar(alpha, eta0):
+    """Films solved for that oil, far from the oil of the atlas, whose own bars are narrower."""
+    point, own = MoesPoint(200.0, 10.0, 0.5, alpha=alpha, eta0=eta0), Atlas().at(MoesPoint(200.0, 10.0, 0.5))
+    answer, film = Atlas().at(point), solve_steady(point)
+    off = film.error_estimate
+    allowed = {
+        "approach": off.approach,
+        "h_central": off.h_central * film.h_central,
+        "h_min": off.h_min * film.h_min,
+    }
+    for name, grid in allowed.items():
+        bar = answer.error_bars[name]
+        assert abs(getattr(answer, name) - getattr(film, name)) <= bar + grid, name
+        assert bar > own.error_bars[name], name
