@@ -7,6 +7,8 @@ A harmonic approach ``u + du exp(i Omega T)`` makes a pressure ``P + dP exp(i Om
 J and j being the derivatives of the steady Reynolds operator to P and u with full elasticity, B and b those of
 the squeeze term. The impedance is ``Z(Omega) = 3/(2 pi) iint dP / du = K + i Omega C``.
 
+Both grids of half and a quarter of the intervals give an error estimate of K and C (`solver.error_grids`).
+
 A few frequencies are solved. In the space of the real and imaginary parts of their solutions every other one is a
 small least-squares problem, whose residual is the error measure: the frequency with the largest is solved next.
 """
@@ -27,6 +29,8 @@ from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.error_estimate import response_error
+from ehlcontact.solver.error_grids import settled_on_half
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
 from ehlcontact.solver.mesh import Mesh, Solve
@@ -44,6 +48,7 @@ NEAR_ZERO = 1e-4  # where C(0) is evaluated
 PRESCRIBED = Balance.of_approach(0.0)
 KEEP_FACTORS = 5.0  # change of Omega for which the factors of short waves serve
 SOLVE_SHARE = 0.3  # of the tolerance, for the solves themselves
+LEAST_INTERVALS = 12  # of the coarser grids that tell the error
 SMALLEST_NEW_PART = 1e-10  # of a vector, outside the space so far
 
 
@@ -89,8 +94,10 @@ def impedance(
     threads = require_threads("threads", threads)
     meshes = wider_meshes(moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE)
     steady = _steady(point, meshes, grid.deflection, threads)
-    contact = LinearisedContact(steady, grid.deflection, threads)
-    Z, residual = contact.respond(np.maximum(w, NEAR_ZERO), TOLERANCE)
+    moving = np.maximum(w, NEAR_ZERO)
+    solved = held(steady, grid.deflection, threads)
+    Z, residual = LinearisedContact(solved).respond(moving, TOLERANCE)
+    bars = response_error(moving, [Z, *_on_coarser_grids(solved, moving)])
     return ImpedanceResult(
         point=moes,
         scales=scales,
@@ -98,7 +105,9 @@ def impedance(
         n=steady.n,
         Omega=w,
         stiffness=Z.real.copy(),
-        damping=Z.imag / np.maximum(w, NEAR_ZERO),
+        damping=Z.imag / moving,
+        stiffness_error=bars[0],
+        damping_error=bars[1],
         residual=residual,
         approach=steady.approach,
         h_central=steady.h_central,
@@ -122,6 +131,32 @@ def _steady(point: Point, meshes: Iterable[Mesh], deflection: str, threads: int)
     return steady
 
 
+def held(film: SteadyResult, deflection: str = "fft", threads: int = 1) -> Multigrid:
+    """Levels that hold a steady film, `deflection` and `threads` as in `solve_steady`."""
+    mesh = Mesh(film.n, film.domain, film.point.kappa)
+    multigrid = Multigrid(film.point, mesh, deflection=deflection, threads=threads)
+    multigrid.finest.P[...] = film.P.T
+    multigrid.u = film.approach
+    multigrid.finest.update(multigrid.u)
+    return multigrid
+
+
+def _on_coarser_grids(solved: Multigrid, omega: Array) -> list[Complex]:
+    """Impedances on half and a quarter of the intervals, as far as they tell an error, each shape (k,).
+
+    A film that is negative somewhere still tells it on half of them, not on a quarter.
+    """
+    found: list[Complex] = []
+    multigrid = solved
+    while len(found) < 2 and multigrid.mesh.n // 2 >= LEAST_INTERVALS:
+        multigrid = settled_on_half(multigrid, Balance.of_load())
+        lowest = multigrid.finest.H.min()
+        if not np.isfinite(lowest) or (found and lowest <= 0.0):
+            break
+        found.append(LinearisedContact(multigrid).respond(omega, TOLERANCE)[0])
+    return found
+
+
 class LinearisedContact:
     """Derivatives of the contact at its steady state.
 
@@ -130,19 +165,13 @@ class LinearisedContact:
 
     Parameters
     ----------
-    film : SteadyResult
-    deflection : {"fft", "mlmi", "direct"}
-        Engine by which it was solved.
-    threads : int
-        As in `solve_steady`.
+    multigrid : Multigrid
+        It holds the steady state: P, film and flow of its finest level, approach.
     """
 
-    def __init__(self, film: SteadyResult, deflection: str = "fft", threads: int = 1) -> None:
-        mesh = Mesh(film.n, film.domain, film.point.kappa)
-        self._multigrid = Multigrid(film.point, mesh, deflection=deflection, threads=threads)
-        level = self._level = self._multigrid.finest
-        level.P[...] = film.P.T
-        level.update(film.approach)
+    def __init__(self, multigrid: Multigrid) -> None:
+        self._multigrid = multigrid
+        level = self._level = multigrid.finest
         self._free = level.P > 0.0
         self.nodes = np.flatnonzero(self._free)
         self.weights = level.force_weights.ravel()[self.nodes]

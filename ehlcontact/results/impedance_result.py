@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -12,11 +13,19 @@ from ehlcontact.assumptions.judge import judged
 from ehlcontact.origin import Origin
 from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, LENGTH, MOMENT, NUMBER, STIFFNESS
 from ehlcontact.results.frequency import ScaledResponse
+from ehlcontact.results.steady_result import DOUBTFUL
+from ehlcontact.solver.error_estimate import ALL
+from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mesh_choice import damping_mesh
+from ehlcontact.store import stored
 from ehlcontact.summary import contact_text, note_line, span
 
 Array = NDArray[np.float64]
 
+COARSE = 1.1  # mesh over the one that damping needs, from which a result says so
 
+
+@stored("result of impedance")
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ImpedanceResult(ScaledResponse, Origin):
     """Stiffness and damping of a contact over frequency, dimensionless; ``si`` has it in SI.
@@ -28,6 +37,10 @@ class ImpedanceResult(ScaledResponse, Origin):
     stiffness, damping : ndarray, shape (k,)
         K(Omega) = Re Z in f0/delta_H, and C(Omega) = Im Z/Omega, its limit at Omega = 0, in that times 2a/u_sum;
         in SI [N/m] and [N s/m].
+    stiffness_error, damping_error : ndarray, shape (k,), or None
+        How far both may be from those of an endless fine mesh on the same region, in their units; as large as
+        they are where nothing is known. Also as ``error_bars``, by the names "stiffness" and "damping"; in
+        SI there alone.
     residual : ndarray, shape (k,)
         Relative residual of the linear system.
     approach, h_central, h_min : float
@@ -48,6 +61,45 @@ class ImpedanceResult(ScaledResponse, Origin):
     h_central: Annotated[float, LENGTH]
     h_min: Annotated[float, LENGTH]
     moment: Annotated[float, MOMENT]
+    stiffness_error: Array | None = None
+    damping_error: Array | None = None
+
+    def require_complete(self, **sizes: int) -> None:
+        """Raise `ValueError` unless all arrays have one value per frequency."""
+        ScaledResponse.require_complete(self, **sizes)
+        for name, bar in (self.error_bars or {}).items():
+            if np.shape(bar) != self.Omega.shape:
+                raise ValueError(f"the error of {name} has the shape {np.shape(bar)}, not {self.Omega.shape}")
+
+    @property
+    def error_bars(self) -> Mapping[str, Array] | None:
+        """Estimated errors by the name of their quantity, in its unit; None of a result without them."""
+        if self.stiffness_error is None or self.damping_error is None:
+            return None
+        return {"stiffness": self.stiffness_error, "damping": self.damping_error}
+
+    @property
+    def reservation(self) -> str:
+        """What the result leaves open, in words: a mesh coarser than damping needs, a large error; else empty."""
+        mesh = Mesh(self.n, self.domain, self.point.kappa)
+        needed = damping_mesh(self.point)
+        found = []
+        if mesh.size > COARSE * needed:
+            found.append(f"nodes are {mesh.size:.2g} semi-axes apart, damping needs {needed:.2g}")
+        if self.damping_error is not None:
+            share = self._share("damping")
+            worst = int(np.argmax(share))
+            if share[worst] > DOUBTFUL:
+                bar = "anything" if share[worst] >= ALL else f"{100.0 * share[worst]:.0f} %"
+                found.append(f"C may be off by {bar} at {self._frequency(worst)}")
+        return f"the grid is too coarse: {'; '.join(found)}" if found else ""
+
+    def _share(self, name: str) -> Array:
+        """Error of a quantity over it, shape (k,)."""
+        return np.asarray((self.error_bars or {})[name] / np.abs(getattr(self, name)))
+
+    def _frequency(self, k: int) -> str:
+        return f"Omega {self.Omega[k]:.4g}" if self.scales is None else f"{self.si.hz[k]:.4g} Hz"
 
     @property
     def force(self) -> Annotated[float, FORCE.in_si_only()]:
@@ -65,17 +117,23 @@ class ImpedanceResult(ScaledResponse, Origin):
         return judged(self).headline
 
     def _summary_lines(self) -> list[str]:
-        at = f"{self.Omega.size} frequencies, Omega {span(self.Omega)}"
-        if self.scales is None:
-            found = [at, f"stiffness K {span(self.stiffness)}, damping C {span(self.damping)}"]
-        else:
-            si = self.si
-            found = [f"{at}, {span(si.hz, 1.0, 'Hz')}", f"stiffness K {span(si.stiffness, 1e-6, 'N/µm')}"]
-            found[-1] += f", damping C {span(si.damping, 1.0, 'N s/m')}"
-        found += [f"linearised on n = {self.n}", *note_line(self.outside_assumptions)]
-        return [contact_text(self.point, self.scales), *found]
+        si = None if self.scales is None else self.si
+        hz, K, C = ("", self.stiffness, self.damping) if si is None else (si.hz, si.stiffness * 1e-6, si.damping)
+        units = ("", "") if si is None else (" N/µm", " N s/m")
+        at = f"{self.Omega.size} frequencies, Omega {span(self.Omega)}{'' if si is None else f', {span(hz)} Hz'}"
+        found = [f"stiffness K {span(K)}{units[0]}", f"damping C {span(C)}{units[1]}"]
+        if self.error_bars is not None:
+            shares = (100.0 * self._share(name) for name in ("stiffness", "damping"))
+            found = [f"{text} (± {span(np.round(share, 2))} %)" for text, share in zip(found, shares, strict=True)]
+        return [
+            contact_text(self.point, self.scales),
+            f"{at}; linearised on n = {self.n}",
+            ", ".join(found),
+            *filter(None, [self.reservation]),
+            *note_line(self.outside_assumptions),
+        ]
 
     def to_dict(self) -> dict[str, Any]:
         """Quantities and origin, ready for JSON; of an SI point with ``si``."""
-        said = {"outside_assumptions": self.outside_assumptions}
+        said = {"reservation": self.reservation, "outside_assumptions": self.outside_assumptions}
         return ScaledResponse.to_dict(self) | said | self.origin_dict()

@@ -6,6 +6,9 @@ so two cycles are enough.
 
 from __future__ import annotations
 
+import numpy as np
+from scipy.interpolate import RectBivariateSpline
+
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.kernels import transfer
@@ -37,6 +40,22 @@ def estimate_error(solved: Multigrid, balance: Balance) -> ErrorEstimate | None:
         u = multigrid.settle(k, u, balance, CYCLES, shift)
         found.append(_numbers(multigrid.levels[k], u))
     return ErrorEstimate.of(found) if len(found) > 1 else None
+
+
+def settled_on_half(solved: Multigrid, balance: Balance) -> Multigrid:
+    """The film on half the intervals, from that of `solved`; its `finest` may be negative somewhere."""
+    half = solved.halved()
+    fine, coarse = solved.finest, half.finest
+    between = RectBivariateSpline(fine.Y, fine.X, fine.P, kx=1, ky=1, s=0)
+    coarse.P[...] = np.maximum(between(coarse.Y, coarse.X), 0.0)
+    coarse.P[:, [0, -1]] = 0.0
+    coarse.P[-1] = 0.0
+    half.u = solved.u
+    coarse.update(half.u)
+    with np.errstate(over="ignore", invalid="ignore"):  # of a film that runs away
+        for _ in range(CYCLES):
+            half.cycle(balance)
+    return half
 
 
 def _numbers(level: Level, u: float) -> tuple[float, float, float]:

@@ -106,6 +106,12 @@ def mesh_for(point: MoesPoint, purpose: Purpose, grid: Grid = AUTOMATIC, *, larg
     return Mesh(n, domain, point.kappa)
 
 
+def damping_mesh(point: MoesPoint) -> float:
+    """Largest mesh size, in the longer semi-axis, that shows how the film moves."""
+    spike = SPIKE_MESH if has_spike(point) else LARGEST_MESH
+    return min(FINENESS[Purpose.DAMPING].share * point.inlet_width, spike)
+
+
 def remedy(
     mesh: Mesh,
     status: Status,
@@ -209,8 +215,7 @@ def _intervals(point: MoesPoint, domain: Domain, purpose: Purpose) -> int:
     """Intervals along X that `domain` needs."""
     width, (share, counts, largest) = point.inlet_width, FINENESS[purpose]
     if purpose is not Purpose.FILM:
-        spike = SPIKE_MESH if has_spike(point) else LARGEST_MESH
-        return _first(point, domain, min(share * width, spike), counts, largest)
+        return _first(point, domain, damping_mesh(point), counts, largest)
     sides = has_thin_sides(point)
     needed = (MESH_OF_THIN_SIDES if sides else share) * width
     if has_side_lobes(point):  # the smallest film, in the side lobes, needs more than to be positive

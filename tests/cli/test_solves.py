@@ -50,12 +50,15 @@ def test_note_on_a_region_that_ends_near_the_contact(call, point):
 
 def test_impedance(call, point):
     result = call("impedance", *point, "--n", "32", "--Omega", "0", "--Omega", "3", "--json", "-")
-    assert result.code == 0 and result.err == ""
+    assert result.code == 0
     document = json.loads(result.out)
+    assert document["reservation"] == "the grid is too coarse: nodes are 0.19 semi-axes apart, damping needs 0.12"
+    assert " ".join(result.err.split()) == f"ehlcontact: warning: {document['reservation']}"
     assert document["Omega"] == [0.0, 3.0]
+    assert all(bar > 0.0 for bar in document["error_bars"]["damping"])
     assert all(k > 1.0 for k in document["stiffness"]) and all(c > 0.0 for c in document["damping"])
-    table = call("impedance", *point, "--n", "32", "--Omega", "3")
-    assert table.code == 0 and "Omega = 3" in table.out
+    table = call("impedance", *point, "--n", "64", "--Omega", "3")
+    assert table.code == 0 and "Omega = 3" in table.out and table.out.count("±") == 2 and table.err == ""
 
 
 def test_from_simulation_to_fmu(call, refused, point, tmp_path):

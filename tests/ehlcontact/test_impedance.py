@@ -5,8 +5,9 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, Grid, InputError, MoesPoint
-from ehlcontact.impedance import LinearisedContact, impedance
+from ehlcontact import Domain, Grid, InputError, Lubricant, MoesPoint, OperatingPoint, load, save
+from ehlcontact.impedance import LinearisedContact, held, impedance
+from ehlcontact.solver.error_estimate import NOISE, response_error
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import NEAR_DOMAIN, Purpose, mesh_for
@@ -40,7 +41,7 @@ def dense(contact, film, n):
 @pytest.mark.parametrize("n", [48, pytest.param(64, marks=pytest.mark.slow)])
 def test_equals_the_dense_complex_solve(steady, n):
     film = steady(200, 10, 0.5, n)
-    contact = LinearisedContact(film)
+    contact = LinearisedContact(held(film))
     J, B = dense(contact, film, n)
     np.testing.assert_allclose(contact.j, J[:, -1], atol=1e-12 * np.abs(J[:, -1]).max())
     np.testing.assert_allclose(contact.b, B[:, -1], atol=1e-12 * np.abs(J[:, -1]).max())
@@ -55,7 +56,7 @@ def test_equals_the_dense_complex_solve(steady, n):
 
 def test_products_are_those_of_the_dense_matrices(steady):
     film = steady(200, 10, 0.5, 48)
-    contact = LinearisedContact(film)
+    contact = LinearisedContact(held(film))
     x = np.random.default_rng(5).normal(size=contact.nodes.size)
     for got, matrix in zip(contact.products(x), dense(contact, film, 48), strict=True):
         expected = matrix[:, :-1] @ x
@@ -65,7 +66,7 @@ def test_products_are_those_of_the_dense_matrices(steady):
 def test_many_frequencies_share_the_solves(steady, monkeypatch):
     """Forty frequencies between 0 and 30 need no more than fifteen solves: the space answers for the others."""
     film = steady(200, 10, 0.5, 48)
-    contact = LinearisedContact(film)
+    contact = LinearisedContact(held(film))
     solved = []
     solve = contact.solve
     monkeypatch.setattr(contact, "solve", lambda w, *rest: solved.append(w) or solve(w, *rest))
@@ -78,7 +79,7 @@ def test_many_frequencies_share_the_solves(steady, monkeypatch):
 def test_fine_grid_is_within_reach(steady):
     """At n = 128 both tolerances agree: C is as accurate as said."""
     film = steady(200, 10, 0.5, 128)
-    contact = LinearisedContact(film)
+    contact = LinearisedContact(held(film))
     omega = np.maximum(OMEGA, 1e-4)
     Z, tight = (contact.respond(omega, tolerance)[0] for tolerance in (1e-5, 1e-7))
     np.testing.assert_allclose(Z.real, tight.real, rtol=1e-4)
@@ -152,3 +153,51 @@ def test_region_widens_at_light_load(monkeypatch):
     # from a region that pressure fills: no default one does any more
     monkeypatch.setattr(Domain, "for_point", lambda *_: Domain())
     assert impedance(point, Omega=[1.0], grid=Grid(n=64)).domain.x_in < Domain().x_in
+
+
+def test_errors_hold_against_finer_grids():
+    """Stiffness and damping on meshes about right lie within their bars of those on twice the intervals."""
+    omega = [0.0, 0.05, 0.5, 1.0, 3.0, 10.0, 30.0]
+    for point, n in ((POINT, 64), (MoesPoint(100, 12, 0.8), 64)):
+        result, fine = (impedance(point, Omega=omega, grid=Grid(n=k)) for k in (n, 2 * n))
+        for name, bar in result.error_bars.items():
+            values, exact = getattr(result, name), getattr(fine, name)
+            assert (np.abs(values - exact) <= bar).all()
+            assert (bar < 0.3 * np.abs(exact)).all()
+
+
+def test_film_that_half_the_intervals_do_not_show_still_has_an_error():
+    """The film is negative on n = 64, so two grids tell the error; on 16 alone nothing is known."""
+    point = MoesPoint(4266, 9, 0.205)
+    result = impedance(point, Omega=[0.0, 3.0], grid=Grid(n=128))
+    assert (result.error_bars["damping"] > 0.05 * result.damping).all()
+    assert "nodes are 0.047 semi-axes apart, damping needs 0.025; C may be off by" in result.reservation
+    alone = impedance(MoesPoint(5, 2, 0.5), Omega=[0.0], grid=Grid(n=16))
+    assert alone.damping_error == pytest.approx(np.abs(alone.damping))
+    assert "C may be off by anything at Omega 0" in alone.reservation
+
+
+def test_errors_of_two_and_three_meshes():
+    """Errors of second order are stated twice too large; a part right by chance has the other's."""
+    omega, exact, slope = np.array([0.5, 2.0]), np.array([2.0 + 1.0j, 3.0 + 4.0j]), np.array([0.3, 0.02j])
+    found = [exact + slope * h * h for h in (0.1, 0.2, 0.4)]
+    dK, dC = response_error(omega, found)
+    K, C = NOISE[0] * found[0].real, NOISE[1] * found[0].imag / omega
+    np.testing.assert_allclose(dK - K, [2 * 0.003, 2 * 0.0002], rtol=1e-12)
+    np.testing.assert_allclose(dC - C, [2 * 0.003 * 0.5, 2 * 0.0001], rtol=1e-12)
+    dK, dC = response_error(omega, found[:2])
+    np.testing.assert_allclose(dK - K, [3 * 0.003, 3 * 0.0002], rtol=1e-12)
+    np.testing.assert_allclose(response_error(omega, found[:1]), [found[0].real, found[0].imag / omega])
+
+
+def test_in_si_and_in_files(tmp_path):
+    oil = Lubricant(0.04, 2.2e-8)
+    point = OperatingPoint.ball_bearing(
+        oil, ball_diameter=7.94e-3, pitch_diameter=39.04e-3, conformity=0.52, speed_rpm=3000.0, load=30.0
+    )
+    result = impedance(point, hz=[0.0, 50.0], grid=Grid(n=48))
+    s = result.scales
+    np.testing.assert_allclose(result.si.error_bars["damping"], result.damping_error * s.damping)
+    np.testing.assert_allclose(result.si.error_bars["stiffness"], result.stiffness_error * s.stiffness)
+    again = load(save(result, tmp_path / "k_and_c.h5"))
+    assert again.to_dict() == result.to_dict() and again.scales == s

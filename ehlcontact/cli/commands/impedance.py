@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import Contact, Frequencies
 from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.output import complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row, in_unit, outside_rows, run_rows
 
@@ -36,15 +37,28 @@ def impedance(contact: Contact, grid: o.Grid, frequencies: Frequencies, out: o.O
         ],
     )
     out.deliver({**result.to_dict(), **contact.about(point), "outside_assumptions": found.headline}, table)
+    if result.reservation:
+        complain(f"warning: {result.reservation}")
 
 
 def _rows(result: ImpedanceResult) -> list[Row]:
+    view = result if result.scales is None else result.si
+    bars = view.error_bars or {}
+    found = zip(result.Omega, view.stiffness, view.damping, bars["stiffness"], bars["damping"], strict=True)
     if result.scales is None:
-        triples = zip(result.Omega, result.stiffness, result.damping, strict=True)
-        return [(f"Omega = {w:g}", f"K {k:.4f}", f"C {c:.5f}") for w, k, c in triples]
-    si = result.si
-    fours = zip(si.hz, result.Omega, si.stiffness, si.damping, strict=True)
+        return [
+            (f"Omega = {w:g}", f"K {k:.4f} ± {numeral(dk, 1)}", f"C {c:.5f} ± {numeral(dc, 1)}")
+            for w, k, c, dk, dc in found
+        ]
     return [
-        (f"{numeral(f)} Hz", f"K {in_unit(k, 'N/m')}", f"C {in_unit(c, 'N s/m')}; Omega = {numeral(w)}")
-        for f, w, k, c in fours
+        (
+            f"{numeral(hz)} Hz",
+            f"K {_with_bar(k, dk, 'N/m')}",
+            f"C {_with_bar(c, dc, 'N s/m')}; Omega = {numeral(w)}",
+        )
+        for hz, (w, k, c, dk, dc) in zip(result.si.hz, found, strict=True)
     ]
+
+
+def _with_bar(value: float, bar: float, unit: str) -> str:
+    return f"{in_unit(value, unit).split()[0]} ± {in_unit(bar, unit, 1)}"
