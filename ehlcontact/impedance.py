@@ -47,6 +47,7 @@ LARGEST_OMEGA = 200.0
 NEAR_ZERO = 1e-4  # where C(0) is evaluated
 PRESCRIBED = Balance.of_approach(0.0)
 KEEP_FACTORS = 5.0  # change of Omega for which the factors of short waves serve
+MANY_NODES = 70_000  # beyond, factors of one band of frequencies are kept at a time: they take gigabytes
 SOLVE_SHARE = 0.3  # of the tolerance, for the solves themselves
 LEAST_INTERVALS = 12  # of the coarser grids that tell the error
 SMALLEST_NEW_PART = 1e-10  # of a vector, outside the space so far
@@ -194,6 +195,9 @@ class LinearisedContact:
         system = LinearFilm(self._level, self._free, PRESCRIBED, 1j * omega)
         reach = [abs(omega - w) for w, _ in self._near]
         if not reach or min(reach) > KEEP_FACTORS:
+            if self._free.size > MANY_NODES:
+                self._near.clear()
+                reach.clear()
             self._near.append((omega, NearCorrection(self._level, system)))
             reach.append(0.0)
         near = self._near[int(np.argmin(reach))][1]

@@ -70,7 +70,7 @@ class Fineness(NamedTuple):
 # minute and 1.5 GB at 70 000 nodes.
 FINENESS = {
     Purpose.FILM: Fineness(0.6, DOUBLED, 1_000_000),
-    Purpose.DAMPING: Fineness(1.0 / 3.0, STEPPED, 70_000),
+    Purpose.DAMPING: Fineness(1.0 / 3.0, STEPPED, 210_000),
     Purpose.RUN: Fineness(1.0 / 3.0, STEPPED[2:], 70_000),
     Purpose.CONTACT: Fineness(1.0 / 3.0, STEPPED, 70_000),
 }
