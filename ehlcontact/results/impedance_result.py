@@ -81,18 +81,17 @@ class ImpedanceResult(ScaledResponse, Origin):
     @property
     def reservation(self) -> str:
         """What the result leaves open, in words: a mesh coarser than damping needs, a large error; else empty."""
-        mesh = Mesh(self.n, self.domain, self.point.kappa)
-        needed = damping_mesh(self.point)
-        found = []
+        mesh, needed, found = Mesh(self.n, self.domain, self.point.kappa), damping_mesh(self.point), []
         if mesh.size > COARSE * needed:
-            found.append(f"nodes are {mesh.size:.2g} semi-axes apart, damping needs {needed:.2g}")
+            apart = f"nodes are {mesh.size:.2g} semi-axes apart, damping needs {needed:.2g}"
+            found.append(f"the grid is too coarse: {apart}")
         if self.damping_error is not None:
             share = self._share("damping")
             worst = int(np.argmax(share))
             if share[worst] > DOUBTFUL:
                 bar = "anything" if share[worst] >= ALL else f"{100.0 * share[worst]:.0f} %"
                 found.append(f"C may be off by {bar} at {self._frequency(worst)}")
-        return f"the grid is too coarse: {'; '.join(found)}" if found else ""
+        return "; ".join(found)
 
     def _share(self, name: str) -> Array:
         """Error of a quantity over it, shape (k,)."""

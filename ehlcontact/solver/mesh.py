@@ -23,7 +23,7 @@ class Solve(StrEnum):
 # All fields, their deflections and what a step in time keeps, over the nodes of all levels: a steady film takes
 # 24 numbers per node and a step 30, as measured; the memory of cycles that fall slowly five more, as counted.
 NUMBERS_PER_NODE = 29.0
-# Bytes of sparse factors and of what makes them, over a power of the nodes; measured up to 130 000 nodes.
+# Bytes of sparse factors and of what makes them, over a power of the nodes; measured up to 205 000 nodes.
 FACTORS, FACTOR_POWER = {Solve.CYCLES: 0.0, Solve.NEWTON: 750.0, Solve.IMPEDANCE: 1300.0}, 1.17
 
 
