@@ -27,11 +27,12 @@ class FrequencyResponse(QuantityTable):
         return np.asarray(self.stiffness + 1j * w.reshape(-1, *(1,) * (self.stiffness.ndim - 1)) * self.damping)
 
     def to_control(self) -> Any:
-        """``control.FrequencyResponseData`` from ``u`` to ``F``, or ``u_x, u_y`` to ``F_x, F_y``, over w."""
+        """``control.FrequencyResponseData`` over w: ``u`` to ``F``, or ``u_x, u_y, ...`` to ``F_x, F_y, ...``."""
         import control
 
         Z, w = np.moveaxis(self.impedance, 0, -1), self._angular_frequency()
-        inputs, outputs = ("u", "F") if Z.ndim == 1 else (["u_x", "u_y"], ["F_x", "F_y"])
+        axes = self._display().labels.get("axis", ())
+        inputs, outputs = ("u", "F") if Z.ndim == 1 else ([f"u_{x}" for x in axes], [f"F_{x}" for x in axes])
         return control.frd(Z, w, inputs=inputs, outputs=outputs, name="contact")
 
     def _angular_frequency(self) -> Array:

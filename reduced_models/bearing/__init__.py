@@ -5,6 +5,11 @@
 | ball_bearing | `BallBearing`: dimensions, checks, and what can be asked of it |
 | catalogue | dimensions by name, with their sources |
 | clearance | radial clearance by class and bore |
+| freedoms | degrees of freedom of the ring: names, units, loads |
+| contact_angles | compiled: groove centres, contact angles, rolling and race control of a ball |
+| angular_balls | compiled: balls at contact angles in static equilibrium, the force on a ring with five degrees |
+| five_degrees | a ring with five degrees of freedom in static equilibrium |
+| linear_angular | that ring about rest: impedance at complex frequencies |
 | kinematics | cage, balls and defect frequencies |
 | race | one contact and its law at a speed; the one place that asks the atlas |
 | race_table | compiled: static force and memory gains of a race, tabulated over approach and speed |

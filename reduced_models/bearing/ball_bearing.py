@@ -1,10 +1,10 @@
-"""`BallBearing`: a deep-groove ball bearing in its plane, a film under every ball."""
+"""`BallBearing`: a deep-groove or angular contact ball bearing, a film under every ball on both races."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
-from math import hypot, inf, pi, sin
+from math import acos, cos, degrees, hypot, inf, pi, sin
 from typing import Any, Self
 
 import numpy as np
@@ -14,6 +14,7 @@ from ehlcontact import Lubricant
 from ehlcontact.checks import (
     as_column,
     as_numbers,
+    require_choice,
     require_finite,
     require_instance,
     require_integer,
@@ -27,9 +28,11 @@ from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.store import stored
 from ehlcontact.summary import Summary
+from reduced_models.bearing.angular_balls import AngularBalls
 from reduced_models.bearing.balls import Balls, SpeedState, speed_state
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
 from reduced_models.bearing.clearance import clearance_of_class
+from reduced_models.bearing.contact_angles import CONTROLS, UNSIGNED, Grooves
 from reduced_models.bearing.equilibrium import (
     RingEquilibrium,
     StaticBalls,
@@ -38,6 +41,15 @@ from reduced_models.bearing.equilibrium import (
     radial_load,
     ring_equilibrium,
 )
+from reduced_models.bearing.five_degrees import (
+    AngularEquilibrium,
+    StaticRing,
+    angular_equilibrium,
+    free_clearance,
+    groove_distance,
+    torsion,
+)
+from reduced_models.bearing.freedoms import PLANAR, bearing_load, held_tilt
 from reduced_models.bearing.kinematics import (
     HERTZ,
     RADIANS,
@@ -47,9 +59,19 @@ from reduced_models.bearing.kinematics import (
     cage_ratio,
     rolling_radius,
 )
+from reduced_models.bearing.linear_angular import SmallAngularBalls
 from reduced_models.bearing.linear_balls import BearingCoefficients, SmallBalls
 from reduced_models.bearing.loss import loss_of, require_loss_factor
-from reduced_models.bearing.race import RACES, Race, assumptions_under, films_under, race_of, require_roughness
+from reduced_models.bearing.race import (
+    RACES,
+    Race,
+    assumptions_at_angles,
+    assumptions_under,
+    films_at_angles,
+    films_under,
+    race_of,
+    require_roughness,
+)
 from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
 from reduced_models.bearing.state import BearingState
 from reduced_models.elements.wide_range import WideRangeContact
@@ -57,21 +79,27 @@ from reduced_models.elements.wide_range import WideRangeContact
 _Floats = NDArray[np.float64]
 
 LARGEST_PLAY = 0.05  # clearance or preload over ball diameter: five times what C5 or a heavy fit has
+LARGEST_ANGLE = pi / 4.0  # rad: beyond it, a thrust bearing
+SAME_CLEARANCE = 0.01  # by which a clearance beside a contact angle may be rounded
 POSITIONS = 12  # of the cage over a ball passage for means: those of 6205 are within 1e-3 of those of 48
 
 
 @stored("ball bearing")
 @fields_take(
     ball_diameter="m", pitch_diameter="m", clearance="m", rq_ball="m", rq_race="m", film_limit="m",
-    youngs_modulus="Pa", density="kg/m3",
+    youngs_modulus="Pa", density="kg/m3", contact_angle="rad",
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
 class BallBearing(Summary):
-    """Deep-groove ball bearing under radial load, the outer ring standing still. SI units, y upwards.
+    """Ball bearing, the outer ring standing still. SI units; x and y across the shaft, y upwards, z along it.
 
     Every ball has a contact with either race, each with a film and its memory; both carry the ball in series, the
-    outer one its centrifugal force too. Rings are rigid, balls roll without slip at zero contact angle and, unless
-    it is asked for, do not vibrate on their contacts themselves (for a 6205 that begins near 30 kHz).
+    outer one its centrifugal force too. Rings are rigid, balls roll without slip at the centres of their contacts
+    and, unless it is asked for, do not vibrate on their contacts themselves (for a 6205 that begins near 30 kHz).
+
+    The inner ring has five degrees of freedom (`reduced_models.bearing.freedoms`). Under a load (Fx, Fy) its axial
+    motion and its tilts are held: a planar bearing with contact angles of 0, the one of rotors and of time
+    integration. Under (Fx, Fy, Fz) or with moments every ball has contact angles of its own on both races.
 
     Parameters
     ----------
@@ -82,7 +110,16 @@ class BallBearing(Summary):
     conformity_inner, conformity_outer : float
         Groove radius over ball diameter.
     clearance : float
-        Radial internal clearance, the play across the bearing [m]; below 0 it is preloaded by so much.
+        Radial internal clearance, the play across the bearing [m]; below 0 it is preloaded by so much. An angular
+        contact bearing has it from its contact angle.
+    contact_angle : float, optional
+        Of an angular contact bearing whose balls just touch both races [rad]; it carries axial load in +z. By
+        default a deep-groove bearing, whose angle follows from its clearance: `free_angle`.
+    race_control : {"outer", "inner", "shared", "unsigned"}
+        What the axis of a ball follows at contact angles, and which race holds its gyroscopic moment: no spin at
+        the outer race, which centrifugal force makes hold at the speeds where it matters; none at the inner race;
+        a share of both by their moments of friction; or the first with the direction of the gyroscopic moment that
+        published tables have (`reduced_models.bearing.contact_angles`).
     oil : Lubricant, optional
         Flooded contacts, by the atlas. None is dry: Hertz' contacts without film or damping.
     rq_ball, rq_race : float, optional
@@ -125,14 +162,18 @@ class BallBearing(Summary):
     ball_inertia: bool = False
     name: str = ""
     atlas: str | None = None
+    contact_angle: float | None = None
+    race_control: str = "outer"
     _known: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def _summary_lines(self) -> list[str]:
         play = 1e6 * self.clearance
+        angle = self.contact_angle
+        grooves = f"clearance {play:.4g} µm" if angle is None else f"contact angle {degrees(angle):.4g} degrees"
         lines = [
             f"{self.name or 'ball bearing'}, {self.balls} balls of {1e3 * self.ball_diameter:.4g} mm "
             f"on {1e3 * self.pitch_diameter:.4g} mm",
-            f"conformity {self.conformity_inner:.4g} and {self.conformity_outer:.4g}, clearance {play:.4g} µm",
+            f"conformity {self.conformity_inner:.4g} and {self.conformity_outer:.4g}, {grooves}",
             "dry"
             if self.oil is None
             else f"oil of {self.oil.eta0:.4g} Pa s, alpha {1e9 * self.oil.alpha:.4g} 1/GPa, flooded",
@@ -150,6 +191,9 @@ class BallBearing(Summary):
         require_positive("density", self.density)
         require_loss_factor(self.loss_factor)
         require_instance("ball_inertia", self.ball_inertia, bool, "True or False")
+        require_choice("race_control", self.race_control, CONTROLS)
+        if self.contact_angle is not None:
+            require_contact_angle(self.contact_angle)
         races = {name: race_of(self, name) for name in RACES}
         self._known["races"] = races
         room = self.pitch_diameter * sin(pi / self.balls)
@@ -162,6 +206,11 @@ class BallBearing(Summary):
             raise InputError("clearance", self.clearance, allowed)
         if not abs(require_finite("clearance", self.clearance)) <= play:
             raise InputError("clearance", self.clearance, f"between {-play:.3g} and {play:.3g} m")
+        if self.contact_angle is not None and self.clearance != 0.0:
+            own = free_clearance(self._groove_distance, self.contact_angle)
+            if abs(self.clearance - own) > SAME_CLEARANCE * own:
+                allowed = f"left out beside a contact angle, which makes it {own:.4g} m with these conformities"
+                raise InputError("clearance", self.clearance, allowed)
         if self.oil is not None:
             for race in races.values():
                 race.require_in_atlas()
@@ -198,14 +247,25 @@ class BallBearing(Summary):
         return self.ball_diameter / self.pitch_diameter
 
     @property
+    def free_angle(self) -> float:
+        """Contact angle with the balls just touching both races [rad]: 0 without clearance."""
+        if self.contact_angle is not None:
+            return self.contact_angle
+        return acos(1.0 - 0.5 * max(self.clearance, 0.0) / self._groove_distance)
+
+    @property
     def orders(self) -> DefectFrequencies:
-        """Defect frequencies per turn of the shaft."""
-        return DefectFrequencies.of(self.balls, self.gamma)
+        """Defect frequencies per turn of the shaft; of deep-groove bearings under radial load.
+
+        Those under an axial load are `BearingState.orders`.
+        """
+        return DefectFrequencies.of(self.balls, self.gamma * self._cosine)
 
     @takes(speed_rpm="rev/min")
     def frequencies(self, speed_rpm: float) -> DefectFrequencies:
         """Defect frequencies [Hz] at a speed of the shaft [rev/min]."""
-        return DefectFrequencies.of(self.balls, self.gamma, require_nonnegative("speed_rpm", speed_rpm) * HERTZ)
+        turns = require_nonnegative("speed_rpm", speed_rpm) * HERTZ
+        return DefectFrequencies.of(self.balls, self.gamma * self._cosine, turns)
 
     @property
     def roughness(self) -> float | None:
@@ -234,28 +294,40 @@ class BallBearing(Summary):
             self._known[race, speed] = contact.element(speed)
         return self._known[race, speed]
 
-    @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
+    @takes(load="N", speed_rpm="rev/min", cage_angle="rad", tilt="rad")
     def equilibrium(
-        self, load: ArrayLike, *, speed_rpm: float = 0.0, cage_angle: float | None = None
+        self,
+        load: ArrayLike,
+        *,
+        speed_rpm: float = 0.0,
+        cage_angle: float | None = None,
+        tilt: ArrayLike | None = None,
     ) -> BearingState:
         """State at rest under a load on the shaft.
 
         Parameters
         ----------
-        load : (float, float)
-            Force on the inner ring (Fx, Fy) [N].
+        load : tuple of 2, 3 or 5 float
+            Force on the inner ring: (Fx, Fy) [N], axial motion and tilts held; (Fx, Fy, Fz), tilts held; or
+            (Fx, Fy, Fz, Mx, My) [N], [N m].
         speed_rpm : float
-            Speed of the shaft [rev/min], for the films and the centrifugal force; 0 for a dry bearing only.
+            Speed of the shaft [rev/min], for the films and the inertia of the balls; 0 for a dry bearing only.
         cage_angle : float, optional
             Angle of the first ball from the x axis [rad]; by default it stands under the load.
+        tilt : (float, float), optional
+            About x and y, of the ring under (Fx, Fy, Fz) [rad]: misalignment; by default 0.
 
         Raises
         ------
         InputError
-            A load that is not radial, that does not seat the bearing or is beyond the atlas; a speed beyond it.
+            A load that does not seat the bearing, drives balls out of their grooves or is beyond the atlas; a
+            speed beyond it.
         """
-        force, speed = radial_load(load), self.speed(speed_rpm)
+        force, speed = self._bearing_load(load), self.speed(speed_rpm)
         angle = direction_of(force) if cage_angle is None else angle_of(cage_angle)
+        held = held_tilt(tilt, force.size)
+        if force.size > len(PLANAR):
+            return self._angular_state(force, speed, angle, held)
         at = self._stand(force, speed, angle)
         return BearingState(
             name=self.name,
@@ -286,8 +358,9 @@ class BallBearing(Summary):
 
         Parameters
         ----------
-        load : (float, float)
-            Force on the inner ring [N].
+        load : tuple of 2, 3 or 5 float
+            Force on the inner ring [N], [N m]; as in `equilibrium`. Beyond two components matrices are those of
+            all five degrees of freedom, tilts included where the load holds them.
         speed_rpm : float
             Speed of the shaft [rev/min].
         cage_angle : float, optional
@@ -299,8 +372,15 @@ class BallBearing(Summary):
         -------
         BearingCoefficients
         """
-        force, speed = radial_load(load), self.speed(speed_rpm)
+        force, speed = self._bearing_load(load), self.speed(speed_rpm)
         w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
+        if force.size > len(PLANAR):
+            places = [self._stand_at_angles(force, speed, at) for at in self._cage_angles(force, cage_angle)]
+            inertia = ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0
+            small = SmallAngularBalls.of(self._angular_balls(speed), places, loss_of(self.loss_factor), inertia)
+            full = np.mean([at.load for at in places], axis=0)
+            outside = "" if self.oil is None else assumptions_at_angles(self, speed, places).headline
+            return BearingCoefficients.of(full, speed, cage_angle, w, small.coefficients(w), places, outside)
         standings = self.ring_equilibria(force, speed, cage_angle)
         balls = SmallBalls.of(self._kernel(speed), self._speed_state(speed), standings)
         matrices, forces = balls.coefficients(w), np.array([standing.force for standing in standings])
@@ -312,10 +392,14 @@ class BallBearing(Summary):
     ) -> list[RingEquilibrium]:
         """The ring at rest under a load [N], at positions of the cage over a ball passage or at one [rad]."""
         force, speed = radial_load(load), self.speed(speed_rpm)
-        first = direction_of(force) if cage_angle is None else angle_of(cage_angle)
+        return [self._stand(force, speed, angle) for angle in self._cage_angles(force, cage_angle)]
+
+    def _cage_angles(self, load: _Floats, cage_angle: float | None) -> list[float]:
+        """Angles of the first ball [rad] over a ball passage, or the one that is given."""
+        first = direction_of(load) if cage_angle is None else angle_of(cage_angle)
         steps = np.arange(POSITIONS) / POSITIONS if cage_angle is None else np.zeros(1)
-        angles = first + 2.0 * pi / self.balls * steps
-        return [self._stand(force, speed, angle) for angle in angles.tolist()]
+        angles: list[float] = (first + 2.0 * pi / self.balls * steps).tolist()
+        return angles
 
     @takes(load="N", speeds_rpm="rev/min")
     @by_name(2)
@@ -360,13 +444,92 @@ class BallBearing(Summary):
 
     def _stand(self, load: _Floats, speed: float, angle: float) -> RingEquilibrium:
         standing = ring_equilibrium(self._static_balls(speed, angle), load)
-        for name, most in zip(RACES, standing.force.max(axis=0).tolist(), strict=True):
+        self._require_bearable(standing.force, load, speed)
+        return standing
+
+    def _require_bearable(self, force: _Floats, load: _Floats, speed: float) -> None:
+        """Raise `InputError` for forces on the balls, shape (balls, 2) [N], that a race does not bear."""
+        for name, most in zip(RACES, force.max(axis=0).tolist(), strict=True):
             highest, end = self.race(name).heaviest(speed)
             if most > highest:
                 what, value = ("load", load.tolist()) if load.any() else ("clearance", self.clearance)
                 allowed = f"such that a ball carries at most {highest:.4g} N on the {name} race"
                 raise InputError(what, value, f"{allowed}, {end} (here {most:.4g} N)")
-        return standing
+
+    def _bearing_load(self, load: ArrayLike) -> _Floats:
+        """A load that a bearing of this kind takes."""
+        force = bearing_load(load)
+        if force.size == len(PLANAR) and self.contact_angle is not None:
+            allowed = "(Fx, Fy, Fz) or (Fx, Fy, Fz, Mx, My): an angular contact bearing needs an axial load"
+            raise InputError("load", force.tolist(), allowed)
+        return force
+
+    def _stand_at_angles(
+        self, load: _Floats, speed: float, angle: float, tilt: _Floats | None = None
+    ) -> AngularEquilibrium:
+        held = np.zeros(5) if tilt is None else np.concatenate([np.zeros(3), tilt])
+        ring = StaticRing(self._angular_balls(speed), angle, load.size, held)
+        at = angular_equilibrium(ring, load, one_way=self.contact_angle is not None)
+        self._require_bearable(at.force, load, speed)
+        return at
+
+    def _angular_state(self, load: _Floats, speed: float, angle: float, tilt: _Floats) -> BearingState:
+        at = self._stand_at_angles(load, speed, angle, tilt)
+        return BearingState(
+            name=self.name,
+            load=at.load,
+            speed_rpm=speed,
+            cage_angle=angle,
+            displacement=at.displacement,
+            stiffness=at.stiffness,
+            angles=np.asarray(angle + 2.0 * pi / self.balls * np.arange(self.balls)),
+            force=at.force,
+            approach=at.approach,
+            contact_angles=at.angles,
+            spin_to_roll=at.spin_to_roll,
+            orbit=at.orbit,
+            turn=at.turn,
+            **({} if self.oil is None else films_at_angles(self, speed, at)),
+        )
+
+    def _angular_balls(self, speed: float) -> AngularBalls:
+        """Parameters of the kernels for balls at contact angles (`reduced_models.bearing.angular_balls`)."""
+        key = ("angular", speed)
+        if key not in self._known:
+            distance, speeds = self._groove_distance, np.array([speed])
+            inner, outer = ((f - 0.5) * self.ball_diameter for f in (self.conformity_inner, self.conformity_outer))
+            # without a given angle the outer groove is at 0 along the shaft, and the inner one with it
+            free = distance - 0.5 * self.clearance, 0.0
+            if self.contact_angle is not None:
+                free = distance * cos(self.contact_angle), distance * sin(self.contact_angle)
+            grooves = Grooves(
+                radial=free[0],
+                axial=free[1],
+                inner=inner,
+                outer=outer,
+                lever=0.5 * self.pitch_diameter + inner * cos(self.free_angle),
+                radius=self.conformity_inner * self.ball_diameter,
+                ball=self.ball_diameter,
+                pitch=self.pitch_diameter,
+                mass=ball_mass(self.ball_diameter, self.density),
+                control=CONTROLS.index(self.race_control),
+                gyroscopic=-1.0 if self.race_control == CONTROLS[UNSIGNED] else 1.0,
+                inner_torsion=torsion(self.race("inner").geometry, self.race("inner").kn),
+                outer_torsion=torsion(self.race("outer").geometry, self.race("outer").kn),
+                cosine=self._cosine,
+            )
+            laws = self._law("inner", speeds), self._law("outer", speeds)
+            self._known[key] = AngularBalls(*laws, self.balls, grooves, speed * RADIANS)
+        return self._known[key]
+
+    @property
+    def _groove_distance(self) -> float:
+        return groove_distance(self.ball_diameter, self.conformity_inner, self.conformity_outer)
+
+    @property
+    def _cosine(self) -> float:
+        """Of the contact angle for which both races are tabulated."""
+        return 1.0 if self.contact_angle is None else cos(self.contact_angle)
 
     def _static_balls(self, speed: float, angle: float) -> StaticBalls:
         """All balls at rest at a speed that the bearing takes, the first ball at `angle`."""
@@ -380,7 +543,11 @@ class BallBearing(Summary):
         """Parameters of the compiled kernels (`reduced_models.bearing.balls`) over increasing speeds [rev/min].
 
         Between two speeds films grow as with the speed to the power of 0.67; outside them the kernels do not ask.
+        They are planar: `InputError` for an angular contact bearing.
         """
+        if self.contact_angle is not None:
+            allowed = "left out: rotors, time integration and FMUs have planar bearings (static and linear: any)"
+            raise InputError("contact_angle", self.contact_angle, allowed)
         speeds = as_column("speeds_rpm", np.atleast_1d(as_numbers("speeds_rpm", speeds_rpm)), increasing=True)
         key = ("kernel", *speeds.tolist())
         if key not in self._known:
@@ -431,3 +598,11 @@ class BallBearing(Summary):
         if oil is not None:
             require_names(oil, [f.name for f in fields(Lubricant)], "oil.")
         return cls(**{**entries, "oil": None if oil is None else Lubricant(**oil)})
+
+
+def require_contact_angle(angle: float) -> None:
+    """Raise `InputError` for a contact angle [rad] that no angular contact bearing has."""
+    if not 0.0 < require_finite("contact_angle", angle) <= LARGEST_ANGLE:
+        allowed = f"above 0 and at most {LARGEST_ANGLE:.4g} rad (45 degrees)"
+        given = f"; {angle:g} degrees are {np.radians(angle):.4g} rad" if LARGEST_ANGLE < angle <= 45.0 else ""
+        raise InputError("contact_angle", angle, allowed + given)

@@ -39,11 +39,14 @@ class Springs(Protocol):
         """Its derivative, shape (directions, directions) [N/m]."""
 
 
-def equilibrium(springs: Springs, load: _Floats) -> _Floats:
+def equilibrium(
+    springs: Springs, load: _Floats, longest: float = math.inf, first: _Floats | None = None
+) -> _Floats:
     """Find the displacement, shape (directions,) [m], at which springs carry `load` [N].
 
     Newton's method with the analytic tangents. Springs that only stiffen have a convex potential, so a step
-    that does not bring the balance closer is replaced by the minimum along it.
+    that does not bring the balance closer is replaced by the minimum along it. Steps are at most `longest` [m].
+    With a `first` place the search begins there.
 
     Raises
     ------
@@ -59,10 +62,13 @@ def equilibrium(springs: Springs, load: _Floats) -> _Floats:
     def balance(q: _Floats) -> _Floats:
         return springs.force(q) - load
 
-    q = np.zeros(load.size)
-    residual = balance(q)
-    # Where all contacts are open there is no tangent to follow: first go along the load until they carry it.
-    q = _line_search(balance, q, -math.copysign(FIRST_STEP / size, float(load @ residual)) * load)
+    if first is None:
+        q = np.zeros(load.size)
+        residual = balance(q)
+        # Where all contacts are open there is no tangent to follow: first go along the load until they carry it.
+        q = _line_search(balance, q, -math.copysign(FIRST_STEP / size, float(load @ residual)) * load)
+    else:
+        q = first
     for _ in range(MOST_STEPS):
         residual = balance(q)
         error = float(np.linalg.norm(residual))
@@ -71,11 +77,15 @@ def equilibrium(springs: Springs, load: _Floats) -> _Floats:
         stiffness = springs.tangent(q)
         stiffness += REGULARISATION * max(float(np.trace(stiffness)), size) * np.eye(load.size)
         step = -np.asarray(np.linalg.solve(stiffness, residual), dtype=np.float64)
+        if (length := float(np.linalg.norm(step))) > longest:
+            step *= longest / length
         if np.linalg.norm(balance(q + step)) < 0.5 * error:
             q = q + step
         elif error <= BALANCED_BY_ROUNDING * size:
             return q
         else:
+            if step @ residual >= 0.0:  # inertia of balls makes tangents unsymmetric
+                step = -residual * float(np.linalg.norm(step)) / error
             q = _line_search(balance, q, step)
     raise ConvergenceError("static equilibrium not found: the iteration stalled", q)
 
@@ -91,7 +101,10 @@ def _line_search(balance: Callable[[_Floats], _Floats], q: _Floats, step: _Float
         far *= 2.0
         if far * float(np.linalg.norm(step)) > LONGEST_STEP:
             raise ConvergenceError("static equilibrium not found: the contacts do not hold the load", q)
-    return q + float(brentq(along, 0.0, far, xtol=1e-300, rtol=1e-12)) * step
+    try:
+        return q + float(brentq(along, 0.0, far, xtol=1e-300, rtol=1e-12)) * step
+    except (ValueError, RuntimeError):  # balls with several places of balance at speed
+        raise ConvergenceError("static equilibrium not found: forces that jump with the displacement", q) from None
 
 
 class StaticBalls:

@@ -10,19 +10,21 @@ same load puts it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, HERTZ, LENGTH, RADIAN, SPEED, STIFFNESS
+from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, HERTZ, LENGTH, RADIAN, SPEED, STIFFNESS, Quantity
 from ehlcontact.results.frequency import FrequencyResponse
 from ehlcontact.results.table import Display
 from ehlcontact.summary import note_line, span
 from reduced_models.bearing.balls import Balls, SpeedState
 from reduced_models.bearing.equilibrium import RingEquilibrium
+from reduced_models.bearing.five_degrees import AngularEquilibrium
+from reduced_models.bearing.freedoms import in_freedoms, labelled, load_words
 from reduced_models.bearing.loss import Loss, response
 from reduced_models.bearing.race_contact import curve, film_cutoff, film_made
 from reduced_models.bearing.race_table import RaceForceTable
@@ -42,16 +44,24 @@ def small_motion(law: RaceForceTable, transit: float, speed_row: tuple[int, floa
     root = np.sqrt(g)
     if law.x.size == 0:
         return SmallMotion(1.5 * law.kn * root * by_u, 0.0, 0.0, np.zeros(0), None)
+    share, share_u = film_cutoff(u, law.cutoff_gap)
+    slope = share * 1.5 * law.kn * root
+    return small_film(law, transit, speed_row, g, slope, slope * by_u + share_u * law.kn * g * root)
+
+
+def small_film(
+    law: RaceForceTable, transit: float, speed_row: tuple[int, float], g: float, slope: float, stiffness: float
+) -> SmallMotion:
+    """Linear law of a film of dry compression `g` [m], whose static force has this slope and `stiffness` [N/m]."""
+    root = np.sqrt(g)
     rows = law.gains[speed_row[0]]
     if speed_row[1] > 0.0:
         rows = rows + speed_row[1] * (law.gains[speed_row[0] + 1] - rows)
     x = law.log_kn + 1.5 * np.log(g)
     gains = np.array([np.interp(x, law.x, column) for column in rows.T])
     rates = FilterRates(gains.size - DIRECT, law.lag_rate, law.inlet_rate, law.fast_rate)
-    share, share_u = film_cutoff(u, law.cutoff_gap)
-    slope = share * 1.5 * law.kn * root
     made = film_made(law, speed_row, float(x))
-    return SmallMotion(slope * by_u + share_u * law.kn * g * root, slope, transit * root, gains, rates, made)
+    return SmallMotion(stiffness, slope, transit * root, gains, rates, made)
 
 
 class SmallBalls(NamedTuple):
@@ -94,23 +104,25 @@ class SmallBalls(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class BearingCoefficients(FrequencyResponse):
-    """Matrices of a small vibration of the ring, in the order x, y.
+    """Matrices of a small vibration of the ring in n = 2 or 5 degrees of freedom: x, y (, z, tilt_x, tilt_y).
+
+    Tilts have rad for m and N m for N.
 
     Attributes
     ----------
-    load : ndarray, shape (2,)
-        Force on the ring [N].
+    load : ndarray, shape (n,)
+        Force on the ring [N], [N m].
     speed_rpm : float
         Of the shaft.
     cage_angle : float or None
         Of the first ball [rad]; None: means over a ball passage.
     omega : ndarray, shape (k,)
         Angular frequencies [rad/s]; ``hz`` has them in Hz.
-    stiffness, damping : ndarray, shape (k, 2, 2)
+    stiffness, damping : ndarray, shape (k, n, n)
         K [N/m] and C [N s/m].
-    displacement : ndarray, shape (2,)
+    displacement : ndarray, shape (n,)
         Of the ring [m].
-    swing : ndarray, shape (2,)
+    swing : ndarray, shape (n,)
         How far the ring goes up and down while a ball passes slowly [m]; 0 at a given angle of the cage.
     outside_assumptions : str
         Assumptions of films that do not hold at the heaviest ball (`ehlcontact.assumptions`); empty where none.
@@ -130,11 +142,16 @@ class BearingCoefficients(FrequencyResponse):
         rows="hz", panels=("stiffness", "damping"), labels={"axis": ("x", "y"), "by": ("x", "y")}, logs="x"
     )
 
+    def _quantities(self) -> Mapping[str, Quantity]:
+        return in_freedoms(super()._quantities(), self.load.size)
+
+    def _display(self) -> Display:
+        return labelled(super()._display(), self.load.size)
+
     def _summary_lines(self) -> list[str]:
-        x, y = self.load.tolist()
         K, C = self.stiffness, self.damping
         return [
-            f"load ({x:.4g}, {y:.4g}) N at {self.speed_rpm:.5g} rev/min, {span(self.hz, 1.0, 'Hz')}",
+            f"load {load_words(self.load)} at {self.speed_rpm:.5g} rev/min, {span(self.hz, 1.0, 'Hz')}",
             f"K_xx {span(K[:, 0, 0], 1e-6, 'N/µm')}, K_yy {span(K[:, 1, 1], 1e-6, 'N/µm')}",
             f"C_xx {span(C[:, 0, 0], 1.0, 'N s/m')}, C_yy {span(C[:, 1, 1], 1.0, 'N s/m')}",
             "means over a ball passage" if self.cage_angle is None else f"cage at {self.cage_angle:.4g} rad",
@@ -158,10 +175,10 @@ class BearingCoefficients(FrequencyResponse):
         cage_angle: float | None,
         omega: _Floats,
         matrices: tuple[_Floats, _Floats],
-        standings: Sequence[RingEquilibrium],
+        standings: Sequence[RingEquilibrium | AngularEquilibrium],
         outside_assumptions: str = "",
     ) -> BearingCoefficients:
-        """From the mean `matrices` K and C, shape (k, 2, 2), and the positions that they are the mean of."""
+        """From the mean `matrices` K and C, shape (k, n, n), and the positions that they are the mean of."""
         places = np.array([standing.displacement for standing in standings])
         mean, swing = places.mean(axis=0), np.ptp(places, axis=0)
         return cls(load, speed_rpm, cage_angle, omega, *matrices, mean, swing, outside_assumptions)

@@ -20,15 +20,17 @@ def draw_state(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
     """Load zone of a `BearingState` beside the films of every ball; the file's ending gives its format."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=SIZE, layout="constrained")
-    zone = figure.add_subplot(1, 2, 1, projection="polar")
+    panels = 2 if state.contact_angles is None else 3
+    figure = Figure(figsize=(0.5 * panels * SIZE[0], SIZE[1]), layout="constrained")
+    zone = figure.add_subplot(1, panels, 1, projection="polar")
     load_zone(zone, state)
-    beside = figure.add_subplot(1, 2, 2)
-    films(beside, state)
+    films(figure.add_subplot(1, panels, 2), state)
+    if panels == 3:
+        contact_angles(figure.add_subplot(1, panels, 3), state)
     speed = f"{state.speed_rpm:g} rev/min" if state.speed_rpm else "at rest"
     torque = state.rolling_torque
     resists = "" if torque is None else f"; films resist rolling by {torque * 1e3:.3g} N mm"
-    figure.suptitle(f"{state.name or 'ball bearing'}, {np.hypot(*state.load):.4g} N, {speed}{resists}")
+    figure.suptitle(f"{state.name or 'ball bearing'}, {_load(state)}, {speed}{resists}")
     return written(figure, path)
 
 
@@ -71,6 +73,25 @@ def draw_over_speed(
     return written(figure, path)
 
 
+def _load(state: Any) -> str:
+    """Load of a state in words."""
+    radial = f"{np.hypot(*state.load[:2]):.4g} N"
+    return radial if state.load.size == 2 else f"{radial} radially, {state.load[2]:.4g} N axially"
+
+
+def contact_angles(axes: Any, state: Any) -> None:
+    """Contact angles of every ball over its place."""
+    turned, shown = from_load(state), np.degrees(state.contact_angles)
+    order = np.argsort(turned)
+    for column, (race, colour) in enumerate((("inner race", INNER), ("outer race", OUTER))):
+        axes.plot(turned[order], shown[order, column], "o-", color=colour, label=race)
+    axes.set_title("contact angle [degrees]")
+    axes.set_xlabel("angle from the load [degrees]")
+    axes.set_xticks(np.arange(-180, 181, 60))
+    axes.grid(**GRID)
+    axes.legend(frameon=False, fontsize=8)
+
+
 def load_zone(axes: Any, state: Any) -> None:
     """Force of every ball, outward from the centre, and the load."""
     width = BAR * 2.0 * np.pi / state.angles.size
@@ -81,7 +102,7 @@ def load_zone(axes: Any, state: Any) -> None:
     axes.set_rlabel_position(_free_angle(state))
     axes.grid(**GRID)
     axes.set_axisbelow(True)
-    if state.load.any():
+    if state.load[:2].any():
         angle = float(np.arctan2(state.load[1], state.load[0]))
         arrow = {"arrowstyle": "-|>", "color": LOAD, "linewidth": 1.6}
         axes.annotate("", xy=(angle, 1.22 * most), xytext=(angle, 1.02 * most), arrowprops=arrow)

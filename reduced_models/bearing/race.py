@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from math import ceil, log10, sqrt
+from math import ceil, cos, log10, sqrt
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from ehlcontact.checks.admissible_range import LIMITS
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import hertz_contact, radius_ratio
 from reduced_models.atlas.atlas import Atlas
+from reduced_models.bearing.five_degrees import AngularEquilibrium
 from reduced_models.bearing.kinematics import RADIANS, rolling_radius, rolling_torque
 from reduced_models.bearing.race_contact import film_cutoff
 from reduced_models.elements.wide_range import WideRangeContact
@@ -134,6 +136,14 @@ class Race:
                 central[k], smallest[k] = answer.h_central, answer.h_min
         return central, smallest, moment
 
+    def at_angle(self, pitch_diameter: float, contact_angle: float, rolling: float) -> Race:
+        """The contact of one ball at its own angle [rad] and sum of surface speeds over that of the shaft [m]."""
+        body = self.geometry
+        material = {"e1": body.e1, "e2": body.e2, "nu1": body.nu1, "nu2": body.nu2}
+        cone = pitch_diameter / cos(contact_angle)
+        own = Geometry.ball_bearing(self.ball_diameter, cone, self.conformity, self.name, **material)
+        return replace(self, geometry=own, rolling=rolling)
+
     def require_in_atlas(self) -> None:
         """Raise `InputError` for a conformity whose ellipse, or an oil, that the atlas does not have."""
         low, high = shared_atlas(self.atlas).box.kappa
@@ -150,12 +160,14 @@ def race_of(bearing: Any, name: str) -> Race:
     conformity = getattr(bearing, f"conformity_{name}")
     material = {"e1": bearing.youngs_modulus, "e2": bearing.youngs_modulus}
     material |= {"nu1": bearing.poisson_ratio, "nu2": bearing.poisson_ratio}
+    cosine = 1.0 if bearing.contact_angle is None else cos(bearing.contact_angle)
     try:
-        body = Geometry.ball_bearing(bearing.ball_diameter, bearing.pitch_diameter, conformity, name, **material)
+        cone = bearing.pitch_diameter / cosine  # at a contact angle, radii are those of a cone
+        body = Geometry.ball_bearing(bearing.ball_diameter, cone, conformity, name, **material)
     except InputError as error:
         own = {"conformity": f"conformity_{name}", "e1": "youngs_modulus", "nu1": "poisson_ratio"}
         raise InputError(own.get(error.field, error.field), error.value, error.allowed) from None
-    rolling = rolling_radius(bearing.pitch_diameter, bearing.gamma)
+    rolling = rolling_radius(bearing.pitch_diameter, bearing.gamma * cosine)
     return Race(name, body, bearing.ball_diameter, conformity, bearing.oil, rolling, bearing.atlas)
 
 
@@ -189,6 +201,54 @@ def assumptions_under(bearing: Any, speed_rpm: float, force: _Floats) -> Assumpt
         point = race.point(max(load, race.loads(speed_rpm)[0]), speed_rpm)
         found.append(assumptions(point, film=shared_atlas(bearing.atlas).at(point), roughness=rough))
     return Assumptions.worst_of(found)
+
+
+def assumptions_at_angles(bearing: Any, speed_rpm: float, places: Sequence[AngularEquilibrium]) -> Assumptions:
+    """The same for the heaviest contact with each race, at its own angle and entrainment speed."""
+    rough = (bearing.roughness / sqrt(2.0),) * 2 if bearing.roughness else None
+    found = []
+    for column, name in enumerate(RACES):
+        at = max(places, key=lambda one: float(one.force[:, column].max()))
+        k = int(np.argmax(at.force[:, column]))
+        angle, entrained = float(at.angles[k, column]), float(at.entrained[k, column])
+        race = bearing.race(name).at_angle(bearing.pitch_diameter, angle, entrained)
+        point = race.point(max(float(at.force[k, column]), race.loads(speed_rpm)[0]), speed_rpm)
+        found.append(assumptions(point, film=shared_atlas(bearing.atlas).at(point), roughness=rough))
+    return Assumptions.worst_of(found)
+
+
+def films_at_angles(bearing: Any, speed_rpm: float, at: AngularEquilibrium) -> dict[str, Any]:
+    """The same at the angles, curvatures and entrainment speeds of every contact.
+
+    Raises
+    ------
+    InputError
+        A speed beyond the atlas at these angles.
+    """
+    shape = at.force.shape
+    h_central, h_min, moment = np.zeros(shape), np.zeros(shape), np.zeros(shape)
+    torque = 0.0
+    for (k, column), angle in np.ndenumerate(at.angles):
+        nominal, load = bearing.race(RACES[column]), at.force[k, column]
+        race = nominal.at_angle(bearing.pitch_diameter, float(angle), float(at.entrained[k, column]))
+        if speed_rpm > race.highest_speed:
+            allowed = (
+                f"at most {race.highest_speed:.5g}, where the atlas ends at a contact angle of {angle:.3g} rad"
+            )
+            raise InputError("speed_rpm", speed_rpm, allowed)
+        gap = (load / nominal.kn) ** (2.0 / 3.0) - at.approach[k, column]
+        central, smallest, resists = race.films(speed_rpm, np.array([load]), np.array([gap]))
+        h_central[k, column], h_min[k, column] = central[0], smallest[0]
+        carries = 1.0
+        if bearing.film_limit is not None:
+            carries = film_cutoff(float(at.approach[k, column]), bearing.film_limit)[0]
+        moment[k, column] = carries * resists[0]
+        # power m u/Rx of every film over the speed of the shaft, u = u_sum/2
+        torque += 0.5 * at.entrained[k, column] * moment[k, column] / race.geometry.radius_x
+    found: dict[str, Any] = {"h_central": h_central, "h_min": h_min, "moment": moment}
+    found["rolling_torque"] = float(torque)
+    found["outside_assumptions"] = assumptions_at_angles(bearing, speed_rpm, [at]).headline
+    return found | ({} if not bearing.roughness else {"lambda_ratio": h_min / bearing.roughness})
 
 
 def _conformity(race: Race, kappa: float) -> float | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
@@ -10,14 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
-from ehlcontact.quantities import FORCE, LENGTH, MOMENT, NUMBER, RADIAN, SPEED, STIFFNESS
+from ehlcontact.quantities import FORCE, LENGTH, MOMENT, NUMBER, RADIAN, SPEED, STIFFNESS, Quantity
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import note_line
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.freedoms import in_freedoms, labelled, load_words
+from reduced_models.bearing.kinematics import RADIANS, DefectFrequencies
 
 _Floats = NDArray[np.float64]
 
+OF_ANGLES = "contact_angles", "spin_to_roll", "orbit", "turn"  # those that a planar one does not have
 OF_FILMS = "h_central", "h_min", "lambda_ratio", "moment"  # arrays that a dry bearing does not have
 
 
@@ -30,14 +33,14 @@ class BearingState(QuantityTable):
     ----------
     name : str
         Of the bearing.
-    load : ndarray, shape (2,)
-        Force on the inner ring [N].
+    load : ndarray, shape (2,) or (5,)
+        Force on the inner ring [N]; under an axial load with moments [N m], also those that held tilts take.
     speed_rpm, cage_angle : float
         Of the shaft [rev/min], of the first ball [rad].
-    displacement : ndarray, shape (2,)
-        Of the inner ring [m].
-    stiffness : ndarray, shape (2, 2)
-        Slope of the static force [N/m].
+    displacement : ndarray, shape (2,) or (5,)
+        Of the inner ring [m], with tilts [rad] where the load has moments.
+    stiffness : ndarray, shape (2, 2) or (5, 5)
+        Slope of the static force [N/m], [N], [N m].
     angles : ndarray, shape (balls,)
         Of the balls [rad].
     force : ndarray, shape (balls, 2)
@@ -57,6 +60,14 @@ class BearingState(QuantityTable):
         cage, seals and churned oil; hysteresis of the steel; that a hot or starved inlet resists less.
     outside_assumptions : str
         Assumptions of films that do not hold at the heaviest ball (`ehlcontact.assumptions`); empty where none.
+    contact_angles : ndarray, shape (balls, 2), or None
+        Of every contact [rad]; None, as all below, in a planar bearing, where they are 0.
+    spin_to_roll : ndarray, shape (balls, 2), or None
+        Angular speed of both surfaces against each other about their normal over that of rolling. Its friction is
+        not in the forces.
+    orbit, turn : ndarray, shape (balls,), or None
+        Angular speed of every ball about the shaft, and about its own axis as seen from the cage, over the speed
+        of the shaft. Balls of a bearing under combined load have different ones.
     """
 
     name: str
@@ -74,6 +85,10 @@ class BearingState(QuantityTable):
     moment: Annotated[_Floats | None, MOMENT.over("ball race")] = None
     rolling_torque: Annotated[float | None, MOMENT] = None
     outside_assumptions: str = ""
+    contact_angles: Annotated[_Floats | None, RADIAN.over("ball race")] = None
+    spin_to_roll: Annotated[_Floats | None, NUMBER.over("ball race")] = None
+    orbit: Annotated[_Floats | None, NUMBER.over("ball")] = None
+    turn: Annotated[_Floats | None, NUMBER.over("ball")] = None
 
     DISPLAY: ClassVar[Display] = Display(
         rows="ball",
@@ -84,9 +99,10 @@ class BearingState(QuantityTable):
 
     def __post_init__(self) -> None:
         balls = np.asarray(self.angles).size
-        sizes = {"ball": balls, "race": 2, "axis": 2, "by": 2}
+        freedoms = 5 if np.size(self.load) == 5 else 2
+        sizes = {"ball": balls, "race": 2, "axis": freedoms, "by": freedoms}
         for name, quantity in self._declared().items():
-            if not quantity.dims or (getattr(self, name) is None and name in OF_FILMS):
+            if not quantity.dims or (getattr(self, name) is None and name in (*OF_FILMS, *OF_ANGLES)):
                 continue
             array = np.array(getattr(self, name), dtype=np.float64)
             wanted = tuple(sizes[dim] for dim in quantity.dims)
@@ -95,14 +111,22 @@ class BearingState(QuantityTable):
             array.setflags(write=False)
             object.__setattr__(self, name, array)
 
+    def _quantities(self) -> Mapping[str, Quantity]:
+        return in_freedoms(super()._quantities(), np.size(self.load))
+
+    def _display(self) -> Display:
+        return labelled(super()._display(), np.size(self.load))
+
     def _summary_lines(self) -> list[str]:
-        x, y = self.load.tolist()
         k = self.heaviest
         lines = [
-            f"{self.name or 'ball bearing'}, load ({x:.4g}, {y:.4g}) N at {self.speed_rpm:.5g} rev/min",
+            f"{self.name or 'ball bearing'}, load {load_words(self.load)} at {self.speed_rpm:.5g} rev/min",
             f"{self.loaded} of {len(self.angles)} balls carry, the heaviest {self.force[k, 0]:.4g} N",
-            "ring displaced by ({:.4g}, {:.4g}) µm".format(*(1e6 * self.displacement)),
+            f"ring displaced by ({', '.join(f'{u:.4g}' for u in 1e6 * self.displacement[:3])}) µm",
         ]
+        if self.contact_angles is not None:
+            low, high = np.degrees([self.contact_angles[k].min(), self.contact_angles[k].max()])
+            lines[1] += f" at {low:.4g} to {high:.4g} degrees"
         if self.h_min is not None:
             lines.append(f"smallest film there {1e6 * self.h_min[k].min():.4g} µm")
             lines[-1] += "" if self.lambda_ratio is None else f", lambda {self.lambda_ratio[k].min():.3g}"
@@ -121,6 +145,19 @@ class BearingState(QuantityTable):
     def heaviest(self) -> int:
         """Index of the ball that carries most."""
         return int(np.argmax(self.force[:, 0]))
+
+    @property
+    def orders(self) -> DefectFrequencies | None:
+        """Defect frequencies per turn of the shaft at these contact angles; None in a planar bearing.
+
+        The cage turns as the mean of the balls, each with the weight of its load.
+        """
+        if self.orbit is None or self.turn is None:
+            return None
+        cage, turn = (float(np.average(one, weights=self.force[:, 0])) for one in (self.orbit, self.turn))
+        return DefectFrequencies(
+            ftf=cage, bpfo=len(self.angles) * cage, bpfi=len(self.angles) * (1.0 - cage), bsf=turn
+        )
 
     @property
     def rolling_loss(self) -> float | None:

@@ -98,9 +98,10 @@ def test_speeds(film, dry):
     refused("speed_rpm = 30000.0: must be at most", lambda: BearingMotion(film, 30000.0, 1e-5))
 
 
-@pytest.mark.parametrize("load", [(0.0, -1000.0, 50.0), (-1000.0,), 1000.0, "down", None])
-def test_only_radial_loads(film, load):
-    refused("load = .*must be a pair .Fx, Fy. .N.: this bearing is planar", lambda: film.equilibrium(load))
+@pytest.mark.parametrize("load", [(-1000.0,), (0.0, -1000.0, 50.0, 1.0), 1000.0, "down", None])
+def test_loads_of_two_three_or_five_components(film, load):
+    refused("load = .*must be .Fx, Fy., .Fx, Fy, Fz. or .Fx, Fy, Fz, Mx, My.", lambda: film.equilibrium(load))
+    refused("load = .*: this bearing is planar", lambda: film.ring_equilibria(load, 3000.0))
 
 
 def test_loads_that_are_no_numbers(film):

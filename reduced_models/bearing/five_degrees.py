@@ -1,0 +1,250 @@
+"""Inner ring with five degrees of freedom in static equilibrium on balls at contact angles.
+
+Displacements of the ring move groove centres linearly, and springs between them only pull. At rest, and with
+centrifugal forces, their potential is convex (nearly, for the orbits of balls depend on their angles), so that
+`equilibrium` needs no first guess. The gyroscopic moment, which has no potential, is added then, in steps.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, degrees, pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.hertz import elliptic_integrals, hertz_contact
+from ehlcontact.point import Geometry
+from reduced_models.bearing.angular_balls import (
+    ANGLE,
+    APPROACH,
+    ENTRAINED,
+    FAR,
+    FREEDOMS,
+    LOAD,
+    ORBIT,
+    PITCH,
+    TURN,
+    AngularBalls,
+    places_of,
+    press_ring,
+    ring_map,
+)
+from reduced_models.bearing.equilibrium import SEATED, equilibrium
+from reduced_models.bearing.freedoms import FIVE
+
+_Floats = NDArray[np.float64]
+
+SMALLEST_SHARE = 0.02  # of the gyroscopic moments by which a search that fails may grow
+STEEPEST = pi / 3.0  # contact angle that the shoulder of no groove reaches
+
+
+class StaticRing:
+    """All balls in equilibrium at one angle of the cage, as `equilibrium` wants contacts.
+
+    Its displacements are lengths and its loads forces: tilts are multiplied, moments divided by the radius of the
+    circle of inner groove centres.
+
+    Parameters
+    ----------
+    balls : AngularBalls
+    angle : float
+        Of the first ball [rad].
+    free : int
+        How many of the five degrees of freedom move, in their order.
+    held : ndarray, shape (5,)
+        Displacement [m], [rad] of those that are held.
+    """
+
+    def __init__(self, balls: AngularBalls, angle: float, free: int, held: _Floats) -> None:
+        self.balls, self.angle, self.free, self.held = balls, angle, free, held
+        lever = balls.grooves.lever
+        self.unit = np.array([1.0, 1.0, 1.0, 1.0 / lever, 1.0 / lever])[:free]  # of a displacement, over a length
+        self.places = places_of(balls)
+        self.longest = FAR * (balls.grooves.inner + balls.grooves.outer)
+        self.load, self.stiffness = np.zeros(FREEDOMS), np.zeros((FREEDOMS, FREEDOMS))
+
+    def with_gyroscopic(self, whole: AngularBalls, share: float) -> None:
+        """Balls with a share of the gyroscopic moments of `whole`."""
+        grooves = whole.grooves._replace(gyroscopic=share * whole.grooves.gyroscopic)
+        self.balls = whole if share == 1.0 else whole._replace(grooves=grooves)
+
+    def displacement(self, q: _Floats) -> _Floats:
+        """All five [m], [rad] of a scaled displacement of those that move."""
+        full = self.held.copy()
+        full[: self.free] = q * self.unit
+        return full
+
+    def force(self, q: _Floats) -> _Floats:
+        """Scaled forces of the ring on the balls, shape (free,) [N]."""
+        self._press(q)
+        return self.load[: self.free] * self.unit
+
+    def tangent(self, q: _Floats) -> _Floats:
+        """Their derivative, shape (free, free) [N/m]."""
+        self._press(q)
+        return self.stiffness[: self.free, : self.free] * np.outer(self.unit, self.unit)
+
+    def _press(self, q: _Floats) -> None:
+        press_ring(self.balls, self.angle, self.displacement(q), self.places, self.load, self.stiffness)
+        if not np.isfinite(self.load).all():
+            ball = int(np.flatnonzero(~np.isfinite(self.places.force[:, 0]))[0])
+            where = self.displacement(q).tolist()
+            raise ConvergenceError(f"ball {ball} finds no balance with the ring at {where} (m, rad)", q)
+
+
+@dataclass(frozen=True, eq=False)
+class AngularEquilibrium:
+    """A ring in equilibrium, and its balls."""
+
+    displacement: _Floats  # (5,) [m], [rad]
+    load: _Floats  # (5,) [N], [N m], reactions of what is held included
+    stiffness: _Floats  # (5, 5)
+    found: _Floats  # (balls, ENTRIES), see `angular_balls`
+    geometric: _Floats  # (balls, 5, 4)
+    maps: _Floats  # (balls, 3, 5) of `ring_map`
+
+    @property
+    def angles(self) -> _Floats:
+        """Contact angles, shape (balls, 2) [rad]: columns for inner and outer race, as of all following."""
+        return self.found[:, ANGLE : ANGLE + 2]
+
+    @property
+    def force(self) -> _Floats:
+        """Contact forces [N]."""
+        return self.found[:, LOAD : LOAD + 2]
+
+    @property
+    def approach(self) -> _Floats:
+        """Mutual approaches [m]."""
+        return self.found[:, APPROACH : APPROACH + 2]
+
+    @property
+    def entrained(self) -> _Floats:
+        """Sum of both surface speeds over the speed of the shaft [m]."""
+        return self.found[:, ENTRAINED : ENTRAINED + 2]
+
+    @property
+    def orbit(self) -> _Floats:
+        """Speed of every ball about the shaft, over that of the shaft, shape (balls,)."""
+        return self.found[:, ORBIT]
+
+    @property
+    def turn(self) -> _Floats:
+        """Speed of every ball about its own axis, seen from the cage, over that of the shaft, shape (balls,)."""
+        return self.found[:, TURN]
+
+    @property
+    def spin_to_roll(self) -> _Floats:
+        """Relative angular speed of both surfaces about their normal over that of rolling, with its sign."""
+        inner, outer = self.angles.T
+        pitch, turn, orbit = self.found[:, PITCH], self.turn, self.orbit
+        by_i = (1.0 - orbit) * np.sin(inner) + turn * np.sin(inner - pitch)
+        roll_i = (1.0 - orbit) * np.cos(inner) + turn * np.cos(pitch - inner)
+        by_o = turn * np.sin(outer - pitch) - orbit * np.sin(outer)
+        roll_o = turn * np.cos(pitch - outer) - orbit * np.cos(outer)
+        return np.column_stack([by_i / roll_i, by_o / roll_o])
+
+
+def angular_equilibrium(ring: StaticRing, load: _Floats, one_way: bool = False) -> AngularEquilibrium:
+    """Ring in equilibrium under `load`, shape (3,) or (5,) [N], [N m].
+
+    Parameters
+    ----------
+    one_way : bool
+        Balls carry at positive contact angles only: an angular contact bearing.
+
+    Raises
+    ------
+    InputError
+        A load that does not seat it, or that presses a ball out of its groove.
+    ConvergenceError
+        No balance was found.
+    """
+    if one_way and load[2] <= 0.0:
+        allowed = "one with Fz > 0: an angular contact bearing carries axial load in +z only"
+        raise InputError("load", load.tolist(), allowed)
+    q = np.zeros(ring.free)
+    if load.any():
+        q = _search(ring, load * ring.unit)
+    stiffness = ring.tangent(q)
+    values, vectors = np.linalg.eigh(0.5 * (stiffness + stiffness.T))
+    if not values[0] > SEATED * values[-1]:
+        free = FIVE[int(np.argmax(np.abs(vectors[:, 0])))]
+        allowed = f"one that seats the ring: nothing holds it in {free}; more axial load or preload would"
+        raise InputError("load", load.tolist(), allowed)
+    balls = ring.balls
+    maps = np.zeros((balls.number, 3, FREEDOMS))
+    for k in range(balls.number):
+        ring_map(balls.grooves, ring.angle + 2.0 * pi * k / balls.number, maps[k])
+    found = AngularEquilibrium(
+        displacement=ring.displacement(q),
+        load=np.append(load, ring.load[load.size :]),
+        stiffness=ring.stiffness.copy(),
+        found=ring.places.found.copy(),
+        geometric=ring.places.geometric.copy(),
+        maps=maps,
+    )
+    _require_in_groove(found, load, one_way)
+    return found
+
+
+def _search(ring: StaticRing, load: _Floats) -> _Floats:
+    """Scaled displacement under a scaled load: first without gyroscopic moments, then with growing ones."""
+    whole = ring.balls
+    if whole.omega == 0.0:
+        return equilibrium(ring, load, ring.longest)
+    done, step = 0.0, 1.0
+    ring.with_gyroscopic(whole, 0.0)
+    place = equilibrium(ring, load, ring.longest)
+    while done < 1.0:
+        tried = min(done + step, 1.0)
+        ring.with_gyroscopic(whole, tried)
+        kept = ring.places.place.copy()
+        try:
+            place = equilibrium(ring, load, ring.longest, place)
+        except ConvergenceError:
+            step *= 0.5
+            ring.places.place[:] = kept
+            if step < SMALLEST_SHARE:
+                allowed = "one under which friction holds the gyroscopic moment of all balls at this speed"
+                shown = (load / ring.unit).tolist()
+                raise InputError("load", shown, f"{allowed} (found to {done:.2g} of it)") from None
+        else:
+            done = tried
+    return place
+
+
+def _require_in_groove(at: AngularEquilibrium, load: _Floats, one_way: bool) -> None:
+    """Raise `InputError` where a ball that both rings press leaves its groove."""
+    pressed = at.approach.sum(axis=1) > 0.0
+    for k in np.flatnonzero(pressed).tolist():
+        angle = at.angles[k]
+        if np.abs(angle).max() > STEEPEST:
+            steep = f"{degrees(np.abs(angle).max()):.3g} degrees at ball {k}"
+            allowed = f"one whose contact angles stay below {degrees(STEEPEST):.3g} degrees (here {steep})"
+            raise InputError("load", load.tolist(), allowed)
+        if one_way and angle.min() < 0.0:
+            allowed = (
+                "one with more axial force in +z: an angular contact bearing carries it in this direction only"
+            )
+            raise InputError(
+                "load", load.tolist(), f"{allowed} (ball {k} runs at {degrees(angle.min()):.3g} degrees)"
+            )
+
+
+def torsion(body: Geometry, kn: float) -> float:
+    """W of `contact_angles` over the square of the dry approach."""
+    hertz = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced)
+    return float(kn ** (4.0 / 3.0) * hertz.b * elliptic_integrals(hertz.kappa)[1])
+
+
+def groove_distance(ball_diameter: float, inner: float, outer: float) -> float:
+    """Distance A of the groove centres of a ball that just touches both races of these conformities [m]."""
+    return (inner + outer - 1.0) * ball_diameter
+
+
+def free_clearance(distance: float, contact_angle: float) -> float:
+    """Radial clearance [m] with which a ball just touches both races at a contact angle [rad]."""
+    return 2.0 * distance * (1.0 - cos(contact_angle))

@@ -1,0 +1,82 @@
+"""Degrees of freedom of a bearing's inner ring: names, units, loads.
+
+A load has as many components as degrees of freedom that it moves:
+
+| load | moves | held |
+|---|---|---|
+| (Fx, Fy) | x, y | axial motion and tilts: the planar bearing |
+| (Fx, Fy, Fz) | x, y, z | tilts, at 0 or at given angles |
+| (Fx, Fy, Fz, Mx, My) | all five | |
+
+z is along the shaft. Tilts are small rotations about x and y; displacements and moments are those of the point of
+the ring's axis in the plane of its groove centres.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ehlcontact.checks import as_column
+from ehlcontact.errors import InputError
+from ehlcontact.quantities import Quantity
+from ehlcontact.results.table import Display
+
+_Floats = NDArray[np.float64]
+
+PLANAR = ("x", "y")
+FIVE = ("x", "y", "z", "tilt_x", "tilt_y")
+# Units of matrices and columns over all five: of the first three entries, and with tilts
+MIXED = {"N": "N, N m", "m": "m, rad", "N/m": "N/m, N, N m", "N s/m": "N s/m, N s, N m s"}
+LARGEST_TILT = 0.1  # rad, of a ring: fifty times what a deep-groove bearing bears
+
+
+def bearing_load(load: ArrayLike) -> _Floats:
+    """Load on the inner ring, shape (2,), (3,) or (5,); raises `InputError` for any other."""
+    size = np.size(load) if isinstance(load, tuple | list | np.ndarray) else 0
+    if size not in (2, 3, 5):
+        raise InputError("load", load, "(Fx, Fy), (Fx, Fy, Fz) or (Fx, Fy, Fz, Mx, My) [N], [N m]")
+    return as_column("load", load, size=size)
+
+
+def held_tilt(tilt: ArrayLike | None, size: int) -> _Floats:
+    """Tilts (about x, about y) [rad] at which the ring is held under a load of `size` components.
+
+    Raises
+    ------
+    InputError
+        Tilts where the load does not hold them, or in degrees.
+    """
+    if tilt is None:
+        return np.zeros(2)
+    if size != 3:
+        raise InputError("tilt", tilt, "left out unless the load is (Fx, Fy, Fz)")
+    found = as_column("tilt", tilt, size=2)
+    if np.abs(found).max() > LARGEST_TILT:
+        raise InputError("tilt", found.tolist(), f"between {-LARGEST_TILT:g} and {LARGEST_TILT:g} rad")
+    return found
+
+
+def in_freedoms(declared: Mapping[str, Quantity], size: int) -> Mapping[str, Quantity]:
+    """Quantities of a result over `size` degrees of freedom, those over all five with their mixed units."""
+    if size == len(PLANAR):
+        return declared
+    return {
+        name: replace(one, unit=MIXED[one.unit]) if "axis" in one.dims else one for name, one in declared.items()
+    }
+
+
+def labelled(display: Display, size: int) -> Display:
+    """Rows and panels with the names of `size` degrees of freedom."""
+    names = PLANAR if size == len(PLANAR) else FIVE
+    return replace(display, labels={**display.labels, "axis": names, "by": names})
+
+
+def load_words(load: _Floats) -> str:
+    """A load in words, for summaries."""
+    text = ", ".join(f"{one:.4g}" for one in load[:3].tolist())
+    moments = ", ".join(f"{one:.4g}" for one in load[3:].tolist())
+    return f"({text}) N" + (f" and ({moments}) N m" if moments else "")
