@@ -31,6 +31,7 @@ from reduced_models.bearing.angular_balls import (
     press_ring,
     ring_map,
 )
+from reduced_models.bearing.contact_angles import CONTROLS
 from reduced_models.bearing.equilibrium import SEATED, equilibrium
 from reduced_models.bearing.freedoms import FIVE
 
@@ -66,8 +67,9 @@ class StaticRing:
         self.load, self.stiffness = np.zeros(FREEDOMS), np.zeros((FREEDOMS, FREEDOMS))
 
     def with_gyroscopic(self, whole: AngularBalls, share: float) -> None:
-        """Balls with a share of the gyroscopic moments of `whole`."""
-        grooves = whole.grooves._replace(gyroscopic=share * whole.grooves.gyroscopic)
+        """Balls with a share of the gyroscopic moments of `whole`; without any, under outer race control."""
+        control = whole.grooves.control if share > 0.0 else CONTROLS.index("outer")
+        grooves = whole.grooves._replace(control=control, gyroscopic=share * whole.grooves.gyroscopic)
         self.balls = whole if share == 1.0 else whole._replace(grooves=grooves)
 
     def displacement(self, q: _Floats) -> _Floats:

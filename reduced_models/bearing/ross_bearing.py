@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import as_column, require_integer
 from ehlcontact.checks.frequency import is_given, radians_per_second
 from ehlcontact.errors import InputError
+from reduced_models.bearing.equilibrium import radial_load
 from reduced_models.bearing.kinematics import RADIANS
 
 _Floats = NDArray[np.float64]
@@ -53,7 +54,9 @@ def name_of(frequency: Mapping[str, ArrayLike | None]) -> str:
 
 def downward(load: ArrayLike) -> ArrayLike:
     """The load as a pair; a number is a weight, in -y, as ROSS has loads along y."""
-    return (0.0, -float(load)) if isinstance(load, int | float) and not isinstance(load, bool) else load
+    return radial_load(
+        (0.0, -float(load)) if isinstance(load, int | float) and not isinstance(load, bool) else load
+    )
 
 
 def bearing_element(

@@ -347,3 +347,38 @@ def test_free_angle_and_files(tmp_path):
     figure = state.plot(tmp_path / "state.png")
     assert len(figure.axes) == 3
     assert "300 N axially" in figure.get_suptitle()
+
+
+def test_coefficients_are_the_tangent_at_rest_and_follow_the_films():
+    oil = Lubricant.iso_vg(68, temperature=70.0)
+    bearing, force = BallBearing(**SPINDLE, oil=oil), (300.0, -200.0, 900.0, 1.0, 0.5)
+    state = bearing.equilibrium(force, speed_rpm=12000.0)
+    still = bearing.coefficients(force, speed_rpm=12000.0, hz=0.0, cage_angle=state.cage_angle)
+    size = np.sqrt(np.abs(np.outer(np.diag(state.stiffness), np.diag(state.stiffness))))
+    assert np.abs((still.stiffness[0] - state.stiffness) / size).max() < 1e-6
+    # mean over a ball passage: damping everywhere, and less of it at high frequencies
+    means = bearing.coefficients(force, speed_rpm=12000.0, hz=[10.0, 20000.0])
+    assert means.damping.shape == (2, 5, 5)
+    assert np.all(np.linalg.eigvalsh(0.5 * (means.damping + means.damping.transpose(0, 2, 1))) > 0.0)
+    assert np.all(np.diagonal(means.damping[1]) < 0.7 * np.diagonal(means.damping[0]))
+    assert "tilt_y" in "".join(means.to_pandas().columns)
+    assert means.to_control().noutputs == 5
+
+
+def test_coefficients_with_axial_motion_held_are_those_of_the_planar_bearing():
+    """A ring that is held has only the entries of the motions that it makes: x and y of both are the same."""
+    bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0), loss_factor=0.02)
+    for inertia in (False, True):
+        balls = BallBearing.from_dict(bearing.to_dict() | {"ball_inertia": inertia})
+        planar = balls.coefficients((0.0, -1000.0), speed_rpm=6000.0, hz=[5.0, 800.0])
+        whole = balls.coefficients((0.0, -1000.0, 0.0), speed_rpm=6000.0, hz=[5.0, 800.0])
+        for name in ("stiffness", "damping"):
+            here, there = getattr(whole, name)[:, :2, :2], getattr(planar, name)
+            np.testing.assert_allclose(here, there, atol=1e-9 * np.abs(there).max())
+
+
+def test_gyroscopic_moments_that_no_friction_holds():
+    bearing = BallBearing(**HARRIS_218, race_control="inner")
+    refused(
+        "load = .*friction holds the gyroscopic", lambda: bearing.equilibrium((0.0, 0.0, 200.0), speed_rpm=12000.0)
+    )

@@ -5,7 +5,10 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, Grid, PrescribedApproach, TimeSteps, impedance, simulate, solve_steady
+from ehlcontact import Domain, Grid, Lubricant, PrescribedApproach, TimeSteps, impedance, simulate, solve_steady
+from reduced_models import BallBearing
+from reduced_models.bearing.linear_angular import SmallAngularBalls
+from reduced_models.bearing.loss import loss_of
 
 DOWN = (0.0, -1000.0)
 OMEGA = np.array([0.0, 0.05, 0.25, 1.0, pi, 2.0 * pi, 12.0, 20.0])  # 1 is 4.2 kHz at 3000 rpm under 477 N
@@ -89,3 +92,33 @@ def test_what_a_light_ball_lacks_is_the_oil_further_out(ball, film):
     lacking = element.spring(u[-1] + near - wider) - element.spring(u[-1])
     assert lacking == pytest.approx(full[-1] - wide[-1], rel=0.1)
     assert lacking > 2.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("ball", "race"), [(0, "inner"), (0, "outer"), (3, "inner"), (6, "inner"), (6, "outer")]
+)  # 79 to 271 N
+def test_contacts_at_angles_of_a_7205(ball, race):
+    """At each contact's own angle and speeds: Z within 3 %, h_min 2 %; h_central of the atlas is 2.4 % high."""
+    bearing = BallBearing(
+        balls=13,
+        ball_diameter=7.938e-3,
+        pitch_diameter=38.5e-3,
+        contact_angle=np.radians(25.0),
+        oil=Lubricant.iso_vg(68, temperature=70.0),
+    )
+    load, rpm, column = np.array([500.0, -200.0, 1000.0]), 12000.0, ("inner", "outer").index(race)
+    state = bearing.equilibrium(load, speed_rpm=rpm)
+    at = bearing._stand_at_angles(load, rpm, state.cage_angle)
+    angle, entrained = float(at.angles[ball, column]), float(at.entrained[ball, column])
+    own = bearing.race(race).at_angle(bearing.pitch_diameter, angle, entrained)
+    point = own.point(float(state.force[ball, column]), rpm)
+    steady = solve_steady(point, grid=Grid(n=256)).si
+    assert state.h_central[ball, column] == pytest.approx(steady.h_central, rel=0.025)
+    assert state.h_min[ball, column] == pytest.approx(steady.h_min, rel=0.02)
+    Omega = np.array([0.05, 0.5, pi])
+    solved, omega = impedance(point, Omega=Omega, grid=Grid(n=128)).si, Omega / point.scales.time
+    small = SmallAngularBalls.of(bearing._angular_balls(rpm), [at], loss_of(0.0), 0.0)
+    Z = (small.inner, small.outer)[column].impedance(1j * omega[:, None])[:, ball]
+    full = solved.stiffness + 1j * omega * solved.damping
+    assert np.all(np.abs(Z - full) < 0.03 * np.abs(full))
