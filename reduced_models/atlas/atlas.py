@@ -307,7 +307,7 @@ def _opened(path: str | os.PathLike[str]) -> tuple[AtlasTable, AtlasSurface]:
         found = os.stat(os.fspath(path))
     except (OSError, TypeError, ValueError):
         return _read(path)  # which says what is wrong with it
-    return _read_once(Path(path).absolute(), (found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns))
+    return _read_once(Path(path), (found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns))
 
 
 @lru_cache(maxsize=4)

@@ -90,7 +90,8 @@ def good(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def compiled():
-    """Kernels of bearings: what is told soon is not told while they are compiled."""
+    """Kernels of bearings, and fmpy, which asks `ldconfig` once: what is told soon is not told meanwhile."""
+    pytest.importorskip("fmpy")
     oil = Lubricant.iso_vg(68, temperature=50.0)
     BallBearing.catalogue("6205", oil=oil).equilibrium((0.0, -500.0), speed_rpm=1000.0)
 
