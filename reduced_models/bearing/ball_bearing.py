@@ -32,7 +32,7 @@ from reduced_models.bearing.angular_balls import AngularBalls
 from reduced_models.bearing.balls import Balls, SpeedState, speed_state
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
 from reduced_models.bearing.clearance import clearance_of_class
-from reduced_models.bearing.contact_angles import CONTROLS, UNSIGNED, Grooves
+from reduced_models.bearing.contact_angles import CONTROLS, HARRIS, Grooves
 from reduced_models.bearing.equilibrium import (
     RingEquilibrium,
     StaticBalls,
@@ -115,7 +115,7 @@ class BallBearing(Summary):
     contact_angle : float, optional
         Of an angular contact bearing whose balls just touch both races [rad]; it carries axial load in +z. By
         default a deep-groove bearing, whose angle follows from its clearance: `free_angle`.
-    race_control : {"outer", "inner", "shared", "unsigned"}
+    race_control : {"outer", "inner", "shared", "harris"}
         What the axis of a ball follows at contact angles, and which race holds its gyroscopic moment: no spin at
         the outer race, which centrifugal force makes hold at the speeds where it matters; none at the inner race;
         a share of both by their moments of friction; or the first with the direction of the gyroscopic moment that
@@ -513,7 +513,7 @@ class BallBearing(Summary):
                 pitch=self.pitch_diameter,
                 mass=ball_mass(self.ball_diameter, self.density),
                 control=CONTROLS.index(self.race_control),
-                gyroscopic=-1.0 if self.race_control == CONTROLS[UNSIGNED] else 1.0,
+                gyroscopic=-1.0 if self.race_control == CONTROLS[HARRIS] else 1.0,
                 inner_torsion=torsion(self.race("inner").geometry, self.race("inner").kn),
                 outer_torsion=torsion(self.race("outer").geometry, self.race("outer").kn),
                 cosine=self._cosine,

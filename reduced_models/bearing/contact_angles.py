@@ -20,7 +20,7 @@ Friction of the outer race, of the inner race, or of both in the ratio of W turn
 shaft (gyroscopic moment). With the inner ring rotating, the angular momentum of the ball points outward where
 alpha > 0. Its change is along the orbit, so that friction across the outer contact has to push the ball outward,
 that across the inner contact inward. Published tables that take the gyroscopic moment as a magnitude have the
-opposite direction; "unsigned" is outer race control with that direction, for comparison with them.
+opposite direction; "harris" is outer race control with the direction of these tables.
 
 All functions of places take real or complex numbers: derivatives by complex steps are exact (Squire and Trapp,
 SIAM Review 40 (1998) 110).
@@ -34,8 +34,8 @@ import numpy as np
 
 from ehlcontact.jit import jit_exact
 
-CONTROLS = ("outer", "inner", "shared", "unsigned")
-OUTER, INNER, SHARED, UNSIGNED = range(4)
+CONTROLS = ("outer", "inner", "shared", "harris")
+OUTER, INNER, SHARED, HARRIS = range(4)
 OF_OUTER = 0.01  # W_i/W_o below which inner race control fades
 # Film over speed and over the radius Rx at a given load (Hamrock and Dowson 1977), between the angle that a table
 # of films is for and that of a ball
@@ -55,7 +55,7 @@ class Grooves(NamedTuple):
     pitch: float  # diameter [m]
     mass: float  # of a ball [kg]
     control: int  # index of `CONTROLS`
-    gyroscopic: float  # factor of the gyroscopic moment: 1, or -1 of "unsigned"; between while a search goes on
+    gyroscopic: float  # factor of the gyroscopic moment: 1, or -1 of "harris"; between while a search goes on
     inner_torsion: float  # W over the dry compression squared
     outer_torsion: float
     cosine: float  # of the contact angle that the tables of both races are for

@@ -59,7 +59,7 @@ def refused(match, call):
 )
 def test_218_under_thrust(rpm, angles, forces, axial, radial, displacement):
     """The model that these numbers are from takes the gyroscopic moment as a magnitude, as published tables do."""
-    bearing = BallBearing(**HARRIS_218, race_control="unsigned")
+    bearing = BallBearing(**HARRIS_218, race_control="harris")
     state = bearing.equilibrium((0.0, 0.0, 17800.0), speed_rpm=rpm)
     np.testing.assert_allclose(np.degrees(state.contact_angles), np.tile(angles, (16, 1)), rtol=5e-4)
     np.testing.assert_allclose(state.force, np.tile(forces, (16, 1)), rtol=5e-4)
@@ -173,7 +173,7 @@ def test_balls_against_their_equations_written_out(control):
             e_o = (cos(ao) + np.tan(beta) * sin(ao)) / (1.0 + gamma * cos(ao))
             e_i = (cos(ai) + np.tan(beta) * sin(ai)) / (1.0 - gamma * cos(ai))
             turn, orbit = omega / (gamma * np.cos(beta) * (e_o + e_i)), omega * e_o / (e_o + e_i)
-            moment = 0.1 * mass * D * D * turn * orbit * np.sin(beta) * (-1.0 if control == "unsigned" else 1.0)
+            moment = 0.1 * mass * D * D * turn * orbit * np.sin(beta) * (-1.0 if control == "harris" else 1.0)
             fi, fo = 2.0 * share * moment / D, 2.0 * (1.0 - share) * moment / D
             return [
                 (qi * sin(ai) - qo * sin(ao) + fi * cos(ai) - fo * cos(ao)) / 1e3,
