@@ -6,7 +6,7 @@ import math
 import os
 from copy import deepcopy
 from dataclasses import asdict, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Unpack
 
@@ -301,18 +301,23 @@ class Atlas:
         }
 
 
+MOST_OPEN = 4  # atlases that a process keeps
+_OPEN: dict[tuple[int, ...], tuple[AtlasTable, AtlasSurface]] = {}  # by device, inode, size and time of the file
+
+
 def _opened(path: str | os.PathLike[str]) -> tuple[AtlasTable, AtlasSurface]:
     """Table and interpolation of a file; read once, and again when the file has been changed or replaced."""
     try:
         found = os.stat(os.fspath(path))
     except (OSError, TypeError, ValueError):
         return _read(path)  # which says what is wrong with it
-    return _read_once(Path(path), (found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns))
-
-
-@lru_cache(maxsize=4)
-def _read_once(path: Path, version: tuple[int, ...]) -> tuple[AtlasTable, AtlasSurface]:
-    return _read(path)
+    version = found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns
+    if version not in _OPEN:
+        table = _read(path)
+        while len(_OPEN) >= MOST_OPEN:
+            del _OPEN[next(iter(_OPEN))]
+        _OPEN[version] = table
+    return _OPEN[version]
 
 
 def _read(path: str | os.PathLike[str]) -> tuple[AtlasTable, AtlasSurface]:
