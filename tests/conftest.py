@@ -35,6 +35,13 @@ def pytest_cmdline_main(config):
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # a solve has as many threads, and the cores are taken
 
 
+def pytest_collection_modifyitems(items):
+    """Put the files that need the finished study behind the first of them and all others: workers would wait."""
+    needing = dict.fromkeys(item.path for item in items if "finished" in getattr(item, "fixturenames", ()))
+    first = next(iter(needing), None)
+    items.sort(key=lambda item: 0 if item.path == first else 2 if item.path in needing else 1)
+
+
 @cache
 def _steady(M, L, kappa, n, laws):
     return solve_steady(MoesPoint(M, L, kappa, **dict(laws)), grid=Grid(n=n))
