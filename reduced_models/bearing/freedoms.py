@@ -10,6 +10,9 @@ A load has as many components as degrees of freedom that it moves:
 
 z is along the shaft. Tilts are small rotations about x and y; displacements and moments are those of the point of
 the ring's axis in the plane of its groove centres.
+
+A bearing on a shaft has a facing, "+z" or "-z": the direction in which its inner ring is pressed against the outer
+one. "-z" is the mirror image in the plane across the shaft; the sense of rotation stays.
 """
 
 from __future__ import annotations
@@ -20,7 +23,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column
+from ehlcontact.checks import as_column, require_choice
 from ehlcontact.errors import InputError
 from ehlcontact.quantities import Quantity
 from ehlcontact.results.table import Display
@@ -29,6 +32,7 @@ _Floats = NDArray[np.float64]
 
 PLANAR = ("x", "y")
 FIVE = ("x", "y", "z", "tilt_x", "tilt_y")
+FACINGS = ("+z", "-z")
 # Units of matrices and columns over all five: of the first three entries, and with tilts
 MIXED = {"N": "N, N m", "m": "m, rad", "N/m": "N/m, N, N m", "N s/m": "N s/m, N s, N m s"}
 LARGEST_TILT = 0.1  # rad, of a ring: fifty times what a deep-groove bearing bears
@@ -58,6 +62,19 @@ def held_tilt(tilt: ArrayLike | None, size: int) -> _Floats:
     if np.abs(found).max() > LARGEST_TILT:
         raise InputError("tilt", found.tolist(), f"between {-LARGEST_TILT:g} and {LARGEST_TILT:g} rad")
     return found
+
+
+def facing_signs(facing: str) -> _Floats:
+    """Signs, shape (5,), of displacements and loads between the frame of the shaft and that of a bearing.
+
+    Raises
+    ------
+    InputError
+        A facing other than "+z" and "-z".
+    """
+    require_choice("facing", facing, FACINGS)
+    axial = 1.0 if facing == FACINGS[0] else -1.0
+    return np.array([1.0, 1.0, axial, axial, axial])
 
 
 def in_freedoms(declared: Mapping[str, Quantity], size: int) -> Mapping[str, Quantity]:
