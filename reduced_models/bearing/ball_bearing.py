@@ -49,7 +49,7 @@ from reduced_models.bearing.five_degrees import (
     groove_distance,
     torsion,
 )
-from reduced_models.bearing.freedoms import PLANAR, bearing_load, held_tilt
+from reduced_models.bearing.freedoms import FIVE, PLANAR, bearing_load, held_tilt
 from reduced_models.bearing.kinematics import (
     HERTZ,
     RADIANS,
@@ -376,8 +376,7 @@ class BallBearing(Summary):
         w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
         if force.size > len(PLANAR):
             places = [self._stand_at_angles(force, speed, at) for at in self._cage_angles(force, cage_angle)]
-            inertia = ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0
-            small = SmallAngularBalls.of(self._angular_balls(speed), places, loss_of(self.loss_factor), inertia)
+            small = self._small_angular(speed, places)
             full = np.mean([at.load for at in places], axis=0)
             outside = "" if self.oil is None else assumptions_at_angles(self, speed, places).headline
             return BearingCoefficients.of(full, speed, cage_angle, w, small.coefficients(w), places, outside)
@@ -465,13 +464,27 @@ class BallBearing(Summary):
         return force
 
     def _stand_at_angles(
-        self, load: _Floats, speed: float, angle: float, tilt: _Floats | None = None
+        self,
+        load: _Floats,
+        speed: float,
+        angle: float,
+        tilt: _Floats | None = None,
+        first: _Floats | None = None,
     ) -> AngularEquilibrium:
-        held = np.zeros(5) if tilt is None else np.concatenate([np.zeros(3), tilt])
-        ring = StaticRing(self._angular_balls(speed), angle, load.size, held)
-        at = angular_equilibrium(ring, load, one_way=self.contact_angle is not None)
+        ring = self._static_ring(speed, angle, load.size, tilt)
+        at = angular_equilibrium(ring, load, self.contact_angle is not None, first)
         self._require_bearable(at.force, load, speed)
         return at
+
+    def _static_ring(self, speed: float, angle: float, free: int, tilt: _Floats | None = None) -> StaticRing:
+        """Inner ring of `free` degrees of freedom on balls at contact angles, the first ball at `angle`."""
+        held = np.zeros(len(FIVE)) if tilt is None else np.concatenate([np.zeros(3), tilt])
+        return StaticRing(self._angular_balls(speed), angle, free, held)
+
+    def _small_angular(self, speed: float, places: list[AngularEquilibrium]) -> SmallAngularBalls:
+        """What a small vibration finds in the bearing, over positions of the cage."""
+        inertia = ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0
+        return SmallAngularBalls.of(self._angular_balls(speed), places, loss_of(self.loss_factor), inertia)
 
     def _angular_state(self, load: _Floats, speed: float, angle: float, tilt: _Floats) -> BearingState:
         at = self._stand_at_angles(load, speed, angle, tilt)

@@ -7,7 +7,8 @@ centrifugal forces, their potential is convex (nearly, for the orbits of balls d
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from math import cos, degrees, pi
 
 import numpy as np
@@ -88,12 +89,22 @@ class StaticRing:
         self._press(q)
         return self.stiffness[: self.free, : self.free] * np.outer(self.unit, self.unit)
 
-    def _press(self, q: _Floats) -> None:
-        press_ring(self.balls, self.angle, self.displacement(q), self.places, self.load, self.stiffness)
+    def press(self, displacement: _Floats) -> None:
+        """Set `load` and `stiffness`, those of the ring at a displacement, shape (5,) [m], [rad].
+
+        Raises
+        ------
+        ConvergenceError
+            A ball finds no balance.
+        """
+        press_ring(self.balls, self.angle, displacement, self.places, self.load, self.stiffness)
         if not np.isfinite(self.load).all():
             ball = int(np.flatnonzero(~np.isfinite(self.places.force[:, 0]))[0])
-            where = self.displacement(q).tolist()
-            raise ConvergenceError(f"ball {ball} finds no balance with the ring at {where} (m, rad)", q)
+            where = f"the ring at {displacement.tolist()} (m, rad)"
+            raise ConvergenceError(f"ball {ball} finds no balance with {where}", displacement)
+
+    def _press(self, q: _Floats) -> None:
+        self.press(self.displacement(q))
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,13 +160,17 @@ class AngularEquilibrium:
         return np.column_stack([by_i / roll_i, by_o / roll_o])
 
 
-def angular_equilibrium(ring: StaticRing, load: _Floats, one_way: bool = False) -> AngularEquilibrium:
+def angular_equilibrium(
+    ring: StaticRing, load: _Floats, one_way: bool = False, first: _Floats | None = None
+) -> AngularEquilibrium:
     """Ring in equilibrium under `load`, shape (3,) or (5,) [N], [N m].
 
     Parameters
     ----------
     one_way : bool
         Balls carry at positive contact angles only: an angular contact bearing.
+    first : ndarray, shape (5,), optional
+        Displacement from which it is searched [m], [rad].
 
     Raises
     ------
@@ -169,60 +184,106 @@ def angular_equilibrium(ring: StaticRing, load: _Floats, one_way: bool = False) 
         raise InputError("load", load.tolist(), allowed)
     q = np.zeros(ring.free)
     if load.any():
-        q = _search(ring, load * ring.unit)
+        q = _search(ring, load * ring.unit, None if first is None else first[: ring.free] / ring.unit)
     stiffness = ring.tangent(q)
     values, vectors = np.linalg.eigh(0.5 * (stiffness + stiffness.T))
     if not values[0] > SEATED * values[-1]:
         free = FIVE[int(np.argmax(np.abs(vectors[:, 0])))]
         allowed = f"one that seats the ring: nothing holds it in {free}; more axial load or preload would"
         raise InputError("load", load.tolist(), allowed)
+    found = equilibrium_at(ring, ring.displacement(q))
+    found = replace(found, load=np.append(load, found.load[load.size :]))
+    require_in_groove(found.approach, found.angles, load, one_way)
+    return found
+
+
+def equilibrium_at(ring: StaticRing, displacement: _Floats) -> AngularEquilibrium:
+    """Balls in equilibrium with the ring held at a displacement, shape (5,) [m], [rad]."""
+    ring.press(displacement)
     balls = ring.balls
     maps = np.zeros((balls.number, 3, FREEDOMS))
     for k in range(balls.number):
         ring_map(balls.grooves, ring.angle + 2.0 * pi * k / balls.number, maps[k])
-    found = AngularEquilibrium(
-        displacement=ring.displacement(q),
-        load=np.append(load, ring.load[load.size :]),
+    return AngularEquilibrium(
+        displacement=displacement,
+        load=ring.load.copy(),
         stiffness=ring.stiffness.copy(),
         found=ring.places.found.copy(),
         geometric=ring.places.geometric.copy(),
         maps=maps,
     )
-    _require_in_groove(found, load, one_way)
-    return found
 
 
-def _search(ring: StaticRing, load: _Floats) -> _Floats:
-    """Scaled displacement under a scaled load: first without gyroscopic moments, then with growing ones."""
-    whole = ring.balls
-    if whole.omega == 0.0:
-        return equilibrium(ring, load, ring.longest)
-    done, step = 0.0, 1.0
-    ring.with_gyroscopic(whole, 0.0)
-    place = equilibrium(ring, load, ring.longest)
-    while done < 1.0:
-        tried = min(done + step, 1.0)
-        ring.with_gyroscopic(whole, tried)
-        kept = ring.places.place.copy()
+def _search(ring: StaticRing, load: _Floats, near: _Floats | None) -> _Floats:
+    """Scaled displacement under a scaled load, if given from one that is near."""
+
+    def solve(first: _Floats | None) -> _Floats:
+        return equilibrium(ring, load, ring.longest, first)
+
+    if near is not None:
         try:
-            place = equilibrium(ring, load, ring.longest, place)
+            return solve(near)
         except ConvergenceError:
-            step *= 0.5
-            ring.places.place[:] = kept
-            if step < SMALLEST_SHARE:
-                allowed = "one under which friction holds the gyroscopic moment of all balls at this speed"
-                shown = (load / ring.unit).tolist()
-                raise InputError("load", shown, f"{allowed} (found to {done:.2g} of it)") from None
-        else:
-            done = tried
+            pass  # searched from anywhere
+    place, found = grow_gyroscopic([ring], solve)
+    if found < 1.0:
+        allowed = "one under which friction holds the gyroscopic moment of all balls at this speed"
+        raise InputError("load", (load / ring.unit).tolist(), f"{allowed} (found to {found:.2g} of it)")
     return place
 
 
-def _require_in_groove(at: AngularEquilibrium, load: _Floats, one_way: bool) -> None:
-    """Raise `InputError` where a ball that both rings press leaves its groove."""
-    pressed = at.approach.sum(axis=1) > 0.0
+def grow_gyroscopic(
+    rings: Sequence[StaticRing], solve: Callable[[_Floats | None], _Floats]
+) -> tuple[_Floats, float]:
+    """Solve for an equilibrium first without the gyroscopic moments of all balls, then with growing ones.
+
+    Parameters
+    ----------
+    rings : sequence of StaticRing
+        Those that `solve` presses.
+    solve : callable
+        ``solve(first)`` returns the place of equilibrium, searched from ``first`` or, with None, from anywhere;
+        raises `ConvergenceError` where it finds none.
+
+    Returns
+    -------
+    place : ndarray
+    share : float
+        Of the gyroscopic moments that it is for: 1 where the search succeeded.
+    """
+    wholes = [ring.balls for ring in rings]
+    if all(whole.omega == 0.0 for whole in wholes):
+        return solve(None), 1.0
+
+    def share(of: float) -> None:
+        for ring, whole in zip(rings, wholes, strict=True):
+            ring.with_gyroscopic(whole, of)
+
+    done, step = 0.0, 1.0
+    share(0.0)
+    place = solve(None)
+    while done < 1.0:
+        tried = min(done + step, 1.0)
+        share(tried)
+        kept = [ring.places.place.copy() for ring in rings]
+        try:
+            place = solve(place)
+        except ConvergenceError:
+            step *= 0.5
+            for ring, places in zip(rings, kept, strict=True):
+                ring.places.place[:] = places
+            if step < SMALLEST_SHARE:
+                return place, done
+        else:
+            done = tried
+    return place, 1.0
+
+
+def require_in_groove(approach: _Floats, angles: _Floats, load: _Floats, one_way: bool) -> None:
+    """Raise `InputError` where a ball that both rings press leaves its groove: arrays of shape (balls, 2)."""
+    pressed = approach.sum(axis=1) > 0.0
     for k in np.flatnonzero(pressed).tolist():
-        angle = at.angles[k]
+        angle = angles[k]
         if np.abs(angle).max() > STEEPEST:
             steep = f"{degrees(np.abs(angle).max()):.3g} degrees at ball {k}"
             allowed = f"one whose contact angles stay below {degrees(STEEPEST):.3g} degrees (here {steep})"

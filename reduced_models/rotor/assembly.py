@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_column, require_instance
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
+from reduced_models.bearing.freedoms import facing_signs
 from reduced_models.rotor.beam import matrices
-from reduced_models.rotor.nodes import DIRECTIONS, PLANE
+from reduced_models.rotor.nodes import DIRECTIONS, LENGTHS, PLANE
 from reduced_models.rotor.parts import Disc, Shaft, Support
 from reduced_models.rotor.rotor import Rotor, Unbalance
 from reduced_models.rotor.supports import BearingMount
@@ -29,7 +30,8 @@ def rotor_on_bearings(
     *,
     supports: Sequence[Support],
     discs: Sequence[Disc] = (),
-    gravity: tuple[float, float] = (0.0, -9.81),
+    gravity: tuple[float, ...] = (0.0, -9.81),
+    axial: bool | None = None,
 ) -> Rotor:
     """Jeffcott's rotor and its relatives on ball bearings, which may differ: discs anywhere, beyond a bearing too.
 
@@ -37,6 +39,10 @@ def rotor_on_bearings(
     `unbalance_response`. Where discs and bearings are among the degrees of freedom, ``nodes`` of the rotor has:
     "disc" (or "disc 0", "disc 1", ...), "bearing 0", ..., "housing 0", ...; each with "x" and "y", and where it
     has inertia against tilting, "tilt_x" and "tilt_y", the angles about them.
+
+    With axial motion ball bearings have five degrees of freedom: contact angles, axial forces and moments. The
+    shaft, which is rigid along itself, has one displacement along z, that of the node "shaft"; housings, and outer
+    rings that are free along the shaft ("outer ring 0", ...), have their own.
 
     Parameters
     ----------
@@ -46,8 +52,11 @@ def rotor_on_bearings(
         At least two, at different places.
     discs : sequence of Disc
         None of a bare shaft with a mass of its own.
-    gravity : (float, float)
-        Acceleration [m/s2] along x and y; (0, 0) of a rotor that stands upright.
+    gravity : (float, float) or (float, float, float)
+        Acceleration [m/s2] along x, y and z; (0, 0, -9.81) of a rotor that stands upright.
+    axial : bool, optional
+        Axial motion; by default where an angular contact bearing, a facing, offset or preload of a support, or a
+        load along z needs it.
 
     Returns
     -------
@@ -59,7 +68,8 @@ def rotor_on_bearings(
         A position beside the shaft, supports at one place, or a journal without any mass.
     """
     require_instance("shaft", shaft, Shaft, "a Shaft")
-    pull = as_column("gravity", gravity, size=2)
+    pull = np.zeros(3)
+    pull[: np.size(gravity)] = as_column("gravity", gravity, size=3 if np.size(gravity) == 3 else 2)
     if len(supports) < LEAST_SUPPORTS:
         raise InputError("number of supports", len(supports), f"at least {LEAST_SUPPORTS}")
     for k, disc in enumerate(discs):
@@ -70,13 +80,22 @@ def rotor_on_bearings(
         for k, position in enumerate(parts):
             if not -SAME * shaft.end <= position <= (1.0 + SAME) * shaft.end:
                 raise InputError(f"{name}[{k}].position", position, f"between 0 and {shaft.end:g} m")
-    return _Assembly(shaft, discs, supports, pull).rotor()
+    needed = pull[2] != 0.0 or any(one.needs_axial for one in supports) or any(any(d.load[2:]) for d in discs)
+    if axial is not None:
+        require_instance("axial", axial, bool, "True or False")
+        if needed and not axial:
+            raise InputError("axial", axial, "True: a bearing or a load needs axial motion")
+    if (needed or axial) and shaft.density == 0.0:
+        raise InputError("shaft.density", 0.0, "> 0 with axial motion: bearings hold tilts, which need inertia")
+    return _Assembly(shaft, discs, supports, pull, needed if axial is None else axial).rotor()
 
 
 class _Assembly:
-    """Matrices of all nodes, each with x, y and the turns about x and y; then housings."""
+    """Matrices of all nodes, each with x, y and the turns about x and y; then of housings, outer rings and z."""
 
-    def __init__(self, shaft: Shaft, discs: Sequence[Disc], supports: Sequence[Support], gravity: _Floats) -> None:
+    def __init__(
+        self, shaft: Shaft, discs: Sequence[Disc], supports: Sequence[Support], gravity: _Floats, axial: bool
+    ) -> None:
         self.shaft, self.discs, self.supports = shaft, discs, supports
         self.stations = _stations(
             shaft, [*(disc.position for disc in discs), *(support.position for support in supports)]
@@ -85,10 +104,18 @@ class _Assembly:
         for k, node in enumerate(held):
             if node in held[:k]:
                 raise InputError(f"supports[{k}].position", supports[k].position, "that of no other support")
-        housed = [k for k, support in enumerate(supports) if support.housing_mass is not None]
-        nodes = 4 * self.stations.size
-        self.housings = {k: nodes + 2 * i for i, k in enumerate(housed)}
-        size = nodes + 2 * len(housed)
+        size = 4 * self.stations.size
+        self.housings: dict[int, dict[str, int]] = {}
+        self.outer_rings: dict[int, int] = {}
+        for k, support in enumerate(supports):
+            if support.housing_mass is not None:
+                self.housings[k] = {name: size + i for i, name in enumerate(LENGTHS if axial else PLANE)}
+                size += len(self.housings[k])
+            elif support.preload is not None:
+                self.outer_rings[k] = size
+                size += 1
+        self.z = size if axial else None
+        size += axial
         self.M, self.C, self.K, self.G = np.zeros((4, size, size))
         self._add_shaft()
         self.load = np.zeros(size)
@@ -96,8 +123,8 @@ class _Assembly:
             self._add_support(k, support)
         for disc in discs:
             self._add_disc(disc)
-        for axis in (0, 1):
-            self.load += self.M @ self._uniform(axis) * gravity[axis]
+        for axis, pull in zip(LENGTHS, gravity.tolist(), strict=True):
+            self.load += self.M @ self._uniform(axis) * pull
 
     def rotor(self) -> Rotor:
         """Without the degrees of freedom that have no mass."""
@@ -111,7 +138,11 @@ class _Assembly:
         whole = np.zeros((len(self.M), kept.size))
         whole[kept], whole[left] = np.eye(kept.size), follow
         M, C, K, G = (np.asarray(whole.T @ matrix @ whole) for matrix in (self.M, self.C, self.K, self.G))
-        nodes = {name: self._named(new, at) for name, at in self._places().items()}
+        if self.z is not None and self.shaft.density == 0.0:
+            raise InputError(
+                "shaft.density", 0.0, "> 0 with axial motion: bearings hold tilts, which need inertia"
+            )
+        nodes = self._nodes(new)
         return Rotor(
             mass=M,
             stiffness=0.5 * (K + K.T),
@@ -127,30 +158,48 @@ class _Assembly:
             nodes=nodes,
         )
 
-    def _named(self, new: dict[int, int], at: int) -> dict[str, int]:
-        """Degrees of freedom of the node whose first one is `at`; a housing does not tilt, nor a massless node."""
-        count = len(PLANE) if at >= 4 * self.stations.size else len(DIRECTIONS)
-        return {name: new[at + k] for k, name in enumerate(DIRECTIONS[:count]) if at + k in new}
-
     def _at(self, position: float) -> int:
         """First degree of freedom of the node there."""
         return 4 * int(np.argmin(np.abs(self.stations - position)))
 
-    def _places(self) -> dict[str, int]:
-        found = {f"bearing {k}": self._at(one.position) for k, one in enumerate(self.supports)}
-        found |= {f"housing {k}": at for k, at in self.housings.items()}
+    def _nodes(self, new: dict[int, int]) -> dict[str, dict[str, int]]:
+        """Degrees of freedom by name; a node without inertia against tilting has no tilts."""
+        places = {f"bearing {k}": self._at(one.position) for k, one in enumerate(self.supports)}
         named = ["disc"] if len(self.discs) == 1 else [f"disc {k}" for k in range(len(self.discs))]
-        return found | {name: self._at(disc.position) for name, disc in zip(named, self.discs, strict=True)}
+        discs = {name: self._at(disc.position) for name, disc in zip(named, self.discs, strict=True)}
 
-    @staticmethod
-    def _mount(k: int, support: Support, nodes: dict[str, dict[str, int]]) -> BearingMount:
-        housing = nodes.get(f"housing {k}")
-        pair = None if housing is None else (housing["x"], housing["y"])
-        place = {name: nodes[f"bearing {k}"][name] for name in PLANE}
-        return BearingMount(bearing=support.bearing, housing=pair, cage_angle=support.cage_angle, **place)
+        def on_shaft(at: int) -> dict[str, int]:
+            return {name: new[at + k] for k, name in enumerate(DIRECTIONS) if at + k in new}
+
+        found = {name: on_shaft(at) for name, at in places.items()}
+        found |= {f"housing {k}": {name: new[at] for name, at in own.items()} for k, own in self.housings.items()}
+        found |= {f"outer ring {k}": {"z": new[at]} for k, at in self.outer_rings.items()}
+        found |= {name: on_shaft(at) for name, at in discs.items()}
+        return found if self.z is None else found | {"shaft": {"z": new[self.z]}}
+
+    def _mount(self, k: int, support: Support, nodes: dict[str, dict[str, int]]) -> BearingMount:
+        node, housing = nodes[f"bearing {k}"], nodes.get(f"housing {k}")
+        outer: tuple[int | None, ...] | None = None if housing is None else tuple(housing.values())
+        if k in self.outer_rings:
+            outer = None, None, nodes[f"outer ring {k}"]["z"]
+        axial = {} if self.z is None else {**nodes["shaft"], **node}
+        return BearingMount(
+            bearing=support.bearing,
+            x=node["x"],
+            y=node["y"],
+            z=axial.get("z"),
+            tilt_x=axial.get("tilt_x"),
+            tilt_y=axial.get("tilt_y"),
+            housing=outer,
+            cage_angle=support.cage_angle,
+            facing=support.facing,
+            offset=support.offset,
+        )
 
     def _add_shaft(self) -> None:
         for k, piece in enumerate(self.shaft.pieces(self.stations)):
+            if self.z is not None:
+                self.M[self.z, self.z] += piece.mass
             at = np.ix_(range(4 * k, 4 * k + 8), range(4 * k, 4 * k + 8))
             for whole, part in zip((self.M, self.K, self.G), matrices(piece), strict=True):
                 whole[at] += part
@@ -159,10 +208,17 @@ class _Assembly:
     def _add_support(self, k: int, support: Support) -> None:
         at = self._at(support.position)
         self.M[[at, at + 1], [at, at + 1]] += support.journal_mass
+        if self.z is not None:
+            self.M[self.z, self.z] += support.journal_mass
         if k in self.housings:
-            pair = [self.housings[k], self.housings[k] + 1]
-            self.M[pair, pair] = support.housing_mass
-            self.K[pair, pair], self.C[pair, pair] = support.housing_stiffness, support.housing_damping
+            places = list(self.housings[k].values())
+            self.M[places, places] = support.housing_mass
+            for whole, given in ((self.K, support.housing_stiffness), (self.C, support.housing_damping)):
+                whole[places, places] = np.append(given, given[0])[: len(places)]  # z of two: as x
+        if k in self.outer_rings:
+            place = self.outer_rings[k]
+            self.M[place, place], self.K[place, place] = support.ring_mass, support.preload_stiffness
+            self.load[place] -= facing_signs(support.facing)[2] * support.preload
 
     def _add_disc(self, disc: Disc) -> None:
         at = self._at(disc.position)
@@ -171,13 +227,21 @@ class _Assembly:
         self.C[[at, at + 1], [at, at + 1]] += disc.damping
         self.G[at + 2, at + 3] += disc.polar_inertia
         self.G[at + 3, at + 2] -= disc.polar_inertia
-        self.load[[at, at + 1]] += disc.load
+        self.load[[at, at + 1]] += disc.load[:2]
+        if self.z is not None:
+            self.M[self.z, self.z] += disc.mass
+            self.load[self.z] += sum(disc.load[2:])
 
-    def _uniform(self, axis: int) -> _Floats:
-        """Everything displaced by one along x or y."""
+    def _uniform(self, axis: str) -> _Floats:
+        """Everything displaced by one along an axis."""
         moved = np.zeros(len(self.M))
-        moved[axis : 4 * self.stations.size : 4] = 1.0
-        moved[4 * self.stations.size + axis :: 2] = 1.0
+        if axis in PLANE:
+            moved[PLANE.index(axis) : 4 * self.stations.size : 4] = 1.0
+        elif self.z is not None:
+            moved[self.z] = 1.0
+        moved[[own[axis] for own in self.housings.values() if axis in own]] = 1.0
+        if axis == "z":
+            moved[list(self.outer_rings.values())] = 1.0
         return moved
 
 

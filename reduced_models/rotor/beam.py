@@ -31,6 +31,11 @@ class Piece(NamedTuple):
     density: float
     shear: bool
 
+    @property
+    def mass(self) -> float:
+        """In kg."""
+        return self.density * 0.25 * pi * (self.diameter**2 - self.bore**2) * self.length
+
 
 def shear_coefficient(poisson_ratio: float, bore: float) -> float:
     """Timoshenko's, of a circle with a concentric hole; `bore` is a share of the diameter.

@@ -28,7 +28,6 @@ from reduced_models.bearing.balls import (
 )
 from reduced_models.bearing.continuous_time import bearing_rates
 from reduced_models.bearing.kinematics import RADIANS
-from reduced_models.bearing.linear_balls import SmallBalls
 from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.small_motion import FILTERS
 from reduced_models.rotor.linear_system import rotor_system
@@ -50,11 +49,12 @@ def rings_of(rotor: Rotor) -> _Floats:
 
 
 def linear_block(
-    rotor: Rotor, omega: float, about: Sequence[SmallBalls], inputs: Signals, outputs: Signals, name: str
+    rotor: Rotor, omega: float, about: Sequence[Any], inputs: Signals, outputs: Signals, name: str
 ) -> Any:
     """`LinearRotor.to_control`: of a rotor at a speed [rad/s], `about` what it finds in its ball bearings."""
     import control
 
+    _require_planar(rotor)
     size = rotor.size
     ins, outs = _signals("inputs", inputs, "F", size), _signals("outputs", outputs, "q", size)
     A, driven = rotor_system(rotor.matrices(omega), rings_of(rotor), [bearing_system(balls) for balls in about])
@@ -74,6 +74,12 @@ def linear_block(
         states=_states(size, shapes),
         name=name,
     )
+
+
+def _require_planar(rotor: Rotor) -> None:
+    if any(mount.z is not None for mount in rotor.ball_bearings):
+        allowed = "planar ones, without z, tilt_x and tilt_y, in a block of python-control"
+        raise InputError("ball bearings", "with five degrees of freedom", allowed)
 
 
 def rotor_to_control(
@@ -111,6 +117,7 @@ def rotor_to_control(
     import control
 
     require_instance("rotor", rotor, Rotor, "a Rotor")
+    _require_planar(rotor)
     ins, outs = _signals("inputs", inputs, "F", rotor.size), _signals("outputs", outputs, "q", rotor.size)
     motion = _Motion(rotor, require_nonnegative("speed_rpm", speed_rpm), cage_turns)
     pushed, seen = list(ins.values()), list(outs.values())

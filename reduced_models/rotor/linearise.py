@@ -15,10 +15,13 @@ from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.summary import Summary
+from reduced_models.bearing.five_degrees import angular_equilibrium, equilibrium_at
 from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.linear_angular import SmallAngularBalls
 from reduced_models.bearing.linear_balls import SmallBalls
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.control import Signals, linear_block
+from reduced_models.rotor.equilibrium import require_held
 from reduced_models.rotor.jeffcott import JeffcottRotor
 from reduced_models.rotor.linear_contact import ContactImpedance, LinearElement
 from reduced_models.rotor.linear_system import eigenmodes
@@ -77,8 +80,8 @@ class LinearRotor(Summary):
         Mean over a ball passage, or at the angles of the mounts.
     rest : ndarray, shape (N,)
         Displacements at rest, balls at the angles of the mounts [m]; 0 where contacts are impedances alone.
-    loads : ndarray, shape (ball bearings, 2)
-        Forces on the inner rings at rest [N].
+    loads : ndarray, shape (ball bearings, n)
+        Forces on the inner rings at rest, n = 2 or 5 [N], [N m], in the frame of each bearing.
     contacts : tuple
         What a small vibration finds in each contact.
     balls : tuple
@@ -91,7 +94,7 @@ class LinearRotor(Summary):
     rest: _Floats
     loads: _Floats
     contacts: tuple[LinearElement | ContactImpedance, ...]
-    balls: tuple[SmallBalls, ...]
+    balls: tuple[SmallBalls | SmallAngularBalls, ...]
 
     def _summary_lines(self) -> list[str]:
         return [f"about rest at {self.speed_rpm:.5g} rev/min", *self.rotor._summary_lines()]
@@ -251,7 +254,7 @@ class LinearRotor(Summary):
         shape = q / q[np.argmax(np.abs(q))]
         K, held = self.matrices[2], self.support_impedance(1j * s.imag).real
         in_supports, in_shaft = (float(np.real(shape.conj() @ part @ shape)) for part in (held, K))
-        pairs = [*(m.ends[0] for m in self.rotor.mounts), *((u.x, u.y) for u in self.rotor.unbalances)]
+        pairs = [*(m.ends[0][:2] for m in self.rotor.mounts), *((u.x, u.y) for u in self.rotor.unbalances)]
         share = in_supports / (in_supports + in_shaft)
         return RotorMode(s, shape, whirl_of(shape, pairs), share, *flat_nodes(self.rotor.nodes))
 
@@ -329,17 +332,19 @@ def linearise(
     mounted, bearings = rotor.contacts, rotor.ball_bearings
     known = all(_is_impedance(mount.contact) for mount in mounted)
     rest = np.zeros(rotor.size) if mounted and known and not bearings else rotor.equilibrium(speed)
+    require_held(rotor.mounts, rest, rotor.matrices(speed * RADIANS)[2], speed)
     points, normals, _ = rotor.geometry
     r = normals @ (points @ rest)
-    found = [_linear_bearing(m, speed, r[k : k + 2], passage) for k, m in zip(
-        range(len(mounted), r.size, 2), bearings, strict=True
-    )]  # fmt: skip
+    found = [
+        _linear_bearing(mount, speed, r[at], passage)
+        for at, mount in zip(rotor.ball_columns, bearings, strict=True)
+    ]
     return LinearRotor(
         rotor,
         speed,
         passage,
         rest,
-        np.array([load for load, _ in found]).reshape(-1, 2),
+        np.array([load for load, _ in found]) if found else np.zeros((0, 2)),
         tuple(_linear_contact(mount, float(u) + mount.offset) for mount, u in zip(mounted, r, strict=False)),
         tuple(balls for _, balls in found),
     )
@@ -363,8 +368,12 @@ def _linear_contact(mount: ContactMount, approach: float) -> LinearElement | Con
     return ContactImpedance(contact, mount.count)
 
 
-def _linear_bearing(mount: BearingMount, speed: float, ring: _Floats, passage: bool) -> tuple[_Floats, SmallBalls]:
+def _linear_bearing(
+    mount: BearingMount, speed: float, ring: _Floats, passage: bool
+) -> tuple[_Floats, SmallBalls | SmallAngularBalls]:
     """Force on the inner ring at rest, and what a small vibration finds in the bearing."""
+    if mount.z is not None:
+        return _linear_angular(mount, speed, ring + mount.shift, passage)
     bearing = mount.ball_bearing
     held = bearing._static_balls(bearing.speed(speed), mount.cage_angle)
     force = held.force(ring)
@@ -372,6 +381,22 @@ def _linear_bearing(mount: BearingMount, speed: float, ring: _Floats, passage: b
         force = np.zeros(2)
     at_angles = bearing.ring_equilibria(force, speed, None if passage else mount.cage_angle)
     return force, SmallBalls.of(held.balls, held.at_speed, at_angles)
+
+
+def _linear_angular(
+    mount: BearingMount, speed: float, ring: _Floats, passage: bool
+) -> tuple[_Floats, SmallAngularBalls]:
+    """Likewise of a bearing with five degrees of freedom."""
+    bearing, rpm = mount.ball_bearing, mount.ball_bearing.speed(speed)
+    held = equilibrium_at(bearing._static_ring(rpm, mount.cage_angle, ring.size), ring)
+    force, loaded = held.load, np.linalg.norm(held.load) >= UNLOADED * held.force.max()
+    places = [held]
+    if passage:
+        rings = [bearing._static_ring(rpm, angle, ring.size) for angle in bearing._cage_angles(force[:2], None)]
+        places = [
+            angular_equilibrium(one, force, first=ring) if loaded else equilibrium_at(one, ring) for one in rings
+        ]
+    return force, bearing._small_angular(rpm, places)
 
 
 @takes(speeds_rpm="rev/min")

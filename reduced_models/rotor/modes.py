@@ -97,11 +97,12 @@ class RotorMode(Summary, ByNode):
 
     @property
     def vertical_share(self) -> float:
-        """Share of the squared displacements of the named nodes across the shaft that is along y."""
+        """Share of the squared displacements of the named nodes across the shaft that is along y; or 0."""
         found = {at[direction]: direction for at in self.nodes.values() for direction in "xy" if direction in at}
         squares = {place: float(np.abs(self.shape[place]) ** 2) for place in found}
         up = sum(square for place, square in squares.items() if found[place] == "y")
-        return up / sum(squares.values())
+        whole = sum(squares.values())
+        return up / whole if whole > 0.0 else 0.0
 
     def to_dict(self) -> dict[str, float]:
         """Frequency, decrement and shares, ready for JSON."""

@@ -12,6 +12,7 @@ from ehlcontact.errors import InputError
 
 PLANE = ("x", "y")
 DIRECTIONS = (*PLANE, "tilt_x", "tilt_y")  # of a node of a shaft: displacements [m], angles about x and y [rad]
+LENGTHS = (*PLANE, "z")  # of all of them those that are displacements; the whole shaft has one along z
 
 
 def flat_nodes(nodes: Mapping[str, Mapping[str, int]]) -> tuple[tuple[str, ...], NDArray[np.int64]]:

@@ -24,6 +24,7 @@ from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary, span
 from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.freedoms import FACINGS, FIVE, facing_signs
 from reduced_models.rotor.beam import Piece
 from reduced_models.rotor.rotor import Unbalance, require_unbalance
 from reduced_models.rotor.supports import BearingMount, LinearBearing, require_bearing
@@ -33,6 +34,7 @@ _Floats = NDArray[np.float64]
 DENSITY = 7800.0  # kg/m3 of steel, as of the balls
 # m, beyond which no rotor on ball bearings goes: along the shaft, and across it. Millimetres are meant there.
 LONGEST, WIDEST = 100.0, 10.0
+RING_SECTION = 0.75  # of an outer ring, over the ball diameter squared: 6205 has 0.7, 6305 0.8
 ROUNDING = 1e-9  # share by which a polar inertia may pass that of a disc without thickness
 
 
@@ -167,8 +169,8 @@ class Disc(Summary):
         Mass times eccentricity [kg m], and its angle ahead of the shaft's [rad].
     damping : float
         To the ground [N s/m].
-    load : (float, float)
-        Constant force beside its weight [N].
+    load : (float, float) or (float, float, float)
+        Constant force beside its weight [N], along x, y and z.
     """
 
     position: float
@@ -178,14 +180,14 @@ class Disc(Summary):
     unbalance: float = 0.0
     phase: float = 0.0
     damping: float = 0.0
-    load: tuple[float, float] = (0.0, 0.0)
+    load: tuple[float, ...] = (0.0, 0.0)
 
     def _summary_lines(self) -> list[str]:
         turns = f"inertias {self.diametral_inertia:.4g} and {self.polar_inertia:.4g} kg m2"
         body = turns if self.diametral_inertia else "a point"
         return [
             f"{self.mass:.4g} kg at {1e3 * self.position:.5g} mm, {body}",
-            f"unbalance {1e6 * self.unbalance:.4g} g mm, load ({self.load[0]:.4g}, {self.load[1]:.4g}) N",
+            f"unbalance {1e6 * self.unbalance:.4g} g mm, load ({', '.join(f'{one:.4g}' for one in self.load)}) N",
         ]
 
     def __post_init__(self) -> None:
@@ -200,7 +202,8 @@ class Disc(Summary):
             )
         Unbalance(x=0, y=1, amount=self.unbalance, phase=self.phase)
         require_unbalance("unbalance", self.unbalance, self.mass)
-        object.__setattr__(self, "load", tuple(as_column("load", self.load, size=2).tolist()))
+        size = 3 if np.size(self.load) == 3 else 2
+        object.__setattr__(self, "load", tuple(as_column("load", self.load, size=size).tolist()))
 
     @classmethod
     @takes(position="m", diameter="m", width="m", bore="m", density="kg/m3")
@@ -237,7 +240,7 @@ class Disc(Summary):
 
 @fields_take(
     position="m", cage_angle="rad", journal_mass="kg", housing_mass="kg", housing_stiffness="N/m",
-    housing_damping="N s/m",
+    housing_damping="N s/m", offset="m", preload="N", preload_stiffness="N/m", outer_ring_mass="kg",
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Support(Summary):
@@ -254,8 +257,26 @@ class Support(Summary):
         Beside that of the shaft [kg]: inner ring, sleeve, or, of a shaft without mass, its share.
     housing_mass : float, optional
         Of what moves with the outer ring [kg]; without it that stands on the ground.
-    housing_stiffness, housing_damping : float or (float, float), optional
-        Between the housing and the ground, along x and y [N/m], [N s/m].
+    housing_stiffness, housing_damping : float, (float, float) or (float, float, float), optional
+        Between the housing and the ground, along x, y and z [N/m], [N s/m]; of two values z has the first.
+    facing : {"+z", "-z"}
+        Direction in which the inner ring is pressed against the outer one; z runs from the left end of the shaft.
+    offset : float
+        Displacement of the inner ring along its facing beside that of the shaft [m]; positive presses the bearing:
+        rigid preload by ground rings or spacers, axial growth of the shaft.
+    preload : float, optional
+        Force of a spring on an outer ring that is free to move along the shaft, pressing the bearing [N]; 0: a
+        floating bearing. By default the outer ring is fixed along the shaft.
+    preload_stiffness : float
+        Of that spring [N/m]; 0: its force is constant.
+    outer_ring_mass : float, optional
+        Of an outer ring that is free [kg]; by default that of steel with a section of 3/4 of the ball diameter
+        squared.
+
+    Raises
+    ------
+    InputError
+        A value outside its range; a spring on the outer ring of a bearing in a housing.
     """
 
     position: float
@@ -265,18 +286,33 @@ class Support(Summary):
     housing_mass: float | None = None
     housing_stiffness: Any = None
     housing_damping: Any = 0.0
+    facing: str = FACINGS[0]
+    offset: float = 0.0
+    preload: float | None = None
+    preload_stiffness: float = 0.0
+    outer_ring_mass: float | None = None
 
     def _summary_lines(self) -> list[str]:
         lines = [f"{self.bearing.name or 'ball bearing'} at {1e3 * self.position:.5g} mm"]
+        if self.needs_axial:
+            held = f"offset {1e6 * self.offset:.4g} µm"
+            lines.append(
+                f"facing {self.facing}, {held if self.preload is None else f'spring {self.preload:.4g} N'}"
+            )
         if self.housing_mass is None:
-            return [f"{lines[0]}, on the ground"]
+            return [f"{lines[0]}, on the ground", *lines[1:]]
         springs = span(self.housing_stiffness, 1e-6, "N/µm")
         return [*lines, f"in a housing of {self.housing_mass:.4g} kg on springs of {springs}"]
 
     def __post_init__(self) -> None:
         require_finite("position", self.position)
         require_bearing("bearing", self.bearing)
-        BearingMount(bearing=self.bearing, x=0, y=1, cage_angle=self.cage_angle)
+        facing_signs(self.facing)
+        z, tilt_x, tilt_y = (2, 3, 4) if self.needs_axial else (None, None, None)
+        BearingMount(
+            bearing=self.bearing, x=0, y=1, z=z, tilt_x=tilt_x, tilt_y=tilt_y, cage_angle=self.cage_angle,
+            facing=self.facing, offset=self.offset,
+        )  # fmt: skip
         require_nonnegative("journal_mass", self.journal_mass)
         if (self.housing_mass is None) != (self.housing_stiffness is None):
             missing = "housing_mass" if self.housing_mass is None else "housing_stiffness"
@@ -285,7 +321,33 @@ class Support(Summary):
             require_positive("housing_mass", self.housing_mass)
             for name, check in (("housing_stiffness", require_positive), ("housing_damping", require_nonnegative)):
                 given = np.atleast_1d(as_numbers(name, getattr(self, name)))
-                pair = as_column(name, np.full(2, given[0]) if given.size == 1 else given, size=2)
-                for k, value in enumerate(pair.tolist()):
+                size = 3 if given.size == 3 else 2
+                column = as_column(name, np.full(size, given[0]) if given.size == 1 else given, size=size)
+                for k, value in enumerate(column.tolist()):
                     check(f"{name}[{k}]", value)
-                object.__setattr__(self, name, pair)
+                object.__setattr__(self, name, column)
+        if self.preload is not None:
+            require_nonnegative("preload", self.preload)
+            if self.housing_mass is not None:
+                raise InputError("preload", self.preload, "left out with a housing, whose springs hold it along z")
+        require_nonnegative("preload_stiffness", self.preload_stiffness)
+        if self.outer_ring_mass is not None:
+            require_positive("outer_ring_mass", self.outer_ring_mass)
+
+    @property
+    def needs_axial(self) -> bool:
+        """Whether it needs axial motion of the shaft."""
+        angle = getattr(self.bearing, "contact_angle", None)
+        five = isinstance(self.bearing, LinearBearing) and self.bearing.stiffness.shape[-1] == len(FIVE)
+        own = self.facing != FACINGS[0] or self.offset != 0.0 or self.preload is not None
+        return own or five or angle is not None
+
+    @property
+    def ring_mass(self) -> float:
+        """Mass of the outer ring that is free to move along the shaft [kg]."""
+        if self.outer_ring_mass is not None:
+            return self.outer_ring_mass
+        if isinstance(self.bearing, LinearBearing):
+            raise InputError("outer_ring_mass", None, "given: a bearing of matrices has no dimensions")
+        ball = self.bearing.ball_diameter
+        return self.bearing.density * pi * (self.bearing.pitch_diameter + ball) * RING_SECTION * ball**2

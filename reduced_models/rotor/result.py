@@ -16,7 +16,7 @@ from ehlcontact.quantities import FORCE, LENGTH, NUMBER, RATE, SPEED, TIME
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import span
-from reduced_models.rotor.nodes import PLANE, ByNode
+from reduced_models.rotor.nodes import LENGTHS, ByNode
 
 _Floats = NDArray[np.float64]
 
@@ -89,7 +89,7 @@ class RotorResult(QuantityTable, ByNode):
         return replace(self.DISPLAY, labels={**self.DISPLAY.labels, "dof": tuple(dofs), "support": self.columns})
 
     def _unit(self, name: str) -> str:
-        lengths = {place for at in self.nodes.values() for name, place in at.items() if name in PLANE}
+        lengths = {place for at in self.nodes.values() for name, place in at.items() if name in LENGTHS}
         mixed = {"displacement": MIXED, "velocity": f"{MIXED}, per s"}
         if lengths == set(range(self.displacement.shape[1])):
             mixed = {}

@@ -31,6 +31,7 @@ from reduced_models.rotor.supports import (
     LinearBearing,
     Mount,
     SupportGeometry,
+    ball_columns,
     is_ball_bearing,
     support_geometry,
     support_rows,
@@ -160,17 +161,22 @@ class Rotor(Summary):
     def _check_mounts(self) -> None:
         if not self.mounts:
             raise InputError("mounts", (), "at least one support")
-        taken: list[tuple[int | None, ...]] = []
+        taken: list[tuple[Any, ...]] = []
         for i, mount in enumerate(self.mounts):
             require_instance(f"mounts[{i}]", mount, Mount, "a BearingMount or ContactMount")
             for end in mount.ends:
                 self._require_there(f"mounts[{i}]", end)
             if isinstance(mount, BearingMount):
-                if mount.ends[0] in taken:
+                place = (*mount.ends[0], mount.arm)
+                if place in taken:
                     raise InputError(
                         f"mounts[{i}]", mount.ends[0], "at degrees of freedom that no other bearing has"
                     )
-                taken.append(mount.ends[0])
+                taken.append(place)
+        kinds = {len(mount.directions): mount for mount in self.ball_bearings}
+        if len(kinds) > 1:
+            allowed = "ball bearings that all have z, tilt_x and tilt_y, or none of them"
+            raise InputError("mounts", "some with z, some without", allowed)
 
     def _require_there(self, field: str, places: tuple[Any, ...]) -> None:
         """Raise `InputError` for degrees of freedom that do not exist, or of which two are one."""
@@ -211,6 +217,11 @@ class Rotor(Summary):
     def geometry(self) -> SupportGeometry:
         """Where contacts, then ball bearings act; linear bearings are in `matrices`."""
         return support_geometry(self.contacts, self.ball_bearings, self.size)
+
+    @property
+    def ball_columns(self) -> tuple[slice, ...]:
+        """Where the directions of each ball bearing are among the motions of contacts, then ball bearings."""
+        return ball_columns(self.contacts, self.ball_bearings)
 
     @property
     def changes_with_speed(self) -> bool:

@@ -1,7 +1,7 @@
 """Supports of a rotor: one radial contact at a position around the shaft, a ball bearing, a bearing as K and C.
 
 A support takes the motion of its degrees of freedom, one number for each of its directions (the approach of a
-contact; x and y of an inner ring against the outer one), and gives as many forces.
+contact; x and y, or all five, of an inner ring against the outer one), and gives as many forces.
 """
 
 from __future__ import annotations
@@ -21,8 +21,12 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import Point, moes_point
 from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.freedoms import FACINGS, FIVE, PLANAR, facing_signs
 
 _Floats = NDArray[np.float64]
+
+AXIAL = FIVE.index("z")
+FARTHEST_OFFSET = 0.1  # of a ball diameter: grooves end before
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,8 +35,8 @@ class LinearBearing(Summary):
 
     Parameters
     ----------
-    stiffness, damping : array_like, shape (2, 2) or (k, 2, 2)
-        In the order x, y [N/m], [N s/m].
+    stiffness, damping : array_like, shape (n, n) or (k, n, n)
+        In the order x, y, and with n = 5 z, tilt_x, tilt_y: [N/m], [N s/m], and with tilts N m for N, rad for m.
     speeds_rpm : array_like, shape (k,), optional
         Increasing speeds [rev/min] of a table: straight lines between them, its ends beyond them.
     name : str
@@ -40,7 +44,7 @@ class LinearBearing(Summary):
     Raises
     ------
     InputError
-        Matrices that are not 2 by 2, or not one for each speed.
+        Matrices that are not 2 by 2 or 5 by 5, or not one for each speed.
     """
 
     stiffness: Any
@@ -50,7 +54,9 @@ class LinearBearing(Summary):
 
     def __post_init__(self) -> None:
         speeds = None if self.speeds_rpm is None else as_column("speeds_rpm", self.speeds_rpm, increasing=True)
-        shape = (2, 2) if speeds is None else (speeds.size, 2, 2)
+        first = np.shape(as_numbers("stiffness", self.stiffness))
+        size = len(FIVE) if first[-1:] == (len(FIVE),) else len(PLANAR)
+        shape = (size, size) if speeds is None else (speeds.size, size, size)
         object.__setattr__(self, "speeds_rpm", speeds)
         for name in ("stiffness", "damping"):
             matrices = as_numbers(name, getattr(self, name))
@@ -64,46 +70,94 @@ class LinearBearing(Summary):
         return [f"{self.name or 'linear bearing'}, stiffness and damping {table}"]
 
     def at(self, speed_rpm: float | _Floats) -> tuple[_Floats, _Floats]:
-        """Stiffness [N/m] and damping [N s/m] at speeds [rev/min], shape (2, 2) or one for each."""
+        """Stiffness and damping at speeds [rev/min], shape (n, n) or one for each."""
         if self.speeds_rpm is None:
             return self.stiffness, self.damping
+        n = self.stiffness.shape[-1]
         K, C = (
-            np.stack([np.interp(speed_rpm, self.speeds_rpm, entries) for entries in table.reshape(-1, 4).T], -1)
+            np.stack(
+                [np.interp(speed_rpm, self.speeds_rpm, entries) for entries in table.reshape(-1, n * n).T], -1
+            )
             for table in (self.stiffness, self.damping)
         )
-        return K.reshape(*np.shape(speed_rpm), 2, 2), C.reshape(*np.shape(speed_rpm), 2, 2)
+        return K.reshape(*np.shape(speed_rpm), n, n), C.reshape(*np.shape(speed_rpm), n, n)
 
 
-@fields_take(cage_angle="rad")
+@fields_take(cage_angle="rad", offset="m", arm="m")
 @dataclass(frozen=True, kw_only=True)
 class BearingMount(Summary):
-    """A bearing between two degrees of freedom of the shaft and the ground, or those of a housing.
+    """A bearing between degrees of freedom of the shaft and the ground, or those of a housing.
+
+    It is planar (directions x and y), or with `z` has the five degrees of freedom of
+    `reduced_models.bearing.freedoms`.
 
     Parameters
     ----------
     bearing : BallBearing or LinearBearing
     x, y : int
-        Degrees of freedom of the shaft.
-    housing : (int, int), optional
-        Those of the housing, which the outer ring moves with.
+        Degrees of freedom of the shaft, across it.
+    z, tilt_x, tilt_y : int, optional
+        Those along the shaft, and of its turns about x and y: all of them, or none.
+    housing : tuple of int or None, optional
+        Those of the housing along x, y and, with `z`, z, which the outer ring moves with; None: the ground.
     cage_angle : float
         Of the first ball at the start [rad].
+    facing : {"+z", "-z"}
+        Direction in which the inner ring is pressed against the outer one: of an angular contact bearing that of
+        the axial force of the shaft that it carries.
+    offset : float
+        Displacement of the inner ring along its facing beside that of the shaft [m]; positive presses the bearing:
+        preload by ground rings or spacers, axial growth of the shaft.
+    arm : float
+        Distance of the plane of the groove centres from the node of the shaft, along z [m].
+
+    Raises
+    ------
+    InputError
+        An angular contact bearing without `z`, facing, offset or arm without it, an angle in degrees.
     """
 
     bearing: BallBearing | LinearBearing
     x: int
     y: int
-    housing: tuple[int, int] | None = None
+    z: int | None = None
+    tilt_x: int | None = None
+    tilt_y: int | None = None
+    housing: tuple[int | None, ...] | None = None
     cage_angle: float = -pi / 2.0
+    facing: str = FACINGS[0]
+    offset: float = 0.0
+    arm: float = 0.0
 
     def _summary_lines(self) -> list[str]:
-        on = "the ground" if self.housing is None else f"a housing at {self.housing[0]}, {self.housing[1]}"
-        return [f"{self.bearing.name or 'ball bearing'} at degrees of freedom {self.x}, {self.y}, on {on}"]
+        on = "the ground" if self.housing is None else f"a housing at {', '.join(map(str, self.housing))}"
+        at = ", ".join(map(str, self.ends[0]))
+        return [f"{self.bearing.name or 'ball bearing'} at degrees of freedom {at}, on {on}"]
 
     def __post_init__(self) -> None:
         require_bearing("bearing", self.bearing)
         if abs(require_finite("cage_angle", self.cage_angle)) > 2.0 * pi:
             raise InputError("cage_angle", self.cage_angle, "between -2 pi and 2 pi; angles are in radians")
+        facing_signs(self.facing)
+        require_finite("arm", self.arm)
+        axial = (self.z, self.tilt_x, self.tilt_y)
+        if self.z is None:
+            if axial != (None, None, None):
+                raise InputError("z, tilt_x, tilt_y", axial, "all given, or none")
+            require_planar(self)
+        elif None in axial:
+            raise InputError("z, tilt_x, tilt_y", axial, "all given, or none")
+        if isinstance(self.bearing, LinearBearing):
+            size = self.bearing.stiffness.shape[-1]
+            if size != len(self.directions):
+                allowed = f"of {len(self.directions)} degrees of freedom, as those of its mount"
+                raise InputError("bearing", f"matrices of {size}", allowed)
+            if self.offset != 0.0:
+                raise InputError("offset", self.offset, "left out: matrices are about rest")
+        else:
+            require_offset("offset", self.offset, self.bearing)
+        if self.housing is not None and len(self.housing) != (2 if self.z is None else 3):
+            raise InputError("housing", self.housing, "(x, y), or (x, y, z) with five degrees of freedom")
 
     @property
     def ball_bearing(self) -> BallBearing:
@@ -114,21 +168,33 @@ class BearingMount(Summary):
     @property
     def directions(self) -> tuple[str, ...]:
         """Names of its directions."""
-        return ("x", "y")
+        return PLANAR if self.z is None else FIVE
 
     @property
     def ends(self) -> tuple[tuple[int | None, ...], ...]:
         """Degrees of freedom, x before y, of the shaft and of the housing where there is one."""
-        return ((self.x, self.y),) if self.housing is None else ((self.x, self.y), self.housing)
+        shaft = (self.x, self.y) if self.z is None else (self.x, self.y, self.z, self.tilt_x, self.tilt_y)
+        return (shaft,) if self.housing is None else (shaft, self.housing)
+
+    @property
+    def shift(self) -> _Floats:
+        """Displacement of the inner ring beside that which `rows` gives, shape (directions,) [m], [rad]."""
+        found = np.zeros(len(self.directions))
+        if self.z is not None:
+            found[AXIAL] = self.offset
+        return found
 
     def rows(self, size: int) -> _Floats:
-        """Inner ring against the outer one from the displacements of the rotor, shape (2, size)."""
-        rows = np.zeros((2, size))
-        rows[0, self.x] = rows[1, self.y] = 1.0
-        if self.housing is not None:
-            rows[0, self.housing[0]] -= 1.0
-            rows[1, self.housing[1]] -= 1.0
-        return rows
+        """Inner ring against the outer one from the displacements of the rotor, shape (directions, size)."""
+        rows = np.zeros((len(self.directions), size))
+        for k, place in enumerate(self.ends[0]):
+            rows[k, place] = 1.0
+        if self.z is not None:
+            rows[0, self.tilt_y], rows[1, self.tilt_x] = self.arm, -self.arm
+        for k, place in enumerate(self.housing or ()):
+            if place is not None:
+                rows[k, place] -= 1.0
+        return rows if self.z is None else facing_signs(self.facing)[:, None] * rows
 
 
 @fields_take(angle="rad", offset="m")
@@ -212,6 +278,25 @@ def support_columns(mounts: Sequence[Mount]) -> tuple[slice, ...]:
     return tuple(slice(first, end) for first, end in pairwise(ends))
 
 
+def require_planar(mount: BearingMount) -> None:
+    """Raise `InputError` for what a bearing without axial motion and tilts does not have."""
+    angle = getattr(mount.bearing, "contact_angle", None)
+    needed = "five degrees of freedom: z, tilt_x and tilt_y given (rotor_on_bearings(..., axial=True))"
+    if angle is not None:
+        raise InputError("contact_angle", angle, f"in a mount of {needed}")
+    for name, default in (("facing", FACINGS[0]), ("offset", 0.0), ("arm", 0.0)):
+        if getattr(mount, name) != default:
+            raise InputError(name, getattr(mount, name), f"left out, or {needed}")
+
+
+def require_offset(name: str, offset: float, bearing: BallBearing) -> None:
+    """Raise `InputError` for a displacement [m] that takes the ring of a bearing out of its grooves."""
+    most = FARTHEST_OFFSET * bearing.ball_diameter
+    if not abs(require_finite(name, offset)) <= most:
+        guess = f" (in µm? then {1e-6 * offset:g} m)" if abs(1e-6 * offset) <= most else ""
+        raise InputError(name, offset, f"between {-most:.3g} and {most:.3g} m{guess}")
+
+
 def require_bearing(name: str, bearing: object) -> None:
     """Raise `InputError` for what is no bearing of a shaft."""
     if not isinstance(bearing, LinearBearing):
@@ -221,6 +306,11 @@ def require_bearing(name: str, bearing: object) -> None:
 def is_ball_bearing(mount: Mount) -> bool:
     """Whether the support is a ball bearing."""
     return isinstance(mount, BearingMount) and isinstance(mount.bearing, BallBearing)
+
+
+def ball_columns(contacts: Sequence[ContactMount], bearings: Sequence[BearingMount]) -> tuple[slice, ...]:
+    """Where the directions of each ball bearing are among those of contacts, then ball bearings."""
+    return support_columns([*contacts, *bearings])[len(contacts) :]
 
 
 class SupportGeometry(NamedTuple):
@@ -237,11 +327,12 @@ def support_geometry(
     """Points of contacts, then of ball bearings, on a rotor of `size` degrees of freedom."""
     places = list(dict.fromkeys(place for mount in contacts for place in mount.ends[0] if place is not None))
     points = np.concatenate([np.eye(size)[places], *(mount.rows(size) for mount in bearings)])
-    normals = np.zeros((len(contacts) + 2 * len(bearings), len(points)))
+    directions = len(points) - len(places)
+    normals = np.zeros((len(contacts) + directions, len(points)))
     for k, mount in enumerate(contacts):
         normals[k, : len(places)] = mount.rows(size)[0, places]
-    normals[len(contacts) :, len(places) :] = np.eye(2 * len(bearings))
-    counts = np.array([mount.count for mount in contacts] + [1.0] * 2 * len(bearings))
+    normals[len(contacts) :, len(places) :] = np.eye(directions)
+    counts = np.array([mount.count for mount in contacts] + [1.0] * directions)
     ranks = [0 if k == 0 else np.linalg.matrix_rank(points[:k]) for k in range(len(points) + 1)]
     kept = [k for k in range(len(points)) if ranks[k + 1] > ranks[k]]
     if len(kept) < len(points):  # a contact on the journal of a bearing, say

@@ -88,7 +88,7 @@ class UnbalanceResponse(QuantityTable):
     @classmethod
     def of(cls, rotor: Rotor, speeds_rpm: _Floats, amplitude: _Complex) -> Self:
         """From complex amplitudes, shape (k, N)."""
-        pairs = [*(mount.ends[0] for mount in rotor.mounts), *((u.x, u.y) for u in rotor.unbalances)]
+        pairs = [*(mount.ends[0][:2] for mount in rotor.mounts), *((u.x, u.y) for u in rotor.unbalances)]
         places = list(dict.fromkeys((-1 if x is None else x, -1 if y is None else y) for x, y in pairs))
         known = {(at.get("x", -1), at.get("y", -1)): name for name, at in rotor.nodes.items()}
         return cls(

@@ -277,7 +277,7 @@ def test_run_up_and_coast_down_of_an_overhung_rotor(film):
         ),
         (r"supports\[0\].journal_mass = 0.0: must be > 0 on a shaft", lambda b: jeffcott(b, supports=pair(b, b))),
         (r"discs\[0\] = 'float': must be a Disc", lambda b: jeffcott(b, discs=[2.0])),
-        (r"length of gravity = 3", lambda b: jeffcott(b, gravity=(0.0, 0.0, -9.81))),
+        (r"length of gravity = 4", lambda b: jeffcott(b, gravity=(0.0, 0.0, 0.0, -9.81))),
         (r"seconds = 0.0: must be", lambda b: SpeedProfile.ramp(500.0, 9000.0, 0.0)),
     ],
 )  # fmt: skip
