@@ -160,6 +160,20 @@ def _start(balls, c_r, c_z):
 
 
 @jit_exact
+def _convex_step(at, inner, outer, forces):
+    """Newton's step with the springs alone, whose stiffness k n n^T + Q/l (1 - n n^T) is positive definite."""
+    side_i, side_o = inner[1] / at.l_i, outer[1] / at.l_o
+    k_i, k_o = inner[2] - side_i, outer[2] - side_o
+    rr = k_i * at.cos_i * at.cos_i + k_o * at.cos_o * at.cos_o + side_i + side_o
+    zz = k_i * at.sin_i * at.sin_i + k_o * at.sin_o * at.sin_o + side_i + side_o
+    rz = k_i * at.cos_i * at.sin_i + k_o * at.cos_o * at.sin_o
+    det = rr * zz - rz * rz
+    if not det > 0.0:
+        return forces[0] / (rr + zz), forces[1] / (rr + zz)
+    return (zz * forces[0] - rz * forces[1]) / det, (rr * forces[1] - rz * forces[0]) / det
+
+
+@jit_exact
 def _line_search(balls, b_r, b_z, d_r, d_z, c_r, c_z, slope):
     """Share of the step `d` at which the forces along it balance, roughly; `slope` is their sum at its start."""
     low, high, t = 0.0, 1.0, 1.0
@@ -212,7 +226,7 @@ def _search(balls, b_r, b_z, c_r, c_z, geometric, full):
         d_r = -(full[1, 1] * forces[0] - full[0, 1] * forces[1]) / det
         d_z = -(full[0, 0] * forces[1] - full[1, 0] * forces[0]) / det
         if forces[0] * d_r + forces[1] * d_z <= 0.0:  # away from the balance
-            d_r, d_z = forces[0] / stiff, forces[1] / stiff
+            d_r, d_z = _convex_step(at, inner, outer, forces)
         cut = min(1.0, longest / np.hypot(d_r, d_z))
         d_r, d_z = cut * d_r, cut * d_z
         now = _press(balls, b_r + d_r, b_z + d_z, c_r, c_z)

@@ -40,6 +40,9 @@ OF_OUTER = 0.01  # W_i/W_o below which inner race control fades
 # Film over speed and over the radius Rx at a given load (Hamrock and Dowson 1977), between the angle that a table
 # of films is for and that of a ball
 FILM_BY_SPEED, FILM_BY_RADIUS = 0.67, 0.464
+# Least cosine of a contact angle with which a ball rolls (63 degrees): none that carries runs so steeply, and one
+# that the inner ring has left by a tenth of a millimetre has no place on it at which it would roll.
+LEAST_COSINE = 0.45
 
 
 class Grooves(NamedTuple):
@@ -82,6 +85,15 @@ class Rolling(NamedTuple):
 
 
 @jit_exact
+def _rolls_at(cosine, sine):
+    """Cosine and sine of the angle at which a ball rolls on a race, at most that of `LEAST_COSINE`."""
+    if cosine.real >= LEAST_COSINE:
+        return cosine, sine
+    most = np.sqrt(1.0 - LEAST_COSINE * LEAST_COSINE)
+    return LEAST_COSINE + 0.0 * cosine, (most if sine.real >= 0.0 else -most) + 0.0 * sine
+
+
+@jit_exact
 def rolling(g, b_r, b_z, c_r, c_z, g_i, g_o):
     """Angles and speeds of a ball at `b` with the inner groove centre at `c`.
 
@@ -91,15 +103,16 @@ def rolling(g, b_r, b_z, c_r, c_z, g_i, g_o):
     l_o = np.sqrt(b_r * b_r + b_z * b_z)
     l_i = np.sqrt((c_r - b_r) * (c_r - b_r) + (c_z - b_z) * (c_z - b_z))
     cos_o, sin_o, cos_i, sin_i = b_r / l_o, b_z / l_o, (c_r - b_r) / l_i, (c_z - b_z) / l_i
+    (c_i, s_i), (c_o, s_o) = _rolls_at(cos_i, sin_i), _rolls_at(cos_o, sin_o)
     share = 0.0 * l_i
     if g.control in (INNER, SHARED) and g_i.real > 0.0:
         ratio = g.outer_torsion * g_o * g_o / (g.inner_torsion * g_i * g_i)  # W_o/W_i
         share = 1.0 / (1.0 + (ratio if g.control == SHARED else (OF_OUTER * ratio) ** 2))
-    slope = (1.0 - share) * sin_o / (cos_o + gamma) + share * sin_i / (cos_i - gamma)
+    slope = (1.0 - share) * s_o / (c_o + gamma) + share * s_i / (c_i - gamma)
     cos_b = 1.0 / np.sqrt(1.0 + slope * slope)
     # no slip: both races drive the ball at gamma turn cos_b e/r
-    r_i, r_o = 1.0 - gamma * cos_i, 1.0 + gamma * cos_o
-    by_i, by_o = (cos_i + slope * sin_i) / r_i, (cos_o + slope * sin_o) / r_o
+    r_i, r_o = 1.0 - gamma * c_i, 1.0 + gamma * c_o
+    by_i, by_o = (c_i + slope * s_i) / r_i, (c_o + slope * s_o) / r_o
     orbit = by_o / (by_i + by_o)
     turn = 1.0 / (gamma * cos_b * (by_i + by_o))
     u_i, u_o = (1.0 - orbit) * g.pitch * r_i, orbit * g.pitch * r_o
