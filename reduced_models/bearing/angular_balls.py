@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.jit import jit_exact
-from reduced_models.bearing.contact_angles import Grooves, ball_forces, rolling
+from reduced_models.bearing.contact_angles import Grooves, ball_forces, inner_span, rolling
 from reduced_models.bearing.race_contact import curve, film_cutoff
 from reduced_models.bearing.race_table import RaceForceTable
 
@@ -32,6 +32,9 @@ BALANCED = 1e-13  # imbalance of a ball over its forces that ends the search: ro
 BALANCED_BY_ROUNDING = 1e-9  # accepted where steps no longer help
 MOST_STEPS = 100  # of that search: a handful, but where a ball lifts off
 FAR = 0.05  # longest step over the distance of the groove centres
+LIGHT = (
+    1e-3  # stiffness of the inner contact over that of the outer one, below which a ball follows the outer groove
+)
 ROUGHLY = 0.1  # of the forces along a step, that are left at the end of a search along it
 EPSILON = 2.0**-52
 COMPLEX_STEP = 1e-30  # [m], of derivatives: nothing is subtracted, so it need not be large
@@ -104,7 +107,7 @@ def static_contact(law, u, film):
 def _press(balls, b_r, b_z, c_r, c_z):
     """A ball at a given place: its rolling, both contacts (approach, force, slopes), all forces."""
     g = balls.grooves
-    l_i, l_o = np.hypot(c_r - b_r, c_z - b_z), np.hypot(b_r, b_z)
+    l_i, l_o = inner_span(b_r, b_z, c_r, c_z)[0], np.hypot(b_r, b_z)
     g_i, by_i, _ = curve(l_i - g.inner, 0, 0.0, balls.inner, 0)
     g_o, by_o, _ = curve(l_o - g.outer, 0, 0.0, balls.outer, 0)
     at = rolling(g, b_r, b_z, c_r, c_z, g_i, g_o)
@@ -121,7 +124,7 @@ def _geometric(balls, b_r, b_z, c_r, c_z, now, out):
     for j in range(4):
         r, z = complex(b_r, h if j == 0 else 0.0), complex(b_z, h if j == 1 else 0.0)
         far_r, far_z = complex(c_r, h if j == 2 else 0.0), complex(c_z, h if j == 3 else 0.0)
-        l_i = np.sqrt((far_r - r) * (far_r - r) + (far_z - z) * (far_z - z))
+        l_i = inner_span(r, z, far_r, far_z)[0]
         l_o = np.sqrt(r * r + z * z)
         moved = rolling(g, r, z, far_r, far_z, g_i + by_i * (l_i - at.l_i), g_o + by_o * (l_o - at.l_o))
         q_i = inner[1] + inner[3] * (moved.film_i - at.film_i)
@@ -174,12 +177,31 @@ def _convex_step(at, inner, outer, forces):
 
 
 @jit_exact
-def _line_search(balls, b_r, b_z, d_r, d_z, c_r, c_z, slope):
+def _moved(b_r, b_z, d_r, d_z, t, arc):
+    """Place of a ball after a share t of the step `d` and the direction of the step there.
+
+    On an `arc` the ball follows the outer groove: a straight step would press it into the groove, or lift it, by
+    far more than what holds a ball that the inner ring has left.
+    """
+    if not arc:
+        return b_r + t * d_r, b_z + t * d_z, d_r, d_z
+    length = np.hypot(b_r, b_z)
+    n_r, n_z = b_r / length, b_z / length
+    out, aside = d_r * n_r + d_z * n_z, d_z * n_r - d_r * n_z
+    c, s, reach = cos(t * aside / length), sin(t * aside / length), length + t * out
+    n_r, n_z = c * n_r - s * n_z, s * n_r + c * n_z
+    aside *= reach / length
+    return reach * n_r, reach * n_z, out * n_r - aside * n_z, out * n_z + aside * n_r
+
+
+@jit_exact
+def _line_search(balls, b_r, b_z, d_r, d_z, c_r, c_z, slope, arc):
     """Share of the step `d` at which the forces along it balance, roughly; `slope` is their sum at its start."""
     low, high, t = 0.0, 1.0, 1.0
     for _ in range(MOST_STEPS):
-        forces = _press(balls, b_r + t * d_r, b_z + t * d_z, c_r, c_z)[3]
-        along = forces[0] * d_r + forces[1] * d_z
+        r, z, e_r, e_z = _moved(b_r, b_z, d_r, d_z, t, arc)
+        forces = _press(balls, r, z, c_r, c_z)[3]
+        along = forces[0] * e_r + forces[1] * e_z
         if abs(along) <= ROUGHLY * slope:
             break
         if along > 0.0:
@@ -229,13 +251,15 @@ def _search(balls, b_r, b_z, c_r, c_z, geometric, full):
             d_r, d_z = _convex_step(at, inner, outer, forces)
         cut = min(1.0, longest / np.hypot(d_r, d_z))
         d_r, d_z = cut * d_r, cut * d_z
-        now = _press(balls, b_r + d_r, b_z + d_z, c_r, c_z)
-        left, t = np.hypot(now[3][0], now[3][1]), 1.0
-        if not left < 0.5 * size and not near:
+        arc = inner[2] < LIGHT * outer[2]
+        new_r, new_z, _, _ = _moved(b_r, b_z, d_r, d_z, 1.0, arc)
+        now = _press(balls, new_r, new_z, c_r, c_z)
+        if not np.hypot(now[3][0], now[3][1]) < 0.5 * size and not near:
             slope = forces[0] * d_r + forces[1] * d_z
-            t = _line_search(balls, b_r, b_z, d_r, d_z, c_r, c_z, slope)
-            now = _press(balls, b_r + t * d_r, b_z + t * d_z, c_r, c_z)
-        b_r, b_z = b_r + t * d_r, b_z + t * d_z
+            t = _line_search(balls, b_r, b_z, d_r, d_z, c_r, c_z, slope, arc)
+            new_r, new_z, _, _ = _moved(b_r, b_z, d_r, d_z, t, arc)
+            now = _press(balls, new_r, new_z, c_r, c_z)
+        b_r, b_z = new_r, new_z
     return b_r, b_z, False
 
 

@@ -448,12 +448,9 @@ class BallBearing(Summary):
 
     def _require_bearable(self, force: _Floats, load: _Floats, speed: float) -> None:
         """Raise `InputError` for forces on the balls, shape (balls, 2) [N], that a race does not bear."""
+        field, value = ("load", load.tolist()) if load.any() else ("clearance", self.clearance)
         for name, most in zip(RACES, force.max(axis=0).tolist(), strict=True):
-            highest, end = self.race(name).heaviest(speed)
-            if most > highest:
-                what, value = ("load", load.tolist()) if load.any() else ("clearance", self.clearance)
-                allowed = f"such that a ball carries at most {highest:.4g} N on the {name} race"
-                raise InputError(what, value, f"{allowed}, {end} (here {most:.4g} N)")
+            self.race(name).require_bearable(most, speed, field, value)
 
     def _bearing_load(self, load: ArrayLike) -> _Floats:
         """A load that a bearing of this kind takes."""

@@ -43,6 +43,10 @@ FILM_BY_SPEED, FILM_BY_RADIUS = 0.67, 0.464
 # Least cosine of a contact angle with which a ball rolls (63 degrees): none that carries runs so steeply, and one
 # that the inner ring has left by a tenth of a millimetre has no place on it at which it would roll.
 LEAST_COSINE = 0.45
+LEAST_DRIVE = (
+    0.1  # cosine between the axis of a ball and the cone of a contact that drives it, from which on it slips
+)
+TINY = 1e-20  # m, no length
 
 
 class Grooves(NamedTuple):
@@ -94,6 +98,25 @@ def _rolls_at(cosine, sine):
 
 
 @jit_exact
+def _at_least(value, least):
+    """The value, or a constant where it would be smaller."""
+    return value if value.real > least else least + 0.0 * value
+
+
+@jit_exact
+def inner_span(b_r, b_z, c_r, c_z):
+    """Length of the inner spring and the vector along it.
+
+    The groove is half a circle with straight walls beyond it: it never pulls a ball inward, however far the ring
+    has left it, and the potential stays convex.
+    """
+    s_r, s_z = c_r - b_r, c_z - b_z
+    if s_r.real < 0.0:
+        s_r = 0.0 * s_r
+    return np.sqrt(s_r * s_r + s_z * s_z + TINY * TINY), s_r, s_z
+
+
+@jit_exact
 def rolling(g, b_r, b_z, c_r, c_z, g_i, g_o):
     """Angles and speeds of a ball at `b` with the inner groove centre at `c`.
 
@@ -101,8 +124,8 @@ def rolling(g, b_r, b_z, c_r, c_z, g_i, g_o):
     """
     gamma = g.ball / g.pitch
     l_o = np.sqrt(b_r * b_r + b_z * b_z)
-    l_i = np.sqrt((c_r - b_r) * (c_r - b_r) + (c_z - b_z) * (c_z - b_z))
-    cos_o, sin_o, cos_i, sin_i = b_r / l_o, b_z / l_o, (c_r - b_r) / l_i, (c_z - b_z) / l_i
+    l_i, s_r, s_z = inner_span(b_r, b_z, c_r, c_z)
+    cos_o, sin_o, cos_i, sin_i = b_r / l_o, b_z / l_o, s_r / l_i, s_z / l_i
     (c_i, s_i), (c_o, s_o) = _rolls_at(cos_i, sin_i), _rolls_at(cos_o, sin_o)
     share = 0.0 * l_i
     if g.control in (INNER, SHARED) and g_i.real > 0.0:
@@ -112,7 +135,10 @@ def rolling(g, b_r, b_z, c_r, c_z, g_i, g_o):
     cos_b = 1.0 / np.sqrt(1.0 + slope * slope)
     # no slip: both races drive the ball at gamma turn cos_b e/r
     r_i, r_o = 1.0 - gamma * c_i, 1.0 + gamma * c_o
-    by_i, by_o = (c_i + slope * s_i) / r_i, (c_o + slope * s_o) / r_o
+    by_i, by_o = (
+        _at_least((c_i + slope * s_i) / r_i, LEAST_DRIVE),
+        _at_least((c_o + slope * s_o) / r_o, LEAST_DRIVE),
+    )
     orbit = by_o / (by_i + by_o)
     turn = 1.0 / (gamma * cos_b * (by_i + by_o))
     u_i, u_o = (1.0 - orbit) * g.pitch * r_i, orbit * g.pitch * r_o

@@ -20,6 +20,7 @@ _Floats = NDArray[np.float64]
 
 BALANCED = 1e-12  # imbalance over the load that ends the iteration
 BALANCED_BY_ROUNDING = 1e-9  # imbalance over the load that is accepted where steps no longer help
+ROUNDING = 1e-15  # imbalance over the forces by which springs press each other, below which steps do not help
 # Stiffness given to directions that have none, over that of the others: contacts on one side only leave one.
 REGULARISATION = 1e-6
 MOST_STEPS = 100  # of which Newton needs a handful where contacts neither open nor close
@@ -40,29 +41,36 @@ class Springs(Protocol):
 
 
 def equilibrium(
-    springs: Springs, load: _Floats, longest: float = math.inf, first: _Floats | None = None
+    springs: Springs,
+    load: _Floats,
+    longest: float = math.inf,
+    first: _Floats | None = None,
+    internal: float = 0.0,
 ) -> _Floats:
     """Find the displacement, shape (directions,) [m], at which springs carry `load` [N].
 
     Newton's method with the analytic tangents. Springs that only stiffen have a convex potential, so a step
     that does not bring the balance closer is replaced by the minimum along it. Steps are at most `longest` [m].
-    With a `first` place the search begins there.
+    With a `first` place the search begins there. `internal` are the forces [N] by which springs press each other
+    at the origin: their rounding errors remain however small the load is.
 
     Raises
     ------
     InputError
-        No load.
+        No load, and springs that do not press each other.
     ConvergenceError
         The contacts do not stand against the load; ``result`` is the last position.
     """
     size = float(np.linalg.norm(load))
-    if size == 0.0:
+    if size == 0.0 and internal == 0.0:
         raise InputError("static load", 0.0, "different from zero to press the contacts")
 
     def balance(q: _Floats) -> _Floats:
         return springs.force(q) - load
 
-    if first is None:
+    if first is None and size <= internal:
+        q = np.zeros(load.size)
+    elif first is None:
         q = np.zeros(load.size)
         residual = balance(q)
         # Where all contacts are open there is no tangent to follow: first go along the load until they carry it.
@@ -72,16 +80,16 @@ def equilibrium(
     for _ in range(MOST_STEPS):
         residual = balance(q)
         error = float(np.linalg.norm(residual))
-        if error <= BALANCED * size:
+        if error <= BALANCED * size + ROUNDING * internal:
             return q
         stiffness = springs.tangent(q)
-        stiffness += REGULARISATION * max(float(np.trace(stiffness)), size) * np.eye(load.size)
+        stiffness += REGULARISATION * max(float(np.trace(stiffness)), size, internal) * np.eye(load.size)
         step = -np.asarray(np.linalg.solve(stiffness, residual), dtype=np.float64)
         if (length := float(np.linalg.norm(step))) > longest:
             step *= longest / length
         if np.linalg.norm(balance(q + step)) < 0.5 * error:
             q = q + step
-        elif error <= BALANCED_BY_ROUNDING * size:
+        elif error <= BALANCED_BY_ROUNDING * size + BALANCED * internal:
             return q
         else:
             if step @ residual >= 0.0:  # inertia of balls makes tangents unsymmetric

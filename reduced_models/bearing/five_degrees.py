@@ -39,6 +39,7 @@ from reduced_models.bearing.freedoms import FIVE
 _Floats = NDArray[np.float64]
 
 SMALLEST_SHARE = 0.02  # of the gyroscopic moments by which a search that fails may grow
+CARRIES = 1e-3  # force of a ball over the largest, above which it counts as one that carries
 STEEPEST = pi / 3.0  # contact angle that the shoulder of no groove reaches
 
 
@@ -67,11 +68,20 @@ class StaticRing:
         self.longest = FAR * (balls.grooves.inner + balls.grooves.outer)
         self.load, self.stiffness = np.zeros(FREEDOMS), np.zeros((FREEDOMS, FREEDOMS))
 
-    def with_gyroscopic(self, whole: AngularBalls, share: float) -> None:
-        """Balls with a share of the gyroscopic moments of `whole`; without any, under outer race control."""
-        control = whole.grooves.control if share > 0.0 else CONTROLS.index("outer")
-        grooves = whole.grooves._replace(control=control, gyroscopic=share * whole.grooves.gyroscopic)
-        self.balls = whole if share == 1.0 else whole._replace(grooves=grooves)
+    def with_inertia(self, whole: AngularBalls, centrifugal: float, gyroscopic: float) -> None:
+        """Balls with a share of the centrifugal forces and of the gyroscopic moments of `whole`.
+
+        Without any gyroscopic moment they run under outer race control.
+        """
+        g = whole.grooves
+        control = g.control if gyroscopic > 0.0 else CONTROLS.index("outer")
+        part = g._replace(mass=centrifugal * g.mass, control=control, gyroscopic=gyroscopic * g.gyroscopic)
+        self.balls = whole if centrifugal == gyroscopic == 1.0 else whole._replace(grooves=part)
+
+    def pressed(self) -> float:
+        """Forces of the ring on all balls with what moves at the origin, added without their directions [N]."""
+        self.press(self.displacement(np.zeros(self.free)))
+        return float(np.abs(self.places.found[:, LOAD]).sum())
 
     def displacement(self, q: _Floats) -> _Floats:
         """All five [m], [rad] of a scaled displacement of those that move."""
@@ -182,9 +192,7 @@ def angular_equilibrium(
     if one_way and load[2] <= 0.0:
         allowed = "one with Fz > 0: an angular contact bearing carries axial load in +z only"
         raise InputError("load", load.tolist(), allowed)
-    q = np.zeros(ring.free)
-    if load.any():
-        q = _search(ring, load * ring.unit, None if first is None else first[: ring.free] / ring.unit)
+    q = _search(ring, load * ring.unit, None if first is None else first[: ring.free] / ring.unit)
     stiffness = ring.tangent(q)
     values, vectors = np.linalg.eigh(0.5 * (stiffness + stiffness.T))
     if not values[0] > SEATED * values[-1]:
@@ -193,7 +201,7 @@ def angular_equilibrium(
         raise InputError("load", load.tolist(), allowed)
     found = equilibrium_at(ring, ring.displacement(q))
     found = replace(found, load=np.append(load, found.load[load.size :]))
-    require_in_groove(found.approach, found.angles, load, one_way)
+    require_in_groove(found.found, load, one_way)
     return found
 
 
@@ -216,9 +224,12 @@ def equilibrium_at(ring: StaticRing, displacement: _Floats) -> AngularEquilibriu
 
 def _search(ring: StaticRing, load: _Floats, near: _Floats | None) -> _Floats:
     """Scaled displacement under a scaled load, if given from one that is near."""
+    internal = ring.pressed()
+    if not load.any() and internal == 0.0:
+        return load
 
     def solve(first: _Floats | None) -> _Floats:
-        return equilibrium(ring, load, ring.longest, first)
+        return equilibrium(ring, load, ring.longest, first, internal)
 
     if near is not None:
         try:
@@ -236,6 +247,8 @@ def grow_gyroscopic(
     rings: Sequence[StaticRing], solve: Callable[[_Floats | None], _Floats]
 ) -> tuple[_Floats, float]:
     """Solve for an equilibrium first without the gyroscopic moments of all balls, then with growing ones.
+
+    Where none is found without them, that of light balls is followed as their centrifugal forces grow.
 
     Parameters
     ----------
@@ -255,16 +268,35 @@ def grow_gyroscopic(
     if all(whole.omega == 0.0 for whole in wholes):
         return solve(None), 1.0
 
-    def share(of: float) -> None:
+    def share(centrifugal: float, gyroscopic: float) -> None:
         for ring, whole in zip(rings, wholes, strict=True):
-            ring.with_gyroscopic(whole, of)
+            ring.with_inertia(whole, centrifugal, gyroscopic)
 
-    done, step = 0.0, 1.0
-    share(0.0)
-    place = solve(None)
+    share(1.0, 0.0)
+    try:
+        place = solve(None)
+    except ConvergenceError:  # centrifugal forces bend the potential: from light balls to those that there are
+        for ring in rings:
+            ring.places.place[:] = np.nan
+        share(SMALLEST_SHARE, 0.0)
+        place, found = _grow(rings, solve, lambda of: share(of, 0.0), solve(None), SMALLEST_SHARE)
+        if found < 1.0:
+            raise
+    return _grow(rings, solve, lambda of: share(1.0, of), place, 0.0)
+
+
+def _grow(
+    rings: Sequence[StaticRing],
+    solve: Callable[[_Floats | None], _Floats],
+    set_share: Callable[[float], None],
+    place: _Floats,
+    done: float,
+) -> tuple[_Floats, float]:
+    """Follow an equilibrium from a share of something to all of it, in steps; returns it and the share reached."""
+    step = 1.0
     while done < 1.0:
         tried = min(done + step, 1.0)
-        share(tried)
+        set_share(tried)
         kept = [ring.places.place.copy() for ring in rings]
         try:
             place = solve(place)
@@ -279,11 +311,15 @@ def grow_gyroscopic(
     return place, 1.0
 
 
-def require_in_groove(approach: _Floats, angles: _Floats, load: _Floats, one_way: bool) -> None:
-    """Raise `InputError` where a ball that both rings press leaves its groove: arrays of shape (balls, 2)."""
-    pressed = approach.sum(axis=1) > 0.0
+def require_in_groove(found: _Floats, load: _Floats, one_way: bool) -> None:
+    """Raise `InputError` where a ball that both rings press leaves its groove.
+
+    `found` has shape (balls, ENTRIES), see `angular_balls`.
+    """
+    inner, outer = found[:, APPROACH], found[:, APPROACH + 1]
+    pressed = (inner + outer > 0.0) & (found[:, LOAD] > CARRIES * found[:, LOAD].max())
     for k in np.flatnonzero(pressed).tolist():
-        angle = angles[k]
+        angle = found[k, ANGLE : ANGLE + 2]
         if np.abs(angle).max() > STEEPEST:
             steep = f"{degrees(np.abs(angle).max()):.3g} degrees at ball {k}"
             allowed = f"one whose contact angles stay below {degrees(STEEPEST):.3g} degrees (here {steep})"

@@ -106,6 +106,13 @@ class Race:
         most = f"{1e-9 * LIMITS.p_hertz:g} GPa, beyond which no steel stays elastic"
         return float((LIMITS.p_hertz / unit) ** 3), most
 
+    def require_bearable(self, force: float, speed_rpm: float, field: str, value: object) -> None:
+        """Raise `InputError`, of a field and its value, for a `force` [N] that the contact does not bear."""
+        highest, end = self.heaviest(speed_rpm)
+        if force > highest:
+            allowed = f"such that a ball carries at most {highest:.4g} N on the {self.name} race, {end}"
+            raise InputError(field, value, f"{allowed} (here {force:.4g} N)")
+
     def element(self, speed_rpm: float) -> WideRangeContact:
         """Contact element for all loads of the atlas at this speed, in SI.
 
@@ -223,7 +230,7 @@ def films_at_angles(bearing: Any, speed_rpm: float, at: AngularEquilibrium) -> d
     Raises
     ------
     InputError
-        A speed beyond the atlas at these angles.
+        A speed or a force beyond the atlas at these angles.
     """
     shape = at.force.shape
     h_central, h_min, moment = np.zeros(shape), np.zeros(shape), np.zeros(shape)
@@ -236,6 +243,7 @@ def films_at_angles(bearing: Any, speed_rpm: float, at: AngularEquilibrium) -> d
                 f"at most {race.highest_speed:.5g}, where the atlas ends at a contact angle of {angle:.3g} rad"
             )
             raise InputError("speed_rpm", speed_rpm, allowed)
+        race.require_bearable(float(load), speed_rpm, "load", at.load.tolist())
         gap = (load / nominal.kn) ** (2.0 / 3.0) - at.approach[k, column]
         central, smallest, resists = race.films(speed_rpm, np.array([load]), np.array([gap]))
         h_central[k, column], h_min[k, column] = central[0], smallest[0]

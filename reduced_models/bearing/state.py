@@ -138,8 +138,8 @@ class BearingState(QuantityTable):
 
     @property
     def loaded(self) -> int:
-        """How many balls are pressed together by both rings, their approaches together above 0."""
-        return int(np.count_nonzero(self.approach.sum(axis=1) > 0.0))
+        """How many balls are pressed by both rings, their approaches together above 0."""
+        return int(np.count_nonzero((self.approach.sum(axis=1) > 0.0) & (self.force[:, 0] > 0.0)))
 
     @property
     def heaviest(self) -> int:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models.bearing.angular_balls import ANGLE, APPROACH, LOAD
+from reduced_models.bearing.angular_balls import LOAD
 from reduced_models.bearing.five_degrees import grow_gyroscopic, require_in_groove
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.rotor.scaled_contact import has_tangents
@@ -85,11 +85,10 @@ class StaticAngularBalls:
     def require_bearable(self, r: _Floats) -> None:
         """Raise `InputError` where a ball leaves its groove or carries more than the atlas has."""
         load, found = self.force(r), self.ring.places.found
-        approach, angles, force = (found[:, at : at + 2] for at in (APPROACH, ANGLE, LOAD))
         shown = np.array([float(f"{one:.4g}") for one in load])
         try:
-            require_in_groove(approach, angles, shown, self.bearing.contact_angle is not None)
-            self.bearing._require_bearable(force, shown, self.speed)
+            require_in_groove(found, shown, self.bearing.contact_angle is not None)
+            self.bearing._require_bearable(found[:, LOAD : LOAD + 2], shown, self.speed)
         except InputError as error:
             raise InputError(f"{error.field} of {self._name}", error.value, error.allowed) from None
 

@@ -1,0 +1,89 @@
+"""Random bearings under random loads: an answer that balances, or one line that says why there is none."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+from balls_in_balance import imbalance, random_bearing, random_load
+
+from ehlcontact import Lubricant
+from ehlcontact.errors import InputError
+from reduced_models import BallBearing
+
+# Reasons for which a load is refused. Friction holds the gyroscopic moments under control of the inner race only
+# where it presses the balls enough.
+REASONS = {
+    "not held": "nothing holds it",
+    "steep": "60 degrees",
+    "other side": "more axial force in",
+    "heavy": "a ball carries at most",
+    "friction": "friction holds",
+    "atlas": "where the atlas ends",
+}
+
+
+def answers(seed, cases, each, oils=()):
+    """Count of each answer to `cases` random loads, a new bearing for every `each` of them."""
+    rng, found = np.random.default_rng(seed), Counter()
+    for k in range(cases):
+        if k % each == 0:
+            changes = {"oil": oils[rng.integers(len(oils))]} if oils else {}
+            bearing = BallBearing(**random_bearing(rng, **changes))
+        _, load, rpm, tilt = random_load(rng, bearing)
+        try:
+            state = bearing.equilibrium(load, speed_rpm=rpm, tilt=tilt)
+        except InputError as error:
+            reason = next(name for name, words in REASONS.items() if words in error.allowed)
+            assert reason != "friction" or bearing.race_control in ("inner", "shared")
+            found[reason] += 1
+        else:
+            assert imbalance(bearing, state, load) < 1e-7
+            found["balanced"] += 1
+    return found
+
+
+def test_random_loads_of_dry_bearings():
+    found = answers(1, 150, 3)
+    assert found["balanced"] > 110
+
+
+@pytest.mark.slow
+def test_thousands_of_random_loads():
+    """Every answer balances; no search fails."""
+    found = answers(2, 4000, 3)
+    assert found["balanced"] > 3000
+    oils = [Lubricant.iso_vg(vg, temperature=t) for vg in (15, 32, 68, 150) for t in (40.0, 60.0, 90.0)]
+    found = answers(3, 300, 10, oils)
+    assert found["balanced"] > 240
+
+
+def test_balls_that_the_inner_ring_has_left_by_far():
+    """Narrow inner and wide outer grooves: a ball on the outer race alone is far beside the inner groove."""
+    rows = (
+        ((23, 12.552e-3, 97.703e-3, 0.508717, 0.52162, "shared", 0.663535), (6.06, -3.47, 6.62), 2148.0),
+        ((22, 5.19e-3, 54.103e-3, 0.52147, 0.544005, "inner", 0.696344), (-1.64, 1.36, 0.917), 2905.0),
+        ((25, 25.58e-3, 287.648e-3, 0.516766, 0.559712, "harris", 0.646347), (-836.0, -875.0, 18.7), 1545.0),
+        ((6, 6.43e-3, 20.169e-3, 0.505366, 0.548828, "outer", 0.622393), (30.6, -634.0, 771.0), 1486.0),
+    )
+    names = "balls", "ball_diameter", "pitch_diameter", "conformity_inner", "conformity_outer"
+    for sizes, load, rpm in rows:
+        bearing = BallBearing(**dict(zip((*names, "race_control", "contact_angle"), sizes, strict=True)))
+        state = bearing.equilibrium(load, speed_rpm=rpm)
+        assert imbalance(bearing, state, load) < 1e-9
+
+
+def test_preloaded_ring_that_is_held_tilted_without_a_load():
+    """Nine balls are not symmetric about the tilt: the ring moves, for there is no load."""
+    bearing = BallBearing.catalogue("6205", clearance=-5e-6)
+    state = bearing.equilibrium((0.0, 0.0, 0.0), tilt=(2e-3, 1e-3), cage_angle=0.1)
+    assert imbalance(bearing, state, (1.0, 0.0, 0.0)) == pytest.approx(1.0, abs=1e-9)  # but for the load of 1 N
+    assert np.abs(state.displacement[:3]).max() > 1e-10
+    np.testing.assert_array_equal(bearing.equilibrium((0.0, 0.0, 0.0)).displacement, 0.0)
+
+
+def test_moment_far_below_the_preload():
+    sizes = {"balls": 9, "ball_diameter": 6.825e-3, "pitch_diameter": 20.619e-3, "clearance": -1.858e-6}
+    bearing = BallBearing(**sizes, conformity_inner=0.548, conformity_outer=0.529)
+    load = (0.0, 0.0, 0.0, -5.25e-6, -6.32e-6)
+    state = bearing.equilibrium(load, speed_rpm=2238.0)
+    assert imbalance(bearing, state, load) < 1e-6
