@@ -21,9 +21,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.jit import jit_exact
-from reduced_models.bearing.contact_angles import Grooves, ball_forces, inner_span, rolling
-from reduced_models.bearing.race_contact import curve, film_cutoff
+from ehlcontact.jit import jit_exact, jit_exact_loop
+from reduced_models.bearing.contact_angles import Grooves, ball_forces, film_factors, inner_span, rolling
+from reduced_models.bearing.loss import Loss
+from reduced_models.bearing.race_contact import curve, film_curve, film_cutoff
 from reduced_models.bearing.race_table import RaceForceTable
 
 _Floats = NDArray[np.float64]
@@ -32,9 +33,7 @@ BALANCED = 1e-13  # imbalance of a ball over its forces that ends the search: ro
 BALANCED_BY_ROUNDING = 1e-9  # accepted where steps no longer help
 MOST_STEPS = 100  # of that search: a handful, but where a ball lifts off
 FAR = 0.05  # longest step over the distance of the groove centres
-LIGHT = (
-    1e-3  # stiffness of the inner contact over that of the outer one, below which a ball follows the outer groove
-)
+LIGHT = 1e-3  # stiffness of the inner contact over that of the outer one, below which a ball follows the outer one
 ROUGHLY = 0.1  # of the forces along a step, that are left at the end of a search along it
 EPSILON = 2.0**-52
 COMPLEX_STEP = 1e-30  # [m], of derivatives: nothing is subtracted, so it need not be large
@@ -48,13 +47,15 @@ ORBIT, TURN, PITCH, ENTRIES = 12, 13, 14, 15
 
 
 class AngularBalls(NamedTuple):
-    """A bearing at one speed, for balls at contact angles."""
+    """A bearing, for balls at contact angles: at one speed, or in time at a range of them."""
 
-    inner: RaceForceTable  # of one speed
+    inner: RaceForceTable
     outer: RaceForceTable
     number: int
     grooves: Grooves
-    omega: float  # of the shaft [rad/s]
+    omega: float  # of the shaft [rad/s], at rest: the first of `speeds`
+    speeds: _Floats  # (rows of the tables,) of the shaft, increasing [rad/s]
+    loss: Loss  # of rings and fits
 
 
 class BallPlaces(NamedTuple):
@@ -81,26 +82,12 @@ def places_of(balls: AngularBalls) -> BallPlaces:
 
 @jit_exact
 def static_contact(law, u, film):
-    """Static force [N] at approach `u` [m], its slopes by u and by `film`, the film over that of the table.
-
-    With g(v) of the table, whose film is g(v) - v, the film is right where (1 - film) g(v) + film v = u.
-    """
-    g, slope, k = curve(u, 0, 0.0, law, 0)
-    v, stretch = u, 1.0
-    if law.x.size > 0 and film != 1.0:
-        for _ in range(MOST_STEPS):
-            stretch = (1.0 - film) * slope + film
-            step = ((1.0 - film) * g + film * v - u) / stretch
-            v -= step
-            g, slope, k = curve(v, 0, 0.0, law, k)
-            if abs(step) <= 1e-15 * (abs(v) + g):
-                break
-        stretch = (1.0 - film) * slope + film
+    """Static force [N] at approach `u` [m], its slopes by u and by `film`, the film over that of the table."""
+    g, by_u, by_film, _, _ = film_curve(u, (film, 0.0), 0, 0.0, law, 0)
     root = sqrt(g)
     share, share_u = film_cutoff(u, law.cutoff_gap)
     force, by_g = law.kn * g * root, share * 1.5 * law.kn * root
-    by_film = by_g * slope * (g - v) / stretch if law.x.size > 0 else 0.0
-    return share * force, by_g * slope / stretch + share_u * force, by_film
+    return share * force, by_g * by_u + share_u * force, by_g * by_film
 
 
 @jit_exact
@@ -111,8 +98,9 @@ def _press(balls, b_r, b_z, c_r, c_z):
     g_i, by_i, _ = curve(l_i - g.inner, 0, 0.0, balls.inner, 0)
     g_o, by_o, _ = curve(l_o - g.outer, 0, 0.0, balls.outer, 0)
     at = rolling(g, b_r, b_z, c_r, c_z, g_i, g_o)
-    inner = at.l_i - g.inner, *static_contact(balls.inner, at.l_i - g.inner, at.film_i)
-    outer = at.l_o - g.outer, *static_contact(balls.outer, at.l_o - g.outer, at.film_o)
+    film_i, film_o = film_factors(g, at)
+    inner = at.l_i - g.inner, *static_contact(balls.inner, at.l_i - g.inner, film_i)
+    outer = at.l_o - g.outer, *static_contact(balls.outer, at.l_o - g.outer, film_o)
     return at, inner, outer, ball_forces(g, balls.omega, at, inner[1], outer[1]), (g_i, by_i, g_o, by_o)
 
 
@@ -121,14 +109,15 @@ def _geometric(balls, b_r, b_z, c_r, c_z, now, out):
     """Derivatives of all forces by b and c, both contact forces following their film but not their approach."""
     g, h = balls.grooves, COMPLEX_STEP
     at, inner, outer, _, (g_i, by_i, g_o, by_o) = now
+    film_i, film_o = film_factors(g, at)
     for j in range(4):
         r, z = complex(b_r, h if j == 0 else 0.0), complex(b_z, h if j == 1 else 0.0)
         far_r, far_z = complex(c_r, h if j == 2 else 0.0), complex(c_z, h if j == 3 else 0.0)
         l_i = inner_span(r, z, far_r, far_z)[0]
         l_o = np.sqrt(r * r + z * z)
         moved = rolling(g, r, z, far_r, far_z, g_i + by_i * (l_i - at.l_i), g_o + by_o * (l_o - at.l_o))
-        q_i = inner[1] + inner[3] * (moved.film_i - at.film_i)
-        q_o = outer[1] + outer[3] * (moved.film_o - at.film_o)
+        moved_i, moved_o = film_factors(g, moved)
+        q_i, q_o = inner[1] + inner[3] * (moved_i - film_i), outer[1] + outer[3] * (moved_o - film_o)
         forces = ball_forces(g, balls.omega, moved, q_i, q_o)
         for i in range(5):
             out[i, j] = forces[i].imag / h
@@ -306,12 +295,12 @@ def _note(balls, now, found):
     found[LOAD], found[LOAD + 1] = inner[1], outer[1]
     found[APPROACH], found[APPROACH + 1] = inner[0], outer[0]
     found[SLOPE], found[SLOPE + 1] = inner[2], outer[2]
-    found[FILM], found[FILM + 1] = at.film_i, at.film_o
+    found[FILM], found[FILM + 1] = film_factors(balls.grooves, at)
     found[ENTRAINED], found[ENTRAINED + 1] = at.u_i, at.u_o
     found[ORBIT], found[TURN], found[PITCH] = at.orbit, at.turn, np.arctan2(at.sin_b, at.cos_b)
 
 
-@jit_exact
+@jit_exact_loop
 def ring_map(g, psi, out):
     """Rows by which the ring's displacement moves c_r and c_z, and its tilt follows a moment: (3, 5)."""
     c, s = cos(psi), sin(psi)

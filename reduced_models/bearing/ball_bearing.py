@@ -502,11 +502,12 @@ class BallBearing(Summary):
             **({} if self.oil is None else films_at_angles(self, speed, at)),
         )
 
-    def _angular_balls(self, speed: float) -> AngularBalls:
+    def _angular_balls(self, speeds_rpm: ArrayLike) -> AngularBalls:
         """Parameters of the kernels for balls at contact angles (`reduced_models.bearing.angular_balls`)."""
-        key = ("angular", speed)
+        speeds = as_column("speeds_rpm", np.atleast_1d(as_numbers("speeds_rpm", speeds_rpm)), increasing=True)
+        key = ("angular", *speeds.tolist())
         if key not in self._known:
-            distance, speeds = self._groove_distance, np.array([speed])
+            distance = self._groove_distance
             inner, outer = ((f - 0.5) * self.ball_diameter for f in (self.conformity_inner, self.conformity_outer))
             # without a given angle the outer groove is at 0 along the shaft, and the inner one with it
             free = distance - 0.5 * self.clearance, 0.0
@@ -529,7 +530,10 @@ class BallBearing(Summary):
                 cosine=self._cosine,
             )
             laws = self._law("inner", speeds), self._law("outer", speeds)
-            self._known[key] = AngularBalls(*laws, self.balls, grooves, speed * RADIANS)
+            omega = speeds * RADIANS
+            self._known[key] = AngularBalls(
+                *laws, self.balls, grooves, float(omega[0]), omega, loss_of(self.loss_factor)
+            )
         return self._known[key]
 
     @property

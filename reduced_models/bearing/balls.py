@@ -48,6 +48,7 @@ _Floats = NDArray[np.float64]
 NEARLY = 1e-7
 MOST_STEPS = 60  # of that search: a handful, but where a ball lands
 FIRST_STEP = 1e-7  # [m], to a ball that nothing touches; doubled until a race is met
+AS_TABULATED = (1.0, 0.0)  # film of a contact, as `film_curve` takes it
 FILM_GROWTH = 0.67  # of the film with speed (Hamrock and Dowson 1977): between two speeds of a law, films add so
 
 # Entries of a ball: its place w as tried last, what its rate follows from, w at the last two ends of steps; delta
@@ -115,22 +116,27 @@ def films_of(balls: Balls) -> Films:
 
 
 @jit_exact_loop
+def row_of_speed(speeds, omega):
+    """Row of the tables made at increasing `speeds` of the shaft, and weight of the next, at the speed `omega`."""
+    if speeds.size < 2:
+        return 0, 0.0
+    row = min(max(np.searchsorted(speeds, omega) - 1, 0), speeds.size - 2)
+    low, high = speeds[row] ** FILM_GROWTH, speeds[row + 1] ** FILM_GROWTH
+    return row, (omega**FILM_GROWTH - low) / (high - low)
+
+
+@jit_exact_loop
 def speed_state(balls, omega):
     """Laws, cage and centrifugal force at the shaft speed `omega`, at most the highest of the laws.
 
     Below the lowest of the laws, down to standstill, films are those of the lowest.
     """
-    row, weight, rolling = 0, 0.0, max(omega, balls.speeds[0])
-    if balls.speeds.size > 1:
-        last = balls.speeds.size - 2
-        row = min(max(np.searchsorted(balls.speeds, rolling) - 1, 0), last)
-        low, high = balls.speeds[row] ** FILM_GROWTH, balls.speeds[row + 1] ** FILM_GROWTH
-        weight = (rolling**FILM_GROWTH - low) / (high - low)
+    rolling = max(omega, balls.speeds[0])
     cage = balls.cage * omega
     u_sum = balls.rolling * rolling
     inner = balls.inner.reach / u_sum if u_sum > 0.0 else 0.0
     outer = balls.outer.reach / u_sum if u_sum > 0.0 else 0.0
-    return SpeedState((row, weight), inner, outer, cage, balls.swing * cage * cage)
+    return SpeedState(row_of_speed(balls.speeds, rolling), inner, outer, cage, balls.swing * cage * cage)
 
 
 @jit_exact_loop
@@ -148,8 +154,8 @@ def begin_step(balls, at_speed, dt, films):
         ball = films.balls[k]
         ball[PLACE_HISTORY] = (4.0 * ball[PLACE_NOW] - ball[PLACE_BEFORE]) / 3.0
         ball[RATE_HISTORY] = (4.0 * ball[RATE_NOW] - ball[RATE_BEFORE]) / 3.0
-        prepare_filters(balls.inner, at_speed.inner, at_speed.speed_row, dt, films, 2 * k)
-        prepare_filters(balls.outer, at_speed.outer, at_speed.speed_row, dt, films, 2 * k + 1)
+        prepare_filters(balls.inner, at_speed.inner, at_speed.speed_row, AS_TABULATED, dt, films, 2 * k)
+        prepare_filters(balls.outer, at_speed.outer, at_speed.speed_row, AS_TABULATED, dt, films, 2 * k + 1)
     begin_seat(balls.loss, dt, films.seat)
     return 1.5 / dt
 
@@ -171,8 +177,10 @@ def _ball(balls, at_speed, films, k, delta, rate, gain):
     low, high, reach = -inf, inf, FIRST_STEP
     for _ in range(MOST_STEPS):
         v = gain * (w - history)
-        fi, ki, di = contact_force(balls.inner, at_speed.inner, row, films, 2 * k, delta - w, rate - v)
-        fo, ko, do = contact_force(balls.outer, at_speed.outer, row, films, 2 * k + 1, w, v)
+        fi, ki, di = contact_force(
+            balls.inner, at_speed.inner, row, AS_TABULATED, films, 2 * k, delta - w, rate - v
+        )
+        fo, ko, do = contact_force(balls.outer, at_speed.outer, row, AS_TABULATED, films, 2 * k + 1, w, v)
         inner, held = ki + gain * di, ko + gain * do
         outer = held + heavy * gain
         balance, tangent = fo + heavy * (v - ball[RATE_HISTORY]) - fi - at_speed.centrifugal, inner + outer
@@ -237,8 +245,9 @@ def accept_balls(balls, at_speed, films, normals, q, v, gain):
         ball = films.balls[k]
         w = ball[PLACE]
         own = gain * (w - ball[PLACE_HISTORY])
-        accept_contact(balls.inner, at_speed.inner, at_speed.speed_row, films, 2 * k, delta - w, rate - own)
-        accept_contact(balls.outer, at_speed.outer, at_speed.speed_row, films, 2 * k + 1, w, own)
+        row = at_speed.speed_row
+        accept_contact(balls.inner, at_speed.inner, row, AS_TABULATED, films, 2 * k, delta - w, rate - own)
+        accept_contact(balls.outer, at_speed.outer, row, AS_TABULATED, films, 2 * k + 1, w, own)
         ball[PLACE_BEFORE], ball[PLACE_NOW] = ball[PLACE_NOW], w
         ball[RATE_BEFORE], ball[RATE_NOW] = ball[RATE_NOW], own
         films.largest[0] = max(films.largest[0], films.force[k, 0])

@@ -84,8 +84,6 @@ class Rolling(NamedTuple):
     share: float  # of the inner race in the gyroscopic moment
     u_i: float  # sum of both surface speeds [m]
     u_o: float
-    film_i: float  # film over that of the table at the same load
-    film_o: float
 
 
 @jit_exact
@@ -142,27 +140,21 @@ def rolling(g, b_r, b_z, c_r, c_z, g_i, g_o):
     orbit = by_o / (by_i + by_o)
     turn = 1.0 / (gamma * cos_b * (by_i + by_o))
     u_i, u_o = (1.0 - orbit) * g.pitch * r_i, orbit * g.pitch * r_o
-    nominal = gamma * g.cosine
-    u = 0.5 * g.pitch * (1.0 - nominal * nominal)
-    film_i = (u_i / u) ** FILM_BY_SPEED * (r_i / (1.0 - nominal)) ** FILM_BY_RADIUS
-    film_o = (u_o / u) ** FILM_BY_SPEED * (r_o / (1.0 + nominal)) ** FILM_BY_RADIUS
     return Rolling(
-        l_i,
-        cos_i,
-        sin_i,
-        l_o,
-        cos_o,
-        sin_o,
-        orbit,
-        turn,
-        slope * cos_b,
-        cos_b,
-        share,
-        u_i,
-        u_o,
-        film_i,
-        film_o,
-    )
+        l_i, cos_i, sin_i, l_o, cos_o, sin_o, orbit, turn, slope * cos_b, cos_b, share, u_i, u_o
+    )  # fmt: skip
+
+
+@jit_exact
+def film_factors(g, at):
+    """Films at both races over those of the tables, whose contacts have the nominal angle, at the same load."""
+    gamma = g.ball / g.pitch
+    nominal = gamma * g.cosine
+    r_i, r_o = at.u_i / ((1.0 - at.orbit) * g.pitch), at.u_o / (at.orbit * g.pitch)  # radii of rolling
+    u = 0.5 * g.pitch * (1.0 - nominal * nominal)
+    film_i = (at.u_i / u) ** FILM_BY_SPEED * (r_i / (1.0 - nominal)) ** FILM_BY_RADIUS
+    film_o = (at.u_o / u) ** FILM_BY_SPEED * (r_o / (1.0 + nominal)) ** FILM_BY_RADIUS
+    return film_i, film_o
 
 
 @jit_exact

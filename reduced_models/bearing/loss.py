@@ -48,7 +48,7 @@ class Loss(NamedTuple):
 class Seat(NamedTuple):
     """States and work of a seat."""
 
-    rows: _Floats  # (3 + n, 2) forces [N]; see above
+    rows: _Floats  # (3 + n, directions) forces [N]; see above
     lift: _Floats  # (1,) what a force at the end of the step becomes, over it
     step: _Floats  # (3, n) of a step: what is left of y_k, and what the forces at both ends make of it
 
@@ -70,10 +70,10 @@ def loss_of(factor: float) -> Loss:
     return Loss(gains, rates)
 
 
-def seat_of(loss: Loss) -> Seat:
-    """States of a seat, all zero."""
+def seat_of(loss: Loss, directions: int = 2) -> Seat:
+    """States of a seat with forces along so many directions, all zero."""
     n = loss.gains.size
-    return Seat(np.zeros((HELD + n, 2)), np.ones(1), np.zeros((3, n)))
+    return Seat(np.zeros((HELD + n, directions)), np.ones(1), np.zeros((3, n)))
 
 
 def response(loss: Loss, s: _Complex) -> _Complex:
@@ -86,14 +86,15 @@ def response(loss: Loss, s: _Complex) -> _Complex:
 def begin_seat(loss, dt, seat):
     """Work out a step: the force runs straight from its start to its end."""
     rows, step = seat.rows, seat.step
-    seat.lift[0], rows[PAST, 0], rows[PAST, 1] = 1.0, 0.0, 0.0
+    seat.lift[0] = 1.0
+    rows[PAST] = 0.0
     for k in range(loss.gains.size):
         mu = loss.rates[k] * dt
         left = exp(-mu)
         mean = -expm1(-mu) / mu
         step[0, k], step[1, k], step[2, k] = left, mean - left, 1.0 - mean
         seat.lift[0] += loss.gains[k] * mean
-        for j in range(2):
+        for j in range(rows.shape[1]):
             rows[PAST, j] += loss.gains[k] * (left * rows[HELD + k, j] + step[1, k] * rows[BEFORE, j])
 
 
@@ -101,14 +102,15 @@ def begin_seat(loss, dt, seat):
 def rest_seat(seat):
     """Put its filters at rest under the force tried last."""
     for k in range(BEFORE, seat.rows.shape[0]):
-        for j in range(2):
+        for j in range(seat.rows.shape[1]):
             seat.rows[k, j] = 0.0 if k == PAST else seat.rows[RAW, j]
 
 
 @jit_exact_loop
 def hold_still(seat):
     """Make the step one in which nothing is lost."""
-    seat.lift[0], seat.rows[PAST, 0], seat.rows[PAST, 1] = 1.0, 0.0, 0.0
+    seat.lift[0] = 1.0
+    seat.rows[PAST] = 0.0
 
 
 @jit_exact_loop
@@ -116,10 +118,10 @@ def press_seat(seat, force, stiffness, damping):
     """Turn the force of the balls at the end of the step, and its tangents, into those of the seat."""
     if seat.step.shape[1] == 0:
         return
-    for j in range(2):
+    for j in range(force.size):
         seat.rows[RAW, j] = force[j]
         force[j] = seat.lift[0] * force[j] - seat.rows[PAST, j]
-        for k in range(2):
+        for k in range(force.size):
             stiffness[j, k] *= seat.lift[0]
             damping[j, k] *= seat.lift[0]
 
@@ -129,7 +131,8 @@ def accept_seat(seat):
     """Move on to the end of the step, with the force that was tried last."""
     rows, step = seat.rows, seat.step
     for k in range(step.shape[1]):
-        for j in range(2):
+        for j in range(rows.shape[1]):
             fed = step[1, k] * rows[BEFORE, j] + step[2, k] * rows[RAW, j]
             rows[HELD + k, j] = step[0, k] * rows[HELD + k, j] + fed
-    rows[BEFORE, 0], rows[BEFORE, 1] = rows[RAW, 0], rows[RAW, 1]
+    for j in range(rows.shape[1]):
+        rows[BEFORE, j] = rows[RAW, j]

@@ -8,9 +8,19 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column, as_rows, require_instance, require_positive
-from ehlcontact.errors import ConvergenceError
+from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.jit import jit_exact_loop
+from reduced_models.bearing.angular_balls import AngularBalls
+from reduced_models.bearing.angular_steps import (
+    accept_angular,
+    begin_angular_rest,
+    begin_angular_step,
+    films_of_angular,
+    press_angular,
+    rest_angular,
+)
 from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.ball_steps import accept, begin_balls, press
 from reduced_models.bearing.balls import (
     Balls,
     accept_balls,
@@ -22,6 +32,8 @@ from reduced_models.bearing.balls import (
     rest_balls,
     speed_state,
 )
+from reduced_models.bearing.equilibrium import angle_of
+from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.kinematics import RADIANS
 
 _Floats = NDArray[np.float64]
@@ -74,6 +86,52 @@ class BallMotion:
         accept_balls(self.balls, self.at_speed, self.films, self._normals, *self._tried, self.gain)
 
 
+class AngularMotion:
+    """Balls at contact angles and their films in steps, with the methods of `BallMotion`.
+
+    The angle of the cage, which turns as the balls roll, is `angle`.
+
+    Parameters
+    ----------
+    balls : AngularBalls
+    """
+
+    def __init__(self, balls: AngularBalls) -> None:
+        self.balls, self.films, self.gain = balls, films_of_angular(balls), 0.0
+        n = len(FIVE)
+        self._out = np.zeros(n), np.zeros((n, n)), np.zeros((n, n))
+
+    @property
+    def angle(self) -> float:
+        """Of the first ball, at the end of the last step accepted [rad]."""
+        return float(self.films.cage[1])
+
+    def rest(self, omega: float, angle: float, q: _Floats) -> _Floats:
+        """Put balls and films at rest with the ring at `q`, shape (5,); force of the ring, shape (5,)."""
+        begin_angular_rest(self.balls, omega, angle, self.films)
+        rest_angular(self.balls, self.films, q, (*self._out, np.zeros(len(FIVE))))
+        self.gain = 0.0
+        return self._out[0].copy()
+
+    def begin(self, omega: float, angle: float, dt: float) -> None:
+        """Begin a step of `dt` [s], at whose end the shaft turns at `omega`; the cage's own angle counts."""
+        begin_angular_step(self.balls, omega, dt, self.films)
+        self.gain = 1.5 / dt
+
+    def forces(self, q: _Floats, v: _Floats) -> tuple[_Floats, _Floats, _Floats]:
+        """Force of the ring at `q`, moving at `v` at the end of the step, and its derivatives by both.
+
+        Not a number where a ball finds no balance.
+        """
+        press_angular(self.balls, self.films, q, v, self.gain, self._out)
+        force, stiffness, damping = self._out
+        return force.copy(), stiffness.copy(), damping.copy()
+
+    def accept(self) -> None:
+        """Move balls, films and cage to the end of the step, as `forces` was called last."""
+        accept_angular(self.balls, self.films, self.gain)
+
+
 class BearingMotion:
     """A bearing on a shaft of constant speed, in steps of one length.
 
@@ -89,6 +147,9 @@ class BearingMotion:
         Length of all steps [s].
     cage_angle : float
         Of the first ball at the start [rad].
+    freedoms : {2, 5}, optional
+        Degrees of freedom n of the ring: x and y, or x, y, z, tilt_x, tilt_y. By default 5 of an angular contact
+        bearing, 2 of others.
 
     Raises
     ------
@@ -96,24 +157,35 @@ class BearingMotion:
         A speed that the bearing does not take, a step that is not > 0.
     """
 
-    def __init__(self, bearing: BallBearing, speed_rpm: float, dt: float, cage_angle: float = -pi / 2.0) -> None:
+    def __init__(
+        self,
+        bearing: BallBearing,
+        speed_rpm: float,
+        dt: float,
+        cage_angle: float = -pi / 2.0,
+        freedoms: int | None = None,
+    ) -> None:
         require_instance("bearing", bearing, BallBearing, "a BallBearing")
+        usual = len(PLANAR) if bearing.contact_angle is None else len(FIVE)
+        self._size = usual if freedoms is None else freedoms
+        if self._size not in (len(PLANAR), len(FIVE)):
+            raise InputError("freedoms", freedoms, "2 or 5")
         speed = bearing.speed(speed_rpm)
-        self._motion, self.dt = BallMotion(bearing._kernel(speed)), require_positive("dt", dt)
-        self._omega = speed * RADIANS
-        self._cage = speed_state(self._motion.balls, self._omega).cage
-        self._start, self._step = float(cage_angle), 0
-        self.rest(np.zeros(2))
+        self._motion = motion_of(bearing, [speed], self._size)
+        self.dt, self._omega = require_positive("dt", dt), speed * RADIANS
+        self._start, self._step = angle_of(cage_angle), 0
+        self.rest(np.zeros(self._size))
 
     @property
     def cage_angle(self) -> float:
         """Of the first ball, at the end of the last step accepted [rad]."""
-        return self._start + self._cage * self.dt * self._step
+        return self._angle
 
     def rest(self, q: ArrayLike) -> _Floats:
-        """Put ring, balls and films at rest with the ring at `q` [m]; returns the force on the balls [N]."""
-        place = as_column("q", q, size=2)
-        force = _finite(self._motion.rest(self._omega, self.cage_angle, place), place)
+        """Put ring, balls and films at rest with the ring at `q`, shape (n,); returns the force on the balls."""
+        place = as_column("q", q, size=self._size)
+        force = _finite(self._motion.rest(self._omega, self._angle_at(self._step), place), place)
+        self._angle = self._angle_at(self._step)
         self._begin()
         return force
 
@@ -122,10 +194,10 @@ class BearingMotion:
 
         Returns
         -------
-        force : ndarray, shape (2,)
-            In N.
-        stiffness, damping : ndarray, shape (2, 2)
-            Its exact derivatives by q and v [N/m], [N s/m].
+        force : ndarray, shape (n,)
+            In N, N m.
+        stiffness, damping : ndarray, shape (n, n)
+            Its derivatives by q and v [N/m], [N s/m].
 
         Raises
         ------
@@ -140,6 +212,7 @@ class BearingMotion:
         """Move on to the end of the step, as `forces` was called last."""
         self._motion.accept()
         self._step += 1
+        self._angle = self._angle_at(self._step)
         self._begin()
 
     def drive(self, q: ArrayLike, v: ArrayLike) -> tuple[_Floats, _Floats]:
@@ -147,29 +220,56 @@ class BearingMotion:
 
         Parameters
         ----------
-        q, v : array_like, shape (n, 2)
+        q, v : array_like, shape (k, n)
             Places and velocities of the ring [m], [m/s].
 
         Returns
         -------
-        force : ndarray, shape (n, 2)
+        force : ndarray, shape (k, n)
             Of the ring on the balls [N].
-        balls : ndarray, shape (n, balls, 2)
+        balls : ndarray, shape (k, balls, 2)
             Force on every ball, at the inner and the outer race [N].
         """
-        places = as_rows("q", q, np.shape(q)[0], 2)
-        rates, moved = as_rows("v", v, places.shape[0], 2), self._motion
-        balls = moved.balls
-        force, loads = np.zeros((len(places), 2)), np.zeros((len(places), balls.number, 2))
-        angles = self._start + self._cage * self.dt * np.arange(self._step + 1, self._step + 1 + len(places))
-        arrays = np.zeros((balls.number, 2)), np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
-        _drive(balls, moved.at_speed, moved.films, (self.dt, angles, places, rates), arrays, (force, loads))
+        n, moved = self._size, self._motion
+        places = as_rows("q", q, np.shape(q)[0], n)
+        rates = as_rows("v", v, places.shape[0], n)
+        force, loads = np.zeros((len(places), n)), np.zeros((len(places), moved.balls.number, 2))
+        angles = np.array([self._angle_at(self._step + 1 + i) for i in range(len(places))])
+        out = np.zeros(n), np.zeros((n, n)), np.zeros((n, n))
+        normals = np.zeros((moved.balls.number, 2))
+        _drive(
+            moved.balls, moved.films, (self._omega, self.dt, angles, places, rates), normals, out, (force, loads)
+        )
         self._step += len(places)
+        self._angle = self._angle_at(self._step)
         self._begin()
         return force, loads
 
+    def _angle_at(self, step: int) -> float:
+        """Angle of the first ball at the end of a step [rad]; of a cage that rolls with its balls, the last."""
+        if isinstance(self._motion, AngularMotion):
+            return self._motion.angle if step else self._start
+        return self._start + speed_state(self._motion.balls, self._omega).cage * self.dt * step
+
     def _begin(self) -> None:
-        self._motion.begin(self._omega, self._start + self._cage * self.dt * (self._step + 1), self.dt)
+        self._motion.begin(self._omega, self._angle_at(self._step + 1), self.dt)
+
+
+def motion_of(bearing: BallBearing, speeds_rpm: list[float], freedoms: int) -> BallMotion | AngularMotion:
+    """Balls and films of a bearing in time, tables of its races made at increasing speeds [rev/min].
+
+    Raises
+    ------
+    InputError
+        A speed that the bearing does not take; five degrees of freedom and balls with inertia.
+    """
+    speeds = [bearing.speed(speed) for speed in speeds_rpm]
+    if freedoms == len(PLANAR):
+        return BallMotion(bearing._kernel(speeds))
+    if bearing.ball_inertia:
+        allowed = "False in time with axial motion and tilts: balls are in equilibrium in every step"
+        raise InputError("ball_inertia", True, allowed)
+    return AngularMotion(bearing._angular_balls(speeds))
 
 
 def _finite(force: _Floats, q: _Floats) -> _Floats:
@@ -179,15 +279,14 @@ def _finite(force: _Floats, q: _Floats) -> _Floats:
 
 
 @jit_exact_loop
-def _drive(balls, at_speed, films, motion, arrays, out):
-    """Steps along a motion; the first has not begun."""
-    dt, angles, q, v = motion
-    normals, force = arrays[0], arrays[1]
+def _drive(balls, films, motion, normals, pushed, out):
+    """Steps along a motion; the first has not begun, or is begun again."""
+    omega, dt, angles, q, v = motion
     for i in range(angles.size):
-        directions(balls, angles[i], normals)
-        gain = begin_step(balls, at_speed, dt, films)
-        press_balls(balls, at_speed, films, normals, q[i], v[i], gain, arrays[1:])
-        accept_balls(balls, at_speed, films, normals, q[i], v[i], gain)
-        out[0][i, 0], out[0][i, 1] = force[0], force[1]
+        begin_balls(balls, films, normals, omega, angles[i], dt)
+        press(balls, films, normals, omega, q[i], v[i], 1.5 / dt, pushed)
+        accept(balls, films, normals, omega, q[i], v[i], 1.5 / dt)
+        for j in range(pushed[0].size):
+            out[0][i, j] = pushed[0][j]
         for k in range(balls.number):
             out[1][i, k, 0], out[1][i, k, 1] = films.force[k, 0], films.force[k, 1]

@@ -39,6 +39,8 @@ APPROACH, RATE, OWN = range(3)
 # at the end, and of the hump.
 S, Y, MIDDLE, ROW, NEXT, CARRIED, NEXT_CARRIED, HELD = 0, 3, 6, 9, 12, 15, 18, 21
 WORK = HELD  # entries before those of the lags
+MOST_STEPS = 100  # of Newton's method for the film of a contact: a handful
+FOUND = 1e-7  # of g, its last step: what that leaves is of its square
 
 
 @jit_exact_node
@@ -78,6 +80,38 @@ def _at(u, law, row, k):
         slope = b + 2.0 * c + 3.0 * d
         return a + b + c + d + slope * (t - 1.0), slope * per_u, k
     return a + t * (b + t * (c + t * d)), (b + t * (2.0 * c + 3.0 * d * t)) * per_u, k
+
+
+@jit_exact_node
+def film_curve(u, film, row, weight, law, k):
+    """As `curve`, for a film that is not that of the table.
+
+    With g(v) of the table, whose film is g(v) - v, a film that is f times as thick at the same force is right
+    where (1 - f) g(v) + f v = u.
+
+    Parameters
+    ----------
+    film : (float, float)
+        f, and a guess of v - u.
+
+    Returns
+    -------
+    tuple
+        g, its slopes by u and by f, v - u, the interval.
+    """
+    f, lift = film
+    if f == 1.0 or law.x.size == 0:
+        g, slope, k = curve(u, row, weight, law, k)
+        return g, slope, 0.0, 0.0, k
+    v, g, slope, stretch = u + lift, 0.0, 1.0, 1.0
+    for _ in range(MOST_STEPS):
+        g, slope, k = curve(v, row, weight, law, k)
+        stretch = (1.0 - f) * slope + f
+        step = (u - (1.0 - f) * g - f * v) / stretch
+        v, g = v + step, g + slope * step
+        if abs(step) <= FOUND * g:
+            break
+    return g, slope / stretch, slope * (g - v) / stretch, v - u, k
 
 
 @jit_exact_node
@@ -129,16 +163,18 @@ def film_cutoff(u, cutoff_gap):
 
 
 @jit_exact_node
-def prepare_filters(law, transit, speed_row, dt, films, c):
+def prepare_filters(law, transit, speed_row, film, dt, films, c):
     """Reduce the filters of contact `c` over a step of length `dt`.
 
-    `transit` is 2a/u_sum over sqrt(g), `speed_row` the row of speeds and the weight of the next.
+    `transit` is 2a/u_sum over sqrt(g), `speed_row` the row of speeds and the weight of the next, `film` as in
+    `film_curve`.
     """
     state, work, poisson, share = films.state, films.work, films.poisson, films.share
     if law.x.size == 0:
         return
     ahead = state[c, APPROACH] + 0.5 * dt * state[c, RATE]
-    middle, _, films.interval[c, 0] = curve(ahead, speed_row[0], speed_row[1], law, films.interval[c, 0])
+    interval = films.interval[c, 0]
+    middle, _, _, _, films.interval[c, 0] = film_curve(ahead, film, speed_row[0], speed_row[1], law, interval)
     span = dt / (transit * sqrt(middle))
     p, start, inlet = law.inlet_rate, state[c, OWN], state[c, INLET]
     s_a, s_e, s_t = _lag(inlet, start, p, span)
@@ -198,10 +234,10 @@ def _add(law, speed_row, node, work, c, to, chain):
 
 
 @jit_exact_node
-def contact_force(law, transit, speed_row, films, c, u, v):
+def contact_force(law, transit, speed_row, film, films, c, u, v):
     """Force [N] at approach `u` [m] and rate `v` [m/s] of the end of the step, dF/du and dF/dv."""
     work = films.work
-    g, g_u, k = curve(u, speed_row[0], speed_row[1], law, films.interval[c, 0])
+    g, g_u, _, _, k = film_curve(u, film, speed_row[0], speed_row[1], law, films.interval[c, 0])
     films.interval[c, 0] = k
     root = sqrt(g)
     if law.x.size == 0:
@@ -243,14 +279,18 @@ def contact_force(law, transit, speed_row, films, c, u, v):
 
 
 @jit_exact_node
-def accept_contact(law, transit, speed_row, films, c, u, v):
-    """Move the state of contact `c` to the end of the step, at approach `u` and rate `v`."""
+def accept_contact(law, transit, speed_row, film, films, c, u, v):
+    """Move the state of contact `c` to the end of the step, at approach `u` and rate `v`.
+
+    Returns v - u of `film_curve`, a guess for the next step.
+    """
     state, work = films.state, films.work
     t = u - state[c, APPROACH]
     state[c, APPROACH], state[c, RATE] = u, v
     if law.x.size == 0:
-        return
-    g, _, films.interval[c, 0] = curve(u, speed_row[0], speed_row[1], law, films.interval[c, 0])
+        return 0.0
+    interval = films.interval[c, 0]
+    g, _, _, lift, films.interval[c, 0] = film_curve(u, film, speed_row[0], speed_row[1], law, interval)
     e = transit * sqrt(g) * v
     s = work[c, S] + work[c, S + 1] * e + work[c, S + 2] * t
     entered = s * film_made(law, speed_row, law.log_kn + 1.5 * log(g))
@@ -261,6 +301,7 @@ def accept_contact(law, transit, speed_row, films, c, u, v):
     for j in range(HELD, HELD + lags):
         state[c, CHAIN + j - HELD] = work[c, j] + work[c, j + lags] * entered + work[c, j + 2 * lags] * hump
     state[c, CHAIN + lags] = entered
+    return lift
 
 
 @jit_exact_loop

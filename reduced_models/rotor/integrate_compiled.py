@@ -1,7 +1,8 @@
 """Time steps of a rotor on ball bearings, compiled. Other supports: `integrate_python`.
 
-The step is that of `time_step`, on the displacements r of the inner rings against the outer ones; Newton's method
-works on r alone, with the exact tangents of the bearings.
+The step is that of `time_step`, on the displacements r of the points at which bearings act; Newton's method works
+on r alone, with the exact tangents of the bearings. Rings follow r: where several are on a shaft that is rigid
+along itself, there are fewer points than motions of rings.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.jit import jit_exact_loop
-from reduced_models.bearing.balls import accept_balls, begin_step, directions, press_balls, speed_state
+from reduced_models.bearing.ball_steps import accept, begin_balls, press
 from reduced_models.rotor.prepared_run import PreparedRun
 from reduced_models.rotor.time_step import Steps, rounding_hint
 
@@ -24,11 +25,12 @@ _Floats = NDArray[np.float64]
 MOST_ITERATIONS = 30  # of a step: two or three, but where balls land
 OVERSHOOT = 2.0  # growth of the imbalance that halves the way to the last place: a ball lands or leaves
 FARTHEST = 0.05  # of a ball diameter, that a ring may go from the middle: no clearance is as large
+DISPLACEMENTS = 3  # of the motions of a ring; tilts follow
 DONE, NO_BALANCE, LOST = 0, 1, 2  # how a block of steps ends
 
 
 class RingState(NamedTuple):
-    """State and work of a run at its bearings, n = 2 per bearing in the order x, y."""
+    """State and work of a run at its bearings: n points, m motions of rings in the order of the bearings."""
 
     r: _Floats  # (3, n) at the last three ends of steps, the newest first
     force: _Floats  # (n,) of the rings on the balls, at the last end
@@ -37,8 +39,13 @@ class RingState(NamedTuple):
     turned: _Floats  # (k,) turning forces at the last end
     normals: _Floats  # (bearings, balls of the largest, 2)
     pushed: tuple[_Floats, _Floats, _Floats]  # of one bearing: force, stiffness, damping
+    ties: _Floats  # (m, n) motions of the rings from those of the points
+    ring: _Floats  # (3, m) place, rate and force of the rings
+    shift: _Floats  # (m,) of the rings beside what the points give
+    slopes: _Floats  # (d, n) work
 
 
+PLACE, MOVING, PUSHED = range(3)  # rows of `ring`
 R, RATE, FORCE, IMBALANCE, FREE, HISTORY = range(6)  # rows of `tried`: r, r', F, imbalance, r_free, B v_history
 
 
@@ -61,11 +68,14 @@ class CompiledSteps:
         self._limits = tolerance * max(load, 1.0), FARTHEST * farthest
         r, force = run.histories.motion[0], run.histories.force[0]
         balls = max(one.balls.number for one in run.balls)
-        pushed = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
-        n = r.size
+        points, ties, _ = run.rotor.geometry
+        d = r.size // len(run.balls)
+        pushed = np.zeros(d), np.zeros((d, d)), np.zeros((d, d))
+        r, n = points @ run.histories.displacement[0], len(points)
         self._rings = RingState(
-            np.tile(r, (3, 1)), force.copy(), np.zeros((6, n)), np.zeros((n, n + 1)), run.turning[0].copy(),
-            np.zeros((n // 2, balls, 2)), pushed,
+            np.tile(r, (3, 1)), ties.T @ force, np.zeros((6, n)), np.zeros((n, n + 1)), run.turning[0].copy(),
+            np.zeros((len(run.balls), balls, 2)), pushed, np.ascontiguousarray(ties), np.zeros((3, len(ties))),
+            run.shift, np.zeros((d, n)),
         )  # fmt: skip
 
     def advance(self, steps: Steps, first: int, end: int, progress: Callable[[int], None]) -> None:
@@ -82,7 +92,7 @@ class CompiledSteps:
         balls, films = tuple(one.balls for one in run.balls), tuple(one.films for one in run.balls)
         out = d, v, r, force, iterations
         made, how = run_block(steps, balls, films, self._rings, run.state, course, self._limits, out)
-        rate[:] = v @ steps.B.T
+        rate[:] = v @ steps.B.T @ self._rings.ties.T
         self.made = first + int(made)
         self.reached = self.made + (how == NO_BALANCE)
         if how == NO_BALANCE:
@@ -97,10 +107,11 @@ class CompiledSteps:
         """Nothing: a block is made as a whole."""
 
     def _lost(self, r: _Floats) -> str:
-        worst = int(np.argmax(np.abs(r))) // 2
-        rotor = self._run.rotor
-        number = rotor.bearings.index(rotor.ball_bearings[worst])
-        far = float(np.hypot(*r[2 * worst : 2 * worst + 2]))
+        run = self._run
+        places = [(r + run.shift)[at][:3] for at in run.ball_directions]
+        worst = int(np.argmax([np.abs(place).max() for place in places]))
+        number = run.rotor.bearings.index(run.rotor.ball_bearings[worst])
+        far = float(np.linalg.norm(places[worst]))
         return f"the ring of bearing {number} has left it, {far * 1e3:.3g} mm from the middle"
 
 
@@ -125,25 +136,25 @@ def run_block(steps, balls, films, rings, state, course, limits, out):
         Displacement and velocity (k, N), displacement and force of the rings (k, n), iterations (k,).
     """
     speed, angles, forces = course
+    d = rings.pushed[0].size
     for i in range(speed.size):
         _foresee(steps, rings, state, forces[i])
         for b in range(len(balls)):
-            directions(balls[b], angles[i, b], rings.normals[b])
-            begin_step(balls[b], speed_state(balls[b], speed[i]), steps.dt, films[b])
+            begin_balls(balls[b], films[b], rings.normals[b], speed[i], angles[i, b], steps.dt)
         count = _balance(steps, balls, films, rings, speed[i], limits[0])
         if count == 0:
             return i, NO_BALANCE
         _finish(steps, rings, state, forces[i])
         farthest = 0.0
         for b in range(len(balls)):
-            q, v = rings.tried[R, 2 * b : 2 * b + 2], rings.tried[RATE, 2 * b : 2 * b + 2]
-            at_speed = speed_state(balls[b], speed[i])
-            accept_balls(balls[b], at_speed, films[b], rings.normals[b], q, v, 1.5 / steps.dt)
+            q, v = rings.ring[PLACE, d * b : d * b + d], rings.ring[MOVING, d * b : d * b + d]
+            accept(balls[b], films[b], rings.normals[b], speed[i], q, v, 1.5 / steps.dt)
         for k in range(state.shape[1]):
             out[0][i, k], out[1][i, k] = state[0, k], state[1, k]
-        for k in range(rings.force.size):
-            out[2][i, k], out[3][i, k] = rings.r[0, k], rings.force[k]
-            farthest = max(farthest, abs(rings.r[0, k]))
+        for k in range(rings.shift.size):
+            out[2][i, k], out[3][i, k] = rings.ring[PLACE, k] - rings.shift[k], rings.ring[PUSHED, k]
+            if k % d < DISPLACEMENTS:
+                farthest = max(farthest, abs(rings.ring[PLACE, k]))
         out[4][i] = count
         if farthest > limits[1]:
             return i + 1, LOST
@@ -183,24 +194,40 @@ def _foresee(steps, rings, state, forces):
 @jit_exact_loop
 def _balance(steps, balls, films, rings, speed, allowed):
     """Newton's method for D (r - r_free) + weight F = 0; returns how often it asked, 0 where it does not end."""
-    tried, system, n = rings.tried, rings.system, rings.force.size
+    tried, system, n, ring, ties = rings.tried, rings.system, rings.force.size, rings.ring, rings.ties
     force, stiffness, damping = rings.pushed
-    previous = inf
+    d, previous = force.size, inf
     for count in range(1, MOST_ITERATIONS + 1):
         error = 0.0
         for j in range(n):
             tried[RATE, j] = steps.velocity[0] * tried[R, j] + tried[HISTORY, j]
+            tried[FORCE, j] = 0.0
             for k in range(n):
                 system[j, k] = steps.D[j, k]
         for b in range(len(balls)):
-            q, v = tried[R, 2 * b : 2 * b + 2], tried[RATE, 2 * b : 2 * b + 2]
-            at_speed = speed_state(balls[b], speed)
-            press_balls(balls[b], at_speed, films[b], rings.normals[b], q, v, 1.5 / steps.dt, rings.pushed)
-            for j in range(2):
-                tried[FORCE, 2 * b + j] = force[j]
-                for k in range(2):
-                    slope = stiffness[j, k] + steps.velocity[0] * damping[j, k]
-                    system[2 * b + j, 2 * b + k] += steps.weight * slope
+            first = d * b
+            for i in range(first, first + d):
+                ring[PLACE, i], ring[MOVING, i] = rings.shift[i], 0.0
+                for j in range(n):
+                    ring[PLACE, i] += ties[i, j] * tried[R, j]
+                    ring[MOVING, i] += ties[i, j] * tried[RATE, j]
+            q, v = ring[PLACE, first : first + d], ring[MOVING, first : first + d]
+            press(balls[b], films[b], rings.normals[b], speed, q, v, 1.5 / steps.dt, rings.pushed)
+            for i in range(d):
+                ring[PUSHED, first + i] = force[i]
+                for j in range(n):
+                    tried[FORCE, j] += ties[first + i, j] * force[i]
+                    rings.slopes[i, j] = 0.0
+                for k in range(d):
+                    slope = steps.weight * (stiffness[i, k] + steps.velocity[0] * damping[i, k])
+                    for j in range(n):
+                        rings.slopes[i, j] += slope * ties[first + k, j]
+            for i in range(d):
+                for j in range(n):
+                    tie = ties[first + i, j]
+                    if tie != 0.0:
+                        for k in range(n):
+                            system[j, k] += tie * rings.slopes[i, k]
         for j in range(n):
             imbalance = steps.weight * tried[FORCE, j]
             for k in range(n):

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError
-from reduced_models.bearing.motion import BallMotion
+from reduced_models.bearing.motion import AngularMotion, BallMotion
 from reduced_models.rotor.prepared_run import PreparedRun
 from reduced_models.rotor.scaled_contact import has_tangents
 from reduced_models.rotor.time_step import Steps, free_displacement, move_to, rounding_hint
@@ -45,18 +45,21 @@ class RunningSupport(Protocol):
 
 
 class BallSteps:
-    """One ball bearing over steps of one length `dt` [s]; `gain` is that from displacement to rate in a step."""
+    """One ball bearing over steps of one length `dt` [s]; `gain` leads from displacement to rate in a step.
 
-    def __init__(self, motion: BallMotion, dt: float, gain: float) -> None:
-        self._motion, self._dt, self._gain = motion, dt, gain
+    `shift` is the displacement of its ring beside that of the rotor.
+    """
+
+    def __init__(self, motion: BallMotion | AngularMotion, dt: float, gain: float, shift: _Floats) -> None:
+        self._motion, self._dt, self._gain, self._shift = motion, dt, gain, shift
 
     def begin(self, omega: float, angle: float) -> None:
         """Begin a step at whose end the shaft turns at `omega` [rad/s] and the first ball is at `angle`."""
         self._motion.begin(omega, angle, self._dt)
 
     def at(self, r: _Floats, rate: _Floats) -> tuple[_Floats, _Floats]:
-        """Forces at the end of the step, and their slopes, shape (2, 2)."""
-        force, stiffness, damping = self._motion.forces(r, rate)
+        """Forces at the end of the step, and their slopes, shape (directions, directions)."""
+        force, stiffness, damping = self._motion.forces(r + self._shift, rate)
         return force, stiffness + self._gain * damping
 
     def expected(self, r: _Floats, rate: _Floats) -> _Floats:
@@ -102,7 +105,7 @@ class PythonSteps:
             run.contacts.noise = NOISE * self._allowed / counts[:first].max()
             self._supports.append((slice(0, first), run.contacts))
         for at, balls in zip(run.ball_directions, run.balls, strict=True):
-            self._supports.append((at, BallSteps(balls, run.dt, run.contacts.gain)))
+            self._supports.append((at, BallSteps(balls, run.dt, run.contacts.gain, run.shift[at])))
 
     def advance(self, steps: Steps, first: int, end: int, progress: Callable[[int], None]) -> None:
         """Make the steps of one block; `progress` takes the number of steps made, after each.

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_column
 from ehlcontact.errors import InputError
 from reduced_models.bearing.kinematics import RADIANS
-from reduced_models.bearing.motion import BallMotion
+from reduced_models.bearing.motion import BallMotion, motion_of
 from reduced_models.rotor.contact_steps import ContactSteps
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.speed_profile import SpeedProfile, shaft_course
@@ -32,12 +32,14 @@ class PreparedRun:
     t, omega : ndarray, shape (steps + 1,)
         Times [s], speeds of the shaft [rad/s].
     cage_angles : ndarray, shape (steps + 1, ball bearings)
-        Of the first ball of every bearing [rad].
+        Of the first ball of every planar bearing [rad]; those of others turn as their balls roll, from the first.
+    shift : ndarray, shape (directions of contacts and ball bearings,)
+        Displacement of rings beside that of the rotor [m]; 0 of contacts.
     turning : ndarray, shape (steps + 1, 2 unbalances)
         Forces of the unbalances [N]; `at`, shape (N, 2 unbalances), is where they act.
     contacts : ContactSteps
         All contacts; they come first among the motions of the supports.
-    balls : tuple of BallMotion
+    balls : tuple of BallMotion or AngularMotion
         Balls and films of every ball bearing.
     state : ndarray, shape (4, N)
         Displacement, velocity and acceleration; room.
@@ -48,22 +50,22 @@ class PreparedRun:
     def __init__(
         self, rotor: Rotor, speed_rpm: float | SpeedProfile, dt: float, steps: int, start: Any, rho_inf: float
     ) -> None:
-        if any(mount.z is not None for mount in rotor.ball_bearings):
-            allowed = "planar ones: runs of bearings with axial motion and tilts are not there yet"
-            raise InputError("ball bearings", "with five degrees of freedom", allowed)
         self.rotor, self.dt, self.steps, self._rho_inf = rotor, dt, steps, rho_inf
         self.t: _Floats = np.asarray(dt * np.arange(steps + 1), np.float64)
         course = shaft_course(rotor, speed_rpm, self.t)
         self.omega, self.turning, self.at = course.omega, course.turning, course.at
         self._require_short_steps()
         speeds = course.law_speeds.tolist()
-        bearings = [mount.ball_bearing for mount in rotor.ball_bearings]
-        self.balls = tuple(BallMotion(b._kernel([b.speed(s) for s in speeds])) for b in bearings)
+        self.balls = tuple(
+            motion_of(mount.ball_bearing, speeds, len(mount.directions)) for mount in rotor.ball_bearings
+        )
         cages = [
-            mount.cage_angle + one.balls.cage * course.angle
+            mount.cage_angle + (one.balls.cage * course.angle if isinstance(one, BallMotion) else 0.0 * self.t)
             for mount, one in zip(rotor.ball_bearings, self.balls, strict=True)
         ]
         self.cage_angles = np.column_stack(cages) if cages else np.zeros((self.t.size, 0))
+        shifts = [np.zeros(len(rotor.contacts)), *(mount.shift for mount in rotor.ball_bearings)]
+        self.shift = np.concatenate(shifts)
         self.histories = Histories.empty(steps + 1, rotor.size, len(rotor.geometry.normals))
         gain = self._steps_at(self.omega[0]).velocity[0]
         self.contacts = ContactSteps(rotor.contacts, dt, gain)
@@ -103,7 +105,7 @@ class PreparedRun:
                 mount.contact.rest(approach + mount.offset)
         force[:first] = self.contacts.start(r[:first], rate[:first])
         for b, (at, balls) in enumerate(zip(self.ball_directions, self.balls, strict=True)):
-            force[at] = balls.rest(self.omega[0], self.cage_angles[0, b], r[at])
+            force[at] = balls.rest(self.omega[0], self.cage_angles[0, b], r[at] + self.shift[at])
         M, C, K = rotor.matrices(self.omega[0])
         carried = geometry.points.T @ (geometry.normals.T @ (geometry.counts * force))
         net = rotor.load + self.at @ self.turning[0] - carried

@@ -16,7 +16,7 @@ from ehlcontact.quantities import FORCE, LENGTH, NUMBER, RATE, SPEED, TIME
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import span
-from reduced_models.rotor.nodes import LENGTHS, ByNode
+from reduced_models.rotor.nodes import LENGTHS, PLANE, ByNode
 
 _Floats = NDArray[np.float64]
 
@@ -93,6 +93,8 @@ class RotorResult(QuantityTable, ByNode):
         mixed = {"displacement": MIXED, "velocity": f"{MIXED}, per s"}
         if lengths == set(range(self.displacement.shape[1])):
             mixed = {}
+        if any(column.endswith(" tilt_x") for column in self.columns):
+            mixed |= {"approach": MIXED, "rate": f"{MIXED}, per s", "force": "N, or N m where it turns"}
         return mixed.get(name) or super()._unit(name)
 
     def _summary_lines(self) -> list[str]:
@@ -103,7 +105,7 @@ class RotorResult(QuantityTable, ByNode):
             f"forces {span(self.force, 1.0, 'N')} of {', '.join(self.columns)}",
         ]
         if self.largest_load.size:
-            far = 1e6 * float(np.hypot(*np.moveaxis(self.ring, -1, 0)).max())
+            far = 1e6 * float(np.hypot(*np.moveaxis(self.ring, -1, 0)[:2]).max())
             most = self.largest_load.max()
             lines.append(f"rings within {far:.4g} µm of the centre, largest force on a ball {most:.4g} N")
         return lines
@@ -138,17 +140,22 @@ class RotorResult(QuantityTable, ByNode):
 
     @property
     def ring(self) -> _Floats:
-        """Inner rings of the bearings against the outer ones, shape (k, bearings, 2) [m]."""
+        """Inner rings of the bearings against the outer ones, shape (k, bearings, n) [m], [rad]; n = 2 or 5."""
         return self._of_bearings(self.approach)
 
     @property
     def ring_force(self) -> _Floats:
-        """Force of the inner rings on the bearings, shape (k, bearings, 2) [N]."""
+        """Force of the inner rings on the bearings, shape (k, bearings, n) [N], [N m]."""
         return self._of_bearings(self.force)
 
     def _of_bearings(self, values: _Floats) -> _Floats:
-        at = [k for k, name in enumerate(self.columns) if name.startswith("bearing")]
-        return values[:, at].reshape(len(values), len(at) // 2, 2)
+        at: dict[str, list[int]] = {}
+        for k, name in enumerate(self.columns):
+            if name.startswith("bearing"):
+                at.setdefault(name.rpartition(" ")[0], []).append(k)
+        directions = min(map(len, at.values()), default=len(PLANE))  # planar ones beside others: x and y of all
+        places = np.array([columns[:directions] for columns in at.values()], int).reshape(-1, directions)
+        return np.asarray(values[:, places])
 
     def part(self, first: int, last: int | None = None, *, keep_time: bool = True) -> Self:
         """Samples `first` to `last` of the run, both included; with ``keep_time=False`` their time starts at 0."""
@@ -208,7 +215,7 @@ class RotorResult(QuantityTable, ByNode):
             ring = self.ring
             if not ring.shape[1]:
                 raise InputError("node", None, "given for a rotor without bearings")
-            return [(f"inner ring of bearing {b}", ring[:, b]) for b in range(ring.shape[1])]
+            return [(f"inner ring of bearing {b}", ring[:, b, :2]) for b in range(ring.shape[1])]
         named = {name: tuple(at.get(k, -1) for k in "xy") for name, at in self.nodes.items()}
         if isinstance(node, str) and node in named:
             return [(node, self.node(node))]

@@ -225,7 +225,7 @@ def _supports(run: PreparedRun, kept: slice) -> tuple[tuple[str, ...], _Floats, 
             found.append((moved, moving, (K @ moved[..., None] + C @ moving[..., None])[..., 0]))
         else:
             at = next(with_balls)
-            found.append((r[:, at], v[:, at], force[:, at]))
+            found.append((r[:, at] + run.shift[at], v[:, at], force[:, at]))
     motions, rates, forces = (np.hstack(parts) for parts in zip(*found, strict=True))
     return tuple(names), motions, rates, forces
 

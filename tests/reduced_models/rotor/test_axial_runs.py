@@ -1,0 +1,242 @@
+"""Runs of rotors with axial motion and tilts: against scipy, linear answers, energy, and shorter steps."""
+
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+import pytest
+from axial_rotors import LIGHT, MASS, SPINDLE, motor, pair_force, rigid, ring_force
+from scipy.integrate import solve_ivp
+
+from ehlcontact import ConvergenceError, InputError, Lubricant
+from reduced_models import (
+    BallBearing,
+    BearingMotion,
+    SpeedProfile,
+    Unbalance,
+    linearise,
+    log_decrement,
+    simulate_rotor,
+)
+from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.motion import AngularMotion, BallMotion
+
+OIL = Lubricant.iso_vg(46, temperature=70.0)
+RPM = 12000.0
+
+
+@pytest.fixture(scope="module")
+def spindle():
+    return BallBearing(**SPINDLE, oil=OIL)
+
+
+@pytest.fixture(scope="module")
+def pair(spindle):
+    return rigid(spindle, spindle, offset=6e-6, load=np.array([0.0, -9.81 * MASS, 0.0, 0.0, 0.0]))
+
+
+@pytest.mark.parametrize("control", ["outer", "inner", "shared"])
+def test_a_ring_at_rest_stays_there(spindle, control):
+    """The time step's balance is that of statics, films and inertia of the balls included."""
+    bearing = replace(spindle, race_control=control)
+    load = np.array([50.0, -100.0, 300.0, 0.5, -0.3])
+    state = bearing.equilibrium(load, speed_rpm=RPM, cage_angle=0.3)
+    motion = AngularMotion(bearing._angular_balls(RPM))
+    q, still = np.array(state.displacement), np.zeros(5)
+    np.testing.assert_allclose(motion.rest(RPM * RADIANS, 0.3, q), load, atol=1e-9)
+    np.testing.assert_allclose(motion.films.force, state.force, rtol=1e-9)
+    motion.films.cage[2:] = 0.0  # the cage held
+    for _ in range(20):
+        motion.begin(RPM * RADIANS, 0.3, 1e-5)
+        force = motion.forces(q, still)[0]
+        motion.accept()
+        motion.films.cage[2:] = 0.0
+        np.testing.assert_allclose(force, load, atol=1e-9)
+
+
+@pytest.mark.parametrize("oil", [None, OIL], ids=["dry", "oil"])
+def test_a_planar_motion_is_that_of_the_planar_bearing(oil):
+    bearing = BallBearing.catalogue("6205", oil=oil, clearance=4e-6)
+    planar = BallMotion(bearing._kernel(RPM))
+    # angles are 0 with the grooves in one plane
+    five = AngularMotion(bearing._angular_balls(RPM))
+    omega, dt, start = RPM * RADIANS, 1e-5, np.array([2e-6, -9e-6])
+    np.testing.assert_allclose(
+        five.rest(omega, 0.1, np.append(start, [0, 0, 0]))[:2], planar.rest(omega, 0.1, start)
+    )
+    for i in range(1, 200):
+        t = i * dt
+        q = start + 3e-6 * np.array([np.sin(900.0 * t), 1.0 - np.cos(1400.0 * t)])
+        v = 3e-6 * np.array([900.0 * np.cos(900.0 * t), 1400.0 * np.sin(1400.0 * t)])
+        angle = 0.1 + planar.balls.cage * omega * t
+        planar.begin(omega, angle, dt)
+        five.begin(omega, angle, dt)
+        expected = planar.forces(q, v)
+        found = five.forces(np.append(q, [0, 0, 0]), np.append(v, [0, 0, 0]))
+        for one, other in zip(found, expected, strict=True):
+            cut = (slice(2),) * other.ndim
+            np.testing.assert_allclose(one[cut], other, atol=2e-6 * np.abs(other).max())
+        planar.accept()
+        five.accept()
+    assert five.angle == pytest.approx(angle, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("oil", "density", "close"), [(None, 1e-9, 1e-6), (OIL, 1e-9, 1e-6), (OIL, 7800.0, 1e-4)],
+    ids=["dry", "oil", "heavy balls"],
+)  # fmt: skip
+def test_tangents_against_differences(oil, density, close):
+    """Light balls lift off in the motion."""
+    bearing = BallBearing(**SPINDLE, oil=oil, density=density)
+    motion = AngularMotion(bearing._angular_balls(RPM))
+    q = np.array([4e-6, -6e-6, 9e-6, 4e-5, -2e-5])
+    v = np.array([2e-3, 1e-3, -3e-3, 0.02, 0.03])
+    motion.rest(RPM * RADIANS, 0.0, q)
+    for i in range(33):
+        motion.begin(RPM * RADIANS, 0.0, 5e-6)
+        at = q + 5e-6 * (i + 1) * v
+        _, stiffness, damping = motion.forces(at, v)
+        if i == 32:
+            break
+        motion.accept()
+    assert motion.films.force[:, 0].max() > 100.0
+    assert density > 1.0 or motion.films.force[:, 0].min() < 1.0
+    for index, steps, tangent in (
+        (0, (1e-10, 1e-10, 1e-10, 1e-8, 1e-8), stiffness),
+        (1, (1e-5, 1e-5, 1e-5, 1e-3, 1e-3), damping),
+    ):
+        if not tangent.any():  # dry contacts do not damp
+            continue
+        differences = np.zeros((5, 5))
+        for j, h in enumerate(steps):
+            moved = np.zeros((2, 5))
+            moved[index, j] = h
+            there, back = (motion.forces(at + s * moved[0], v + s * moved[1])[0] for s in (1.0, -1.0))
+            differences[:, j] = (there - back) / (2.0 * h)
+        scale = np.sqrt(np.abs(np.outer(np.diag(tangent), np.diag(tangent)))) + 1e-3
+        assert np.abs((differences - tangent) / scale).max() < close
+
+
+def axial_decay(rotor, dt, until=0.02):
+    start = rotor.equilibrium(RPM), np.array([0.0, 0.0, 2e-4, 0.0, 0.0])
+    return simulate_rotor(rotor, speed_rpm=RPM, dt=dt, until=until, start=start, rho_inf=1.0)
+
+
+def test_decay_is_that_of_the_linear_answer(pair):
+    mode = next(m for m in linearise(pair, RPM).modes(None) if abs(m.shape[2]) > 0.9)
+    run = axial_decay(pair, 1e-6)
+    z = run.displacement[:, 2] - pair.equilibrium(RPM)[2]
+    found = log_decrement(run.t, z, omega=mode.omega)
+    assert found.omega == pytest.approx(mode.omega, rel=1e-4)
+    assert found.decrement == pytest.approx(mode.decrement, rel=5e-3)
+
+
+def test_order_in_time(pair):
+    """Three steps: differences fall by four."""
+    ends = [axial_decay(pair, dt, 4e-3).displacement[-1] for dt in (8e-6, 4e-6, 2e-6)]
+    coarse, fine = (np.abs(np.subtract(*two))[1:3] for two in (ends[:2], ends[1:]))
+    assert np.all(np.log2(coarse / fine) > 1.8)
+
+
+def dry_pair(offset=4e-6, **others):
+    gyroscopic = {"load": np.array([0.0, -9.81 * MASS, 0.0, 0.0, 0.0])} | others
+    return rigid(LIGHT, LIGHT, offset=offset, **gyroscopic)
+
+
+def test_energy_of_a_dry_rotor_is_kept():
+    rotor = dry_pair(load=np.zeros(5))
+    start = np.array([1e-6, 0.0, 2e-6, 1e-5, 0.0]), np.array([3e-3, 4e-3, 5e-3, 0.02, 0.03])
+    run = simulate_rotor(rotor, speed_rpm=0.0, dt=2e-6, until=5e-3, start=start, rho_inf=1.0)
+    kinetic = 0.5 * np.einsum("ki,ij,kj->k", run.velocity, rotor.mass, run.velocity)
+    forces = np.array([pair_force(rotor, q) for q in run.displacement])
+    power = (forces * run.velocity).sum(axis=1)
+    work = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * 2e-6)])
+    assert np.ptp(kinetic) > 0.5 * kinetic.max()
+    assert np.ptp(kinetic + work) < 1e-3 * kinetic.max()
+
+
+def test_through_lift_off_against_scipy():
+    """The light balls of a pair leave their races; the cage turns by the angles of the others."""
+    rotor = dry_pair(offset=1e-6, unbalances=(Unbalance(x=0, y=1, amount=4e-4),))
+    rpm = 9000.0
+    omega = rpm * RADIANS
+    start = rotor.equilibrium(rpm), np.array([0.02, 0.0, 0.05, 1.0, 0.0])
+    run = simulate_rotor(rotor, speed_rpm=rpm, dt=1e-6, until=4e-3, start=start)
+    lightest = run.ring_force[:, :, 2].min(axis=0)
+    assert lightest.min() < 1e-6 and run.ring_force[:, :, 2].max() > 20.0  # a bearing without load, and one with
+
+    def rates(t, z):
+        q, v = z[:5], z[5:]
+        cage = LIGHT.orders.ftf * omega * t
+        pressed = sum(turned_force(m, q, cage) for m in rotor.mounts)
+        swing = 4e-4 * omega**2 * np.array([np.cos(omega * t), np.sin(omega * t), 0.0, 0.0, 0.0])
+        net = rotor.load + swing - pressed - omega * rotor.gyroscopic @ v
+        return np.concatenate([v, net / np.diag(rotor.mass)])
+
+    exact = solve_ivp(
+        rates, (0.0, 4e-3), np.concatenate(start), rtol=1e-9, atol=1e-13, t_eval=run.t[::400], method="DOP853"
+    )
+    moved = np.abs(exact.y[:5] - exact.y[:5, :1]).max(axis=1)
+    np.testing.assert_array_less(np.abs(run.displacement[::400].T - exact.y[:5]).max(axis=1), 4e-3 * moved)
+
+
+def turned_force(mount, q, cage):
+    """As `ring_force`, the balls turned by an angle: a turn of the frame."""
+    c, s = np.cos(cage), np.sin(cage)
+    turn = np.eye(5)
+    turn[:2, :2] = turn[3:, 3:] = [[c, s], [-s, c]]
+    return turn.T @ ring_force(mount.bearing, mount.facing, mount.arm, mount.offset, turn @ q)
+
+
+def test_balls_pass_at_the_order_of_their_contact_angle(spindle):
+    load = np.array([0.0, 0.0, 400.0, 0.0, 0.0])
+    state = spindle.equilibrium(load, speed_rpm=RPM)
+    motion = AngularMotion(spindle._angular_balls(RPM))
+    motion.rest(RPM * RADIANS, 0.0, np.array(state.displacement))
+    for _ in range(100):
+        motion.begin(RPM * RADIANS, 0.0, 1e-5)
+        motion.forces(np.array(state.displacement), np.zeros(5))
+        motion.accept()
+    passes = spindle.balls * motion.angle / (RPM * RADIANS * 1e-3)
+    assert passes == pytest.approx(state.orders.bpfo, abs=1e-4)
+    assert abs(spindle.orders.bpfo - state.orders.bpfo) > 1e-3
+
+
+def test_run_up_of_a_motor():
+    rotor = motor(BallBearing.catalogue("6305", clearance="CN", oil=OIL), preload=200.0)
+    run = simulate_rotor(rotor, speed_rpm=SpeedProfile.ramp(3000.0, 9000.0, 0.05), dt=2e-5, until=0.05)
+    assert run.ring.shape == (2501, 2, 5)
+    np.testing.assert_allclose(run.ring_force[:, :, 2], 200.0, rtol=0.05)
+    held = linearise(rotor, 9000.0)
+    np.testing.assert_allclose(run.ring_force[-500:, :, 1].mean(axis=0), held.loads[:, 1], rtol=0.1)
+    assert "bearing 1 tilt_y" in run.columns
+
+
+def test_a_ring_that_is_pushed_out_ends_the_run():
+    rotor = replace(dry_pair(), mounts=dry_pair().mounts[:1])
+    start = np.zeros(5), np.array([0.0, 0.0, -3.0, 0.0, 0.0])
+    with pytest.raises(ConvergenceError, match=r"ring of bearing 0 has left it") as caught:
+        simulate_rotor(rotor, speed_rpm=0.0, dt=1e-5, until=0.01, start=start)
+    assert caught.value.result.t.size > 1
+
+
+def test_balls_with_inertia_are_refused(spindle):
+    heavy = replace(spindle, ball_inertia=True)
+    with pytest.raises(InputError, match="ball_inertia"):
+        simulate_rotor(rigid(heavy, heavy), speed_rpm=RPM, dt=1e-5, until=1e-4)
+
+
+def test_a_driven_bearing(spindle):
+    motion = BearingMotion(spindle, RPM, 1e-5)
+    q = np.array([0.0, -2e-6, 8e-6, 0.0, 0.0])
+    rest = motion.rest(q)
+    np.testing.assert_allclose(rest[2], spindle.equilibrium(rest, speed_rpm=RPM, cage_angle=-pi / 2.0).load[2])
+    places = q + 1e-6 * np.sin(np.linspace(0.0, 2.0 * pi, 50))[:, None] * np.eye(5)[2]
+    rates = np.gradient(places, 1e-5, axis=0)
+    force, balls = motion.drive(places, rates)
+    assert force.shape == (50, 5) and balls.shape == (50, spindle.balls, 2)
+    again = BearingMotion(spindle, RPM, 1e-5)
+    again.rest(q)
+    for place, rate, expected in zip(places, rates, force, strict=True):
+        np.testing.assert_allclose(again.forces(place, rate)[0], expected, rtol=1e-12)
+        again.accept()
