@@ -255,3 +255,16 @@ def test_a_control_loop(tmp_path):
     after = [loop.blown(loop.damped(system), loop.damped(exact), t) for system in (exact, moving)]
     np.testing.assert_allclose(after[1], after[0], rtol=0.0, atol=0.03 * np.abs(after[0]).max())
     assert drawn(loop, tmp_path / "loop.png", 0.001)
+
+
+def test_a_preloaded_motor(tmp_path):
+    found = example("preloaded_motor").main(str(tmp_path / "motor.png"))
+    assert (tmp_path / "motor.png").read_bytes().startswith(PNG)
+    axial, bending = zip(*found["modes"], strict=True)
+    assert axial[2].decrement > 10.0 * bending[2].decrement
+    assert np.all(np.diff([one.decrement for one in bending]) < 0.0)
+    assert np.all(np.diff([one.hz for one in axial]) > 0.0)
+    z = found["run"].displacement[:, found["rotor"].nodes["shaft"]["z"]]
+    decay = log_decrement(found["run"].t, z, omega=axial[2].omega)
+    assert decay.decrement == pytest.approx(axial[2].decrement, rel=0.05)
+    assert np.degrees(found["state"].contact_angles.min()) > 10.0
