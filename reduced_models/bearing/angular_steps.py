@@ -43,11 +43,12 @@ _Floats = NDArray[np.float64]
 
 # Imbalance of a ball, over its forces and 1 N, from which one more step of Newton's method to first order ends the
 # search
-NEARLY = 1e-6
+NEARLY, NEARLY_SHARED = 1e-6, 1e-10  # the second where races share the moment by their forces
 MOST_STEPS = 60  # of that search: two, but where a ball lands
 OVERSHOOT = 2.0  # growth of the imbalance that halves the way to the last place
 SINGULAR = 1e-14  # of the squared stiffness: determinant of the tangent of a ball that nothing touches
-RENEWED = 16  # steps after which the derivatives of centrifugal force and gyroscopic moment are renewed
+STALE = 5  # steps of that search after which they are renewed
+RENEWED = 16  # time steps after which the derivatives of centrifugal force and gyroscopic moment are renewed
 SETTLED = 20  # times that films at rest are made to follow the angles of their balls: their effect is a thousandth
 
 
@@ -224,7 +225,10 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
         b_r, b_z = b_r + follow[0, j] * moved, b_z + follow[1, j] * moved
     reach, previous, last_r, last_z = FIRST_STEP, np.inf, b_r, b_z
     longest = FAR * (g.inner + g.outer)
-    for _ in range(MOST_STEPS):
+    nearly = NEARLY_SHARED if g.control in (INNER, SHARED) else NEARLY
+    for count in range(MOST_STEPS):
+        if count % STALE == STALE - 1 and omega > 0.0:
+            _renew_inertia(balls, omega, b_r, b_z, c_r, c_z, inertia)
         l_i, x_r, x_z = inner_span(b_r, b_z, c_r, c_z)
         l_o = sqrt(b_r * b_r + b_z * b_z)
         i_r, i_z, o_r, o_z = x_r / l_i, x_z / l_i, b_r / l_o, b_z / l_o
@@ -267,7 +271,7 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
             reach, previous = 2.0 * reach, np.inf
             continue
         step_r, step_z = (by_rz * r_z - by_zz * r_r) / det, (by_zr * r_r - by_rr * r_z) / det
-        if size > NEARLY * (1.0 + f_i + f_o):
+        if size > nearly * (1.0 + f_i + f_o):
             length = sqrt(step_r * step_r + step_z * step_z)
             cut = min(1.0, longest / length)
             last_r, last_z, previous = b_r, b_z, size
@@ -410,7 +414,7 @@ def accept_angular(balls, films, gain):
             turned + films.force[k, 0] * at.orbit,
             free + at.orbit / balls.number,
         )
-        if (films.steps[0] + k) % RENEWED == 0 and omega > 0.0:
+        if omega > 0.0 and (g.control in (INNER, SHARED) or (films.steps[0] + k) % RENEWED == 0):
             _renew_inertia(balls, omega, b_r, b_z, c_r, c_z, films.inertia[k])
     films.steps[0] += 1
     cage = films.cage

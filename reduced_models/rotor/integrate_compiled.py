@@ -25,6 +25,8 @@ _Floats = NDArray[np.float64]
 MOST_ITERATIONS = 30  # of a step: two or three, but where balls land
 OVERSHOOT = 2.0  # growth of the imbalance that halves the way to the last place: a ball lands or leaves
 FARTHEST = 0.05  # of a ball diameter, that a ring may go from the middle: no clearance is as large
+# of a light ball under inner race control, say
+UNBALANCED = "; friction may not hold its gyroscopic moment: another race_control, more preload"
 DISPLACEMENTS = 3  # of the motions of a ring; tilts follow
 DONE, NO_BALANCE, LOST = 0, 1, 2  # how a block of steps ends
 
@@ -98,6 +100,10 @@ class CompiledSteps:
         if how == NO_BALANCE:
             found = run.histories.motion[self.made]
             hint = rounding_hint(steps, found, self._limits[0], self._limits[0] / self._tolerance)
+            for b, at in enumerate(run.ball_directions):
+                if np.isnan(self._rings.ring[PUSHED, at]).any():
+                    turned = UNBALANCED if run.rotor.ball_bearings[b].z is not None else ""
+                    hint = f": a ball of ball bearing {b} finds none{turned}"
             raise ConvergenceError(f"no balance of the forces was found{hint}", None)
         if how == LOST:
             raise ConvergenceError(self._lost(run.histories.motion[self.made]), None)
