@@ -5,21 +5,33 @@ python docs/site/catalogue.py   # writes docs/guide/catalogue.md
 
 from __future__ import annotations
 
+from math import degrees
 from pathlib import Path
 
 from reduced_models import BallBearing
-from reduced_models.bearing.catalogue import ROWS
+from reduced_models.bearing.catalogue import DEEP_GROOVE, ROWS, Row
 from reduced_models.bearing.clearance import CLASSES, LIMITS, SMALLEST_BORE
 
 PAGE = Path(__file__).parents[1] / "guide" / "catalogue.md"
 HEAD = """# Bearings by name
 
-`BallBearing.catalogue("6205", oil=oil, clearance="CN")`, `--bearing 6205` and `catalogue = "6205"` take their
-dimensions from this table. FTF, BPFO, BPFI and BSF are the
-[defect frequencies](glossary.md#bearings-and-rotors) per turn of the shaft, at zero contact angle.
+`BallBearing.catalogue("6205", oil=oil, clearance="CN")`, `ehlcontact bearing 7205 --axial 200`,
+`--bearing 6205` and `catalogue = "6205"` take their dimensions from these tables. Spaces, hyphens and capitals in
+a name do not matter. FTF, BPFO, BPFI and BSF are the [defect frequencies](glossary.md#bearings-and-rotors) per
+turn of the shaft, at the contact angle of the table. Under an axial load they are those of
+`BallBearing.equilibrium(load).orders`.
 
-| name | bore, mm | balls | ball, mm | pitch, mm | FTF | BPFO | BPFI | BSF | source |
-|---|---|---|---|---|---|---|---|---|---|
+## Deep groove, at zero contact angle
+
+"""
+COLUMNS = "| name | bore, mm | balls | ball, mm | pitch, mm | {angle}FTF | BPFO | BPFI | BSF | source |\n"
+ANGULAR = """
+## Angular contact
+
+A name without its letter, as 7205, is the bearing of 30 degrees (A). B has 40 degrees, C 15 degrees; of GMN's
+spindle bearings C has 15 degrees and E 25. These bearings carry axial load in one direction, +z. Commands and
+studies of a single contact (`--bearing`, `[bearing]`) take deep-groove bearings only.
+
 """
 RULE = """
 Makers print bore, outside diameter and width; few print balls and pitch circle, and bearings of one name differ
@@ -32,9 +44,12 @@ Z^(2/3) D^1.8 for grooves of 0.52 (D in mm, fc from D/dm). With the printed Cr, 
 bore and outside diameter, Z and D are the number of balls and the multiple of 1/64 inch that fit best; both
 equations then hold within 1 %. For 17 bearings whose balls are printed elsewhere the rule finds the printed
 balls of 16. The exception is the 6200: 8 balls of 4.762 mm by the ratings of NSK, and 7 of 5.556 mm in the
-catalogue of GMN (`tests/reduced_models/bearing/test_catalogue.py`).
+catalogue of GMN (`tests/reduced_models/bearing/test_catalogue.py`). With the contact angle a both standards have
+C0r/f0 = Z D^2 cos a and Cr = 1.3 fc (cos a)^0.7 Z^(2/3) D^1.8, f0 and fc from D cos a/dm; bore and outside
+diameter of 72 and 73 are those of 62 and 63. The load ratings of series 72 and 73 were quoted from memory: compare
+them with the maker's table. Both equations hold for them within 1 %.
 
-Conformities are assumed to be 0.52, except for the 209, whose groove radii are printed.
+Conformities are assumed to be 0.52, except for the 209 and the 218, whose groove radii are printed.
 
 ## Radial clearance by class
 
@@ -52,18 +67,28 @@ def sources() -> dict[str, str]:
 
 
 def page() -> str:
-    """Text of the page."""
-    letters, lines = sources(), []
-    for name, row in ROWS.items():
+    """Text of the pages' tables and their rule."""
+    letters = sources()
+    angular = {name: row for name, row in ROWS.items() if name not in DEEP_GROOVE}
+    named = "\n".join(f"- {letter}: {source}" for source, letter in letters.items())
+    tables = table(DEEP_GROOVE, letters) + ANGULAR + table(angular, letters, "angle, degrees | ")
+    return HEAD + tables + RULE.format(sources=named) + clearances()
+
+
+def table(rows: dict[str, Row], letters: dict[str, str], angle: str = "") -> str:
+    """Rows of the catalogue; with a column of contact angles where `angle` heads one."""
+    heads = COLUMNS.format(angle=angle)
+    lines = [heads + "|---" * (heads.count("|") - 1) + "|"]
+    for name, row in rows.items():
         orders = BallBearing.catalogue(name).orders
         bore = "" if row.bore is None else f"{1e3 * row.bore:.4g}"
         lengths = [f"{1e3 * row.ball_diameter:.3f}", f"{1e3 * row.pitch_diameter:.2f}"]
+        lengths += [] if row.contact_angle is None else [f"{degrees(row.contact_angle):.4g}"]
         numbers = [f"{getattr(orders, kind):.4f}" for kind in ("ftf", "bpfo", "bpfi", "bsf")]
         lines.append(
             " | ".join([f"| {name}", bore, str(row.balls), *lengths, *numbers, f"{letters[row.source]} |"])
         )
-    named = "\n".join(f"- {letter}: {source}" for source, letter in letters.items())
-    return HEAD + "\n".join(lines) + "\n" + RULE.format(sources=named) + clearances()
+    return "\n".join(lines) + "\n"
 
 
 def clearances() -> str:

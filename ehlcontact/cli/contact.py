@@ -35,9 +35,9 @@ NO_TIME = (
 
 def known_bearings() -> list[str]:
     """Names of the catalogue, for the completion of a shell."""
-    from reduced_models.bearing.catalogue import ROWS
+    from reduced_models.bearing.catalogue import DEEP_GROOVE
 
-    return list(ROWS)
+    return list(DEEP_GROOVE)
 
 
 def _moes(name: str) -> Any:
@@ -160,13 +160,13 @@ class Contact(Options):
             )
 
     def _ball(self) -> OperatingPoint:
-        from reduced_models.bearing.catalogue import catalogue_row
+        from reduced_models.bearing.catalogue import deep_groove_row
 
         for name in ("bearing", "speed_rpm", "load"):
             if getattr(self, name) is None:
                 raise self._missing(name)
         try:
-            _, row = catalogue_row(self.bearing or "")
+            _, row = deep_groove_row(self.bearing or "")
         except InputError as error:
             known = error.allowed.partition("; any other bearing")[0]
             allowed = f"{known}; any other by its dimensions, in a study as `ehlcontact init` writes it"

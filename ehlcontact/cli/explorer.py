@@ -32,7 +32,7 @@ from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.interpolation import AtlasSurface
 from reduced_models.atlas.table import AtlasTable
 from reduced_models.bearing import ball_bearing, equilibrium, linear_balls, race
-from reduced_models.bearing.catalogue import ROWS
+from reduced_models.bearing.catalogue import DEEP_GROOVE
 from reduced_models.elements import film_curve, film_response
 from reduced_models.rotor.bearing_models import USUAL_DAMPING
 
@@ -86,7 +86,7 @@ def page_data() -> dict[str, Any]:
         "version": __version__,
         "atlas": _atlas(load(SHIPPED, AtlasTable)),
         "oil": _oils(),
-        "catalogue": {name: row._asdict() for name, row in ROWS.items()},
+        "catalogue": {name: row._asdict() for name, row in DEEP_GROOVE.items()},
         "quantities": {name: _quantity(_in_units(name)) for name in OF_INPUTS},
         "rules": {name: getattr(module, name) for module, names in RULES.items() for name in names},
         "lambda": {"smooth": LEAST_LAMBDA, "mixed": MIXED_LAMBDA},

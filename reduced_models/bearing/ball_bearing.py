@@ -239,7 +239,8 @@ class BallBearing(Summary):
             changes["clearance"] = clearance_of_class(changes["clearance"], row.bore)
         dimensions = {"balls": row.balls, "ball_diameter": row.ball_diameter, "pitch_diameter": row.pitch_diameter}
         grooves = {"conformity_inner": row.conformity, "conformity_outer": row.conformity}
-        return cls(**{"name": known, **dimensions, **grooves, **changes})
+        angle = {} if row.contact_angle is None else {"contact_angle": row.contact_angle}
+        return cls(**{"name": known, **dimensions, **grooves, **angle, **changes})
 
     @property
     def gamma(self) -> float:

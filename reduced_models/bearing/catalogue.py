@@ -1,4 +1,4 @@
-"""Catalogue of deep-groove ball bearings: internal dimensions by name, each row with its source.
+"""Catalogue of ball bearings, deep groove and angular contact: internal dimensions by name, each with its source.
 
 Makers print bore, outside diameter and width, and few print balls and pitch circle. Rows from GMN's catalogue,
 from a measurement or from a data set are as printed there. Those of NSK are derived from its load ratings, which
@@ -10,6 +10,13 @@ with D in mm: Z and D are the number and the multiple of 1/64 inch that fit C0r,
 Bearings of one name differ between makers: by that rule NSK's 6200 has 8 balls of 4.762 mm, GMN prints 7 of
 5.556 mm. For the other 13 rows of GMN the rule finds the balls that GMN prints.
 
+For angular contact bearings of contact angle a both standards have
+
+    C0r/f0 = Z D^2 cos a,    Cr = 1.3 fc (cos a)^0.7 Z^(2/3) D^1.8,    fc and f0 of D cos a/dm.
+
+The letter behind the name of an angular contact bearing of NSK is its angle: A 30 degrees, B 40, C 15. Without a
+letter it is A, as in most makers' lists. Spindle bearings of GMN are S ... C with 15 degrees and S ... E with 25.
+
 Conformities are hardly ever known: where a row has none, 0.52 is assumed; 0.515 inside and 0.525 outside would
 change the stiffness by 1 %.
 """
@@ -19,6 +26,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from difflib import get_close_matches
 from itertools import groupby
+from math import radians
 from typing import NamedTuple
 
 from ehlcontact.errors import InputError
@@ -39,6 +47,7 @@ class Row(NamedTuple):
     sourced: bool  # balls and diameters are in the source; False: derived by the rule above
     conformity: float = USUAL_CONFORMITY
     conformity_known: bool = False
+    contact_angle: float | None = None  # rad; None: deep groove
 
 
 def _printed(balls: int, ball_mm: float, pitch_mm: float, bore_mm: float) -> Row:
@@ -50,6 +59,14 @@ def _derived(balls: int, sixty_fourths: int, bore_mm: int, outside_mm: int) -> R
     ball, pitch = round(sixty_fourths / 64 * INCH, 6), round(0.5e-3 * (bore_mm + outside_mm), 7)
     source = "derived from the load ratings Cr, C0r and f0 of NSK's catalogue of rolling bearings"
     return Row(balls, ball, pitch, round(1e-3 * bore_mm, 4), source, False)
+
+
+def _angular(balls: int, sixty_fourths: int, bore_mm: int, outside_mm: int, degrees: float) -> Row:
+    return _derived(balls, sixty_fourths, bore_mm, outside_mm)._replace(contact_angle=radians(degrees))
+
+
+def _spindle(balls: int, ball_mm: float, pitch_mm: float, bore_mm: float, degrees: float) -> Row:
+    return _printed(balls, ball_mm, pitch_mm, bore_mm)._replace(contact_angle=radians(degrees))
 
 
 _CWRU = "Case Western Reserve University, Bearing Data Center"
@@ -106,7 +123,60 @@ ROWS: dict[str, Row] = {
         9, 7.9375e-3, 38.50e-3, INCH, "MB ER-16K of the machinery fault simulator, Curtin University", True
     ),
     "NICE": Row(8, 0.235 * INCH, 1.245 * INCH, None, "NICE bearing of the MFPT bearing fault data set", True),
+    "7204 A": _angular(11, 20, 20, 47, 30),
+    "7204 B": _angular(11, 20, 20, 47, 40),
+    "7204 C": _angular(10, 20, 20, 47, 15),
+    "7205 A": _angular(13, 20, 25, 52, 30),
+    "7205 B": _angular(13, 20, 25, 52, 40),
+    "7205 C": _angular(12, 20, 25, 52, 15),
+    "7206 A": _angular(13, 24, 30, 62, 30),
+    "7206 B": _angular(13, 24, 30, 62, 40),
+    "7206 C": _angular(12, 24, 30, 62, 15),
+    "7207 A": _angular(13, 28, 35, 72, 30),
+    "7207 B": _angular(13, 28, 35, 72, 40),
+    "7207 C": _angular(12, 28, 35, 72, 15),
+    "7208 A": _angular(14, 30, 40, 80, 30),
+    "7208 B": _angular(14, 30, 40, 80, 40),
+    "7208 C": _angular(13, 30, 40, 80, 15),
+    "7305 A": _angular(11, 28, 25, 62, 30),
+    "7305 B": _angular(11, 28, 25, 62, 40),
+    "7306 A": _angular(13, 30, 30, 72, 30),
+    "7306 B": _angular(13, 30, 30, 72, 40),
+    "S 6000 C": _spindle(10, 4.762, 18.0, 10, 15),
+    "S 6000 E": _spindle(10, 4.762, 18.0, 10, 25),
+    "S 6004 C": _spindle(13, 6.35, 31.0, 20, 15),
+    "S 6004 E": _spindle(13, 6.35, 31.0, 20, 25),
+    "S 6205 C": _spindle(13, 7.938, 38.5, 25, 15),
+    "S 6205 E": _spindle(13, 7.938, 38.5, 25, 25),
+    "S 6008 C": _spindle(18, 7.938, 54.0, 40, 15),
+    "S 6008 E": _spindle(18, 7.938, 54.0, 40, 25),
+    "S 6010 C": _spindle(19, 8.731, 65.0, 50, 15),
+    "S 6010 E": _spindle(19, 8.731, 65.0, 50, 25),
+    "S 6020 C": _spindle(22, 15.081, 125.0, 100, 15),
+    "S 6020 E": _spindle(22, 15.081, 125.0, 100, 25),
+    "S 61905 C": _spindle(17, 4.762, 33.5, 25, 15),
+    "S 61905 E": _spindle(17, 4.762, 33.5, 25, 25),
+    "218": Row(
+        16,
+        22.23e-3,
+        125.3e-3,
+        90e-3,
+        "Harris, Rolling Bearing Analysis: the 218 angular contact bearing",
+        True,
+        0.5232,
+        True,
+        radians(40.0),
+    ),
 }
+DEEP_GROOVE = {name: row for name, row in ROWS.items() if row.contact_angle is None}
+
+
+def _squeezed(name: str) -> str:
+    """A name without its spaces and hyphens: 7205C, ER16K."""
+    return str(name).upper().replace(" ", "").replace("-", "")
+
+
+_NAMES = {_squeezed(name): name for name in ROWS}
 
 
 def names_in_short(names: Sequence[str]) -> str:
@@ -127,15 +197,30 @@ def catalogue_row(name: str) -> tuple[str, Row]:
     InputError
         No such bearing; it names the nearest of the same kind of name, and the series.
     """
-    wanted = str(name).strip().upper()
-    if wanted in ROWS:
-        return wanted, ROWS[wanted]
-    # the first digit says what kind of bearing it is: a 7206 has the size of a 6206, and contact angles
-    alike = [known for known in ROWS if known[0] == wanted[:1]]
+    wanted = _squeezed(name)
+    for spelled in (wanted, f"{wanted}A"):  # without its letter an angular contact bearing has 30 degrees
+        if spelled in _NAMES:
+            return _NAMES[spelled], ROWS[_NAMES[spelled]]
+    # the first character says what kind of bearing it is: a 7206 has the size of a 6206, and contact angles
+    alike = [known for known in _NAMES if known[0] == wanted[:1]]
     near = [known for known in alike if sorted(known) == sorted(wanted)]  # 6250 for 6205
     near += [known for known in get_close_matches(wanted, alike, NAMES_SHOWN, 0.0) if known not in near]
-    near = near[:NAMES_SHOWN]
-    every = names_in_short(list(ROWS))
-    nearest = f"{', '.join(near)} (nearest) or of {every}" if near else f"{every}, all of them deep-groove"
-    allowed = f"one of {nearest}"
+    nearest = f"{', '.join(_NAMES[known] for known in near[:NAMES_SHOWN])} (nearest) or of " if near else ""
+    every = names_in_short([_NAMES[known] for known in alike] or list(ROWS))
+    allowed = f"one of {nearest}{every}"
     raise InputError("name", name, f"{allowed}; any other bearing by its dimensions: BallBearing(balls=, ...)")
+
+
+def deep_groove_row(name: str) -> tuple[str, Row]:
+    """As `catalogue_row`, for what has no contact angle in the direction of its load.
+
+    Raises
+    ------
+    InputError
+        No such bearing, or an angular contact bearing.
+    """
+    known, row = catalogue_row(name)
+    if row.contact_angle is not None:
+        allowed = "a deep-groove bearing here; `ehlcontact bearing` and BallBearing take angular contact bearings"
+        raise InputError("name", name, allowed)
+    return known, row

@@ -23,7 +23,7 @@ from ehlcontact.lubricant.oil import GRADES
 from ehlcontact.point import OperatingPoint, require_solvable
 from ehlcontact.solver.domain import Domain
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
-from reduced_models.bearing.catalogue import catalogue_row
+from reduced_models.bearing.catalogue import deep_groove_row
 from reduced_models.rotor.rotor import require_unbalance
 
 BY_NUMBERS = ("eta0", "alpha")  # entries of an oil
@@ -418,7 +418,7 @@ def catalogue_entries(name: str) -> dict[str, Any]:
         No such bearing; it names the nearest.
     """
     try:
-        known, row = catalogue_row(name)
+        known, row = deep_groove_row(name)
     except InputError as error:
         allowed = f"{error.allowed.partition('; any other bearing')[0]}; any other by its dimensions, balls = ..."
         raise InputError("bearing.catalogue", error.value, allowed) from None
