@@ -48,7 +48,6 @@ _Floats = NDArray[np.float64]
 NEARLY = 1e-7
 MOST_STEPS = 60  # of that search: a handful, but where a ball lands
 FIRST_STEP = 1e-7  # [m], to a ball that nothing touches; doubled until a race is met
-AS_TABULATED = (1.0, 0.0)  # film of a contact, as `film_curve` takes it
 FILM_GROWTH = 0.67  # of the film with speed (Hamrock and Dowson 1977): between two speeds of a law, films add so
 
 # Entries of a ball: its place w as tried last, what its rate follows from, w at the last two ends of steps; delta
@@ -154,8 +153,8 @@ def begin_step(balls, at_speed, dt, films):
         ball = films.balls[k]
         ball[PLACE_HISTORY] = (4.0 * ball[PLACE_NOW] - ball[PLACE_BEFORE]) / 3.0
         ball[RATE_HISTORY] = (4.0 * ball[RATE_NOW] - ball[RATE_BEFORE]) / 3.0
-        prepare_filters(balls.inner, at_speed.inner, at_speed.speed_row, AS_TABULATED, dt, films, 2 * k)
-        prepare_filters(balls.outer, at_speed.outer, at_speed.speed_row, AS_TABULATED, dt, films, 2 * k + 1)
+        prepare_filters(balls.inner, at_speed.inner, at_speed.speed_row, None, dt, films, 2 * k)
+        prepare_filters(balls.outer, at_speed.outer, at_speed.speed_row, None, dt, films, 2 * k + 1)
     begin_seat(balls.loss, dt, films.seat)
     return 1.5 / dt
 
@@ -177,10 +176,8 @@ def _ball(balls, at_speed, films, k, delta, rate, gain):
     low, high, reach = -inf, inf, FIRST_STEP
     for _ in range(MOST_STEPS):
         v = gain * (w - history)
-        fi, ki, di = contact_force(
-            balls.inner, at_speed.inner, row, AS_TABULATED, films, 2 * k, delta - w, rate - v
-        )
-        fo, ko, do = contact_force(balls.outer, at_speed.outer, row, AS_TABULATED, films, 2 * k + 1, w, v)
+        fi, ki, di = contact_force(balls.inner, at_speed.inner, row, None, films, 2 * k, delta - w, rate - v)
+        fo, ko, do = contact_force(balls.outer, at_speed.outer, row, None, films, 2 * k + 1, w, v)
         inner, held = ki + gain * di, ko + gain * do
         outer = held + heavy * gain
         balance, tangent = fo + heavy * (v - ball[RATE_HISTORY]) - fi - at_speed.centrifugal, inner + outer
@@ -246,8 +243,8 @@ def accept_balls(balls, at_speed, films, normals, q, v, gain):
         w = ball[PLACE]
         own = gain * (w - ball[PLACE_HISTORY])
         row = at_speed.speed_row
-        accept_contact(balls.inner, at_speed.inner, row, AS_TABULATED, films, 2 * k, delta - w, rate - own)
-        accept_contact(balls.outer, at_speed.outer, row, AS_TABULATED, films, 2 * k + 1, w, own)
+        accept_contact(balls.inner, at_speed.inner, row, None, films, 2 * k, delta - w, rate - own)
+        accept_contact(balls.outer, at_speed.outer, row, None, films, 2 * k + 1, w, own)
         ball[PLACE_BEFORE], ball[PLACE_NOW] = ball[PLACE_NOW], w
         ball[RATE_BEFORE], ball[RATE_NOW] = ball[RATE_NOW], own
         films.largest[0] = max(films.largest[0], films.force[k, 0])

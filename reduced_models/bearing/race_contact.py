@@ -91,18 +91,18 @@ def film_curve(u, film, row, weight, law, k):
 
     Parameters
     ----------
-    film : (float, float)
-        f, and a guess of v - u.
+    film : (float, float) or None
+        f, and a guess of v - u; None: the film of the table.
 
     Returns
     -------
     tuple
         g, its slopes by u and by f, v - u, the interval.
     """
-    f, lift = film
-    if f == 1.0 or law.x.size == 0:
+    if film is None or law.x.size == 0:
         g, slope, k = curve(u, row, weight, law, k)
         return g, slope, 0.0, 0.0, k
+    f, lift = film
     v, g, slope, stretch = u + lift, 0.0, 1.0, 1.0
     for _ in range(MOST_STEPS):
         g, slope, k = curve(v, row, weight, law, k)

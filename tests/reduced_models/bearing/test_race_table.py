@@ -11,7 +11,7 @@ import pytest
 from ehlcontact.errors import InputError
 from reduced_models.bearing import balls as balls_room
 from reduced_models.bearing import race_contact as contact_room
-from reduced_models.bearing.balls import AS_TABULATED, films_of, speed_state
+from reduced_models.bearing.balls import films_of, speed_state
 from reduced_models.bearing.kinematics import RADIANS
 from reduced_models.bearing.race import shared_atlas
 from reduced_models.bearing.race_contact import APPROACH, contact_force, curve, film_cutoff, prepare_filters
@@ -97,10 +97,8 @@ def test_between_speeds_films_grow_as_they_should(film):
     for at_speed in (below, above):
         films = films_of(many)
         films.state[0, APPROACH] = 5e-6
-        prepare_filters(many.inner, at_speed.inner, at_speed.speed_row, AS_TABULATED, 2e-5, films, 0)
-        pressed.append(
-            contact_force(many.inner, at_speed.inner, at_speed.speed_row, AS_TABULATED, films, 0, 5.1e-6, 3e-3)
-        )
+        prepare_filters(many.inner, at_speed.inner, at_speed.speed_row, None, 2e-5, films, 0)
+        pressed.append(contact_force(many.inner, at_speed.inner, at_speed.speed_row, None, films, 0, 5.1e-6, 3e-3))
     np.testing.assert_allclose(pressed[0], pressed[1], rtol=1e-6)
 
 
