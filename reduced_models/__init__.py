@@ -15,8 +15,10 @@ from inspect import ismodule as _ismodule
 
 from reduced_models.atlas.answer import AtlasAnswer as AtlasAnswer
 from reduced_models.atlas.atlas import Atlas as Atlas
+from reduced_models.bearing.arrangement import BearingSet as BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing as BallBearing
 from reduced_models.bearing.motion import BearingMotion as BearingMotion
+from reduced_models.bearing.set_state import SetState as SetState
 from reduced_models.bearing.state import BearingState as BearingState
 from reduced_models.elements.base import ContactElement as ContactElement
 from reduced_models.elements.film_memory import FilmMemoryContact as FilmMemoryContact

@@ -41,6 +41,7 @@ from reduced_models import (
     Atlas,
     BallBearing,
     BearingMount,
+    BearingSet,
     ContactMount,
     ContactRecord,
     Disc,
@@ -76,7 +77,9 @@ WITHOUT_PLOT = {
     **dict.fromkeys(("TimeSteps", "KeepSettings", "RunSettings"), INPUT),
     **dict.fromkeys(("MoesPoint", "OperatingPoint", "Geometry", "Lubricant", "Scales"), INPUT),
     **dict.fromkeys(("FreeVibration", "HarmonicLoad", "RampLoad", "PrescribedApproach", "PrescribedLoad"), INPUT),
-    **dict.fromkeys(("BallBearing", "LinearBearing", "BearingMount", "Unbalance", "ContactMount", "Rotor"), INPUT),
+    **dict.fromkeys(
+        ("BallBearing", "BearingSet", "LinearBearing", "BearingMount", "Unbalance", "ContactMount", "Rotor"), INPUT
+    ),
     **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support", "RotorModel"), INPUT),
     **dict.fromkeys(("Assumption", "Assumptions"), "words and one number each: print it"),
     "RotorState": NUMBERS,
@@ -112,6 +115,7 @@ def results(point):
     oil = point.lubricant
     bearing = BallBearing.catalogue("6205", oil=oil, rq_race=1e-7)
     down, element = (0.0, -500.0), atlas.element(MoesPoint(200, 10, 0.5), "memory")
+    pair = BearingSet.pair(bearing, preload=100.0, distance=0.1)
     rotor = Rotor(
         mass=5.0 * np.eye(2),
         stiffness=np.zeros((2, 2)),
@@ -132,6 +136,7 @@ def results(point):
         simulate_oscillator(element, np.linspace(0.0, 1.0, 5), Omega_n=3.0, u0=0.87),
         fit(record, model="linear"), linearise(rotor, 3000.0), linearise(rotor, 3000.0).modes(1)[0],
         *films_of(film, run), *rotors(atlas.element(point, "cubic", rpm=3000), bearing), sensitivity(record),
+        pair, pair.equilibrium((0.0, 0.0, 0.0), speed_rpm=3000.0),
         SpeedProfile.ramp(0.0, 3000.0, 1.0), bearing, BearingMount(bearing=bearing, x=0, y=1),
         FullContact(point, grid=Grid(n=32)),
         *verifications(),

@@ -8,8 +8,12 @@
 | freedoms | degrees of freedom of the ring: names, units, loads |
 | contact_angles | compiled: groove centres, contact angles, rolling and race control of a ball |
 | angular_balls | compiled: balls at contact angles in static equilibrium, the force on a ring with five degrees |
+| angular_steps | compiled: balls at contact angles over time steps, with their films |
+| ball_steps | time steps of balls, planar or at contact angles, by one interface |
 | five_degrees | a ring with five degrees of freedom in static equilibrium |
 | linear_angular | that ring about rest: impedance at complex frequencies |
+| arrangement | `BearingSet`: pairs and other sets on one shaft, their preload and growth |
+| static_set | forces and impedances of the bearings of a set, in the frame of the shaft |
 | kinematics | cage, balls and defect frequencies |
 | race | one contact and its law at a speed; the one place that asks the atlas |
 | race_table | compiled: static force and memory gains of a race, tabulated over approach and speed |
@@ -22,6 +26,7 @@
 | continuous_time | derivatives of the states of balls and films, compiled |
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
 | state | `BearingState`: a bearing at rest, ball by ball |
+| set_state | `SetState`: a set at rest, bearing by bearing |
 | ross_bearing | bearings as elements of ROSS |
 | picture | figures |
 """

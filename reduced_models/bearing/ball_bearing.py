@@ -328,7 +328,7 @@ class BallBearing(Summary):
         angle = direction_of(force) if cage_angle is None else angle_of(cage_angle)
         held = held_tilt(tilt, force.size)
         if force.size > len(PLANAR):
-            return self._angular_state(force, speed, angle, held)
+            return self._angular_state(self._stand_at_angles(force, speed, angle, held), speed, angle)
         at = self._stand(force, speed, angle)
         return BearingState(
             name=self.name,
@@ -484,8 +484,8 @@ class BallBearing(Summary):
         inertia = ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0
         return SmallAngularBalls.of(self._angular_balls(speed), places, loss_of(self.loss_factor), inertia)
 
-    def _angular_state(self, load: _Floats, speed: float, angle: float, tilt: _Floats) -> BearingState:
-        at = self._stand_at_angles(load, speed, angle, tilt)
+    def _angular_state(self, at: AngularEquilibrium, speed: float, angle: float) -> BearingState:
+        """State of the bearing with its ring where balls are in equilibrium, the first ball at `angle`."""
         return BearingState(
             name=self.name,
             load=at.load,

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import cos, degrees, pi
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +34,7 @@ from reduced_models.bearing.angular_balls import (
     ring_map,
 )
 from reduced_models.bearing.contact_angles import CONTROLS
-from reduced_models.bearing.equilibrium import SEATED, equilibrium
+from reduced_models.bearing.equilibrium import SEATED, Springs, equilibrium
 from reduced_models.bearing.freedoms import FIVE
 
 _Floats = NDArray[np.float64]
@@ -81,7 +82,11 @@ class StaticRing:
     def pressed(self) -> float:
         """Forces of the ring on all balls with what moves at the origin, added without their directions [N]."""
         self.press(self.displacement(np.zeros(self.free)))
-        return float(np.abs(self.places.found[:, LOAD]).sum())
+        return self.carried()
+
+    def carried(self) -> float:
+        """The same where it was pressed last."""
+        return float(self.places.found[:, LOAD].sum())
 
     def displacement(self, q: _Floats) -> _Floats:
         """All five [m], [rad] of a scaled displacement of those that move."""
@@ -192,13 +197,9 @@ def angular_equilibrium(
     if one_way and load[2] <= 0.0:
         allowed = "one with Fz > 0: an angular contact bearing carries axial load in +z only"
         raise InputError("load", load.tolist(), allowed)
-    q = _search(ring, load * ring.unit, None if first is None else first[: ring.free] / ring.unit)
-    stiffness = ring.tangent(q)
-    values, vectors = np.linalg.eigh(0.5 * (stiffness + stiffness.T))
-    if not values[0] > SEATED * values[-1]:
-        free = FIVE[int(np.argmax(np.abs(vectors[:, 0])))]
-        allowed = f"one that seats the ring: nothing holds it in {free}; more axial load or preload would"
-        raise InputError("load", load.tolist(), allowed)
+    near = None if first is None else first[: ring.free] / ring.unit
+    q = search(ring, [ring], load * ring.unit, load, near)
+    require_seated(ring.tangent(q), load, FIVE)
     found = equilibrium_at(ring, ring.displacement(q))
     found = replace(found, load=np.append(load, found.load[load.size :]))
     require_in_groove(found.found, load, one_way)
@@ -222,24 +223,47 @@ def equilibrium_at(ring: StaticRing, displacement: _Floats) -> AngularEquilibriu
     )
 
 
-def _search(ring: StaticRing, load: _Floats, near: _Floats | None) -> _Floats:
-    """Scaled displacement under a scaled load, if given from one that is near."""
-    internal = ring.pressed()
-    if not load.any() and internal == 0.0:
-        return load
+def require_seated(stiffness: _Floats, load: _Floats, names: Sequence[str]) -> None:
+    """Raise `InputError` where a stiffness leaves one of its degrees of freedom, with these `names`, free."""
+    values, vectors = np.linalg.eigh(0.5 * (stiffness + stiffness.T))
+    if not values[0] > SEATED * values[-1]:
+        free = names[int(np.argmax(np.abs(vectors[:, 0])))]
+        allowed = f"one that seats the ring: nothing holds it in {free}; more axial load or preload would"
+        raise InputError("load", load.tolist(), allowed)
+
+
+class PressedRing(Springs, Protocol):
+    """What `search` moves."""
+
+    longest: float  # step [m]
+
+    def pressed(self) -> float:
+        """Forces of the ring on all balls at the origin, added without their directions [N]."""
+
+
+def search(
+    body: PressedRing, rings: Sequence[StaticRing], force: _Floats, load: _Floats, near: _Floats | None = None
+) -> _Floats:
+    """Scaled displacement of a body on rings under a scaled force, if given from one that is near.
+
+    Messages show the `load`.
+    """
+    internal = body.pressed()
+    if not force.any() and internal == 0.0:
+        return force
 
     def solve(first: _Floats | None) -> _Floats:
-        return equilibrium(ring, load, ring.longest, first, internal)
+        return equilibrium(body, force, body.longest, first, internal)
 
     if near is not None:
         try:
             return solve(near)
         except ConvergenceError:
             pass  # searched from anywhere
-    place, found = grow_gyroscopic([ring], solve)
+    place, found = grow_gyroscopic(rings, solve)
     if found < 1.0:
         allowed = "one under which friction holds the gyroscopic moment of all balls at this speed"
-        raise InputError("load", (load / ring.unit).tolist(), f"{allowed} (found to {found:.2g} of it)")
+        raise InputError("load", load.tolist(), f"{allowed} (found to {found:.2g} of it)")
     return place
 
 

@@ -23,7 +23,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, require_choice
+from ehlcontact.checks import as_column, require_choice, require_finite
 from ehlcontact.errors import InputError
 from ehlcontact.quantities import Quantity
 from ehlcontact.results.table import Display
@@ -35,6 +35,7 @@ FIVE = ("x", "y", "z", "tilt_x", "tilt_y")
 FACINGS = ("+z", "-z")
 # Units of matrices and columns over all five: of the first three entries, and with tilts
 MIXED = {"N": "N, N m", "m": "m, rad", "N/m": "N/m, N, N m", "N s/m": "N s/m, N s, N m s"}
+FARTHEST_OFFSET = 0.1  # of a ball diameter, of a ring along the shaft: grooves end before
 LARGEST_TILT = 0.1  # rad, of a ring: fifty times what a deep-groove bearing bears
 
 
@@ -75,6 +76,14 @@ def facing_signs(facing: str) -> _Floats:
     require_choice("facing", facing, FACINGS)
     axial = 1.0 if facing == FACINGS[0] else -1.0
     return np.array([1.0, 1.0, axial, axial, axial])
+
+
+def require_offset(name: str, offset: float, ball_diameter: float) -> None:
+    """Raise `InputError` for a displacement [m] that takes the ring of a bearing out of its grooves."""
+    most = FARTHEST_OFFSET * ball_diameter
+    if not abs(require_finite(name, offset)) <= most:
+        guess = f" (in µm? then {1e-6 * offset:g} m)" if abs(1e-6 * offset) <= most else ""
+        raise InputError(name, offset, f"between {-most:.3g} and {most:.3g} m{guess}")
 
 
 def in_freedoms(declared: Mapping[str, Quantity], size: int) -> Mapping[str, Quantity]:

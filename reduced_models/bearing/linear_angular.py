@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from reduced_models.bearing.angular_balls import SLOPE, AngularBalls
 from reduced_models.bearing.five_degrees import AngularEquilibrium
-from reduced_models.bearing.linear_balls import TINY_OMEGA, small_film
+from reduced_models.bearing.linear_balls import small_film, stiffness_and_damping
 from reduced_models.bearing.loss import Loss, response
 from reduced_models.bearing.race_contact import curve, film_cutoff
 from reduced_models.bearing.race_table import RaceForceTable
@@ -85,9 +85,7 @@ class SmallAngularBalls(NamedTuple):
 
     def coefficients(self, omega: _Floats) -> tuple[_Floats, _Floats]:
         """Stiffness and damping, shape (k, 5, 5), at angular frequencies [rad/s], shape (k,)."""
-        w = np.maximum(omega, TINY_OMEGA)
-        Z = self.impedance(1j * w)
-        return Z.real.copy(), Z.imag / w[:, None, None]
+        return stiffness_and_damping(self.impedance, omega)
 
 
 def _about(

@@ -10,9 +10,9 @@ same load puts it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,7 +23,6 @@ from ehlcontact.results.table import Display
 from ehlcontact.summary import note_line, span
 from reduced_models.bearing.balls import Balls, SpeedState
 from reduced_models.bearing.equilibrium import RingEquilibrium
-from reduced_models.bearing.five_degrees import AngularEquilibrium
 from reduced_models.bearing.freedoms import in_freedoms, labelled, load_words
 from reduced_models.bearing.loss import Loss, response
 from reduced_models.bearing.race_contact import curve, film_cutoff, film_made
@@ -97,9 +96,22 @@ class SmallBalls(NamedTuple):
 
     def coefficients(self, omega: _Floats) -> tuple[_Floats, _Floats]:
         """Stiffness [N/m] and damping [N s/m], shape (k, 2, 2), at angular frequencies [rad/s], shape (k,)."""
-        w = np.maximum(omega, TINY_OMEGA)
-        Z = self.impedance(1j * w)
-        return Z.real.copy(), Z.imag / w[:, None, None]
+        return stiffness_and_damping(self.impedance, omega)
+
+
+def stiffness_and_damping(impedance: Callable[[_Complex], _Complex], omega: _Floats) -> tuple[_Floats, _Floats]:
+    """K and C, shape (k, n, n), of an impedance Z = K + i omega C at angular frequencies [rad/s], shape (k,)."""
+    w = np.maximum(omega, TINY_OMEGA)
+    Z = impedance(1j * w)
+    return Z.real.copy(), Z.imag / w[:, None, None]
+
+
+class Standing(Protocol):
+    """A ring in equilibrium at a position of the cage."""
+
+    @property
+    def displacement(self) -> _Floats:
+        """Of its degrees of freedom [m], [rad]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,7 +187,7 @@ class BearingCoefficients(FrequencyResponse):
         cage_angle: float | None,
         omega: _Floats,
         matrices: tuple[_Floats, _Floats],
-        standings: Sequence[RingEquilibrium | AngularEquilibrium],
+        standings: Sequence[Standing],
         outside_assumptions: str = "",
     ) -> BearingCoefficients:
         """From the mean `matrices` K and C, shape (k, n, n), and the positions that they are the mean of."""

@@ -13,6 +13,7 @@ from ehlcontact.results.picture import GRID, written
 INNER, OUTER, LOAD, GREY = "#0072b2", "#e69f00", "#d55e00", "#7f7f7f"  # Okabe and Ito, for colour-blind eyes
 SIZE = (9.0, 4.4)  # inches
 BAR = 0.5  # width of a bar over the angle between two balls
+ROUNDING = 1e-9  # of a load over the force on a ball: none
 ROOM = 1.25  # radius of the load zone over its longest bar
 
 
@@ -31,6 +32,22 @@ def draw_state(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
     torque = state.rolling_torque
     resists = "" if torque is None else f"; films resist rolling by {torque * 1e3:.3g} N mm"
     figure.suptitle(f"{state.name or 'ball bearing'}, {_load(state)}, {speed}{resists}")
+    return written(figure, path)
+
+
+def draw_set(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
+    """Load zones of a `SetState` above contact angles, bearing by bearing; the file's ending gives its format."""
+    from matplotlib.figure import Figure
+
+    columns = len(state.bearings)
+    figure = Figure(figsize=(0.42 * SIZE[0] * columns, 1.6 * SIZE[1]), layout="constrained")
+    for k, (one, facing) in enumerate(zip(state.bearings, state.facings, strict=True)):
+        zone = figure.add_subplot(2, columns, 1 + k, projection="polar")
+        load_zone(zone, one, max(float(each.force.max()) for each in state.bearings))
+        zone.set_title(f"bearing {k}, facing {facing}: {state.axial_forces[k]:.4g} N\nforce on the balls [N]")
+        contact_angles(figure.add_subplot(2, columns, 1 + columns + k), one)
+    speed = f"{state.speed_rpm:g} rev/min" if state.speed_rpm else "at rest"
+    figure.suptitle(f"{state.name or 'set of bearings'}, {_load(state)}, {speed}")
     return written(figure, path)
 
 
@@ -92,17 +109,17 @@ def contact_angles(axes: Any, state: Any) -> None:
     axes.legend(frameon=False, fontsize=8)
 
 
-def load_zone(axes: Any, state: Any) -> None:
-    """Force of every ball, outward from the centre, and the load."""
+def load_zone(axes: Any, state: Any, most: float | None = None) -> None:
+    """Force of every ball, outward from the centre, up to `most` [N], and the load."""
     width = BAR * 2.0 * np.pi / state.angles.size
-    most = float(state.force.max())
+    most = float(state.force.max()) if most is None else most
     axes.bar(state.angles, state.force[:, 1], width=width, color=OUTER, label="outer race")
     axes.bar(state.angles, state.force[:, 0], width=0.6 * width, color=INNER, label="inner race")
     axes.set_rlim(0.0, ROOM * most)
     axes.set_rlabel_position(_free_angle(state))
     axes.grid(**GRID)
     axes.set_axisbelow(True)
-    if state.load[:2].any():
+    if np.hypot(*state.load[:2]) > ROUNDING * most:
         angle = float(np.arctan2(state.load[1], state.load[0]))
         arrow = {"arrowstyle": "-|>", "color": LOAD, "linewidth": 1.6}
         axes.annotate("", xy=(angle, 1.22 * most), xytext=(angle, 1.02 * most), arrowprops=arrow)

@@ -21,12 +21,11 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import Point, moes_point
 from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
-from reduced_models.bearing.freedoms import FACINGS, FIVE, PLANAR, facing_signs
+from reduced_models.bearing.freedoms import FACINGS, FIVE, PLANAR, facing_signs, require_offset
 
 _Floats = NDArray[np.float64]
 
 AXIAL = FIVE.index("z")
-FARTHEST_OFFSET = 0.1  # of a ball diameter: grooves end before
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,7 +154,7 @@ class BearingMount(Summary):
             if self.offset != 0.0:
                 raise InputError("offset", self.offset, "left out: matrices are about rest")
         else:
-            require_offset("offset", self.offset, self.bearing)
+            require_offset("offset", self.offset, self.bearing.ball_diameter)
         if self.housing is not None and len(self.housing) != (2 if self.z is None else 3):
             raise InputError("housing", self.housing, "(x, y), or (x, y, z) with five degrees of freedom")
 
@@ -287,14 +286,6 @@ def require_planar(mount: BearingMount) -> None:
     for name, default in (("facing", FACINGS[0]), ("offset", 0.0), ("arm", 0.0)):
         if getattr(mount, name) != default:
             raise InputError(name, getattr(mount, name), f"left out, or {needed}")
-
-
-def require_offset(name: str, offset: float, bearing: BallBearing) -> None:
-    """Raise `InputError` for a displacement [m] that takes the ring of a bearing out of its grooves."""
-    most = FARTHEST_OFFSET * bearing.ball_diameter
-    if not abs(require_finite(name, offset)) <= most:
-        guess = f" (in µm? then {1e-6 * offset:g} m)" if abs(1e-6 * offset) <= most else ""
-        raise InputError(name, offset, f"between {-most:.3g} and {most:.3g} m{guess}")
 
 
 def require_bearing(name: str, bearing: object) -> None:

@@ -8,7 +8,7 @@ from scipy.optimize import root
 
 from ehlcontact import Lubricant, load, save
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, BearingState
+from reduced_models import BallBearing, BearingSet, BearingState
 from reduced_models.bearing.angular_balls import press_ring
 from reduced_models.bearing.contact_angles import CONTROLS
 from reduced_models.bearing.five_degrees import StaticRing, angular_equilibrium
@@ -115,8 +115,8 @@ def test_axial_rigidity_of_preloaded_pairs():
             contact_angle=radians(angle),
             youngs_modulus=2.08e11,
         )
-        # both bearings of a pair bear the preload: twice the tangent of one
-        found.append([2e-6 * bearing.equilibrium((0.0, 0.0, f)).stiffness[2, 2] for f in preloads])
+        pairs = [BearingSet.pair(bearing, preload=force).equilibrium((0.0, 0.0, 0.0)) for force in preloads]
+        found.append([1e-6 * pair.stiffness[2, 2] for pair in pairs])
         printed.append(rigidity)
         computed.append(other)
     found, printed, computed = np.array(found), np.array(printed), np.array(computed)

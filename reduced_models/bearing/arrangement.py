@@ -1,0 +1,548 @@
+"""`BearingSet`: ball bearings beside each other on one shaft, as preloaded pairs of spindles.
+
+The shaft and the rings are rigid, the outer rings stand still but for those on a spring. z runs along the shaft.
+Seen with z to the right, the contact lines of a bearing that faces "+z" meet the axis on its left. So a pair is
+
+| arrangement | facings | contact lines | clamped |
+|---|---|---|---|
+| back to back (O) | "+z", "-z" | diverge towards the axis: stiff against tilting | by its inner rings |
+| face to face (X) | "-z", "+z" | converge towards the axis | by its outer rings |
+| tandem | "+z", "+z" | parallel: both carry axial load in +z | by the load, or another bearing |
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from math import inf, sin
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+
+from ehlcontact.assumptions import Assumptions
+from ehlcontact.checks import (
+    require_choice,
+    require_finite,
+    require_instance,
+    require_integer,
+    require_names,
+    require_nonnegative,
+    require_positive,
+)
+from ehlcontact.checks.frequency import by_name, radians_per_second
+from ehlcontact.checks.quantity import fields_take, takes
+from ehlcontact.errors import InputError
+from ehlcontact.store import stored
+from ehlcontact.summary import Summary
+from reduced_models.bearing.angular_balls import APPROACH
+from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.equilibrium import angle_of, direction_of
+from reduced_models.bearing.five_degrees import StaticRing, require_in_groove, require_seated, search
+from reduced_models.bearing.freedoms import FACINGS, bearing_load, facing_signs, held_tilt, require_offset
+from reduced_models.bearing.linear_balls import BearingCoefficients
+from reduced_models.bearing.race import assumptions_at_angles
+from reduced_models.bearing.set_state import SetState
+from reduced_models.bearing.static_set import AXIAL, NAMES, SetEquilibrium, SmallSet, StaticSet, ring_rows
+
+_Floats = NDArray[np.float64]
+
+ARRANGEMENTS = {"back to back": FACINGS, "face to face": FACINGS[::-1], "tandem": (FACINGS[0], FACINGS[0])}
+# Distance of bearings side by side over their ball diameter: widths of spindle bearings are 1.6 to 1.9 of them
+SIDE_BY_SIDE = 1.8
+FADED = 0.01  # forces of a bearing with films over those of the most loaded one, below which it is unloaded
+FARTHEST = 10.0  # m, of a bearing from the origin: millimetres are meant beyond
+
+
+@stored("set of ball bearings")
+@fields_take(positions="m", offsets="m", spring="N")
+@dataclass(frozen=True, kw_only=True)
+class BearingSet(Summary):
+    """Ball bearings on one rigid shaft. SI units; axes of the shaft as in `BallBearing`.
+
+    `pair` and `tandem` make the usual ones; `preloaded` and `grown` change the offsets of any.
+
+    Parameters
+    ----------
+    bearings : sequence of BallBearing
+        At least two, which may differ.
+    facings : sequence of {"+z", "-z"}
+        Direction in which the inner ring of each is pressed against its outer ring, and the shaft carried.
+    positions : sequence of float
+        Of the planes of their groove centres along the shaft [m]; loads and moments are those at 0.
+    offsets : sequence of float, optional
+        Displacement of each inner ring along its facing beside that of the shaft [m], by ground rings, spacers or
+        the growth of the shaft: positive ones press. By default 0, where angular contact bearings just touch.
+    spring : float
+        Force [N] of a spring that presses the outer rings of all bearings of one facing, which slide along the
+        shaft, against their balls; it is the same at any displacement.
+    sprung : {"+z", "-z"}, optional
+        That facing; by default none without a spring, and with one that of the last bearing.
+    may_lift_off : bool
+        Whether a load may unload a bearing of a set that offsets preload. By default that is an error, which says
+        the load where it begins.
+    name : str
+
+    Raises
+    ------
+    InputError
+        No such set; an offset in µm, or a position in mm.
+    """
+
+    bearings: Sequence[BallBearing]
+    facings: Sequence[str]
+    positions: Sequence[float]
+    offsets: Sequence[float] = ()
+    spring: float = 0.0
+    sprung: str | None = None
+    may_lift_off: bool = False
+    name: str = ""
+    _known: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
+
+    def __post_init__(self) -> None:
+        bearings = tuple(self.bearings)
+        require_integer("number of bearings", len(bearings), "at least 2", 2)
+        for k, bearing in enumerate(bearings):
+            require_instance(f"bearings[{k}]", bearing, BallBearing, "a BallBearing")
+        offsets = tuple(self.offsets) or (0.0,) * len(bearings)
+        kept = {"bearings": bearings, "facings": self.facings, "positions": self.positions, "offsets": offsets}
+        for name, values in kept.items():
+            if len(values) != len(bearings):
+                raise InputError(name, f"{len(values)} of them", f"one for each of {len(bearings)} bearings")
+            object.__setattr__(self, name, tuple(values))
+        for k, bearing in enumerate(bearings):
+            facing_signs(self.facings[k])
+            if abs(require_finite(f"positions[{k}]", self.positions[k])) > FARTHEST:
+                raise InputError(f"positions[{k}]", self.positions[k], f"at most {FARTHEST:g} m from 0 (in mm?)")
+            require_offset(f"offsets[{k}]", offsets[k], bearing.ball_diameter)
+        require_nonnegative("spring", self.spring)
+        if self.sprung is None and self.spring > 0.0:
+            object.__setattr__(self, "sprung", self.facings[-1])
+        if self.sprung is not None:
+            require_choice("sprung", self.sprung, FACINGS)
+            if self.sprung not in self.facings or set(self.facings) == {self.sprung}:
+                allowed = "the facing of some of the bearings, not of all: the others hold the shaft"
+                raise InputError("sprung", self.sprung, allowed)
+            for k, offset in enumerate(offsets):
+                if self.facings[k] == self.sprung and offset != 0.0:
+                    raise InputError(f"offsets[{k}]", offset, "0 of a bearing on the spring, which takes it up")
+        require_instance("may_lift_off", self.may_lift_off, bool, "True or False")
+
+    @classmethod
+    @takes(distance="m", preload="N", offset="m", spring="N")
+    def pair(
+        cls,
+        bearing: BallBearing,
+        arrangement: str = "back to back",
+        *,
+        other: BallBearing | None = None,
+        distance: float | None = None,
+        preload: float | None = None,
+        offset: float | None = None,
+        spring: float | None = None,
+        **options: Any,
+    ) -> Self:
+        """Two bearings, their planes at equal distances from 0.
+
+        Parameters
+        ----------
+        bearing : BallBearing
+            The first along z.
+        arrangement : {"back to back", "face to face", "tandem"}
+        other : BallBearing, optional
+            The second one; by default like the first.
+        distance : float, optional
+            Of their planes [m]; by default 1.8 times the mean ball diameter, about that of bearings side by side.
+        preload : float, optional
+            Axial force between both [N], set by offsets at mounting: see `preloaded`.
+        offset : float, optional
+            By which both inner rings are pressed together [m], half of it by each.
+        spring : float, optional
+            Force on the outer ring of the second bearing [N], which slides along the shaft.
+        **options
+            ``may_lift_off`` and ``name`` of the class.
+
+        Raises
+        ------
+        InputError
+            No such arrangement; two kinds of preload; bearings in tandem, which cannot preload each other.
+        """
+        require_choice("arrangement", arrangement, tuple(ARRANGEMENTS))
+        require_instance("bearing", bearing, BallBearing, "a BallBearing")
+        given = {"preload": preload, "offset": offset, "spring": spring}
+        given = {name: value for name, value in given.items() if value is not None}
+        if len(given) > 1:
+            raise InputError(
+                " and ".join(given), list(given.values()), "one of them: they preload in different ways"
+            )
+        if given and arrangement == "tandem":
+            name, value = next(iter(given.items()))
+            raise InputError(name, value, "left out: bearings in tandem do not press each other")
+        both = bearing, bearing if other is None else other
+        require_instance("other", both[1], BallBearing, "a BallBearing")
+        if distance is None:
+            distance = SIDE_BY_SIDE * 0.5 * (both[0].ball_diameter + both[1].ball_diameter)
+        apart = 0.5 * require_nonnegative("distance", distance)
+        half = 0.5 * require_finite("offset", 0.0 if offset is None else offset)
+        found = cls(
+            bearings=both,
+            facings=ARRANGEMENTS[arrangement],
+            positions=(-apart, apart),
+            offsets=(half, half),
+            spring=0.0 if spring is None else require_positive("spring", spring),
+            **options,
+        )
+        return found if preload is None else found.preloaded(preload)
+
+    @classmethod
+    @takes(distance="m")
+    def tandem(
+        cls, bearing: BallBearing, count: int = 2, *, distance: float | None = None, **options: Any
+    ) -> Self:
+        """Equal bearings that all face "+z", about 0.
+
+        Parameters
+        ----------
+        bearing : BallBearing
+        count : int
+            At least 2.
+        distance : float, optional
+            Of two neighbours [m]; as of `pair`.
+        **options
+            ``name`` of the class.
+        """
+        require_instance("bearing", bearing, BallBearing, "a BallBearing")
+        require_integer("count", count, "a whole number >= 2", 2)
+        step = (
+            SIDE_BY_SIDE * bearing.ball_diameter if distance is None else require_nonnegative("distance", distance)
+        )
+        positions = (step * (np.arange(count) - 0.5 * (count - 1))).tolist()
+        return cls(bearings=(bearing,) * count, facings=(FACINGS[0],) * count, positions=positions, **options)
+
+    @takes(preload="N")
+    def preloaded(self, preload: float) -> Self:
+        """The set with the offsets with which bearings of both facings press each other.
+
+        Parameters
+        ----------
+        preload : float
+            Axial force [N] that all bearings of either facing carry together without outer load, at mounting: at
+            rest and without films, as catalogues state it. Centrifugal force and films change it at speed:
+            ``equilibrium((0, 0, 0), speed_rpm=...).axial_forces``.
+
+        Raises
+        ------
+        InputError
+            Bearings that all face one way, or are on a spring; a preload that drives balls out of their grooves.
+        """
+        require_positive("preload", preload)
+        if self.sprung is not None:
+            raise InputError("preload", preload, "left out: the spring preloads this set")
+        if len(set(self.facings)) == 1:
+            allowed = f"left out: all bearings face {self.facings[0]}, so that they do not press each other"
+            raise InputError("preload", preload, allowed)
+        by_facing: dict[str, float] = {}
+        for facing in FACINGS:
+            dry = [
+                replace(one, oil=None)
+                for one, own in zip(self.bearings, self.facings, strict=True)
+                if own == facing
+            ]
+            rows = [ring_rows(FACINGS[0], 0.0, False)] * len(dry)
+            rings = [bearing._static_ring(0.0, 0.0, 3) for bearing in dry]
+            body, load = (
+                StaticSet(rings, rows, np.zeros(len(dry)).tolist(), 3, np.zeros(2)),
+                np.array([0.0, 0.0, preload]),
+            )
+            q = search(body, rings, load, load)
+            try:
+                for bearing, at in zip(dry, body.at(q).bearings, strict=True):
+                    require_in_groove(at.found, load, True)
+                    bearing._require_bearable(at.force, load, 0.0)
+            except InputError as error:
+                raise InputError("preload", preload, error.allowed) from None
+            by_facing[facing] = float(q[AXIAL])
+        return replace(self, offsets=tuple(by_facing[facing] for facing in self.facings))
+
+    @takes(growth="m")
+    def grown(self, growth: float) -> Self:
+        """The set with a shaft that has become longer than its housing, or with a longer spacer inside.
+
+        Parameters
+        ----------
+        growth : float
+            Longer distance of the first and the last inner ring than of their outer rings [m], evenly along the
+            shaft. It unloads pairs back to back and presses those face to face.
+
+        Raises
+        ------
+        InputError
+            A growth that leaves play in a preloaded set; it says how much does.
+        """
+        require_finite("growth", growth)
+        places = np.array(self.positions)
+        length = float(np.ptp(places))
+        if length == 0.0:
+            raise InputError("growth", growth, "left out: all bearings are at one place")
+        share = (places - 0.5 * (places.min() + places.max())) / length  # of the growth, along z
+        share *= [0.0 if facing == self.sprung else facing_signs(facing)[AXIAL] for facing in self.facings]
+        longer = replace(self, offsets=tuple((np.array(self.offsets) + growth * share).tolist()))
+        if self._interference > 0.0 >= longer._interference and not self.may_lift_off:
+            most = self._interference * growth / (self._interference - longer._interference)
+            allowed = f"{'below' if growth > 0.0 else 'above'} {most:.4g} m, where the set has lost its preload"
+            raise InputError("growth", growth, allowed)
+        return longer
+
+    @takes(load="N", speed_rpm="rev/min", cage_angle="rad", tilt="rad")
+    def equilibrium(
+        self,
+        load: ArrayLike,
+        *,
+        speed_rpm: float = 0.0,
+        cage_angle: float | None = None,
+        tilt: ArrayLike | None = None,
+    ) -> SetState:
+        """State at rest under a load on the shaft, at 0.
+
+        Parameters
+        ----------
+        load : tuple of 2, 3 or 5 float
+            (Fx, Fy) [N], axial motion and tilts held at 0; (Fx, Fy, Fz), tilts held; or (Fx, Fy, Fz, Mx, My) [N],
+            [N m]. (0, 0, 0) of a preloaded set.
+        speed_rpm : float
+            Speed of the shaft [rev/min], for the films and the inertia of the balls; 0 for dry bearings only.
+        cage_angle : float, optional
+            Angle of the first ball of each bearing from the x axis [rad]; by default it stands under the load.
+        tilt : (float, float), optional
+            About x and y, of the shaft under (Fx, Fy, Fz) [rad]; by default 0.
+
+        Raises
+        ------
+        InputError
+            A load that nothing carries or that unloads a bearing of a preloaded set; one that a bearing does not
+            take, as of `BallBearing.equilibrium`.
+        """
+        force, speed = bearing_load(load), self.speed(speed_rpm)
+        angle = direction_of(force) if cage_angle is None else angle_of(cage_angle)
+        at = self._stand(force, speed, [angle] * len(self.bearings), held_tilt(tilt, force.size))
+        rows = zip(self.bearings, at.bearings, strict=True)
+        return SetState(
+            name=self.name,
+            load=at.load,
+            speed_rpm=speed,
+            displacement=at.displacement,
+            stiffness=at.stiffness,
+            axial_forces=np.array([one.load[AXIAL] for one in at.bearings]),
+            facings=tuple(self.facings),
+            bearings=tuple(bearing._angular_state(one, speed, angle) for bearing, one in rows),
+        )
+
+    @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
+    @by_name(2)
+    def coefficients(
+        self,
+        load: ArrayLike,
+        *,
+        speed_rpm: float = 0.0,
+        cage_angle: float | None = None,
+        omega: ArrayLike | None = None,
+        hz: ArrayLike | None = None,
+        rpm: ArrayLike | None = None,
+    ) -> BearingCoefficients:
+        """Stiffness and damping of a small vibration of the shaft about rest under a load.
+
+        Outer rings on the spring follow without inertia.
+
+        Parameters
+        ----------
+        load : tuple of 2, 3 or 5 float
+            As of `equilibrium`; matrices are those of all five degrees of freedom.
+        speed_rpm : float
+            Speed of the shaft [rev/min].
+        cage_angle : float, optional
+            Of the first ball of each bearing [rad]; by default means over a ball passage of all at once.
+        omega, hz, rpm : float or sequence of float
+            Frequency of the vibration, in exactly one of these.
+
+        Returns
+        -------
+        BearingCoefficients
+        """
+        force, speed = bearing_load(load), self.speed(speed_rpm)
+        w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
+        turns = [bearing._cage_angles(force, cage_angle) for bearing in self.bearings]
+        places = [self._stand(force, speed, angles, np.zeros(2)) for angles in zip(*turns, strict=True)]
+        by_bearing = [[at.bearings[k] for at in places] for k in range(len(self.bearings))]
+        rows = list(zip(self.bearings, by_bearing, strict=True))
+        small = SmallSet([bearing._small_angular(speed, own) for bearing, own in rows], self._rows)
+        judged = [assumptions_at_angles(one, speed, own) for one, own in rows if one.oil is not None]
+        outside = Assumptions.worst_of(judged).headline if judged else ""
+        full = np.mean([at.load for at in places], axis=0)
+        return BearingCoefficients.of(full, speed, cage_angle, w, small.coefficients(w), places, outside)
+
+    @takes(speed_rpm="rev/min")
+    def lift_off(self, direction: str, *, speed_rpm: float = 0.0) -> float:
+        """Axial load [N] in a direction, "+z" or "-z", which unloads a bearing that faces the other way.
+
+        2 sqrt(2) times the preload of an equal pair if the contact angle were constant. 0 where there is play;
+        infinite where no bearing faces the other way, or none that can leave its balls. The force of films only
+        fades: a bearing counts as unloaded when its balls carry 1 % of those of the most loaded bearing.
+        """
+        require_choice("direction", direction, FACINGS)
+        speed, sign = self.speed(speed_rpm), facing_signs(direction)[AXIAL]
+        rings = self._rings(speed, [0.0] * len(self.bearings))
+        signs = [sign * facing_signs(facing)[AXIAL] for facing in self.facings]
+        held = [k for k, facing in enumerate(self.facings) if facing != self.sprung]
+
+        def press(along: float) -> None:
+            """Move the shaft in the direction [m]."""
+            for k in held:
+                rings[k].press(np.eye(5)[AXIAL] * (signs[k] * along + self.offsets[k]))
+
+        def margin(along: float, k: int) -> float:
+            press(along)
+            return _margin(rings, k)
+
+        def leaves(k: int) -> float:
+            first = 0.0 if self.sprung is None else self.offsets[k] - rings[k].longest
+            if margin(first, k) <= 0.0:
+                return 0.0
+            far = self.offsets[k]  # its ring at 0
+            while margin(far, k) > 0.0:
+                if self.bearings[k].contact_angle is None or far > rings[k].balls.grooves.radial:
+                    return inf  # radially preloaded, or pressed on the other side
+                far += rings[k].longest
+            return float(brentq(margin, first, far, args=(k,), xtol=1e-15))
+
+        along = min((leaves(k) for k in held if signs[k] < 0.0), default=inf)
+        if along == inf or (along <= 0.0 and self.sprung is None):
+            return along
+        press(along)
+        spring = self.spring if self.sprung == direction else 0.0
+        return float(spring + sum(signs[k] * rings[k].load[AXIAL] for k in held))
+
+    @property
+    def highest_speed(self) -> float:
+        """Speed [rev/min] up to which the atlas has films for all of them; infinite where they are dry."""
+        return min(bearing.highest_speed for bearing in self.bearings)
+
+    def speed(self, speed_rpm: float) -> float:
+        """The speed [rev/min] where all bearings can run at it; raises `InputError` where not."""
+        for bearing in self.bearings:
+            speed = bearing.speed(speed_rpm)
+        return speed
+
+    @property
+    def _interference(self) -> float:
+        """Displacement [m] by which the rings of opposite bearings are pressed together; below 0 there is play.
+
+        Infinite where a radial preload presses a bearing anyhow, or a spring.
+        """
+        if self.sprung is not None:
+            return inf if self.spring > 0.0 else -inf
+        most = dict.fromkeys(FACINGS, -inf)
+        for bearing, facing, offset in zip(self.bearings, self.facings, self.offsets, strict=True):
+            touches = (
+                0.0 if bearing.contact_angle is not None else bearing._groove_distance * sin(bearing.free_angle)
+            )
+            pressed = inf if bearing.contact_angle is None and bearing.clearance < 0.0 else offset - touches
+            most[facing] = max(most[facing], pressed)
+        return sum(most.values()) if -inf not in most.values() else -inf
+
+    @property
+    def _rows(self) -> list[_Floats]:
+        places = zip(self.facings, self.positions, strict=True)
+        return [ring_rows(facing, position, facing == self.sprung) for facing, position in places]
+
+    def _rings(self, speed: float, angles: Sequence[float]) -> list[StaticRing]:
+        """Of all bearings, the first ball of each at its angle."""
+        return [one._static_ring(speed, angle, 5) for one, angle in zip(self.bearings, angles, strict=True)]
+
+    def _stand(self, load: _Floats, speed: float, angles: Sequence[float], tilt: _Floats) -> SetEquilibrium:
+        """Shaft in equilibrium; raises `InputError` for a load that the set does not take."""
+        if load.size > AXIAL:
+            self._require_carried(load)
+        rings = self._rings(speed, angles)
+        body = StaticSet(rings, self._rows, self.offsets, load.size, tilt)
+        given = np.append(load, self.spring) if self.sprung is not None else load
+        q = search(body, rings, given * body.unit, load)
+        require_seated(body.tangent(q), load, [NAMES[k] for k in body.moves])
+        at = body.at(q)
+        for k, (bearing, one) in enumerate(zip(self.bearings, at.bearings, strict=True)):
+            try:
+                require_in_groove(one.found, load, bearing.contact_angle is not None)
+                bearing._require_bearable(one.force, load, speed)
+            except InputError as error:
+                raise InputError(error.field, error.value, f"{error.allowed}, in bearing {k}") from None
+        self._require_loaded(rings, load, speed)
+        return replace(at, load=np.append(load, at.load[load.size :]))
+
+    def _require_carried(self, load: _Floats) -> None:
+        """Raise `InputError` for an axial load that nothing carries."""
+        for sign, facing in zip((1.0, -1.0), FACINGS, strict=True):
+            rows = zip(self.bearings, self.facings, strict=True)
+            if any(own != self.sprung and (one.contact_angle is None or own == facing) for one, own in rows):
+                continue
+            most = self.spring if self.sprung == facing else 0.0
+            if sign * load[AXIAL] >= most:
+                carried = f"the spring carries {most:g} N" if most > 0.0 else "no bearing carries axial load"
+                side = "below" if sign > 0.0 else "above"
+                allowed = f"one with Fz {side} {sign * most + 0.0:g} N: {carried} in {facing}"
+                raise InputError("load", load.tolist(), allowed)
+
+    @property
+    def _preloads(self) -> bool:
+        return self._interference > 0.0
+
+    def _require_loaded(self, rings: Sequence[StaticRing], load: _Floats, speed: float) -> None:
+        """Raise `InputError` where a load has unloaded a bearing of a set that offsets preload."""
+        if self.may_lift_off or self.sprung is not None or not self._preloads:
+            return
+        for k, facing in enumerate(self.facings):
+            if _margin(rings, k) > 0.0:
+                continue
+            away = FACINGS[1 - FACINGS.index(facing)]
+            begins = self.lift_off(away, speed_rpm=speed)
+            allowed = (
+                f"one that leaves no bearing of the preloaded set unloaded, here bearing {k}: "
+                f"an axial load alone does so from {begins:.4g} N in {away} on (or may_lift_off=True)"
+            )
+            raise InputError("load", load.tolist(), allowed)
+
+    def _summary_lines(self) -> list[str]:
+        names = [
+            bearing.name or f"{bearing.balls} balls of {1e3 * bearing.ball_diameter:.4g} mm"
+            for bearing in self.bearings
+        ]
+        kinds = ", ".join(dict.fromkeys(names))
+        offsets = ", ".join(f"{1e6 * one:.4g}" for one in self.offsets)
+        spring = (
+            f"; spring of {self.spring:.4g} N on those facing {self.sprung}" if self.sprung is not None else ""
+        )
+        return [
+            f"{self.name or 'set'} of {len(self.bearings)} bearings, {kinds}",
+            f"facing {', '.join(self.facings)} at {', '.join(f'{1e3 * one:.4g}' for one in self.positions)} mm",
+            f"offsets {offsets} µm{spring}",
+        ]
+
+    def to_dict(self) -> dict[str, Any]:
+        """All arguments, ready for JSON."""
+        found = {f.name: getattr(self, f.name) for f in fields(self) if f.init}
+        found |= {name: list(found[name]) for name in ("facings", "positions", "offsets")}
+        return found | {"bearings": [bearing.to_dict() for bearing in self.bearings]}
+
+    @classmethod
+    def from_dict(cls, entries: Mapping[str, Any]) -> Self:
+        """Rebuild a set from `to_dict`; raises `InputError` for entries that are missing, unknown or wrong."""
+        require_names(entries, [f.name for f in fields(cls) if f.init])
+        require_instance("bearings", entries["bearings"], list, "a list of objects")
+        return cls(**{**entries, "bearings": [BallBearing.from_dict(one) for one in entries["bearings"]]})
+
+
+def _margin(rings: Sequence[StaticRing], k: int) -> float:
+    """Above 0 while bearing k carries: approach of its most pressed ball [m], or force beyond a share [N]."""
+    ring = rings[k]
+    if ring.balls.inner.x.size == 0:
+        return float(ring.places.found[:, APPROACH].max())
+    return ring.carried() - FADED * max(one.carried() for one in rings)

@@ -1,0 +1,107 @@
+"""`SetState`: a set of bearings on one shaft at rest under a load, bearing by bearing."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.quantities import FORCE, LENGTH, SPEED, STIFFNESS, Quantity
+from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.store import stored
+from ehlcontact.summary import note_line
+from reduced_models.bearing.freedoms import FIVE, in_freedoms, load_words
+from reduced_models.bearing.state import BearingState
+
+_Floats = NDArray[np.float64]
+
+
+@stored("state of a set of bearings")
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SetState(QuantityTable):
+    """A `BearingSet` at rest, in the frame of the shaft.
+
+    Attributes
+    ----------
+    name : str
+        Of the set.
+    load : ndarray, shape (5,)
+        Force and moment on the shaft at 0 [N], [N m], those that held displacements take included.
+    speed_rpm : float
+        Of the shaft [rev/min].
+    displacement : ndarray, shape (5,)
+        Of the shaft at 0 [m], [rad].
+    stiffness : ndarray, shape (5, 5)
+        Slope of the static load [N/m], [N], [N m]; the axial rigidity of a set is ``stiffness[2, 2]``.
+    axial_forces : ndarray, shape (bearings,)
+        Axial force that each bearing carries [N], along its facing; a preload without other load.
+    facings : tuple of str
+    bearings : tuple of BearingState
+        Each as `BallBearing.equilibrium` gives it, in its own frame: z along its facing, moments about its plane.
+    """
+
+    name: str
+    load: Annotated[_Floats, FORCE.over("axis")]
+    speed_rpm: Annotated[float, SPEED]
+    displacement: Annotated[_Floats, LENGTH.over("axis")]
+    stiffness: Annotated[_Floats, STIFFNESS.over("axis by")]
+    axial_forces: Annotated[_Floats, FORCE.over("bearing")]
+    facings: tuple[str, ...]
+    bearings: tuple[BearingState, ...]
+
+    DISPLAY: ClassVar[Display] = Display(rows="bearing", labels={"axis": FIVE, "by": FIVE}, first=0)
+
+    def __post_init__(self) -> None:
+        for name in ("load", "displacement", "stiffness", "axial_forces"):
+            array = np.array(getattr(self, name), dtype=np.float64)
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+
+    def require_complete(self, **sizes: int) -> None:
+        """Raise `ValueError` unless arrays fit the five degrees of freedom and the bearings."""
+        super().require_complete(axis=len(FIVE), by=len(FIVE), bearing=len(self.bearings), **sizes)
+        if len(self.facings) != len(self.bearings):
+            raise ValueError(f"facings has {len(self.facings)} entries, not {len(self.bearings)}")
+
+    def _quantities(self) -> Mapping[str, Quantity]:
+        return in_freedoms(super()._quantities(), len(FIVE))
+
+    def _summary_lines(self) -> list[str]:
+        k = int(np.argmax([one.force[one.heaviest, 0] for one in self.bearings]))
+        most = self.bearings[k]
+        forces = ", ".join(f"{one:.4g}" for one in self.axial_forces.tolist())
+        place = ", ".join(f"{u:.4g}" for u in 1e6 * self.displacement[:3])
+        film = "no film: dry" if most.h_min is None else f"smallest film {1e6 * np.nanmin(most.h_min):.4g} µm"
+        return [
+            f"{self.name or 'set of bearings'}, load {load_words(self.load)} at {self.speed_rpm:.5g} rev/min",
+            f"axial forces of bearings facing {', '.join(self.facings)}: {forces} N",
+            f"shaft displaced by ({place}) µm, axial stiffness {1e-6 * self.stiffness[2, 2]:.4g} N/µm",
+            f"heaviest ball {most.force[most.heaviest, 0]:.4g} N in bearing {k}; {film}",
+            *note_line(self.outside_assumptions),
+        ]
+
+    @property
+    def outside_assumptions(self) -> str:
+        """Assumptions of films that do not hold in the first bearing where one does not; empty where all do."""
+        return next((one.outside_assumptions for one in self.bearings if one.outside_assumptions), "")
+
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """Matplotlib figure of the load zones and the contact angles; into a file too where a path is given.
+
+        Raises
+        ------
+        InputError
+            The file cannot be written.
+        """
+        from reduced_models.bearing.picture import draw_set
+
+        return draw_set(self, path)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        bearings = [one.to_dict() for one in self.bearings]
+        return {"name": self.name, **super().to_dict(), "facings": list(self.facings), "bearings": bearings}
