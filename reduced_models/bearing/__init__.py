@@ -12,6 +12,7 @@
 | ball_steps | time steps of balls, planar or at contact angles, by one interface |
 | five_degrees | a ring with five degrees of freedom in static equilibrium |
 | linear_angular | that ring about rest: impedance at complex frequencies |
+| shoulders | shoulders of the grooves, and contact ellipses that reach over them |
 | arrangement | `BearingSet`: pairs and other sets on one shaft, their preload and growth |
 | static_set | forces and impedances of the bearings of a set, in the frame of the shaft |
 | kinematics | cage, balls and defect frequencies |

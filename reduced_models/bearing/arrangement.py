@@ -39,7 +39,7 @@ from ehlcontact.summary import Summary
 from reduced_models.bearing.angular_balls import APPROACH
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.equilibrium import angle_of, direction_of
-from reduced_models.bearing.five_degrees import StaticRing, require_in_groove, require_seated, search
+from reduced_models.bearing.five_degrees import StaticRing, require_seated, search
 from reduced_models.bearing.freedoms import FACINGS, bearing_load, facing_signs, held_tilt, require_offset
 from reduced_models.bearing.linear_balls import BearingCoefficients
 from reduced_models.bearing.race import assumptions_at_angles
@@ -258,8 +258,7 @@ class BearingSet(Summary):
             q = search(body, rings, load, load)
             try:
                 for bearing, at in zip(dry, body.at(q).bearings, strict=True):
-                    require_in_groove(at.found, load, True)
-                    bearing._require_bearable(at.force, load, 0.0)
+                    bearing._require_in_grooves(at.found, load, 0.0)
             except InputError as error:
                 raise InputError("preload", preload, error.allowed) from None
             by_facing[facing] = float(q[AXIAL])
@@ -471,8 +470,7 @@ class BearingSet(Summary):
         at = body.at(q)
         for k, (bearing, one) in enumerate(zip(self.bearings, at.bearings, strict=True)):
             try:
-                require_in_groove(one.found, load, bearing.contact_angle is not None)
-                bearing._require_bearable(one.force, load, speed)
+                bearing._require_in_grooves(one.found, load, speed)
             except InputError as error:
                 raise InputError(error.field, error.value, f"{error.allowed}, in bearing {k}") from None
         self._require_loaded(rings, load, speed)

@@ -28,7 +28,7 @@ from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.store import stored
 from ehlcontact.summary import Summary
-from reduced_models.bearing.angular_balls import AngularBalls
+from reduced_models.bearing.angular_balls import ANGLE, LOAD, AngularBalls
 from reduced_models.bearing.balls import Balls, SpeedState, speed_state
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
 from reduced_models.bearing.clearance import clearance_of_class
@@ -47,6 +47,7 @@ from reduced_models.bearing.five_degrees import (
     angular_equilibrium,
     free_clearance,
     groove_distance,
+    require_in_groove,
     torsion,
 )
 from reduced_models.bearing.freedoms import FIVE, PLANAR, bearing_load, held_tilt
@@ -73,6 +74,7 @@ from reduced_models.bearing.race import (
     require_roughness,
 )
 from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
+from reduced_models.bearing.shoulders import require_below_shoulders, shoulder_angle
 from reduced_models.bearing.state import BearingState
 from reduced_models.elements.wide_range import WideRangeContact
 
@@ -87,7 +89,7 @@ POSITIONS = 12  # of the cage over a ball passage for means: those of 6205 are w
 @stored("ball bearing")
 @fields_take(
     ball_diameter="m", pitch_diameter="m", clearance="m", rq_ball="m", rq_race="m", film_limit="m",
-    youngs_modulus="Pa", density="kg/m3", contact_angle="rad",
+    youngs_modulus="Pa", density="kg/m3", contact_angle="rad", shoulder_inner="m", shoulder_outer="m",
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
 class BallBearing(Summary):
@@ -120,6 +122,9 @@ class BallBearing(Summary):
         the outer race, which centrifugal force makes hold at the speeds where it matters; none at the inner race;
         a share of both by their moments of friction; or the first with the direction of the gyroscopic moment that
         published tables have (`reduced_models.bearing.contact_angles`).
+    shoulder_inner, shoulder_outer : float, optional
+        Diameters of the shoulders beside the grooves [m], as catalogues have them: loads under which a contact
+        ellipse reaches over one are refused (`reduced_models.bearing.shoulders`).
     oil : Lubricant, optional
         Flooded contacts, by the atlas. None is dry: Hertz' contacts without film or damping.
     rq_ball, rq_race : float, optional
@@ -164,6 +169,8 @@ class BallBearing(Summary):
     atlas: str | None = None
     contact_angle: float | None = None
     race_control: str = "outer"
+    shoulder_inner: float | None = None
+    shoulder_outer: float | None = None
     _known: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def _summary_lines(self) -> list[str]:
@@ -211,6 +218,7 @@ class BallBearing(Summary):
             if abs(self.clearance - own) > SAME_CLEARANCE * own:
                 allowed = f"left out beside a contact angle, which makes it {own:.4g} m with these conformities"
                 raise InputError("clearance", self.clearance, allowed)
+        self._known["shoulders"] = {name: shoulder_angle(self, name) for name in RACES}
         if self.oil is not None:
             for race in races.values():
                 race.require_in_atlas()
@@ -445,6 +453,7 @@ class BallBearing(Summary):
     def _stand(self, load: _Floats, speed: float, angle: float) -> RingEquilibrium:
         standing = ring_equilibrium(self._static_balls(speed, angle), load)
         self._require_bearable(standing.force, load, speed)
+        require_below_shoulders(self, np.zeros_like(standing.force), standing.force, load)
         return standing
 
     def _require_bearable(self, force: _Floats, load: _Floats, speed: float) -> None:
@@ -459,6 +468,9 @@ class BallBearing(Summary):
         if force.size == len(PLANAR) and self.contact_angle is not None:
             allowed = "(Fx, Fy, Fz) or (Fx, Fy, Fz, Mx, My): an angular contact bearing needs an axial load"
             raise InputError("load", force.tolist(), allowed)
+        if self.contact_angle is not None and force[2] <= 0.0:
+            allowed = "one with Fz > 0: an angular contact bearing carries axial load in +z only"
+            raise InputError("load", force.tolist(), f"{allowed} (a BearingSet has others that face -z)")
         return force
 
     def _stand_at_angles(
@@ -470,9 +482,16 @@ class BallBearing(Summary):
         first: _Floats | None = None,
     ) -> AngularEquilibrium:
         ring = self._static_ring(speed, angle, load.size, tilt)
-        at = angular_equilibrium(ring, load, self.contact_angle is not None, first)
-        self._require_bearable(at.force, load, speed)
+        at = angular_equilibrium(ring, load, first)
+        self._require_in_grooves(at.found, load, speed)
         return at
+
+    def _require_in_grooves(self, found: _Floats, load: _Floats, speed: float) -> None:
+        """Raise `InputError` for balls (balls, ENTRIES) of `angular_balls` that a groove or a race does not bear."""
+        require_in_groove(found, load, self.contact_angle is not None)
+        force = found[:, LOAD : LOAD + 2]
+        require_below_shoulders(self, found[:, ANGLE : ANGLE + 2], force, load)
+        self._require_bearable(force, load, speed)
 
     def _static_ring(self, speed: float, angle: float, free: int, tilt: _Floats | None = None) -> StaticRing:
         """Inner ring of `free` degrees of freedom on balls at contact angles, the first ball at `angle`."""
@@ -620,4 +639,5 @@ def require_contact_angle(angle: float) -> None:
     if not 0.0 < require_finite("contact_angle", angle) <= LARGEST_ANGLE:
         allowed = f"above 0 and at most {LARGEST_ANGLE:.4g} rad (45 degrees)"
         given = f"; {angle:g} degrees are {np.radians(angle):.4g} rad" if LARGEST_ANGLE < angle <= 45.0 else ""
+        given = '; a bearing of the other hand has facing="-z" in its set or mount' if angle < 0.0 else given
         raise InputError("contact_angle", angle, allowed + given)

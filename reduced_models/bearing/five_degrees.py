@@ -175,35 +175,26 @@ class AngularEquilibrium:
         return np.column_stack([by_i / roll_i, by_o / roll_o])
 
 
-def angular_equilibrium(
-    ring: StaticRing, load: _Floats, one_way: bool = False, first: _Floats | None = None
-) -> AngularEquilibrium:
+def angular_equilibrium(ring: StaticRing, load: _Floats, first: _Floats | None = None) -> AngularEquilibrium:
     """Ring in equilibrium under `load`, shape (3,) or (5,) [N], [N m].
 
     Parameters
     ----------
-    one_way : bool
-        Balls carry at positive contact angles only: an angular contact bearing.
     first : ndarray, shape (5,), optional
         Displacement from which it is searched [m], [rad].
 
     Raises
     ------
     InputError
-        A load that does not seat it, or that presses a ball out of its groove.
+        A load that does not seat it.
     ConvergenceError
         No balance was found.
     """
-    if one_way and load[2] <= 0.0:
-        allowed = "one with Fz > 0: an angular contact bearing carries axial load in +z only"
-        raise InputError("load", load.tolist(), allowed)
     near = None if first is None else first[: ring.free] / ring.unit
     q = search(ring, [ring], load * ring.unit, load, near)
     require_seated(ring.tangent(q), load, FIVE)
     found = equilibrium_at(ring, ring.displacement(q))
-    found = replace(found, load=np.append(load, found.load[load.size :]))
-    require_in_groove(found.found, load, one_way)
-    return found
+    return replace(found, load=np.append(load, found.load[load.size :]))
 
 
 def equilibrium_at(ring: StaticRing, displacement: _Floats) -> AngularEquilibrium:
@@ -338,7 +329,8 @@ def _grow(
 def require_in_groove(found: _Floats, load: _Floats, one_way: bool) -> None:
     """Raise `InputError` where a ball that both rings press leaves its groove.
 
-    `found` has shape (balls, ENTRIES), see `angular_balls`.
+    `found` has shape (balls, ENTRIES), see `angular_balls`; with `one_way` balls carry at positive contact angles
+    only, as of an angular contact bearing.
     """
     inner, outer = found[:, APPROACH], found[:, APPROACH + 1]
     pressed = (inner + outer > 0.0) & (found[:, LOAD] > CARRIES * found[:, LOAD].max())

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models.bearing.angular_balls import LOAD
-from reduced_models.bearing.five_degrees import grow_gyroscopic, require_in_groove
+from reduced_models.bearing.five_degrees import grow_gyroscopic
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.rotor.scaled_contact import has_tangents
 from reduced_models.rotor.supports import (
@@ -87,8 +86,7 @@ class StaticAngularBalls:
         load, found = self.force(r), self.ring.places.found
         shown = np.array([float(f"{one:.4g}") for one in load])
         try:
-            require_in_groove(found, shown, self.bearing.contact_angle is not None)
-            self.bearing._require_bearable(found[:, LOAD : LOAD + 2], shown, self.speed)
+            self.bearing._require_in_grooves(found, shown, self.speed)
         except InputError as error:
             raise InputError(f"{error.field} of {self._name}", error.value, error.allowed) from None
 

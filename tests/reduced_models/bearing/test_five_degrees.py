@@ -314,7 +314,7 @@ def test_bad_input():
     sizes = {key: value for key, value in SPINDLE.items() if key != "contact_angle"}
     refused("contact_angle = 25.0: .*25 degrees are 0.4363 rad", lambda: BallBearing(**sizes, contact_angle=25.0))
     refused("contact_angle = 0.9: .*45 degrees", lambda: BallBearing(**sizes, contact_angle=0.9))
-    refused("contact_angle = -0.1: must be above 0", lambda: BallBearing(**sizes, contact_angle=-0.1))
+    refused("contact_angle = -0.1: must be above 0 .*facing=", lambda: BallBearing(**sizes, contact_angle=-0.1))
     refused("clearance = 1e-05: .*5.95e-05 m", lambda: BallBearing(**SPINDLE, clearance=1e-5))
     assert BallBearing(**SPINDLE, clearance=5.95e-5).free_angle == SPINDLE["contact_angle"]
     refused(

@@ -1,10 +1,12 @@
 """Random bearings under random loads: an answer that balances, or one line that says why there is none."""
 
 from collections import Counter
+from math import acos, asin, cos, radians
 
 import numpy as np
 import pytest
-from balls_in_balance import imbalance, random_bearing, random_load
+from balls_in_balance import imbalance, races_by_hand, random_bearing, random_load
+from scipy.optimize import brentq
 
 from ehlcontact import Lubricant
 from ehlcontact.errors import InputError
@@ -70,6 +72,31 @@ def test_balls_that_the_inner_ring_has_left_by_far():
         bearing = BallBearing(**dict(zip((*names, "race_control", "contact_angle"), sizes, strict=True)))
         state = bearing.equilibrium(load, speed_rpm=rpm)
         assert imbalance(bearing, state, load) < 1e-9
+
+
+@pytest.mark.parametrize("race", ["inner", "outer"])
+def test_contact_ellipses_end_at_the_shoulders(race):
+    """Axial load at which an ellipse reaches the shoulder, from Hertz and the groove by hand."""
+    angle, D, pitch, f = radians(25.0), 7.938e-3, 38.5e-3, 0.52
+    sizes = {"balls": 13, "ball_diameter": D, "pitch_diameter": pitch, "contact_angle": angle}
+    bottom = 0.5 * pitch + (-0.5 if race == "inner" else 0.5) * D * (2.0 * f * (1.0 - cos(angle)) + cos(angle))
+    height = 0.2 * D
+    diameter = 2.0 * (bottom + height if race == "inner" else bottom - height)
+    bearing = BallBearing(**sizes, **{f"shoulder_{race}": diameter})
+    column = 0 if race == "inner" else 1
+    across = races_by_hand(bearing)[column][1]
+
+    def reach(force):
+        state = BallBearing(**sizes).equilibrium((0.0, 0.0, force))
+        edge = asin(across * np.cbrt(state.force[0, column]) / (f * D))
+        return float(state.contact_angles[0, column]) + edge - acos(1.0 - height / (f * D))
+
+    most = brentq(reach, 10.0, 20000.0, xtol=1e-9)
+    assert bearing.equilibrium((0.0, 0.0, 0.9999 * most)).load[2] == pytest.approx(0.9999 * most)
+    with pytest.raises(InputError, match=f"load = .*below the shoulder of the {race} race .*at ball"):
+        bearing.equilibrium((0.0, 0.0, 1.0001 * most))
+    with pytest.raises(InputError, match=f"shoulder_{race} = .*: must be between .* m, the bottom of the groove"):
+        BallBearing(**sizes, **{f"shoulder_{race}": 1e3 * diameter})
 
 
 def test_preloaded_ring_that_is_held_tilted_without_a_load():
