@@ -29,5 +29,6 @@
 | state | `BearingState`: a bearing at rest, ball by ball |
 | set_state | `SetState`: a set at rest, bearing by bearing |
 | ross_bearing | bearings as elements of ROSS |
+| friction | moment of friction by SKF's published model |
 | picture | figures |
 """

@@ -51,6 +51,7 @@ from reduced_models.bearing.five_degrees import (
     torsion,
 )
 from reduced_models.bearing.freedoms import FIVE, PLANAR, bearing_load, held_tilt
+from reduced_models.bearing.friction import friction_under
 from reduced_models.bearing.kinematics import (
     HERTZ,
     RADIANS,
@@ -349,6 +350,7 @@ class BallBearing(Summary):
             force=at.force,
             approach=at.approach,
             **({} if self.oil is None else films_under(self, speed, at.force, at.approach)),
+            **friction_under(self, force, speed),
         )
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
@@ -520,6 +522,7 @@ class BallBearing(Summary):
             orbit=at.orbit,
             turn=at.turn,
             **({} if self.oil is None else films_at_angles(self, speed, at)),
+            **friction_under(self, at.load, speed),
         )
 
     def _angular_balls(self, speeds_rpm: ArrayLike) -> AngularBalls:

@@ -58,6 +58,9 @@ class BearingState(QuantityTable):
         Torque on the inner ring [N m] that these moments take: `reduced_models.bearing.kinematics.rolling_torque`.
         The hydrodynamic rolling resistance alone. Not in it: sliding, spin and the slip within curved contacts;
         cage, seals and churned oil; hysteresis of the steel; that a hot or starved inlet resists less.
+    skf_rolling, skf_sliding : float or None
+        Moments of friction by SKF's published model, an empirical one [N m], in an oil bath of mineral oil:
+        `reduced_models.bearing.friction`. None in a dry bearing, and in one whose series has no constants there.
     outside_assumptions : str
         Assumptions of films that do not hold at the heaviest ball (`ehlcontact.assumptions`); empty where none.
     contact_angles : ndarray, shape (balls, 2), or None
@@ -84,6 +87,8 @@ class BearingState(QuantityTable):
     lambda_ratio: Annotated[_Floats | None, NUMBER.over("ball race")] = None
     moment: Annotated[_Floats | None, MOMENT.over("ball race")] = None
     rolling_torque: Annotated[float | None, MOMENT] = None
+    skf_rolling: Annotated[float | None, MOMENT] = None
+    skf_sliding: Annotated[float | None, MOMENT] = None
     outside_assumptions: str = ""
     contact_angles: Annotated[_Floats | None, RADIAN.over("ball race")] = None
     spin_to_roll: Annotated[_Floats | None, NUMBER.over("ball race")] = None
@@ -134,6 +139,8 @@ class BearingState(QuantityTable):
             lines.append("no film: dry")
         torque = self.rolling_torque
         lines[-1] += "" if torque is None else f"; films resist rolling with {1e3 * torque:.4g} N mm"
+        if self.friction_torque is not None:
+            lines[2] += f"; friction {1e3 * self.friction_torque:.4g} N mm, its sliding part by SKF"
         return [*lines, *note_line(self.outside_assumptions)]
 
     @property
@@ -163,6 +170,18 @@ class BearingState(QuantityTable):
     def rolling_loss(self) -> float | None:
         """Power [W] that `rolling_torque` takes from the shaft."""
         return None if self.rolling_torque is None else self.rolling_torque * self.speed_rpm * RADIANS
+
+    @property
+    def friction_torque(self) -> float | None:
+        """Rolling torque of the films and the sliding part of SKF's model together [N m]; without seals."""
+        if self.rolling_torque is None or self.skf_sliding is None:
+            return None
+        return self.rolling_torque + self.skf_sliding
+
+    @property
+    def friction_loss(self) -> float | None:
+        """Power [W] that `friction_torque` takes from the shaft."""
+        return None if self.friction_torque is None else self.friction_torque * self.speed_rpm * RADIANS
 
     def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
         """Matplotlib figure of the load zone and the films; into a file too where a path is given.

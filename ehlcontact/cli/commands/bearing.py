@@ -55,6 +55,8 @@ UNITS = {
     "lambda_ratio": "smallest film over composite roughness",
     "moment": "N m",
     "rolling_torque": "N m",
+    "skf_rolling": "N m; by SKF's published model, as skf_sliding",
+    "skf_sliding": "N m",
     "bearing": "SI, roughness and clearance too",
 }
 
@@ -248,7 +250,11 @@ def _resistance(state: BearingState) -> list[Row]:
     if state.rolling_torque is None or state.rolling_loss is None:
         return []
     loss = f"{numeral(state.rolling_loss)} W; without sliding, cage, churning"
-    return [("films resist rolling", in_unit(state.rolling_torque, "N m"), loss)]
+    rows = [("films resist rolling", in_unit(state.rolling_torque, "N m"), loss)]
+    if state.friction_torque is not None and state.friction_loss is not None:
+        loss = f"{numeral(state.friction_loss)} W; its sliding part by SKF's published model"
+        rows.append(("friction of the bearing", in_unit(state.friction_torque, "N m"), loss))
+    return rows
 
 
 def _defects(b: BallBearing, speed_rpm: float) -> list[Row]:
