@@ -14,7 +14,7 @@ NODES = {"rotor": {"x": 0, "y": 1, "tilt_x": 3, "tilt_y": 4}, "shaft": {"z": 2}}
 
 
 def rigid(first, second, offset=OFFSET, load=None, **others):
-    """A rigid rotor between two bearings that its shaft presses together, or apart with ``apart=True``."""
+    """A rigid rotor on two bearings back to back, or face to face with ``apart=True``."""
     facings = ("-z", "+z") if others.pop("apart", False) else ("+z", "-z")
     gyroscopic = np.zeros((5, 5))
     gyroscopic[3, 4], gyroscopic[4, 3] = POLAR, -POLAR
@@ -75,7 +75,7 @@ def motor(bearing, **second):
         Shaft(length=0.2, diameter=0.02),
         discs=[Disc.cylinder(position=0.1, diameter=0.08, width=0.06, bore=0.02, unbalance=2e-6)],
         supports=[
-            Support(position=0.02, bearing=bearing, facing="+z"),
-            Support(position=0.18, bearing=bearing, facing="-z", **second),
+            Support(position=0.02, bearing=bearing, facing="-z"),
+            Support(position=0.18, bearing=bearing, facing="+z", **second),
         ],
     )

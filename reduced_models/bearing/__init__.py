@@ -11,6 +11,8 @@
 | angular_steps | compiled: balls at contact angles over time steps, with their films |
 | ball_steps | time steps of balls, planar or at contact angles, by one interface |
 | five_degrees | a ring with five degrees of freedom in static equilibrium |
+| angular_steps | compiled: the same balls over time steps, with their films |
+| ball_steps | compiled: time steps of balls of either kind by one interface |
 | linear_angular | that ring about rest: impedance at complex frequencies |
 | shoulders | shoulders of the grooves, and contact ellipses that reach over them |
 | arrangement | `BearingSet`: pairs and other sets on one shaft, their preload and growth |

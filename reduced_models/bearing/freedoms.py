@@ -82,7 +82,7 @@ def require_offset(name: str, offset: float, ball_diameter: float) -> None:
     """Raise `InputError` for a displacement [m] that takes the ring of a bearing out of its grooves."""
     most = FARTHEST_OFFSET * ball_diameter
     if not abs(require_finite(name, offset)) <= most:
-        guess = f" (in µm? then {1e-6 * offset:g} m)" if abs(1e-6 * offset) <= most else ""
+        guess = f" (in µm? then {1e-6 * offset:g} m)" if 0.1 <= abs(offset) <= 1e6 * most else ""
         raise InputError(name, offset, f"between {-most:.3g} and {most:.3g} m{guess}")
 
 

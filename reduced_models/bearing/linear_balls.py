@@ -23,7 +23,7 @@ from ehlcontact.results.table import Display
 from ehlcontact.summary import note_line, span
 from reduced_models.bearing.balls import Balls, SpeedState
 from reduced_models.bearing.equilibrium import RingEquilibrium
-from reduced_models.bearing.freedoms import in_freedoms, labelled, load_words
+from reduced_models.bearing.freedoms import PLANAR, in_freedoms, labelled, load_words
 from reduced_models.bearing.loss import Loss, response
 from reduced_models.bearing.race_contact import curve, film_cutoff, film_made
 from reduced_models.bearing.race_table import RaceForceTable
@@ -162,10 +162,17 @@ class BearingCoefficients(FrequencyResponse):
 
     def _summary_lines(self) -> list[str]:
         K, C = self.stiffness, self.damping
+        axial = []
+        if K.shape[1] > len(PLANAR):
+            axial = [
+                f"K_zz {span(K[:, 2, 2], 1e-6, 'N/µm')}, C_zz {span(C[:, 2, 2], 1.0, 'N s/m')}",
+                f"tilt about x {span(K[:, 3, 3], 1e-3, 'N m/mrad')}, about y {span(K[:, 4, 4], 1e-3, 'N m/mrad')}",
+            ]
         return [
             f"load {load_words(self.load)} at {self.speed_rpm:.5g} rev/min, {span(self.hz, 1.0, 'Hz')}",
             f"K_xx {span(K[:, 0, 0], 1e-6, 'N/µm')}, K_yy {span(K[:, 1, 1], 1e-6, 'N/µm')}",
             f"C_xx {span(C[:, 0, 0], 1.0, 'N s/m')}, C_yy {span(C[:, 1, 1], 1.0, 'N s/m')}",
+            *axial,
             "means over a ball passage" if self.cage_angle is None else f"cage at {self.cage_angle:.4g} rad",
             *note_line(self.outside_assumptions),
         ]

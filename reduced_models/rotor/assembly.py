@@ -87,6 +87,10 @@ def rotor_on_bearings(
             raise InputError("axial", axial, "True: a bearing or a load needs axial motion")
     if (needed or axial) and shaft.density == 0.0:
         raise InputError("shaft.density", 0.0, "> 0 with axial motion: bearings hold tilts, which need inertia")
+    springs = [one.preload for one in supports]
+    if None not in springs and not any(one.preload_stiffness for one in supports):
+        allowed = "left out at one support at least: nothing holds a shaft whose outer rings are all free along it"
+        raise InputError("preload", springs, allowed)
     return _Assembly(shaft, discs, supports, pull, needed if axial is None else axial).rotor()
 
 

@@ -88,7 +88,8 @@ class StaticAngularBalls:
         try:
             self.bearing._require_in_grooves(found, shown, self.speed)
         except InputError as error:
-            raise InputError(f"{error.field} of {self._name}", error.value, error.allowed) from None
+            other = "; or change its facing" if self.bearing.contact_angle is not None else ""
+            raise InputError(f"{error.field} of {self._name}", error.value, error.allowed + other) from None
 
 
 def static_supports(mounts: Sequence[Mount], speed_rpm: float) -> list[tuple[slice, StaticSupport]]:

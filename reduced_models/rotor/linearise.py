@@ -50,6 +50,7 @@ SHOWN = 8  # modes, unless another number is given
 SLOW = 1e-3  # rad/s, stands for rest where damping is computed: films forget in less than a second
 FREE = 1e-9  # of the largest stiffness, what rounding leaves where a rotor is free
 UNLOADED = 1e-9  # of its heaviest ball, the load of a preloaded bearing that is the rounding of none
+ALONG = 0.5  # share of the motion of a mode from which it is along the shaft
 VERTICAL = 0.5  # share of the motion of a mode from which it counts as vertical
 
 
@@ -142,6 +143,8 @@ class LinearRotor(Summary):
         """The slowest mode along each direction, "x" or "y", by the larger share of its motion."""
         found: dict[str, RotorMode] = {}
         for mode in self.modes(None):
+            if mode.axial_share > ALONG:
+                continue
             found.setdefault("y" if mode.vertical_share >= VERTICAL else "x", mode)
         return found
 

@@ -22,7 +22,7 @@ from scipy import linalg
 
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.summary import Summary
-from reduced_models.rotor.nodes import ByNode
+from reduced_models.rotor.nodes import LENGTHS, ByNode
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -72,7 +72,12 @@ class RotorMode(Summary, ByNode):
     def _summary_lines(self) -> list[str]:
         return [
             f"{self.hz:.5g} Hz, logarithmic decrement {self.decrement:.4g}, whirl {self.whirl:.3g}",
-            f"{100.0 * self.support_share:.3g} % of the strain energy in the supports",
+            f"{100.0 * self.support_share:.3g} % of the strain energy in the supports"
+            + (
+                f", {100.0 * self.axial_share:.3g} % of the motion along the shaft"
+                if "shaft z" in self.names
+                else ""
+            ),
         ]
 
     @property
@@ -103,6 +108,18 @@ class RotorMode(Summary, ByNode):
         up = sum(square for place, square in squares.items() if found[place] == "y")
         whole = sum(squares.values())
         return up / whole if whole > 0.0 else 0.0
+
+    @property
+    def axial_share(self) -> float:
+        """Share of the squared displacements of the named nodes that is along the shaft."""
+        squares = {
+            at[name]: (name, float(np.abs(self.shape[at[name]]) ** 2))
+            for at in self.nodes.values()
+            for name in LENGTHS
+            if name in at
+        }
+        whole = sum(square for _, square in squares.values())
+        return sum(square for name, square in squares.values() if name == "z") / whole if whole > 0.0 else 0.0
 
     def to_dict(self) -> dict[str, float]:
         """Frequency, decrement and shares, ready for JSON."""

@@ -42,6 +42,9 @@ class ByNode:
         if name not in nodes:
             known = f"one of {', '.join(nodes)}" if nodes else "none: the rotor has no names"
             raise InputError("node", name, known)
+        if nodes[name].keys().isdisjoint(PLANE):
+            places = ", ".join(f"nodes[{name!r}][{one!r}] = {place}" for one, place in nodes[name].items())
+            raise InputError("node", name, f"one that moves across the shaft; its degrees of freedom are {places}")
         found = np.zeros((*values.shape[:-1], len(PLANE)), values.dtype)
         for k, direction in enumerate(PLANE):
             if direction in nodes[name]:

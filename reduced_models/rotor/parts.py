@@ -260,13 +260,15 @@ class Support(Summary):
     housing_stiffness, housing_damping : float, (float, float) or (float, float, float), optional
         Between the housing and the ground, along x, y and z [N/m], [N s/m]; of two values z has the first.
     facing : {"+z", "-z"}
-        Direction in which the inner ring is pressed against the outer one; z runs from the left end of the shaft.
+        Direction in which the inner ring is pressed against the outer one; z runs from the left end of the shaft
+        to the right. "+z" left and "-z" right is back to back, the reverse face to face.
     offset : float
         Displacement of the inner ring along its facing beside that of the shaft [m]; positive presses the bearing:
-        rigid preload by ground rings or spacers, axial growth of the shaft.
+        rigid preload by ground rings or spacers; growth of a shaft, which relieves bearings back to back.
     preload : float, optional
         Force of a spring on an outer ring that is free to move along the shaft, pressing the bearing [N]; 0: a
-        floating bearing. By default the outer ring is fixed along the shaft.
+        floating bearing. By default the outer ring is fixed along the shaft. The spring pushes the outer ring
+        against `facing`.
     preload_stiffness : float
         Of that spring [N/m]; 0: its force is constant.
     outer_ring_mass : float, optional
@@ -330,6 +332,8 @@ class Support(Summary):
             require_nonnegative("preload", self.preload)
             if self.housing_mass is not None:
                 raise InputError("preload", self.preload, "left out with a housing, whose springs hold it along z")
+            if self.offset != 0.0:
+                raise InputError("offset", self.offset, "left out beside preload: the outer ring gives way to it")
         require_nonnegative("preload_stiffness", self.preload_stiffness)
         if self.outer_ring_mass is not None:
             require_positive("outer_ring_mass", self.outer_ring_mass)

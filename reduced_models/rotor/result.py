@@ -32,7 +32,8 @@ class RotorResult(QuantityTable, ByNode):
     """Histories of a rotor run in SI; entry 0 is the start.
 
     A support has a column for each of its directions: a contact one, the approach; a bearing x and y of the inner
-    ring against the outer one. Contacts come first, then bearings, in the order of the rotor's supports.
+    ring against the outer one, or x, y, z, tilt_x and tilt_y [rad], [N m], in its own frame. Contacts
+    come first, then bearings, in the order of the rotor's supports.
 
     Attributes
     ----------
@@ -99,15 +100,17 @@ class RotorResult(QuantityTable, ByNode):
 
     def _summary_lines(self) -> list[str]:
         nodes = f"nodes {', '.join(self.nodes)}" if self.names else "nodes without names"
+        pushing = [k for k, name in enumerate(self.columns) if " tilt_" not in name]
         lines = [
             f"{self.status} after {len(self.t) - 1} steps to {self.t[-1]:.4g} s, {span(self.speed_rpm)} rev/min",
             f"{self.displacement.shape[1]} degrees of freedom, {nodes}",
-            f"forces {span(self.force, 1.0, 'N')} of {', '.join(self.columns)}",
+            f"forces {span(self.force[:, pushing], 1.0, 'N')} of {', '.join(self.columns[k] for k in pushing)}",
         ]
         if self.largest_load.size:
             far = 1e6 * float(np.hypot(*np.moveaxis(self.ring, -1, 0)[:2]).max())
+            along = f" and {1e6 * np.abs(self.ring[..., 2]).max():.4g} µm along" if self.ring.shape[2] > 2 else ""
             most = self.largest_load.max()
-            lines.append(f"rings within {far:.4g} µm of the centre, largest force on a ball {most:.4g} N")
+            lines.append(f"rings within {far:.4g} µm of the centre{along}, largest force on a ball {most:.4g} N")
         return lines
 
     def node(self, name: str) -> _Floats:
