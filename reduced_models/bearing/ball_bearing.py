@@ -489,7 +489,7 @@ class BallBearing(Summary):
         return at
 
     def _require_in_grooves(self, found: _Floats, load: _Floats, speed: float) -> None:
-        """Raise `InputError` for balls (balls, ENTRIES) of `angular_balls` that a groove or a race does not bear."""
+        """Raise `InputError` for balls (balls, ENTRIES) of `angular_balls` beyond what grooves and races bear."""
         require_in_groove(found, load, self.contact_angle is not None)
         force = found[:, LOAD : LOAD + 2]
         require_below_shoulders(self, found[:, ANGLE : ANGLE + 2], force, load)
