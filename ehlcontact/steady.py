@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from math import inf
 
 import numpy as np
 
@@ -28,6 +29,7 @@ from ehlcontact.status import Status
 LARGEST_RESIDUAL = 0.1  # relative, of a converged film: what is solved is judged by the pressure
 LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7
+BUDGET = 60.0  # s of one core: all but the thinnest side lobes take far less
 MAX_CYCLES = 80  # of V cycles: films of the box take up to 18
 LARGEST_APPROACH = 1e9  # beyond all that is solved, and its power still a number
 
@@ -42,6 +44,7 @@ def solve_steady(
     max_cycles: int = MAX_CYCLES,
     method: str = "automatic",
     refine: bool = True,
+    budget: float = BUDGET,
     threads: int | None = None,
     throw: bool = True,
     callback: Callable[[int, float], None] | None = None,
@@ -75,6 +78,10 @@ def solve_steady(
     refine : bool
         False, with the number of intervals left out, accepts the first grid that gives a film, with a quarter of
         the nodes or fewer: the smallest film may be off by a third (``result.error_estimate``).
+    budget : float
+        Time of one core [s] that all attempts at a film may be expected to take, by the nodes of their grids, with
+        the number of intervals left out; ``math.inf`` for no limit. The first attempt is always made. The best
+        film so far, with its status and error estimate, is returned or raised.
     threads : int, optional
         Threads that share the work, at most the cores there are; by default all of them, within the present limits
         of BLAS, and one in the processes of a pool. Results are the same, bit for bit, for any number.
@@ -102,6 +109,8 @@ def solve_steady(
     require_choice("method", method, tuple(METHODS))
     require_grid(grid)
     threads = require_threads("threads", threads)
+    if budget != inf:
+        require_positive("budget", budget)
     if approach is None:
         balance, load = Balance.of_load(), 1.0
     else:
@@ -109,7 +118,17 @@ def solve_steady(
         load = min(max(approach, 1.0), LARGEST_APPROACH) ** 1.5  # of a dry contact
     moes, scales = require_solvable(point, load), scales_of(point)
     cut_short = max_cycles < MAX_CYCLES  # the caller's own limit: nothing else is what was asked for
-    for attempt in attempts(moes, grid, method, largest_load=load, refine=refine, cut_short=cut_short):
+    tried = []
+    for attempt in attempts(
+        moes,
+        grid,
+        method,
+        largest_load=load,
+        refine=refine,
+        cut_short=cut_short,
+        budget=budget if grid.n is None else inf,
+    ):
+        tried.append(attempt)
         film = _Film(moes, attempt.mesh, attempt.method, grid.deflection, threads)
         attempt.status = film.run(balance=balance, tol=tol, most=max_cycles, watch=callback)
         attempt.error_estimate = film.error_estimate
@@ -120,7 +139,8 @@ def solve_steady(
     result = solved.result(status, scales, time.perf_counter() - started)
     if throw and not status.ok and status is not Status.INTERRUPTED:
         where = f"after {result.cycles} iterations on n = {result.n}"
-        raise ConvergenceError(f"steady solve {status} {where}: {status.advice}", result)
+        more = f" More would be tried with a budget above {budget:g} s." if any(a.cut for a in tried) else ""
+        raise ConvergenceError(f"steady solve {status} {where}: {status.advice}{more}", result)
     return result
 
 

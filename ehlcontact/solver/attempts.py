@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from math import inf
 from typing import NamedTuple
 
 from ehlcontact.point import MoesPoint
@@ -47,6 +48,10 @@ METHODS = {
 CONTINUATION = Method(newton=False, sweep_factor=1, load_continuation=True)
 CLOSE_LAST_RESORT = Method(newton=True, sweep_factor=1)
 CLOSE_METHODS = (Method(False, 1), CONTINUATION, CLOSE_LAST_RESORT)
+# Time of one core per node [s], measured with kappa from 1 to 5: cycles that settle a film take 5e-6 to 2e-5,
+# those that fail up to 4.4e-5. Expected times make what is tried depend on the grids, not on the machine.
+CYCLES_TIME, FAILED_TIME, CONTINUATION_TIME, NEWTON_TIME = 1e-5, 4.4e-5, 4.2e-5, 3.5e-4
+RESERVE = 0.25  # of a budget, for Newton steps on a coarser mesh after everything else
 
 
 @dataclass(slots=True)
@@ -58,6 +63,16 @@ class Attempt:
     earlier: Attempt | None = None  # whose film stays unless this attempt ends better
     status: Status = Status.FAILED
     error_estimate: ErrorEstimate | None = None
+    cut: bool = False  # whether another attempt would have followed within a larger budget
+
+    @property
+    def expected_time(self) -> float:
+        """Expected time of one core [s], by the status; before the attempt that of one that succeeds."""
+        if self.method.newton:
+            return NEWTON_TIME * self.mesh.nodes
+        if self.method.load_continuation:
+            return CONTINUATION_TIME * self.mesh.nodes
+        return (FAILED_TIME if self.status in FAILED else CYCLES_TIME) * self.mesh.nodes
 
     @property
     def is_better(self) -> bool:
@@ -75,6 +90,7 @@ def attempts(
     largest_load: float = 1.0,
     refine: bool = True,
     cut_short: bool = False,
+    budget: float = inf,
 ) -> Iterator[Attempt]:
     """Yield the attempts at a film; each has to be made before the next one is taken.
 
@@ -90,6 +106,8 @@ def attempts(
         Whether a converged film is solved on finer meshes until its error estimate is small.
     cut_short : bool
         Whether a limit of cycles given by the caller ends the solve: then nothing else is tried after it.
+    budget : float
+        Expected time of one core [s] that all attempts together may take; the first one is always made.
 
     Raises
     ------
@@ -101,6 +119,8 @@ def attempts(
     if largest_load > 1.0:
         grid = replace(grid, domain=mesh.domain)  # wide enough already, and no narrower one would be
     earlier: Attempt | None = None
+    tried: list[Attempt] = []
+    spent = 0.0
     for left in reversed(range(LARGEST_ATTEMPTS)):
         ways = METHODS[method]
         if mesh.y_refinement > 1 and method == "automatic":
@@ -108,12 +128,20 @@ def attempts(
         for way in ways[:1] if earlier else ways:
             if way.newton and method == "automatic" and not allows_newton(mesh):
                 break
-            made = Attempt(mesh, way, earlier)
+            planned = Attempt(mesh, way, earlier)
+            if tried and spent + planned.expected_time > budget:
+                tried[-1].cut = True
+                break
+            tried.append(made := planned)
             yield made
+            spent += made.expected_time
             if cut_short and made.status is Status.MAX_CYCLES:
                 return
             if made.status not in FAILED:
                 break
+        made = tried[-1]
+        if made.mesh != mesh:  # the budget ended before it
+            break
         if earlier and not made.status.ok:
             return
         error = made.error_estimate if refine else None
@@ -121,7 +149,7 @@ def attempts(
         if following is None:
             break
         mesh, earlier = following, made if made.status.ok else None
-    coarser = newton_mesh(mesh)
+    coarser = newton_mesh(made.mesh, max(budget - spent, RESERVE * budget) / NEWTON_TIME)
     if grid.n is None and method == "automatic" and made.status in FAILED and coarser is not None:
         # The smallest film may be far off, which its error estimate shows; better than none.
-        yield Attempt(coarser, LAST_RESORT if mesh.y_refinement == 1 else CLOSE_LAST_RESORT, earlier=made)
+        yield Attempt(coarser, LAST_RESORT if made.mesh.y_refinement == 1 else CLOSE_LAST_RESORT, earlier=made)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from enum import StrEnum
+from math import inf
 from typing import NamedTuple
 
 from ehlcontact.point import MoesPoint
@@ -196,12 +197,16 @@ def is_last(mesh: Mesh) -> bool:
     return mesh.nodes > FINENESS[Purpose.FILM].largest
 
 
-def newton_mesh(mesh: Mesh) -> Mesh | None:
-    """Return a coarser mesh on which Newton steps are affordable; None where they are on `mesh`, or on none."""
+def newton_mesh(mesh: Mesh, most: float = inf) -> Mesh | None:
+    """Return a coarser mesh of at most `most` nodes on which Newton steps are affordable; None without one.
+
+    Where they are affordable on `mesh` there is none either.
+    """
     coarser = mesh
-    while not allows_newton(coarser) and coarser.n > DOUBLED[0]:
+    while not (allows_newton(coarser) and coarser.nodes <= most) and coarser.n > DOUBLED[0]:
         coarser = replace(coarser, n=coarser.n // 2)
-    return coarser if coarser != mesh and allows_newton(coarser) else None
+    allowed = allows_newton(coarser) and coarser.nodes <= most
+    return coarser if coarser != mesh and allowed else None
 
 
 def _thin_film_domain(point: MoesPoint) -> Domain | None:

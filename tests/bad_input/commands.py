@@ -140,6 +140,7 @@ COMMANDS = [
     (steady(n="65"), ("--n = 65", "multiple of 16 between 16 and 2048")),
     (steady(n="-64"), ("--n = -64", "between 16 and 2048")),
     (steady(n="9" * 30), ("--n = 9999", "between 16 and 2048")),
+    (steady(budget="0"), ("--budget = 0.0", "a finite number > 0")),
     (steady(threads="0"), ("--threads = 0", "whole number from 1 to", "cores that this process may use")),
     (steady(threads="-2"), ("--threads = -2", "whole number from 1 to")),
     (steady(threads="9999"), ("--threads = 9999", "whole number from 1 to", "cores")),

@@ -1,6 +1,7 @@
 """`solve_steady`: what it promises about its result, and how it fails."""
 
 from dataclasses import fields, replace
+from math import inf
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ from ehlcontact import (
 from ehlcontact import steady as steady_module
 from ehlcontact.hertz import shape_factor
 from ehlcontact.solver import mesh_choice as mesh
+from ehlcontact.solver.attempts import CYCLES_TIME
 from ehlcontact.solver.grid_rules import coarsest_intervals
 from ehlcontact.solver.level import build_hierarchy
 from ehlcontact.solver.mesh import Mesh
@@ -284,6 +286,40 @@ def test_a_limit_of_cycles_ends_the_solve(monkeypatch, given):
     ) as caught:
         solve_steady(MoesPoint(20, 8, 0.5), **with_grid(max_cycles=1, tol=1e-9, **given))
     assert caught.value.result.cycles == 1 and len(runs) == 1
+
+
+def test_a_budget_ends_the_attempts_with_the_best_film(monkeypatch):
+    """Time of one core that the grids let expect, the same on any machine; a given grid is solved in any case."""
+    runs, run = [], steady_module._Film.run
+    monkeypatch.setattr(
+        steady_module._Film, "run", lambda film, **k: runs.append(film.mesh.nodes) or run(film, **k)
+    )
+    point = MoesPoint(246.7, 19.94, 1.298)
+    full, every = solve_steady(point, budget=inf), runs[:]
+    assert full.error_estimate.h_min < 0.03 and len(every) == 3
+    for count in (1, 2, 3):
+        runs.clear()
+        found = solve_steady(point, budget=1.01 * CYCLES_TIME * sum(every[:count]))
+        assert runs == every[:count] and found.status.ok
+        assert found.error_estimate.h_min > 0.03 or count == 3
+    assert found.h_min == full.h_min
+    runs.clear()
+    assert solve_steady(point, budget=1e-3, grid=Grid(n=64), throw=False).n == 64
+
+
+def test_an_attempt_that_the_budget_forbids_is_named(monkeypatch):
+    monkeypatch.setattr(steady_module._Film, "run", lambda *_, **__: Status.STAGNATED)
+    with pytest.raises(ConvergenceError, match=r"More would be tried with a budget above 1e-05 s"):
+        solve_steady(MoesPoint(500, 10, 0.8), budget=1e-5)
+    with pytest.raises(ConvergenceError) as caught:
+        solve_steady(MoesPoint(500, 10, 0.8), budget=inf)
+    assert "budget" not in str(caught.value)
+
+
+@pytest.mark.parametrize("budget", [0.0, -1.0, float("nan"), "60"])
+def test_budget_is_a_time(budget):
+    with pytest.raises(InputError, match=r"budget = .*: must be "):
+        solve_steady(MoesPoint(20, 8, 0.5), budget=budget)
 
 
 @pytest.mark.parametrize("refine", ["no", None, 1])

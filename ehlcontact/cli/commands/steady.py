@@ -58,6 +58,13 @@ class Solving(o.Options):
             "1 % of the central and 3 % of the smallest film.",
         ),
     ] = True
+    budget: Annotated[
+        e.Positive,
+        typer.Option(
+            "--budget",
+            help="Without --n: time of one core, s, that all grids and methods tried may be expected to take.",
+        ),
+    ] = 60.0
 
 
 @o.grouped
