@@ -9,15 +9,15 @@ BENDING = (0, 1, 3, 4)
 
 
 class BearingElement:
-    """Two by two coefficients as in ROSS 3: over speed, whirl frequency or both, straight between points."""
+    """Coefficients of x, y and of z as in ROSS 3: over speed, whirl frequency or both, straight between points."""
 
     def __init__(
         self, n, kxx, cxx, kyy=None, kxy=0.0, kyx=0.0, cyy=None, cxy=0.0, cyx=0.0,
-        speed=None, frequency=None, tag=None, n_link=None,
+        kzz=0.0, czz=0.0, speed=None, frequency=None, tag=None, n_link=None,
     ):  # fmt: skip
         self.n, self.speed, self.frequency, self.tag, self.n_link = n, speed, frequency, tag, n_link
-        self.k = (kxx, kxy, kyx, kxx if kyy is None else kyy)
-        self.c = (cxx, cxy, cyx, cxx if cyy is None else cyy)
+        self.k = (kxx, kxy, kyx, kxx if kyy is None else kyy, kzz)
+        self.c = (cxx, cxy, cyx, cxx if cyy is None else cyy, czz)
         self.shape = tuple(np.size(axis) for axis in (speed, frequency) if axis is not None)
         for values in (*self.k, *self.c):
             assert np.shape(values) in ((), self.shape)
@@ -28,7 +28,8 @@ class BearingElement:
             found = np.apply_along_axis(lambda row: np.interp(frequency, self.frequency, row), -1, found)
         if self.speed is not None:
             found = np.apply_along_axis(lambda row: np.interp(speed, self.speed, row), -1, found)
-        return found.reshape(2, 2)
+        xx, xy, yx, yy, zz = found
+        return np.array([[xx, xy, 0.0], [yx, yy, 0.0], [0.0, 0.0, zz]])
 
     def K(self, frequency, speed=None):
         return self._at(self.k, frequency, frequency if speed is None else speed)
@@ -42,9 +43,9 @@ class BearingElement2(BearingElement):
 
     def __init__(
         self, n, kxx, cxx, kyy=None, kxy=0.0, kyx=0.0, cyy=None, cxy=0.0, cyx=0.0,
-        frequency=None, tag=None, n_link=None,
+        kzz=0.0, czz=0.0, frequency=None, tag=None, n_link=None,
     ):  # fmt: skip
-        super().__init__(n, kxx, cxx, kyy, kxy, kyx, cyy, cxy, cyx, None, frequency, tag, n_link)
+        super().__init__(n, kxx, cxx, kyy, kxy, kyx, cyy, cxy, cyx, kzz, czz, None, frequency, tag, n_link)
 
     def K(self, frequency):
         return super().K(frequency)
@@ -104,7 +105,7 @@ class Rotor:
             for a, sign_a in ends:
                 for b, sign_b in ends:
                     i, j = self._first(a), self._first(b)
-                    out[i : i + 2, j : j + 2] += sign_a * sign_b * block
+                    out[i : i + 3, j : j + 3] += sign_a * sign_b * block
         return out
 
     def M(self, frequency=None, speed=None):

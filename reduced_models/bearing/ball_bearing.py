@@ -433,8 +433,10 @@ class BallBearing(Summary):
             Speeds of the shaft [rev/min], increasing. ROSS goes on beyond their ends, so they should cover the
             whole range; from four on the splines of ROSS 2 meet damping within 1 N s/m rms only, those of ROSS 3
             go through all points.
-        load : float or (float, float)
-            Force on the inner ring [N]; a number is a weight, in -y.
+        load : float or tuple of 2, 3 or 5 float
+            Force on the inner ring [N], [N m], as in `coefficients`; a number is a weight, in -y. With an axial
+            force the element has kzz and czz too. Stiffness against tilts, and the coupling of x and y with z and
+            with tilts, have no place in ROSS and are left out; `coefficients` has them.
         omega, hz, rpm : float or sequence of float, optional
             Frequency of the whirl, the vibration. One frequency makes tables over the speed only. In ROSS 3
             several, increasing, are the second axis of the tables: by default 0, and 41 from 1 Hz to 10 kHz.

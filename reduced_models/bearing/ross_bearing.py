@@ -6,6 +6,9 @@ rad/s. It is imported where it is needed: that takes seconds.
 An element of ROSS 2 has tables over `frequency`, which is the speed of the shaft. In ROSS 3 `speed` is the speed
 of the shaft and `frequency` that of the whirl (the vibration); tables are over either or both. An analysis of
 ROSS 3 that is given no frequency takes both as equal, the only case of ROSS 2.
+
+Matrices of both are 3 x 3 at a node: x and y with their coupling, and z alone. Stiffness and damping against
+tilts, and the coupling of x and y with z and with tilts, have no place in them and are left out.
 """
 
 from __future__ import annotations
@@ -21,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import as_column, require_integer
 from ehlcontact.checks.frequency import is_given, radians_per_second
 from ehlcontact.errors import InputError
-from reduced_models.bearing.equilibrium import radial_load
+from reduced_models.bearing.freedoms import PLANAR, bearing_load
 from reduced_models.bearing.kinematics import RADIANS
 
 _Floats = NDArray[np.float64]
@@ -52,9 +55,9 @@ def name_of(frequency: Mapping[str, ArrayLike | None]) -> str:
     return next(name for name, value in frequency.items() if value is not None)
 
 
-def downward(load: ArrayLike) -> ArrayLike:
-    """The load as a pair; a number is a weight, in -y, as ROSS has loads along y."""
-    return radial_load(
+def downward(load: ArrayLike) -> _Floats:
+    """The load as 2, 3 or 5 components; a number is a weight, in -y, as ROSS has loads along y."""
+    return bearing_load(
         (0.0, -float(load)) if isinstance(load, int | float) and not isinstance(load, bool) else load
     )
 
@@ -90,11 +93,14 @@ def bearing_element(
 
 
 def ross_entries(K: _Floats, C: _Floats) -> dict[str, Any]:
-    """Coefficients as ROSS calls them, from shape (..., 2, 2): without axes of one value, else numbers."""
+    """Coefficients as ROSS calls them, from shape (..., n, n): without axes of one value, else numbers.
+
+    ROSS has places for x and y with their coupling and for z alone, none for tilts.
+    """
+    places = ["xx", "xy", "yx", "yy", *(["zz"] if K.shape[-1] > len(PLANAR) else [])]
     entries = {}
     for name, matrices in (("k", K), ("c", C)):
-        for i, row in enumerate("xy"):
-            for j, column in enumerate("xy"):
-                values = np.squeeze(matrices[..., i, j]) + 0.0  # no -0
-                entries[f"{name}{row}{column}"] = values if values.ndim else float(values)
+        for place in places:
+            values = np.squeeze(matrices[..., "xyz".index(place[0]), "xyz".index(place[1])]) + 0.0  # no -0
+            entries[f"{name}{place}"] = values if values.ndim else float(values)
     return entries
