@@ -268,3 +268,19 @@ def test_a_preloaded_motor(tmp_path):
     decay = log_decrement(found["run"].t, z, omega=axial[2].omega)
     assert decay.decrement == pytest.approx(axial[2].decrement, rel=0.05)
     assert np.degrees(found["state"].contact_angles.min()) > 10.0
+
+
+def test_orders_of_defects(tmp_path):
+    """Clearances of the issue for 9.6 degrees; damping of films falls with preload (Mitsuya et al., 1998)."""
+    module = example("orders_of_defects")
+    found = module.main(str(tmp_path / "orders.png"))
+    assert (tmp_path / "orders.png").read_bytes().startswith(PNG)
+    at = dict(zip(module.AXIAL, found["curves"][0.0], strict=True))
+    for axial, clearance in ((5.0, 7.9e-6), (15.0, 6.8e-6), (30.0, 5.6e-6)):
+        assert at[axial] == pytest.approx(clearance, abs=0.06e-6)
+        assert module.angle(at[axial], axial, 0.0) == pytest.approx(9.6, abs=0.02)
+    np.testing.assert_allclose(found["curves"][10.0], found["curves"][0.0], atol=0.05e-6)
+    for ratio in found["ratios"].values():
+        assert np.all(np.diff(ratio) < 0.0)
+    assert found["ratios"]["axial"][0] == pytest.approx(0.0128, abs=5e-4)
+    assert found["ratios"]["radial"][-1] == pytest.approx(0.0140, abs=5e-4)
