@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import pi
 from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, GetCoreSchemaHandler
@@ -88,6 +89,27 @@ Race = Annotated[Literal["inner", "outer"], meaning("race of the contact")]
 YoungsModulus = Annotated[Positive, Physical(INPUTS["e1"]), meaning("Young's modulus of balls and rings")]
 PoissonRatio = Annotated[Finite, Field(ge=0.0, le=0.5, description="Poisson's ratio of balls and rings")]
 Clearance = Annotated[Finite, meaning("radial internal clearance, um; below 0 the bearing is preloaded")]
+ContactAngle = Annotated[
+    Positive,
+    Physical(Quantity("degrees", (1.0, 45.0), (5.0, 45.0), {"rad": 180.0 / pi})),
+    meaning("free contact angle of an angular contact bearing"),
+]
+RaceControl = Annotated[
+    Literal["outer", "inner", "shared", "harris"], meaning("race that holds the gyroscopic moment of the balls")
+]
+AxialLoad = Annotated[
+    Finite,
+    Physical(Quantity("N", (-1e8, 1e8), (0.1, 1e6), {"kN": 1e3})),
+    meaning("axial load on the bearing; an angular contact bearing carries it in +z"),
+]
+Moment = Annotated[
+    Finite, Physical(Quantity("N m", (-1e7, 1e7), (1e-3, 1e5), {"N mm": 1e-3, "kN m": 1e3})), meaning("moment")
+]
+Tilt = Annotated[
+    Finite,
+    Physical(Quantity("mrad", (-100.0, 100.0), (0.01, 20.0), {"degrees": 1e3 * pi / 180.0})),
+    meaning("tilt at which the inner ring is held"),
+]
 Load = Annotated[Positive, Physical(INPUTS["load"]), meaning("radial load on the bearing")]
 Speed = Annotated[Positive, Physical(INPUTS["speed_rpm"]), meaning("speed of the shaft")]
 

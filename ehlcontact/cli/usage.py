@@ -17,13 +17,14 @@ PLAIN_WORDS = {
 }
 
 
-_RADIAL = "bearings here carry a radial load at zero contact angle, without axial load or tilt"
+_RADIAL = "a single contact has a load along its normal: `ehlcontact bearing` has axial loads, angles and tilts"
+_PRELOAD = "preload of one bearing is its `ehlcontact bearing --axial`, radially a --clearance below 0"
 _FILMS = "films are fully flooded and isothermal, without sliding; what that leaves out stands in the answer"
 # What people ask for and no command computes, by the option that they try.
 NOT_IN_THE_MODEL = {
     **dict.fromkeys(("--axial", "--axial-load", "--thrust", "--contact-angle", "--angle"), _RADIAL),
-    **dict.fromkeys(("--moment", "--tilt", "--misalignment"), _RADIAL),
-    **dict.fromkeys(("--preload", "--axial-preload"), f"{_RADIAL}; radial preload is a --clearance below 0"),
+    **dict.fromkeys(("--moment", "--tilt", "--misalignment"), f"{_RADIAL} (--moment-x, --tilt-x)"),
+    **dict.fromkeys(("--preload", "--axial-preload"), _PRELOAD),
     **dict.fromkeys(
         ("--starvation", "--grease", "--thermal", "--heat", "--sliding", "--slip", "--traction"), _FILMS
     ),
@@ -173,6 +174,7 @@ EXAMPLES = {
     "reproduce": ("ehlcontact reproduce --table 3", "ehlcontact reproduce -o results/paper"),
     "bearing": (
         'ehlcontact bearing 6205 --oil "ISO VG 68" --temp 50 --load 1000 --speed-rpm 3000 --figure bearing.png',
+        'ehlcontact bearing 7205 --axial 200 --radial 500 --oil "ISO VG 46" --temp 60 --speed-rpm 6000',
         "ehlcontact bearing examples/bearing_6205.toml --json -",
     ),
     "verify": ("ehlcontact verify ball.fmu",),

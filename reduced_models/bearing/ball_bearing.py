@@ -361,6 +361,7 @@ class BallBearing(Summary):
         *,
         speed_rpm: float = 0.0,
         cage_angle: float | None = None,
+        tilt: ArrayLike | None = None,
         omega: ArrayLike | None = None,
         hz: ArrayLike | None = None,
         rpm: ArrayLike | None = None,
@@ -376,6 +377,8 @@ class BallBearing(Summary):
             Speed of the shaft [rev/min].
         cage_angle : float, optional
             Of the first ball [rad]; by default the mean over a ball passage is given.
+        tilt : (float, float), optional
+            As in `equilibrium` [rad].
         omega, hz, rpm : float or sequence of float
             Frequency of the vibration, in exactly one of these.
 
@@ -384,9 +387,10 @@ class BallBearing(Summary):
         BearingCoefficients
         """
         force, speed = self._bearing_load(load), self.speed(speed_rpm)
-        w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
+        w, held = radians_per_second(None, omega=omega, hz=hz, rpm=rpm), held_tilt(tilt, force.size)
         if force.size > len(PLANAR):
-            places = [self._stand_at_angles(force, speed, at) for at in self._cage_angles(force, cage_angle)]
+            cages = self._cage_angles(force, cage_angle)
+            places = [self._stand_at_angles(force, speed, at, held) for at in cages]
             small = self._small_angular(speed, places)
             full = np.mean([at.load for at in places], axis=0)
             outside = "" if self.oil is None else assumptions_at_angles(self, speed, places).headline

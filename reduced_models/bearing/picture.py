@@ -54,7 +54,7 @@ def draw_set(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
 def draw_over_speed(
     state: Any, points: Sequence[Any], curve: Sequence[Any], path: str | os.PathLike[str] | None = None
 ) -> Any:
-    """Load zone and films at one speed, above K and C over speed.
+    """Load zone and films at one speed, and contact angles where there are any, above K and C over speed.
 
     Parameters
     ----------
@@ -66,27 +66,39 @@ def draw_over_speed(
     """
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(SIZE[0], 1.7 * SIZE[1]), layout="constrained")
-    load_zone(figure.add_subplot(2, 2, 1, projection="polar"), state)
-    films(figure.add_subplot(2, 2, 2), state)
-    for place, name, unit, label in (
-        (3, "stiffness", 1e-6, "stiffness [N/µm]"),
-        (4, "damping", 1.0, "damping [N s/m]"),
-    ):
-        axes = figure.add_subplot(2, 2, place)
-        for k, colour, direction in ((1, LOAD, "along the load"), (0, INNER, "across it")):
+    at_angles = state.contact_angles is not None
+    columns = 3 if at_angles else 2
+    figure = Figure(figsize=(0.5 * columns * SIZE[0], 1.7 * SIZE[1]), layout="constrained")
+    load_zone(figure.add_subplot(2, columns, 1, projection="polar"), state)
+    films(figure.add_subplot(2, columns, 2), state)
+    if at_angles:
+        contact_angles(figure.add_subplot(2, columns, 3), state)
+    planar = (1, LOAD, "along the load"), (0, INNER, "across it")
+    forces = (*planar, (2, OUTER, "axial")) if at_angles else planar
+    panels = [
+        ("stiffness", 1e-6, "stiffness [N/µm]", forces),
+        ("damping", 1.0, "damping [N s/m]", forces),
+        ("stiffness", 1e-3, "tilt stiffness [N m/mrad]", ((3, LOAD, "about x"), (4, INNER, "about y"))),
+    ]
+    for place, (name, unit, label, ways) in enumerate(panels[:columns], columns + 1):
+        axes = figure.add_subplot(2, columns, place)
+        for k, colour, direction in ways:
             for found, look in ((curve, "-"), (points, "o")):
                 speeds, values = (
                     [at.speed_rpm for at in found],
                     [getattr(at, name)[0, k, k] * unit for at in found],
                 )
                 axes.plot(speeds, values, look, color=colour, label=direction if look == "-" else None)
-        axes.set(xlabel="speed [rev/min]", title=f"{label}, at the frequency of the shaft")
+        hz = {float(at.hz[0]) for at in points}
+        shaft = all(np.isclose(at.hz[0], at.speed_rpm / 60.0) for at in points)
+        frequency = "the frequency of the shaft" if shaft else f"{min(hz):g} Hz"
+        axes.set(xlabel="speed [rev/min]")
+        axes.set_title(f"{label}, at {frequency}", fontsize=10)
         axes.set_ylim(0.0, max(1.05 * axes.get_ylim()[1], 1.0))  # a dry bearing damps nothing
         axes.grid(**GRID)
         axes.legend(frameon=False, fontsize=8)
-    load, at = np.hypot(*state.load), f"above at {state.speed_rpm:g} rev/min, a ball under the load"
-    figure.suptitle(f"{state.name or 'ball bearing'}, {load:.4g} N; {at}")
+    at = f"above at {state.speed_rpm:g} rev/min, a ball under the load"
+    figure.suptitle(f"{state.name or 'ball bearing'}, {_load(state)}; {at}")
     return written(figure, path)
 
 

@@ -153,7 +153,7 @@ def test_curves_pass_through_the_points():
         ({"[1000, 3000, 6000]": "[0]"}, ("operation.speed_rpm = 0.0", "no film")),
         ({"[1000, 3000, 6000]": "[30000]"}, ("operation.speed_rpm = 30000.0", "at most 2")),
         ({"radial_load = 1000.0 ": ""}, ("operation.radial_load = None", "or --load")),
-        ({"radial_load": "axial_load"}, ("operation.axial_load = 1000.0", "left out")),
+        ({"radial_load": "thrust"}, ("operation.thrust = 1000.0", "left out")),
         ({"radial_load = 1000.0": "radial_load = true"}, ("operation.radial_load = True", "a number")),
         ({"radial_load = 1000.0": "radial_load = 1e7"}, ("operation.radial_load = 10000000.0", "the atlas")),
         ({"iso_vg = 68": "iso_vg = 68\neta0 = 0.03"}, ("oil.iso_vg = 68", "by its grade")),
@@ -189,7 +189,7 @@ def test_what_the_films_assume_and_does_not_hold_stands_in_the_answer(call):
     assert document["states"][0]["outside_assumptions"] == state.outside_assumptions != ""
 
 
-@pytest.mark.parametrize("command", [("bearing", "6205"), ("steady",), ("element",)])
+@pytest.mark.parametrize("command", [("steady",), ("element",)])
 @pytest.mark.parametrize("option", ["--axial", "--preload", "--contact-angle", "--tilt", "--starvation"])
 def test_what_is_not_in_the_model_is_said_in_one_line(call, command, option):
     for given in ((option, "100"), (f"{option}=100",)):
@@ -202,4 +202,100 @@ def test_what_is_not_in_the_model_is_said_in_one_line(call, command, option):
 def test_the_help_says_first_what_is_in_the_model(call):
     lines = call("bearing", "--help").out.splitlines()
     first = " ".join(lines[: next(k for k, line in enumerate(lines) if "Arguments" in line)])
-    assert "In the model: radial load" in first and "Not in it: axial load" in first
+    assert "In the model: radial and axial load" in first and "Not in it: flexible" in first
+
+
+LOAD = "--radial", "100", "--axial", "200"
+
+
+def test_json_of_an_axial_load_is_what_the_library_has(call):
+    speeds = ("--speed-rpm", "6000", "--hz", "100", "--hz", "900")
+    result = call("bearing", "7205", *OIL, *LOAD, *speeds, "--json", "-")
+    assert result.code == 0 and result.err == ""
+    found = json.loads(result.out)
+    bearing = BallBearing.catalogue("7205 A", oil=Lubricant.iso_vg(68, temperature=50.0))
+    at = bearing.coefficients((0.0, -100.0, 200.0), speed_rpm=6000.0, hz=(100.0, 900.0))
+    state = bearing.equilibrium((0.0, -100.0, 200.0), speed_rpm=6000.0)
+    assert (found["load"], found["axial_load"], found["moments"], found["tilt"]) == (100.0, 200.0, None, None)
+    for k, hz in enumerate((100.0, 900.0)):
+        assert found["coefficients"][k]["frequency_hz"] == pytest.approx(hz)
+        np.testing.assert_array_equal(found["coefficients"][k]["stiffness"], at.stiffness[k])
+        np.testing.assert_array_equal(found["coefficients"][k]["damping"], at.damping[k])
+    for name in ("force", "h_min", "contact_angles", "spin_to_roll", "displacement"):
+        np.testing.assert_array_equal(found["states"][0][name], getattr(state, name))
+    assert found["orders_under_load"][0]["bpfo"] == state.orders.bpfo != found["orders"]["bpfo"]
+    assert found["frequencies_hz"][0]["bpfo"] == pytest.approx(state.orders.bpfo * 100.0)
+    inner = found["coefficients"][0].keys() | found["states"][0].keys()
+    assert found["units"].keys() <= found.keys() | inner
+
+
+def test_table_of_an_axial_load(call):
+    result = call("bearing", "7205c", *LOAD, "--speed-rpm", "6000")
+    assert result.code == 0
+    bearing = BallBearing.catalogue("7205 C")
+    state = bearing.equilibrium((0.0, -100.0, 200.0), speed_rpm=6000.0)
+    at = bearing.coefficients((0.0, -100.0, 200.0), speed_rpm=6000.0, rpm=6000.0)
+    lines = {line.split("  ")[0]: line for line in result.out.splitlines()}
+    assert lines["7205 C, 100 N radially, 200 N axially"] and "15°" in lines["contact angle"]
+    assert f"{at.stiffness[0, 1, 1] * 1e-6:.4g} N/µm" in lines["along the load"]
+    assert f"{at.stiffness[0, 3, 3] * 1e-3:.4g} N m/mrad" in lines["tilt about x"]
+    assert f"{at.stiffness[0, 2, 2] * 1e-6:.4g} N/µm" in result.out
+    assert f"{state.orders.bpfo:.5g} per turn" in lines["BPFO"]
+    assert "spin to roll" in result.out and "outer" in lines["race control"]
+
+
+def test_moments_tilts_and_race_control(call):
+    fast = ("bearing", "218", "--axial", "17800", "--speed-rpm", "10000", "--race-control", "harris")
+    found = json.loads(call(*fast, "--moment-x", "20", "--json", "-").out)
+    bearing = BallBearing.catalogue("218", race_control="harris")
+    state = bearing.equilibrium((0.0, 0.0, 17800.0, 20.0, 0.0), speed_rpm=10000.0)
+    np.testing.assert_array_equal(found["states"][0]["displacement"], state.displacement)
+    assert found["moments"] == [20.0, 0.0]
+    tilted = json.loads(call(*fast, "--tilt-y", "0.5", "--json", "-").out)
+    held = bearing.equilibrium((0.0, 0.0, 17800.0), speed_rpm=10000.0, tilt=(0.0, 0.5e-3))
+    np.testing.assert_array_equal(tilted["states"][0]["load"], held.load)
+    mean = tilted["coefficients"][0]["mean_displacement"]
+    assert tilted["tilt"] == [0.0, 0.5e-3] and mean[3:] == pytest.approx([0.0, 0.5e-3])
+
+
+def test_a_deep_groove_bearing_with_clearance_and_axial_load(call):
+    """9.1 um and 30 N axially at rest: BPFO of an independent model."""
+    changed = ("--clearance", "9.1", "--axial", "30", "--speed-rpm", "0")
+    found = json.loads(call("bearing", "6205", *changed, "--json", "-").out)
+    assert found["orders_under_load"][0]["bpfo"] == pytest.approx(3.6022, abs=1e-4)
+
+
+def test_a_file_with_axial_load(call, file):
+    changes = {
+        "radial_load = 1000.0": "radial_load = 100.0\naxial_load = 200.0\nhz = [50]",
+        NAME: 'catalogue = "7205"',
+    }
+    changes["clearance_um = 0.0"] = 'contact_angle_deg = 25.0\nrace_control = "inner"'
+    found = json.loads(call("bearing", file(changes), "--speed-rpm", "6000", "--json", "-").out)
+    assert found["bearing"]["contact_angle"] == pytest.approx(np.radians(25.0))
+    assert found["bearing"]["race_control"] == "inner" and found["axial_load"] == 200.0
+
+
+def test_a_figure_of_an_axial_load(call, tmp_path):
+    picture = tmp_path / "b.png"
+    result = call("bearing", "7205", *LOAD, "--speed-rpm", "6000", "--figure", picture)
+    assert result.code == 0 and picture.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"radial_load": "axial_load = -5.0\nradial_load"}, ("radial_load, operation.axial_load", "Fz > 0")),
+        (
+            {"radial_load": "tilt_x_mrad = 1e4\nradial_load"},
+            ("operation.tilt_x_mrad", "between -100 and 100 mrad"),
+        ),
+        ({"clearance_um = 0.0": "contact_angle_deg = 0.44"}, ("contact_angle_deg = 0.44", "in rad? then 25.2")),
+        ({"clearance_um = 0.0": 'race_control = "both"'}, ("race_control = 'both'", "outer")),
+    ],
+)
+def test_mistakes_in_a_file_of_an_angular_contact_bearing(refused, file, changes, words):
+    own = {NAME: 'catalogue = "7205"'}
+    if "radial_load" in changes:
+        own["clearance_um = 0.0"] = ""
+    refused(("b.toml", *words), "bearing", file(own | changes))

@@ -19,9 +19,12 @@ from ehlcontact.cli.rows import Row, in_unit
 from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.errors import InputError
 
+HERTZ = 1.0 / 60.0  # per second, of one turn per minute
+
 if TYPE_CHECKING:
     from ehlcontact.cli.study.bearing import BearingJob
     from reduced_models import BallBearing, BearingState
+    from reduced_models.bearing.kinematics import DefectFrequencies
     from reduced_models.bearing.linear_balls import BearingCoefficients
 
 CURVE = 15  # speeds of the curves of a figure
@@ -32,15 +35,18 @@ DEFECTS = {  # names of the defect frequencies, and what they are of
     "BPFI": "balls on the inner race",
     "BSF": "spin of a ball",
 }
-_OIL, _BEARING = "Oil", "Bearing"
+_OIL, _BEARING, _LOAD = "Oil", "Bearing", "Load"
+NOTHING = 6  # decimal places beyond which moments [N m], tilts [mrad] and spin are rounding
+FORCES = "x", "y", "z"  # directions with forces; beyond them tilts with moments
+PAIR = "along", "across"  # directions of a planar bearing
 # Of the entries of the JSON, whatever they are nested in; other entries have no unit, or have it in their name.
 UNITS = {
-    "load": "N; (x, y), downwards is -y",
+    "load": "N; radial; of a state (x, y), downwards is -y",
     "force": "N",
     "speed_rpm": "rev/min, of the shaft",
     "orders": "FTF, BPFO, BPFI, BSF: per turn of the shaft",
     "frequencies_hz": "FTF, BPFO, BPFI, BSF: Hz, at each speed",
-    "coefficients": "of small vibrations at frequency_hz, that of the shaft; means over a ball passage; in x, y",
+    "coefficients": "of small vibrations at frequency_hz, means over a ball passage; in x, y",
     "stiffness": "N/m; of a state: slope of the static force",
     "damping": "N s/m",
     "mean_displacement": "m; of the inner ring, mean over a ball passage",
@@ -59,11 +65,30 @@ UNITS = {
     "skf_sliding": "N m",
     "bearing": "SI, roughness and clearance too",
 }
+# Of those that a planar bearing does not have, or has otherwise.
+UNITS_AT_ANGLES = {
+    "load": "N; radial; of a state N, N m: (x, y, z, moments about x, y), downwards is -y",
+    "axial_load": "N; along z",
+    "moments": "N m; about x, y; null where tilts are held",
+    "tilt": "rad; about x, y, at which the ring is held; null where it is not",
+    "orders": "FTF, BPFO, BPFI, BSF: per turn of the shaft, at the contact angle without load",
+    "orders_under_load": "the same at the contact angles of each speed",
+    "coefficients": "of small vibrations at frequency_hz, means over a ball passage; in x, y, z, tilts about x, y",
+    "stiffness": "N/m, N, N m; of a state: slope of the static force",
+    "damping": "N s/m, N s, N m s",
+    "mean_displacement": "m, rad; of the inner ring, mean over a ball passage",
+    "swing": "m, rad; peak to peak, as a ball passes slowly",
+    "displacement": "m, rad; of the inner ring in that state",
+    "contact_angles": "rad",
+    "spin_to_roll": "of both surfaces about their normal over that of rolling",
+    "orbit": "speed of a ball about the shaft over that of the shaft",
+    "turn": "speed of a ball about its own axis, seen from the cage, over that of the shaft",
+}
 
 
 @dataclass(frozen=True)
 class BearingReport:
-    """A bearing at several speeds: rest with a ball under the load; K and C at the frequency of the shaft."""
+    """A bearing at several speeds: rest with a ball under the load; K and C at frequencies of small vibrations."""
 
     job: BearingJob
     states: tuple[BearingState, ...]
@@ -71,25 +96,44 @@ class BearingReport:
 
     def summary(self) -> dict[str, Any]:
         """For JSON; arrays over balls have a row per ball, with inner and outer race."""
-        bearing = self.job.bearing
+        job, bearing = self.job, self.job.bearing
+        axial = (
+            {}
+            if job.planar
+            else {
+                "axial_load": job.load[2],
+                "moments": job.load[3:] or None,
+                "tilt": job.tilt,
+                "orders_under_load": [asdict(_orders(bearing, state)) for state in self.states],
+            }
+        )
         return {
-            "units": UNITS,
+            "units": UNITS if job.planar else UNITS | UNITS_AT_ANGLES,
             "bearing": bearing.to_dict(),
-            "load": self.job.load,
+            "load": -job.load[1],
+            **axial,
             "highest_speed_rpm": bearing.highest_speed,
             "orders": asdict(bearing.orders),
-            "speed_rpm": list(self.job.speeds),
+            "speed_rpm": list(job.speeds),
             "coefficients": [
                 {
-                    "frequency_hz": float(c.hz[0]),
-                    "stiffness": c.stiffness[0],
-                    "damping": c.damping[0],
+                    "speed_rpm": c.speed_rpm,
+                    "frequency_hz": float(hz),
+                    "stiffness": c.stiffness[k],
+                    "damping": c.damping[k],
                     "mean_displacement": c.displacement,
                     "swing": c.swing,
                 }
                 for c in self.coefficients
+                for k, hz in enumerate(c.hz)
             ],
-            "frequencies_hz": [asdict(bearing.frequencies(speed)) for speed in self.job.speeds],
+            "frequencies_hz": [
+                {
+                    name: order * (state.speed_rpm * HERTZ)
+                    for name, order in asdict(_orders(bearing, state)).items()
+                }
+                for state in self.states
+            ],
             "states": [state.to_dict() for state in self.states],
         }
 
@@ -97,13 +141,43 @@ class BearingReport:
 class BearingOptions(o.Options):
     """What the bearing carries and runs in: in place of entries of its file, or beside its name."""
 
-    load: Annotated[e.NotNegative | None, typer.Option("--load"), e.meaning("radial load, N; a NAME needs it")] = (
-        None
-    )
+    load: Annotated[
+        e.NotNegative | None,
+        typer.Option("--load", "--radial", rich_help_panel=_LOAD),
+        e.meaning("radial load, N; a NAME needs it, or --axial"),
+    ] = None
+    axial: Annotated[
+        e.AxialLoad | None,
+        typer.Option("--axial", rich_help_panel=_LOAD),
+        e.meaning("axial load, +z: with it balls have contact angles; tilts are held"),
+    ] = None
+    moment_x: Annotated[
+        e.Moment | None,
+        typer.Option("--moment-x", rich_help_panel=_LOAD),
+        e.meaning("moment about x (horizontal): with it, or --moment-y, the inner ring tilts freely"),
+    ] = None
+    moment_y: Annotated[
+        e.Moment | None,
+        typer.Option("--moment-y", rich_help_panel=_LOAD),
+        e.meaning("moment about y (upwards)"),
+    ] = None
+    tilt_x: Annotated[
+        e.Tilt | None,
+        typer.Option("--tilt-x", rich_help_panel=_LOAD),
+        e.meaning("misalignment: tilt about x at which the inner ring is held"),
+    ] = None
+    tilt_y: Annotated[
+        e.Tilt | None, typer.Option("--tilt-y", rich_help_panel=_LOAD), e.meaning("the same about y")
+    ] = None
     speed_rpm: Annotated[
         list[float] | None,
         typer.Option("--speed-rpm"),
         e.meaning("speed of the shaft, rev/min; once each; a NAME needs one"),
+    ] = None
+    hz: Annotated[
+        list[float] | None,
+        typer.Option("--hz"),
+        e.meaning("frequency of the vibration of stiffness and damping, Hz; once each; that of the shaft"),
     ] = None
     oil: Annotated[
         str | None,
@@ -124,6 +198,16 @@ class BearingOptions(o.Options):
             rich_help_panel=_BEARING,
         ),
     ] = None
+    contact_angle: Annotated[
+        e.ContactAngle | None,
+        typer.Option("--contact-angle", rich_help_panel=_BEARING),
+        e.meaning("free contact angle, degrees, in place of that of NAME and of a clearance"),
+    ] = None
+    race_control: Annotated[
+        e.RaceControl | None,
+        typer.Option("--race-control", rich_help_panel=_BEARING),
+        e.meaning("what holds the gyroscopic moment of the balls; outer where left out"),
+    ] = None
     rq: Annotated[
         e.Roughness | None,
         typer.Option("--rq", rich_help_panel=_BEARING),
@@ -133,7 +217,15 @@ class BearingOptions(o.Options):
     def given(self) -> dict[str, Any]:
         """Values by option, None where one is not given."""
         grade = None if self.oil is None else oil_grade(self.oil, "--oil")
-        values = {"--load": self.load, "--speed-rpm": self.speed_rpm or None, "--oil": grade, "--temp": self.temp}
+        values: dict[str, Any] = {
+            "--load": self.load,
+            "--speed-rpm": self.speed_rpm or None,
+            "--oil": grade,
+            "--temp": self.temp,
+        }
+        values |= {"--axial": self.axial, "--moment-x": self.moment_x, "--moment-y": self.moment_y}
+        values |= {"--tilt-x": self.tilt_x, "--tilt-y": self.tilt_y, "--hz": self.hz or None}
+        values |= {"--contact-angle": self.contact_angle, "--race-control": self.race_control}
         return values | {"--clearance": _clearance(self.clearance), "--rq": self.rq}
 
 
@@ -147,18 +239,22 @@ def _clearance(text: str | None) -> float | str | None:
 
 @o.grouped
 def bearing(
-    source: Annotated[str, typer.Argument(metavar="NAME|FILE.toml", help="As 6205; or a file with dimensions.")],
+    source: Annotated[
+        str, typer.Argument(metavar="NAME|FILE.toml", help="As 6205 or 7205; or a file with dimensions.")
+    ],
     options: BearingOptions,
     out: o.FigureOutput,
 ) -> None:
     """Look at a ball bearing: loads, films, lambda and rolling resistance, stiffness and damping over speed.
 
-    In the model: radial load on rigid rings at zero contact angle, and balls
+    In the model: radial and axial load, moments and tilts on rigid rings;
+    balls with contact angles, centrifugal force and gyroscopic moment, and
     with elastic contacts and oil films, memory included, at both races.
-    Films are flooded, isothermal and between smooth surfaces.
+    Films are flooded, isothermal and between smooth surfaces. With --load
+    alone axial motion and tilts are held, and contact angles are zero.
 
-    Not in it: axial load and preload, contact angles, tilted or flexible
-    rings; heat in the inlet, starvation, grease, sliding.
+    Not in it: flexible rings; friction of spin and sliding; heat in the
+    inlet, starvation, grease.
 
     Each answer names the assumptions of films that do not hold in it.
     """
@@ -178,12 +274,7 @@ def bearing(
 
 
 def _computed(job: BearingJob) -> BearingReport:
-    weight = (0.0, -job.load)
-    return BearingReport(
-        job,
-        tuple(job.bearing.equilibrium(weight, speed_rpm=speed) for speed in job.speeds),
-        tuple(job.bearing.coefficients(weight, speed_rpm=speed, rpm=speed) for speed in job.speeds),
-    )
+    return BearingReport(job, tuple(map(job.state, job.speeds)), tuple(map(job.coefficients, job.speeds)))
 
 
 def curve(report: BearingReport) -> list[BearingCoefficients]:
@@ -196,7 +287,7 @@ def curve(report: BearingReport) -> list[BearingCoefficients]:
         share = k / (CURVE - 1)
         speed = low * (high / low) ** share if low > 0.0 else share * high
         try:
-            found.append(report.job.bearing.coefficients((0.0, -report.job.load), speed_rpm=speed, rpm=speed))
+            found.append(report.job.coefficients(speed))
         except InputError:  # slower, the atlas has no films under such loads
             continue
     return found
@@ -206,10 +297,22 @@ def _show(report: BearingReport, json_to: str | None) -> None:
     if json_to == STDOUT:
         return
     bearing = report.job.bearing
-    show_table(f"{bearing.name or 'ball bearing'}, {numeral(report.job.load)} N", _rows(bearing), json_to)
+    show_table(f"{bearing.name or 'ball bearing'}, {_load_words(report.job)}", _rows(bearing), json_to)
+    at_speed = _at_speed if report.job.planar else _at_angles
     for state, found in zip(report.states, report.coefficients, strict=True):
-        show_table(f"at {numeral(state.speed_rpm)} rpm", _at_speed(bearing, state, found), json_to)
+        show_table(f"at {numeral(state.speed_rpm)} rpm", at_speed(bearing, state, found), json_to)
         _show_balls(state)
+
+
+def _load_words(job: BearingJob) -> str:
+    """The load in words."""
+    radial = f"{numeral(-job.load[1])} N"
+    if job.planar:
+        return radial
+    given = " and ".join(map(numeral, job.load[3:]))
+    moments = f", moments {given} N m about x and y" if given else ""
+    tilt = "" if job.tilt is None else f", tilted by {' and '.join(numeral(1e3 * t) for t in job.tilt)} mrad"
+    return f"{radial} radially, {numeral(job.load[2])} N axially{moments}{tilt}"
 
 
 def _rows(b: BallBearing) -> list[Row]:
@@ -221,28 +324,81 @@ def _rows(b: BallBearing) -> list[Row]:
             ("highest speed", f"{numeral(b.highest_speed, 5)} rpm", "where the atlas ends"),
         ]
     conformity = f"{numeral(b.conformity_inner)}, {numeral(b.conformity_outer)}"
+    angle = [
+        ("contact angle", f"{numeral(math.degrees(b.free_angle))}°", "without load"),
+        ("race control", b.race_control, "what holds the gyroscopic moment of the balls"),
+    ]
+    play = [("clearance", in_unit(b.clearance, "m"), "below 0: preload")]
     return [
         ("balls", f"{b.balls} x {numeral(b.ball_diameter * 1e3)} mm", f"on {numeral(b.pitch_diameter * 1e3)} mm"),
         ("conformity", conformity, "inner, outer"),
-        ("clearance", in_unit(b.clearance, "m"), "below 0: preload"),
+        *(play if b.contact_angle is None else angle),
         *oil,
     ]
 
 
 def _at_speed(b: BallBearing, state: BearingState, at: BearingCoefficients) -> list[Row]:
     """Deflection, stiffness, damping, resistance and frequencies at a speed."""
-    K, C, swing = at.stiffness[0], at.damping[0], at.swing[1] * 1e9
-    deflection = in_unit(-at.displacement[1], "m")
-    outside = state.outside_assumptions.removeprefix("Outside what is assumed: ")
+    swing = at.swing[1] * 1e9
     return [
-        *([("NOT AS ASSUMED", "", outside)] if outside else []),
-        ("deflection", deflection, f"{numeral(swing, 3)} nm up and down at ball passage"),
-        ("along the load", in_unit(K[1, 1], "N/m"), in_unit(C[1, 1], "N s/m")),
-        ("across it", in_unit(K[0, 0], "N/m"), in_unit(C[0, 0], "N s/m")),
-        ("both at", f"{numeral(at.omega[0] / math.tau)} Hz", "that of the shaft"),
+        *_outside(state),
+        ("deflection", in_unit(-at.displacement[1], "m"), f"{numeral(swing, 3)} nm up and down at ball passage"),
+        *_small_vibrations(at, (("along the load", 1), ("across it", 0))),
         *_resistance(state),
-        *_defects(b, at.speed_rpm),
+        *_defects(b, state),
     ]
+
+
+def _at_angles(b: BallBearing, state: BearingState, at: BearingCoefficients) -> list[Row]:
+    """The same of a bearing with contact angles: in all five degrees of freedom."""
+    down, along, tilts = in_unit(-at.displacement[1], "m"), in_unit(at.displacement[2], "m"), at.displacement[3:]
+    moments = " and ".join(numeral(round(one, NOTHING)) for one in state.load[3:].tolist())
+    turned = " and ".join(numeral(round(1e3 * one, NOTHING)) for one in tilts.tolist())
+    return [
+        *_outside(state),
+        ("deflection", f"{down} down", f"{numeral(at.swing[1] * 1e9, 3)} nm up and down at ball passage"),
+        ("axial", f"{along}", "displacement of the inner ring in +z"),
+        (
+            "tilts",
+            f"{turned} mrad",
+            f"moments {moments} N m, about x and y",
+        ),
+        ("contact angles", _angle_span(state), "of balls that carry, at both races"),
+        *_small_vibrations(
+            at, (("axial", 2), ("along the load", 1), ("across it", 0), ("tilt about x", 3), ("tilt about y", 4))
+        ),
+        *_resistance(state),
+        *_defects(b, state),
+    ]
+
+
+def _angle_span(state: BearingState) -> str:
+    """Least and largest contact angle of the balls that carry."""
+    if state.contact_angles is None:
+        return ""
+    angles = state.contact_angles[state.force[:, 0] > 0.0]
+    return f"{numeral(math.degrees(angles.min()))} .. {numeral(math.degrees(angles.max()))}°"
+
+
+def _outside(state: BearingState) -> list[Row]:
+    """Assumptions that do not hold."""
+    outside = state.outside_assumptions.removeprefix("Outside what is assumed: ")
+    return [("NOT AS ASSUMED", "", outside)] if outside else []
+
+
+def _small_vibrations(at: BearingCoefficients, directions: tuple[tuple[str, int], ...]) -> list[Row]:
+    """Stiffness and damping in directions, at every frequency."""
+    shaft, rows = at.speed_rpm / 60.0, []
+    for k, hz in enumerate(at.hz.tolist()):
+        for name, way in directions:
+            stiffness, damping = at.stiffness[k, way, way], at.damping[k, way, way]
+            if way < len(FORCES):
+                rows += [(name, in_unit(stiffness, "N/m"), in_unit(damping, "N s/m"))]
+            else:
+                rows += [(name, f"{numeral(1e-3 * stiffness)} N m/mrad", f"{numeral(damping)} N m s/rad")]
+        remark = "that of the shaft" if math.isclose(hz, shaft) else ""
+        rows += [("these at" if len(directions) > len(PAIR) else "both at", f"{numeral(hz)} Hz", remark)]
+    return rows
 
 
 def _resistance(state: BearingState) -> list[Row]:
@@ -257,11 +413,20 @@ def _resistance(state: BearingState) -> list[Row]:
     return rows
 
 
-def _defects(b: BallBearing, speed_rpm: float) -> list[Row]:
+def _orders(b: BallBearing, state: BearingState) -> DefectFrequencies:
+    """Defect frequencies per turn of the shaft, at the contact angles of the state where it has any."""
+    return state.orders or b.orders
+
+
+def _defects(b: BallBearing, state: BearingState) -> list[Row]:
     """Defect frequencies at a speed in Hz, with their orders."""
-    hz, orders = asdict(b.frequencies(speed_rpm)), asdict(b.orders)
+    orders = asdict(_orders(b, state))
     return [
-        (name, f"{numeral(hz[name.lower()], 4)} Hz", f"{numeral(orders[name.lower()], 5)} per turn: {meaning}")
+        (
+            name,
+            f"{numeral(orders[name.lower()] * (state.speed_rpm * HERTZ), 4)} Hz",
+            f"{numeral(orders[name.lower()], 5)} per turn: {meaning}",
+        )
         for name, meaning in DEFECTS.items()
     ]
 
@@ -269,11 +434,15 @@ def _defects(b: BallBearing, speed_rpm: float) -> list[Row]:
 def _show_balls(state: BearingState) -> None:
     """Every ball of a bearing at rest, from the one under the load on."""
     films = None if state.h_min is None else state.h_min * 1e6
-    columns = {"force [N]": state.force, "smallest film [µm]": films, "lambda": state.lambda_ratio}
+    angles = None if state.contact_angles is None else state.contact_angles * 180.0 / math.pi
+    columns = {"force [N]": state.force, "contact angle [°]": angles, "smallest film [µm]": films}
+    spin = None if state.spin_to_roll is None else state.spin_to_roll.round(NOTHING)
+    columns |= {"lambda": state.lambda_ratio, "spin to roll": spin}
     known = {head: values for head, values in columns.items() if values is not None}
     turned = [math.degrees(angle - state.angles[0]) for angle in state.angles.tolist()]
+    digits = 4 if state.contact_angles is None else 3  # so that seven columns fit
     rows = [
-        [f"{degrees:.0f}°", *(", ".join(map(numeral, values[k])) for values in known.values())]
+        [f"{degrees:.0f}°", *(", ".join(numeral(one, digits) for one in values[k]) for values in known.values())]
         for k, degrees in enumerate(turned)
     ]
     show_columns(["ball", *known], rows)

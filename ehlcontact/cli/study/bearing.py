@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from math import radians
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field, StrictBool, ValidationError
 
@@ -18,9 +19,21 @@ from ehlcontact.cli.toml import read_toml
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing
 
+if TYPE_CHECKING:
+    from reduced_models import BearingState
+    from reduced_models.bearing.linear_balls import BearingCoefficients
+
 OPTIONS = {
     "--load": "operation.radial_load",
+    "--axial": "operation.axial_load",
+    "--moment-x": "operation.moment_x",
+    "--moment-y": "operation.moment_y",
+    "--tilt-x": "operation.tilt_x_mrad",
+    "--tilt-y": "operation.tilt_y_mrad",
     "--speed-rpm": "operation.speed_rpm",
+    "--hz": "operation.hz",
+    "--contact-angle": "bearing.contact_angle_deg",
+    "--race-control": "bearing.race_control",
     "--oil": "oil.iso_vg",
     "--temp": "oil.temperature",
     "--clearance": "bearing.clearance_um",
@@ -36,7 +49,12 @@ ENTRIES = {
     "conformity_outer": "bearing.conformity_outer",
     "clearance": "bearing.clearance_um",
     "loss_factor": "bearing.loss_factor",
+    "contact_angle": "bearing.contact_angle_deg",
+    "tilt": "operation.tilt_x_mrad",
+    "hz": "operation.hz",
 }
+LOADS = "--load", "--axial", "--moment-x", "--moment-y"
+AXIAL = "axial_load", "moment_x", "moment_y", "tilt_x_mrad", "tilt_y_mrad"  # with these, balls have contact angles
 STUDY = ("free", "harmonic", "rotor", "solver")  # sections that only a study has
 NEEDED = ("balls", "ball_diameter_mm", "pitch_diameter_mm")  # of a bearing without a name
 
@@ -52,6 +70,8 @@ class Bearing(Section):
     conformity_inner: e.Conformity | None = None
     conformity_outer: e.Conformity | None = None
     clearance_um: e.Clearance | str | None = None  # or a class, as CN
+    contact_angle_deg: e.ContactAngle | None = None
+    race_control: e.RaceControl | None = None
     film_limit_um: e.Positive | None = None
     loss_factor: e.NotNegative | None = None  # of rings and fits
     ball_inertia: StrictBool | None = None  # balls vibrate between the rings
@@ -70,8 +90,36 @@ class Surface(Section):
 class Operation(Section):
     """What the bearing carries, and how fast the shaft turns."""
 
-    radial_load: e.NotNegative  # N, downwards
+    radial_load: e.NotNegative | None = None  # N, downwards; 0 where it is left out beside an axial load
+    axial_load: e.AxialLoad | None = None
+    moment_x: e.Moment | None = None
+    moment_y: e.Moment | None = None
+    tilt_x_mrad: e.Tilt | None = None
+    tilt_y_mrad: e.Tilt | None = None
     speed_rpm: Annotated[list[e.NotNegative], Field(min_length=1)]
+    hz: Annotated[list[e.NotNegative] | None, Field(min_length=1)] = None
+
+    @property
+    def load(self) -> tuple[float, ...]:
+        """Force on the inner ring: (Fx, Fy) [N], with Fz, or with moments [N m]."""
+        if self.radial_load is None and self.axial_load is None:
+            raise InputError("operation.radial_load", None, "given, or an axial load")
+        moments = () if self.moment_x is self.moment_y is None else (self.moment_x or 0.0, self.moment_y or 0.0)
+        if moments and self.tilt is not None:
+            name = "tilt_y_mrad" if self.tilt_x_mrad is None else "tilt_x_mrad"
+            allowed = "left out beside moments, under which the inner ring tilts freely"
+            raise InputError(f"operation.{name}", getattr(self, name), allowed)
+        radial = 0.0, -(self.radial_load or 0.0)
+        if all(getattr(self, name) is None for name in AXIAL):
+            return radial
+        return (*radial, self.axial_load or 0.0, *moments)
+
+    @property
+    def tilt(self) -> tuple[float, float] | None:
+        """Tilts at which the inner ring is held [rad]."""
+        if self.tilt_x_mrad is self.tilt_y_mrad is None:
+            return None
+        return 1e-3 * (self.tilt_x_mrad or 0.0), 1e-3 * (self.tilt_y_mrad or 0.0)
 
 
 class BearingFile(Section):
@@ -85,18 +133,39 @@ class BearingFile(Section):
 
 @dataclass(frozen=True)
 class BearingJob:
-    """What is asked: a bearing under a load [N], in -y, at speeds [rev/min]."""
+    """What is asked: a bearing under a load (`BallBearing.equilibrium`), at speeds [rev/min].
+
+    `hz` are frequencies of small vibrations; empty: that of the shaft at each speed.
+    """
 
     bearing: BallBearing
-    load: float
+    load: tuple[float, ...]
+    tilt: tuple[float, float] | None
     speeds: tuple[float, ...]
+    hz: tuple[float, ...]
     source: str
     given: frozenset[str]
+
+    @property
+    def planar(self) -> bool:
+        """Axial motion and tilts are held: balls have no contact angles."""
+        return len(self.load) == 2
+
+    def state(self, speed_rpm: float) -> BearingState:
+        """At rest with a ball under the load."""
+        return self.bearing.equilibrium(self.load, speed_rpm=speed_rpm, tilt=self.tilt)
+
+    def coefficients(self, speed_rpm: float) -> BearingCoefficients:
+        """Means over a ball passage."""
+        at = {"hz": self.hz} if self.hz else {"rpm": speed_rpm}
+        return self.bearing.coefficients(self.load, speed_rpm=speed_rpm, tilt=self.tilt, **at)
 
     @contextmanager
     def called(self) -> Iterator[None]:
         """Let an `InputError` of the library name the option or the entry of the file."""
-        with _called(self.source, self.given, {"load": self.load}):
+        tilt = 0.0 if self.tilt is None else 1e3 * self.tilt[0]
+        load = -self.load[1] if self.planar else (-self.load[1], *self.load[2:])
+        with _called(self.source, self.given, {"load": load, "tilt": tilt}):
             yield
 
 
@@ -129,9 +198,13 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
             found = BearingFile.model_validate(document)
         except ValidationError as error:
             raise in_other_kind(first_error(error, BearingFile), document, STUDY, "run") from None
-        bearing = _bearing(found)
-    speeds = tuple(sorted(set(found.operation.speed_rpm)))
-    return BearingJob(bearing, found.operation.radial_load, speeds, origin, given)
+        bearing, asked = _bearing(found), found.operation
+        load = asked.load
+        if len(load) == 2 and bearing.contact_angle is not None:
+            allowed = "given: an angular contact bearing needs an axial load, in +z"
+            raise InputError("operation.axial_load", None, allowed)
+    speeds, hz = (tuple(sorted(set(values or ()))) for values in (asked.speed_rpm, asked.hz))
+    return BearingJob(bearing, load, asked.tilt, speeds, hz, origin, given)
 
 
 def _bearing(found: BearingFile) -> BallBearing:
@@ -146,12 +219,14 @@ def _bearing(found: BearingFile) -> BallBearing:
             raise InputError(f"surface.{both[0]}_um", lengths[both[0]] * 1e6, "left out where rq_um is given")
         lengths["rq_race"] = surface.rq_um * 1e-6
     names = ["name", "balls", "conformity_inner", "conformity_outer", "loss_factor", "ball_inertia"]
-    names += ["youngs_modulus", "poisson_ratio"]
+    names += ["youngs_modulus", "poisson_ratio", "race_control"]
     others = {name: getattr(b, name) for name in names if getattr(b, name) is not None}
     oil = found.oil.lubricant if "oil" in found.model_fields_set else None
     if b.clearance_um is not None:
         clearance = b.clearance_um
         others["clearance"] = clearance if isinstance(clearance, str) else clearance * 1e-6
+    if b.contact_angle_deg is not None:
+        others["contact_angle"] = radians(b.contact_angle_deg)
     arguments = {**others, **lengths, "oil": oil}
     if b.catalogue is not None:
         return BallBearing.catalogue(b.catalogue, **arguments)
@@ -174,6 +249,9 @@ def _called(file: str, given: frozenset[str], values: Mapping[str, Any]) -> Iter
         if "; any other bearing" in error.allowed:
             allowed += "; any other by its dimensions, in a file as examples/bearing_6205.toml"
         option = next((name for name, known in OPTIONS.items() if entry.startswith(known)), None)
+        if isinstance(value, tuple):  # a load with an axial part
+            names = ", ".join(OPTIONS[name] if file else name for name in LOADS[: len(value)])
+            raise InputError(f"{file}: {names}" if file else names, value, allowed) from None
         if option is not None and (option in given or not file):
             entry = option
         elif file:
