@@ -12,7 +12,7 @@ from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.cli.explorer import COMPUTING, UNITS, script
 from ehlcontact.errors import InputError
 from reduced_models import Atlas, BallBearing
-from reduced_models.bearing.catalogue import ROWS
+from reduced_models.bearing.catalogue import DEEP_GROOVE
 from reduced_models.elements.film_response import FilterRates
 
 CLOSE = 1e-6  # of every number: what the issue asks for
@@ -128,7 +128,7 @@ return { q: state.q, stiffness: state.stiffness,
 
 def case(name="6205", oil=(68, 50.0), rpm=3000.0, load=1000.0, **changes):
     """A bearing of the catalogue, or nearly, as the page has it."""
-    row = ROWS[name]
+    row = DEEP_GROOVE[name]
     if isinstance(oil, tuple):
         by_grade = Lubricant.iso_vg(oil[0], temperature=oil[1])
         oil = {"eta0": by_grade.eta0, "alpha": by_grade.alpha}
@@ -147,7 +147,7 @@ def drawn(count, seed=3):
         oil = int(rng.choice(GRADES)), rng.uniform(20.0, 100.0)
         numbers = {"rpm": float(np.exp(rng.uniform(4.0, 9.6))), "load": float(np.exp(rng.uniform(1.0, 8.5)))}
         changes = {"clearance": rng.uniform(-5e-6, 3e-5), "conformity_outer": rng.uniform(0.512, 0.55)}
-        cases.append(case(str(rng.choice(list(ROWS))), oil, **numbers, **changes))
+        cases.append(case(str(rng.choice(list(DEEP_GROOVE))), oil, **numbers, **changes))
     return cases
 
 

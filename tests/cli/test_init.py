@@ -12,7 +12,7 @@ from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.schema import Study, load_study, study_of
 from ehlcontact.lubricant.oil import GRADES
 from reduced_models import BallBearing
-from reduced_models.bearing.catalogue import ROWS
+from reduced_models.bearing.catalogue import DEEP_GROOVE
 
 SHOWN = re.compile(r"^# (\w+ = (?!\?))", flags=re.M)  # a default
 
@@ -80,7 +80,7 @@ def test_lines_end_in_what_the_schema_allows(study):
     assert ", ".join(map(str, GRADES)) in text
 
 
-@pytest.mark.parametrize("name", ROWS)
+@pytest.mark.parametrize("name", DEEP_GROOVE)
 def test_every_bearing_of_the_catalogue_begins_without_cautions(study, name):
     assert cautions(load_study(study("--bearing", name))) == []
 

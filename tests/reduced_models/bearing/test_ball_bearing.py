@@ -11,7 +11,7 @@ import pytest
 from ehlcontact import Lubricant, load, save
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingMotion, BearingState
-from reduced_models.bearing.catalogue import ROWS
+from reduced_models.bearing.catalogue import DEEP_GROOVE
 
 DOWN = (0.0, -1000.0)
 SIZES = {"balls": 9, "ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3}
@@ -25,14 +25,14 @@ def refused(match, call):
 
 
 def test_every_row_has_a_source():
-    for name, row in ROWS.items():
+    for name, row in DEEP_GROOVE.items():
         assert row.source
         assert row.sourced == ("derived" not in row.source)
         assert BallBearing.catalogue(name).name == name
 
 
 def test_catalogue_and_dimensions_are_the_same():
-    named, row = BallBearing.catalogue(" 6205 ", clearance=1e-5), ROWS["6205"]
+    named, row = BallBearing.catalogue(" 6205 ", clearance=1e-5), DEEP_GROOVE["6205"]
     by_hand = BallBearing(
         balls=row.balls, ball_diameter=row.ball_diameter, pitch_diameter=row.pitch_diameter, clearance=1e-5
     )
