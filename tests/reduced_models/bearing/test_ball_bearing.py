@@ -11,7 +11,7 @@ import pytest
 from ehlcontact import Lubricant, load, save
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingMotion, BearingState
-from reduced_models.bearing.catalogue import DEEP_GROOVE
+from reduced_models.bearing.catalogue import ROWS
 
 DOWN = (0.0, -1000.0)
 SIZES = {"balls": 9, "ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3}
@@ -25,14 +25,14 @@ def refused(match, call):
 
 
 def test_every_row_has_a_source():
-    for name, row in DEEP_GROOVE.items():
+    for name, row in ROWS.items():
         assert row.source
         assert row.sourced == ("derived" not in row.source)
         assert BallBearing.catalogue(name).name == name
 
 
 def test_catalogue_and_dimensions_are_the_same():
-    named, row = BallBearing.catalogue(" 6205 ", clearance=1e-5), DEEP_GROOVE["6205"]
+    named, row = BallBearing.catalogue(" 6205 ", clearance=1e-5), ROWS["6205"]
     by_hand = BallBearing(
         balls=row.balls, ball_diameter=row.ball_diameter, pitch_diameter=row.pitch_diameter, clearance=1e-5
     )
@@ -83,9 +83,9 @@ def test_unknown_names_with_the_nearest_ones():
         "name = '6250': must be one of 6205, .* .nearest. or of 6000 to 6010",
         lambda: BallBearing.catalogue("6250"),
     )
-    # an angular contact bearing of the size of a 6206 is none
-    said = refused("name = '7206': must be one of 6000 to 6010, 6200", lambda: BallBearing.catalogue("7206"))
-    assert "nearest" not in said and "NICE, all of them deep-groove; any other bearing" in said
+    # a tapered roller bearing of the size of a 6206 is none
+    said = refused("name = '30206': must be one of", lambda: BallBearing.catalogue("30206"))
+    assert "nearest" not in said and "6000 to 6010, 6200" in said and "218; any other bearing" in said
 
 
 def test_speeds(film, dry):
