@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_column, require_instance
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
+from reduced_models.bearing.arrangement import BearingSet
 from reduced_models.bearing.freedoms import facing_signs
 from reduced_models.rotor.beam import matrices
 from reduced_models.rotor.nodes import DIRECTIONS, LENGTHS, PLANE
@@ -49,7 +50,8 @@ def rotor_on_bearings(
     shaft : Shaft
         Without mass: its nodes between discs and bearings are left out, which is exact.
     supports : sequence of Support
-        At least two, at different places.
+        At least two, at different places; or one with a `BearingSet`, which holds tilts too: its bearings are
+        so many of the rotor's mounts.
     discs : sequence of Disc
         None of a bare shaft with a mass of its own.
     gravity : (float, float) or (float, float, float)
@@ -70,12 +72,13 @@ def rotor_on_bearings(
     require_instance("shaft", shaft, Shaft, "a Shaft")
     pull = np.zeros(3)
     pull[: np.size(gravity)] = as_column("gravity", gravity, size=3 if np.size(gravity) == 3 else 2)
-    if len(supports) < LEAST_SUPPORTS:
-        raise InputError("number of supports", len(supports), f"at least {LEAST_SUPPORTS}")
     for k, disc in enumerate(discs):
         require_instance(f"discs[{k}]", disc, Disc, "a Disc")
     for k, support in enumerate(supports):
         require_instance(f"supports[{k}]", support, Support, "a Support")
+    least = 1 if any(isinstance(support.bearing, BearingSet) for support in supports) else LEAST_SUPPORTS
+    if len(supports) < least:
+        raise InputError("number of supports", len(supports), f"at least {LEAST_SUPPORTS}, or one BearingSet")
     for name, parts in (("discs", [d.position for d in discs]), ("supports", [s.position for s in supports])):
         for k, position in enumerate(parts):
             if not -SAME * shaft.end <= position <= (1.0 + SAME) * shaft.end:
@@ -115,7 +118,7 @@ class _Assembly:
             if support.housing_mass is not None:
                 self.housings[k] = {name: size + i for i, name in enumerate(LENGTHS if axial else PLANE)}
                 size += len(self.housings[k])
-            elif support.preload is not None:
+            elif support.spring is not None:
                 self.outer_rings[k] = size
                 size += 1
         self.z = size if axial else None
@@ -153,7 +156,9 @@ class _Assembly:
             damping=C,
             gyroscopic=G,
             load=whole.T @ self.load,
-            mounts=tuple(self._mount(k, support, nodes) for k, support in enumerate(self.supports)),
+            mounts=tuple(
+                mount for k, support in enumerate(self.supports) for mount in self._mounts(k, support, nodes)
+            ),
             unbalances=tuple(
                 Unbalance(x=new[at], y=new[at + 1], amount=disc.unbalance, phase=disc.phase)
                 for disc, at in ((disc, self._at(disc.position)) for disc in self.discs)
@@ -181,24 +186,27 @@ class _Assembly:
         found |= {name: on_shaft(at) for name, at in discs.items()}
         return found if self.z is None else found | {"shaft": {"z": new[self.z]}}
 
-    def _mount(self, k: int, support: Support, nodes: dict[str, dict[str, int]]) -> BearingMount:
+    def _mounts(self, k: int, support: Support, nodes: dict[str, dict[str, int]]) -> list[BearingMount]:
         node, housing = nodes[f"bearing {k}"], nodes.get(f"housing {k}")
-        outer: tuple[int | None, ...] | None = None if housing is None else tuple(housing.values())
-        if k in self.outer_rings:
-            outer = None, None, nodes[f"outer ring {k}"]["z"]
+        fixed: tuple[int | None, ...] | None = None if housing is None else tuple(housing.values())
+        free = (None, None, nodes[f"outer ring {k}"]["z"]) if k in self.outer_rings else None
         axial = {} if self.z is None else {**nodes["shaft"], **node}
-        return BearingMount(
-            bearing=support.bearing,
-            x=node["x"],
-            y=node["y"],
-            z=axial.get("z"),
-            tilt_x=axial.get("tilt_x"),
-            tilt_y=axial.get("tilt_y"),
-            housing=outer,
-            cage_angle=support.cage_angle,
-            facing=support.facing,
-            offset=support.offset,
-        )
+        return [
+            BearingMount(
+                bearing=seat.bearing,
+                x=node["x"],
+                y=node["y"],
+                z=axial.get("z"),
+                tilt_x=axial.get("tilt_x"),
+                tilt_y=axial.get("tilt_y"),
+                housing=free if seat.slides else fixed,
+                cage_angle=support.cage_angle,
+                facing=seat.facing,
+                offset=seat.offset,
+                arm=seat.arm,
+            )
+            for seat in support.seats
+        ]
 
     def _add_shaft(self) -> None:
         for k, piece in enumerate(self.shaft.pieces(self.stations)):
@@ -222,7 +230,8 @@ class _Assembly:
         if k in self.outer_rings:
             place = self.outer_rings[k]
             self.M[place, place], self.K[place, place] = support.ring_mass, support.preload_stiffness
-            self.load[place] -= facing_signs(support.facing)[2] * support.preload
+            facing = next(seat.facing for seat in support.seats if seat.slides)
+            self.load[place] -= facing_signs(facing)[2] * support.spring
 
     def _add_disc(self, disc: Disc) -> None:
         at = self._at(disc.position)

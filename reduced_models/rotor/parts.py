@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi
-from typing import Any, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,7 @@ from ehlcontact.checks import (
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary, span
+from reduced_models.bearing.arrangement import BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.freedoms import FACINGS, FIVE, facing_signs
 from reduced_models.rotor.beam import Piece
@@ -238,6 +239,16 @@ class Disc(Summary):
         return cls(position=position, mass=mass, diametral_inertia=across, polar_inertia=polar, **others)
 
 
+class Seat(NamedTuple):
+    """A bearing on the shaft at a support."""
+
+    bearing: BallBearing | LinearBearing
+    facing: str
+    offset: float  # m
+    arm: float  # m
+    slides: bool  # its outer ring is free along the shaft
+
+
 @fields_take(
     position="m", cage_angle="rad", journal_mass="kg", housing_mass="kg", housing_stiffness="N/m",
     housing_damping="N s/m", offset="m", preload="N", preload_stiffness="N/m", outer_ring_mass="kg",
@@ -250,7 +261,9 @@ class Support(Summary):
     ----------
     position : float
         In m.
-    bearing : BallBearing or LinearBearing
+    bearing : BallBearing, LinearBearing or BearingSet
+        All bearings of a set are on the shaft at this position, each with the arm of its own position in the set;
+        facings, offsets and spring are those of the set.
     cage_angle : float
         Of the first ball at the start [rad].
     journal_mass : float
@@ -282,7 +295,7 @@ class Support(Summary):
     """
 
     position: float
-    bearing: BallBearing | LinearBearing
+    bearing: BallBearing | LinearBearing | BearingSet
     cage_angle: float = -pi / 2.0
     journal_mass: float = 0.0
     housing_mass: float | None = None
@@ -296,7 +309,7 @@ class Support(Summary):
 
     def _summary_lines(self) -> list[str]:
         lines = [f"{self.bearing.name or 'ball bearing'} at {1e3 * self.position:.5g} mm"]
-        if self.needs_axial:
+        if self.needs_axial and not isinstance(self.bearing, BearingSet):
             held = f"offset {1e6 * self.offset:.4g} µm"
             lines.append(
                 f"facing {self.facing}, {held if self.preload is None else f'spring {self.preload:.4g} N'}"
@@ -308,13 +321,20 @@ class Support(Summary):
 
     def __post_init__(self) -> None:
         require_finite("position", self.position)
-        require_bearing("bearing", self.bearing)
         facing_signs(self.facing)
+        if isinstance(self.bearing, BearingSet):
+            own = {"facing": FACINGS[0], "offset": 0.0, "preload": None}
+            for name, default in own.items():
+                if getattr(self, name) != default:
+                    raise InputError(name, getattr(self, name), "left out: the BearingSet has its own")
+        else:
+            require_bearing("bearing", self.bearing)
         z, tilt_x, tilt_y = (2, 3, 4) if self.needs_axial else (None, None, None)
-        BearingMount(
-            bearing=self.bearing, x=0, y=1, z=z, tilt_x=tilt_x, tilt_y=tilt_y, cage_angle=self.cage_angle,
-            facing=self.facing, offset=self.offset,
-        )  # fmt: skip
+        for seat in self.seats:
+            BearingMount(
+                bearing=seat.bearing, x=0, y=1, z=z, tilt_x=tilt_x, tilt_y=tilt_y, cage_angle=self.cage_angle,
+                facing=seat.facing, offset=seat.offset, arm=seat.arm,
+            )  # fmt: skip
         require_nonnegative("journal_mass", self.journal_mass)
         if (self.housing_mass is None) != (self.housing_stiffness is None):
             missing = "housing_mass" if self.housing_mass is None else "housing_stiffness"
@@ -330,17 +350,35 @@ class Support(Summary):
                 object.__setattr__(self, name, column)
         if self.preload is not None:
             require_nonnegative("preload", self.preload)
-            if self.housing_mass is not None:
-                raise InputError("preload", self.preload, "left out with a housing, whose springs hold it along z")
             if self.offset != 0.0:
                 raise InputError("offset", self.offset, "left out beside preload: the outer ring gives way to it")
+        if self.spring is not None and self.housing_mass is not None:
+            raise InputError("preload", self.spring, "left out with a housing, whose springs hold it along z")
         require_nonnegative("preload_stiffness", self.preload_stiffness)
         if self.outer_ring_mass is not None:
             require_positive("outer_ring_mass", self.outer_ring_mass)
 
     @property
+    def seats(self) -> tuple[Seat, ...]:
+        """Bearings that are on the shaft here."""
+        found = self.bearing
+        if not isinstance(found, BearingSet):
+            return (Seat(found, self.facing, self.offset, 0.0, self.preload is not None),)
+        rows = zip(found.bearings, found.facings, found.offsets, found.positions, strict=True)
+        return tuple(Seat(one, facing, offset, arm, facing == found.sprung) for one, facing, offset, arm in rows)
+
+    @property
+    def spring(self) -> float | None:
+        """Force of the spring on outer rings that are free to move along the shaft [N]; None: all are fixed."""
+        if isinstance(self.bearing, BearingSet):
+            return self.bearing.spring if self.bearing.sprung is not None else None
+        return self.preload
+
+    @property
     def needs_axial(self) -> bool:
         """Whether it needs axial motion of the shaft."""
+        if isinstance(self.bearing, BearingSet):
+            return True
         angle = getattr(self.bearing, "contact_angle", None)
         five = isinstance(self.bearing, LinearBearing) and self.bearing.stiffness.shape[-1] == len(FIVE)
         own = self.facing != FACINGS[0] or self.offset != 0.0 or self.preload is not None
@@ -348,10 +386,13 @@ class Support(Summary):
 
     @property
     def ring_mass(self) -> float:
-        """Mass of the outer ring that is free to move along the shaft [kg]."""
+        """Mass of the outer rings that are free to move along the shaft [kg]."""
         if self.outer_ring_mass is not None:
             return self.outer_ring_mass
-        if isinstance(self.bearing, LinearBearing):
-            raise InputError("outer_ring_mass", None, "given: a bearing of matrices has no dimensions")
-        ball = self.bearing.ball_diameter
-        return self.bearing.density * pi * (self.bearing.pitch_diameter + ball) * RING_SECTION * ball**2
+        mass = 0.0
+        for bearing in (seat.bearing for seat in self.seats if seat.slides):
+            if isinstance(bearing, LinearBearing):
+                raise InputError("outer_ring_mass", None, "given: a bearing of matrices has no dimensions")
+            ball = bearing.ball_diameter
+            mass += bearing.density * pi * (bearing.pitch_diameter + ball) * RING_SECTION * ball**2
+        return mass

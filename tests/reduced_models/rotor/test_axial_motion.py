@@ -12,6 +12,7 @@ from ehlcontact import InputError, Lubricant
 from reduced_models import (
     BallBearing,
     BearingMount,
+    BearingSet,
     Disc,
     LinearBearing,
     Rotor,
@@ -20,6 +21,7 @@ from reduced_models import (
     campbell,
     linearise,
     rotor_on_bearings,
+    simulate_rotor,
     unbalance_response,
 )
 from reduced_models.rotor.equilibrium import static_supports
@@ -235,3 +237,47 @@ def test_tangents_of_a_rotor_against_differences():
         exact = support.tangent(r)
         np.testing.assert_allclose(differences, exact, atol=1e-6 * np.abs(exact).max())
         assert at.stop - at.start == 5
+
+
+@pytest.mark.parametrize("kind", ["preload", "spring"])
+@pytest.mark.parametrize("arrangement", ["back to back", "face to face"])
+def test_a_set_under_a_shaft_is_the_set_under_its_load(kind, arrangement):
+    """Static displacement and dynamic stiffness of a node are those of the `BearingSet` alone."""
+    oil = Lubricant.iso_vg(68, temperature=70.0)
+    first, second = (BallBearing(**SPINDLE | {"contact_angle": radians(a)}, oil=oil) for a in (25.0, 15.0))
+    pair = BearingSet.pair(first, arrangement, other=second, distance=40e-3, **{kind: 300.0})
+    shaft = Shaft(length=0.2, diameter=0.03, elements=2)
+    pull, rpm, seen = (3.0, -9.81, 4.0), 9000.0, -pi / 2.0
+    light = Support(position=0.1, bearing=pair, outer_ring_mass=1e-7)  # the pull along z is on the ring too
+    rotor = rotor_on_bearings(shaft, supports=[light], gravity=pull)
+    mass = 7800.0 * pi / 4.0 * 0.03**2 * 0.2
+    state = pair.equilibrium((*(mass * np.array(pull)), 0.0, 0.0), speed_rpm=rpm, cage_angle=seen)
+    node = rotor.nodes["bearing 0"] | rotor.nodes["shaft"]
+    q = rotor.equilibrium(rpm)
+    places = [node[name] for name in ("x", "y", "z", "tilt_x", "tilt_y")]
+    np.testing.assert_allclose(q[places], state.displacement, rtol=1e-6, atol=1e-13)
+    assert len(rotor.mounts) == 2
+    w = 2.0 * pi * 300.0
+    Z = linearise(rotor, rpm, passage=False).support_impedance(1j * w)
+    if kind == "spring":  # the outer ring follows without its mass
+        slide = rotor.nodes["outer ring 0"]["z"]
+        Z = Z - np.outer(Z[:, slide], Z[slide]) / Z[slide, slide]
+    alone = pair.coefficients(state.load, speed_rpm=rpm, cage_angle=seen, omega=w)
+    wanted = alone.stiffness[0] + 1j * w * alone.damping[0]
+    np.testing.assert_allclose(Z[np.ix_(places, places)], wanted, atol=1e-6 * np.abs(wanted).max())
+    for name, value in (("facing", "-z"), ("offset", 1e-6), ("preload", 10.0)):
+        with pytest.raises(InputError, match=f"{name} = .*the BearingSet has its own"):
+            Support(position=0.1, bearing=pair, **{name: value})
+    with pytest.raises(InputError, match=r"number of supports = 1.*or one BearingSet"):
+        rotor_on_bearings(shaft, supports=[Support(position=0.1, bearing=first)])
+
+
+def test_a_shaft_runs_on_two_sets():
+    """A pair with offsets on the left, one on a spring on the right: four bearings, one outer ring that slides."""
+    bearing = BallBearing(**SPINDLE)
+    fixed, free = (BearingSet.pair(bearing, distance=20e-3, **{kind: 300.0}) for kind in ("preload", "spring"))
+    supports = [Support(position=0.05, bearing=fixed), Support(position=0.25, bearing=free)]
+    rotor = rotor_on_bearings(Shaft(length=0.3, diameter=0.03), supports=supports)
+    assert len(rotor.mounts) == 4 and "outer ring 1" in rotor.nodes
+    run = simulate_rotor(rotor, speed_rpm=3000.0, dt=1e-4, until=5e-3)
+    assert np.ptp(run.displacement, axis=0).max() < 1e-6  # it stays at rest but for ball passage
