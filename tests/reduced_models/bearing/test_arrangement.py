@@ -199,6 +199,40 @@ def test_growth_of_the_shaft(arrangement, sign):
     np.testing.assert_allclose(on_spring.equilibrium((0.0, 0.0, 0.0)).axial_forces, 200.0, rtol=1e-10)
 
 
+def test_table_of_pairs_in_the_documentation():
+    rows = {
+        15.0: (
+            (100, 43.1, 21.5, 3.23, 41.9, 1.3, 208),
+            (300, 72.0, 36.0, 3.57, 62.7, 2.0, 375),
+            (600, 103.1, 51.5, 3.86, 81.7, 2.9, 652),
+        ),
+        25.0: (
+            (150, 99.0, 49.5, 2.97, 59.6, 1.2, 435),
+            (450, 151.8, 75.9, 3.10, 87.5, 2.7, 648),
+            (900, 203.1, 101.6, 3.22, 112.4, 4.9, 1024),
+        ),
+    }
+    in_oil = {15.0: (326, 565, 908), 25.0: (593, 903, 1379)}
+    for degrees, columns in rows.items():
+        bearing = replace(SPINDLE, contact_angle=radians(degrees), youngs_modulus=2.08e11)
+        wet = replace(bearing, oil=OIL)
+        for (force, *wanted), films in zip(columns, in_oil[degrees], strict=True):
+            diverging, converging = (
+                BearingSet.pair(bearing, one, preload=force, distance=15e-3)
+                for one in ("back to back", "face to face")
+            )
+            still, other = (one.equilibrium((0.0, 0.0, 0.0)) for one in (diverging, converging))
+            spring = BearingSet.pair(bearing, spring=force).equilibrium((0.0, 0.0, 0.0))
+            turning, flooded = (
+                BearingSet.pair(one, preload=force).equilibrium((0.0, 0.0, 0.0), speed_rpm=20000.0).axial_forces[0]
+                for one in (bearing, wet)
+            )
+            found = [1e-6 * still.stiffness[2, 2], 1e-6 * spring.stiffness[2, 2], diverging.lift_off("+z") / force]
+            found += [1e-3 * still.stiffness[3, 3], 1e-3 * other.stiffness[3, 3], turning, flooded]
+            digits = [1, 1, 2, 1, 1, 0, 0]
+            assert [round(float(one), n) for one, n in zip(found, digits, strict=True)] == [*wanted, films]
+
+
 def compliance_error(found, given, rpm):
     """Of the inverse stiffness against displacements under changed loads, differences of fourth order."""
     kwargs = {"speed_rpm": rpm, "cage_angle": 0.2}
