@@ -62,7 +62,8 @@ def _derived(balls: int, sixty_fourths: int, bore_mm: int, outside_mm: int) -> R
 
 
 def _angular(balls: int, sixty_fourths: int, bore_mm: int, outside_mm: int, degrees: float) -> Row:
-    return _derived(balls, sixty_fourths, bore_mm, outside_mm)._replace(contact_angle=radians(degrees))
+    row = _derived(balls, sixty_fourths, bore_mm, outside_mm)
+    return row._replace(contact_angle=radians(degrees), source=f"{row.source}, quoted from memory")
 
 
 def _spindle(balls: int, ball_mm: float, pitch_mm: float, bore_mm: float, degrees: float) -> Row:
