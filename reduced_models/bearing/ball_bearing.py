@@ -466,9 +466,11 @@ class BallBearing(Summary):
 
     def _require_bearable(self, force: _Floats, load: _Floats, speed: float) -> None:
         """Raise `InputError` for forces on the balls, shape (balls, 2) [N], that a race does not bear."""
-        field, value = ("load", load.tolist()) if load.any() else ("clearance", self.clearance)
+        given: tuple[str, Any] = "load", load.tolist()
+        if not load.any() and self.clearance < 0.0:
+            given = "clearance", self.clearance
         for name, most in zip(RACES, force.max(axis=0).tolist(), strict=True):
-            self.race(name).require_bearable(most, speed, field, value)
+            self.race(name).require_bearable(most, speed, *given)
 
     def _bearing_load(self, load: ArrayLike) -> _Floats:
         """A load that a bearing of this kind takes."""

@@ -25,6 +25,7 @@ ROUNDING = 1e-15  # imbalance over the forces by which springs press each other,
 REGULARISATION = 1e-6
 MOST_STEPS = 100  # of which Newton needs a handful where contacts neither open nor close
 FIRST_STEP = 1e-9  # [m], along the load, from where all contacts may be open; the search doubles it
+SMALLEST_STEP = 1e-18  # [m], rounding of places of balls: under loads of nN nothing comes closer
 LONGEST_STEP = 1.0  # no journal travels this far [m]; beyond it the contacts do not stand in the way
 STILL = np.zeros(2)  # velocity of a ring at rest
 SEATED = 1e-9  # least product of the two stiffnesses of a ring over the square of their sum: below is rounding
@@ -89,7 +90,7 @@ def equilibrium(
             step *= longest / length
         if np.linalg.norm(balance(q + step)) < 0.5 * error:
             q = q + step
-        elif error <= BALANCED_BY_ROUNDING * size + BALANCED * internal:
+        elif error <= BALANCED_BY_ROUNDING * size + BALANCED * internal or length <= SMALLEST_STEP:
             return q
         else:
             if step @ residual >= 0.0:  # inertia of balls makes tangents unsymmetric

@@ -114,3 +114,10 @@ def test_moment_far_below_the_preload():
     load = (0.0, 0.0, 0.0, -5.25e-6, -6.32e-6)
     state = bearing.equilibrium(load, speed_rpm=2238.0)
     assert imbalance(bearing, state, load) < 1e-6
+
+
+def test_loads_at_which_rounding_shows():
+    """An approach of 5e-14 m beside groove centres 0.3 mm apart."""
+    bearing = BallBearing(balls=13, ball_diameter=7.938e-3, pitch_diameter=38.5e-3, contact_angle=radians(25.0))
+    state = bearing.equilibrium((0.0, 0.0, 1e-9))
+    assert imbalance(bearing, state, (0.0, 0.0, 1e-9)) < 1e-4
