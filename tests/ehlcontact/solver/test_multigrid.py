@@ -1,5 +1,7 @@
 """The cycle: fixed points, agreement with Newton on one grid, and its rate of convergence."""
 
+from math import inf
+
 import numpy as np
 import pytest
 
@@ -292,11 +294,11 @@ def test_where_cycles_fail_on_close_lines_a_careful_start_follows(monkeypatch):
         return Status.CONVERGED if attempt.method.load_continuation else Status.DIVERGED
 
     monkeypatch.setattr(steady._Film, "run", run)
-    assert solve_steady(LOBES, throw=False).status is Status.CONVERGED
+    assert solve_steady(LOBES, budget=inf, throw=False).status is Status.CONVERGED
     assert tried[-2:] == [(False, 4), (True, 4)]
     assert set(tried[:-2]) == {(False, 1)}
     tried.clear()
-    assert solve_steady(LOBES, method="multigrid", throw=False).status is Status.DIVERGED
+    assert solve_steady(LOBES, budget=inf, method="multigrid", throw=False).status is Status.DIVERGED
     assert not any(load_continuation for load_continuation, _ in tried)
 
 
@@ -309,7 +311,7 @@ def test_after_all_affordable_grids_one_more_is_tried_carefully(monkeypatch):
         return Status.DIVERGED
 
     monkeypatch.setattr(steady._Film, "run", run)
-    assert solve_steady(LOBES, throw=False).status is Status.DIVERGED
+    assert solve_steady(LOBES, budget=inf, throw=False).status is Status.DIVERGED
     last = [(mesh, method) for mesh, method in tried if is_last(mesh)]
     assert last == [(Mesh(2048, NEAREST_DOMAIN, LOBES.kappa, 4), CONTINUATION)]
     assert tried[-2:] == [*last, (Mesh(512, NEAREST_DOMAIN, LOBES.kappa, 4), CLOSE_LAST_RESORT)]
