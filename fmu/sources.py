@@ -1,8 +1,12 @@
-"""C sources of an FMU: files of the FMI version, of the model, and generated headers."""
+"""C sources of an FMU: files of the FMI version, of the model, and generated headers.
+
+The headers of the FMI standard are those that FMPy is installed with.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 
 from fmu.c_headers import c_headers
@@ -53,5 +57,18 @@ def source_files(spec: ModelSpec, guid: str, fmi: int = 2) -> dict[str, bytes]:
     interface = FMI_FILES[fmi]
     names = (*interface.sources, *spec.sources, *interface.headers, *spec.headers, "README.md")
     found = {path.name: path for path in CSRC.rglob("*") if path.is_file()}
-    files = {name: found[name].read_bytes() for name in (*names, *interface.standard)}
+    files = {name: found[name].read_bytes() for name in names} | standard_headers(fmi)
     return files | {name: text.encode("ascii") for name, text in c_headers(spec, guid).items()}
+
+
+def standard_headers(fmi: int) -> dict[str, bytes]:
+    """Headers of an FMI version by name, lines ending in LF: FMPy 0.3.22 has some with CR LF."""
+    folder = standard_folder()
+    return {name: (folder / name).read_bytes().replace(b"\r\n", b"\n") for name in FMI_FILES[fmi].standard}
+
+
+def standard_folder() -> Path:
+    """Folder of the headers of the FMI standard, in FMPy."""
+    fmpy = find_spec("fmpy")  # which need not be imported for its files
+    assert fmpy is not None and fmpy.origin is not None
+    return Path(fmpy.origin).parent / "c-code"

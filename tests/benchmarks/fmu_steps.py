@@ -18,7 +18,7 @@ from fmu.binaries import this_machine
 from fmu.binaries.compiler import compilers
 from fmu.contact_spec import contact_spec
 from fmu.contact_variables import Element
-from fmu.sources import CSRC
+from fmu.sources import standard_folder
 from reduced_models import Atlas, CubicContact
 
 # Motion about the place of the static load, over 2a/u_sum: u = 0.87 + 0.2 sin 2.5 T in steps of 0.02.
@@ -62,7 +62,7 @@ def timer(folder: Path) -> Path:
     machine = this_machine()
     assert machine is not None
     program, source = folder / "fmu_steps", Path(__file__).with_suffix(".c")
-    line = [*compilers(machine)[0].command, "-std=c99", "-O2", "-I", str(CSRC / "fmi2"), str(source)]
+    line = [*compilers(machine)[0].command, "-std=c99", "-O2", "-I", str(standard_folder()), str(source)]
     subprocess.run([*line, "-o", str(program), "-lm", "-ldl"], check=True)
     return program
 

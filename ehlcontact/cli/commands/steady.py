@@ -24,15 +24,6 @@ if TYPE_CHECKING:
 
 WAVELENGTH, REFRACTIVE_INDEX = 600e-9, 1.5  # of the light [m] and of the oil: fringes in the figure
 POINTS = 401  # of them along and across: a grid's own would show false ones
-Refine = Annotated[
-    bool,
-    typer.Option(
-        "--refine/--no-refine",
-        help="Without --n: a finer grid where the errors estimated are above 0.2 % of the dry approach, "
-        "1 % of the central and 3 % of the smallest film.",
-        rich_help_panel="Discretisation",
-    ),
-]
 
 
 class Solving(o.Options):

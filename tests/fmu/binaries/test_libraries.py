@@ -18,7 +18,7 @@ from fmu.archive import content_guid
 from fmu.binaries import PLATFORMS, BuildError, build_binaries, choose, libraries, read_library, this_machine
 from fmu.binaries.compiler import Compiler, compilers
 from fmu.contact_spec import contact_spec
-from fmu.sources import CSRC, FMI_FILES, compiled, source_files
+from fmu.sources import FMI_FILES, compiled, source_files, standard_headers
 from reduced_models import CubicContact
 
 OWN = this_machine()
@@ -33,7 +33,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:the first library for Windows")
 
 def declared(fmi):
     """Functions that a version of FMI wants a library to have."""
-    header = (CSRC / f"fmi{fmi}" / f"fmi{fmi}Functions.h").read_text()
+    header = standard_headers(fmi)[f"fmi{fmi}Functions.h"].decode()
     return set(re.findall(rf"FMI{fmi}_Export\s+fmi{fmi}\w+TYPE\s+(fmi{fmi}\w+);", header))
 
 

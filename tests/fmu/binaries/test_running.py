@@ -12,7 +12,7 @@ from fmu.binaries import PLATFORMS, build_binaries, this_machine
 from fmu.binaries.compiler import compilers
 from fmu.comparison import film_motion
 from fmu.contact_spec import contact_spec
-from fmu.sources import CSRC, compiled, source_files
+from fmu.sources import compiled, source_files, standard_folder
 
 OWN = this_machine()
 LOADER = Path(__file__).parent / "loader.c"
@@ -73,7 +73,8 @@ def built_loader(folder, platform):
     own = platform is OWN and shutil.which("cc")
     command = ("cc",) if own else compilers(platform)[-1].command
     program = folder / ("loader.exe" if platform.system == "windows" else "loader")
-    line = [*command, "-std=c99", "-O1", "-Wall", "-Wextra", "-Werror", "-I", CSRC / "fmi2", LOADER, "-o", program]
+    line = [*command, "-std=c99", "-O1", "-Wall", "-Wextra", "-Werror", "-I", standard_folder(), LOADER]
+    line += ["-o", program]
     line += [] if platform.system == "windows" else ["-ldl"]
     done = subprocess.run([str(part) for part in line], capture_output=True, text=True, check=False, timeout=600)
     assert done.returncode == 0, done.stderr
