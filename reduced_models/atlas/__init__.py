@@ -13,5 +13,4 @@
 | mesh | grids of a point, by the width of its inlet |
 | solve | steady film and impedance of one point |
 | solved_points | points solved by an executor, and kept in a store by content |
-| tune | search for the settings of a build: weights, rates, slopes for other oils |
 """

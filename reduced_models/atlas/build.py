@@ -34,8 +34,8 @@ Progress = Callable[[int, int], None]
 
 DRAWS, LIGHT_DRAWS, SEED = 448, 256, 4
 BOX = Box(M=(1.0, 30000.0), L=(0.0, 30.0), kappa=(0.045, 1.0), p_hertz=4.1e9)
-# By `tune`, other weights lower the error of points left out by less than 2 %, and the slopes for other oils cover
-# what changes at light, middle and heavy load.
+# By tests/benchmarks/tune_atlas.py, other weights lower the error of points left out by less than 2 %, and the
+# slopes for other oils cover what changes at light, middle and heavy load.
 INTERPOLATION = Interpolation(
     weights=(0.4, 0.16, 0.33, 0.905, 0.476),
     lobe_weights=(0.112, 0.083, 0.223, 2.78),
@@ -55,7 +55,7 @@ OIL = OtherOil(
     damping=(0.18, 0.02),
     moment=(0.17, 0.015),
 )
-# That fit all points together, by `tune`: those of the atlas before, without light loads, fit a third worse.
+# That fit all points together, by that script: those of the atlas before, without light loads, fit a third worse.
 RATES = FilterRates(lags=14, lag_rate=6.42, inlet_rate=14.9, fast_rate=43.0)
 HIGHEST = 32.0  # frequency up to which the film memory is fitted
 FLOOR = 0.05  # share of the low-frequency damping below which errors of C count absolutely

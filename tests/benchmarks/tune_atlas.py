@@ -1,6 +1,6 @@
-"""Search for the settings of a build: weights of the coordinates, rates of the filters, slopes for other oils.
+"""Search for the settings of an atlas: weights of the coordinates, rates of the filters, slopes for other oils.
 
-    python -m reduced_models.atlas.tune --weights --lobes --rates --oil [--atlas FILE]
+    python tests/benchmarks/tune_atlas.py --weights --lobes --rates --oil [--atlas FILE]
 
 Weights of the coordinates and rates of the filters are varied from those of the atlas to where its own points are
 interpolated best, each from the others, and fitted best. What another oil changes is solved for anew. It prints
@@ -154,7 +154,7 @@ def _least(
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """The command line."""
-    parser = argparse.ArgumentParser("python -m reduced_models.atlas.tune", description="Numbers of a build.")
+    parser = argparse.ArgumentParser(description="Settings of an atlas.")
     for name in ("weights", "lobes", "rates", "oil"):
         parser.add_argument(f"--{name}", action="store_true")
     parser.add_argument("--atlas", type=Path, default=SHIPPED)

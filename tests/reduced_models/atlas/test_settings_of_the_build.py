@@ -4,13 +4,15 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
+from programs import script
 
 from ehlcontact import MoesPoint
 from ehlcontact.store import load, save
-from reduced_models.atlas import tune
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.table import AtlasTable
 from reduced_models.elements.film_response import FilterRates
+
+tune = script("tests/benchmarks/tune_atlas.py")
 
 
 @pytest.fixture(scope="module")
