@@ -61,32 +61,15 @@ static fmi2Status no_variables(fmi2Component c, size_t count, const char *functi
     return count == 0 ? fmi2OK : fail((const Instance *)c, function, "no variable of this type can be named here");
 }
 
-fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2String value[])
-{
-    (void)vr, (void)value;
-    return no_variables(c, nvr, "fmi2GetString");
-}
+#define NONE_OF(Name, Values) \
+    fmi2Status fmi2##Name(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, Values value[]) \
+    { \
+        (void)vr, (void)value; \
+        return no_variables(c, nvr, "fmi2" #Name); \
+    }
 
-fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Integer value[])
-{
-    (void)vr, (void)value;
-    return no_variables(c, nvr, "fmi2GetInteger");
-}
-
-fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer value[])
-{
-    (void)vr, (void)value;
-    return no_variables(c, nvr, "fmi2SetInteger");
-}
-
-fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Boolean value[])
-{
-    (void)vr, (void)value;
-    return no_variables(c, nvr, "fmi2SetBoolean");
-}
-
-fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2String value[])
-{
-    (void)vr, (void)value;
-    return no_variables(c, nvr, "fmi2SetString");
-}
+NONE_OF(GetInteger, fmi2Integer)
+NONE_OF(SetInteger, const fmi2Integer)
+NONE_OF(GetString, fmi2String)
+NONE_OF(SetString, const fmi2String)
+NONE_OF(SetBoolean, const fmi2Boolean)

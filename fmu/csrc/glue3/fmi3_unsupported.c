@@ -62,27 +62,32 @@ fmi3Status fmi3SetBinary(fmi3Instance c, const fmi3ValueReference valueReference
 
 /* ---- clocks ---- */
 
-fmi3Status fmi3GetClock(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                        fmi3Clock values[])
-{
-    (void)valueReferences, (void)values;
-    return no_variables(c, nValueReferences, "fmi3GetClock");
-}
+/* A function about clocks, with an array of values for each of them, or with two. */
+#define NO_CLOCK(Name, Values) \
+    fmi3Status fmi3##Name(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences, \
+                          Values values[]) \
+    { \
+        (void)valueReferences, (void)values; \
+        return no_variables(c, nValueReferences, "fmi3" #Name); \
+    }
 
-fmi3Status fmi3SetClock(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                        const fmi3Clock values[])
-{
-    (void)valueReferences, (void)values;
-    return no_variables(c, nValueReferences, "fmi3SetClock");
-}
+#define NO_CLOCK_WITH_TWO(Name, Values, Others) \
+    fmi3Status fmi3##Name(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences, \
+                          Values values[], Others others[]) \
+    { \
+        (void)valueReferences, (void)values, (void)others; \
+        return no_variables(c, nValueReferences, "fmi3" #Name); \
+    }
 
-fmi3Status fmi3GetIntervalDecimal(fmi3Instance c, const fmi3ValueReference valueReferences[],
-                                  size_t nValueReferences, fmi3Float64 intervals[],
-                                  fmi3IntervalQualifier qualifiers[])
-{
-    (void)valueReferences, (void)intervals, (void)qualifiers;
-    return no_variables(c, nValueReferences, "fmi3GetIntervalDecimal");
-}
+NO_CLOCK(GetClock, fmi3Clock)
+NO_CLOCK(SetClock, const fmi3Clock)
+NO_CLOCK(GetShiftDecimal, fmi3Float64)
+NO_CLOCK(SetShiftDecimal, const fmi3Float64)
+NO_CLOCK(SetIntervalDecimal, const fmi3Float64)
+NO_CLOCK_WITH_TWO(GetIntervalDecimal, fmi3Float64, fmi3IntervalQualifier)
+NO_CLOCK_WITH_TWO(GetShiftFraction, fmi3UInt64, fmi3UInt64)
+NO_CLOCK_WITH_TWO(SetIntervalFraction, const fmi3UInt64, const fmi3UInt64)
+NO_CLOCK_WITH_TWO(SetShiftFraction, const fmi3UInt64, const fmi3UInt64)
 
 fmi3Status fmi3GetIntervalFraction(fmi3Instance c, const fmi3ValueReference valueReferences[],
                                    size_t nValueReferences, fmi3UInt64 counters[], fmi3UInt64 resolutions[],
@@ -90,49 +95,6 @@ fmi3Status fmi3GetIntervalFraction(fmi3Instance c, const fmi3ValueReference valu
 {
     (void)valueReferences, (void)counters, (void)resolutions, (void)qualifiers;
     return no_variables(c, nValueReferences, "fmi3GetIntervalFraction");
-}
-
-fmi3Status fmi3GetShiftDecimal(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                               fmi3Float64 shifts[])
-{
-    (void)valueReferences, (void)shifts;
-    return no_variables(c, nValueReferences, "fmi3GetShiftDecimal");
-}
-
-fmi3Status fmi3GetShiftFraction(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                                fmi3UInt64 counters[], fmi3UInt64 resolutions[])
-{
-    (void)valueReferences, (void)counters, (void)resolutions;
-    return no_variables(c, nValueReferences, "fmi3GetShiftFraction");
-}
-
-fmi3Status fmi3SetIntervalDecimal(fmi3Instance c, const fmi3ValueReference valueReferences[],
-                                  size_t nValueReferences, const fmi3Float64 intervals[])
-{
-    (void)valueReferences, (void)intervals;
-    return no_variables(c, nValueReferences, "fmi3SetIntervalDecimal");
-}
-
-fmi3Status fmi3SetIntervalFraction(fmi3Instance c, const fmi3ValueReference valueReferences[],
-                                   size_t nValueReferences, const fmi3UInt64 counters[],
-                                   const fmi3UInt64 resolutions[])
-{
-    (void)valueReferences, (void)counters, (void)resolutions;
-    return no_variables(c, nValueReferences, "fmi3SetIntervalFraction");
-}
-
-fmi3Status fmi3SetShiftDecimal(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                               const fmi3Float64 shifts[])
-{
-    (void)valueReferences, (void)shifts;
-    return no_variables(c, nValueReferences, "fmi3SetShiftDecimal");
-}
-
-fmi3Status fmi3SetShiftFraction(fmi3Instance c, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                                const fmi3UInt64 counters[], const fmi3UInt64 resolutions[])
-{
-    (void)valueReferences, (void)counters, (void)resolutions;
-    return no_variables(c, nValueReferences, "fmi3SetShiftFraction");
 }
 
 fmi3Status fmi3ActivateModelPartition(fmi3Instance c, fmi3ValueReference clockReference, fmi3Float64 activationTime)
