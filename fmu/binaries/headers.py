@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import struct
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,27 +21,12 @@ class Library:
     ----------
     platform : str
         Architecture and system, as FMI 3 has them: ``x86_64-linux``.
-    exports : frozenset of str
-        Functions that can be called from outside.
-    needs : tuple of str
-        Libraries that it loads.
     glibc : tuple of int
         Newest version of the GNU C library that a symbol needs, () for none.
-    minimum : tuple of int
-        Oldest macOS that it runs on, () elsewhere.
-    name : str
-        Name it is linked by: install name of a Mach-O, soname of an ELF, module of a PE; "" for none.
-    signed : bool
-        Whether it has a code signature, which macOS requires on arm64.
     """
 
     platform: str
-    exports: frozenset[str]
-    needs: tuple[str, ...]
     glibc: tuple[int, ...] = ()
-    minimum: tuple[int, ...] = ()
-    name: str = ""
-    signed: bool = False
 
 
 def read_library(content: bytes) -> tuple[Library, ...]:
@@ -52,22 +37,9 @@ def read_library(content: bytes) -> tuple[Library, ...]:
     ValueError
         None of these, or damaged.
     """
-    import lief
-
-    lief.logging.disable()
     try:
-        if content.startswith((UNIVERSAL, b"\xcf\xfa\xed\xfe")):
-            found = lief.MachO.parse(list(content))
-            parsed: list[Any] = [] if found is None else [found.at(k) for k in range(found.size)]
-        else:
-            one = lief.parse(list(content)) if content else None
-            parsed = [] if one is None else [one]
-        readers: dict[Any, Callable[[Any], Library]] = {
-            lief.ELF.Binary: _elf,
-            lief.PE.Binary: _pe,
-            lief.MachO.Binary: _macho,
-        }
-        libraries = [readers[type(one)](one) for one in parsed]
+        parsed = parse(content)
+        libraries = tuple(map(_library, parsed))
         early = any(_end(one) > len(content) for one in parsed)
     except (SystemError, KeyError) as error:  # an entry that LIEF has no name for; a format that is none of these
         raise ValueError(f"a damaged library ({type(error).__name__} in its headers)") from None
@@ -75,7 +47,19 @@ def read_library(content: bytes) -> tuple[Library, ...]:
         raise ValueError("a damaged library: it ends too early")
     if not libraries:
         raise ValueError("no ELF, PE or Mach-O library, or a damaged library")
-    return tuple(libraries)
+    return libraries
+
+
+def parse(content: bytes) -> list[Any]:
+    """Libraries in a file, as LIEF parses them; none where it is no library."""
+    import lief
+
+    lief.logging.disable()
+    if content.startswith((UNIVERSAL, b"\xcf\xfa\xed\xfe")):
+        found = lief.MachO.parse(list(content))
+        return [] if found is None else [found.at(k) for k in range(found.size)]
+    one = lief.parse(list(content)) if content else None
+    return [] if one is None else [one]
 
 
 def _end(library: Any) -> int:
@@ -90,11 +74,16 @@ def _end(library: Any) -> int:
     return shift + max((offset + size for offset, size in sizes), default=0)
 
 
-def _text(name: str | bytes) -> str:
-    """Name as LIEF gives it: bytes where it is no UTF-8."""
-    if isinstance(name, bytes):
-        raise ValueError(f"a damaged library: the name {name!r}")
-    return name
+def _library(library: Any) -> Library:
+    import lief
+
+    if isinstance(library, lief.ELF.Binary):
+        return Library(_platform(library.header.machine_type, "linux"), _newest_glibc(library))
+    if isinstance(library, lief.PE.Binary):
+        return Library(_platform(library.header.machine, "windows"))
+    if isinstance(library, lief.MachO.Binary):
+        return Library(_platform(library.header.cpu_type, "darwin"))
+    raise KeyError(type(library).__name__)
 
 
 def _platform(machine: Any, system: str) -> str:
@@ -103,50 +92,12 @@ def _platform(machine: Any, system: str) -> str:
     return f"{MACHINES.get(machine.name, machine.name)}-{system}"
 
 
-def _elf(library: Any) -> Library:
-    import lief
-
-    versions = [_text(a.name) for r in library.symbols_version_requirement for a in r.get_auxiliary_symbols()]
-    glibc = [re.fullmatch(r"GLIBC_([\d.]+)", version) for version in versions]
-    soname = library.get(lief.ELF.DynamicEntry.TAG.SONAME)
-    return Library(
-        platform=_platform(library.header.machine_type, "linux"),
-        exports=frozenset(_text(symbol.name) for symbol in library.exported_symbols),
-        needs=tuple(map(_text, library.libraries)),
-        glibc=max((tuple(map(int, match[1].split("."))) for match in glibc if match), default=()),
-        name="" if soname is None else _text(soname.name),
-    )
-
-
-def _pe(library: Any) -> Library:
-    table = library.get_export() if library.has_exports else None
-    return Library(
-        platform=_platform(library.header.machine, "windows"),
-        exports=frozenset() if table is None else frozenset(_text(entry.name) for entry in table.entries),
-        needs=tuple(map(_text, library.libraries)),
-        name="" if table is None else _text(table.name),
-    )
-
-
-def _macho(library: Any) -> Library:
-    import lief
-
-    own, needs = "", []
-    for command in library.libraries:
-        if command.command == lief.MachO.LoadCommand.TYPE.ID_DYLIB:
-            own = _text(command.name)
-        else:
-            needs.append(_text(command.name))
-    built = library.build_version.minos if library.has_build_version else None
-    built = library.version_min.version if built is None and library.has_version_min else built
-    return Library(
-        platform=_platform(library.header.cpu_type, "darwin"),
-        exports=frozenset(_text(symbol.name).removeprefix("_") for symbol in library.exported_symbols),
-        needs=tuple(needs),
-        minimum=() if built is None else tuple(built[:2]),
-        name=own,
-        signed=library.has_code_signature,
-    )
+def _newest_glibc(library: Any) -> tuple[int, ...]:
+    """Newest version of the GNU C library that an ELF needs."""
+    needed = library.symbols_version_requirement
+    names = (symbol.name for one in needed for symbol in one.get_auxiliary_symbols())
+    found = [re.fullmatch(r"GLIBC_([\d.]+)", name) for name in names if isinstance(name, str)]
+    return max((tuple(map(int, match[1].split("."))) for match in found if match), default=())
 
 
 def universal(libraries: Sequence[bytes]) -> bytes:

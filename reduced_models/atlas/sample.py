@@ -36,7 +36,7 @@ class _Set(NamedTuple):
     warp: float
 
 
-def sample_points(draws: int, light_draws: int, seed: int, box: Box = SAMPLED) -> dict[str, MoesPoint]:
+def sample_points(draws: int, light_draws: int, seed: int) -> dict[str, MoesPoint]:
     """Points to solve by name; more draws add to the fewer, a few of which fall away.
 
     What is drawn a little outside is moved onto the faces, so that the edges are interpolated too; a Hertz
@@ -57,8 +57,8 @@ def sample_points(draws: int, light_draws: int, seed: int, box: Box = SAMPLED) -
     points: dict[str, MoesPoint] = {}
     for k, which in enumerate(sets):
         thin = 0
-        for i, point in enumerate(_drawn(which, seed + k, box)):
-            excess = point.p_hertz / box.p_hertz
+        for i, point in enumerate(_drawn(which, seed + k)):
+            excess = point.p_hertz / SAMPLED.p_hertz
             if excess > PRESSURE_OVERSHOOT:
                 continue
             if point.inlet_width < INLET_SPARSE:  # not by i: its parity tells in which half of the cube a draw is
@@ -70,18 +70,18 @@ def sample_points(draws: int, light_draws: int, seed: int, box: Box = SAMPLED) -
     return points
 
 
-def _drawn(which: _Set, seed: int, box: Box) -> Iterator[MoesPoint]:
+def _drawn(which: _Set, seed: int) -> Iterator[MoesPoint]:
     """All draws of a set."""
     from scipy.stats import qmc  # of all that is imported here it takes longest
 
     # Sobol sequences are balanced by powers of 2, but any beginning will do here.
     found = qmc.Sobol(3, seed=seed).random_base2(math.ceil(math.log2(max(which.draws, 1))))[: which.draws]
     for u, v, w in np.clip(found * (1.0 + 2.0 * OVERSHOOT) - OVERSHOOT, 0.0, 1.0).tolist():
-        kappa, ends = _between(box.kappa, w), box.M
+        kappa, ends = _between(SAMPLED.kappa, w), SAMPLED.M
         if which.load_numbers is not None:
             low, high = (N / load_number(1.0, kappa) for N in which.load_numbers)
-            ends = max(box.M[0], low), high
-        yield MoesPoint(_between(ends, u), box.L[0] + (box.L[1] - box.L[0]) * v**which.warp, kappa)
+            ends = max(SAMPLED.M[0], low), high
+        yield MoesPoint(_between(ends, u), SAMPLED.L[0] + (SAMPLED.L[1] - SAMPLED.L[0]) * v**which.warp, kappa)
 
 
 def _between(ends: tuple[float, float], share: float) -> float:

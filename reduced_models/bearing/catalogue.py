@@ -46,7 +46,6 @@ class Row(NamedTuple):
     source: str
     sourced: bool  # balls and diameters are in the source; False: derived by the rule above
     conformity: float = USUAL_CONFORMITY
-    conformity_known: bool = False
     contact_angle: float | None = None  # rad; None: deep groove
 
 
@@ -117,7 +116,6 @@ ROWS: dict[str, Row] = {
         "Harris, Rolling Bearing Analysis, ch. 7: groove radii 6.60 mm",
         True,
         6.60 / 12.7,
-        True,
     ),
     "UER204": Row(8, 7.92e-3, 34.55e-3, 20e-3, "LDK UER204 of the XJTU-SY bearing data sets", True),
     "ER-16K": Row(
@@ -165,7 +163,6 @@ ROWS: dict[str, Row] = {
         "Harris, Rolling Bearing Analysis: the 218 angular contact bearing",
         True,
         0.5232,
-        True,
         radians(40.0),
     ),
 }

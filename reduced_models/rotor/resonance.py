@@ -26,7 +26,7 @@ class Resonance:
     """Highest point of the response along one direction."""
 
     hz: float
-    amplitude: float  # of the node, over the eccentricity of the unbalance
+    amplitude: float  # of the disc, over the eccentricity of the unbalance
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +37,7 @@ class Resonances:
     """
 
     hz: NDArray[np.float64]
-    curves: Mapping[str, Mapping[str, NDArray[np.complex128]]]  # of the node, over the eccentricity
+    curves: Mapping[str, Mapping[str, NDArray[np.complex128]]]  # of the disc, over the eccentricity
     peaks: Mapping[str, Mapping[str, Resonance]]
 
     @property
@@ -58,21 +58,19 @@ class Resonances:
         }
 
 
-def resonances(rotors: Mapping[str, LinearRotor], eccentricity: float, node: str = "disc") -> Resonances:
-    """Responses over frequencies that show the slowest mode along every direction of every rotor.
+def resonances(rotors: Mapping[str, LinearRotor], eccentricity: float) -> Resonances:
+    """Responses of the disc over frequencies that show the slowest mode along every direction of every rotor.
 
     Parameters
     ----------
     rotors : mapping of str to LinearRotor
-        With the same nodes.
+        With the same nodes, "disc" among them.
     eccentricity : float
         Of the unbalance [m]; amplitudes are over it.
-    node : str
-        Whose displacements are compared.
     """
     slowest = {name: linear.slowest() for name, linear in rotors.items()}
     hz = frequencies_near([mode for by_direction in slowest.values() for mode in by_direction.values()])
-    places = next(iter(rotors.values())).rotor.nodes[node]
+    places = next(iter(rotors.values())).rotor.nodes["disc"]
     columns = {direction: place for direction, place in places.items() if direction in PLANE}
     curves: dict[str, dict[str, NDArray[np.complex128]]] = {direction: {} for direction in columns}
     peaks: dict[str, dict[str, Resonance]] = {direction: {} for direction in columns}

@@ -13,7 +13,6 @@ from plotly.subplots import make_subplots
 BLUE, ORANGE, GREEN, RED, PURPLE, GREY = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#7f7f7f"
 PALE, PALE_BLUE = "#f2f2f2", "#eaf3fa"  # of stretches behind the lines
 INK, SOFT, FAINT = "#1d2126", "#59616b", "#d5d9de"  # as in page.css
-THIN = {"color": INK, "width": 1.2}
 
 Cell = tuple[int, int]  # row and column, from 1 on as in plotly
 

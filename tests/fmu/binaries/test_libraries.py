@@ -11,6 +11,7 @@ from pathlib import Path
 
 import fmpy
 import pytest
+from library_contents import contents
 
 from ehlcontact import InputError
 from fmu import export_contact
@@ -43,20 +44,20 @@ def test_functions_were_found():
 
 def assert_sound(content, platform, identifier, fmi=2):
     """By its headers, a library of that platform that loads on old systems and shows nothing of this one."""
-    (found,) = read_library(content)
+    (found,), inside = read_library(content), contents(content)
     assert found.platform == platform.name
-    assert {name for name in found.exports if name[0] != "_"} == declared(fmi)
+    assert {name for name in inside.exports if name[0] != "_"} == declared(fmi)
     if platform.system == "linux":
-        assert found.glibc <= (2, 17) and found.name == ""
-        assert set(found.needs) <= {"libc.so.6", "libm.so.6"}
+        assert found.glibc <= (2, 17) and inside.name == ""
+        assert set(inside.needs) <= {"libc.so.6", "libm.so.6"}
     elif platform.system == "windows":
         # the C library that Windows 10 has itself
-        assert all(re.fullmatch(r"(?i)kernel32\.dll|api-ms-win-crt-[\w-]+\.dll", name) for name in found.needs)
+        assert all(re.fullmatch(r"(?i)kernel32\.dll|api-ms-win-crt-[\w-]+\.dll", name) for name in inside.needs)
     else:
-        assert found.minimum == {"x86_64-darwin": (10, 13), "aarch64-darwin": (11, 0)}[platform.name]
-        assert found.name == f"@rpath/{identifier}.dylib"
-        assert found.needs == ("/usr/lib/libSystem.B.dylib",)
-        assert found.signed or platform.name != "aarch64-darwin"  # which loads no other
+        assert inside.minimum == {"x86_64-darwin": (10, 13), "aarch64-darwin": (11, 0)}[platform.name]
+        assert inside.name == f"@rpath/{identifier}.dylib"
+        assert inside.needs == ["/usr/lib/libSystem.B.dylib"]
+        assert inside.signed or platform.name != "aarch64-darwin"  # which loads no other
     for place in (b"ehlcontact-fmu-", os.fsencode(Path.home()), os.fsencode(sys.prefix), b"/tmp/"):
         assert place not in content
 
@@ -124,7 +125,7 @@ def test_a_binary_for_newer_systems_only_is_passed_over(monkeypatch):
     monkeypatch.delenv("EHLCONTACT_CC", raising=False)
     files, (label,) = build_binaries(sources, ["a.c"], "a", [OWN], fmi=3)
     (found,) = read_library(*files.values())
-    assert found.exports >= {"f"} and () < found.glibc <= (2, 17)
+    assert contents(*files.values()).exports >= {"f"} and () < found.glibc <= (2, 17)
     own = compilers(OWN)[0]
     if not own.is_zig:
         there = libraries._made(libraries.Work(sources, ["a.c"], "a"), OWN, own)[1]
@@ -142,7 +143,7 @@ def test_a_compiler_whose_libraries_are_too_new_is_asked_once(monkeypatch, tmp_p
         return b"library"
 
     def checked(library, target, compiler):
-        return libraries.Library(OWN.name, frozenset(), (), (2, 17) if compiler.is_zig else (2, 29))
+        return libraries.Library(OWN.name, (2, 17) if compiler.is_zig else (2, 29))
 
     old, new = (Compiler((name,), name, name, is_zig=name == "zig") for name in ("zig", "cc"))
     monkeypatch.setattr(libraries, "compilers", lambda target: [new, old])
