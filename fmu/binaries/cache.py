@@ -1,7 +1,7 @@
 """Cache of compiled libraries in the user's cache folder; without such a folder everything is compiled anew.
 
-An entry is written to a temporary file and moved into place, so that several processes may write at once. It
-begins with its checksum; a damaged entry is ignored. The least recently used entries are removed beyond a size.
+Entries are those of a `ContentStore`: several processes may write at once, and a damaged entry is ignored. The
+least recently used entries are removed beyond a size.
 """
 
 from __future__ import annotations
@@ -9,16 +9,17 @@ from __future__ import annotations
 import hashlib
 import os
 import sys
-import uuid
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
+
+from ehlcontact.content_store import ContentStore
+from ehlcontact.errors import InputError
 
 CACHE_VARIABLE = "EHLCONTACT_CACHE"
 ZIG_VARIABLE = "ZIG_GLOBAL_CACHE_DIR"
 LARGEST = 2**26  # bytes of all entries: some thousand libraries
 SUFFIX = ".library"
-DIGEST = hashlib.sha256().digest_size  # bytes at the start of an entry
 
 
 def cache_folder() -> Path | None:
@@ -47,16 +48,10 @@ def recall(key: str) -> bytes | None:
     folder = cache_folder()
     if folder is None:
         return None
-    path = folder / f"{key}{SUFFIX}"
-    try:
-        content = path.read_bytes()
-    except OSError:
-        return None
-    if hashlib.sha256(content[DIGEST:]).digest() != content[:DIGEST]:
-        return None
+    name = f"{key}{SUFFIX}"
     with suppress(OSError):
-        os.utime(path)  # used now
-    return content[DIGEST:]
+        os.utime(folder / name)  # used now
+    return ContentStore(folder, CACHE_VARIABLE).get(name)
 
 
 def remember(key: str, content: bytes) -> None:
@@ -64,14 +59,9 @@ def remember(key: str, content: bytes) -> None:
     folder = cache_folder()
     if folder is None:
         return
-    temporary = folder / f".{uuid.uuid4().hex}.tmp"
-    try:
-        temporary.write_bytes(hashlib.sha256(content).digest() + content)
-        os.replace(temporary, folder / f"{key}{SUFFIX}")
+    with suppress(InputError, OSError):  # a full disk, say: only time is lost
+        ContentStore(folder, CACHE_VARIABLE).put(f"{key}{SUFFIX}", content)
         _shrink(folder)
-    except OSError:  # a full disk, say: only time is lost
-        with suppress(OSError):
-            temporary.unlink(missing_ok=True)
 
 
 def _shrink(folder: Path) -> None:
