@@ -11,6 +11,7 @@ import json
 import os
 import re
 import stat
+import tempfile
 import time
 import uuid
 from collections.abc import Iterator
@@ -91,6 +92,44 @@ def write_bytes(path: str | os.PathLike[str], content: bytes, field: str = "path
     with replacing(path, field) as temporary:
         temporary.write_bytes(content)
     return Path(path)
+
+
+def require_writable(field: str, path: Path, suffixes: tuple[str, ...] = ()) -> None:
+    """Make sure, before long work, that a file can be written.
+
+    Raises
+    ------
+    InputError
+        Wrong ending, a folder of that name, or a folder that does not exist or cannot be written to; it names the
+        file as `field`.
+    """
+    if suffixes and path.suffix.lower() not in suffixes:
+        raise InputError(field, str(path), "a file name ending in " + " or ".join(suffixes))
+    try:
+        if path.is_dir():
+            raise InputError(field, str(path), "a file, not a folder")
+        if not path.parent.is_dir():
+            raise InputError(field, str(path), "in a folder that exists")
+        if is_named_pipe(path):
+            raise InputError(field, str(path), "a file, not a pipe with a name, which may wait for ever")
+        if path.exists() and not path.is_file():  # a device, which is written to and not replaced
+            return
+        path.lstat()  # whether there can be a file of that name
+    except FileNotFoundError:  # a new file, which is what most are
+        pass
+    except OSError as error:
+        raise InputError(field, str(path), f"a file that can be written ({error.strerror})") from None
+    require_writable_folder(field, path.parent, str(path))
+
+
+def require_writable_folder(field: str, folder: Path, named: str | None = None) -> None:
+    """Make sure that files can be made in an existing folder."""
+    try:
+        with tempfile.NamedTemporaryFile(dir=folder):
+            return
+    except OSError as error:
+        allowed = f"in a folder that can be written to ({error.strerror})"
+        raise InputError(field, named or str(folder), allowed) from None
 
 
 def is_named_pipe(path: str | os.PathLike[str]) -> bool:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
 from ehlcontact.errors import InputError
-from ehlcontact.files import write_bytes
+from ehlcontact.files import require_writable, write_bytes
 from fmu.archive import fmu_files, pack
 from fmu.binaries import choose, this_machine
 from fmu.binaries.libraries import Progress
@@ -134,20 +133,7 @@ def export_verified(
 def free_target(path: str | os.PathLike[str], overwrite: bool, suffix: str = ".fmu") -> Path:
     """Path of a file to write; raises `InputError` if it cannot be written or exists."""
     target = Path(path)
-    if target.suffix.lower() != suffix:
-        raise InputError("path", str(path), f"a file name ending in {suffix}")
-    try:
-        if not target.parent.is_dir():
-            raise InputError("path", str(path), "in a folder that exists")
-        if target.is_dir():
-            raise InputError("path", str(path), "a file, not a folder")
-        there = target.exists()
-    except OSError as error:  # no name is that long
-        raise InputError("path", str(path), f"a file that can be written ({error.strerror})") from None
-    if there and not overwrite:
+    require_writable("path", target, (suffix,))
+    if target.exists() and not overwrite:
         raise InputError("path", str(path), "a new file, or replaced with overwrite=True")
-    try:
-        with tempfile.NamedTemporaryFile(dir=target.parent):
-            return target
-    except OSError as error:
-        raise InputError("path", str(path), f"in a folder that can be written to ({error.strerror})") from None
+    return target

@@ -20,7 +20,6 @@ from ehlcontact.checks.machine import require_threads
 from ehlcontact.cli.entries import Intervals, Section, allowed_of, meaning_of
 from ehlcontact.cli.output import (
     check_apart,
-    check_file,
     check_json,
     deliver,
     save_to,
@@ -31,6 +30,7 @@ from ehlcontact.cli.output import (
 from ehlcontact.cli.rows import Row
 from ehlcontact.cli.study.schema_errors import first_error
 from ehlcontact.errors import InputError
+from ehlcontact.files import require_writable
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid as SolverGrid
 
@@ -218,7 +218,8 @@ class Output(Options):
             if name != "json_to"
         }
         for option, (path, endings) in {**beside, **own}.items():
-            check_file(option, path, endings)
+            if path is not None:
+                require_writable(option, path, endings)
         check_json(self.json_to)
         check_apart({name: path for name, (path, _) in {**beside, **own}.items()} | {"--json": self.json_to}, read)
 

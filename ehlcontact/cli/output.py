@@ -6,7 +6,6 @@ import json
 import math
 import os
 import sys
-import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -19,7 +18,7 @@ from rich.table import Table
 
 from ehlcontact.cli.numerals import spelled
 from ehlcontact.errors import InputError, printable
-from ehlcontact.files import is_named_pipe, write_text
+from ehlcontact.files import require_writable, require_writable_folder, write_text
 
 FAILED, USAGE = 1, 2
 INTERRUPTED_LINE = "interrupted: nothing was computed that could be kept"
@@ -49,49 +48,10 @@ def say(text: str, json_to: str | None = None) -> None:
         typer.echo(spelled(text, sys.stdout))
 
 
-def check_file(field: str, path: Path | None, suffixes: tuple[str, ...] = ()) -> None:
-    """Make sure, before a long solve, that `path` can be written.
-
-    Raises
-    ------
-    InputError
-        Wrong ending, a folder of that name, or a folder that does not exist or cannot be written to.
-    """
-    if path is None:
-        return
-    if suffixes and path.suffix.lower() not in suffixes:
-        raise InputError(field, str(path), "a file name ending in " + " or ".join(suffixes))
-    try:
-        if path.is_dir():
-            raise InputError(field, str(path), "a file, not a folder")
-        if not path.parent.is_dir():
-            raise InputError(field, str(path), "in a folder that exists")
-        if is_named_pipe(path):
-            raise InputError(field, str(path), "a file, not a pipe with a name, which may wait for ever")
-        if path.exists() and not path.is_file():  # a device, which is written to and not replaced
-            return
-        path.lstat()  # whether there can be a file of that name
-    except FileNotFoundError:  # a new file, which is what most are
-        pass
-    except OSError as error:
-        raise InputError(field, str(path), f"a file that can be written ({error.strerror})") from None
-    check_folder(field, path.parent, str(path))
-
-
 def check_new(field: str, path: Path, force: bool) -> None:
     """Make sure that a file is not there yet, unless it may be replaced."""
     if not force and path.exists():
         raise InputError(field, str(path), "a new file, or replaced with --force")
-
-
-def check_folder(field: str, folder: Path, named: str | None = None) -> None:
-    """Make sure that files can be made in an existing folder."""
-    try:
-        with tempfile.NamedTemporaryFile(dir=folder):
-            return
-    except OSError as error:
-        allowed = f"in a folder that can be written to ({error.strerror})"
-        raise InputError(field, named or str(folder), allowed) from None
 
 
 def prepare_folder(folder: Path) -> None:
@@ -106,7 +66,7 @@ def prepare_folder(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError("--output", str(folder), f"a folder that can be written to ({error.strerror})") from None
-    check_folder("--output", folder)
+    require_writable_folder("--output", folder)
 
 
 def check_place(folder: Path) -> None:
@@ -129,7 +89,7 @@ def check_json(path: str | None) -> None:
     if path == STDOUT and sys.stdout is None:
         raise InputError("--json", path, "used with a stdout that is not closed")
     if path not in (None, STDOUT):
-        check_file("--json", Path(str(path)))
+        require_writable("--json", Path(str(path)))
 
 
 def check_apart(targets: Mapping[str, Path | str | None], read: Iterable[Path | None] = ()) -> None:

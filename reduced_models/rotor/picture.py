@@ -64,7 +64,7 @@ def _orbit(axes: Any, run: Any, motion: Any, _: _Ends, colour: str) -> None:
     axes.grid(**GRID)
 
 
-def _amplitudes(signal: Any, dt: float) -> tuple[Any, Any]:
+def amplitudes(signal: Any, dt: float) -> tuple[Any, Any]:
     """Frequencies [Hz] and amplitudes of the lines, by a Hann window; the mean is left out."""
     window = np.hanning(signal.size)
     lines = 2.0 * np.abs(np.fft.rfft((signal - signal.mean()) * window)) / window.sum()
@@ -76,7 +76,7 @@ def _spectrum(axes: Any, run: Any, motion: Any, ends: _Ends, _: str) -> None:
     most_hz = ends[0] or ends[1]
     half, dt = run.t.size // 2, float(run.t[1] - run.t[0])
     for k, (name, colour) in enumerate((("x", OUTER), ("y", INNER))):
-        hz, lines = _amplitudes(motion[half:, k], dt)
+        hz, lines = amplitudes(motion[half:, k], dt)
         shown = (hz > 0.0) & (hz <= most_hz)
         axes.semilogy(hz[shown], lines[shown] * MICRO, color=colour, linewidth=0.9, label=name)
     top = 2.0 * max(float(line.get_ydata().max()) for line in axes.lines)
@@ -98,7 +98,7 @@ def _waterfall(axes: Any, run: Any, motion: Any, ends: _Ends, _: str) -> None:
     piece = max(piece, min(16, count))
     starts = np.unique(np.linspace(0, max(count - piece, 0), ROWS).astype(int))
     middle = np.minimum(starts + piece // 2, count - 1)
-    rows = [_amplitudes(motion[start : start + piece, 1], dt) for start in starts.tolist()]
+    rows = [amplitudes(motion[start : start + piece, 1], dt) for start in starts.tolist()]
     hz = rows[0][0]
     shown = hz <= (ends[0] or ends[1])
     level = np.log10(np.array([row[1][shown] for row in rows]) * MICRO + 1e-12)

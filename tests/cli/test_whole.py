@@ -1,18 +1,16 @@
 """The rotor of a study on whole bearings: what may stand in the file, and what becomes of it."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from tiny_study import STUDY
 
-from ehlcontact.cli.plots.bearing import lines
 from ehlcontact.cli.study.bearing_rotor import run_whole, whole_rotor
 from ehlcontact.cli.study.forecast import WHOLE, WHOLE_STEP, forecast
 from ehlcontact.cli.study.headline import whole as sentence
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import STAGES
 from ehlcontact.cli.study.whole_bearing import whole_bearing
+from reduced_models.rotor.picture import amplitudes
 
 PLAIN = STUDY[: STUDY.index("[whole_bearing]")]
 
@@ -96,8 +94,7 @@ def test_a_spectrum_shows_the_amplitude_of_a_vibration(amplitude, hz):
     """Beside a larger offset and another vibration; a frequency between two lines costs at most 15 %."""
     t = np.arange(8000) * 1e-4
     y = 1e-5 + amplitude * np.sin(2.0 * np.pi * hz * t + 0.4) + 1e-6 * np.sin(2.0 * np.pi * 500.0 * t)
-    run = SimpleNamespace(t=t, disc=np.column_stack([np.zeros_like(t), y]))
-    frequency, size = lines(run, "disc")
+    frequency, size = amplitudes(y, t[1] - t[0])
     near = np.abs(frequency - hz) < 5.0
     assert 0.85 * amplitude <= size[near].max() <= 1.001 * amplitude
     assert size[np.abs(frequency - 500.0) < 5.0].max() == pytest.approx(1e-6, rel=1e-3)

@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from ehlcontact.cli.output import check_file, check_new, say, write_to
+from ehlcontact.cli.output import check_new, say, write_to
+from ehlcontact.files import require_writable
 
 
 def explore(
@@ -18,7 +19,7 @@ def explore(
 
     One file of 1.4 MB that needs no network: the atlas stands in it, and the browser computes what Python does.
     """
-    check_file("--output", output, (".html", ".htm"))
+    require_writable("--output", output, (".html", ".htm"))
     check_new("--output", output, force)
     from ehlcontact.cli.explorer import write_explorer
 

@@ -26,7 +26,7 @@ from ehlcontact.cli.plots.style import (
 )
 from ehlcontact.results.picture import COLOURS
 from reduced_models.bearing.picture import from_load
-from reduced_models.rotor.picture import whirl_name
+from reduced_models.rotor.picture import amplitudes, whirl_name
 
 LOOKS: dict[str, dict[str, Any]] = {
     "memory": {"color": BLUE},
@@ -129,7 +129,8 @@ def spectra(found: Any, names: Names) -> go.Figure:
     for col, body in enumerate(BODIES, start=1):
         highest = 0.0
         for name in [name for name in ORDER if name in found.ran]:
-            hz, size = lines(found.ran[name], body)
+            run = found.ran[name]
+            hz, size = amplitudes(getattr(run, body)[:, 1], float(run.t[1] - run.t[0]))
             shown = hz <= ORDERS * speed
             line = {**LOOKS[name], "width": 1.2}
             figure.add_scatter(x=hz[shown], y=size[shown] * 1e6, line=line, name=names[name], row=1, col=col)
@@ -142,14 +143,6 @@ def spectra(found: Any, names: Names) -> go.Figure:
         for at, text in ((speed, "1x"), (found.passage_hz, "ball passage")):
             vertical(figure, at, text, 1, col, ORANGE)
     return figure
-
-
-def lines(run: Any, body: str) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies [Hz] and amplitudes [m] of the height of ring or disc, through a Hann window."""
-    y = getattr(run, body)[:, 1]
-    window = np.hanning(y.size)
-    size = 2.0 * np.abs(np.fft.rfft((y - y.mean()) * window)) / window.sum()
-    return np.fft.rfftfreq(y.size, float(run.t[1] - run.t[0])), size
 
 
 def coefficients(found: Any, names: Names) -> go.Figure:
