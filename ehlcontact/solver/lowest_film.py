@@ -49,7 +49,8 @@ def lowest_film(H: Array) -> tuple[float, float, float]:
     rows, columns = np.nonzero(_cells_near(H, NEAR * node))
     if not rows.size:
         return at_node
-    lowest, row, column = lowest_of_cells(H, rows, columns, np.empty((rows.size, 3)))
+    film = np.array(H, order="C")  # of any layout: compiled once
+    lowest, row, column = lowest_of_cells(film, rows, columns, np.empty((rows.size, 3)))
     return (lowest, row, column) if 0.0 < lowest < node else at_node
 
 

@@ -127,7 +127,9 @@ def _geometric(balls, b_r, b_z, c_r, c_z, now, out):
 def _stretched(geometric, at, k_i, k_o, out):
     """All derivatives by b and c, with the stiffness of both contacts."""
     n_i, n_o = (at.cos_i, at.sin_i), (at.cos_o, at.sin_o)
-    out[:] = geometric
+    for i in range(out.shape[0]):  # not out[:] = ...: the message for shapes that differ takes seconds to compile
+        for j in range(out.shape[1]):
+            out[i, j] = geometric[i, j]
     for i in range(2):
         for j in range(2):
             inner, outer = k_i * n_i[i] * n_i[j], k_o * n_o[i] * n_o[j]

@@ -148,7 +148,7 @@ class StaticBalls:
 
     def _press(self, q: _Floats) -> None:
         arrays = self._force, self._stiffness, self._damping
-        press_balls(self.balls, self.at_speed, self.films, self.normals, np.asarray(q, float), STILL, 0.0, arrays)
+        press_balls(self.balls, self.at_speed, self.films, self.normals, np.array(q, float), STILL, 0.0, arrays)
         if not np.isfinite(self._force).all():
             raise ConvergenceError(f"a ball finds no balance with the ring at {q.tolist()} m", q)
 

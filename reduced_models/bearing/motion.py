@@ -231,8 +231,8 @@ class BearingMotion:
             Force on every ball, at the inner and the outer race [N].
         """
         n, moved = self._size, self._motion
-        places = as_rows("q", q, np.shape(q)[0], n)
-        rates = as_rows("v", v, places.shape[0], n)
+        places = as_rows("q", q, np.shape(q)[0], n).copy()  # arrays that are read-only would be compiled for again
+        rates = as_rows("v", v, places.shape[0], n).copy()
         force, loads = np.zeros((len(places), n)), np.zeros((len(places), moved.balls.number, 2))
         angles = np.array([self._angle_at(self._step + 1 + i) for i in range(len(places))])
         out = np.zeros(n), np.zeros((n, n)), np.zeros((n, n))

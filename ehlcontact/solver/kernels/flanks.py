@@ -29,7 +29,8 @@ FRONT_REACH = 2  # nodes on either side of it, as many as the near film of a cha
 INTERVALS_EACH = 64  # intervals along X per pass,
 LEAST_PASSES, MOST_PASSES = 3, 16  # from so many to so many
 LEAST_ALONG_ROLLING = 6  # fewest in a long contact: with three, cycles diverge across its side lobes
-SOLVED, FELT = 2, 1  # marks: the larger one stands where both fall
+# Marks: the larger one stands where both fall. With a type: of plain constants kernels are compiled for each.
+SOLVED, FELT = np.uint8(2), np.uint8(1)
 
 
 @jit_loop
@@ -107,7 +108,8 @@ def solve_segments(solved, colour, fields, rhs, stencil, c_t, near, work):
     count = 0
     for s in range(solved.shape[0]):
         if solved[s, 0] % 2 == colour:
-            found[count] = solved[s]
+            # not found[count] = ...: the message for shapes that differ takes seconds to compile
+            found[count, 0], found[count, 1], found[count, 2] = solved[s, 0], solved[s, 1], solved[s, 2]
             count += 1
         if count == LANES or (count > 0 and s == solved.shape[0] - 1):
             relax_segments(found[:count], fields, rhs, stencil, c_t, near, work)

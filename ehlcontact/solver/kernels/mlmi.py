@@ -120,7 +120,9 @@ def correct(c, r, first, step):
     centre = c.origin + c.first + r
     for k in range(first, c.D.shape[0], step):
         if k == 0:
-            line[:] = c.P[centre]
+            here = c.P[centre]
+            for s in range(line.size):  # not line[:] = ...: it takes seconds to compile
+                line[s] = here[s]
         else:
             before, after = c.P[centre - k], c.P[centre + k]
             for s in range(line.size):

@@ -262,8 +262,8 @@ def assemble_rows(j, start, stop, first, lane, fields, rhs, stencil, c_t, near, 
     begin, end = start + first, min(start + first + ROWS, stop)
     responses(j, max(begin - PAD, start), min(end + PAD, stop), theta, near, films)
     for i in range(begin, min(end, 3)):  # beside the border
-        assemble_at(j, i, P, flow, theta, rhs, stencil, c_t, films, near, rows, 0)
-        if take_row(j, i, i - start, lane, P, theta, near, work, 0):
+        assemble_at(j, i, P, flow, theta, rhs, stencil, c_t, films, near, rows, i - begin)
+        if take_row(j, i, i - start, lane, P, theta, near, work, i - begin):
             m = i - start + 1
     for k in range(max(begin, 3), end, LANES):
         i = min(k, nx - LANES)
@@ -281,7 +281,7 @@ def relax_segments(found, fields, rhs, stencil, c_t, near, work):
     `found` has line, first node, and node after the last, of each; `work` is that of `line_work`.
     """
     _, band, b, _ = work
-    m, longest = 0, 0
+    m, longest = np.int64(0), 0  # m has one type from here on, for which `solve_bands` is compiled once
     for lane in range(len(found)):
         longest = max(longest, found[lane, 2] - found[lane, 1])
     for first in range(0, longest, ROWS):
