@@ -36,10 +36,19 @@ def pytest_cmdline_main(config):
 
 
 def pytest_collection_modifyitems(items):
-    """Put the files that need the finished study behind the first of them and all others: workers would wait."""
+    """Begin with the finished study, which compiles most kernels, beside the tests of FMUs, which need few.
+
+    So kernels are compiled once, and not in every worker; nor does one wait for the study: what needs it is last.
+    """
     needing = dict.fromkeys(item.path for item in items if "finished" in getattr(item, "fixturenames", ()))
     first = next(iter(needing), None)
-    items.sort(key=lambda item: 0 if item.path == first else 2 if item.path in needing else 1)
+
+    def order(item):
+        if item.path in needing:
+            return 0 if item.path == first else 3
+        return 1 if "fmu" in item.path.relative_to(item.config.rootpath).parts else 2
+
+    items.sort(key=order)
 
 
 @cache
@@ -112,7 +121,8 @@ def made_once(common_folder):
 
 @pytest.fixture(scope="session", autouse=True)
 def own_cache(common_folder):
-    """Libraries of FMUs are compiled by the tests, not found in the user's cache."""
+    """Libraries of FMUs are compiled by the tests, not found in the user's cache; programs keep their bytecode."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("EHLCONTACT_CACHE", str(common_folder / "compiled"))
+        patch.delenv("PYTHONDONTWRITEBYTECODE", raising=False)  # or each of 200 programs compiles 200 modules
         yield

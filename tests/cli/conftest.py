@@ -53,13 +53,13 @@ def quiet(monkeypatch):
 
 @pytest.fixture(scope="session")
 def finished(made_once):
-    """A study file and the folder of its finished run."""
+    """A study file and the folder of its finished run, in one process: it compiles every kernel once."""
     from ehlcontact.cli import main
 
     def run(folder):
         (folder / "tiny.toml").write_text(STUDY)
         with pytest.raises(SystemExit) as stop:
-            main(["run", str(folder / "tiny.toml"), "-o", str(folder / "out")])
+            main(["run", str(folder / "tiny.toml"), "-o", str(folder / "out"), "--jobs", "1"])
         assert not stop.value.code
 
     root = made_once("finished study", run)

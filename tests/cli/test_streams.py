@@ -20,8 +20,8 @@ CLOSED = "ehlcontact: stdout was closed before everything was written to it\n"
 
 @pytest.mark.parametrize(
     ("arguments", "unbuffered"),
-    [(ELEMENT, ""), (ELEMENT, "1"), ((*ELEMENT, "--json", "-"), ""), (("--help",), "1"), (("--version",), "")],
-    ids=["table", "table unbuffered", "json", "help unbuffered", "version"],
+    [(ELEMENT, "1"), ((*ELEMENT, "--json", "-"), ""), (("--help",), "1"), (("--version",), "")],
+    ids=["table unbuffered", "json", "help unbuffered", "version"],
 )
 def test_full(arguments, unbuffered):
     with open("/dev/full", "w") as full:
@@ -140,12 +140,10 @@ def test_a_pipe_whose_reader_is_gone():
 
 
 def test_the_backend_of_a_notebook_loses_no_figure(tmp_path):
-    """Whether its module is there or not."""
-    for backend in ("module://matplotlib_inline.backend_inline", "module://no_such_module"):
-        figure = tmp_path / "bearing.png"
-        found = program(*DRY, "--figure", figure, env=environment(MPLBACKEND=backend))
-        assert (found.returncode, found.stderr) == (0, "") and figure.read_bytes().startswith(b"\x89PNG")
-        figure.unlink()
+    """Nor does one whose module is not there."""
+    figure = tmp_path / "bearing.png"
+    found = program(*DRY, "--figure", figure, env=environment(MPLBACKEND="module://no_such_module"))
+    assert (found.returncode, found.stderr) == (0, "") and figure.read_bytes().startswith(b"\x89PNG")
 
 
 def test_a_bearing_without_compilation_has_the_same_numbers():

@@ -29,7 +29,7 @@ from fmu.sources import CSRC, source_files, standard_folder, standard_headers
 pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 STRICT = ["-pedantic", "-Wall", "-Wextra", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Werror"]
 SANITIZE = ["-fsanitize=address,undefined,float-divide-by-zero", "-fno-sanitize-recover=all"]
-SANITIZED = [*STRICT, "-g", "-O1", *SANITIZE]
+SANITIZED = [*STRICT, "-g", "-O0", *SANITIZE]
 HERE = Path(__file__).parent
 CONTACTS = ["cubic", "polynomial", "power_si", "wide_si", "memory"]
 ROTORS = ["rotor alone", "rotor mixed", "rotor wide in y"]
@@ -126,7 +126,7 @@ def test_a_library_exports_fmi(compiled, extracted, fmi, name):
 
 
 @pytest.mark.parametrize(
-    ("fmi", "name"), [*((fmi, kind) for fmi in (2, 3) for kind in CONTACTS), *((2, r) for r in ROTORS)]
+    ("fmi", "name"), [*((2, name) for name in CONTACTS + ROTORS), (3, "cubic"), (3, "wide_si")]
 )
 def test_random_calls_under_sanitizers(compiled, fmi, name):
     calls = 2 * FEW if name in ROTORS else FEW
@@ -144,11 +144,12 @@ def test_a_million_random_calls_under_sanitizers(compiled, fmi, name):
         assert done.returncode == 0, done.stderr
 
 
-def test_driver_under_sanitizers_agrees_with_python(compiled, elements, any_kind):
-    element = elements[any_kind]
+@pytest.mark.parametrize("name", CONTACTS)
+def test_driver_under_sanitizers_agrees_with_python(compiled, elements, name):
+    element = elements[name]
     h, u, v, expected, scales = wanted(element)
     text = "".join(f"{a!r} {b!r} {c!r}\n" for a, b, c in zip(h.tolist(), u.tolist(), v.tolist(), strict=True))
-    done = run([compiled(any_kind, 2, SANITIZED, "driver.c")], input=text)
+    done = run([compiled(name, 2, SANITIZED, "driver.c")], input=text)
     assert done.returncode == 0, done.stderr
     found = np.array(done.stdout.split(), dtype=float).reshape(-1, 3)
     assert found.shape == (u.size, 3)
