@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import math
 import os
@@ -86,7 +87,7 @@ def check_place(folder: Path) -> None:
 
 def check_json(path: str | None) -> None:
     """The same for the target of ``--json``."""
-    if path == STDOUT and sys.stdout is None:
+    if path == STDOUT and isinstance(sys.stdout, _Closed):
         raise InputError("--json", path, "used with a stdout that is not closed")
     if path not in (None, STDOUT):
         require_writable("--json", Path(str(path)))
@@ -232,6 +233,16 @@ class StdoutError(Exception):
         super().__init__(error.strerror or str(error))
 
 
+class _Closed(io.TextIOBase):
+    """In place of a stdout that was closed before the program started: it takes nothing."""
+
+    encoding = "utf-8"
+
+    def write(self, text: str) -> int:
+        """Raise the `StdoutError` of a stream that nobody reads."""
+        raise StdoutError(BrokenPipeError())
+
+
 class _Watched:
     """A stream whose failures are `StdoutError`: libraries for command lines take others for their own matter."""
 
@@ -266,8 +277,12 @@ class _Watched:
 def watched_stdout() -> Iterator[None]:
     """Within the block stdout raises `StdoutError`, also for what it still holds back at the end."""
     stream = sys.stdout
-    if stream is None:  # closed before we were started: nobody wants to know
-        yield
+    if stream is None:
+        sys.stdout = _Closed()
+        try:
+            yield
+        finally:
+            sys.stdout = stream
         return
     watched = _Watched(stream)
     sys.stdout = watched

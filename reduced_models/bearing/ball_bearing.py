@@ -472,6 +472,15 @@ class BallBearing(Summary):
         for name, most in zip(RACES, force.max(axis=0).tolist(), strict=True):
             self.race(name).require_bearable(most, speed, *given)
 
+    def _require_bearable_by_all(self, load: _Floats, speed: float) -> None:
+        """Raise `InputError` for a load that is too large even if all balls carried the same share of it."""
+        share = float(np.linalg.norm(load[:3])) / self.balls
+        for name in RACES:
+            highest, end = self.race(name).heaviest(speed)
+            if share > highest:
+                allowed = f"such that a ball carries at most {highest:.4g} N on the {name} race, {end}"
+                raise InputError("load", load.tolist(), f"{allowed} (here {share:.4g} N in the mean of all balls)")
+
     def _bearing_load(self, load: ArrayLike) -> _Floats:
         """A load that a bearing of this kind takes."""
         force = bearing_load(load)
@@ -491,6 +500,7 @@ class BallBearing(Summary):
         tilt: _Floats | None = None,
         first: _Floats | None = None,
     ) -> AngularEquilibrium:
+        self._require_bearable_by_all(load, speed)
         ring = self._static_ring(speed, angle, load.size, tilt)
         at = angular_equilibrium(ring, load, first)
         self._require_in_grooves(at.found, load, speed)

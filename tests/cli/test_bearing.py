@@ -149,6 +149,7 @@ def test_curves_pass_through_the_points():
         ({"clearance_um = 0.0": "loss_factor = 0.3"}, ("bearing.loss_factor = 0.3", "at most 0.2")),
         ({"e_um = 0.0": "e_um = -500"}, ("bearing.clearance_um = -500", "between -0.000397", "given in um")),
         ({"[1000, 3000, 6000]": "3000"}, ("operation.speed_rpm = 3000", "a list of numbers")),
+        ({"[1000, 3000, 6000]": "[3000, 3000]"}, ("operation.speed_rpm = 3000.0", "once in its list")),
         ({"[1000, 3000, 6000]": "[]"}, ("operation.speed_rpm", "at least 1")),
         ({"[1000, 3000, 6000]": "[0]"}, ("operation.speed_rpm = 0.0", "no film")),
         ({"[1000, 3000, 6000]": "[30000]"}, ("operation.speed_rpm = 30000.0", "at most 2")),
@@ -163,6 +164,19 @@ def test_curves_pass_through_the_points():
 )  # fmt: skip
 def test_mistakes_in_a_file(refused, file, changes, words):
     refused(("b.toml", *words), "bearing", file(changes))
+
+
+@pytest.mark.parametrize("option", ["--speed-rpm", "--hz"])
+def test_numbers_that_are_nearly_the_same(refused, option):
+    more = () if option == "--speed-rpm" else ("--speed-rpm", "3000")
+    given = (option, "50", option, "50.0000001")
+    refused((f"{option} = 50.0000001", "further from 50.0"), "bearing", "6205", "--load", "100", *more, *given)
+
+
+@pytest.mark.parametrize("film", [("--speed-rpm", "0"), (*OIL, "--speed-rpm", "3000")])
+def test_a_load_beyond_all_balls_says_the_largest(refused, film):
+    words = "--load, --axial = (1000000.0, 100.0)", "a ball carries at most", "1.111e+05 N in the mean of all"
+    refused(words, "bearing", "6205", "--axial", "100", "--load", "1e6", *film)
 
 
 def test_a_study_is_no_file_of_a_bearing(refused):

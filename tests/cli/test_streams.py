@@ -51,6 +51,13 @@ def test_stderr_full_or_closed():
     assert told.stderr == "ehlcontact: --json = '-': must be used with a stdout that is not closed\n"
 
 
+def test_closed_before_the_program_started(tmp_path):
+    """A table that nobody can get is a failure; a file beside it is written."""
+    shell = f"{sys.executable} -m ehlcontact.cli {' '.join(ELEMENT)} --save {tmp_path / 'e.json'} >&-"
+    told = subprocess.run(shell, shell=True, check=False, stderr=subprocess.PIPE, text=True)
+    assert (told.returncode, told.stderr) == (1, CLOSED) and (tmp_path / "e.json").exists()
+
+
 class Narrow(io.StringIO):
     encoding = "ascii"
 

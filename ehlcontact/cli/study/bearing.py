@@ -13,6 +13,7 @@ from pydantic import Field, StrictBool, ValidationError
 
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.entries import Section
+from ehlcontact.cli.study.points.lists import require_apart
 from ehlcontact.cli.study.schema import Oil
 from ehlcontact.cli.study.schema_errors import first_error, in_other_kind
 from ehlcontact.cli.toml import read_toml
@@ -203,7 +204,9 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
         if len(load) == 2 and bearing.contact_angle is not None:
             allowed = "given: an angular contact bearing needs an axial load, in +z"
             raise InputError("operation.axial_load", None, allowed)
-    speeds, hz = (tuple(sorted(set(values or ()))) for values in (asked.speed_rpm, asked.hz))
+        require_apart("operation.speed_rpm", asked.speed_rpm)
+        require_apart("operation.hz", asked.hz or ())
+    speeds, hz = (tuple(sorted(values or ())) for values in (asked.speed_rpm, asked.hz))
     return BearingJob(bearing, load, asked.tilt, speeds, hz, origin, given)
 
 

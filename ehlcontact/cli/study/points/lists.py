@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import isclose
@@ -119,15 +119,21 @@ def _values(key: str, given: list[Any]) -> list[Any]:
     field = f"bearing.{key}"
     if not given:
         raise InputError(field, given, f"a number, or a list of 1 to {MOST} numbers, as [1000, 3000]")
-    for i, value in enumerate(given):
+    for value in given:
         if isinstance(value, list | dict):
             raise InputError(field, value, "a number, in a list of numbers")
+    require_apart(field, given)
+    return given
+
+
+def require_apart(field: str, given: Sequence[Any]) -> None:
+    """Raise `InputError` for a number that a list has twice, or nearly so."""
+    for i, value in enumerate(given):
         if value in given[:i]:
             raise InputError(field, value, "once in its list")
         for other in given[:i]:
             if all(isinstance(one, int | float) for one in (value, other)) and isclose(value, other, rel_tol=SAME):
                 raise InputError(field, value, f"further from {other!r}, in its list, than {SAME:g} of it")
-    return given
 
 
 def _said(document: Mapping[str, Any]) -> str:
