@@ -22,7 +22,7 @@ from ehlcontact import Grid, InputError, load, solve_steady
 from ehlcontact.cli.study import runner
 from ehlcontact.cli.study.points.lists import MOST, load_points, points_of
 from ehlcontact.cli.study.points.lock import locked
-from ehlcontact.cli.study.points.summary import MEANINGS, UNITS
+from ehlcontact.cli.study.points.numbers import MEANINGS, UNITS
 from ehlcontact.cli.study.points.tasks import solve_stage
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import stage_named

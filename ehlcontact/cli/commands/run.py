@@ -158,5 +158,5 @@ def _show(rows: Sequence[Row], json_to: str | None) -> None:
         return
     from ehlcontact.cli.study.points.page import NARROW, cells
 
-    heads, lines = [head for head, *_ in NARROW], [[*cells(row, NARROW), row.status] for row in rows]
+    heads, lines = [one.head for one in NARROW.values()], [[*cells(row, NARROW), row.status] for row in rows]
     show_columns([*heads, "status"], lines, rows[0].point.study_title, padding=(0, 1, 0, 0))

@@ -8,18 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.study.points.numbers import NUMBERS
 from ehlcontact.results.picture import Panel, draw
 
 Numbers = Mapping[str, float | None]
 AXES = {"speed_rpm": ("speed [rev/min]", "rpm"), "radial_load": ("radial load [N]", "N")}
-PANELS = (  # number, what it is shown in, label
-    ("h_central", 1e6, "central film [µm]"),
-    ("h_min", 1e6, "smallest film [µm]"),
-    ("lambda", 1.0, "lambda ratio"),
-    ("stiffness", 1e-6, "stiffness of a contact [N/µm]"),
-    ("damping", 1.0, "damping of a contact [N s/m]"),
-    ("decrement", 1.0, "logarithmic decrement"),
-)
 
 
 def draw_points(points: Sequence[Numbers], path: Path) -> None:
@@ -37,13 +30,13 @@ def draw_points(points: Sequence[Numbers], path: Path) -> None:
     x, others = (np.unique([float(point[name] or 0.0) for point in points]) for name in (along, apart))
     at = {(float(point[along] or 0.0), float(point[apart] or 0.0)): point for point in points}
     panels = []
-    for name, unit, label in PANELS:
-        if all(point[name] is None for point in points):
+    for name, one in NUMBERS.items():
+        if not one.label or all(point[name] is None for point in points):
             continue
         lines = []
         for other in others.tolist():
             found = [(at.get((place, other)) or {}).get(name) for place in x.tolist()]
-            values = np.array([np.nan if value is None else unit * value for value in found])
+            values = np.array([np.nan if value is None else one.factor * value for value in found])
             lines.append((f"{numeral(other)} {AXES[apart][1]}" if len(others) > 1 else "", values, None))
-        panels.append(Panel((x, AXES[along][0]), lines, label, marks="osD^v*", bottom=0.0))
+        panels.append(Panel((x, AXES[along][0]), lines, one.label, marks="osD^v*", bottom=0.0))
     draw("", panels, path)

@@ -10,6 +10,7 @@ module         responsibility
 ``kept``       what is computed, in one store by content
 ``lock``       one run at a time in a folder
 ``log``        ``run.log``
+``numbers``    numbers of a point: units, meanings, columns and panels
 ``summary``    ``summary.json`` and ``summary.csv``: every point in numbers, with units and files
 ``page``       report over several points
 ============== ======================================================================================

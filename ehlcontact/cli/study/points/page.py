@@ -11,31 +11,18 @@ from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.page import write_page
 from ehlcontact.cli.plots.points import draw_points
 from ehlcontact.cli.study.points.finalise import REPORT
+from ehlcontact.cli.study.points.numbers import NUMBERS, Number
 from ehlcontact.cli.study.points.summary import PICTURE, Row
 
-# Columns of the table for people: head, number, factor, figures.
-COLUMNS = (
-    ("speed [rpm]", "speed_rpm", 1.0, 6),
-    ("load [N]", "radial_load", 1.0, 6),
-    ("p_h [GPa]", "p_hertz", 1e-9, 3),
-    ("h_c [µm]", "h_central", 1e6, 3),
-    ("h_min [µm]", "h_min", 1e6, 3),
-    ("lambda", "lambda", 1.0, 3),
-    ("K [N/µm]", "stiffness", 1e-6, 3),
-    ("C [N s/m]", "damping", 1.0, 3),
-    ("decay [Hz]", "decay_hz", 1.0, 4),
-    ("decrement", "decrement", 1.0, 3),
-)
+COLUMNS = {name: one for name, one in NUMBERS.items() if one.head}  # of the table for people
+NARROW = {name: one for name, one in COLUMNS.items() if one.narrow}
 
 
-NARROW = tuple(column for column in COLUMNS if column[1] not in ("p_hertz", "decay_hz"))  # for 80 characters
-
-
-def cells(row: Row, columns: Sequence[tuple[str, str, float, int]] = COLUMNS) -> list[str]:
+def cells(row: Row, columns: Mapping[str, Number] = COLUMNS) -> list[str]:
     """Numbers of a point in words; a dash where there is none."""
     return [
-        numeral(None if (value := row.numbers[name]) is None else factor * value, figures)
-        for _, name, factor, figures in columns
+        numeral(None if (value := row.numbers[name]) is None else one.factor * value, one.figures)
+        for name, one in columns.items()
     ]
 
 
@@ -58,6 +45,6 @@ def write_overview(rows: Sequence[Row], document: Mapping[str, Any], folder: Pat
         picture=picture,
         summary=document,
         rows=rows,
-        heads=[head for head, *_ in COLUMNS],
+        heads=[one.head for one in COLUMNS.values()],
         cells=cells,
     )

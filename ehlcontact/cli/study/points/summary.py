@@ -10,7 +10,6 @@ import csv
 import io
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import hypot
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +19,7 @@ from ehlcontact.cli.study.points.finalise import REPORT, faults, products, read_
 from ehlcontact.cli.study.points.kept import FINALISE, Entry
 from ehlcontact.cli.study.points.lists import STUDY_FILE, Point
 from ehlcontact.cli.study.points.log import LOG, versions
+from ehlcontact.cli.study.points.numbers import MEANINGS, UNITS, numbers_of
 from ehlcontact.cli.study.stages import stages_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json, read_text
@@ -27,33 +27,6 @@ from ehlcontact.status import Status
 
 FORMAT = 1  # of the summary
 SUMMARY, TABLE, PICTURE = "summary.json", "summary.csv", "summary.png"
-# Numbers of a point, with their units; those of the contact of its most loaded ball.
-UNITS = {
-    "speed_rpm": "rev/min",
-    "radial_load": "N",
-    "ball_load": "N",
-    "M": "-",
-    "L": "-",
-    "kappa": "-",
-    "p_hertz": "Pa",
-    "u_sum": "m/s",
-    "h_central": "m",
-    "h_central_error": "of h_central",
-    "h_min": "m",
-    "h_min_error": "of h_min",
-    "lambda": "-",
-    "stiffness": "N/m",
-    "damping": "N s/m",
-    "decay_hz": "Hz",
-    "decrement": "-",
-}
-MEANINGS = {
-    "lambda": "smallest film over the roughness of both surfaces",
-    "stiffness": "of one contact, at the frequency of the shaft",
-    "damping": "of one contact, at the frequency of the shaft",
-    "decay_hz": "vibration of the kicked rotor, on the full film",
-    "decrement": "logarithmic, of that vibration",
-}
 
 
 @dataclass(frozen=True)
@@ -118,7 +91,7 @@ def row_of(point: Point, ended: Mapping[str, Entry], root: Path) -> Row:
             *ended.get(FINALISE, {}).get("warnings", ()),
             *broken,
         ),
-        numbers=_numbers(point, results),
+        numbers=numbers_of(point, results),
         files={what: (below / name).as_posix() for what, name in made.items()},
         stages=stages,
         answer=None if results is None else results["answer"],
@@ -135,26 +108,6 @@ def _outside(results: Mapping[str, Any] | None) -> tuple[str, ...]:
 def _worst(stages: Mapping[str, str], lacking: Sequence[str]) -> str:
     """Status of a point that is not finalised: of its first stage that did not converge."""
     return next((stages[name] for name in lacking), str(Status.INTERRUPTED))
-
-
-def _numbers(point: Point, results: Mapping[str, Any] | None) -> dict[str, float | None]:
-    """Numbers by `UNITS`; those that follow from the study alone do not depend on stages."""
-    study, rough = point.study, point.study.roughness
-    m, s = study.point.moes, study.point.scales
-    found: dict[str, float | None] = dict.fromkeys(UNITS)
-    found |= {"speed_rpm": study.bearing.speed_rpm, "radial_load": study.bearing.radial_load}
-    found |= {"ball_load": study.ball_load, "M": m.M, "L": m.L, "kappa": m.kappa}
-    found |= {"p_hertz": s.pressure, "u_sum": study.point.u_sum}
-    if results is not None:
-        at, moved = results["operating_point"], results["at_rotor_speed"]
-        decayed = results["rotor"]["decay"]["decrements"]["full"]
-        h_central, h_min = (1e-6 * at[name] for name in ("h_central_um", "h_min_um"))
-        found |= {"h_central": h_central, "h_min": h_min}
-        found |= {name: at[name] for name in ("h_central_error", "h_min_error")}
-        found |= {"lambda": None if rough is None else h_min / hypot(*rough)}
-        found |= {name: moved[name] for name in ("stiffness", "damping")}
-        found |= {"decay_hz": decayed["hz"], "decrement": decayed["decrement"]}
-    return found
 
 
 def summary(rows: Sequence[Row], title: str, run: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,0 +1,79 @@
+"""Numbers of a point of a study: unit, meaning, and how tables and pictures for people show them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import hypot
+from typing import Any, NamedTuple
+
+from ehlcontact.cli.study.points.lists import Point
+
+
+class Number(NamedTuple):
+    """A number of a point; those of the contact are of its most loaded ball."""
+
+    unit: str
+    meaning: str = ""  # where the name does not say it
+    head: str = ""  # of its column in the table for people, which has no other numbers
+    factor: float = 1.0  # from its unit to that of the table and the picture
+    figures: int = 3
+    narrow: bool = True  # whether a table of 80 characters has it
+    label: str = ""  # of its panel in the picture, which has no other numbers
+
+
+NUMBERS = {
+    "speed_rpm": Number("rev/min", head="speed [rpm]", figures=6),
+    "radial_load": Number("N", head="load [N]", figures=6),
+    "ball_load": Number("N"),
+    "M": Number("-"),
+    "L": Number("-"),
+    "kappa": Number("-"),
+    "p_hertz": Number("Pa", head="p_h [GPa]", factor=1e-9, narrow=False),
+    "u_sum": Number("m/s"),
+    "h_central": Number("m", head="h_c [µm]", factor=1e6, label="central film [µm]"),
+    "h_central_error": Number("of h_central"),
+    "h_min": Number("m", head="h_min [µm]", factor=1e6, label="smallest film [µm]"),
+    "h_min_error": Number("of h_min"),
+    "lambda": Number(
+        "-", "smallest film over the roughness of both surfaces", head="lambda", label="lambda ratio"
+    ),
+    "stiffness": Number(
+        "N/m",
+        "of one contact, at the frequency of the shaft",
+        head="K [N/µm]",
+        factor=1e-6,
+        label="stiffness of a contact [N/µm]",
+    ),
+    "damping": Number(
+        "N s/m",
+        "of one contact, at the frequency of the shaft",
+        head="C [N s/m]",
+        label="damping of a contact [N s/m]",
+    ),
+    "decay_hz": Number(
+        "Hz", "vibration of the kicked rotor, on the full film", head="decay [Hz]", figures=4, narrow=False
+    ),
+    "decrement": Number("-", "logarithmic, of that vibration", head="decrement", label="logarithmic decrement"),
+}
+UNITS = {name: one.unit for name, one in NUMBERS.items()}
+MEANINGS = {name: one.meaning for name, one in NUMBERS.items() if one.meaning}
+
+
+def numbers_of(point: Point, results: Mapping[str, Any] | None) -> dict[str, float | None]:
+    """Numbers by `UNITS`; those that follow from the study alone do not depend on stages."""
+    study, rough = point.study, point.study.roughness
+    m, s = study.point.moes, study.point.scales
+    found: dict[str, float | None] = dict.fromkeys(UNITS)
+    found |= {"speed_rpm": study.bearing.speed_rpm, "radial_load": study.bearing.radial_load}
+    found |= {"ball_load": study.ball_load, "M": m.M, "L": m.L, "kappa": m.kappa}
+    found |= {"p_hertz": s.pressure, "u_sum": study.point.u_sum}
+    if results is not None:
+        at, moved = results["operating_point"], results["at_rotor_speed"]
+        decayed = results["rotor"]["decay"]["decrements"]["full"]
+        h_central, h_min = (1e-6 * at[name] for name in ("h_central_um", "h_min_um"))
+        found |= {"h_central": h_central, "h_min": h_min}
+        found |= {name: at[name] for name in ("h_central_error", "h_min_error")}
+        found |= {"lambda": None if rough is None else h_min / hypot(*rough)}
+        found |= {name: moved[name] for name in ("stiffness", "damping")}
+        found |= {"decay_hz": decayed["hz"], "decrement": decayed["decrement"]}
+    return found
