@@ -143,19 +143,6 @@ def test_frames_are_the_snapshots_of_the_last_period(finished, figures):
     assert len({json.dumps(frame["data"][1]["z"]) for frame in frames}) > times.size - 2  # they move
 
 
-def test_a_run_without_whole_fields_still_has_its_mid_planes(finished):
-    from dataclasses import replace
-
-    from ehlcontact.cli.plots.instants import instants
-
-    run = load(finished[1] / "harmonic.h5")
-    bare = replace(run, **{f"snapshot_{name}": getattr(run, f"snapshot_{name}")[:0] for name in "THP"})
-    figure = instants(bare)
-    assert {trace.type for trace in figure.data} == {"scatter"} and 10 <= len(figure.frames) <= 24
-    last = float(figure.layout.meta["slider"]["texts"][-1].split()[0])
-    assert last == pytest.approx(run.si.t[-1] * 1e3, rel=2e-3)
-
-
 def test_speeds_are_those_of_the_results(figures, results):
     """Every speed of the results has a frame, with its films, loads, stiffness and damping."""
     figure, found = figures["whole_speeds"], results["whole_bearing"]["over_speed"]

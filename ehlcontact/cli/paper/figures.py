@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -21,11 +21,14 @@ OUTSIDE = (0.5, 1.0, 1.5, 2.5)  # approaches at which springs are compared in nu
 TURN = 0.2  # of its range that a film has to turn by
 
 
-def integrated(table: int, *cases: str) -> Numbers:
-    """How far the cubic elements of the cases are from the full approach, and RK2(3) from Radau."""
+def integrated(table: int, *cases: str, motion: str | None = None) -> Numbers:
+    """How far cubic elements of the cases are from the full approach, and RK2(3) from Radau.
+
+    All under the motion of one case, or each under its own.
+    """
     return lambda fits: {
-        _named(whose, case): fits.difference(element, case)
-        for whose, elements in p.elements_of(fits, cases, table).items()
+        _named(whose, case): fits.difference(element, motion or case)
+        for whose, elements in p.elements_of(fits, cases, table, motion).items()
         for case, element in elements.items()
     }
 
@@ -58,15 +61,6 @@ def both(first: Numbers, second: Numbers) -> Numbers:
 def _named(whose: str, case: str) -> str:
     """Whose element of which case."""
     return f"{whose} element, {f'case {case}' if case.isdecimal() else case}"
-
-
-def swapped_numbers(motion: str, cases: Sequence[str], table: int) -> Numbers:
-    """How far elements of several cases are from the full approach under the motion of one of them."""
-    return lambda fits: {
-        _named(whose, case): fits.difference(element, motion)
-        for whose, elements in p.elements_of(fits, cases, table, motion).items()
-        for case, element in elements.items()
-    }
 
 
 def spring_numbers(fits: Fits) -> dict[str, Any]:
@@ -248,7 +242,7 @@ FIGURES = {
             f"Elements of cases 4, 5 and 6 under the load of case 4: approach, {INTEGRATED}.",
             "left, the elements of Table 5.",
             p.swapped("4", HARMONIC, 5),
-            swapped_numbers("4", HARMONIC, 5),
+            integrated(5, *HARMONIC, motion="4"),
         ),
         PaperFigure(
             18,
@@ -256,7 +250,7 @@ FIGURES = {
             f"Elements of cases 1, 2 and 3 on the mass of case 3: approach, {INTEGRATED}.",
             "left, the elements of Table 3.",
             p.swapped("3", FREE, 3),
-            swapped_numbers("3", FREE, 3),
+            integrated(3, *FREE, motion="3"),
         ),
         PaperFigure(
             19,

@@ -12,7 +12,6 @@ from ehlcontact.cli.plots.film import noted
 from ehlcontact.cli.plots.maps import HIGHEST, VIEW, add_film, add_pressure, move_together, refined, scale_note
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, PURPLE, RED, grid, label_axes, slide
 from ehlcontact.cli.plots.units import units_of
-from ehlcontact.cli.study.stages import FRAMES
 from ehlcontact.film import Film, film_of
 from ehlcontact.point import moes_point
 from ehlcontact.transient.motion import HarmonicLoad
@@ -25,41 +24,27 @@ Moving = list[tuple[int, list[dict[str, Any]]]]  # number of a trace, and its nu
 
 
 def steps_of(run: SimulationResult) -> NDArray[np.int_]:
-    """Steps of the last period that are shown: those with whole fields, or some of all where none were kept."""
-    motion = run.motion
-    period = motion.period if isinstance(motion, HarmonicLoad) else float(run.T[-1])
-    if run.snapshot_T.size:
-        kept = run.snapshot_T[run.snapshot_T >= run.T[-1] - period * (1.0 + 1e-9)]
-        return np.abs(run.T[:, None] - kept).argmin(axis=0)
-    last = np.flatnonzero(run.T >= run.T[-1] - period * (1.0 + 1e-9))
-    return last[:: -(-last.size // FRAMES)]
+    """Steps of the last period whose whole fields were kept."""
+    assert isinstance(run.motion, HarmonicLoad)
+    kept = run.snapshot_T[run.snapshot_T >= run.T[-1] - run.motion.period * (1.0 + 1e-9)]
+    return np.abs(run.T[:, None] - kept).argmin(axis=0)
 
 
 def instants(run: SimulationResult) -> go.Figure:
-    """Pressure and film, both along the mid-plane, and force and film over time.
-
-    A run that kept no whole fields is shown without the maps.
-    """
+    """Pressure and film, both along the mid-plane, and force and film over time."""
     units, steps = units_of(run.scales), steps_of(run)
     kappa = moes_point(run.point).kappa
-    films = [refined(film_of(run, float(run.T[step])), POINTS) for step in steps] if run.snapshot_T.size else []
-    maps = 2 if films else 0
-    titles = ["pressure; the surfaces move upwards", "film"] if films else []
-    figure = grid(
-        maps + 2,
-        heights=[HIGHEST] * maps + [200, 200],
-        titles=[*titles, "along rolling, y = 0; dotted: at rest", "over time"],
-        second=((maps + 1, 1), (maps + 2, 1)),
-    )
-    moving = _maps(figure, run, films, kappa, steps) if films else []
-    moving += _midplane(figure, run, steps, maps + 1) + _history(figure, run, steps, maps + 2)
+    films = [refined(film_of(run, float(run.T[step])), POINTS) for step in steps]
+    titles = "pressure; the surfaces move upwards", "film", "along rolling, y = 0; dotted: at rest", "over time"
+    figure = grid(4, heights=[HIGHEST, HIGHEST, 200, 200], titles=titles, second=((3, 1), (4, 1)))
+    moving = _maps(figure, run, films, kappa, steps) + _midplane(figure, run, steps) + _history(figure, run, steps)
     numbers = [number for number, _ in moving]
     figure.frames = [
         go.Frame(data=[frames[k] for _, frames in moving], traces=numbers, name=str(k)) for k in range(steps.size)
     ]
     label, _, unit = units.time.label.rstrip("]").partition(" [")
     slide(figure, label, unit, units.time(run.T[steps]), 0, runs=True)
-    return noted(figure, scale_note(films[0], kappa) if films else "")
+    return noted(figure, scale_note(films[0], kappa))
 
 
 def _maps(
@@ -77,7 +62,7 @@ def _maps(
     ]
 
 
-def _midplane(figure: go.Figure, run: SimulationResult, steps: NDArray[np.int_], row: int) -> Moving:
+def _midplane(figure: go.Figure, run: SimulationResult, steps: NDArray[np.int_], row: int = 3) -> Moving:
     """Pressure and film along y = 0."""
     units, inside = units_of(run.scales), (run.X >= VIEW[0]) & (run.X <= VIEW[1])
     x, number, at = units.x(run.X[inside]), len(figure.data), {"row": row, "col": 1}
@@ -94,7 +79,7 @@ def _midplane(figure: go.Figure, run: SimulationResult, steps: NDArray[np.int_],
     return [(number + k, [{"y": values[step]} for step in steps]) for k, values in enumerate((pressures, films))]
 
 
-def _history(figure: go.Figure, run: SimulationResult, steps: NDArray[np.int_], row: int) -> Moving:
+def _history(figure: go.Figure, run: SimulationResult, steps: NDArray[np.int_], row: int = 4) -> Moving:
     """Force and central film over the run, with dots at the time of the frame."""
     units, at = units_of(run.scales), {"row": row, "col": 1}
     t, force, film = units.time(run.T), units.force(run.force), units.film(run.h_central)
