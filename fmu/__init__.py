@@ -27,6 +27,7 @@ module                   responsibility
 ``verification``         `Verification`: result of a comparison
 ``verify``               `verify`: an FMU against fmpy's rules and the Python element, state by state
 ``verify_before_write``  verification of an FMU before it is written
+``bearing/``             FMU of a ball bearing whose inner ring is moved from outside
 ``rotor/``               FMU of a Jeffcott rotor, alone or with its contacts
 ``system/``              `export_system`: a rotor and its contacts as a system archive (SSP)
 ``csrc/``                C sources: core, interface of each FMI version, models; equations in its README
@@ -38,6 +39,8 @@ the two cannot be installed into one environment.
 
 from inspect import ismodule as _ismodule
 
+from fmu.bearing.export import export_bearing as export_bearing
+from fmu.bearing.model import BearingModel as BearingModel
 from fmu.binaries import BuildError as BuildError
 from fmu.export import export_contact as export_contact
 from fmu.references.check import ReferenceCheck as ReferenceCheck

@@ -9,6 +9,7 @@ from pathlib import Path
 from ehlcontact.errors import InputError
 from ehlcontact.files import require_writable, write_bytes
 from fmu.archive import fmu_files, pack
+from fmu.bearing.model import BearingModel
 from fmu.binaries import choose, this_machine
 from fmu.binaries.libraries import Progress
 from fmu.contact_variables import Element
@@ -101,7 +102,7 @@ def export_contact(
 
 
 def export_verified(
-    element: Element | RotorModel,
+    element: Element | RotorModel | BearingModel,
     path: str | os.PathLike[str],
     *,
     fmi: int = 2,

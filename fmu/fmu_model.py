@@ -7,6 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from ehlcontact.errors import InputError
+from fmu.bearing.comparison import bearing_references, compare_bearing
+from fmu.bearing.model import BearingModel
+from fmu.bearing.variables import bearing_spec
 from fmu.comparison import compare_film, compare_spring
 from fmu.contact_spec import contact_spec
 from fmu.contact_variables import Element, Film
@@ -44,8 +47,8 @@ class FmuModel:
     compare: Callable[[Any, Any], Verification]
 
 
-def fmu_model(source: Element | RotorModel, model_name: str | None = None, lead: float | None = None) -> FmuModel:
-    """Model of the FMU of a contact element or a rotor.
+def fmu_model(source: Element | RotorModel | BearingModel, model_name: str | None = None, lead: float | None = None) -> FmuModel:
+    """Model of the FMU of a contact element, a rotor or a bearing.
 
     `lead` is the start value of `lead` or `force_lead`, by default that of the kind.
 
@@ -61,6 +64,9 @@ def fmu_model(source: Element | RotorModel, model_name: str | None = None, lead:
         spec, elements = rotor_spec(source, model_name, lead), source.elements
         compare: Any = compare_rotor
         references: Any = rotor_references
+    elif isinstance(source, BearingModel):
+        spec, elements = bearing_spec(source, model_name, lead), ()
+        compare, references = compare_bearing, bearing_references
     else:
         spec, elements = contact_spec(source, model_name, HELD_PARALLEL if lead is None else lead), (source,)
         compare = compare_film if isinstance(source, Film) else compare_spring

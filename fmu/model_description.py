@@ -30,12 +30,8 @@ SECTIONS_2 = {
     "InitialUnknown": "InitialUnknowns",
 }
 TYPES_3 = {"Real": "Float64", "Boolean": "Boolean"}
-CAPABILITIES_3 = {
-    "canGetAndSetFMUState": "true",
-    "canSerializeFMUState": "true",
-    "providesDirectionalDerivatives": "true",
-    "providesAdjointDerivatives": "true",
-}
+STATES_3 = {"canGetAndSetFMUState": "true", "canSerializeFMUState": "true"}
+DERIVATIVES_3 = "providesDirectionalDerivatives", "providesAdjointDerivatives"
 C_OPTIONS = "-ffp-contract=off"  # results depend on it; visibility of symbols is chosen by the importer
 
 
@@ -97,36 +93,45 @@ def _interfaces_2(root: Element, spec: ModelSpec) -> None:
         "modelIdentifier": spec.identifier,
         "canGetAndSetFMUstate": "true",
         "canSerializeFMUstate": "true",
-        "providesDirectionalDerivative": "true",
+        "providesDirectionalDerivative": _boolean(spec.exchange),
     }
-    exchange = _child(root, "ModelExchange", **both, completedIntegratorStepNotNeeded="true")
+    interfaces = []
+    if spec.exchange:
+        interfaces.append(_child(root, "ModelExchange", **both, completedIntegratorStepNotNeeded="true"))
     simulation = _child(
         root,
         "CoSimulation",
         **both,
         canHandleVariableCommunicationStepSize="true",
         canInterpolateInputs="true",
-        maxOutputDerivativeOrder="1",
+        maxOutputDerivativeOrder=str(int(spec.exchange)),
     )
-    for interface in (exchange, simulation):
+    for interface in (*interfaces, simulation):
         files = _child(interface, "SourceFiles")
         for name in compiled(spec, 2):
             _child(files, "File", name=name)
 
 
 def _interfaces_3(root: Element, spec: ModelSpec) -> None:
-    _child(root, "ModelExchange", **CAPABILITIES_3, modelIdentifier=spec.identifier)
+    derivatives = dict.fromkeys(DERIVATIVES_3, _boolean(spec.exchange))
+    if spec.exchange:
+        _child(root, "ModelExchange", **STATES_3, **derivatives, modelIdentifier=spec.identifier)
     _child(
         root,
         "CoSimulation",
-        **CAPABILITIES_3,
+        **STATES_3,
+        **derivatives,
         modelIdentifier=spec.identifier,
         canHandleVariableCommunicationStepSize="true",
-        maxOutputDerivativeOrder="1",
+        maxOutputDerivativeOrder=str(int(spec.exchange)),
         providesIntermediateUpdate="true",
         mightReturnEarlyFromDoStep="true",
         hasEventMode="true",
     )
+
+
+def _boolean(value: bool) -> str:
+    return "true" if value else "false"
 
 
 def _units(root: Element, spec: ModelSpec) -> None:

@@ -22,6 +22,7 @@ UNITS: dict[str, dict[str, int | float]] = {
     "N.s2.m-2": {"kg": 1, "m": -1},
     "N.s3.m-3": {"kg": 1, "m": -2, "s": 1},
     "N.s.m-2": {"kg": 1, "m": -1, "s": -1},
+    "N.m": {"kg": 1, "m": 2, "s": -2},
     "rad": {"rad": 1},
     "rad/s": {"rad": 1, "s": -1},
     "rad/s2": {"rad": 1, "s": -2},
@@ -89,6 +90,7 @@ class ModelSpec:
     step: float = 1e-3  # that resolves the contact
     tolerance: float = 1e-6  # relative, that model exchange needs for three digits of what moves
     time_unit: str = "s"
+    exchange: bool = True  # whether it is for model exchange too, with partial derivatives; or for co-simulation alone
     # Event indicators, one for each contact: name in FMI 3.0, and the output that depends on the same.
     indicators: tuple[tuple[str, str], ...] = (("contact_indicator", "force"),)
     # Terminals of FMI 3.0: name, description, and the variables that are approach, rate and force.

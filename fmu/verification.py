@@ -10,6 +10,7 @@ from ehlcontact.summary import WIDTH, Summary
 
 TOLERANCE = 1e-12  # of forces, tangents and derivatives: rounding
 ORBIT = 1e-6  # of a rotor's motion: both balance their contacts to a billionth of the load in every step
+BALLS = 1e-8  # of the forces of a bearing: Python ends its search for the places of balls 1e-6 of the forces away
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +37,8 @@ class Verification(Summary):
         Largest difference in model exchange: force, and derivatives of the states.
     motion : float
         Of a rotor's run, largest difference over the largest of its motion.
+    bearing : float
+        Of a bearing's run, largest difference of forces and moments over the largest of each.
     """
 
     findings: tuple[str, ...]
@@ -48,12 +51,14 @@ class Verification(Summary):
     flags: int
     exchange: float = 0.0
     motion: float = 0.0
+    bearing: float = 0.0
 
     @property
     def passes(self) -> bool:
         """No finding, and all differences within rounding."""
         differences = max(self.force, self.tangents, self.derivatives, self.exchange)
-        return not self.findings and self.flags == 0 and differences <= TOLERANCE and self.motion <= ORBIT
+        runs = self.motion <= ORBIT and self.bearing <= BALLS
+        return not self.findings and self.flags == 0 and differences <= TOLERANCE and runs
 
     def _summary_lines(self) -> list[str]:
         largest = f"force {self.force:.2g}, tangents {self.tangents:.2g}, derivatives {self.derivatives:.2g}"
@@ -64,6 +69,8 @@ class Verification(Summary):
         ]
         if self.motion:
             lines.append(f"motion of the rotor {self.motion:.2g}, over its largest; {ORBIT:g} is allowed")
+        if self.bearing:
+            lines.append(f"forces of the bearing {self.bearing:.2g}, over their largest; {BALLS:g} is allowed")
         if self.flags:
             lines.append(f"outside_validity is wrong in {self.flags} states")
         return [*lines, *findings_text(self.findings)]

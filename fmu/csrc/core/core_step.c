@@ -316,6 +316,9 @@ static Fault check_references(State *s, const unsigned int unknowns[], size_t n_
 {
     size_t i;
     int rates = 0;
+#ifdef CO_SIMULATION_ONLY
+    return refuse("this FMU has no partial derivatives");
+#endif
     for (i = 0; i < n_unknowns; i++) {
         if (!is_unknown(unknowns[i])) {
             return refuse("an unknown is a real output, a state or its derivative");
@@ -414,6 +417,9 @@ Fault core_output_slope(State *s, unsigned int reference, double *value)
     if (!is_unknown(reference) || core_variables[reference].role == DERIVATIVE) {
         return refuse("not a real output");
     }
+#ifdef CO_SIMULATION_ONLY
+    return refuse("this FMU has no derivatives of its outputs");
+#endif
     fault = core_rates(s);
     if (fault.severity != FINE) {
         return fault;

@@ -109,6 +109,12 @@ void *make_instance(Instance *like, size_t size, const char *name, const char *t
         failed(like, function, version->wrong_token);
         return NULL;
     }
+#ifdef CO_SIMULATION_ONLY
+    if (kind == MODEL_EXCHANGE) {
+        failed(like, function, "this FMU is for co-simulation alone");
+        return NULL;
+    }
+#endif
     made = (Instance *)version->allocate(like, size);
     copy = made == NULL ? NULL : (char *)version->allocate(like, strlen(name) + 1);
     if (copy == NULL) {

@@ -5,6 +5,14 @@
 
 #include "film_inverse.h"
 
+/* Below these means shares are sums, or small differences would drown in rounding. Where the sums cost too much, FEW_LAGS of
+ * config.h leaves differences that lose two digits. */
+#ifdef FEW_LAGS
+static const double few = FEW_LAGS, few_shares = FEW_LAGS;
+#else
+static const double few = 3.0, few_shares = LAGS + 2;
+#endif
+
 double film_entering(double s, double *slope)
 {
     const double b = INLET_SATURATION * s, d = 1.0 + fabs(b);
@@ -17,7 +25,7 @@ double lag_moments(double mu, Moments *r)
     const double kept = exp(-mu);
     double second, third, term;
     int k;
-    if (mu < 3.0) { /* as sums, or small differences would drown in rounding */
+    if (mu < few) {
         term = kept * mu * mu * mu / 6.0;
         third = 0.0;
         for (k = 4; term > 1e-17 * third; k++) {
@@ -46,7 +54,7 @@ void poisson_shares(double mu, int n, double poisson[], double share[])
         passed -= weight;
         weight *= mu * inverse[k + 1];
     }
-    if (mu < n) { /* from the far end, or shares that are divided by mu would drown in rounding */
+    if (mu < few_shares) { /* from the far end */
         passed = 0.0;
         for (k = n + 1; weight > 1e-17 * passed; k++) {
             passed += weight;

@@ -1,0 +1,108 @@
+"""What the FMU of a ball bearing is made from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.checks import as_numbers, require_instance
+from ehlcontact.errors import InputError
+from reduced_models import BallBearing
+from reduced_models.bearing.freedoms import FIVE, PLANAR
+from reduced_models.bearing.motion import AngularMotion, BallMotion, motion_of
+from reduced_models.rotor.speed_profile import law_speeds
+
+_Floats = NDArray[np.float64]
+
+# Balls times speeds: what an instance remembers, and what the tables of five platforms take of a megabyte
+MOST_BALLS = 64
+MOST_SPEEDS = 4
+
+
+@dataclass(frozen=True)
+class BearingModel:
+    """A ball bearing whose inner ring is moved from outside.
+
+    Parameters
+    ----------
+    bearing : BallBearing
+    speeds_rpm : float or (float, float)
+        Speed of the shaft [rev/min], or lowest and highest one: tables of the races are made for these and some
+        between.
+    load : float or sequence of float, optional
+        Force on the inner ring [N], [N m], as of `BallBearing.equilibrium`, under which the FMU starts at rest; a
+        number is a weight, in -y. By default the ring starts in the middle, with all displacements 0.
+    freedoms : {2, 5}, optional
+        Displacements of the inner ring: x and y, or x, y, z, tilt_x and tilt_y. By default 5 of an angular contact
+        bearing, and of others under an axial load or a moment; else 2.
+
+    Raises
+    ------
+    InputError
+        No bearing, a speed or a load that it does not take, too many balls, a bearing whose balls have inertia
+        with five degrees of freedom.
+    """
+
+    bearing: BallBearing
+    speeds_rpm: Any
+    load: Any = None
+    freedoms: int | None = None
+
+    def __post_init__(self) -> None:
+        require_instance("bearing", self.bearing, BallBearing, "a BallBearing")
+        if self.bearing.balls > MOST_BALLS:
+            raise InputError("bearing.balls", self.bearing.balls, f"at most {MOST_BALLS} in an FMU")
+        if self.freedoms not in (None, len(PLANAR), len(FIVE)):
+            raise InputError("freedoms", self.freedoms, "2 or 5")
+        _ = self.speeds
+        if self.freedoms == len(PLANAR) and len(self.names) != len(PLANAR):
+            raise InputError("freedoms", 2, "5 under an axial load or a moment, and for angular contact bearings")
+        _ = self.place
+        self.motion()
+
+    @cached_property
+    def speeds(self) -> _Floats:
+        """Speeds of the tables [rev/min]."""
+        given = np.atleast_1d(as_numbers("speeds_rpm", self.speeds_rpm)).astype(float)
+        if given.ndim != 1 or given.size not in (1, 2) or (given.size == 2 and not given[0] < given[1]):
+            raise InputError("speeds_rpm", given.tolist(), "one speed, or the lowest and the highest one")
+        for speed in given.tolist():
+            self.bearing.speed(speed)
+        if given[-1] == 0.0:
+            raise InputError("speeds_rpm", 0.0, "> 0: the highest speed at which the bearing turns")
+        found = law_speeds(given)
+        if found.size > MOST_SPEEDS:
+            found = np.geomspace(found[0], found[-1], MOST_SPEEDS)
+        return np.asarray([self.bearing.speed(speed) for speed in found.tolist()])
+
+    @property
+    def _axial(self) -> bool:
+        size = 1 if self.load is None else np.atleast_1d(as_numbers("load", self.load)).size
+        return self.bearing.contact_angle is not None or size > len(PLANAR)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Displacements, in order."""
+        five = self._axial or self.freedoms == len(FIVE)
+        return FIVE if five else PLANAR
+
+    @cached_property
+    def place(self) -> _Floats:
+        """Where the inner ring starts [m], [rad]."""
+        found = np.zeros(len(self.names))
+        if self.load is not None:
+            given = as_numbers("load", self.load)
+            load = np.array([0.0, -float(given)]) if np.ndim(given) == 0 else given
+            state = self.bearing.equilibrium(load, speed_rpm=float(self.speeds[-1]))
+            found[: state.displacement.size] = state.displacement
+        return found
+
+    def motion(self) -> BallMotion | AngularMotion:
+        """Balls and films of the bearing in time, in Python."""
+        return motion_of(self.bearing, self.speeds.tolist(), len(self.names))
+
+

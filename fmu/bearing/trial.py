@@ -1,0 +1,85 @@
+"""A run of the inner ring with lift-off, and the forces of the bearing along it, computed in Python."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu.bearing.model import BearingModel
+from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.motion import AngularMotion
+
+_Floats = NDArray[np.float64]
+
+STEPS, DT = 160, 1e-5
+TONES = 3  # vibrations of each displacement
+LOWEST, HIGHEST = 300.0, 3000.0  # Hz
+DEEP = 3e-6  # m, size of the vibration: of the approach of a ball under some hundred newton
+SPEED_CHANGE = 0.02  # of the speed, within the run
+START = -np.pi / 2.0  # angle of the first ball
+
+
+@dataclass(frozen=True)
+class BearingTrial:
+    """Ends of equal steps, the first one at rest.
+
+    Attributes
+    ----------
+    time : ndarray, shape (k,)
+    place, velocity : ndarray, shape (k, n)
+    speed : ndarray, shape (k,)
+        Of the shaft [rad/s].
+    force : ndarray, shape (k, n)
+        On the inner ring [N], [N m].
+    balls : ndarray, shape (k, balls, 2)
+        Load of every ball at both races [N].
+    """
+
+    time: _Floats
+    place: _Floats
+    velocity: _Floats
+    speed: _Floats
+    force: _Floats
+    balls: _Floats
+
+
+def bearing_trial(model: BearingModel, steps: int = STEPS, dt: float = DT, seed: int = 1) -> BearingTrial:
+    """A run from rest, with vibrations in all directions, speed that changes, and balls that part from the ring."""
+    rng, n = np.random.default_rng(seed), len(model.names)
+    time = dt * np.arange(steps + 1)
+    pressed = model.place.copy()
+    if model.load is None:
+        pressed[0] = 0.5 * model.bearing.clearance + DEEP
+        if n > 2:
+            pressed[2] = DEEP
+    size = np.full(n, DEEP)
+    size[3:] = DEEP / (0.5 * model.bearing.pitch_diameter)
+    omega = 2.0 * np.pi * rng.uniform(LOWEST, HIGHEST, (TONES, n))
+    grows = np.sin(0.5 * np.pi * np.minimum(time / time[-1] * 2.0, 1.0)) ** 2
+    faster = np.gradient(grows, time)
+    tones = np.sin(omega * time[:, None, None]).sum(axis=1)
+    slopes = (omega * np.cos(omega * time[:, None, None])).sum(axis=1)
+    place = pressed + size * grows[:, None] * tones
+    velocity = size * (grows[:, None] * slopes + faster[:, None] * tones)
+    velocity[0] = 0.0
+    top = float(model.speeds[-1]) * RADIANS
+    speed = top * (1.0 - SPEED_CHANGE * time / time[-1])
+    return _forces(model, time, place, velocity, speed)
+
+
+def _forces(model: BearingModel, time: _Floats, place: _Floats, velocity: _Floats, speed: _Floats) -> BearingTrial:
+    motion, angle = model.motion(), START
+    force, balls = np.zeros_like(place), np.zeros((time.size, model.bearing.balls, 2))
+    force[0] = -motion.rest(float(speed[0]), angle, place[0])
+    balls[0] = motion.films.force
+    for k in range(1, time.size):
+        dt = float(time[k] - time[k - 1])
+        if not isinstance(motion, AngularMotion):
+            angle += 0.5 * dt * float(speed[k - 1] + speed[k]) * motion.balls.cage
+        motion.begin(float(speed[k]), angle, dt)
+        force[k] = -motion.forces(place[k], velocity[k])[0]
+        motion.accept()
+        balls[k] = motion.films.force
+    return BearingTrial(time, place, velocity, speed, force, balls)

@@ -1,0 +1,272 @@
+"""Variables and C sources of the FMU of a bearing."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from fmu.bearing.model import BearingModel
+from fmu.bearing.tables import DEGREE, FILM_NODES, film_tables, race_tables, seat_tables, speed_tables
+from fmu.c_headers import c_double, c_table
+from fmu.contact_spec import checked_name
+from fmu.contact_variables import ALLOWED_ERROR
+from fmu.lead import CONTACT, HELD_PARALLEL
+from fmu.spec import ModelSpec
+from fmu.variable_list import VariableList
+from reduced_models.bearing.angular_balls import AngularBalls
+from reduced_models.bearing.freedoms import FIVE
+from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.loss import FILTERS
+from reduced_models.elements.film_curve import RIGID_SLOPE
+from reduced_models.elements.film_filters import DIRECT, FEW
+
+STEP = 1e-5  # s, of the default experiment
+FARTHEST = 0.1  # of the ball diameter: largest displacement, which no ring in its bearing reaches
+LARGEST_TILT = 0.1  # rad
+
+FORCES = {"x": "force_x", "y": "force_y", "z": "force_z", "tilt_x": "moment_x", "tilt_y": "moment_y"}
+RATES = {
+    "x": "velocity_x",
+    "y": "velocity_y",
+    "z": "velocity_z",
+    "tilt_x": "tilt_rate_x",
+    "tilt_y": "tilt_rate_y",
+}
+SOURCES = ("core.c", "core_step.c", "model_bearing.c", "balls.c", "race_contact.c", "film_filters.c")
+HEADERS = ("core.h", "model.h", "balls.h", "race_contact.h", "film_filters.h")
+
+
+def bearing_spec(model: BearingModel, model_name: str | None = None, lead: float | None = None) -> ModelSpec:
+    """Specification of the FMU of a bearing.
+
+    Raises
+    ------
+    InputError
+        A name that is empty, too long or not printable, or another lead.
+    """
+    bearing, made = model.bearing, _Variables(model)
+    made.fill(HELD_PARALLEL if lead is None else lead)
+    planar = len(model.names) == 2
+    speeds = model.speeds
+    span = f"{speeds[-1]:.6g} rev/min" if speeds.size == 1 else f"{speeds[0]:.6g} to {speeds[-1]:.6g} rev/min"
+    oil = "dry" if bearing.oil is None else "with oil"
+    return ModelSpec(
+        name=checked_name(f"BallBearing {bearing.name}".strip() if model_name is None else model_name),
+        description=f"Ball bearing {bearing.name}, {bearing.balls} balls, {oil}, at {span}; SI units",
+        sources=(*SOURCES, "balls_planar.c" if planar else "balls_angular.c"),
+        headers=HEADERS,
+        variables=tuple(made.variables),
+        notes=_notes(model, span),
+        macros=_macros(model, made),
+        tables={
+            "bearing_races.h": race_tables(model),
+            **({} if bearing.oil is None else {"bearing_films.h": film_tables(model)}),
+            "bearing_seat.h": seat_tables(model),
+            "bearing_speeds.h": speed_tables(model),
+            "film_inverse.h": _inverse(_lags(model)),
+        },
+        step=STEP,
+        exchange=False,
+        indicators=(),
+        flanges=tuple(
+            (name, f"Displacement, velocity and force of the inner ring along {name}", (name, RATES[name], FORCES[name]))
+            for name in model.names
+            if not name.startswith("tilt")
+        ),
+    )  # fmt: skip
+
+
+class _Variables(VariableList):
+    """The variables of a bearing, numbered as they are made."""
+
+    def __init__(self, model: BearingModel) -> None:
+        super().__init__()
+        self.model, self.bearing, self.five = model, model.bearing, len(model.names) == len(FIVE)
+        self.first_force = self.first_ball = self.per_ball = 0
+
+    def fill(self, lead: float) -> None:
+        """All of them."""
+        self._inputs()
+        self._outputs()
+        self._parameters(lead)
+        self._balls()
+
+    def _inputs(self) -> None:
+        for name, start in zip(self.model.names, self.model.place.tolist(), strict=True):
+            tilt = name.startswith("tilt")
+            text = f"Tilt of the inner ring about {name[-1]}" if tilt else f"Displacement of the inner ring along {name}"
+            self.add(
+                name, "input", "continuous", f"{text}, against the outer ring",
+                unit="rad" if tilt else "m", start=start, nominal=1e-4 if tilt else 1e-5, rate=RATES[name],
+            )  # fmt: skip
+        for name in self.model.names:
+            tilt = name.startswith("tilt")
+            self.add(
+                RATES[name], "input", "continuous", f"Rate of {name}",
+                unit="rad/s" if tilt else "m/s", start=0.0, nominal=1e-2 if tilt else 1e-3,
+            )  # fmt: skip
+        highest = float(self.model.speeds[-1] * RADIANS)
+        self.add(
+            "speed", "input", "continuous", "Speed of the inner ring about z; the outer one stands still",
+            unit="rad/s", start=highest, nominal=highest, minimum=0.0,
+        )  # fmt: skip
+
+    def _outputs(self) -> None:
+        depends = tuple(v.name for v in self.variables)
+        self.first_force = len(self.variables)
+        for name in self.model.names:
+            tilt = name.startswith("tilt")
+            text = f"Moment on the inner ring about {name[-1]}" if tilt else f"Force on the inner ring along {name}"
+            self.add(
+                FORCES[name], "output", "continuous", text,
+                unit="N.m" if tilt else "N", nominal=1.0 if tilt else 100.0, depends=depends,
+            )  # fmt: skip
+        for race in ("inner", "outer"):
+            text = f"Largest load of a ball on the {race} race"
+            self.add(
+                f"largest_load_{race}", "output", "continuous", text,
+                unit="N", minimum=0.0, nominal=100.0, depends=depends,
+            )  # fmt: skip
+        if self.bearing.oil is not None:
+            for name, unit, nominal, text in self._films():
+                self.add(name, "output", "continuous", text, unit=unit, nominal=nominal, depends=depends)
+        text = "Angle of the first ball about z, from x towards y"
+        self.add("cage_angle", "output", "continuous", text, unit="rad", nominal=1.0, depends=depends)
+        for name, text in (
+            ("outside_validity", "True where speed or loads leave the tables"),
+            ("outside_speed", "True above the highest speed of the tables, whose films then hold"),
+            ("outside_load", "True where a ball carries more than the tables have"),
+        ):
+            self.add(name, "output", "discrete", text, type="Boolean", depends=depends)
+
+    def _films(self) -> list[tuple[str, str, float, str]]:
+        found = [
+            ("smallest_film", "m", 1e-7, "Smallest film of all balls, of a flooded inlet"),
+            ("rolling_torque", "N.m", 1e-2, "Torque that the films' rolling resistance takes from the inner ring"),
+        ]
+        if self.bearing.roughness:
+            found.append(("smallest_lambda", "1", 1.0, "Smallest film over the roughness of ball and race"))
+        return found
+
+    def _parameters(self, lead: float) -> None:
+        bearing = self.bearing
+        self.lead(CONTACT, lead)
+        text = "Radial clearance, by which the inner ring moves from end to end"
+        if bearing.contact_angle is not None:
+            text = "Radial clearance, which an angular contact bearing does not have: without effect"
+        self.add("clearance", "parameter", "fixed", text, unit="m", start=bearing.clearance, nominal=1e-5)
+        if self.five:
+            text = "Axial displacement added to z: preload by spacers, or growth of the shaft"
+            self.add("offset", "parameter", "fixed", text, unit="m", start=0.0, nominal=1e-5)
+        self.add(
+            "cage_angle_start", "parameter", "fixed", "Angle of the first ball at the start", unit="rad",
+            start=-math.pi / 2.0,
+        )  # fmt: skip
+        self.add(
+            "film", "parameter", "fixed", "1: with oil films; 0: dry", unit="1",
+            start=0.0 if bearing.oil is None else 1.0, minimum=0.0, maximum=0.0 if bearing.oil is None else 1.0,
+        )  # fmt: skip
+
+    def _balls(self) -> None:
+        """Loads, films and angles of all balls, in the order in which the C source writes them."""
+        self.first_ball = len(self.variables)
+        for k in range(1, self.bearing.balls + 1):
+            for race in ("inner", "outer"):
+                entries = [("load", "N", "Load")]
+                if self.bearing.oil is not None:
+                    entries += [("film", "m", "Central film"), ("smallest_film", "m", "Smallest film")]
+                if self.five:
+                    entries += [("contact_angle", "rad", "Contact angle")]
+                for name, unit, text in entries:
+                    self.add(
+                        f"ball[{k}].{name}_{race}", "local", "continuous",
+                        f"{text} of ball {k} at the {race} race", unit=unit,
+                    )  # fmt: skip
+        self.per_ball = (len(self.variables) - self.first_ball) // self.bearing.balls
+
+
+def _lags(model: BearingModel) -> int:
+    balls = model.motion().balls
+    return max(1, *(law.gains.shape[2] - DIRECT for law in (balls.inner, balls.outer)))
+
+
+def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
+    bearing, balls = model.bearing, model.motion().balls
+    lags, five = _lags(model), made.five
+    filters = FILTERS if bearing.loss_factor else 0
+    places, freedoms = (2 if five else 1), len(model.names)
+    ball = 2 * places + 2 + 4 + 4 + 2 + 2 + 2  # numbers of `Ball` in balls.h
+    film = 6 + lags  # of `FilmState`
+    remembered = 5 + bearing.balls * (ball + 2 * film) + (1 + filters) * freedoms
+    counts = {
+        "FREEDOMS": freedoms,
+        "PLACES": places,
+        "BALLS": bearing.balls,
+        "LAGS": lags,
+        "SEAT_FILTERS": filters,
+        "SPEED_ROWS": model.speeds.size,
+        "CURVE_TERMS": DEGREE + 1,
+        "FILM_NODES": FILM_NODES,
+        "HAS_FILMS": int(bearing.oil is not None),
+        "HAS_ROUGHNESS": int(bool(bearing.roughness)),
+        "N_CACHE": remembered,
+        "FIRST_FORCE": made.first_force,
+        "FIRST_BALL": made.first_ball,
+        "PER_BALL": made.per_ball,
+    }
+    numbers = {
+        "RIGID_SLOPE": RIGID_SLOPE,
+        "INLET_SATURATION": 0.0,
+        "FEW_LAGS": FEW,
+        "CUTOFF_GAP": math.inf if bearing.film_limit is None else bearing.film_limit,
+        "ROUGHNESS": bearing.roughness or 1.0,
+        "MOST_SPEED": float(model.speeds[-1]) * RADIANS,
+        "LARGEST_PLACE": FARTHEST * bearing.ball_diameter,
+        "LARGEST_TILT": LARGEST_TILT,
+        "DEFAULT_TOLERANCE": ALLOWED_ERROR,
+        "ROLLING_RADIUS": 0.5 * bearing.pitch_diameter * (1.0 - bearing.gamma**2),
+    }
+    if isinstance(balls, AngularBalls):
+        g = balls.grooves
+        counts["RACE_CONTROL"] = g.control
+        numbers |= {
+            "FREE_RADIAL": g.radial + (0.5 * bearing.clearance if bearing.contact_angle is None else 0.0),
+            "FREE_AXIAL": g.axial,
+            "INNER_REACH": g.inner,
+            "OUTER_REACH": g.outer,
+            "GROOVE_LEVER": g.lever,
+            "GROOVE_RADIUS": g.radius,
+            "BALL_DIAMETER": g.ball,
+            "PITCH_DIAMETER": g.pitch,
+            "BALL_MASS": g.mass,
+            "GYROSCOPIC": g.gyroscopic,
+            "INNER_TORSION": g.inner_torsion,
+            "OUTER_TORSION": g.outer_torsion,
+            "TABLE_COSINE": g.cosine,
+        }
+    else:
+        numbers |= {"CAGE_RATIO": balls.cage, "BALL_SWING": balls.swing, "BALL_INERTIA": balls.inertia}
+    return (
+        {k: str(v) for k, v in counts.items()}
+        | {k: c_double(float(v)) for k, v in numbers.items()}
+        | dict(CONTACT.macros)
+    )
+
+
+def _inverse(lags: int) -> str:
+    """``film_inverse.h`` of `film_filters.c`."""
+    values = np.append(0.0, 1.0 / np.arange(1.0, lags + 4.0))
+    return f"/* Generated by ehlcontact: 1/k, and 0 for k = 0. */\n{c_table('inverse', values)}\n"
+
+
+def _notes(model: BearingModel, span: str) -> tuple[tuple[str, str], ...]:
+    bearing = model.bearing
+    lines = [
+        ("Bearing", f"{bearing.name}: {bearing.balls} balls of {bearing.ball_diameter:g} m on {bearing.pitch_diameter:g} m"),
+        ("Speeds", f"{span}; tables at {', '.join(f'{s:.6g}' for s in model.speeds)} rev/min"),
+        ("Axes", "x and y across the shaft, z along it; tilts are small rotations about x and y"),
+    ]  # fmt: skip
+    if bearing.oil is not None:
+        lines.append(("Films", "of a flooded inlet, isothermal; those of balls at contact angles by their rolling speeds"))
+    return tuple(lines)

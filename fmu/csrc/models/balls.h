@@ -1,0 +1,55 @@
+/* Balls between two races under a given motion of the inner ring, the outer one at rest: planar (balls_planar.c, x and y) or
+ * at contact angles (balls_angular.c, x, y, z and tilts about x and y). config.h has FREEDOMS, 2 or 5, and BALLS. */
+#ifndef BALLS_H
+#define BALLS_H
+
+#include "race_contact.h"
+
+enum { INNER_RACE, OUTER_RACE };
+
+/* What a bearing has as it was made, and as its parameters say. */
+typedef struct {
+    Race race[2];
+    double clearance; /* m */
+} Setup;
+
+/* A ball at the end of a step and of the one before: its place (the approach of its outer race; at contact angles its centre
+ * from the outer groove centre, outward and along the shaft), and what follows from it. */
+typedef struct {
+    double place[2][PLACES];
+    double rate[2];          /* planar, of a ball with inertia */
+    double factor[2][2];     /* [race]: film over that of the tables */
+    double entrained[2][2];  /* [race]: sum of both surface speeds over the speed of the shaft [m] */
+    double lift[2];          /* [race]: see Thickness */
+    double force[2];         /* [race] N */
+    double angle[2];         /* [race] rad */
+} Ball;
+
+/* All that a bearing remembers: doubles alone. */
+typedef struct {
+    double h;                /* length of the last step; 0: at rest so far */
+    double omega;            /* of the shaft, at its end [rad/s] */
+    double angle;            /* of the first ball */
+    double cage[2];          /* speed of the cage over that of the shaft, at the ends of the last two steps */
+    Ball ball[BALLS];
+    FilmState film[BALLS][2];
+    double seat[1 + SEAT_FILTERS][FREEDOMS]; /* force of the balls at the end of the last step; filters of its losses */
+} Bearing;
+
+/* Row of the tables at a speed of the shaft; films at rest and below the lowest speed are those of the lowest. */
+SpeedRow speed_row(double omega);
+double film_speed(double omega);
+
+/* Weight of the last two places in the rate of the next: rate = gain (place - history), by differences of second order. */
+typedef struct {
+    double gain, now, before; /* history = now place[0] - before place[1] */
+} Differences;
+Differences differences(double h, double h_before);
+
+/* Moves all balls, films and the cage to the end of a step of length h, with the ring at q, moving at v; `force` is what the
+ * ring exerts on the balls. Or puts them at rest. Returns why not, or NULL. */
+const char *balls_step(const Setup *setup, const Bearing *before, Bearing *after, double h, double omega, const double q[],
+                       const double v[], double force[]);
+const char *balls_rest(const Setup *setup, Bearing *bearing, double omega, const double q[], double force[]);
+
+#endif

@@ -1,0 +1,73 @@
+/* Force of one ball on one race at the end of a time step: reduced_models.bearing.race_contact, without derivatives by the
+ * film. Names and order of the arithmetic are those of the Python file. */
+#ifndef RACE_CONTACT_H
+#define RACE_CONTACT_H
+
+#include "config.h"
+
+enum { RACE_GAINS = 3 + LAGS }; /* viscous, inlet, fast, chain */
+
+/* Law of a race, in N and m; a row of its tables for each speed of the shaft. Without nodes it is a dry contact. */
+typedef struct {
+    double kn, log_kn, reach; /* N/m^1.5; its logarithm; 2a over sqrt(g) [m^0.5] */
+    double lag_rate, inlet_rate, fast_rate;
+    int nodes;
+    const double *x;     /* [nodes] ln F, increasing */
+    const double *u;     /* [rows][nodes] approach there */
+    const double *curve; /* [rows][nodes - 1][CURVE_TERMS] g between, powers of s = -1 to 1 */
+    const double *gains; /* [rows][nodes][RACE_GAINS] */
+    const double *made;  /* [rows][nodes] film that a unit of the inlet's state lets into the chain */
+} Race;
+
+/* Row of the tables, and weight of the next. */
+typedef struct {
+    int row;
+    double weight;
+} SpeedRow;
+
+/* A film that is not that of the tables: its thickness over that, and a guess of v - u, see race_gap. */
+typedef struct {
+    double factor, lift;
+} Thickness;
+
+/* What a contact remembers from step to step. */
+typedef struct {
+    double approach, rate, own, inlet, fast;
+    double chain[LAGS], entered;
+} FilmState;
+
+/* The filters of a step, worked out before its end is known: sums of 1, the own rate e and the travel t at the end. */
+typedef struct {
+    double s[3], y[3], middle[3], at[3], next[3], carried[3], next_carried[3];
+    double held[LAGS], ends[LAGS], humps[LAGS];
+    int interval, weighed; /* of the curve used last; whose gains have been weighed, -1 for none */
+} StepFilters;
+
+typedef struct {
+    double force, stiffness, damping;
+} RaceForce;
+
+/* A contact in a step: its law, speeds and filters. */
+typedef struct {
+    const Race *race;
+    SpeedRow at;
+    double transit;            /* 2a/u_sum over sqrt(g) [s/m^0.5] */
+    const Thickness *film;     /* NULL: that of the tables */
+    const FilmState *before;   /* at the start */
+    StepFilters *filters;
+} RaceStep;
+
+/* Dry compression g at an approach, and its slope; v - u of a film that is not that of the tables goes to `lift`. */
+double race_gap(const RaceStep *contact, double u, double *slope, double *lift);
+
+/* Works out the filters of a step of length dt; or none of them, for the static force. */
+void race_prepare(const RaceStep *contact, double dt);
+void race_at_rest(StepFilters *filters);
+
+/* The force at approach u and rate v of the end of the step, and its slopes. */
+RaceForce race_force(const RaceStep *contact, double u, double v);
+
+/* What the contact remembers at the end of the step; returns v - u, a guess for the next one. */
+double race_accept(const RaceStep *contact, double u, double v, FilmState *after);
+
+#endif
