@@ -47,7 +47,9 @@ class FmuModel:
     compare: Callable[[Any, Any], Verification]
 
 
-def fmu_model(source: Element | RotorModel | BearingModel, model_name: str | None = None, lead: float | None = None) -> FmuModel:
+def fmu_model(
+    source: Element | RotorModel | BearingModel, model_name: str | None = None, lead: float | None = None
+) -> FmuModel:
     """Model of the FMU of a contact element, a rotor or a bearing.
 
     `lead` is the start value of `lead` or `force_lead`, by default that of the kind.

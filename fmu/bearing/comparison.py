@@ -15,7 +15,9 @@ from fmu.spec import ModelSpec
 from fmu.verification import Verification
 
 TOLERANCE = 1e-6  # of references
-ABOUT = "The inner ring vibrates in all directions while the speed falls, and balls part from it, computed in Python"
+ABOUT = (
+    "The inner ring vibrates in all directions while the speed falls, and balls part from it, computed in Python"
+)
 
 
 def compare_bearing(slave: Any, exchange: Any, model: BearingModel, spec: ModelSpec) -> Verification:

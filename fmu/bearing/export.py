@@ -29,12 +29,12 @@ def export_bearing(
 ) -> Path:
     """Write a ball bearing as an FMU for co-simulation, once it is verified against it.
 
-    Inputs are displacement and velocity of the inner ring against the outer one, `x`, `y` and, with five degrees of
-    freedom, `z`, `tilt_x`, `tilt_y`; `velocity_x`, ..., `tilt_rate_y`; and the `speed` of the shaft [rad/s].
-    Outputs are the forces on the inner ring, `force_x`, ..., `moment_y`, the largest loads of a ball, the smallest
-    film and lambda, the rolling torque and the angle of the cage. Every ball has its loads, films and contact angles
-    as local variables. `clearance`, `offset` (axial preload), `cage_angle_start` and `film` (0: dry) can be set
-    before initialization. The FMU starts at rest where its inputs are then. In a step the balls move as in
+    Inputs are displacement and velocity of the inner ring against the outer one, `x`, `y` and, with five degrees
+    of freedom, `z`, `tilt_x`, `tilt_y`; `velocity_x`, ..., `tilt_rate_y`; and the `speed` of the shaft [rad/s].
+    Outputs are the forces on the inner ring, `force_x`, ..., `moment_y`, the largest loads of a ball, the
+    smallest film and lambda, the rolling torque and the angle of the cage. Loads, films and contact angles of
+    every ball are local variables. `clearance`, `offset` (axial preload), `cage_angle_start` and `film` (0: dry)
+    can be set before initialization. The FMU starts at rest where its inputs are then. In a step the balls move as in
     `BearingMotion`: in equilibrium, with the memory of every film.
 
     Parameters

@@ -104,5 +104,3 @@ class BearingModel:
     def motion(self) -> BallMotion | AngularMotion:
         """Balls and films of the bearing in time, in Python."""
         return motion_of(self.bearing, self.speeds.tolist(), len(self.names))
-
-

@@ -17,6 +17,7 @@ STEPS, DT = 160, 1e-5
 TONES = 3  # vibrations of each displacement
 LOWEST, HIGHEST = 300.0, 3000.0  # Hz
 DEEP = 3e-6  # m, size of the vibration: of the approach of a ball under some hundred newton
+STEEP = 3.0  # times as much along the shaft, which presses balls less
 SPEED_CHANGE = 0.02  # of the speed, within the run
 START = -np.pi / 2.0  # angle of the first ball
 
@@ -46,15 +47,16 @@ class BearingTrial:
 
 
 def bearing_trial(model: BearingModel, steps: int = STEPS, dt: float = DT, seed: int = 1) -> BearingTrial:
-    """A run from rest, with vibrations in all directions, speed that changes, and balls that part from the ring."""
+    """A run from rest: vibrations in all directions, a speed that falls, balls that part from the ring."""
     rng, n = np.random.default_rng(seed), len(model.names)
-    time = dt * np.arange(steps + 1)
+    time = np.asarray(dt * np.arange(steps + 1), np.float64)
     pressed = model.place.copy()
     if model.load is None:
         pressed[0] = 0.5 * model.bearing.clearance + DEEP
         if n > 2:
             pressed[2] = DEEP
     size = np.full(n, DEEP)
+    size[2:3] = STEEP * DEEP
     size[3:] = DEEP / (0.5 * model.bearing.pitch_diameter)
     omega = 2.0 * np.pi * rng.uniform(LOWEST, HIGHEST, (TONES, n))
     grows = np.sin(0.5 * np.pi * np.minimum(time / time[-1] * 2.0, 1.0)) ** 2
@@ -65,7 +67,7 @@ def bearing_trial(model: BearingModel, steps: int = STEPS, dt: float = DT, seed:
     velocity = size * (grows[:, None] * slopes + faster[:, None] * tones)
     velocity[0] = 0.0
     top = float(model.speeds[-1]) * RADIANS
-    speed = top * (1.0 - SPEED_CHANGE * time / time[-1])
+    speed = np.asarray(top * (1.0 - SPEED_CHANGE * time / time[-1]), np.float64)
     return _forces(model, time, place, velocity, speed)
 
 

@@ -70,11 +70,11 @@ def bearing_spec(model: BearingModel, model_name: str | None = None, lead: float
         exchange=False,
         indicators=(),
         flanges=tuple(
-            (name, f"Displacement, velocity and force of the inner ring along {name}", (name, RATES[name], FORCES[name]))
+            (name, f"The inner ring along {name}: place, velocity, force", (name, RATES[name], FORCES[name]))
             for name in model.names
             if not name.startswith("tilt")
         ),
-    )  # fmt: skip
+    )
 
 
 class _Variables(VariableList):
@@ -95,7 +95,11 @@ class _Variables(VariableList):
     def _inputs(self) -> None:
         for name, start in zip(self.model.names, self.model.place.tolist(), strict=True):
             tilt = name.startswith("tilt")
-            text = f"Tilt of the inner ring about {name[-1]}" if tilt else f"Displacement of the inner ring along {name}"
+            text = (
+                f"Tilt of the inner ring about {name[-1]}"
+                if tilt
+                else f"Displacement of the inner ring along {name}"
+            )
             self.add(
                 name, "input", "continuous", f"{text}, against the outer ring",
                 unit="rad" if tilt else "m", start=start, nominal=1e-4 if tilt else 1e-5, rate=RATES[name],
@@ -117,7 +121,9 @@ class _Variables(VariableList):
         self.first_force = len(self.variables)
         for name in self.model.names:
             tilt = name.startswith("tilt")
-            text = f"Moment on the inner ring about {name[-1]}" if tilt else f"Force on the inner ring along {name}"
+            text = (
+                f"Moment on the inner ring about {name[-1]}" if tilt else f"Force on the inner ring along {name}"
+            )
             self.add(
                 FORCES[name], "output", "continuous", text,
                 unit="N.m" if tilt else "N", nominal=1.0 if tilt else 100.0, depends=depends,
@@ -263,10 +269,12 @@ def _inverse(lags: int) -> str:
 def _notes(model: BearingModel, span: str) -> tuple[tuple[str, str], ...]:
     bearing = model.bearing
     lines = [
-        ("Bearing", f"{bearing.name}: {bearing.balls} balls of {bearing.ball_diameter:g} m on {bearing.pitch_diameter:g} m"),
+        ("Bearing", f"{bearing.balls} balls of {bearing.ball_diameter:g} m on {bearing.pitch_diameter:g} m"),
         ("Speeds", f"{span}; tables at {', '.join(f'{s:.6g}' for s in model.speeds)} rev/min"),
         ("Axes", "x and y across the shaft, z along it; tilts are small rotations about x and y"),
     ]  # fmt: skip
     if bearing.oil is not None:
-        lines.append(("Films", "of a flooded inlet, isothermal; those of balls at contact angles by their rolling speeds"))
+        lines.append(
+            ("Films", "of a flooded inlet, isothermal; those of balls at contact angles by their rolling speeds")
+        )
     return tuple(lines)

@@ -27,7 +27,17 @@ static int bytes_of(fmi2Component c, char *bytes, size_t size)
 static fmi2Component start(fmi2Type type)
 {
     static const fmi2CallbackFunctions callbacks = {NULL, NULL, NULL, NULL, NULL};
+#ifdef CO_SIMULATION_ONLY
+    fmi2Component c = fmi2Instantiate("fuzz", fmi2ModelExchange, MODEL_TOKEN, NULL, &callbacks, fmi2False, fmi2False);
+    if (c != NULL) {
+        fprintf(stderr, "an instance for model exchange was made\n");
+        exit(1);
+    }
+    type = fmi2CoSimulation;
+    c = fmi2Instantiate("fuzz", type, MODEL_TOKEN, NULL, &callbacks, fmi2False, fmi2False);
+#else
     fmi2Component c = fmi2Instantiate("fuzz", type, MODEL_TOKEN, NULL, &callbacks, fmi2False, fmi2False);
+#endif
     const fmi2ValueReference lead = VR_LEAD;
     const fmi2Real value = 0.5 * any(2 * (unsigned int)MOST_LEAD + 1);
     fmi2SetupExperiment(c, any(2) ? fmi2True : fmi2False, 1e-5, 0.0, fmi2False, 0.0);

@@ -18,13 +18,15 @@ import pytest
 from fmpy.build import build_platform_binary
 from fmpy.validation import validate_fmu
 
-from fmu import export_contact, verify
+from ehlcontact import Lubricant
+from fmu import BearingModel, export_contact, verify
 from fmu.archive import content_guid
 from fmu.comparison import film_motion, state_grid
 from fmu.contact_spec import contact_spec
 from fmu.fmu_model import fmu_model
 from fmu.rotor.laws import distinct, law_source
 from fmu.sources import CSRC, source_files, standard_folder, standard_headers
+from reduced_models import BallBearing
 
 pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 STRICT = ["-pedantic", "-Wall", "-Wextra", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Werror"]
@@ -33,6 +35,7 @@ SANITIZED = [*STRICT, "-g", "-O0", *SANITIZE]
 HERE = Path(__file__).parent
 CONTACTS = ["cubic", "polynomial", "power_si", "wide_si", "memory"]
 ROTORS = ["rotor alone", "rotor mixed", "rotor wide in y"]
+BEARINGS = ["bearing planar", "bearing five"]
 FUZZ = {2: "fuzz.c", 3: "fuzz3.c"}
 MANY = 1_250_000  # calls of each version of FMI, over all kinds
 FEW = 20_000  # of each kind, in the default suite
@@ -55,7 +58,15 @@ def compiler() -> str:
 @pytest.fixture(scope="module")
 def models(elements, rotors):
     """All that FMUs are made from."""
-    return elements | {f"rotor {name}": rotor for name, rotor in rotors.items()}
+    oil = Lubricant.iso_vg(46, temperature=70.0)
+    bearings = {
+        "bearing planar": BearingModel(
+            BallBearing.catalogue("6205", clearance=5e-6, oil=oil, loss_factor=0.05, ball_inertia=True), 3e3, 500.0
+        ),
+        "bearing five": BearingModel(BallBearing.catalogue("7205", oil=oil), (8e3, 1e4), (0.0, -300.0, 200.0)),
+        "bearing dry": BearingModel(BallBearing.catalogue("6205", clearance=5e-6), 3e3, 500.0),
+    }
+    return elements | {f"rotor {name}": rotor for name, rotor in rotors.items()} | bearings
 
 
 @pytest.fixture(scope="module")
@@ -94,7 +105,10 @@ def compiled(compiler, models, tmp_path_factory):
 
 
 def random_calls_of(name):
-    """Macros of `fuzz.c` for a rotor: which variables it sets and reads."""
+    """Macros of `fuzz.c` for a rotor or a bearing: which variables it sets and reads."""
+    if name in BEARINGS:
+        given = {"INPUTS": "VR_y,VR_velocity_y", "OUTPUTS": "VR_largest_load_inner,VR_force_x,VR_force_y"}
+        return [f"-DFUZZ_{macro}={text}" for macro, text in (given | {"USUAL": "0.0", "STEP": "1e-7"}).items()]
     if name not in ROTORS:
         return []
     first = "FIRST_STATE+4*AXES" if "alone" in name else "FIRST_FORCE"  # the angle, or a force
@@ -102,7 +116,7 @@ def random_calls_of(name):
     return [f"-DFUZZ_{macro}={text}" for macro, text in given.items()]
 
 
-@pytest.mark.parametrize("name", [*ROTORS, "rotor alone in y", "rotor cubic"])
+@pytest.mark.parametrize("name", [*ROTORS, "rotor alone in y", "rotor cubic", *BEARINGS, "bearing dry"])
 def test_strict_warnings_of_rotors(compiled, name):
     """Those of contacts: in the tests of libraries and of the driver."""
     compiled(name, 2, [*STRICT, "-O2"])
@@ -126,19 +140,19 @@ def test_a_library_exports_fmi(compiled, extracted, fmi, name):
 
 
 @pytest.mark.parametrize(
-    ("fmi", "name"), [*((2, name) for name in CONTACTS + ROTORS), (3, "cubic"), (3, "wide_si")]
+    ("fmi", "name"), [*((2, name) for name in CONTACTS + ROTORS + BEARINGS), (3, "cubic"), (3, "wide_si")]
 )
 def test_random_calls_under_sanitizers(compiled, fmi, name):
-    calls = 2 * FEW if name in ROTORS else FEW
+    calls = 2 * FEW if name in ROTORS else FEW // 4 if name in BEARINGS else FEW
     done = run([compiled(name, fmi, SANITIZED, FUZZ[fmi], random_calls_of(name)), calls, 1])
     assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", CONTACTS)
+@pytest.mark.parametrize("name", CONTACTS + BEARINGS)
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_a_million_random_calls_under_sanitizers(compiled, fmi, name):
-    program = compiled(name, fmi, SANITIZED, FUZZ[fmi])
+    program = compiled(name, fmi, SANITIZED, FUZZ[fmi], random_calls_of(name) if fmi == 2 else ())
     for seed in (2, 3):
         done = run([program, MANY // len(CONTACTS) // 2, seed])
         assert done.returncode == 0, done.stderr

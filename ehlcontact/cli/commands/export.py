@@ -1,4 +1,4 @@
-"""``ehlcontact export``: an element file, or the rotor of a study, to an FMU; that rotor to a system of FMUs."""
+"""``ehlcontact export``: an element, a bearing or a study's rotor as an FMU; that rotor as a system."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from ehlcontact.cli import options as o
 from ehlcontact.cli.output import USAGE, check_new, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row
+from ehlcontact.cli.toml import read_toml
 from ehlcontact.errors import InputError
 from ehlcontact.store import load
 
 if TYPE_CHECKING:
-    from fmu import RotorModel, Verification
+    from fmu import BearingModel, RotorModel, Verification
     from fmu.system.check import SystemVerification
 
 
@@ -25,8 +26,9 @@ def export(
     file: Annotated[
         Path,
         typer.Argument(
-            metavar="ELEMENT.json|STUDY.toml",
-            help="Element saved by `fit` or `element`; or a study, whose rotor is exported with its contacts.",
+            metavar="ELEMENT.json|BEARING.toml|STUDY.toml",
+            help="Element saved by `fit` or `element`; a bearing, as `bearing` takes it, between its lowest and"
+            " highest speed; or a study, whose rotor is exported with its contacts.",
         ),
     ],
     output: Annotated[
@@ -69,10 +71,12 @@ def export(
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the file if there is one.")] = False,
 ) -> None:
-    """Export a contact element, or the rotor of a study, as an FMU or a system of FMUs, once it is verified."""
+    """Export a contact, a bearing, or the rotor of a study as an FMU or a system of FMUs, once it is verified."""
     if fmi not in (2, 3):
         raise InputError("--fmi", fmi, "2 or 3")
-    study = file.suffix.lower() == ".toml"
+    toml = file.suffix.lower() == ".toml"
+    bearing = toml and "operation" in read_toml(str(file), "file")  # which no study has
+    study = toml and not bearing
     if contact is not None and not study:
         raise InputError("--contact", str(contact), "left out, but for a study (.toml) with a rotor")
     if not study and output.suffix.lower() == ".ssp":
@@ -86,7 +90,9 @@ def export(
     from fmu.binaries import choose
     from reduced_models import ContactElement
 
-    exported: Any = _rotor_of(file, contact) if study else load(file, ContactElement)
+    exported: Any = (
+        _bearing_of(file) if bearing else _rotor_of(file, contact) if study else load(file, ContactElement)
+    )
     system = output.suffix.lower() == ".ssp"
     try:
         names = {
@@ -115,11 +121,11 @@ def export(
     document = {
         "system" if system else "fmu": str(output),
         "fmi": f"{fmi}.0",
-        "units": "SI" if study else exported.units,
+        "units": "SI" if toml else exported.units,
         "platforms": built,
         **verdict,
     }
-    version = "FMI", f"{fmi}.0", "co-simulation and model exchange"
+    version = "FMI", f"{fmi}.0", "co-simulation" if bearing else "co-simulation and model exchange"
     rows = [
         *_about(exported, system),
         version,
@@ -138,6 +144,20 @@ def _exporter(system: bool) -> Any:
     from fmu.export import export_verified
 
     return export_verified
+
+
+def _bearing_of(file: Path) -> BearingModel:
+    """The bearing of a bearing file, from its lowest to its highest speed, at rest under its load."""
+    from ehlcontact.cli.study.bearing import load_job
+    from fmu import BearingModel
+
+    job = load_job(str(file), {})
+    if job.tilt is not None:
+        allowed = "left out: tilts are inputs of the FMU"
+        raise InputError("operation.tilt_x_mrad", 1e3 * job.tilt[0], allowed)
+    speeds = sorted({job.speeds[0], job.speeds[-1]})
+    with job.called():
+        return BearingModel(job.bearing, speeds, job.load)
 
 
 def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
@@ -172,8 +192,12 @@ def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
 
 def _about(exported: Any, system: bool) -> list[Row]:
     """What it is."""
-    from fmu import RotorModel
+    from fmu import BearingModel, RotorModel
 
+    if isinstance(exported, BearingModel):
+        speeds = " to ".join(f"{speed:g}" for speed in sorted({exported.speeds[0], exported.speeds[-1]}))
+        of = f"{exported.bearing.balls} balls; displacements {', '.join(exported.names)}"
+        return [("bearing", exported.bearing.name, of), ("speed", f"{speeds} rpm", "of the tables of the films")]
     if not isinstance(exported, RotorModel):
         return [("element", exported.kind, exported.units)]
     rotor, kinds = exported.rotor, sorted({element.kind for element in exported.elements})
@@ -191,9 +215,11 @@ def _advice(exported: Any, found: Any) -> list[Row]:
         return [
             ("step", f"{step:g} s", "of the default experiment; longer ones damp more, and blow up in the end")
         ]
-    from fmu import RotorModel
+    from fmu import BearingModel, RotorModel
     from fmu.steps import step_advice
 
+    if isinstance(exported, BearingModel):
+        return [("step", "1e-05 s", "of the default experiment; how long one may be: docs/coupling.md")]
     if isinstance(exported, RotorModel):
         return [("inner step", f"{exported.inner_step:g} s", "steps of the master are cut into such ones")]
     return step_advice(exported)
@@ -216,6 +242,9 @@ def _rows(found: Verification | SystemVerification | None, *, rotor: bool) -> li
             ("verified", "yes", "and every FMU by itself"),
         ]
     findings = ("findings", str(len(found.findings)), "of fmpy's validation; there should be none")
+    if found.bearing:
+        run = f"largest error of forces and moments, over those in Python; {found.states} steps"
+        return [findings, ("forces", f"{found.bearing:.1e}", run), ("verified", "yes", "")]
     if rotor:
         return [
             findings,

@@ -111,7 +111,7 @@ static double film_made(const RaceStep *c, double x)
     const double *nodes = c->race->x;
     const int last = c->race->nodes - 2;
     const double first = (x - nodes[0]) / (nodes[last + 1] - nodes[0]) * last; /* near it: nodes are nearly even */
-    int k = first <= 0.0 ? 0 : first >= last ? last : (int)first;
+    int k = !(first > 0.0) ? 0 : first >= last ? last : (int)first;
     double here, weight;
     while (k > 0 && x < nodes[k]) {
         k--;

@@ -1,0 +1,326 @@
+"""FMUs of ball bearings beside the bearings in Python: forces, parameters, films, faults, a mass on the ring."""
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.fmi1 import FMICallException
+
+from ehlcontact import InputError, Lubricant
+from fmu import BearingModel, export_bearing, verify_references
+from fmu.bearing.comparison import largest_difference
+from fmu.bearing.trial import START, bearing_trial
+from fmu.bearing.variables import FORCES, RATES
+from fmu.driver import Slave
+from reduced_models import BallBearing
+from reduced_models.bearing.kinematics import RADIANS
+
+OIL = Lubricant.iso_vg(46, temperature=70.0)
+RPM = 3000.0
+
+
+def bearing(name="6205", **options):
+    return BallBearing.catalogue(name, **{"oil": OIL, "rq_ball": 2e-8, "rq_race": 1e-7} | options)
+
+
+MODELS = {
+    "planar": lambda: BearingModel(bearing(clearance=5e-6, loss_factor=0.05, ball_inertia=True), RPM, 500.0),
+    "range": lambda: BearingModel(bearing(clearance=5e-6), (2000.0, RPM), 500.0),
+    "five": lambda: BearingModel(bearing(clearance="CN", loss_factor=0.05), RPM, (0.0, -500.0, 200.0)),
+    "dry": lambda: BearingModel(BallBearing.catalogue("6205", clearance=5e-6), RPM, 500.0),
+    "angular": lambda: BearingModel(bearing("7205"), (10000.0, 12000.0), (0.0, -300.0, 200.0)),
+    "shared": lambda: BearingModel(bearing("7205", race_control="shared"), 12000.0, (0.0, -300.0, 200.0)),
+}
+# Largest difference over the largest force. Planar balls are found by both to rounding; those at angles in Python
+# to first order from 1e-6 of the forces, which counts where centrifugal forces do.
+ALLOWED = {"planar": 1e-10, "range": 1e-10, "five": 1e-10, "dry": 1e-12, "angular": 1e-8, "shared": 1e-8}
+
+
+class Made:
+    """An exported bearing, and instances of it."""
+
+    def __init__(self, model, path, fmi):
+        self.model, self.path = model, path
+        self.folder = fmpy.extract(str(path), unzipdir=str(path.with_suffix("")))
+        self.description = fmpy.read_model_description(self.folder)
+        self.fmi = fmi
+
+    def started(self, lead=0.0, **values):
+        slave = Slave(self.folder, self.description, [])
+        slave.start(lead=lead, cage_angle_start=START, **values)
+        return slave
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """``made("planar", 2)``: exported once."""
+    known = {}
+
+    def make(name, fmi=2):
+        if (name, fmi) not in known:
+            model, path = MODELS[name](), tmp_path_factory.mktemp("bearing") / "x.fmu"
+            export_bearing(
+                model.bearing, path, speeds_rpm=model.speeds_rpm, load=model.load, freedoms=model.freedoms, fmi=fmi
+            )
+            known[name, fmi] = Made(model, path, fmi)
+        return known[name, fmi]
+
+    return make
+
+
+def inputs(model, trial, k):
+    place = dict(zip(model.names, trial.place[k].tolist(), strict=True))
+    rates = {RATES[name]: rate for name, rate in zip(model.names, trial.velocity[k].tolist(), strict=True)}
+    return place | rates | {"speed": float(trial.speed[k])}
+
+
+def driven(slave, model, trial, shift=None):
+    """Forces of an FMU along a trial, shape (k, n)."""
+    names = [FORCES[name] for name in model.names]
+    found = [slave.get(*names)]
+    for k in range(1, trial.time.size):
+        values = inputs(model, trial, k)
+        slave.set(**values | ({} if shift is None else {name: values[name] - by for name, by in shift.items()}))
+        slave.step_to(float(trial.time[k]))
+        found.append(slave.get(*names))
+    slave.free()
+    return np.array(found)
+
+
+@pytest.mark.parametrize(("name", "fmi"), [*((name, 2) for name in MODELS), ("planar", 3), ("five", 3)])
+def test_forces_are_those_of_python(made, name, fmi):
+    """Another run than that of the verification at export: longer, other vibrations, with lift-off."""
+    one = made(name, fmi)
+    trial = bearing_trial(one.model, steps=300, dt=8e-6, seed=7)
+    assert trial.balls[:, :, 0].min() < 0.1 and trial.balls.max() > 300.0
+    found = driven(one.started(**inputs(one.model, trial, 0)), one.model, trial)
+    assert largest_difference(found, trial) < ALLOWED[name]
+    assert verify_references(one.path).passes
+
+
+def test_clearance_offset_and_film_are_parameters(made):
+    planar, dry, five = made("planar"), made("dry"), made("five")
+    other = BearingModel(bearing(clearance=9e-6, loss_factor=0.05, ball_inertia=True), RPM, 500.0)
+    trial = bearing_trial(other, steps=60)
+    found = driven(planar.started(clearance=9e-6, **inputs(other, trial, 0)), other, trial)
+    assert largest_difference(found, trial) < 1e-10
+    without = BearingModel(bearing(clearance="CN", oil=None, loss_factor=0.05), RPM, (0.0, -500.0, 200.0))
+    trial = bearing_trial(without, steps=60)
+    found = driven(five.started(film=0.0, **inputs(without, trial, 0)), without, trial)
+    assert largest_difference(found, trial) < 1e-10
+    trial = bearing_trial(five.model, steps=60)
+    first = inputs(five.model, trial, 0)
+    shifted = five.started(offset=3e-6, **first | {"z": first["z"] - 3e-6})
+    assert largest_difference(driven(shifted, five.model, trial, {"z": 3e-6}), trial) < 1e-10
+    trial = bearing_trial(dry.model, steps=5)
+    with pytest.raises(FMICallException):
+        dry.started(clearance=1.0, **inputs(dry.model, trial, 0))
+
+
+def test_steps_of_any_length_follow_one_motion(made):
+    """Alternating lengths give the force of even steps to the error of either, which falls with the step."""
+    one = made("five")
+    gaps = []
+    for n in (200, 400):
+        trial = bearing_trial(one.model, steps=n, dt=1e-3 / n)
+        fine = bearing_trial(one.model, steps=4 * n, dt=0.25e-3 / n)
+        slave = one.started(**inputs(one.model, fine, 0))
+        at = [0]
+        while at[-1] < 4 * n:
+            at.append(min(at[-1] + (3 if len(at) % 2 else 5), 4 * n))
+        found = []
+        for k in at[1:]:
+            slave.set(**inputs(one.model, fine, k))
+            slave.step_to(float(fine.time[k]))
+            found.append(slave.get("force_y")[0])
+        slave.free()
+        gaps.append(np.abs(np.array(found) - fine.force[at[1:], 1]).max() / np.abs(fine.force[:, 1]).max())
+        assert trial.time[-1] == pytest.approx(fine.time[-1])
+    assert gaps[0] < 0.02
+    assert gaps[1] < 0.5 * gaps[0]
+
+
+# At contact angles films follow speeds and radii by their powers (Hamrock and Dowson); in Python, by the atlas.
+@pytest.mark.parametrize(("name", "within"), [("planar", 0.003), ("five", 0.03)])
+def test_films_and_torque_are_those_at_rest(made, name, within):
+    one = made(name)
+    state = one.model.bearing.equilibrium(
+        one.model.load if name == "five" else (0.0, -500.0), speed_rpm=RPM, cage_angle=START
+    )
+    place = dict(zip(one.model.names, one.model.place.tolist(), strict=True))
+    slave = one.started(**place, speed=RPM * RADIANS)
+    balls = one.model.bearing.balls
+    for column, race in enumerate(("inner", "outer")):
+        load = slave.get(*(f"ball[{k + 1}].load_{race}" for k in range(balls)))
+        film = slave.get(*(f"ball[{k + 1}].film_{race}" for k in range(balls)))
+        pressed = state.force[:, column] > 1.0
+        assert load == pytest.approx(state.force[:, column], rel=1e-6, abs=1e-3)
+        assert np.array(film)[pressed] == pytest.approx(state.h_central[pressed, column], rel=within)
+    torque, smallest, lam = slave.get("rolling_torque", "smallest_film", "smallest_lambda")
+    assert torque == pytest.approx(state.rolling_torque, rel=within)
+    pressed = state.force > 1.0
+    assert smallest == pytest.approx(state.h_min[pressed].min(), rel=within)
+    assert lam == pytest.approx(smallest / one.model.bearing.roughness)
+    slave.free()
+
+
+def test_a_state_that_is_set_again_repeats_the_run_to_the_bit(made):
+    one = made("five")
+    trial = bearing_trial(one.model, steps=40)
+    slave = one.started(lead=1.5, **inputs(one.model, trial, 0))
+
+    def run():
+        found = []
+        for k in range(20, 40):
+            slave.set(**inputs(one.model, trial, k))
+            slave.step_to(float(trial.time[k]))
+            found.append(slave.get("force_x", "force_z", "moment_y"))
+        return found
+
+    for k in range(1, 20):
+        slave.set(**inputs(one.model, trial, k))
+        slave.step_to(float(trial.time[k]))
+    kept, time = slave.raw.getFMUState(), slave.time
+    first = run()
+    slave.raw.setFMUState(kept)
+    slave.time = time
+    assert run() == first
+    slave.raw.freeFMUState(kept)
+    slave.free()
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        ({"speed": -1.0}, "speed must be >= 0"),
+        ({"speed": float("nan")}, "must be finite"),
+        ({"y": 0.5}, "farther from the outer one than"),
+        ({"tilt_x": 1.0}, "farther from the outer one than"),
+    ],
+)
+def test_what_no_bearing_does_is_told_and_leaves_a_usable_instance(made, wrong, words):
+    one, messages = made("five"), []
+    trial = bearing_trial(one.model, steps=3)
+    slave = Slave(one.folder, one.description, messages, loggingOn=True)
+    slave.start(lead=0.0, cage_angle_start=START, **inputs(one.model, trial, 0))
+    slave.set(**wrong)
+    with pytest.raises(FMICallException):
+        slave.step_to(1e-5)
+    assert words in messages[-1]
+    slave.set(**inputs(one.model, trial, 1))
+    slave.step_to(float(trial.time[1]))
+    assert slave.get("force_y")[0] == pytest.approx(trial.force[1, 1], rel=1e-9)
+    slave.free()
+
+
+def test_speed_and_loads_beyond_the_tables_are_flagged(made):
+    one = made("planar")
+    slave = one.started(x=0.0, y=-1.3e-5, velocity_x=0.0, velocity_y=0.0, speed=RPM * RADIANS)
+    assert not slave.flag("outside_validity")
+    slave.set(speed=1.1 * RPM * RADIANS)
+    slave.step(1e-5)
+    assert slave.flag("outside_speed") and slave.flag("outside_validity") and not slave.flag("outside_load")
+    slave.set(speed=RPM * RADIANS, y=-4e-4)
+    slave.step(1e-5)
+    assert slave.flag("outside_load") and not slave.flag("outside_speed")
+    slave.free()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "field"),
+    [
+        ((bearing(), (3000.0, 2000.0)), "speeds_rpm"),
+        ((bearing(), 0.0), "speed_rpm"),
+        ((bearing(), 1e6), "speed_rpm"),
+        ((bearing(), float("nan")), "speed_rpm"),
+        ((bearing(), 3000.0, 1e7), "load"),
+        ((bearing("7205"), 3000.0, (0.0, -100.0)), "load"),
+        ((bearing(), 3000.0, None, 3), "freedoms"),
+        ((bearing(ball_inertia=True), 3000.0, (0.0, -100.0, 50.0)), "ball_inertia"),
+        (("6205", 3000.0), "bearing"),
+    ],
+)
+def test_bad_models(arguments, field):
+    with pytest.raises(InputError) as error:
+        BearingModel(*arguments)
+    assert error.value.field == field
+
+
+def trapezoidal(model, mass, load, dt, steps, v):
+    """The same mass on the bearing in Python, by the trapezoidal rule and Newton's method."""
+    motion, q, v, angle = model.motion(), model.place.copy(), np.array([0.0, v]), START
+    omega, pull = float(model.speeds[-1]) * RADIANS, np.array([0.0, -load])
+    a = (pull - motion.rest(omega, angle, q)) / mass
+    kept = [q[1]]
+    for _ in range(steps):
+        angle += dt * omega * motion.balls.cage
+        motion.begin(omega, angle, dt)
+        q1 = q + dt * (v + 0.5 * dt * a)
+        for _ in range(20):
+            v1 = 2.0 / dt * (q1 - q) - v
+            a1 = 2.0 / dt * (v1 - v) - a
+            force, stiffness, damping = motion.forces(q1, v1)
+            left = mass * a1 + force - pull
+            by = np.linalg.solve(4.0 * mass / dt**2 * np.eye(2) + stiffness + 2.0 / dt * damping, left)
+            q1 = q1 - by
+            if np.abs(by).max() < 1e-16:
+                break
+        v1 = 2.0 / dt * (q1 - q) - v
+        a1 = 2.0 / dt * (v1 - v) - a
+        motion.forces(q1, v1)
+        motion.accept()
+        q, v, a = q1, v1, a1
+        kept.append(q[1])
+    return np.array(kept)
+
+
+def decay(heights, dt):
+    """Decay [1/s] and frequency [Hz] of a vibration."""
+    from scipy.optimize import least_squares
+
+    t, y = dt * np.arange(heights.size), heights / np.abs(heights).max()
+    spectrum = np.abs(np.fft.rfft(y, 8 * y.size))
+    hz = np.fft.rfftfreq(8 * y.size, dt)[spectrum.argmax()]
+
+    def off(p):
+        return p[0] * np.exp(-p[1] * t) * np.sin(p[2] * t + p[3]) - y
+
+    found = least_squares(off, [1.0, 20.0, 2.0 * np.pi * hz, 0.0]).x
+    return found[1], found[2] / (2.0 * np.pi)
+
+
+@pytest.mark.parametrize(("dt", "within"), [(1e-5, 0.005), (3e-5, 0.05)])
+def test_a_mass_that_holds_the_force_keeps_the_damping(tmp_path, dt, within):
+    """5 kg on a 6305, both stepping at once: decay of half the difference of two runs, kicked up and down."""
+    model, mass, load, until, kick = BearingModel(bearing("6305"), RPM, 500.0), 5.0, 500.0, 0.012, 1e-4
+    path = tmp_path / "6305.fmu"
+    export_bearing(model.bearing, path, speeds_rpm=RPM, load=load)
+    one = Made(model, path, 2)
+    steps = round(until / dt)
+
+    def fmu(v):
+        q, rate, pull = model.place.copy(), np.array([0.0, v]), np.array([0.0, -load])
+        slave = one.started(lead=1.5, x=q[0], y=q[1], velocity_y=v, speed=RPM * RADIANS)
+        a, kept = (slave.get("force_x", "force_y") + pull) / mass, [q[1]]
+        for _ in range(steps):
+            slave.set(x=q[0], y=q[1], velocity_x=rate[0], velocity_y=rate[1])
+            slave.step(dt)
+            q, rate = q + dt * (rate + 0.5 * dt * a), rate + dt * a
+            a = (slave.get("force_x", "force_y") + pull) / mass
+            kept.append(q[1])
+        slave.free()
+        return np.array(kept)
+
+    fine = 4e-6
+    wanted = decay(
+        trapezoidal(model, mass, load, fine, round(until / fine), kick)
+        - trapezoidal(model, mass, load, fine, round(until / fine), -kick),
+        fine,
+    )
+    found = decay(fmu(kick) - fmu(-kick), dt)
+    assert found == pytest.approx(wanted, rel=within)
+
+
+def test_export_leaves_nothing_behind_where_it_fails(tmp_path):
+    with pytest.raises(InputError):
+        export_bearing(bearing(), tmp_path / "x.fmu", speeds_rpm=1e6)
+    assert not list(tmp_path.iterdir())
