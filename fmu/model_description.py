@@ -19,7 +19,7 @@ DEFAULT_STEPS = 1000  # of the default experiment
 LOG_CATEGORIES = {
     "logStatusError": "Calls that failed, always logged",
     "logStatusDiscard": "Values that do not exist for the present inputs",
-    "logStatusWarning": "Motion leaving the validity box",
+    "logStatusWarning": "Motion leaving the validity box; steps that are too long for it",
 }
 TIME = "time"  # name of the independent variable of FMI 3.0
 FLANGE = "Modelica.Mechanics.Translational.Interfaces.Flange_a"

@@ -34,7 +34,7 @@ def export_bearing(
     Outputs are the forces on the inner ring, `force_x`, ..., `moment_y`, the largest loads of a ball, the
     smallest film and lambda, the rolling torque and the angle of the cage. Loads, films and contact angles of
     every ball are local variables. `clearance`, `offset` (axial preload), `cage_angle_start` and `film` (0: dry)
-    can be set before initialization. The FMU starts at rest where its inputs are then. In a step the balls move as in
+    can be set before initialization. The FMU starts at rest where its inputs are then. In a step balls move as in
     `BearingMotion`: in equilibrium, with the memory of every film.
 
     Parameters

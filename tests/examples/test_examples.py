@@ -270,6 +270,15 @@ def test_a_preloaded_motor(tmp_path):
     assert np.degrees(found["state"].contact_angles.min()) > 10.0
 
 
+def test_a_rotor_on_bearing_fmus(tmp_path):
+    """A step of w h = 0.1 at the fastest mode gives the run in one; four times that does not."""
+    found = example("rotor_on_bearing_fmus").main(str(tmp_path / "rotor.png"))
+    assert (tmp_path / "rotor.png").read_bytes().startswith(PNG)
+    short, middle, long = found["gaps"].values()
+    assert short.max() < 0.03 < middle.max() < long.max()
+    assert np.ptp(found["wanted"].displacement[:, 2]) > 2e-7
+
+
 def test_orders_of_defects(tmp_path):
     """Clearances of the issue for 9.6 degrees; damping of films falls with preload (Mitsuya et al., 1998)."""
     module = example("orders_of_defects")

@@ -52,7 +52,8 @@ typedef struct {
     unsigned long long contact, noticed; /* bits: contacts that push; bounds whose leaving has been logged */
     int phase, kind;
     int has_stop_time, n_given; /* n_given: steps in given, at most 2 */
-    int stale, unused;
+    double missed, moved; /* squares of what was missed of the changes of rates, and of these, in a block of steps */
+    int stale, judged, too_long, told; /* too_long: blocks on end whose steps were; told: whether that has been logged */
 } State;
 
 /* What saving a state keeps of it. */
@@ -101,6 +102,9 @@ void core_set_states(State *state, const double states[]);
 Fault core_set_time(State *state, double time);
 Fault core_contact_changed(State *state, int *changed);
 unsigned long long core_contact(const State *state); /* contacts that push, as bits; of an evaluated model */
+
+/* That steps are too long for the motion: once, where they have been for some time; NULL else. */
+const char *core_long_steps(State *state);
 
 /* Bounds of the validity box that have been left since the last call, in words written to `text`; NULL for none. */
 const char *core_warning(State *state, char *text, size_t size);

@@ -41,6 +41,15 @@ void warn_if_outside(Instance *instance, const char *function)
     }
 }
 
+void warn_of_step(Instance *instance, const char *function)
+{
+    const char *text = core_long_steps(&instance->state);
+    if (text != NULL) {
+        log_call(instance, WARNED, LOG_WARNING, function, text);
+    }
+    warn_if_outside(instance, function);
+}
+
 Instance *enter_as(void *c, Kind kind, int phases, const char *function)
 {
     const Instance *instance = (const Instance *)c;

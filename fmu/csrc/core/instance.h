@@ -48,6 +48,9 @@ int report(const Instance *instance, Fault fault, const char *function);
 /* Logs once that the validity box has been left. */
 void warn_if_outside(Instance *instance, const char *function);
 
+/* The same after a step, and once that steps are too long. */
+void warn_of_step(Instance *instance, const char *function);
+
 /* The instance behind c, or NULL (and the error logged) if the function may not be called in its phase; for what may be
  * called from within a step too. */
 static inline Instance *enter_to_read(void *c, int phases, const char *function)

@@ -14,7 +14,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2R
     if (fault.severity != FINE) {
         return outcome(instance, fault, "fmi2DoStep");
     }
-    warn_if_outside(instance, "fmi2DoStep");
+    warn_of_step(instance, "fmi2DoStep");
     return fmi2OK;
 }
 

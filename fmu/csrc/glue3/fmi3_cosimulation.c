@@ -79,7 +79,7 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 currentCommunicationPoint, fmi
         }
     }
     *lastSuccessfulTime = instance->state.time;
-    warn_if_outside(instance, "fmi3DoStep");
+    warn_of_step(instance, "fmi3DoStep");
     call_update(unit);
     return fmi3OK;
 }

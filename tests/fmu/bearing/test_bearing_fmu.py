@@ -320,6 +320,26 @@ def test_a_mass_that_holds_the_force_keeps_the_damping(tmp_path, dt, within):
     assert found == pytest.approx(wanted, rel=within)
 
 
+@pytest.mark.parametrize(
+    ("dt", "struck", "told"), [(2e-5, False, False), (2e-5, True, False), (8e-5, False, True)]
+)
+def test_steps_that_are_too_long_for_the_motion_are_told(made, dt, struck, told):
+    """A vibration of 650 Hz; blows now and then are none of the step's."""
+    one, messages, omega = made("planar"), [], 2.0 * np.pi * 650.0
+    slave = Slave(one.folder, one.description, messages, loggingOn=True)
+    slave.start(lead=1.5, cage_angle_start=START, y=-1.3e-5, speed=RPM * RADIANS)
+    for k in range(400):
+        t = k * dt
+        slave.set(
+            y=-1.3e-5 + 1e-6 * np.sin(omega * t),
+            velocity_y=1e-6 * omega * np.cos(omega * t) + (1e-3 if struck and k % 300 > 150 else 0.0),
+        )
+        slave.step(dt)
+    slave.free()
+    words = "the communication steps are too long for this motion"
+    assert sum(words in message for message in messages) == int(told)
+
+
 def test_export_leaves_nothing_behind_where_it_fails(tmp_path):
     with pytest.raises(InputError):
         export_bearing(bearing(), tmp_path / "x.fmu", speeds_rpm=1e6)
