@@ -155,8 +155,8 @@ def _least(
 def main(arguments: Sequence[str] | None = None) -> None:
     """The command line."""
     parser = argparse.ArgumentParser(description="Settings of an atlas.")
-    for name in ("weights", "lobes", "rates", "oil"):
-        parser.add_argument(f"--{name}", action="store_true")
+    for option in ("--weights", "--lobes", "--rates", "--oil"):
+        parser.add_argument(option, action="store_true")
     parser.add_argument("--atlas", type=Path, default=SHIPPED)
     asked = parser.parse_args(arguments)
     table = load(asked.atlas, AtlasTable)

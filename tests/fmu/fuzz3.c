@@ -10,6 +10,12 @@
 #include "core.h"
 #include "fuzz_numbers.h"
 
+#ifndef FUZZ_INPUTS /* as in fuzz.c */
+#define FUZZ_INPUTS VR_approach, VR_rate
+#define FUZZ_OUTPUTS VR_force, VR_stiffness, VR_damping
+#define FUZZ_STEP 1e-6
+#endif
+
 static int bytes_of(fmi3Instance c, uint8_t *bytes, size_t size)
 {
     fmi3FMUState saved = NULL;
@@ -59,7 +65,7 @@ static int finite(const double values[], const fmi3ValueReference vr[], size_t c
 
 int main(int count, char **arguments)
 {
-    static const fmi3ValueReference inputs[] = {VR_approach, VR_rate}, outputs[] = {VR_force, VR_stiffness, VR_damping};
+    static const fmi3ValueReference inputs[] = {FUZZ_INPUTS}, outputs[] = {FUZZ_OUTPUTS};
     const long calls = count > 1 ? atol(arguments[1]) : 1000;
     fmi3Instance c;
     fmi3FMUState kept = NULL, probe = NULL;
@@ -111,7 +117,7 @@ int main(int count, char **arguments)
         case 5:
         case 6:
         case 7: {
-            const double h = any(20) ? (double)(1 + any(1000)) * 1e-6 : anything(1e-3);
+            const double h = any(20) ? (double)(1 + any(1000)) * FUZZ_STEP : anything(1e-3);
             status = fmi3DoStep(c, any(20) ? time : anything(time), h, fmi3True, &a, &b, &d, &until);
             if (status == fmi3OK) {
                 time = until;

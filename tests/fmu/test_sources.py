@@ -152,7 +152,7 @@ def test_random_calls_under_sanitizers(compiled, fmi, name):
 @pytest.mark.parametrize("name", CONTACTS + BEARINGS)
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_a_million_random_calls_under_sanitizers(compiled, fmi, name):
-    program = compiled(name, fmi, SANITIZED, FUZZ[fmi], random_calls_of(name) if fmi == 2 else ())
+    program = compiled(name, fmi, SANITIZED, FUZZ[fmi], random_calls_of(name))
     for seed in (2, 3):
         done = run([program, MANY // len(CONTACTS) // 2, seed])
         assert done.returncode == 0, done.stderr
