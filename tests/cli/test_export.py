@@ -243,3 +243,28 @@ def test_rotors_that_cannot_be_exported(refused, tmp_path):
     broken.write_text(text.replace("disc_mass = 1.5", "disc_mass = -1.5"))
     refused(("broken.toml", "rotor.disc_mass"), "export", broken, "-o", target)
     assert not target.exists()
+
+
+BEARING = ROOT / "examples" / "bearing_6205.toml"
+
+
+def test_a_bearing_file_becomes_the_fmu_of_its_bearing(call, refused, tmp_path):
+    target = tmp_path / "6205.fmu"
+    result = call("export", BEARING, "-o", target, "--json", "-")
+    assert result.code == 0, result
+    found = json.loads(result.out)
+    assert found["passes"] and found["bearing"] < 1e-9 and found["units"] == "SI"
+    about = fmpy.read_model_description(str(target))
+    assert about.modelExchange is None
+    starts = {variable.name: variable.start for variable in about.modelVariables}
+    assert {"x", "y", "speed"} <= starts.keys() and "z" not in starts
+    assert float(starts["y"]) < -1e-6  # at rest under the load of the file
+    refused(("--output", "x.ssp", "a file name ending in .fmu"), "export", BEARING, "-o", tmp_path / "x.ssp")
+    refused(
+        ("--contact", "e.json", "left out"), "export", BEARING, "-o", tmp_path / "x.fmu", "--contact", "e.json"
+    )
+    tilted = tmp_path / "tilted.toml"
+    text = BEARING.read_text(encoding="utf-8")
+    tilted.write_text(text.replace("radial_load", "tilt_x_mrad = 1.0\naxial_load = 100.0\nradial_load"), "utf-8")
+    refused(("operation.tilt_x_mrad", "1.0", "left out"), "export", tilted, "-o", tmp_path / "x.fmu")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["6205.fmu", "tilted.toml"]
