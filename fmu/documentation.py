@@ -26,7 +26,7 @@ pre {{ background: #f4f4f4; padding: 1em; overflow-x: auto }}</style></head>
 <h2>Sources</h2>
 <pre>{readme}</pre>
 <h2>Build</h2>
-<p>Exported by ehlcontact {version} as FMI {fmi}.0 for co-simulation and model exchange; the binary needs
+<p>Exported by ehlcontact {version} as FMI {fmi}.0 for {uses}; the binary needs
 nothing but the C library. It was compiled with <code>{compiler}</code>. To build it for another platform,
 compile the files in
 <code>sources/</code> and link the maths library.</p>
@@ -36,7 +36,7 @@ compile the files in
 _REFERENCES = """
 <h2>Reference results</h2>
 <p>In <code>extra/org.fmi-standard.fmi-ls-ref/</code>, for any importer. {about}. Its steps go from each row of the
-tables to the next, with the parameters that are given there; the rows for model exchange stand by themselves.
+tables to the next, with the parameters that are given there{alone}.
 <code>ehlcontact verify</code> compares this FMU with them.</p>"""
 
 
@@ -45,6 +45,7 @@ def documentation(spec: ModelSpec, readme: str, compiler: str, fmi: int = 2, ref
 
     With reference results in the FMU, a sentence about them.
     """
+    alone = "; the rows for model exchange stand by themselves" if spec.exchange else ""
     return _PAGE.format(
         title=escape(spec.name),
         description=escape(spec.description),
@@ -54,7 +55,8 @@ def documentation(spec: ModelSpec, readme: str, compiler: str, fmi: int = 2, ref
         version=escape(__version__),
         compiler=escape(compiler),
         fmi=fmi,
-        references=references and _REFERENCES.format(about=escape(references)),
+        uses="co-simulation and model exchange" if spec.exchange else "co-simulation",
+        references=references and _REFERENCES.format(about=escape(references), alone=alone),
     )
 
 

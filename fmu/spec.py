@@ -90,9 +90,8 @@ class ModelSpec:
     step: float = 1e-3  # that resolves the contact
     tolerance: float = 1e-6  # relative, that model exchange needs for three digits of what moves
     time_unit: str = "s"
-    exchange: bool = (
-        True  # whether it is for model exchange too, with partial derivatives; or for co-simulation alone
-    )
+    # Whether it is for model exchange too, with partial derivatives, or for co-simulation alone.
+    exchange: bool = True
     # Event indicators, one for each contact: name in FMI 3.0, and the output that depends on the same.
     indicators: tuple[tuple[str, str], ...] = (("contact_indicator", "force"),)
     # Terminals of FMI 3.0: name, description, and the variables that are approach, rate and force.

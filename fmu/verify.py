@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlcontact.errors import InputError
+from fmu.bearing.model import BearingModel
 from fmu.contact_variables import Element
 from fmu.fmu_file import FmuFile, opened
 from fmu.fmu_model import FmuModel, fmu_model
@@ -20,7 +21,7 @@ from fmu.verification import Verification
 EXPORT_OPTIONS = {CONTACT.name, ROTOR.name}  # whose start values are chosen at export
 
 
-def verify(path: str | os.PathLike[str], element: Element | RotorModel) -> Verification:
+def verify(path: str | os.PathLike[str], element: Element | RotorModel | BearingModel) -> Verification:
     """Run the FMU through fmpy and compare it with the element.
 
     It runs the native code in the FMU, with the rights of whoever calls it: in a child process with limits of time
@@ -31,6 +32,7 @@ def verify(path: str | os.PathLike[str], element: Element | RotorModel) -> Verif
     same states in model exchange. With a memory: a motion with lift-off and a pulse of load, in steps from 1e-3 to
     1 of 2a/u_sum, against `drive`, and the film's states along it in model exchange against `state_rates`.
     A rotor: a short run with an unbalance that shows, against `simulate_rotor`, and its accelerations along it.
+    A bearing: a run of its ring with vibrations and lift-off, against the steps of `BearingMotion`.
 
     A difference is relative to the magnitude of what is compared, with 1e-3 of its value at the upper end of the
     interval (under the reference load) as the floor, for a number that cancels to nearly nothing has no relative
@@ -40,8 +42,9 @@ def verify(path: str | os.PathLike[str], element: Element | RotorModel) -> Verif
     ----------
     path : path-like
         The FMU.
-    element : ContactElement or RotorModel
-        What it should be; ``RotorModel(rotor, contacts)`` for what `export_rotor` makes of these.
+    element : ContactElement, RotorModel or BearingModel
+        What it should be; ``RotorModel(rotor, contacts)`` for what `export_rotor` makes of these,
+        ``BearingModel(bearing, speeds_rpm, load)`` for `export_bearing`.
 
     Raises
     ------
@@ -80,7 +83,7 @@ def _known_variables(file: FmuFile, spec: ModelSpec) -> dict[str, Any]:
             raise InputError(
                 "path",
                 str(file.path),
-                "an FMU of this kind of element or rotor, made by export_contact or export_rotor",
+                "an FMU of this kind of element, rotor or bearing, made by fmu.export_contact and its like",
             )
     return known
 

@@ -1,12 +1,14 @@
 """FMUs of ball bearings beside the bearings in Python: forces, parameters, films, faults, a mass on the ring."""
 
+from pathlib import Path
+
 import fmpy
 import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
 from ehlcontact import InputError, Lubricant
-from fmu import BearingModel, export_bearing, verify_references
+from fmu import BearingModel, export_bearing, verify, verify_references
 from fmu.bearing.comparison import largest_difference
 from fmu.bearing.trial import START, bearing_trial
 from fmu.bearing.variables import FORCES, RATES
@@ -95,6 +97,10 @@ def test_forces_are_those_of_python(made, name, fmi):
     found = driven(one.started(**inputs(one.model, trial, 0)), one.model, trial)
     assert largest_difference(found, trial) < ALLOWED[name]
     assert verify_references(one.path).passes
+    if name == "planar":
+        assert verify(one.path, one.model).passes
+        page = (Path(one.folder) / "documentation" / "index.html").read_text(encoding="utf-8")
+        assert "model exchange" not in page and "for co-simulation;" in page
 
 
 def test_clearance_offset_and_film_are_parameters(made):
