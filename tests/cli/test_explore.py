@@ -13,6 +13,7 @@ from ehlcontact.cli.explorer import COMPUTING, UNITS, script
 from ehlcontact.errors import InputError
 from reduced_models import Atlas, BallBearing
 from reduced_models.bearing.catalogue import DEEP_GROOVE
+from reduced_models.bearing.kinematics import DefectFrequencies
 from reduced_models.elements.film_response import FilterRates
 
 CLOSE = 1e-6  # of every number: what the issue asks for
@@ -121,7 +122,7 @@ const state = bearing.ringEquilibrium(atSpeed, asked.load), all = read => state.
 return { q: state.q, stiffness: state.stiffness,
   force: all(ball => ball.force), approach: all(ball => ball.approach),
   films: all(ball => bearing.films(atSpeed, ball).map(film => [film.h_central, film.h_min])),
-  highest: bearing.highestSpeed, orders: bearing.orders,
+  highest: bearing.highestSpeed, orders: bearing.orders(), angular: bearing.orders(12.5),
   both: bearing.coefficients(atSpeed, asked.load, asked.hz.map(hz => 2 * Math.PI * hz)) };
 """
 
@@ -180,6 +181,9 @@ def test_bearings_stand_and_vibrate_as_in_python(ask, bearings):
         assert here["highest"] == pytest.approx(bearing.highest_speed, rel=CLOSE)
         orders = {name.upper(): order for name, order in asdict(bearing.orders).items()}
         assert here["orders"] == pytest.approx(orders, rel=1e-12)
+        steep = DefectFrequencies.of(bearing.balls, bearing.gamma * np.cos(np.radians(12.5)))
+        angular = {name.upper(): order for name, order in asdict(steep).items()}
+        assert here["angular"] == pytest.approx(angular, rel=1e-12)
         films = np.stack([state.h_central, state.h_min], axis=-1)
         np.testing.assert_allclose(here["films"], films, rtol=CLOSE)
         for name, values in (("force", state.force), ("approach", state.approach), ("q", state.displacement)):

@@ -3,6 +3,7 @@
 import html
 import json
 import re
+from dataclasses import asdict
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from browsers import dom
 
 from ehlcontact import Lubricant
 from reduced_models import Atlas, BallBearing
+from reduced_models.bearing.kinematics import DefectFrequencies
 
 LARGEST = 3e6  # bytes
 WIDTHS = (400, 768, 1280)
@@ -106,6 +108,16 @@ def test_what_it_shows_is_what_python_answers(seen):
     for name in ("FTF", "BPFO", "BPFI", "BSF"):
         shown = f"{getattr(hz, name.lower()):.4g}{getattr(orders, name.lower()):.5g}"
         assert name in found["defects"] and shown in found["defects"]
+
+
+def test_defect_frequencies_at_a_contact_angle(seen):
+    found = seen(TEXTS, "#contact_angle=9.71&load=500")
+    assert found["refused"] is False and "at a contact angle of 9.71°" in found["defects"]
+    bearing = BallBearing.catalogue("6205")
+    for name, order in asdict(DefectFrequencies.of(9, bearing.gamma * np.cos(np.radians(9.71)))).items():
+        assert name.upper() in found["defects"] and f"{order:.5g}" in found["defects"]
+    found = seen(TEXTS, "#contact_angle=50")
+    assert "contact_angle" in found["invalid"] and "0 to 45" in found["refused"]
 
 
 def test_a_bearing_of_ones_own(seen):

@@ -3,7 +3,7 @@
 // for, from which the approaches of both contacts follow: the same balance, with one search instead of three.
 
 const { LARGEST_PLAY, POSITIONS, SEATED, TINY_OMEGA } = DATA.rules;
-const BALANCED = 1e-12, ROUNDING = 1e-9, REGULARISATION = 1e-6, FIRST_STEP = 1e-9;
+const BALANCED = 1e-12, ROUNDING = 1e-9, REGULARISATION = 1e-6, FIRST_STEP = 1e-9, LARGEST_ANGLE = 45;
 
 class Bearing {
   // `given`: balls, ball_diameter, pitch_diameter, conformity_inner, conformity_outer, clearance [m]; `oil`: eta0
@@ -30,9 +30,10 @@ class Bearing {
     return Math.min(this.races.inner.highestSpeed, this.races.outer.highestSpeed);
   }
 
-  // Defect frequencies per turn of the shaft (reduced_models.bearing.kinematics).
-  get orders() {
-    const gamma = this.ball_diameter / this.pitch_diameter, cage = 0.5 * (1 - gamma);
+  // Defect frequencies per turn of the shaft at a contact angle [degrees] (reduced_models.bearing.kinematics).
+  orders(angle = 0) {
+    if (!(angle >= 0 && angle <= LARGEST_ANGLE)) throw new InputError("contact_angle", angle, `0 to ${LARGEST_ANGLE} degrees`);
+    const gamma = this.ball_diameter / this.pitch_diameter * Math.cos(angle * Math.PI / 180), cage = 0.5 * (1 - gamma);
     return { FTF: cage, BPFO: this.balls * cage, BPFI: this.balls * 0.5 * (1 + gamma), BSF: 0.5 * (1 - gamma * gamma) / gamma };
   }
 
