@@ -80,7 +80,10 @@ def test_lines_end_in_what_the_schema_allows(study):
     assert ", ".join(map(str, GRADES)) in text
 
 
-@pytest.mark.parametrize("name", DEEP_GROOVE)
+@pytest.mark.parametrize(
+    "name",
+    [name if k % 5 == 0 else pytest.param(name, marks=pytest.mark.slow) for k, name in enumerate(DEEP_GROOVE)],
+)
 def test_every_bearing_of_the_catalogue_begins_without_cautions(study, name):
     assert cautions(load_study(study("--bearing", name))) == []
 

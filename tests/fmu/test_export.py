@@ -17,6 +17,7 @@ from fmu.fmu_model import fmu_model
 from fmu.sources import CSRC
 
 
+@pytest.mark.parametrize("kind", ["cubic_si", "wide_si"])
 def test_bytes_are_reproducible(fmus, elements, kind, tmp_path, monkeypatch):
     monkeypatch.setenv("EHLCONTACT_CACHE", str(tmp_path / "empty"))
     again = export_contact(elements[kind], tmp_path / "again.fmu")

@@ -18,7 +18,7 @@ EXTRAPOLATED, END, MIDDLE = 1.0, 0.0, 0.5  # values of lead
 @pytest.fixture(scope="module")
 def fmus3(elements, tmp_path_factory):
     folder = tmp_path_factory.mktemp("fmi3")
-    names = ("cubic", "polynomial", "power_si", "memory", "wide", "wide_si")
+    names = ("cubic", "polynomial", "power_si", "wide", "wide_si")
     return {name: export_contact(elements[name], folder / f"{name}.fmu", fmi=3) for name in names}
 
 
@@ -48,7 +48,7 @@ def made3(folders3):
         unit.free()
 
 
-@pytest.mark.parametrize("kind", ["cubic", "polynomial", "power_si", "memory", "wide", "wide_si"])
+@pytest.mark.parametrize("kind", ["cubic", "polynomial", "power_si", "wide", "wide_si"])
 def test_fmu_agrees_with_element(fmus3, elements, kind):
     assert validate_fmu(str(fmus3[kind])) == []
     found = verify(fmus3[kind], elements[kind])
@@ -89,7 +89,7 @@ def test_both_versions_give_the_same_digits(made3, slave, kind, elements):
         assert old.get("force", "stiffness", "damping") == new.get("force", "stiffness", "damping")
 
 
-@pytest.mark.parametrize("kind", ["polynomial", "memory", "wide_si"])
+@pytest.mark.parametrize("kind", ["polynomial", "wide_si"])
 def test_adjoint_is_the_transposed_jacobian(made3, kind):
     unit = made3(Exchange, kind)
     states = [v.variable.name[4:-1] for v in unit.description.derivatives]
@@ -209,7 +209,7 @@ def test_derivatives_of_outputs_and_states_saved(made3):
 
 
 @pytest.mark.parametrize("fmi_type", ["CoSimulation", "ModelExchange"])
-@pytest.mark.parametrize("kind", ["cubic", "memory"])
+@pytest.mark.parametrize("kind", ["cubic", "wide"])
 def test_fmpy_simulates_it(fmus3, elements, kind, fmi_type):
     T = np.linspace(0.0, 1.0, 1001)
     given = np.rec.fromarrays(

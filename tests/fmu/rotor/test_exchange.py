@@ -5,6 +5,7 @@ from ctypes import POINTER, c_double
 import fmpy
 import numpy as np
 import pytest
+from fmpy.validation import validate_fmu
 from scipy.integrate import solve_ivp
 
 from fmu import export_rotor
@@ -110,6 +111,11 @@ def test_every_partial_derivative_against_differences(instance, rotors, name, fm
         if known in (*states, *inputs):
             for n, value in zip(unknowns, exact, strict=True):
                 assert value == 0.0 or known in declared[n], (n, known)
+
+
+@pytest.mark.parametrize(("name", "fmi"), [("alone", 2), ("mixed", 2), ("mixed", 3)])
+def test_fmpy_finds_nothing_wrong(unit, name, fmi):
+    assert validate_fmu(str(unit(name, fmi).path)) == []
 
 
 def test_adjoint_is_the_transpose(instance, rotors):
