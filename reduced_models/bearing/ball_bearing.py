@@ -25,7 +25,7 @@ from ehlcontact.checks import (
 from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.frequency import by_name, radians_per_second
 from ehlcontact.checks.quantity import fields_take, takes
-from ehlcontact.errors import InputError
+from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.store import stored
 from ehlcontact.summary import Summary
 from reduced_models.bearing.angular_balls import ANGLE, LOAD, AngularBalls
@@ -459,7 +459,11 @@ class BallBearing(Summary):
         return bearing_element(self, node, speeds_rpm, load, frequency, **options)
 
     def _stand(self, load: _Floats, speed: float, angle: float) -> RingEquilibrium:
-        standing = ring_equilibrium(self._static_balls(speed, angle), load)
+        try:
+            standing = ring_equilibrium(self._static_balls(speed, angle), load)
+        except ConvergenceError:
+            self._require_bearable_by_all(load, speed)
+            raise
         self._require_bearable(standing.force, load, speed)
         require_below_shoulders(self, np.zeros_like(standing.force), standing.force, load)
         return standing
@@ -474,7 +478,8 @@ class BallBearing(Summary):
 
     def _require_bearable_by_all(self, load: _Floats, speed: float) -> None:
         """Raise `InputError` for a load that is too large even if all balls carried the same share of it."""
-        share = float(np.linalg.norm(load[:3])) / self.balls
+        moment = float(np.hypot.reduce(load[3:])) / (0.5 * self.pitch_diameter)
+        share = max(float(np.hypot.reduce(load[:3])), moment) / self.balls
         for name in RACES:
             highest, end = self.race(name).heaviest(speed)
             if share > highest:

@@ -200,3 +200,11 @@ def test_pictures(tmp_path, film, dry, ending):
     assert "1000" not in films.get_title() and "989.9 N, 3000 rev/min" in figure.get_suptitle()
     assert "below 0 a gap" in dry.equilibrium(DOWN).plot().axes[1].get_title()
     refused("path", lambda: wet.plot(tmp_path / "nowhere" / "state.png"))
+
+
+@pytest.mark.parametrize(
+    "load", [(0.0, -1e30), (0.0, -1e30, 10.0), (0.0, 0.0, 1e300), (0.0, 0.0, 100.0, 1e30, 0.0)]
+)
+def test_a_load_beyond_any_bearing_says_what_a_ball_carries(load):
+    with pytest.raises(InputError, match=r"a ball carries at most .* in the mean of all balls"):
+        BallBearing.catalogue("6205").equilibrium(load, speed_rpm=3000.0)
