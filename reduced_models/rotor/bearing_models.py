@@ -251,7 +251,7 @@ def compare_bearing_models(
         over_frequency=wet.coefficients(weight, speed_rpm=speed_rpm, hz=hz),
         over_speed=_over_speed(wet, weight, speed_rpm, hz),
         constants={name: (float(K[1, 1]), float(C[1, 1])) for name, (K, C) in constant.items()},
-        diagram=_diagram(rotor, wet, speed_rpm),
+        diagram=campbell_or_reason(rotor, wet, speed_rpm),
         response_hz=grid,
         responses={
             name: np.abs(one.linear.unbalance_response(hz=grid).amplitude[:, disc]) / eccentricity
@@ -320,7 +320,7 @@ def _over_speed(bearing: BallBearing, weight: tuple[float, float], rpm: float, h
     return tuple(found)
 
 
-def _diagram(rotor: Rotor, bearing: BallBearing, rpm: float) -> Campbell | str:
+def campbell_or_reason(rotor: Rotor, bearing: BallBearing, rpm: float) -> Campbell | str:
     """Modes over the speed, as far as the bearing has films; or why there are none."""
     high = min(SWEEP[1] * rpm, bearing.highest_speed)
     try:

@@ -25,6 +25,7 @@ from ehlcontact.cli.plots.style import (
     vertical,
 )
 from ehlcontact.results.picture import COLOURS
+from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.picture import from_load
 from reduced_models.rotor.picture import amplitudes, whirl_name
 
@@ -72,6 +73,72 @@ def balls(state: Any) -> go.Figure:
     return figure
 
 
+def drawings_at_angles(found: Any) -> dict[str, Callable[[], go.Figure]]:
+    """The figures of a bearing at contact angles and of the rotor between two of them, not drawn yet."""
+    figures: dict[str, Callable[[], go.Figure]] = {
+        "angles_balls": lambda: balls_at_angles(found.state),
+        "angles_coefficients": lambda: five_coefficients(found),
+    }
+    if not isinstance(found.diagram, str):
+        figures["angles_campbell"] = lambda: campbell(found.diagram)
+    return figures
+
+
+def balls_at_angles(state: Any) -> go.Figure:
+    """Load zone, contact angles around the ring, and the smallest film under every ball."""
+    figure = grid(2, 2, heights=[320, 260], polar=((1, 1),))
+    load_zone(figure, state)
+    angles(figure, state, 1, 2)
+    films(figure, state, 2, 1)
+    spins(figure, state, 2, 2)
+    return figure
+
+
+def angles(figure: go.Figure, state: Any, row: int, col: int) -> None:
+    """Contact angles of the balls at both races over their place."""
+    _around(figure, state, np.degrees(state.contact_angles), row, col)
+    label_axes(figure, "angle from the load [degrees]", "contact angle [degrees]", row, col)
+
+
+def spins(figure: go.Figure, state: Any, row: int, col: int) -> None:
+    """Spin over rolling at both races."""
+    _around(figure, state, state.spin_to_roll, row, col)
+    label_axes(figure, "angle from the load [degrees]", "spin/roll [-]", row, col)
+
+
+def _around(figure: go.Figure, state: Any, values: Any, row: int, col: int) -> None:
+    """Values of every ball at inner and outer race, over the place of the ball from the load."""
+    place = from_load(state)
+    order = np.argsort(place)
+    for column, (name, colour, _) in enumerate(RACES):
+        look: Any = {"mode": "lines+markers", "line_color": colour, "name": name}
+        figure.add_scatter(x=place[order], y=values[order, column], **look, row=row, col=col)
+    figure.update_xaxes(dtick=60, row=row, col=col)
+
+
+def five_coefficients(found: Any) -> go.Figure:
+    """K and C in all five degrees of freedom over the frequency of the vibration."""
+    figure, at = grid(2, 2, heights=[270, 270]), found.over_frequency
+    dashes = {"x": "dot", "y": "solid", "z": "solid", "tilt_x": "solid", "tilt_y": "dot"}
+    colours = {"x": BLUE, "y": BLUE, "z": ORANGE, "tilt_x": GREEN, "tilt_y": GREEN}
+    rows = (("x", "y", "z"), ("tilt_x", "tilt_y"))
+    units = ((1e-6, f"stiffness [N/{MICRO}]", 1.0, "damping [N s/m]"),
+             (1e-3, "tilt stiffness [N m/mrad]", 1.0, "tilt damping [N m s/rad]"))  # fmt: skip
+    for row, (names, (k_unit, k_label, c_unit, c_label)) in enumerate(zip(rows, units, strict=True), start=1):
+        columns = ((at.stiffness * k_unit, k_label), (at.damping * c_unit, c_label))
+        for col, (values, label) in enumerate(columns, start=1):
+            for name in names:
+                k = FIVE.index(name)
+                line = {"color": colours[name], "dash": dashes[name]}
+                shown = name.replace("_", " about ")
+                figure.add_scatter(x=at.hz, y=values[:, k, k], line=line, name=shown, row=row, col=col)
+            figure.update_xaxes(type="log", row=row, col=col)
+            scale = "linear" if col == 1 else "log"
+            label_axes(figure, "frequency of the vibration [Hz]", label, row, col, type=scale)
+            vertical(figure, found.state.speed_rpm / 60.0, "", row, col, ORANGE)
+    return figure
+
+
 def load_zone(figure: go.Figure, state: Any) -> None:
     """Force of every ball, outward from the centre, and the load."""
     angle, most = np.degrees(state.angles) % 360.0, float(state.force.max())
@@ -90,7 +157,7 @@ def load_zone(figure: go.Figure, state: Any) -> None:
     figure.update_polars(barmode="overlay", radialaxis=radius, row=1, col=1)
 
 
-def films(figure: go.Figure, state: Any) -> None:
+def films(figure: go.Figure, state: Any, row: int = 1, col: int = 2) -> None:
     """Smallest film of every ball over its place, or the approaches of a dry bearing."""
     place = from_load(state)
     order = np.argsort(place)
@@ -98,15 +165,15 @@ def films(figure: go.Figure, state: Any) -> None:
     shown = (state.approach if dry else state.h_min) * 1e6
     for column, (name, colour, _) in enumerate(RACES):
         look: Any = {"mode": "lines+markers", "line_color": colour, "name": name}
-        figure.add_scatter(x=place[order], y=shown[order, column], **look, row=1, col=2)
+        figure.add_scatter(x=place[order], y=shown[order, column], **look, row=row, col=col)
     label = f"approach [{MICRO}]; below 0 a gap" if dry else f"smallest film [{MICRO}]"
-    label_axes(figure, "angle from the load [degrees]", label, 1, 2, type="linear" if dry else "log")
-    figure.update_xaxes(dtick=60, row=1, col=2)
+    label_axes(figure, "angle from the load [degrees]", label, row, col, type="linear" if dry else "log")
+    figure.update_xaxes(dtick=60, row=row, col=col)
     if state.lambda_ratio is not None and not dry:
         rough = float(state.h_min.flat[0] / state.lambda_ratio.flat[0]) * 1e6
         name = f"composite roughness; least lambda {float(np.nanmin(state.lambda_ratio)):.3g}"
         line: Any = {"color": GREY, "dash": "dash", "width": 1.2}
-        figure.add_scatter(x=[-180.0, 180.0], y=[rough] * 2, name=name, line=line, row=1, col=2)
+        figure.add_scatter(x=[-180.0, 180.0], y=[rough] * 2, name=name, line=line, row=row, col=col)
 
 
 def orbits(found: Any, names: Names) -> go.Figure:

@@ -1,22 +1,24 @@
 """The study behind ``ehlcontact run``: a bearing and its oil in, elements, FMU, rotor and report out.
 
-=================  ======================================================================================
-module             responsibility
-=================  ======================================================================================
-``schema``         the study file: what may stand in it, and errors in one line
-``schema_errors``  those errors, and guesses at what was meant
-``forecast``       what a study will do, and its cost, without doing it
-``stages``         the long computations, each a function of the study that leaves one file
-``runner``         stages side by side, with progress, resume and Ctrl-C
-``points``         its points, what is finished of each, and all of them together
-``reduction``      fits, element files, FMU
-``rotor``          the rotor on full films and on elements, turning with its unbalance and after a kick
-``differences``    full films beside elements, and beside what there is without them
-``bearing_rotor``  the rotor on two whole bearings, with film memory under every ball
-``whole_bearing``  the bearing that it takes, from the file
-``headline``       what was found, in one paragraph
-``results``        everything in numbers: ``results.json``
-``report``         ``report.html``
-``bearing``        the file of ``ehlcontact bearing``, and what its options change of it
-=================  ======================================================================================
+=====================  ======================================================================================
+module                 responsibility
+=====================  ======================================================================================
+``schema``             the study file: what may stand in it, and errors in one line
+``schema_errors``      those errors, and guesses at what was meant
+``forecast``           what a study will do, and its cost, without doing it
+``stages``             the long computations, each a function of the study that leaves one file
+``runner``             stages side by side, with progress, resume and Ctrl-C
+``points``             its points, what is finished of each, and all of them together
+``reduction``          fits, element files, FMU
+``rotor``              the rotor on full films and on elements, turning with its unbalance and after a kick
+``differences``        full films beside elements, and beside what there is without them
+``bearing_rotor``      the rotor on two whole bearings, with film memory under every ball
+``whole_bearing``      the bearing that it takes, from the file
+``bearing_at_angles``  the bearing under an axial load, and vibrations of the rotor between two of them
+``ring_load``          moments and tilts of an inner ring, of studies and of bearing files
+``headline``           what was found, in one paragraph
+``results``            everything in numbers: ``results.json``
+``report``             ``report.html``
+``bearing``            the file of ``ehlcontact bearing``, and what its options change of it
+=====================  ======================================================================================
 """

@@ -14,6 +14,7 @@ from pydantic import Field, StrictBool, ValidationError
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.entries import Section
 from ehlcontact.cli.study.points.lists import require_apart
+from ehlcontact.cli.study.ring_load import moments_of, tilt_of
 from ehlcontact.cli.study.schema import Oil
 from ehlcontact.cli.study.schema_errors import first_error, in_other_kind
 from ehlcontact.cli.toml import read_toml
@@ -105,22 +106,15 @@ class Operation(Section):
         """Force on the inner ring: (Fx, Fy) [N], with Fz, or with moments [N m]."""
         if self.radial_load is None and self.axial_load is None:
             raise InputError("operation.radial_load", None, "given, or an axial load")
-        moments = () if self.moment_x is self.moment_y is None else (self.moment_x or 0.0, self.moment_y or 0.0)
-        if moments and self.tilt is not None:
-            name = "tilt_y_mrad" if self.tilt_x_mrad is None else "tilt_x_mrad"
-            allowed = "left out beside moments, under which the inner ring tilts freely"
-            raise InputError(f"operation.{name}", getattr(self, name), allowed)
         radial = 0.0, -(self.radial_load or 0.0)
         if all(getattr(self, name) is None for name in AXIAL):
             return radial
-        return (*radial, self.axial_load or 0.0, *moments)
+        return (*radial, self.axial_load or 0.0, *moments_of(self, "operation"))
 
     @property
     def tilt(self) -> tuple[float, float] | None:
         """Tilts at which the inner ring is held [rad]."""
-        if self.tilt_x_mrad is self.tilt_y_mrad is None:
-            return None
-        return 1e-3 * (self.tilt_x_mrad or 0.0), 1e-3 * (self.tilt_y_mrad or 0.0)
+        return tilt_of(self)
 
 
 class BearingFile(Section):

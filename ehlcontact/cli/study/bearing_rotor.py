@@ -41,8 +41,8 @@ def whole_rotor(study: Study, bearing: BallBearing | LinearBearing) -> Rotor:
 
 
 def run_whole(study: Study, folder: Path) -> BearingModels | None:
-    """Run the rotor on whole bearings where the study has [whole_bearing]; runs are left in the folder."""
-    if "whole_bearing" not in study.model_fields_set:
+    """Run the rotor on planar bearings where the study has [whole_bearing]; runs are left in the folder."""
+    if "whole_bearing" not in study.model_fields_set or study.whole_bearing.axial_load is not None:
         return None
     return compare_bearing_models(
         lambda bearing: whole_rotor(study, bearing),

@@ -24,6 +24,7 @@ CONV = 2.3e-3  # seconds of one when those studies were run
 REST = 10.0 / CONV  # fits, impedance, FMU, reduced rotors and report, of either study
 # Convolutions of the rotor on whole bearings, with films and dry: its diagram, and each of its steps.
 WHOLE, WHOLE_STEP = 470.0, 0.016
+WHOLE_AT_ANGLES = 610.0  # of bearings with an axial load and of the rotor between them
 REFERENCE_RUNS = 15  # convolutions timed, of which the fastest counts
 # What too coarse a mesh does, measured against finer grids: the 6205 at n = 64, and solver/mesh_choice.py.
 FILM_TOO_THIN = "it comes out a fifth too thin, or negative"
@@ -156,6 +157,8 @@ def closing_cost(study: Study) -> float:
     """Likewise of what is made of all stages: fits, FMUs, reduced rotors, rotors on whole bearings, report."""
     whole = study.whole_bearing
     asked = "whole_bearing" in study.model_fields_set
+    if asked and whole.axial_load is not None:
+        return REST + WHOLE_AT_ANGLES
     return REST + (WHOLE + WHOLE_STEP * whole.revolutions * whole.steps_per_revolution if asked else 0.0)
 
 

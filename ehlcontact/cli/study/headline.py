@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from math import hypot
+from math import hypot, pi
 from typing import Any
 
 from ehlcontact.cli.numerals import numeral, percent
@@ -56,7 +56,7 @@ def headline(found: Findings) -> str:
 
 def findings(found: Findings) -> list[str]:
     """Findings, a text per subject."""
-    return _sentences(found, contact, damper, decay, unbalance, whole)
+    return _sentences(found, contact, damper, decay, unbalance, whole, at_angles)
 
 
 def reservations(found: Findings) -> list[str]:
@@ -160,6 +160,27 @@ def whole(found: Findings) -> str:
     if found.whole.said:
         parts.append(f"NOTE, whole bearings: {'; '.join(found.whole.said)}.")
     return " ".join(parts)
+
+
+def at_angles(found: Findings) -> str:
+    """The whole bearing under axial load, where there is one: contact angles, stiffness, slowest vibration."""
+    w = found.at_angles
+    if w is None or w.state.contact_angles is None:
+        return ""
+    carrying = w.state.contact_angles[w.state.force[:, 0] > 0.0]
+    low, high = (numeral(one * 180.0 / pi) for one in (carrying.min(), carrying.max()))
+    stiff = numeral(float(w.at_speed.stiffness[0, 2, 2]) * 1e-6)
+    text = (
+        f"Under {numeral(float(w.state.load[2]))} N of axial load the balls of a whole bearing run at contact "
+        f"angles of {low} to {high} degrees; it has {stiff} N/\N{MICRO SIGN}m along the shaft."
+    )
+    if not w.modes:
+        return f"{text} Vibrations of the rotor between two of them were not found: {w.no_modes}."
+    first = w.modes[0]
+    return (
+        f"{text} The slowest vibration of the rotor between two of them has {numeral(first.hz)} Hz and a "
+        f"decrement of {numeral(first.decrement, 3)}."
+    )
 
 
 def unsettled(found: Findings) -> str:

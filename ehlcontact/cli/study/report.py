@@ -96,6 +96,8 @@ def drawings(found: Findings) -> dict[str, Callable[[], Any]]:
     how = rotors.unbalance.settling[FULL]
     free, frequencies = found.simulations["free"], (found.study.rotor_omega, found.at_kicked_mode["Omega"])
     found_whole = {} if found.whole is None else bearing.drawings(found.whole, NAMES)
+    if found.at_angles is not None:
+        found_whole = bearing.drawings_at_angles(found.at_angles)
     return found_whole | {
         "film_maps": lambda: film.film_maps(found.steady),
         "midplane": lambda: film.midplanes(found.steady),

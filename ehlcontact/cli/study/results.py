@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.assumptions import Assumptions, assumptions
+from ehlcontact.cli.study.bearing_at_angles import BearingAtAngles, run_at_angles
 from ehlcontact.cli.study.bearing_rotor import run_whole
 from ehlcontact.cli.study.differences import RotorFindings, compare_rotors
 from ehlcontact.cli.study.points.log import versions
@@ -45,6 +46,7 @@ class Findings:
     reduction: Reduction
     rotors: RotorFindings
     whole: BearingModels | None  # where the study has whole bearings
+    at_angles: BearingAtAngles | None  # where they carry an axial load
     fmu: Mapping[str, Any]  # of the cubic of the rotor's band
     film_fmu: Mapping[str, Any] | None  # of the element with a film memory, where there is one
     seconds: Mapping[str, float]  # wall time by stage
@@ -219,6 +221,7 @@ class Findings:
             "warnings": self.warnings,
             "rotor": self.rotors.to_dict(),
             "whole_bearing": None if self.whole is None else self.whole.to_dict(),
+            "bearing_at_angles": None if self.at_angles is None else self.at_angles.to_dict(),
             "seconds": self.seconds,
             "versions": self.versions,
         }
@@ -247,7 +250,7 @@ def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findin
     rotors = compare_rotors(study, response, reduction.rotor_elements, folder)
     times = {**seconds, "elements, FMUs, reduced rotors": time.perf_counter() - started}
     started = time.perf_counter()
-    whole = run_whole(study, folder)
-    if whole is not None:
+    whole, at_angles = run_whole(study, folder), run_at_angles(study)
+    if whole is not None or at_angles is not None:
         times["rotor on whole bearings"] = time.perf_counter() - started
-    return Findings(study, steady, histories, reduction, rotors, whole, exported, exported_film, times)
+    return Findings(study, steady, histories, reduction, rotors, whole, at_angles, exported, exported_film, times)

@@ -220,7 +220,11 @@ class Rotor(Section):
 
 
 class WholeBearing(Section):
-    """The same rotor on two whole bearings, a film with its memory under every ball: not without this section."""
+    """The same rotor on two whole bearings, a film with its memory under every ball: not without this section.
+
+    With axial_load balls have contact angles, and bearings five degrees of freedom: loads and films of all balls,
+    stiffness and damping, and vibrations of the rotor between them; then nothing is computed in time.
+    """
 
     conformity_other: Annotated[
         e.Conformity | None, e.meaning("of the race that [bearing] is not about; the same where left out")
@@ -232,6 +236,29 @@ class WholeBearing(Section):
     steps_per_revolution: Annotated[e.Whole, Field(ge=200, le=10000, description="time steps in each of them")] = (
         500
     )
+    axial_load: Annotated[
+        e.Load | None,
+        e.meaning("axial load on each of both bearings, from a spring on the outer ring of one of them"),
+    ] = None
+    moment_x: Annotated[
+        e.Moment | None,
+        e.meaning("moment on a bearing about x (horizontal): with it, or moment_y, its inner ring tilts freely"),
+    ] = None
+    moment_y: Annotated[e.Moment | None, e.meaning("moment about y (upwards)")] = None
+    tilt_x_mrad: Annotated[
+        e.Tilt | None, e.meaning("misalignment: tilt about x at which the inner ring of a bearing is held")
+    ] = None
+    tilt_y_mrad: Annotated[e.Tilt | None, e.meaning("the same about y")] = None
+    contact_angle_deg: Annotated[
+        e.ContactAngle | None,
+        e.meaning("free contact angle of an angular contact bearing; left out, it follows from clearance_um"),
+    ] = None
+    race_control: Annotated[
+        e.RaceControl | None, e.meaning("what holds the gyroscopic moment of the balls; outer where left out")
+    ] = None
+    span_mm: Annotated[
+        e.PitchDiameter | None, e.meaning("distance of both bearings; 200 where left out with axial_load")
+    ] = None
 
 
 class Check(Section):

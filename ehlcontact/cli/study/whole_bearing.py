@@ -5,20 +5,26 @@
 
 from __future__ import annotations
 
-from math import ceil
+from math import ceil, radians
 from typing import Any
 
-from ehlcontact.errors import InputError
+from ehlcontact.cli.study.ring_load import moments_of, tilt_of
+from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import BallBearing
 from reduced_models.bearing.ball_bearing import LARGEST_PLAY
+from reduced_models.bearing.freedoms import PLANAR
 from reduced_models.rotor.prepared_run import LEAST_STEPS
 
 ENTRIES = {  # of a study, where the library calls them otherwise
     "balls": "bearing.balls",
     "clearance": "whole_bearing.clearance_um",
     "load": "bearing.radial_load",
+    "tilt": "whole_bearing.tilt_x_mrad",
     "speed_rpm": "bearing.speed_rpm",
 }
+
+# Entries of [whole_bearing] that only a bearing with contact angles has.
+AT_ANGLES = ("moment_x", "moment_y", "tilt_x_mrad", "tilt_y_mrad", "contact_angle_deg", "race_control", "span_mm")
 
 
 def whole_bearing(study: Any, *, oil: bool) -> BallBearing:
@@ -40,6 +46,8 @@ def whole_bearing(study: Any, *, oil: bool) -> BallBearing:
         conformity_inner=inner,
         conformity_outer=outer,
         clearance=whole.clearance_um * 1e-6,
+        contact_angle=None if whole.contact_angle_deg is None else radians(whole.contact_angle_deg),
+        race_control=whole.race_control or "outer",
         oil=study.lubricant if oil else None,
         rq_ball=rough[0] if rough else None,
         rq_race=rough[1] if rough else None,
@@ -48,24 +56,54 @@ def whole_bearing(study: Any, *, oil: bool) -> BallBearing:
     )
 
 
+def ring_load(study: Any) -> tuple[float, ...]:
+    """Load on the inner ring of a bearing [N], [N m]; of two components where it is planar.
+
+    Raises
+    ------
+    InputError
+        Entries that need an axial load, without one; moments beside tilts.
+    """
+    whole, radial = study.whole_bearing, (0.0, -study.bearing.radial_load)
+    moments = moments_of(whole, "whole_bearing")
+    if whole.axial_load is not None:
+        return (*radial, whole.axial_load, *moments)
+    for name in AT_ANGLES:
+        if getattr(whole, name) is not None:
+            allowed = "left out without whole_bearing.axial_load: a planar bearing has no contact angles"
+            raise InputError(f"whole_bearing.{name}", getattr(whole, name), allowed)
+    return radial
+
+
 def require_whole_bearing(study: Any) -> None:
     """Raise `InputError`, by the entry of the file, for a bearing that is none or has films beyond the atlas."""
     names = ENTRIES | {f"conformity_{race}": "bearing.conformity" for race in ("inner", "outer")}
-    if study.whole_bearing.conformity_other is not None:
+    whole = study.whole_bearing
+    if whole.conformity_other is not None:
         names["conformity_outer" if study.bearing.race == "inner" else "conformity_inner"] = (
             "whole_bearing.conformity_other"
         )
-    load, steps = study.bearing.radial_load, study.whole_bearing.steps_per_revolution
+    load, steps = ring_load(study), whole.steps_per_revolution
+    if len(load) > len(PLANAR):
+        names["load"] = "bearing.radial_load, whole_bearing.axial_load"
     try:
         bearing = whole_bearing(study, oil=True)
-        bearing.equilibrium((0.0, -load), speed_rpm=study.bearing.speed_rpm)
+        bearing.equilibrium(load, speed_rpm=study.bearing.speed_rpm, tilt=tilt_of(whole))
     except InputError as error:
-        value, allowed = load if error.field == "load" else error.value, error.allowed
+        value, allowed = error.value, error.allowed
+        if error.field == "load":
+            value = (-load[1], *load[2:]) if len(load) > len(PLANAR) else -load[1]
         if error.field == "clearance":
-            most = 1e3 * LARGEST_PLAY * study.bearing.ball_diameter_mm
-            value, allowed = study.whole_bearing.clearance_um, f"between {-most:.3g} and {most:.3g} um"
+            value = whole.clearance_um
+            if whole.contact_angle_deg is None:
+                most = 1e3 * LARGEST_PLAY * study.bearing.ball_diameter_mm
+                allowed = f"between {-most:.3g} and {most:.3g} um"
         raise InputError(names.get(error.field, error.field), value, f"{allowed}, for [whole_bearing]") from None
+    except ConvergenceError as error:
+        raise InputError(
+            names["load"], (-load[1], *load[2:]), f"one with a balance of all balls ({error})"
+        ) from None
     least = ceil(LEAST_STEPS * bearing.orders.bpfo)
-    if steps < least:
+    if steps < least and len(load) == len(PLANAR):
         allowed = f"at least {least}, {LEAST_STEPS} while a ball passes"
         raise InputError("whole_bearing.steps_per_revolution", steps, allowed)

@@ -1,0 +1,126 @@
+"""The whole bearing of a study under axial load: balls at contact angles, K and C, vibrations of the rotor."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from math import pi
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlcontact.cli.study.ring_load import tilt_of
+from ehlcontact.cli.study.whole_bearing import ring_load, whole_bearing
+from ehlcontact.errors import ConvergenceError, InputError
+from reduced_models import BallBearing, Campbell, Disc, Shaft, Support, linearise, rotor_on_bearings
+from reduced_models.bearing.freedoms import FIVE
+from reduced_models.rotor.bearing_models import BAND, FREQUENCIES, campbell_or_reason
+
+if TYPE_CHECKING:
+    from ehlcontact.cli.study.schema import Study
+    from reduced_models import BearingState, Rotor
+    from reduced_models.bearing.linear_balls import BearingCoefficients
+    from reduced_models.rotor.modes import RotorMode
+
+SPAN = 0.2  # m, of the bearings where none is given
+MODES = 6  # that are listed: two each across the shaft, along it, and of its tilts
+
+
+@dataclass(frozen=True)
+class BearingAtAngles:
+    """A bearing under radial and axial load, and the rotor between two of them."""
+
+    bearing: BallBearing
+    state: BearingState  # a ball right under the load
+    dry: BearingState  # likewise, without films
+    over_frequency: BearingCoefficients  # K and C, 5 x 5, means over a ball passage
+    at_speed: BearingCoefficients  # the same at the frequency of the shaft
+    span: float  # of both bearings [m]
+    modes: tuple[RotorMode, ...]
+    no_modes: str  # why there are none, or empty
+    diagram: Campbell | str  # or why there is none
+
+    @property
+    def frequencies(self) -> Mapping[str, float]:
+        """Defect frequencies at the contact angles [Hz], by name."""
+        orders = self.state.orders or self.bearing.orders
+        return {name: order * self.state.speed_rpm / 60.0 for name, order in asdict(orders).items()}
+
+    @property
+    def balls(self) -> list[tuple[Any, ...]]:
+        """Of every ball: place from the load [degrees], forces [N], contact angles [degrees], films [m]."""
+        state = self.state
+        films = np.full_like(state.force, np.nan) if state.h_min is None else state.h_min
+        assert state.contact_angles is not None
+        at, angles = np.degrees(state.angles - state.cage_angle), np.degrees(state.contact_angles)
+        return list(zip(at.tolist(), state.force.tolist(), angles.tolist(), films.tolist(), strict=True))
+
+    def to_dict(self) -> dict[str, Any]:
+        """All numbers, SI; K and C in x, y, z and tilts about x and y."""
+        diagram = None if isinstance(self.diagram, str) else self.diagram
+        return {
+            "bearing": self.bearing.to_dict(),
+            "span": self.span,
+            "state": self.state.to_dict(),
+            "dry_displacement": self.dry.displacement.tolist(),
+            "frequencies_hz": dict(self.frequencies),
+            "freedoms": list(FIVE),
+            "at_speed": _matrices(self.at_speed),
+            "over_frequency": _matrices(self.over_frequency),
+            "modes": [mode.to_dict() | {"axial_share": mode.axial_share} for mode in self.modes],
+            "no_modes": self.no_modes or None,
+            "critical_speeds_rpm": None if diagram is None else [c.speed_rpm for c in diagram.critical_speeds()],
+            "no_diagram": self.diagram if isinstance(self.diagram, str) else None,
+        }
+
+
+def _matrices(found: BearingCoefficients) -> dict[str, Any]:
+    return {"hz": found.hz.tolist(), "stiffness": found.stiffness.tolist(), "damping": found.damping.tolist()}
+
+
+def run_at_angles(study: Study) -> BearingAtAngles | None:
+    """The bearing at contact angles where the study has [whole_bearing] with an axial load."""
+    if "whole_bearing" not in study.model_fields_set or study.whole_bearing.axial_load is None:
+        return None
+    wet, dry = (whole_bearing(study, oil=oil) for oil in (True, False))
+    load, speed = ring_load(study), study.bearing.speed_rpm
+    under: dict[str, Any] = {"speed_rpm": speed, "tilt": tilt_of(study.whole_bearing)}
+    span = SPAN if study.whole_bearing.span_mm is None else 1e-3 * study.whole_bearing.span_mm
+    rotor = rotor_between(study, wet, span)
+    modes: tuple[RotorMode, ...] = ()
+    reason = ""
+    try:
+        modes = linearise(rotor, speed).modes(MODES)
+    except (ConvergenceError, InputError) as error:
+        reason = str(error)
+    return BearingAtAngles(
+        bearing=wet,
+        state=wet.equilibrium(load, **under),
+        dry=dry.equilibrium(load, **under),
+        over_frequency=wet.coefficients(load, hz=speed / 60.0 * np.geomspace(*BAND, FREQUENCIES), **under),
+        at_speed=wet.coefficients(load, rpm=speed, **under),
+        span=span,
+        modes=modes,
+        no_modes=reason,
+        diagram=campbell_or_reason(rotor, wet, speed),
+    )
+
+
+def rotor_between(study: Study, bearing: BallBearing, span: float) -> Rotor:
+    """Rotor of the study on two such bearings face to face, a spring on the outer ring of the right one.
+
+    The shaft has the mass of the journals, evenly along it; each bearing carries the radial and the axial load.
+    """
+    r = study.rotor
+    plain = Shaft.jeffcott(r.shaft_stiffness, span, damping=r.shaft_damping)
+    volume = 0.25 * pi * float(plain.diameter[0]) ** 2 * span
+    shaft = replace(plain, density=r.journal_mass / volume, elements=2)
+    pressed = 2.0 * study.bearing.radial_load - (r.disc_mass + r.journal_mass) * 9.81
+    disc = Disc(
+        position=0.5 * span, mass=r.disc_mass, damping=r.disc_damping, unbalance=r.unbalance, load=(0.0, -pressed)
+    )
+    supports = [
+        Support(position=0.0, bearing=bearing, facing="-z"),
+        Support(position=span, bearing=bearing, facing="+z", preload=study.whole_bearing.axial_load),
+    ]
+    return rotor_on_bearings(shaft, discs=[disc], supports=supports, axial=True)
