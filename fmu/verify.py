@@ -83,7 +83,7 @@ def _known_variables(file: FmuFile, spec: ModelSpec) -> dict[str, Any]:
             raise InputError(
                 "path",
                 str(file.path),
-                "an FMU of this kind of element, rotor or bearing, made by fmu.export_contact and its like",
+                "an FMU of this kind, made by export_contact, export_rotor or export_bearing",
             )
     return known
 
