@@ -2,7 +2,7 @@
 
     python examples/rotor_on_bearing_fmus.py [rotor_on_bearing_fmus.png]  # half a minute
 
-A rotor of 3 kg on two 7205 at 6000 rev/min, which face each other across 100 mm and are preloaded by 8 um. It is
+A rotor of 3 kg on two 7205 at 6000 rev/min, 100 mm apart and preloaded against each other by 8 um each. It is
 struck along the shaft and across it. What one learns: a loop that holds the forces over its step, as most tools
 do, gives the run of `simulate_rotor` with steps of a sixtieth of the fastest period (1540 Hz). Four times
 that multiplies the damping.

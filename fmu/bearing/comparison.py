@@ -13,6 +13,7 @@ from fmu.lead import CONTACT
 from fmu.references.series import References, Trial
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
+from reduced_models.bearing.race import RACES
 
 TOLERANCE = 1e-6  # of references
 ABOUT = (
@@ -25,21 +26,24 @@ def compare_bearing(slave: Any, exchange: Any, model: BearingModel, spec: ModelS
     trial, names = bearing_trial(model), [FORCES[name] for name in model.names]
     rows = [_inputs(model, trial, k) for k in range(trial.time.size)]
     slave.start(**{CONTACT.name: CONTACT.at_end, "cage_angle_start": START}, **rows[0])
-    found = [slave.get(*names)]
+    most = [model.bearing.race(race).heaviest(float(model.speeds[-1]))[0] for race in RACES]
+    outside = np.any(trial.balls > most, axis=(1, 2)).tolist()
+    found, wrong = [slave.get(*names)], 0
     for k in range(1, trial.time.size):
         slave.set(**rows[k])
         slave.step_to(float(trial.time[k]))
         found.append(slave.get(*names))
+        wrong += slave.flag("outside_validity") != outside[k]
     slave.raw.terminate()
     return Verification(
         findings=(),
         states=len(found),
-        outside=0,
+        outside=sum(outside),
         parted=int((trial.balls[:, :, 0] == 0.0).any(axis=1).sum()),
         force=0.0,
         tangents=0.0,
         derivatives=0.0,
-        flags=0,
+        flags=wrong,
         bearing=largest_difference(np.array(found), trial),
     )
 

@@ -18,9 +18,8 @@ from reduced_models.rotor.speed_profile import law_speeds
 
 _Floats = NDArray[np.float64]
 
-# Balls times speeds: what an instance remembers, and what the tables of five platforms take of a megabyte
-MOST_BALLS = 64
-MOST_SPEEDS = 4
+MOST_BALLS = 64  # of what an instance remembers, some 100 numbers each
+MOST_SPEEDS = 4  # of the tables, which then leave an FMU with the binaries of five platforms below a megabyte
 
 
 @dataclass(frozen=True)

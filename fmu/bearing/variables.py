@@ -158,10 +158,9 @@ class _Variables(VariableList):
     def _parameters(self, lead: float) -> None:
         bearing = self.bearing
         self.lead(CONTACT, lead)
-        text = "Radial clearance, by which the inner ring moves from end to end"
-        if bearing.contact_angle is not None:
-            text = "Radial clearance, which an angular contact bearing does not have: without effect"
-        self.add("clearance", "parameter", "fixed", text, unit="m", start=bearing.clearance, nominal=1e-5)
+        if bearing.contact_angle is None:
+            text = "Radial clearance, by which the inner ring moves from end to end"
+            self.add("clearance", "parameter", "fixed", text, unit="m", start=bearing.clearance, nominal=1e-5)
         if self.five:
             text = "Axial displacement added to z: preload by spacers, or growth of the shaft"
             self.add("offset", "parameter", "fixed", text, unit="m", start=0.0, nominal=1e-5)
@@ -216,6 +215,7 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
         "FILM_NODES": FILM_NODES,
         "HAS_FILMS": int(bearing.oil is not None),
         "HAS_ROUGHNESS": int(bool(bearing.roughness)),
+        "HAS_CLEARANCE": int(bearing.contact_angle is None),
         "N_CACHE": remembered,
         "FIRST_FORCE": made.first_force,
         "FIRST_BALL": made.first_ball,

@@ -307,7 +307,7 @@ const char *core_long_steps(State *s)
         return NULL;
     }
     s->told = 1;
-    return "the communication steps are too long for this motion: its damping is more than 5 % wrong";
+    return "the communication steps are too long for this motion: the coupling adds to its damping";
 }
 
 /* ---- derivatives of inputs and outputs in time ---- */

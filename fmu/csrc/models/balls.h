@@ -10,7 +10,7 @@ enum { INNER_RACE, OUTER_RACE };
 /* What a bearing has as it was made, and as its parameters say. */
 typedef struct {
     Race race[2];
-    double clearance; /* m */
+    double clearance; /* m, radial; 0 where the contact angle is given */
 } Setup;
 
 /* A ball at the end of a step and of the one before: its place (the approach of its outer race; at contact angles its centre

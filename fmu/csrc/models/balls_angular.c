@@ -17,6 +17,7 @@ static const double singular = 1e-14;
 static const double least_cosine = 0.45, least_drive = 0.1, of_outer = 0.01, tiny = 1e-20;
 static const double by_speed = 0.67, by_radius = 0.464; /* film over speed and radius (Hamrock and Dowson 1977) */
 static const double gamma_ratio = BALL_DIAMETER / PITCH_DIAMETER;
+static const int by_forces = RACE_CONTROL == INNER_CONTROL || RACE_CONTROL == SHARED_CONTROL; /* races share the moment so */
 
 /* Ball between two races. Angular speeds over that of the shaft, entrainment speeds over it [m]. */
 typedef struct {
@@ -59,7 +60,7 @@ static Rolling roll(const double b[2], const double c[2], const double pressed[2
     rolls_at(&c_i, &s_i);
     rolls_at(&c_o, &s_o);
     at.share = 0.0;
-    if ((RACE_CONTROL == INNER_CONTROL || RACE_CONTROL == SHARED_CONTROL) && pressed[INNER_RACE] > 0.0) {
+    if (by_forces && pressed[INNER_RACE] > 0.0) {
         const double ratio = OUTER_TORSION * pressed[OUTER_RACE] * pressed[OUTER_RACE]
                              / (INNER_TORSION * pressed[INNER_RACE] * pressed[INNER_RACE]);
         const double faded = of_outer * ratio;
@@ -125,7 +126,7 @@ static void compressions(const BallStep *step, const double b[2], double pressed
     double s[2], slope, lift;
     int race;
     pressed[INNER_RACE] = pressed[OUTER_RACE] = 0.0;
-    if (RACE_CONTROL != INNER_CONTROL && RACE_CONTROL != SHARED_CONTROL) {
+    if (!by_forces) {
         return;
     }
     for (race = 0; race < 2; race++) {
@@ -140,19 +141,19 @@ static void compressions(const BallStep *step, const double b[2], double pressed
     }
 }
 
-/* Slopes of centrifugal force and friction by the place, roughly: they matter little. */
-static void inertia_slopes(const BallStep *step, const double b[2], const double pressed[2], double slopes[2][2])
+/* Slopes of centrifugal force and friction by the place, of a ball that rolls there as in `here`. */
+static void inertia_slopes(const BallStep *step, const double b[2], const Rolling *here, double slopes[2][2])
 {
     const double by = 1e-7 * (INNER_REACH + OUTER_REACH);
-    const Rolling here = roll(b, step->c, pressed);
-    const BallForces at = forces_on(&here, step->omega, 0.0, 0.0);
+    const BallForces at = forces_on(here, step->omega, 0.0, 0.0);
     int i, j;
     for (j = 0; j < 2; j++) {
-        double moved[2];
+        double moved[2], pressed[2];
         Rolling there;
         BallForces f;
         memcpy(moved, b, sizeof moved);
         moved[j] += by;
+        compressions(step, moved, pressed);
         there = roll(moved, step->c, pressed);
         f = forces_on(&there, step->omega, 0.0, 0.0);
         for (i = 0; i < 2; i++) {
@@ -167,15 +168,15 @@ typedef struct {
     RaceForce inner, outer;
     BallForces forces;
     double e[2], v[2], rate[2]; /* velocities along which the springs move; of both approaches */
-    double pressed[2];
 } Pressed;
 
 static Pressed press(const BallStep *step, const double b[2])
 {
+    double pressed[2];
     Pressed p;
     int j;
-    compressions(step, b, p.pressed);
-    p.at = roll(b, step->c, p.pressed);
+    compressions(step, b, pressed);
+    p.at = roll(b, step->c, pressed);
     for (j = 0; j < 2; j++) {
         p.v[j] = step->gain * (b[j] - step->history[j]);
         p.e[j] = step->d[j] - p.v[j];
@@ -215,7 +216,7 @@ static int newton(const BallStep *step, const Pressed *p, double inertia[2][2], 
 /* Balances a ball from b; returns whether there is a balance, which is then `p`. */
 static int balance(const BallStep *step, double b[2], Pressed *p)
 {
-    const double close = RACE_CONTROL == INNER_CONTROL || RACE_CONTROL == SHARED_CONTROL ? nearly_shared : nearly;
+    const double close = by_forces ? nearly_shared : nearly;
     double reach = first_step, previous = HUGE_VAL, last[2], move[2] = {0.0, 0.0}, inertia[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
     int i, j;
     memcpy(last, b, sizeof last);
@@ -230,8 +231,8 @@ static int balance(const BallStep *step, double b[2], Pressed *p)
             && p->outer.damping == 0.0) { /* at rest between the races */
             return 1;
         }
-        if (i % STALE == 0 && step->omega > 0.0) {
-            inertia_slopes(step, b, p->pressed, inertia);
+        if ((by_forces || i % STALE == 0) && step->omega > 0.0) {
+            inertia_slopes(step, b, &p->at, inertia);
         }
         if (size > overshoot * previous) { /* a kink lies between */
             for (j = 0; j < 2; j++) {
@@ -287,7 +288,7 @@ static void first_place(const Setup *setup, const BallStep *step, double b[2])
 static void groove_centre(const Setup *setup, double psi, double cage, const double q[], const double v[], BallStep *step)
 {
     const double c = cos(psi), s = sin(psi), lever = GROOVE_LEVER;
-    step->c[0] = FREE_RADIAL - (FREE_AXIAL == 0.0 ? 0.5 * setup->clearance : 0.0) + c * q[0] + s * q[1];
+    step->c[0] = FREE_RADIAL - 0.5 * setup->clearance + c * q[0] + s * q[1];
     step->c[1] = FREE_AXIAL + q[2] + lever * (s * q[3] - c * q[4]);
     step->d[0] = c * v[0] + s * v[1] + cage * (c * q[1] - s * q[0]);
     step->d[1] = v[2] + lever * (s * v[3] - c * v[4]) + cage * lever * (c * q[3] + s * q[4]);

@@ -32,7 +32,11 @@ static Setup setup_of(const double value[])
             s.race[race].nodes = 0;
         }
     }
+#if HAS_CLEARANCE
     s.clearance = value[VR_clearance];
+#else
+    s.clearance = 0.0; /* the contact angle is given */
+#endif
     return s;
 }
 
@@ -216,8 +220,13 @@ static const char *check_forces(const double force[])
 
 Fault model_prepare(Model *m)
 {
+#if HAS_CLEARANCE
     const Fault off = {REFUSE, "clearance is too large or too small for a bearing of this size"};
     return fabs(m->value[VR_clearance]) <= LARGEST_PLACE ? fine : off;
+#else
+    (void)m;
+    return fine;
+#endif
 }
 
 /* Before the first step: at rest where the inputs are. Then outputs are those of the last step, whatever the inputs. */
