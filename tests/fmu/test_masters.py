@@ -3,16 +3,15 @@
 Needs the extra ``importers``. The table of masters and masses is in `examples/studies/masters.py`.
 """
 
-import ctypes
 import subprocess
 import sys
 import zipfile
 from pathlib import Path
 from runpy import run_path
 
-import fmpy
 import numpy as np
 import pytest
+from other_masters import ecospy, libcosimpy, ours
 
 from fmu import export_contact
 from fmu.system.structure import Component, Connector, Wire, system_structure
@@ -99,72 +98,11 @@ def system(folder, loop, h):
     return path
 
 
-def by_fmpy(folder, loop, h, count):
-    units = []
-    for name in ("Mass", "Contact"):
-        description = fmpy.read_model_description(str(folder / f"{name}.fmu"), validate=False)
-        place = fmpy.extract(str(folder / f"{name}.fmu"))
-        unit = fmpy.instantiate_fmu(place, description, fmi_type="CoSimulation")
-        units.append((unit, {v.name: v.valueReference for v in description.modelVariables}))
-    (mass, of_mass), (contact, of_contact) = units
-    motion = "approach", "rate"
-
-    contact.setReal([of_contact[name] for name in motion], [loop.start, 0.0])
-    for unit, _ in units:
-        unit.setupExperiment(startTime=0.0)
-        unit.enterInitializationMode()
-        unit.exitInitializationMode()
-    mass.setReal([of_mass["force"]], contact.getReal([of_contact["force"]]))
-    rows = [loop.start]
-    for k in range(count):
-        for unit, _ in units:
-            unit.doStep(k * h, h)
-        got = contact.getReal([of_contact["force"]])
-        contact.setReal([of_contact[name] for name in motion], mass.getReal([of_mass[name] for name in motion]))
-        mass.setReal([of_mass["force"]], got)
-        rows.append(mass.getReal([of_mass["approach"]])[0])
-    return rows
-
-
-def by_libcosim(folder, loop, h, count):
-    pytest.importorskip("libcosimpy")
-    from libcosimpy.CosimExecution import CosimExecution
-    from libcosimpy.CosimObserver import CosimObserver
-
-    execution, observer = (
-        CosimExecution.from_ssp_file(str(system(folder, loop, h))),
-        CosimObserver.create_last_value(),
-    )
-    assert execution.add_observer(observer)
-    mass = execution.slave_index_from_instance_name("mass")
-    (approach,) = [v.reference for v in execution.slave_variables(mass) if v.name == b"approach"]
-    rows = [loop.start]
-    for _ in range(count):
-        assert execution.step()
-        rows.append(observer.last_real_values(mass, [approach])[0])
-    return rows
-
-
-def by_ecos(folder, loop, h, count):
-    for library in (Path(sys.prefix) / "lib").glob("libtbb.so.12"):
-        ctypes.CDLL(str(library), mode=ctypes.RTLD_GLOBAL)
-    try:
-        from ecospy import EcosSimulation
-    except (ImportError, OSError) as error:
-        pytest.skip(f"no ecospy ({error})")
-    rows = [loop.start]
-    with EcosSimulation(ssp_path=str(system(folder, loop, h)), step_size=h) as simulation:
-        simulation.init()
-        for _ in range(count):
-            simulation.step(1)
-            rows.append(simulation.get_real("mass::approach"))
-    return rows
-
-
-@pytest.mark.parametrize("master", [by_fmpy, by_libcosim, by_ecos])
+@pytest.mark.parametrize("master", [ours, libcosimpy, ecospy])
 @pytest.mark.parametrize(("h", "allowed"), [(1e-6, 0.005), (1e-5, 0.005), (3e-5, 0.1)])
 def test_a_mass_of_others_keeps_the_damping(fmus, loop, reference, master, h, allowed):
-    approach = np.array(master(fmus, loop, h, round(loop.until / h)))
+    found = master(system(fmus, loop, h), h, round(loop.until / h), "mass", ["approach"])
+    approach = np.append(loop.start, found)[-1 - round(loop.until / h) :]
     found = loop.decrement(h * np.arange(approach.size), approach)
     assert found == pytest.approx(reference, rel=allowed)
 

@@ -4,12 +4,10 @@ Ecos and the Open Simulation Platform are of the extra ``importers``.
 """
 
 import copy
-import ctypes
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from other_masters import ecospy, libcosimpy, ours
 
 from fmu import RotorModel
 from fmu.system.export import export_verified_system
@@ -20,47 +18,8 @@ STEP, UNTIL = 5e-6, 0.02  # s: one turn
 JOURNAL = ("journal_x", "journal_y")
 
 
-def ecospy(path, step, count, names, parameter_set=None):
-    for library in (Path(sys.prefix) / "lib").glob("libtbb.so.12"):
-        ctypes.CDLL(str(library), mode=ctypes.RTLD_GLOBAL)
-    try:
-        from ecospy import EcosSimulation
-    except (ImportError, OSError) as error:
-        pytest.skip(f"no ecospy ({error})")
-    with EcosSimulation(ssp_path=str(path), step_size=step) as simulation:
-        assert simulation.init(parameter_set=parameter_set)
-        rows = [[simulation.get_real(f"rotor::{name}") for name in names]]
-        for _ in range(count):
-            simulation.step()
-            rows.append([simulation.get_real(f"rotor::{name}") for name in names])
-        simulation.terminate()
-    return np.array(rows)
-
-
-def ecospy_with_its_parameter_set(path, step, count, names):
-    return ecospy(path, step, count, names, "start")
-
-
-def libcosimpy(path, step, count, names):
-    pytest.importorskip("libcosimpy")
-    from libcosimpy.CosimExecution import CosimExecution
-    from libcosimpy.CosimObserver import CosimObserver
-
-    execution = CosimExecution.from_ssp_file(str(path), round(step * 1e9))
-    observer = CosimObserver.create_last_value()
-    assert execution.add_observer(observer)
-    slave = execution.slave_index_from_instance_name("rotor")
-    known = {variable.name.decode(): variable.reference for variable in execution.slave_variables(slave)}
-    rows = []
-    for _ in range(count):
-        assert execution.step()
-        rows.append(observer.last_real_values(slave, [known[name] for name in names]))
-    return np.array(rows)
-
-
-def ours(path, step, count, names):
-    with SystemRun(Path(path).read_bytes()) as run:
-        return run.run(step, count, [("rotor", name) for name in names])
+def ecospy_with_its_parameter_set(*run):
+    return ecospy(*run, "start")
 
 
 def reference(system):
@@ -86,14 +45,14 @@ def upright(system_3):
 def test_runs_as_it_is(system, python, master):
     """Journal within 0.1 % of its orbit, in either direction, at the default step."""
     expected, orbit = python
-    found = master(system.path, STEP, round(UNTIL / STEP), JOURNAL)
+    found = master(system.path, STEP, round(UNTIL / STEP), "rotor", JOURNAL)
     assert orbit.min() > 0.0
     assert np.all(np.abs(found - expected[-len(found) :]) <= 1e-3 * orbit)
 
 
 @pytest.mark.parametrize("master", [ours, ecospy])
 def test_fmi_3(system_3, upright, master):
-    found = master(system_3.path, STEP, round(UNTIL / STEP), JOURNAL[1:])
+    found = master(system_3.path, STEP, round(UNTIL / STEP), "rotor", JOURNAL[1:])
     assert np.ptp(upright) > 0.0
     assert np.all(np.abs(found - upright) <= 1e-3 * np.ptp(upright))
 
@@ -111,7 +70,7 @@ def test_error_goes_down_with_the_step(system, python, master):
     expected, orbit = python
     errors = []
     for part in (0.5, 2.0):
-        found = master(system.path, part * STEP, round(UNTIL / STEP / part), JOURNAL)
+        found = master(system.path, part * STEP, round(UNTIL / STEP / part), "rotor", JOURNAL)
         if part == 0.5:
             found, there = found[len(found) % 2 == 0 :: 2], expected
         else:

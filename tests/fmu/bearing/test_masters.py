@@ -1,0 +1,103 @@
+"""A mass FMU that is not ours (pythonfmu) on the FMU of a bearing, under fmpy, libcosim and Ecos.
+
+Needs the extra ``importers``.
+"""
+
+import subprocess
+import sys
+import zipfile
+
+import pytest
+from mass_on_bearing import decay, in_one_run
+from other_masters import ecospy, libcosimpy, ours
+
+from ehlcontact import Lubricant
+from fmu import BearingModel, export_bearing
+from fmu.system.structure import Component, Connector, Wire, system_structure
+from reduced_models import BallBearing
+
+RPM, LOAD, MASS, UNTIL, KICK = 3000.0, 500.0, 5.0, 0.012, 1e-4  # rev/min, N, kg, s, m/s
+MOTION = {"x": "m", "y": "m", "velocity_x": "m/s", "velocity_y": "m/s"}
+FORCES = {"force_x": "N", "force_y": "N"}
+RING = """
+from pythonfmu import Fmi2Causality, Fmi2Slave, Real
+
+class {name}(Fmi2Slave):
+    def __init__(self, **more):
+        super().__init__(**more)
+        self.force_x, self.force_y = 0.0, {load!r}
+        self.x, self.y, self.velocity_x, self.velocity_y = {x!r}, {y!r}, 0.0, {v!r}
+        for name in ("force_x", "force_y"):
+            self.register_variable(Real(name, causality=Fmi2Causality.input))
+        for name in ("x", "y", "velocity_x", "velocity_y"):
+            self.register_variable(Real(name, causality=Fmi2Causality.output))
+
+    def do_step(self, t, h):
+        for name, force in (("x", self.force_x), ("y", self.force_y - {load!r})):
+            q, v, a = getattr(self, name), getattr(self, "velocity_" + name), force / {mass!r}
+            setattr(self, name, q + h * (v + 0.5 * h * a))
+            setattr(self, "velocity_" + name, v + h * a)
+        return True
+"""
+KICKS = {"Up": KICK, "Down": -KICK}
+
+
+@pytest.fixture(scope="module")
+def model():
+    return BearingModel(BallBearing.catalogue("6305", oil=Lubricant.iso_vg(46, temperature=70.0)), RPM, LOAD)
+
+
+@pytest.fixture(scope="module")
+def fmus(model, tmp_path_factory):
+    """The bearing, and the mass with either kick: pythonfmu keeps one class of a name in a process."""
+    pytest.importorskip("pythonfmu")
+    folder = tmp_path_factory.mktemp("masters")
+    x, y = model.place.tolist()
+    for name, v in KICKS.items():
+        (folder / f"{name}.py").write_text(RING.format(name=name, load=LOAD, x=x, y=y, v=v, mass=MASS))
+        subprocess.run([sys.executable, "-m", "pythonfmu", "build", "-f", f"{name}.py"], cwd=folder, check=True)
+    export_bearing(model.bearing, folder / "Bearing.fmu", speeds_rpm=RPM, load=LOAD)
+    return folder
+
+
+def connectors(names, kind):
+    return tuple(Connector(name, kind, unit) for name, unit in names.items())
+
+
+def system(folder, model, name, h):
+    """The system archive of both at steps of h."""
+    parts = [
+        Component(
+            "mass", f"resources/{name}.fmu", connectors(FORCES, "input") + connectors(MOTION, "output"),
+            starts={"force_x": 0.0, "force_y": LOAD},
+        ),
+        Component(
+            "bearing", "resources/Bearing.fmu", connectors(MOTION, "input") + connectors(FORCES, "output"),
+            starts={"y": float(model.place[1]), "velocity_y": KICKS[name]},
+        ),
+    ]  # fmt: skip
+    to_bearing = [Wire(("mass", k), ("bearing", k)) for k in MOTION]
+    to_mass = [Wire(("bearing", k), ("mass", k)) for k in FORCES]
+    path = folder / f"{name} {h:g}.ssp"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr(
+            "SystemStructure.ssd",
+            system_structure("s", parts, to_bearing + to_mass, step=h, stop=1.0, description="mass on bearing"),
+        )
+        for part in parts:
+            archive.write(folder / part.source.removeprefix("resources/"), part.source)
+    return path
+
+
+@pytest.fixture(scope="module")
+def wanted(model):
+    return in_one_run(model, MASS, LOAD, UNTIL, KICK)
+
+
+@pytest.mark.parametrize("master", [ours, libcosimpy, ecospy])
+@pytest.mark.parametrize(("h", "within"), [(1e-5, 0.005), (3e-5, 0.05)])
+def test_a_mass_of_others_keeps_the_damping(fmus, model, wanted, master, h, within):
+    """650 Hz: w h is 0.04 and 0.12; decay of half the difference of two runs, kicked up and down."""
+    count = round(UNTIL / h)
+    up, down = (master(system(fmus, model, name, h), h, count, "mass", ["y"])[-count:, 0] for name in KICKS)
+    assert decay(up - down, h) == pytest.approx(wanted, rel=within)
