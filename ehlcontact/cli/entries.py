@@ -111,6 +111,23 @@ Tilt = Annotated[
     meaning("tilt at which the inner ring is held"),
 ]
 Load = Annotated[Positive, Physical(INPUTS["load"]), meaning("radial load on the bearing")]
+Arrangement = Annotated[
+    Literal["back-to-back", "face-to-face", "tandem"],
+    meaning("two such bearings on one shaft, in this arrangement"),
+]
+Preload = Annotated[
+    Positive, Physical(INPUTS["load"]), meaning("axial force between both at mounting, at rest and without films")
+]
+Spring = Annotated[
+    Positive,
+    Physical(INPUTS["load"]),
+    meaning("force of a spring on the outer ring of the second one, in its place"),
+]
+Distance = Annotated[
+    Positive,
+    Physical(Quantity("mm", (0.1, 1e4), (2.0, 5e3), {"m": 1e3, "inches": 25.4})),
+    meaning("distance of the planes of two bearings"),
+]
 Speed = Annotated[Positive, Physical(INPUTS["speed_rpm"]), meaning("speed of the shaft")]
 
 # A ball on a disc, whose materials are known by name: Young's modulus [Pa], Poisson's ratio.

@@ -18,7 +18,10 @@ PLAIN_WORDS = {
 
 
 _RADIAL = "a single contact has a load along its normal: `ehlcontact bearing` has axial loads, angles and tilts"
-_PRELOAD = "preload of one bearing is its `ehlcontact bearing --axial`, radially a --clearance below 0"
+_PRELOAD = (
+    "`ehlcontact bearing --axial` is that of one bearing, with a --clearance below 0 radially; "
+    "--pair has that of two"
+)
 _FILMS = "films are fully flooded and isothermal, without sliding; what that leaves out stands in the answer"
 # What people ask for and no command computes, by the option that they try.
 NOT_IN_THE_MODEL = {
@@ -175,6 +178,7 @@ EXAMPLES = {
     "bearing": (
         'ehlcontact bearing 6205 --oil "ISO VG 68" --temp 50 --load 1000 --speed-rpm 3000 --figure bearing.png',
         'ehlcontact bearing 7205 --axial 200 --radial 500 --oil "ISO VG 46" --temp 60 --speed-rpm 6000',
+        "ehlcontact bearing 7205 --pair back-to-back --preload 150 --axial 200 --radial 500 --speed-rpm 6000",
         "ehlcontact bearing examples/bearing_6205.toml --json -",
     ),
     "verify": ("ehlcontact verify ball.fmu",),

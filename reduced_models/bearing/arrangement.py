@@ -337,7 +337,7 @@ class BearingSet(Summary):
             bearings=tuple(bearing._angular_state(one, speed, angle) for bearing, one in rows),
         )
 
-    @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
+    @takes(load="N", speed_rpm="rev/min", cage_angle="rad", tilt="rad")
     @by_name(2)
     def coefficients(
         self,
@@ -345,6 +345,7 @@ class BearingSet(Summary):
         *,
         speed_rpm: float = 0.0,
         cage_angle: float | None = None,
+        tilt: ArrayLike | None = None,
         omega: ArrayLike | None = None,
         hz: ArrayLike | None = None,
         rpm: ArrayLike | None = None,
@@ -361,6 +362,8 @@ class BearingSet(Summary):
             Speed of the shaft [rev/min].
         cage_angle : float, optional
             Of the first ball of each bearing [rad]; by default means over a ball passage of all at once.
+        tilt : (float, float), optional
+            As of `equilibrium`.
         omega, hz, rpm : float or sequence of float
             Frequency of the vibration, in exactly one of these.
 
@@ -371,7 +374,8 @@ class BearingSet(Summary):
         force, speed = bearing_load(load), self.speed(speed_rpm)
         w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
         turns = [bearing._cage_angles(force, cage_angle) for bearing in self.bearings]
-        places = [self._stand(force, speed, angles, np.zeros(2)) for angles in zip(*turns, strict=True)]
+        held = held_tilt(tilt, force.size)
+        places = [self._stand(force, speed, angles, held) for angles in zip(*turns, strict=True)]
         by_bearing = [[at.bearings[k] for at in places] for k in range(len(self.bearings))]
         rows = list(zip(self.bearings, by_bearing, strict=True))
         small = SmallSet([bearing._small_angular(speed, own) for bearing, own in rows], self._rows)

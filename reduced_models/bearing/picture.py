@@ -14,6 +14,7 @@ INNER, OUTER, LOAD, GREY = "#0072b2", "#e69f00", "#d55e00", "#7f7f7f"  # Okabe a
 SIZE = (9.0, 4.4)  # inches
 BAR = 0.5  # width of a bar over the angle between two balls
 ROUNDING = 1e-9  # of a load over the force on a ball: none
+LOOKS = "o-", "s--", "^:"  # of contact angles of the bearings of a set
 ROOM = 1.25  # radius of the load zone over its longest bar
 
 
@@ -41,10 +42,10 @@ def draw_set(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
 
     columns = len(state.bearings)
     figure = Figure(figsize=(0.42 * SIZE[0] * columns, 1.6 * SIZE[1]), layout="constrained")
-    for k, (one, facing) in enumerate(zip(state.bearings, state.facings, strict=True)):
+    for k, one in enumerate(state.bearings):
         zone = figure.add_subplot(2, columns, 1 + k, projection="polar")
         load_zone(zone, one, max(float(each.force.max()) for each in state.bearings))
-        zone.set_title(f"bearing {k}, facing {facing}: {state.axial_forces[k]:.4g} N\nforce on the balls [N]")
+        zone.set_title(_bearing_title(state, k))
         contact_angles(figure.add_subplot(2, columns, 1 + columns + k), one)
     speed = f"{state.speed_rpm:g} rev/min" if state.speed_rpm else "at rest"
     figure.suptitle(f"{state.name or 'set of bearings'}, {_load(state)}, {speed}")
@@ -56,9 +57,11 @@ def draw_over_speed(
 ) -> Any:
     """Load zone and films at one speed, and contact angles where there are any, above K and C over speed.
 
+    Of a set, load zones of its first two bearings and contact angles of all stand above.
+
     Parameters
     ----------
-    state : BearingState
+    state : BearingState or SetState
     points, curve : sequence of BearingCoefficients
         Shown as points and as lines, each at its first frequency.
     path : path, optional
@@ -66,13 +69,21 @@ def draw_over_speed(
     """
     from matplotlib.figure import Figure
 
-    at_angles = state.contact_angles is not None
+    several = getattr(state, "bearings", ())
+    at_angles = bool(several) or state.contact_angles is not None
     columns = 3 if at_angles else 2
     figure = Figure(figsize=(0.5 * columns * SIZE[0], 1.7 * SIZE[1]), layout="constrained")
-    load_zone(figure.add_subplot(2, columns, 1, projection="polar"), state)
-    films(figure.add_subplot(2, columns, 2), state)
+    for k, one in enumerate(several[:2]):
+        zone = figure.add_subplot(2, columns, 1 + k, projection="polar")
+        load_zone(zone, one, max(float(each.force.max()) for each in several))
+        zone.set_title(_bearing_title(state, k))
+    if not several:
+        load_zone(figure.add_subplot(2, columns, 1, projection="polar"), state)
+        films(figure.add_subplot(2, columns, 2), state)
     if at_angles:
-        contact_angles(figure.add_subplot(2, columns, 3), state)
+        angles = figure.add_subplot(2, columns, 3)
+        for k, one in enumerate(several or (state,)):
+            contact_angles(angles, one, f", bearing {k}" if several else "", LOOKS[k % len(LOOKS)])
     planar = (1, LOAD, "along the load"), (0, INNER, "across it")
     forces = (*planar, (2, OUTER, "axial")) if at_angles else planar
     panels = [
@@ -108,12 +119,18 @@ def _load(state: Any) -> str:
     return radial if state.load.size == 2 else f"{radial} radially, {state.load[2]:.4g} N axially"
 
 
-def contact_angles(axes: Any, state: Any) -> None:
-    """Contact angles of every ball over its place."""
+def _bearing_title(state: Any, k: int) -> str:
+    """Of the load zone of a bearing of a set."""
+    force = state.axial_forces[k]
+    return f"bearing {k}, facing {state.facings[k]}: {force:.4g} N axially\nforce on the balls [N]"
+
+
+def contact_angles(axes: Any, state: Any, which: str = "", look: str = "o-") -> None:
+    """Contact angles of every ball over its place; `which` is added to the names of the races."""
     turned, shown = from_load(state), np.degrees(state.contact_angles)
     order = np.argsort(turned)
     for column, (race, colour) in enumerate((("inner race", INNER), ("outer race", OUTER))):
-        axes.plot(turned[order], shown[order, column], "o-", color=colour, label=race)
+        axes.plot(turned[order], shown[order, column], look, color=colour, label=race + which)
     axes.set_title("contact angle [degrees]")
     axes.set_xlabel("angle from the load [degrees]")
     axes.set_xticks(np.arange(-180, 181, 60))

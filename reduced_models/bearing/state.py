@@ -155,11 +155,11 @@ class BearingState(QuantityTable):
 
     @property
     def orders(self) -> DefectFrequencies | None:
-        """Defect frequencies per turn of the shaft at these contact angles; None in a planar bearing.
+        """Defect frequencies per turn of the shaft at these contact angles; None in a planar or unloaded bearing.
 
         The cage turns as the mean of the balls, each with the weight of its load.
         """
-        if self.orbit is None or self.turn is None:
+        if self.orbit is None or self.turn is None or not self.force[:, 0].any():
             return None
         cage, turn = (float(np.average(one, weights=self.force[:, 0])) for one in (self.orbit, self.turn))
         return DefectFrequencies(

@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
 import typer
 
 from ehlcontact.cli import entries as e
@@ -23,7 +24,7 @@ HERTZ = 1.0 / 60.0  # per second, of one turn per minute
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.bearing import BearingJob
-    from reduced_models import BallBearing, BearingState
+    from reduced_models import BallBearing, BearingSet, BearingState, SetState
     from reduced_models.bearing.kinematics import DefectFrequencies
     from reduced_models.bearing.linear_balls import BearingCoefficients
 
@@ -35,9 +36,10 @@ DEFECTS = {  # names of the defect frequencies, and what they are of
     "BPFI": "balls on the inner race",
     "BSF": "spin of a ball",
 }
-_OIL, _BEARING, _LOAD = "Oil", "Bearing", "Load"
+_OIL, _BEARING, _LOAD, _PAIR = "Oil", "Bearing", "Load", "Pair"
 NOTHING = 6  # decimal places beyond which moments [N m], tilts [mrad] and spin are rounding
 FORCES = "x", "y", "z"  # directions with forces; beyond them tilts with moments
+AXIAL = FORCES.index("z")
 PAIR = "along", "across"  # directions of a planar bearing
 # Of the entries of the JSON, whatever they are nested in; other entries have no unit, or have it in their name.
 UNITS = {
@@ -84,31 +86,57 @@ UNITS_AT_ANGLES = {
     "orbit": "speed of a ball about the shaft over that of the shaft",
     "turn": "speed of a ball about its own axis, seen from the cage, over that of the shaft",
 }
+# Of those that a pair has beside them, or has otherwise.
+UNITS_OF_PAIRS = {
+    "load": "N; radial; of a state N, N m: (x, y, z, moments about x, y), of the shaft in the middle of the pair",
+    "pair": "SI",
+    "axial_rigidity": "N/m; of the shaft, at each speed: slope of the static axial force",
+    "lift_off": "N; axial load in +z and -z alone that unloads a bearing, at each speed; null where none does",
+    "lift_off_at_rest": "the same of a preloaded pair at rest without films",
+    "axial_forces": "N; of each bearing, along its facing",
+    "orders_under_load": "the same at the contact angles of each speed, by bearing; null of an unloaded one",
+    "frequencies_hz": "FTF, BPFO, BPFI, BSF: Hz, at each speed, bearing by bearing",
+    "displacement": "m, rad; of the shaft, or of the inner ring of a bearing along its facing",
+    "mean_displacement": "m, rad; of the shaft, mean over a ball passage",
+    "bearings": "the state of each, in its own frame: z along its facing",
+}
 
 
 @dataclass(frozen=True)
 class BearingReport:
-    """A bearing at several speeds: rest with a ball under the load; K and C at frequencies of small vibrations."""
+    """A bearing, or a pair, at speeds: rest with a ball under the load; K and C at frequencies of vibrations."""
 
     job: BearingJob
-    states: tuple[BearingState, ...]
+    states: tuple[BearingState | SetState, ...]
     coefficients: tuple[BearingCoefficients, ...]
 
     def summary(self) -> dict[str, Any]:
         """For JSON; arrays over balls have a row per ball, with inner and outer race."""
         job, bearing = self.job, self.job.bearing
-        axial = (
-            {}
-            if job.planar
-            else {
-                "axial_load": job.load[2],
-                "moments": job.load[3:] or None,
-                "tilt": job.tilt,
-                "orders_under_load": [asdict(_orders(bearing, state)) for state in self.states],
-            }
-        )
+        orders = [[_orders(bearing, one) for one in _each(state)] for state in self.states]
+        under_load = [[None if one is None else asdict(one) for one in row] for row in orders]
+        hertz = [
+            [
+                None if one is None else {name: order * (at.speed_rpm * HERTZ) for name, order in one.items()}
+                for one in row
+            ]
+            for at, row in zip(self.states, under_load, strict=True)
+        ]
+        axial: dict[str, Any] = {}
+        units = UNITS if job.planar else UNITS | UNITS_AT_ANGLES
+        if not job.planar:
+            axial = {"axial_load": job.load[2], "moments": job.load[3:] or None, "tilt": job.tilt}
+            axial["orders_under_load"] = _single(under_load) if job.pair is None else under_load
+        if job.pair is not None:
+            units |= UNITS_OF_PAIRS
+            pair = job.pair.to_dict()
+            axial["pair"] = {name: pair[name] for name in ("facings", "positions", "offsets", "spring")}
+            axial["pair"]["preload"] = job.preload
+            axial["axial_rigidity"] = [state.stiffness[AXIAL, AXIAL] for state in self.states]
+            axial["lift_off"] = [_lift_off(job.pair, state.speed_rpm) for state in self.states]
+            axial["lift_off_at_rest"] = _at_rest(job)
         return {
-            "units": UNITS if job.planar else UNITS | UNITS_AT_ANGLES,
+            "units": units,
             "bearing": bearing.to_dict(),
             "load": -job.load[1],
             **axial,
@@ -127,13 +155,7 @@ class BearingReport:
                 for c in self.coefficients
                 for k, hz in enumerate(c.hz)
             ],
-            "frequencies_hz": [
-                {
-                    name: order * (state.speed_rpm * HERTZ)
-                    for name, order in asdict(_orders(bearing, state)).items()
-                }
-                for state in self.states
-            ],
+            "frequencies_hz": _single(hertz) if job.pair is None else hertz,
             "states": [state.to_dict() for state in self.states],
         }
 
@@ -168,6 +190,13 @@ class BearingOptions(o.Options):
     ] = None
     tilt_y: Annotated[
         e.Tilt | None, typer.Option("--tilt-y", rich_help_panel=_LOAD), e.meaning("the same about y")
+    ] = None
+    pair: Annotated[e.Arrangement | None, typer.Option("--pair", rich_help_panel=_PAIR)] = None
+    preload: Annotated[e.Preload | None, typer.Option("--preload", rich_help_panel=_PAIR)] = None
+    spring: Annotated[e.Spring | None, typer.Option("--spring", rich_help_panel=_PAIR)] = None
+    distance_mm: Annotated[
+        e.Distance | None,
+        typer.Option("--distance-mm", rich_help_panel=_PAIR, show_default="side by side"),
     ] = None
     speed_rpm: Annotated[
         list[float] | None,
@@ -226,6 +255,8 @@ class BearingOptions(o.Options):
         values |= {"--axial": self.axial, "--moment-x": self.moment_x, "--moment-y": self.moment_y}
         values |= {"--tilt-x": self.tilt_x, "--tilt-y": self.tilt_y, "--hz": self.hz or None}
         values |= {"--contact-angle": self.contact_angle, "--race-control": self.race_control}
+        values |= {"--pair": self.pair, "--preload": self.preload}
+        values |= {"--spring": self.spring, "--distance-mm": self.distance_mm}
         return values | {"--clearance": _clearance(self.clearance), "--rq": self.rq}
 
 
@@ -252,6 +283,7 @@ def bearing(
     with elastic contacts and oil films, memory included, at both races.
     Films are flooded, isothermal and between smooth surfaces. With --load
     alone axial motion and tilts are held, and contact angles are zero.
+    With --pair two such bearings carry the load, which acts in their middle.
 
     Not in it: flexible rings; friction of spin and sliding; heat in the
     inlet, starvation, grease.
@@ -296,12 +328,31 @@ def curve(report: BearingReport) -> list[BearingCoefficients]:
 def _show(report: BearingReport, json_to: str | None) -> None:
     if json_to == STDOUT:
         return
-    bearing = report.job.bearing
-    show_table(f"{bearing.name or 'ball bearing'}, {_load_words(report.job)}", _rows(bearing), json_to)
-    at_speed = _at_speed if report.job.planar else _at_angles
+    job = report.job
+    bearing = job.bearing
+    name = bearing.name or "ball bearing" if job.pair is None else job.pair.name
+    show_table(f"{name}, {_load_words(job)}", [*_rows(bearing), *_pair_rows(job)], json_to)
     for state, found in zip(report.states, report.coefficients, strict=True):
-        show_table(f"at {numeral(state.speed_rpm)} rpm", at_speed(bearing, state, found), json_to)
-        _show_balls(state)
+        rows = _at_speed(bearing, state, found) if job.planar else _at_angles(job, state, found)
+        show_table(f"at {numeral(state.speed_rpm)} rpm", rows, json_to)
+        for one, title in zip(_each(state), _titles(state), strict=True):
+            _show_balls(one, title)
+
+
+def _each(state: Any) -> tuple[BearingState, ...]:
+    """The bearings of a state: one, or both of a pair."""
+    return getattr(state, "bearings", None) or (state,)
+
+
+def _titles(state: BearingState | SetState) -> tuple[str, ...]:
+    """What tells the bearings of a pair apart, in the words of messages; empty of a single one."""
+    facings: tuple[str, ...] = getattr(state, "facings", ())
+    return tuple(f"bearing {k}, facing {facing}" for k, facing in enumerate(facings)) or ("",)
+
+
+def _single(rows: list[list[Any]]) -> list[Any]:
+    """The first of each row."""
+    return [row[0] for row in rows]
 
 
 def _load_words(job: BearingJob) -> str:
@@ -337,7 +388,56 @@ def _rows(b: BallBearing) -> list[Row]:
     ]
 
 
-def _at_speed(b: BallBearing, state: BearingState, at: BearingCoefficients) -> list[Row]:
+def _pair_rows(job: BearingJob) -> list[Row]:
+    """Arrangement of a pair, and axial loads that unload it at rest without films."""
+    if job.pair is None:
+        return []
+    pair, unloads = job.pair, _at_rest(job)
+    apart = f"planes {numeral(1e3 * (pair.positions[1] - pair.positions[0]))} mm apart"
+    offsets = " and ".join(numeral(1e6 * one) for one in pair.offsets)
+    rows = [("facings", ", ".join(pair.facings), apart)]
+    if pair.sprung is not None:
+        rows.append(
+            ("spring", in_unit(pair.spring, "N"), f"on the outer ring of the bearing facing {pair.sprung}")
+        )
+    if job.preload is not None:
+        rows.append(("preload", in_unit(job.preload, "N"), f"at mounting, by offsets of {offsets} µm"))
+    rows += [
+        ("unloaded from", in_unit(load, "N"), f"axial load in {direction} at rest without films")
+        for direction, load in unloads.items()
+    ]
+    return rows
+
+
+def _lift_off(pair: BearingSet, speed_rpm: float) -> dict[str, float]:
+    """Axial loads alone that unload a bearing of a pair, by direction [N]; infinite where none does."""
+    from reduced_models.bearing.freedoms import FACINGS
+
+    return {one: pair.lift_off(one, speed_rpm=speed_rpm) for one in FACINGS}
+
+
+def _at_rest(job: BearingJob) -> dict[str, float]:
+    """Those of a preloaded pair without films, as catalogues state them."""
+    dry = job.dry_pair
+    found = {} if dry is None else _lift_off(dry, 0.0)
+    return {one: load for one, load in found.items() if 0.0 < load < math.inf}
+
+
+def _of_pair(job: BearingJob, state: Any) -> list[Row]:
+    """Axial forces and axial rigidity of a pair, and whether its preload is used up."""
+    if job.pair is None:
+        return []
+    forces, axial = ", ".join(map(numeral, state.axial_forces)), job.load[AXIAL]
+    beyond = any(axial * (1.0 if direction == "+z" else -1.0) >= load for direction, load in _at_rest(job).items())
+    kept = "without them and at rest a bearing is unloaded: only films and centrifugal force press its balls"
+    return [
+        *([("PRELOAD USED UP", "", kept)] if beyond else []),
+        ("axial forces", f"{forces} N", "of the bearings, along their facings"),
+        ("axial rigidity", in_unit(state.stiffness[AXIAL, AXIAL], "N/m"), "slope of the static force"),
+    ]
+
+
+def _at_speed(b: BallBearing, state: BearingState | SetState, at: BearingCoefficients) -> list[Row]:
     """Deflection, stiffness, damping, resistance and frequencies at a speed."""
     swing = at.swing[1] * 1e9
     return [
@@ -349,38 +449,38 @@ def _at_speed(b: BallBearing, state: BearingState, at: BearingCoefficients) -> l
     ]
 
 
-def _at_angles(b: BallBearing, state: BearingState, at: BearingCoefficients) -> list[Row]:
-    """The same of a bearing with contact angles: in all five degrees of freedom."""
+def _at_angles(job: BearingJob, state: BearingState | SetState, at: BearingCoefficients) -> list[Row]:
+    """The same of a bearing or a pair with contact angles: in all five degrees of freedom."""
     down, along, tilts = in_unit(-at.displacement[1], "m"), in_unit(at.displacement[2], "m"), at.displacement[3:]
     moments = " and ".join(numeral(round(one, NOTHING)) for one in state.load[3:].tolist())
     turned = " and ".join(numeral(round(1e3 * one, NOTHING)) for one in tilts.tolist())
     return [
         *_outside(state),
         ("deflection", f"{down} down", f"{numeral(at.swing[1] * 1e9, 3)} nm up and down at ball passage"),
-        ("axial", f"{along}", "displacement of the inner ring in +z"),
+        ("axial", f"{along}", f"displacement of the {'inner ring' if job.pair is None else 'shaft'} in +z"),
         (
             "tilts",
             f"{turned} mrad",
             f"moments {moments} N m, about x and y",
         ),
+        *_of_pair(job, state),
         ("contact angles", _angle_span(state), "of balls that carry, at both races"),
         *_small_vibrations(
             at, (("axial", 2), ("along the load", 1), ("across it", 0), ("tilt about x", 3), ("tilt about y", 4))
         ),
         *_resistance(state),
-        *_defects(b, state),
+        *_defects(job.bearing, state),
     ]
 
 
-def _angle_span(state: BearingState) -> str:
+def _angle_span(state: BearingState | SetState) -> str:
     """Least and largest contact angle of the balls that carry."""
-    if state.contact_angles is None:
-        return ""
-    angles = state.contact_angles[state.force[:, 0] > 0.0]
+    found = [one.contact_angles[one.force[:, 0] > 0.0] for one in _each(state) if one.contact_angles is not None]
+    angles = np.concatenate(found)
     return f"{numeral(math.degrees(angles.min()))} .. {numeral(math.degrees(angles.max()))}°"
 
 
-def _outside(state: BearingState) -> list[Row]:
+def _outside(state: BearingState | SetState) -> list[Row]:
     """Assumptions that do not hold."""
     outside = state.outside_assumptions.removeprefix("Outside what is assumed: ")
     return [("NOT AS ASSUMED", "", outside)] if outside else []
@@ -401,37 +501,41 @@ def _small_vibrations(at: BearingCoefficients, directions: tuple[tuple[str, int]
     return rows
 
 
-def _resistance(state: BearingState) -> list[Row]:
-    """Rolling resistance of the films of a bearing in oil."""
-    if state.rolling_torque is None or state.rolling_loss is None:
-        return []
-    loss = f"{numeral(state.rolling_loss)} W; without sliding, cage, churning"
-    rows = [("films resist rolling", in_unit(state.rolling_torque, "N m"), loss)]
-    if state.friction_torque is not None and state.friction_loss is not None:
-        loss = f"{numeral(state.friction_loss)} W; its sliding part by SKF's published model"
-        rows.append(("friction of the bearing", in_unit(state.friction_torque, "N m"), loss))
+def _resistance(state: BearingState | SetState) -> list[Row]:
+    """Rolling resistance of the films of a bearing in oil, or of both of a pair."""
+    rows = []
+    for name, remark in (
+        ("rolling", "without sliding, cage, churning"),
+        ("friction", "its sliding part by SKF's published model"),
+    ):
+        torques, losses = ([getattr(one, f"{name}_{what}") for one in _each(state)] for what in ("torque", "loss"))
+        if None not in torques:
+            title = "films resist rolling" if name == "rolling" else "friction of the bearing"
+            rows.append((title, in_unit(sum(torques), "N m"), f"{numeral(sum(losses))} W; {remark}"))
     return rows
 
 
-def _orders(b: BallBearing, state: BearingState) -> DefectFrequencies:
-    """Defect frequencies per turn of the shaft, at the contact angles of the state where it has any."""
-    return state.orders or b.orders
+def _orders(b: BallBearing, state: BearingState) -> DefectFrequencies | None:
+    """Defect frequencies per turn of the shaft, at the contact angles of the state where it has any.
+
+    None of a bearing of a pair that carries nothing.
+    """
+    return b.orders if state.contact_angles is None else state.orders
 
 
-def _defects(b: BallBearing, state: BearingState) -> list[Row]:
+def _defects(b: BallBearing, state: BearingState | SetState) -> list[Row]:
     """Defect frequencies at a speed in Hz, with their orders."""
-    orders = asdict(_orders(b, state))
-    return [
-        (
-            name,
-            f"{numeral(orders[name.lower()] * (state.speed_rpm * HERTZ), 4)} Hz",
-            f"{numeral(orders[name.lower()], 5)} per turn: {meaning}",
-        )
-        for name, meaning in DEFECTS.items()
-    ]
+    rows = []
+    for one, title in zip(_each(state), _titles(state), strict=True):
+        found, which = _orders(b, one), f"{title.partition(',')[0]}: " if title else ""
+        for name, meaning in DEFECTS.items() if found is not None else ():
+            order = getattr(found, name.lower())
+            hertz, words = numeral(order * (state.speed_rpm * HERTZ), 4), numeral(order, 5)
+            rows.append((name, f"{hertz} Hz", f"{which}{words} per turn: {meaning}"))
+    return rows
 
 
-def _show_balls(state: BearingState) -> None:
+def _show_balls(state: BearingState, title: str) -> None:
     """Every ball of a bearing at rest, from the one under the load on."""
     films = None if state.h_min is None else state.h_min * 1e6
     angles = None if state.contact_angles is None else state.contact_angles * 180.0 / math.pi
@@ -445,4 +549,4 @@ def _show_balls(state: BearingState) -> None:
         [f"{degrees:.0f}°", *(", ".join(numeral(one, digits) for one in values[k]) for values in known.values())]
         for k, degrees in enumerate(turned)
     ]
-    show_columns(["ball", *known], rows)
+    show_columns(["ball", *known], rows, title)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import radians
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -19,10 +19,10 @@ from ehlcontact.cli.study.schema import Oil
 from ehlcontact.cli.study.schema_errors import first_error, in_other_kind
 from ehlcontact.cli.toml import read_toml
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing
+from reduced_models import BallBearing, BearingSet
 
 if TYPE_CHECKING:
-    from reduced_models import BearingState
+    from reduced_models import BearingState, SetState
     from reduced_models.bearing.linear_balls import BearingCoefficients
 
 OPTIONS = {
@@ -34,6 +34,10 @@ OPTIONS = {
     "--tilt-y": "operation.tilt_y_mrad",
     "--speed-rpm": "operation.speed_rpm",
     "--hz": "operation.hz",
+    "--pair": "pair.arrangement",
+    "--preload": "pair.preload",
+    "--spring": "pair.spring",
+    "--distance-mm": "pair.distance_mm",
     "--contact-angle": "bearing.contact_angle_deg",
     "--race-control": "bearing.race_control",
     "--oil": "oil.iso_vg",
@@ -54,6 +58,10 @@ ENTRIES = {
     "contact_angle": "bearing.contact_angle_deg",
     "tilt": "operation.tilt_x_mrad",
     "hz": "operation.hz",
+    "arrangement": "pair.arrangement",
+    "preload": "pair.preload",
+    "spring": "pair.spring",
+    "preload and spring": "pair.spring",
 }
 LOADS = "--load", "--axial", "--moment-x", "--moment-y"
 AXIAL = "axial_load", "moment_x", "moment_y", "tilt_x_mrad", "tilt_y_mrad"  # with these, balls have contact angles
@@ -101,13 +109,12 @@ class Operation(Section):
     speed_rpm: Annotated[list[e.NotNegative], Field(min_length=1)]
     hz: Annotated[list[e.NotNegative] | None, Field(min_length=1)] = None
 
-    @property
-    def load(self) -> tuple[float, ...]:
-        """Force on the inner ring: (Fx, Fy) [N], with Fz, or with moments [N m]."""
-        if self.radial_load is None and self.axial_load is None:
+    def load(self, *, paired: bool) -> tuple[float, ...]:
+        """Force on the inner ring, or on the shaft of a pair: (Fx, Fy) [N], with Fz, or with moments [N m]."""
+        if self.radial_load is None and self.axial_load is None and not paired:
             raise InputError("operation.radial_load", None, "given, or an axial load")
         radial = 0.0, -(self.radial_load or 0.0)
-        if all(getattr(self, name) is None for name in AXIAL):
+        if all(getattr(self, name) is None for name in AXIAL) and not paired:
             return radial
         return (*radial, self.axial_load or 0.0, *moments_of(self, "operation"))
 
@@ -117,23 +124,56 @@ class Operation(Section):
         return tilt_of(self)
 
 
+class Pair(Section):
+    """Two such bearings on one shaft, about its middle; a load is that of the shaft there."""
+
+    arrangement: e.Arrangement
+    preload: e.Preload | None = None
+    spring: e.Spring | None = None
+    distance_mm: e.Distance | None = None
+
+    def of(self, bearing: BallBearing) -> BearingSet:
+        """Both bearings.
+
+        Raises
+        ------
+        InputError
+            Bearings without a contact angle; a preload of bearings in tandem, or by offsets and by a spring.
+        """
+        if bearing.free_angle == 0.0:
+            allowed = "left out: bearings of a pair need a contact angle, as 7205 has one (or --contact-angle)"
+            raise InputError("arrangement", self.arrangement, allowed)
+        distance = None if self.distance_mm is None else 1e-3 * self.distance_mm
+        return BearingSet.pair(
+            bearing,
+            self.arrangement.replace("-", " "),
+            distance=distance,
+            preload=self.preload,
+            spring=self.spring,
+            name=f"pair of {bearing.name or 'ball bearings'}, {self.arrangement.replace('-', ' ')}",
+        )
+
+
 class BearingFile(Section):
     """A bearing file; without [oil] the bearing is dry."""
 
     bearing: Bearing
     oil: Oil = Oil()
     surface: Surface = Surface()
+    pair: Pair | None = None
     operation: Operation
 
 
 @dataclass(frozen=True)
 class BearingJob:
-    """What is asked: a bearing under a load (`BallBearing.equilibrium`), at speeds [rev/min].
+    """What is asked: a bearing under a load (`BallBearing.equilibrium`), or a pair of them, at speeds [rev/min].
 
     `hz` are frequencies of small vibrations; empty: that of the shaft at each speed.
     """
 
     bearing: BallBearing
+    pair: BearingSet | None
+    preload: float | None  # of the pair, by offsets [N]
     load: tuple[float, ...]
     tilt: tuple[float, float] | None
     speeds: tuple[float, ...]
@@ -146,14 +186,26 @@ class BearingJob:
         """Axial motion and tilts are held: balls have no contact angles."""
         return len(self.load) == 2
 
-    def state(self, speed_rpm: float) -> BearingState:
+    @property
+    def carrier(self) -> BallBearing | BearingSet:
+        """What carries the load: the bearing, or the pair."""
+        return self.bearing if self.pair is None else self.pair
+
+    @property
+    def dry_pair(self) -> BearingSet | None:
+        """The pair without films."""
+        if self.pair is None:
+            return None
+        return replace(self.pair, bearings=[replace(one, oil=None) for one in self.pair.bearings])
+
+    def state(self, speed_rpm: float) -> BearingState | SetState:
         """At rest with a ball under the load."""
-        return self.bearing.equilibrium(self.load, speed_rpm=speed_rpm, tilt=self.tilt)
+        return self.carrier.equilibrium(self.load, speed_rpm=speed_rpm, tilt=self.tilt)
 
     def coefficients(self, speed_rpm: float) -> BearingCoefficients:
         """Means over a ball passage."""
         at = {"hz": self.hz} if self.hz else {"rpm": speed_rpm}
-        return self.bearing.coefficients(self.load, speed_rpm=speed_rpm, tilt=self.tilt, **at)
+        return self.carrier.coefficients(self.load, speed_rpm=speed_rpm, tilt=self.tilt, **at)
 
     @contextmanager
     def called(self) -> Iterator[None]:
@@ -194,14 +246,17 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
         except ValidationError as error:
             raise in_other_kind(first_error(error, BearingFile), document, STUDY, "run") from None
         bearing, asked = _bearing(found), found.operation
-        load = asked.load
-        if len(load) == 2 and bearing.contact_angle is not None:
-            allowed = "given: an angular contact bearing needs an axial load, in +z"
-            raise InputError("operation.axial_load", None, allowed)
+        pair = None if found.pair is None else found.pair.of(bearing)
+        load = asked.load(paired=pair is not None)
+        tandem = found.pair is not None and found.pair.arrangement == "tandem"
+        if asked.axial_load is None and (tandem or (len(load) == 2 and bearing.contact_angle is not None)):
+            which = "bearings in tandem need" if tandem else "an angular contact bearing needs"
+            raise InputError("operation.axial_load", None, f"given: {which} an axial load, in +z")
         require_apart("operation.speed_rpm", asked.speed_rpm)
         require_apart("operation.hz", asked.hz or ())
     speeds, hz = (tuple(sorted(values or ())) for values in (asked.speed_rpm, asked.hz))
-    return BearingJob(bearing, load, asked.tilt, speeds, hz, origin, given)
+    preload = None if found.pair is None else found.pair.preload
+    return BearingJob(bearing, pair, preload, load, asked.tilt, speeds, hz, origin, given)
 
 
 def _bearing(found: BearingFile) -> BallBearing:
@@ -240,7 +295,7 @@ def _called(file: str, given: frozenset[str], values: Mapping[str, Any]) -> Iter
         yield
     except InputError as error:
         entry, value = ENTRIES.get(error.field, error.field), values.get(error.field, error.value)
-        allowed = error.allowed.partition("; any other bearing")[0]
+        allowed = error.allowed.partition("; any other bearing")[0].removesuffix(" (or may_lift_off=True)")
         if error.field == "clearance" and not isinstance(error.value, str):
             value, allowed = error.value * 1e6, f"{allowed} (it is given in um)"  # type: ignore[operator]
         if "; any other bearing" in error.allowed:
