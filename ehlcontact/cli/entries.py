@@ -76,7 +76,7 @@ Whole = Annotated[int, Field(strict=True)]
 Share = Annotated[Finite, Field(gt=0.0, lt=1.0)]
 
 # The bearing.
-Catalogue = Annotated[str, meaning("name of a deep-groove ball bearing in the library's catalogue, as 6205")]
+Catalogue = Annotated[str, meaning("name of a ball bearing in the library's catalogue, as 6205")]
 Balls = Annotated[Whole, Field(ge=3, le=200, description="number of balls")]
 BallDiameter = Annotated[Positive, Physical(INPUTS["ball_diameter"].in_unit("mm")), meaning("diameter of a ball")]
 PitchDiameter = Annotated[
@@ -125,7 +125,7 @@ Spring = Annotated[
 ]
 Distance = Annotated[
     Positive,
-    Physical(Quantity("mm", (0.1, 1e4), (2.0, 5e3), {"m": 1e3, "inches": 25.4})),
+    Physical(Quantity("mm", (1.0, 1e4), (2.0, 5e3), {"m": 1e3, "inches": 25.4})),
     meaning("distance of the planes of two bearings"),
 ]
 Speed = Annotated[Positive, Physical(INPUTS["speed_rpm"]), meaning("speed of the shaft")]

@@ -16,7 +16,7 @@ from pydantic.fields import FieldInfo
 
 from ehlcontact.cli.entries import allowed_of, keys_of, meaning_of
 from ehlcontact.cli.study.points.lists import points_of
-from ehlcontact.cli.study.schema import Study, catalogue_entries
+from ehlcontact.cli.study.schema import Study, catalogue_angle, catalogue_entries
 from ehlcontact.cli.study.whole_bearing import require_whole_bearing
 from ehlcontact.cli.toml import toml_value
 from ehlcontact.errors import InputError
@@ -34,6 +34,7 @@ OPTIONS = {
     "bearing.speed_rpm": "--speed-rpm",
     "oil.iso_vg": "--oil",
     "oil.temperature": "--temp",
+    "whole_bearing.axial_load": "--axial",
 }
 HEAD = """\
 # A study of one bearing. What it will do, and about how long that takes; then the study itself:
@@ -59,12 +60,15 @@ def study_text(asked: Mapping[str, Any], name: str) -> str:
     """
     entries = dict(asked)
     try:
-        studies = [point.study for point in points_of(tomllib.loads(_written(entries, name, "")), Path())]
+        first = _written(entries, name, None if "whole_bearing.axial_load" in asked else "")
+        studies = [point.study for point in points_of(tomllib.loads(first), Path())]
         entries |= _fitting(studies)
         try:
             for study in studies:
                 require_whole_bearing(study)
         except InputError as error:  # the rest of the study runs without
+            if "whole_bearing.axial_load" in asked:
+                raise
             return _written(entries, name, str(error))
         text = _written(entries, name)
         points_of(tomllib.loads(text), Path())
@@ -99,6 +103,8 @@ def _outward(end: float) -> float:
 def _written(entries: Mapping[str, Any], name: str, no_whole: str | None = None) -> str:
     """The text, with the section of the whole bearing as a comment where there is a reason why it is not run."""
     shown = {f"bearing.{key}": value for key, value in catalogue_entries(entries["bearing.catalogue"]).items()}
+    angle = catalogue_angle(entries["bearing.catalogue"])[1]
+    shown |= {} if angle is None else {"whole_bearing.contact_angle_deg": angle}
     lines = [HEAD.format(name=name), ""]
     for section, field in Study.model_fields.items():
         model = field.annotation

@@ -320,10 +320,10 @@ def _over_speed(bearing: BallBearing, weight: tuple[float, float], rpm: float, h
     return tuple(found)
 
 
-def campbell_or_reason(rotor: Rotor, bearing: BallBearing, rpm: float) -> Campbell | str:
-    """Modes over the speed, as far as the bearing has films; or why there are none."""
+def campbell_or_reason(rotor: Rotor, bearing: BallBearing, rpm: float, count: int = MODES) -> Campbell | str:
+    """The slowest modes over the speed, as far as the bearing has films; or why there are none."""
     high = min(SWEEP[1] * rpm, bearing.highest_speed)
     try:
-        return campbell(rotor, np.linspace(SWEEP[0] * rpm, high, SPEEDS), count=MODES)
+        return campbell(rotor, np.linspace(SWEEP[0] * rpm, high, SPEEDS), count=count)
     except (ConvergenceError, InputError) as error:
         return str(error)

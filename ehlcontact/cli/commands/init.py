@@ -34,6 +34,9 @@ class Wish(o.Options):
     load: Annotated[list[e.Load], typer.Option("--load"), e.meaning(f"radial load on the bearing; {SEVERAL}")] = (
         Field([100.0])
     )
+    axial: Annotated[
+        e.Load | None, typer.Option("--axial"), e.meaning("axial load; an angular contact bearing needs one")
+    ] = None
 
 
 @o.grouped
@@ -56,6 +59,8 @@ def init(
         "oil.iso_vg": grade,
         "oil.temperature": float(wish.temp),
     }
+    if wish.axial is not None:
+        entries["whole_bearing.axial_load"] = float(wish.axial)
     text = study_text({"title": f"study of a {bearing}", **entries}, file.name)
     write_text(file, text, "FILE.toml")
     oil = f"ISO VG {grade}"

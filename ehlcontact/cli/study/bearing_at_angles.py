@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 SPAN = 0.2  # m, of the bearings where none is given
 MODES = 6  # that are listed: two each across the shaft, along it, and of its tilts
+FOLLOWED = 3  # of them over the speed: of the rotor as a whole, across the shaft and along it
 
 
 @dataclass(frozen=True)
@@ -102,7 +103,7 @@ def run_at_angles(study: Study) -> BearingAtAngles | None:
         span=span,
         modes=modes,
         no_modes=reason,
-        diagram=campbell_or_reason(rotor, wet, speed),
+        diagram=campbell_or_reason(rotor, wet, speed, FOLLOWED),
     )
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from math import pi
+from functools import cached_property
+from math import cos, degrees, pi
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -23,7 +24,7 @@ from ehlcontact.lubricant.oil import GRADES
 from ehlcontact.point import OperatingPoint, require_solvable
 from ehlcontact.solver.domain import Domain
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
-from reduced_models.bearing.catalogue import deep_groove_row
+from reduced_models.bearing.catalogue import catalogue_row
 from reduced_models.rotor.rotor import require_unbalance
 
 BY_NUMBERS = ("eta0", "alpha")  # entries of an oil
@@ -224,6 +225,7 @@ class WholeBearing(Section):
 
     With axial_load balls have contact angles, and bearings five degrees of freedom: loads and films of all balls,
     stiffness and damping, and vibrations of the rotor between them; then nothing is computed in time.
+    The contact of the study is that of the heaviest ball, at its angle where the bearing has a contact angle.
     """
 
     conformity_other: Annotated[
@@ -251,13 +253,16 @@ class WholeBearing(Section):
     tilt_y_mrad: Annotated[e.Tilt | None, e.meaning("the same about y")] = None
     contact_angle_deg: Annotated[
         e.ContactAngle | None,
-        e.meaning("free contact angle of an angular contact bearing; left out, it follows from clearance_um"),
+        e.meaning(
+            "free contact angle of an angular contact bearing; left out, that of bearing.catalogue, "
+            "or of a deep-groove bearing from clearance_um"
+        ),
     ] = None
     race_control: Annotated[
         e.RaceControl | None, e.meaning("what holds the gyroscopic moment of the balls; outer where left out")
     ] = None
     span_mm: Annotated[
-        e.PitchDiameter | None, e.meaning("distance of both bearings; 200 where left out with axial_load")
+        e.Distance | None, e.meaning("distance of both bearings; 200 where left out with axial_load")
     ] = None
 
 
@@ -283,10 +288,19 @@ class Study(Section):
     whole_bearing: WholeBearing = WholeBearing()
     check: Check = Check()
 
+    @cached_property
+    def ball(self) -> tuple[float, float]:
+        """Load [N] and contact angle [rad] of the most loaded ball at the race of the study, without films."""
+        if self.whole_bearing.contact_angle_deg is None:
+            return most_loaded_ball(self.bearing.radial_load, self.bearing.balls), 0.0
+        from ehlcontact.cli.study.whole_bearing import heaviest_ball
+
+        return heaviest_ball(self)
+
     @property
     def ball_load(self) -> float:
         """Load of the most loaded ball [N]."""
-        return most_loaded_ball(self.bearing.radial_load, self.bearing.balls)
+        return self.ball[0]
 
     @property
     def lubricant(self) -> Lubricant:
@@ -316,16 +330,19 @@ class Study(Section):
 
     @property
     def point(self) -> OperatingPoint:
-        """Operating point of the most loaded ball's contact."""
-        b = self.bearing
+        """Operating point of the most loaded ball's contact.
+
+        Curvature and surface speed at a contact angle a are those of the pitch diameter dm/cos a at n cos a.
+        """
+        b, (load, angle) = self.bearing, self.ball
         steel = {"e1": b.youngs_modulus, "nu1": b.poisson_ratio, "e2": b.youngs_modulus, "nu2": b.poisson_ratio}
         return OperatingPoint.ball_bearing(
             self.lubricant,
             ball_diameter=b.ball_diameter_mm * 1e-3,
-            pitch_diameter=b.pitch_diameter_mm * 1e-3,
+            pitch_diameter=b.pitch_diameter_mm * 1e-3 / cos(angle),
             conformity=b.conformity,
-            speed_rpm=b.speed_rpm,
-            load=self.ball_load,
+            speed_rpm=b.speed_rpm * cos(angle),
+            load=load,
             race=b.race,
             **steel,
         )
@@ -378,6 +395,8 @@ class Study(Section):
             dump[section][name] = value
         for section, key in (("bearing", "catalogue"), ("bearing", "name"), ("oil", "name")):
             dump[section].pop(key, None)
+        if self.whole_bearing.contact_angle_deg is not None:
+            dump["bearing"]["ball"] = self.ball
         return key_of({name: dump[name] for name in ("bearing", "oil", *sections)})
 
 
@@ -416,7 +435,7 @@ def study_of(document: dict[str, Any]) -> Study:
     if isinstance(bearing, dict) and isinstance(bearing.get("catalogue"), str):
         entries = catalogue_entries(bearing["catalogue"])
         require_no_other(bearing, entries)
-        document = document | {"bearing": entries | bearing}
+        document = document | {"bearing": entries | bearing} | _at_angle(document)
     try:
         study = Study.model_validate(document)
     except ValidationError as error:
@@ -424,16 +443,49 @@ def study_of(document: dict[str, Any]) -> Study:
     given = inputs_of(study)
     try:
         _require_together(study)
-        for name in ("domain", "point", "roughness", "free_motion", "harmonic_motion", "rotor_motion"):
+        for name in ("domain", "lubricant", "roughness"):
             getattr(study, name)  # made here once, so that what the library refuses is refused now
+        angular = study.whole_bearing.contact_angle_deg is not None
+        if angular:
+            _require_whole_bearing(study)
+        for name in ("point", "free_motion", "harmonic_motion", "rotor_motion"):
+            getattr(study, name)
         require_solvable(study.point, study.largest_load, given)
-        if "whole_bearing" in study.model_fields_set:
-            from ehlcontact.cli.study.whole_bearing import require_whole_bearing
-
-            require_whole_bearing(study)
+        if "whole_bearing" in study.model_fields_set and not angular:
+            _require_whole_bearing(study)
     except InputError as error:
         raise InputError(ENTRIES.get(error.field, error.field), error.value, error.allowed) from None
     return study
+
+
+def _require_whole_bearing(study: Study) -> None:
+    from ehlcontact.cli.study.whole_bearing import require_whole_bearing
+
+    require_whole_bearing(study)
+
+
+def _at_angle(document: Mapping[str, Any]) -> dict[str, Any]:
+    """Section [whole_bearing] with the contact angle of the catalogue; nothing for a deep-groove bearing.
+
+    Raises
+    ------
+    InputError
+        An angular contact bearing without an axial load.
+    """
+    name, angle = catalogue_angle(document["bearing"]["catalogue"])
+    whole = document.get("whole_bearing", {})
+    if angle is None or not isinstance(whole, dict):
+        return {}
+    if "axial_load" not in whole:
+        allowed = f"given: {name} is an angular contact bearing, which carries axial load"
+        raise InputError("whole_bearing.axial_load", None, allowed)
+    return {"whole_bearing": {"contact_angle_deg": angle} | whole}
+
+
+def catalogue_angle(name: str) -> tuple[str, float | None]:
+    """Name as the catalogue has it, and contact angle of an angular contact bearing [degrees]."""
+    known, row = catalogue_row(name)
+    return known, None if row.contact_angle is None else round(degrees(row.contact_angle), 6)
 
 
 def catalogue_entries(name: str) -> dict[str, Any]:
@@ -445,7 +497,7 @@ def catalogue_entries(name: str) -> dict[str, Any]:
         No such bearing; it names the nearest.
     """
     try:
-        known, row = deep_groove_row(name)
+        known, row = catalogue_row(name)
     except InputError as error:
         allowed = f"{error.allowed.partition('; any other bearing')[0]}; any other by its dimensions, balls = ..."
         raise InputError("bearing.catalogue", error.value, allowed) from None

@@ -8,6 +8,8 @@ from __future__ import annotations
 from math import ceil, radians
 from typing import Any
 
+import numpy as np
+
 from ehlcontact.cli.study.ring_load import moments_of, tilt_of
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import BallBearing
@@ -73,6 +75,16 @@ def ring_load(study: Any) -> tuple[float, ...]:
             allowed = "left out without whole_bearing.axial_load: a planar bearing has no contact angles"
             raise InputError(f"whole_bearing.{name}", getattr(whole, name), allowed)
     return radial
+
+
+def heaviest_ball(study: Any) -> tuple[float, float]:
+    """Load [N] and contact angle [rad] of the ball that presses most on the race of the study, without films."""
+    load, race = ring_load(study), int(study.bearing.race == "outer")
+    bearing, tilt = whole_bearing(study, oil=False), tilt_of(study.whole_bearing)
+    state = bearing.equilibrium(load, speed_rpm=study.bearing.speed_rpm, tilt=tilt)
+    assert state.contact_angles is not None
+    ball = int(np.argmax(state.force[:, race]))
+    return float(state.force[ball, race]), float(state.contact_angles[ball, race])
 
 
 def require_whole_bearing(study: Any) -> None:
