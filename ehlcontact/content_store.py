@@ -1,6 +1,6 @@
 """Store by content: what is computed is found by the hash of the inputs that it was computed from.
 
-Every entry is a file of its own, written in one move, so that neither a kill nor a second writer can damage it.
+Every entry is a file of its own, written in one move, so that an aborted or concurrent write cannot corrupt it.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Published formulas for film thickness and approach, and for film losses by heat and starvation.
 
-Regions and grids are chosen from them (`solver.mesh`, through the properties of a `MoesPoint`), the atlas
+Regions and grids are chosen from them (`solver.mesh_choice`, through the properties of a `MoesPoint`), the atlas
 interpolates what its contacts have over them, `assumptions` judges by them, and tests compare; what a solver
 converges to on its grid does not depend on them. They take plain numbers: the inputs stand above this module.
 """

@@ -1,4 +1,4 @@
-"""Dry elliptic contact after Hertz, whose pressure, approach and semi-axes are the units of all others.
+"""Dry elliptic contact after Hertz; its pressure, approach and semi-axes are used as scales throughout.
 
 Semi-axes a along rolling (x) and b across (y), ``kappa = a/b``. Complete elliptic integrals K, E of the
 parameter ``m = 1 - kappa**2`` hold for kappa above 1 too, where m is negative.

@@ -107,7 +107,7 @@ WORDS = {
     "p_midplane": "pressure along the middle",
     "speed_rpm": "speed",
     "lambda_ratio": "smallest film over roughness",
-    "major": "half axis of the orbit",
+    "major": "semi-major axis of the orbit",
     "angles": "angle of the ball",
 }
 

@@ -1,4 +1,4 @@
-"""`save` and `load`: one pair of functions for the files of all results, elements and bearings.
+"""`save` and `load`: files of results, elements and bearings. What was computed, by hash: `content_store`.
 
 Every file begins with the same header: class, format number, version of the library. Classes with ``from_dict``
 (elements and bearings, which people read and edit) become JSON of their ``to_dict``; all others become HDF5:

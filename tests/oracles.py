@@ -73,7 +73,7 @@ def flow_and_mass(P, H, point):
 
 
 def flow_mean(a, b):
-    """Mean of two flow factors by cosh of half their log ratio."""
+    """Mean of two Poiseuille coefficients by cosh of half their log ratio."""
     x = 0.5 * log(a / b)
     s = cosh(x) - 1.0
     return sqrt(a * b) * (1.0 + 0.5 * s * s / (1.0 + 0.5 * s))

@@ -1,7 +1,7 @@
-"""The page of ``ehlcontact explore``: one file that answers in the browser, from the atlas it carries.
+"""The page of ``ehlcontact explore``: one file that computes in the browser, from the atlas inside it.
 
-Its JavaScript stands in ``templates/explore``, written after the Python that it does the work of; the tests hold
-both together. The atlas, oils, bearings, ranges of inputs and the numbers of its rules are put in here.
+Its JavaScript in ``templates/explore`` repeats the Python formulas; tests compare both. This module puts in the
+atlas, oils, bearings, ranges of inputs and the constants of its rules.
 """
 
 from __future__ import annotations

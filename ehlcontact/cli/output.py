@@ -1,4 +1,4 @@
-"""Tables, JSON and messages; checks of where they go; streams that are full, closed or of few characters."""
+"""Tables, JSON and messages; checks of output paths; closed pipes, full disks, terminals without Unicode."""
 
 from __future__ import annotations
 

@@ -67,7 +67,7 @@ class SteadyResult(ScaledTable, Origin):
         Moment of the pressure about the centre line, over load times a; in SI [N m].
     residuals : ndarray, shape (cycles + 1,)
         Mean absolute residual over P > 0: at the start after full multigrid, then after each cycle. It weighs a
-        node by its flow factor, so it is most where pressure matters least: what is solved is judged by
+        node by its Poiseuille coefficient, so it is most where pressure matters least: what is solved is judged by
         `pressure_error`.
     load_residuals : ndarray, shape (cycles + 1,)
         Of the load (or approach) equation, likewise.

@@ -1,10 +1,10 @@
 """Anderson (Washio-Oosterlee) acceleration of V cycles.
 
-V cycles leave a few smooth errors that fall by only a third to a half in each cycle, where a pressure spike is
-lower and elsewhere on the coarse grid, or at the outlet of thin oil. The changes of the last cycles show how
+V cycles leave a few smooth errors that fall by only a third to a half in each cycle: where the coarse grid shows
+the pressure spike too low and displaced, or at the outlet of thin oil. The changes of the last cycles show how
 these errors fall. Washio and Oosterlee (Electronic Transactions on Numerical Analysis 6, 1997) combine the last
 cycles so that the residual is smallest; here it is the change of the pressure by a cycle, as in Anderson's
-mixing, because the residual weighs a node by its flow factor.
+mixing, because the residual weighs a node by its Poiseuille coefficient.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from ehlcontact.solver.multigrid import Multigrid
 
 REMEMBERED = 2  # cycles before the last: one more gains little, and every one costs two fields
 SLOW_FACTOR = 0.15  # change of P over that of the cycle before, from which combining pays for its residual
-HARM = 0.7  # the same after a combination, by which it did harm: a boundary moved, and memory is of another film
+RESET_RATIO = 0.7  # the same after a combination, from which on the kept cycles are dropped: a boundary has moved
 
 
 class Cycle(NamedTuple):
@@ -58,7 +58,7 @@ class AcceleratedCycles:
         self._largest = change
         if last is None:
             return change
-        if self._combined and norm(self._last.change) > HARM * norm(last.change):
+        if self._combined and norm(self._last.change) > RESET_RATIO * norm(last.change):
             self._differences.clear()
             self._combined = False
             return change

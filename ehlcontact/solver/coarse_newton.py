@@ -1,8 +1,8 @@
 """Semismooth Newton with dense elasticity: the coarse-grid solver of the multigrid cycle.
 
-Unknowns are the pressures of the free nodes and the approach u, closed by the load or motion equation, so
+Unknowns are the pressures of the active nodes and the approach u, closed by the load or motion equation, so
 force balance is exact on the coarsest grid and needs no relaxation factor. Complementarity P >= 0 by the
-primal-dual active set: a node is free if P > 0 or if its residual asks for pressure.
+primal-dual active set: a node is active if P > 0 or if its residual is negative.
 """
 
 from __future__ import annotations

@@ -60,7 +60,8 @@ class IterationHistory:
     def pressure_error(self) -> float:
         """Largest change of P that is still to come: the last one, and all that follow if they go on falling so.
 
-        The residual is a poorer measure: it weighs a node by its flow factor, most where pressure matters least.
+        The residual is a poorer measure: it weighs a node by its Poiseuille coefficient, most where pressure
+        matters least.
         """
         return pressure_error(self.pressure_changes)
 

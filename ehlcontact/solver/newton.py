@@ -1,10 +1,10 @@
 """Semismooth Newton on the finest grid: all equations linearised together.
 
-Unknowns are the pressures of the free nodes and the approach u. Complementarity P >= 0 by the primal-dual
-active set of `coarse`; the linear systems by `linear`, with factors that are kept over steps while
+Unknowns are the pressures of the active nodes and the approach u. Complementarity P >= 0 by the primal-dual
+active set of `coarse_newton`; the linear systems by `linear`, with factors that are kept over steps while
 they serve. One relaxation sweep follows every Newton step: it settles the cavitation boundary, where a
-frozen active set would swing to and fro, and the steep flanks of the pressure, where the flow factor is far
-from linear.
+frozen active set would swing to and fro, and the steep flanks of the pressure, where the Poiseuille coefficient
+is far from linear.
 """
 
 from __future__ import annotations

@@ -34,8 +34,8 @@ class SurfaceStep(NamedTuple):
     """A surface over one time step; arrays (ny + 1, nx + 1)."""
 
     height: Array  # at the end of the step
-    before: Array  # at its beginning
-    earlier: Array  # at the beginning of the step before
+    at_start: Array  # at its start
+    at_previous_start: Array  # at the start of the step before
     rate: Array  # (d/dX + d/dT) G at the end: what passing film sees; 0 in pure rolling
 
 

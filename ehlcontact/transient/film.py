@@ -164,7 +164,7 @@ class TransientFilm:
         if surface is not None:
             # A feature much deeper than the film is carried exactly: the differences would leave a multiple of
             # its fourth derivative as a source, which eats up the film at its rim.
-            known = _known(dT, ratio, surface.before, surface.earlier)
+            known = _known(dT, ratio, surface.at_start, surface.at_previous_start)
             level.rhs -= level.density() * (level.transport(surface.height, known) - surface.rate)
         step = self._solve(balance, STEP_CYCLES)
         self._past = ((dT, P_now), *self._past)[:PAST]

@@ -1,4 +1,4 @@
-"""What an FMU of a rotor is made from."""
+"""`RotorModel`: checked input of the rotor FMU: Jeffcott rotor, contacts, initial state."""
 
 from __future__ import annotations
 

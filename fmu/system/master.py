@@ -1,6 +1,7 @@
 """Master for system archives: all components step at once, or one after the other; through fmpy.
 
-For checks: it does no more than any importer of such an archive.
+For checks: it does no more than any importer of such an archive. A single mass on one FMU:
+``examples/studies/masters.py`` and ``coupling.py``.
 """
 
 from __future__ import annotations

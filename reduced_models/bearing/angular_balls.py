@@ -7,9 +7,9 @@ its groove centres; tilts are small. At the ball at psi it moves the inner groov
     c_z = c_z0 + z + lever (tilt_x sin psi - tilt_y cos psi),
 
 and the ball goes where contact forces, centrifugal force and gyroscopic moment balance: two unknowns b, by
-Newton's method with the exact tangent. Springs that only pull have a convex potential, which the forces of inertia
-disturb little: a step that does not bring the balance closer is
-replaced by a search along it. The result is the force of the ring on
+Newton's method with the exact tangent. Contacts act as springs between groove centres, whose distance grows as the
+ball is compressed. Without inertia forces their energy is convex, so that Newton's method with a line search
+converges; the forces of inertia disturb this little. The result is the force of the ring on
 the ball as a function of c alone, with its condensed tangent, geometric terms Q/l included.
 """
 

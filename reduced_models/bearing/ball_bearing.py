@@ -101,8 +101,9 @@ class BallBearing(Summary):
     and, unless it is asked for, do not vibrate on their contacts themselves (for a 6205 that begins near 30 kHz).
 
     The inner ring has five degrees of freedom (`reduced_models.bearing.freedoms`). Under a load (Fx, Fy) its axial
-    motion and its tilts are held: a planar bearing with contact angles of 0, the one of FMUs and of rotors
-    without axial motion. Under (Fx, Fy, Fz) or with moments every ball has its own contact angles on both races.
+    motion and its tilts are held: a planar bearing with contact angles of 0, the one of rotors without axial
+    motion and of planar FMUs. Under (Fx, Fy, Fz) or with moments every ball has its own contact angles on both
+    races.
 
     Parameters
     ----------
@@ -606,7 +607,9 @@ class BallBearing(Summary):
         They are planar: `InputError` for an angular contact bearing.
         """
         if self.contact_angle is not None:
-            allowed = "left out where bearings are planar: FMUs, python-control, rotors without axial motion"
+            allowed = (
+                "left out where bearings are planar: planar FMUs, python-control, rotors without axial motion"
+            )
             raise InputError("contact_angle", self.contact_angle, allowed)
         speeds = as_column("speeds_rpm", np.atleast_1d(as_numbers("speeds_rpm", speeds_rpm)), increasing=True)
         key = ("kernel", *speeds.tolist())

@@ -1,4 +1,4 @@
-"""Force of the inner ring on all balls, compiled: an inner and an outer contact in series at each ball.
+"""Balls of a planar bearing, compiled: force of the inner ring on all balls, two contacts in series at each.
 
 The inner ring is at q, the outer one stands still; ball k at the angle psi_k with n = (cos, sin) psi_k lets both
 rings come closer by
@@ -7,7 +7,7 @@ rings come closer by
 
 Along n, F_o(w) + m w'' = F_i(delta - w) + F_c with the centrifugal force F_c; balls have no inertia m there unless
 it is asked for. So w is found from one scalar equation per ball, and the force of the ring on the balls is
-F = sum F_i n. Balls travel with the cage, which is a part of delta'. The loss factor of rings and fits (`loss`)
+F = sum F_i n. delta' includes the change of n by the speed of the cage. The loss factor of rings and fits (`loss`)
 acts on F.
 """
 

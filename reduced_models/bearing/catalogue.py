@@ -6,7 +6,8 @@ ISO 76 and ISO 281 define by the balls,
 
     C0r/f0 = Z D^2,    Cr = 1.3 fc Z^(2/3) D^1.8,    dm = (d + D_outside)/2,    fc of D/dm,
 
-with D in mm: Z and D are the number and the multiple of 1/64 inch that fit C0r, f0 and Cr best, within 1 %.
+with D in mm: Z and D are the number and the multiple of 1/64 inch that fit C0r, f0 and Cr best, within 1 %. The
+ratings of the angular contact bearings (series 72 and 73) are quoted from memory: they were not checked.
 Bearings of one name differ between makers: by that rule NSK's 6200 has 8 balls of 4.762 mm, GMN prints 7 of
 5.556 mm. For the other 13 rows of GMN the rule finds the balls that GMN prints.
 

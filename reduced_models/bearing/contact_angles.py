@@ -1,5 +1,7 @@
 """Groove centres, contact angles and rolling of a ball between two races, compiled.
 
+The contact angle without load is `BallBearing.free_angle`.
+
 In the plane through a ball and the axis of the bearing, with r outward and z along the shaft, the centre of the
 outer groove is the origin, that of the inner groove is at c and that of the ball at b. Both contacts are springs
 in series from groove centre to groove centre,
@@ -19,8 +21,8 @@ of nearly 1, that ends where the ball leaves the inner race.
 Friction of the outer race, of the inner race, or of both in the ratio of W turns the axis of the ball around the
 shaft (gyroscopic moment). With the inner ring rotating, the angular momentum of the ball points outward where
 alpha > 0. Its change is along the orbit, so that friction across the outer contact has to push the ball outward,
-that across the inner contact inward. Published tables that take the gyroscopic moment as a magnitude have the
-opposite direction; "harris" is outer race control with the direction of these tables.
+that across the inner contact inward (derivation: `docs/theory.md`). Published tables have the opposite direction;
+"harris" is outer race control with the direction of these tables.
 
 All functions of places take real or complex numbers: derivatives by complex steps are exact (Squire and Trapp,
 SIAM Review 40 (1998) 110).

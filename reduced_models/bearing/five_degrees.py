@@ -1,8 +1,9 @@
 """Inner ring with five degrees of freedom in static equilibrium on balls at contact angles.
 
-Displacements of the ring move groove centres linearly, and springs between them only pull. At rest, and with
-centrifugal forces, their potential is convex (nearly, for the orbits of balls depend on their angles), so that
-`equilibrium` needs no first guess. The gyroscopic moment, which has no potential, is added then, in steps.
+Displacements of the ring move groove centres linearly. Contacts act as springs between groove centres that only
+pull, because the distance of the centres grows as the ball is compressed. At rest, and with centrifugal forces,
+their potential is convex (nearly, for the orbits of balls depend on their angles), so that `equilibrium` needs
+no first guess. The gyroscopic moment, which has no potential, is added then, in steps.
 """
 
 from __future__ import annotations

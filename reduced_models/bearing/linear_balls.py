@@ -135,7 +135,7 @@ class BearingCoefficients(FrequencyResponse):
     displacement : ndarray, shape (n,)
         Of the ring [m].
     swing : ndarray, shape (n,)
-        How far the ring goes up and down while a ball passes slowly [m]; 0 at a given angle of the cage.
+        Peak-to-peak displacement of the ring while a ball passes slowly [m]; 0 at a given angle of the cage.
     outside_assumptions : str
         Assumptions of films that do not hold at the heaviest ball (`ehlcontact.assumptions`); empty where none.
     """

@@ -1,4 +1,7 @@
-"""`Race`: contact of a ball with one race, its films and element from the atlas at a speed."""
+"""`Race`: contact of a ball with one race: geometry, oil, films and element from the atlas at a speed.
+
+Tables for the compiled kernels are in `race_table`, forces in time steps in `race_contact`.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Force of one ball on one race at the end of a time step, compiled, with its derivatives by approach and rate.
+"""Time step of one ball on one race, compiled: force at its end, with derivatives by approach and rate.
 
 The equations are those of `reduced_models.elements.film_law` without saturation of the inlet. The filters are then
 linear in the own rate e at the end of the step and the travel t of the approach. `prepare_filters` reduces them,

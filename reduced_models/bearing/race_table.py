@@ -1,11 +1,13 @@
-"""Table of the force of one ball on one race in SI: static force, gains of the lag filters; a row per shaft speed.
+"""Load over deflection of one ball on one race, and gains of its film memory, as tables in SI; a row per speed.
 
-The law is that of `reduced_models.elements.film_law` without its reference load, in N and m:
+The force at the end of a time step is computed from them in `race_contact`. The law is that of
+`reduced_models.elements.film_law` without its reference load, in N and m:
 
     F = k_n (g(u) + m)_+^(3/2),    g = (F_s/k_n)^(2/3) = u + h_s
 
-with the stiffness k_n of the dry Hertz contact. The contact's own time runs at 1/tau, tau = 2a/u_sum, and the
-half-axis a = reach/2 sqrt(g) grows with the load. Elements find g(u) by Newton's method; here it is tabulated as
+with the stiffness k_n of the dry Hertz contact, the static force F_s and film h_s, and the film m that past motion
+has added. The time scale of the contact is tau = 2a/u_sum; its semi-axis a = contact_length_factor/2 sqrt(g) grows
+with the load. Elements find g(u) by Newton's method; here it is tabulated as
 cubics between equidistant approaches from node to node of the static curve, so that its kinks stay where they are.
 
 In a flooded inlet the film force of an unloaded ball falls as slowly as h^-1/2. A `cutoff_gap` h ends it: the film

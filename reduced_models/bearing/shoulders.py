@@ -4,7 +4,7 @@ A groove of the radius f D ends at the height h of its shoulder above its bottom
 
     cos theta = 1 - h/(f D)
 
-from the bottom, seen from the groove centre. A contact at the angle alpha whose ellipse has the half axis b across
+from the bottom, seen from the groove centre. A contact at the angle alpha whose ellipse has the semi-axis b across
 the groove reaches alpha + asin(b/(f D)). Beyond theta the ellipse is cut off, and the shoulder's edge carries.
 """
 

@@ -4,7 +4,7 @@
 |---|---|
 | base | `ContactElement`: the interface of all elements; validity box, quality, source, units |
 | validity | approach, rate, load and frequency that the data covered; the warning outside them |
-| design_point | speed, oil and shape of the contact that an element was made for |
+| design_point | speed, oil and shape of the contact at which an element was fitted |
 | spring | elements without memory: spring, Hertz ends, damper and clipping in one law |
 | polynomial | `LinearContact`, `CubicContact`, `PolynomialContact` |
 | power | `PowerLawContact` |

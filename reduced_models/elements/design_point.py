@@ -1,4 +1,4 @@
-"""`DesignPoint`: speed, oil and shape of the contact that an element was made for; differences from another."""
+"""`DesignPoint`: speed, oil and shape of the contact at which an element was fitted; differences from another."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The wide-range element: one contact at one speed, from lift-off to overload."""
+"""The wide-range element: one contact at one speed over a wide range of loads, from lift-off to overload."""
 
 from __future__ import annotations
 

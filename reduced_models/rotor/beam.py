@@ -1,7 +1,7 @@
-"""A piece of a round shaft as a Timoshenko beam that turns: mass, stiffness and gyroscopic matrix.
+"""Rotating shaft element, a Timoshenko beam of round cross section: mass, stiffness and gyroscopic matrix.
 
-Nelson, J. Mech. Des. 102 (1980) 793, by his shape functions; degrees of freedom of a plane: displacement and slope
-at the left end, then at the right one.
+Nelson, J. Mech. Des. 102 (1980) 793, by his shape functions; degrees of freedom of a plane: displacement and
+rotation of the cross section at the left end, then at the right one.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Modes of a rotor on ball bearings over its speed, each followed from speed to speed; critical speeds."""
+"""Modes of a rotor on ball bearings over its speed, each tracked from speed to speed; critical speeds."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import span
 from reduced_models.rotor.linearise import SHOWN, linearise
-from reduced_models.rotor.modes import RotorMode, unlike
+from reduced_models.rotor.modes import RotorMode, mode_distance
 from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
@@ -84,7 +84,8 @@ class Campbell(QuantityTable):
     speed_rpm : ndarray, shape (k,)
         In rev/min.
     omega, growth : ndarray, shape (k, n)
-        Imaginary and real part of the eigenvalues: damped angular frequency [rad/s], rate of growth [1/s].
+        Imaginary and real part of the eigenvalues: damped angular frequency [rad/s], and real part [1/s], by
+        which a vibration grows where it is above 0.
     whirl : ndarray, shape (k, n)
         1 forward, -1 backward, 0 on straight lines.
     """
@@ -209,13 +210,13 @@ def campbell(rotor: Rotor, speeds_rpm: ArrayLike, *, count: int = SHOWN, passage
         if rows and len(found) < len(rows[-1]):
             what = f"{len(found)} of {len(rows[-1])} modes oscillate at {speed:g} rev/min: ask for fewer (count)"
             raise ConvergenceError(f"Campbell diagram: only {what}", None)
-        rows.append(_followed(rows[-1], found) if rows else found[:count])
+        rows.append(_tracked(rows[-1], found) if rows else found[:count])
     modes = np.array([[(m.omega, m.eigenvalue.real, m.whirl) for m in row] for row in rows])
     return Campbell(speed_rpm=speeds, omega=modes[..., 0], growth=modes[..., 1], whirl=modes[..., 2])
 
 
-def _followed(before: list[RotorMode], found: list[RotorMode]) -> list[RotorMode]:
-    """Of the modes `found`, those that continue the ones before, in their order."""
+def _tracked(before: list[RotorMode], found: list[RotorMode]) -> list[RotorMode]:
+    """Mode tracking: of the modes `found`, those nearest to the ones before (`mode_distance`), in their order."""
     values, shapes = np.array([m.eigenvalue for m in found]), np.array([m.shape for m in found]).T
-    cost = [unlike(old.eigenvalue, old.shape, values, shapes) for old in before]
+    cost = [mode_distance(old.eigenvalue, old.shape, values, shapes) for old in before]
     return [found[column] for column in linear_sum_assignment(cost)[1].tolist()]

@@ -1,4 +1,4 @@
-"""Forces of all contacts of a rotor at the end of a time step, with their slopes: exact, or secants."""
+"""Forces of all contacts of a rotor at the end of a time step and their tangent stiffness, exact or by secant."""
 
 from __future__ import annotations
 

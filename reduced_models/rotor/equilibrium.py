@@ -197,7 +197,8 @@ class _Balance:
     def _along(self, q: _Floats, residual: _Floats, step: _Floats) -> tuple[_Floats, _Floats]:
         """Place on the way from `q` along a step, and the imbalance there: where forces along it balance, roughly.
 
-        Springs that only pull have a convex potential; at its minimum along the step the imbalance may be larger.
+        Springs that only pull (groove centres move apart as a ball is compressed) have a convex potential; at its
+        minimum along the step the imbalance may be larger.
         """
         if step @ residual >= 0.0:  # inertia of balls makes slopes unsymmetric
             step = -residual / np.diag(self._slopes(q, OPEN))

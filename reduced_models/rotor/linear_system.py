@@ -1,4 +1,7 @@
-"""A rotor on linear supports as one system of first order, the memory of the supports among its states."""
+"""A rotor on linear supports as one system of first order, the memory of the supports among its states.
+
+Its eigenvalues are the modes of a rotor on elements; with bearings of other kinds: `modes`.
+"""
 
 from __future__ import annotations
 

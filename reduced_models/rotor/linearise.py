@@ -30,10 +30,10 @@ from reduced_models.rotor.modes import (
     CLOSED,
     CLOSED_BY_STEPS,
     RotorMode,
-    close,
     eigenvectors,
     is_new,
-    unlike,
+    mode_distance,
+    refine_root,
     whirl_of,
 )
 from reduced_models.rotor.nodes import flat_nodes
@@ -274,7 +274,7 @@ class LinearRotor(Summary):
     ) -> list[tuple[complex, _Complex]]:
         """The root near a mode without damping, none of those found; nothing where damping leaves fewer modes."""
         values, vectors = eigenvectors(self.matrices, self.support_impedance(1j * s.imag), s.imag)
-        for k in np.argsort(unlike(s, q, values, vectors))[:CANDIDATES].tolist():
+        for k in np.argsort(mode_distance(s, q, values, vectors))[:CANDIDATES].tolist():
             for root, shape in self._near(complex(values[k]), vectors[:, k]):
                 if is_new(root, shape, found):
                     return [(root, shape)]
@@ -286,7 +286,7 @@ class LinearRotor(Summary):
         """Roots near one of frozen bearings: of one eigenvalue problem, or by Newton's method."""
         if self._exact is None:
             closed = CLOSED_BY_STEPS if self.contacts else CLOSED
-            return [close(self.dynamic_stiffness, s, q, closed)]
+            return [refine_root(self.dynamic_stiffness, s, q, closed)]
         values, vectors = self._exact
         off = np.abs(values - s)
         near = [j for j in np.argsort(off).tolist() if off[j] < NEAR * abs(s)]
@@ -404,10 +404,11 @@ def _linear_angular(
 
 @takes(speeds_rpm="rev/min")
 def unbalance_response(rotor: Rotor, speeds_rpm: ArrayLike, *, passage: bool = True) -> UnbalanceResponse:
-    """Steady response of a rotor to its unbalances, at increasing speeds, films those of each.
+    """Steady response of a rotor to its unbalances at increasing speeds, each with the films of that speed.
 
-    Nothing is known between the speeds: a peak is as wide as decrement/pi of its speed, for films and steel often
-    less than a thousandth, so set speeds that close about those of `Campbell.critical_speeds`.
+    The response is computed only at the given speeds. A peak is about decrement/pi of its speed wide, for films
+    and steel often less than a thousandth, so choose closely spaced speeds around those of
+    `Campbell.critical_speeds`.
 
     Parameters
     ----------

@@ -2,11 +2,12 @@
 
     T(s) = s^2 M + s (C + omega G) + K + B^T Z(s) B
 
-On contacts whose elements have states the roots are eigenvalues of one system of first order. Otherwise each is
-found from the eigenvectors of the matrices that the bearings have at a frequency, first 0 (without their damping,
-which may be large there), then its own, and closed by Newton's method on (q, s) together: what memory and damping
-make of Z off the imaginary axis is in. Where Z is known on that axis alone, K and C of the mode's own frequency
-stand for it, K + s C: exact where it is hardly damped, and to first order in the damping otherwise. A root found
+`LinearRotor.modes` finds them in one of two ways. On contacts whose elements have states the roots
+are eigenvalues of one system of first order (`linear_system.eigenmodes`). Otherwise `eigenvectors` solves the
+eigenproblem with K and C of the bearings frozen at frequency 0 (without their damping, which may be large there),
+then at the frequency of the mode; `refine_root` applies Newton's method to T(s) q = 0 in (q, s), with the exact
+Z(s) at complex s. Where Z is known on the imaginary axis alone, K + s C with K and C at the frequency of the
+mode stands for Z(s): exact for small damping, and to first order in the damping otherwise. A root that was found
 already is not taken again: the next best is tried.
 """
 
@@ -156,7 +157,7 @@ def eigenvectors(matrices: Matrices, impedance: _Complex, omega: float) -> tuple
     return values[order], vectors[:size, order]
 
 
-def close(
+def refine_root(
     dynamic: Callable[[complex], _Complex], s: complex, q: _Complex, closed: float = CLOSED
 ) -> tuple[complex, _Complex]:
     """Newton's method for T(s) q = 0 from near a root; `dynamic` gives T."""
@@ -178,8 +179,11 @@ def close(
     raise ConvergenceError(f"mode near {s.imag / (2.0 * pi):.4g} Hz not found", None)
 
 
-def unlike(s: complex, q: _Complex, others: _Complex, shapes: _Complex) -> _Floats:
-    """What the shape of a mode does not share with others (columns), and by how much frequencies differ in ln."""
+def mode_distance(s: complex, q: _Complex, others: _Complex, shapes: _Complex) -> _Floats:
+    """1 - MAC of the shape of a mode with others (columns), plus the difference of ln(frequency).
+
+    MAC: modal assurance criterion, |q^H q_k|^2 over the product of the squared norms.
+    """
     squares = np.vdot(q, q).real * (np.abs(shapes) ** 2).sum(axis=0)
     shared = np.abs(q.conj() @ shapes) ** 2 / squares
     return np.asarray(1.0 - shared + np.abs(np.log(others.imag / s.imag)))

@@ -1,4 +1,4 @@
-"""One mass on one reduced contact: eq. 7 of Nonato and Cavalca (2010) with the element as the force."""
+"""One mass on one element: m u'' + F(u, u') = load, eq. 7 of Nonato and Cavalca (2010)."""
 
 from __future__ import annotations
 

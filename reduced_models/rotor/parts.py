@@ -60,11 +60,12 @@ class Shaft(Summary):
     youngs_modulus, poisson_ratio, density : float
         In Pa, -, kg/m3; with density 0 it has no mass, as that of a Jeffcott rotor.
     shear : bool
-        False: Euler's and Bernoulli's beam, which only bends (its sections still have turning inertia).
+        False: Euler's and Bernoulli's beam, which only bends (its sections still have rotary inertia).
     damping_time : float
-        Damping over stiffness [s], in the fixed frame: a shaft that does not damp its own bow as it turns.
+        Stiffness-proportional damping in the fixed frame, C over K [s]. There is no rotating (internal) damping,
+        so no instability from it.
     elements : int
-        Pieces at least, all about as long.
+        Elements of the shaft at least, all about as long.
 
     Raises
     ------

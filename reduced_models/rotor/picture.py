@@ -195,7 +195,7 @@ def draw_unbalance(response: Any, path: str | os.PathLike[str] | None) -> Any:
     half_axes = [(name, response.major[:, k], None) for k, name in enumerate(names)]
     behind = [(name, phases[:, k], None) for k, name in enumerate(names)]
     panels = (
-        Panel(speed, half_axes, ("half axis of the orbit", "m"), "y"),
+        Panel(speed, half_axes, ("semi-major axis of the orbit", "m"), "y"),
         Panel(speed, behind, "phase of x [degrees]"),
     )
     return draw("unbalance response", panels, path)

@@ -25,15 +25,15 @@ MIXED = Quantity("m, or rad where it turns")
 @stored("unbalance response")
 @dataclass(frozen=True, eq=False, kw_only=True)
 class UnbalanceResponse(QuantityTable):
-    """Response to unbalance over the rate at which it turns: q(t) = cosine cos(w t) + sine sin(w t) about rest.
+    """Response to unbalance over shaft speed: q(t) = cosine cos(w t) + sine sin(w t) about static equilibrium.
 
-    The angle of the shaft is w t. Amplitudes are linear in the unbalance, however large; what a ring does that
-    moves as far as its balls are pressed in by the load is for `simulate_rotor`.
+    The angle of the shaft is w t. Amplitudes are linear in the unbalance, however large. For amplitudes comparable
+    to the static ball deflection use `simulate_rotor`.
 
     Attributes
     ----------
     speed_rpm : ndarray, shape (k,)
-        Rate at which the unbalances turn [rev/min].
+        Of the shaft [rev/min].
     cosine, sine : ndarray, shape (k, N)
         Of all degrees of freedom [m], or rad where they turn.
     nodes : ndarray, shape (n, 2)
@@ -57,7 +57,7 @@ class UnbalanceResponse(QuantityTable):
         return next(iter(self.names[node : node + 1]), "") or f"node {node}"
 
     def to_pandas(self) -> Any:
-        """``pandas.DataFrame`` over the speed: half axis, cosine and sine of x and y of each node, in m.
+        """``pandas.DataFrame`` over the speed: semi-major axis, cosine and sine of x and y of each node, in m.
 
         Other degrees of freedom, some of which are angles, are in `to_xarray`.
 
@@ -81,7 +81,7 @@ class UnbalanceResponse(QuantityTable):
         name = self._name(int(largest[1]))
         return [
             f"{len(self.nodes)} nodes at {self.speed_rpm.size} speeds, {span(self.speed_rpm)} rev/min",
-            f"largest orbit: {name}, half axis {1e6 * self.major[largest]:.4g} µm "
+            f"largest orbit: {name}, semi-major axis {1e6 * self.major[largest]:.4g} µm "
             f"at {self.speed_rpm[largest[0]]:.5g} rev/min",
         ]
 
@@ -106,13 +106,13 @@ class UnbalanceResponse(QuantityTable):
 
     @property
     def major(self) -> Annotated[_Floats, LENGTH.over("speed_rpm node")]:
-        """Larger half axis of the orbits of the nodes, shape (k, n) [m]."""
+        """Semi-major axes of the orbits of the nodes, shape (k, n) [m]."""
         moving = np.column_stack([self.amplitude, np.zeros(len(self.speed_rpm))])  # -1: does not move that way
         x, y = moving[:, self.nodes[:, 0]], moving[:, self.nodes[:, 1]]
         return np.asarray(0.5 * (np.abs(x + 1j * y) + np.abs(x - 1j * y)))  # forward and backward circle
 
     def peaks(self, node: int = 0) -> _Floats:
-        """Speeds [rev/min] at which the orbit of a node is larger than at the speeds beside."""
+        """Speeds [rev/min] at which the orbit of a node is larger than at both neighbouring speeds."""
         if not 0 <= node < len(self.nodes):
             raise InputError("node", node, f"from 0 to {len(self.nodes) - 1}")
         size = self.major[:, node]

@@ -1,4 +1,4 @@
-"""Records and elements of the cases, and the reduced models integrated over them."""
+"""Records and elements of the cases of Nonato and Cavalca (2010), and reduced models integrated over them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Fewer points and digits than the results have: what a screen can show, in a page of a few megabytes."""
+"""Decimation of curves and digits for the report page, which stays a file of a few megabytes."""
 
 from __future__ import annotations
 

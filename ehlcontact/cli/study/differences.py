@@ -1,4 +1,4 @@
-"""The rotor on full contacts beside the rotor on every element and on what there is without one."""
+"""Differences between the rotor on full contacts, on every element, and on baselines without a film."""
 
 from __future__ import annotations
 

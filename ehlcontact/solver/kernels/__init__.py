@@ -3,7 +3,7 @@
 ============= ============================================================================================
 module        responsibility
 ============= ============================================================================================
-``reynolds``  the discrete Reynolds equation: flow factor and its mean, operator, residual
+``reynolds``  the discrete Reynolds equation: Poiseuille coefficient and its mean, operator, residual
 ``linearise`` its derivatives; the dense Jacobian
 ``relax``     hybrid line relaxation of the whole level
 ``flanks``    line relaxation along the steep flanks of the pressure

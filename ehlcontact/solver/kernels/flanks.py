@@ -1,9 +1,10 @@
-"""Extra line relaxation where the flow factor jumps between neighbouring nodes, at the edge of the Hertz zone.
+"""Extra line relaxation where the Poiseuille coefficient jumps between neighbouring nodes: edge of the Hertz zone.
 
-The flow factor eps changes there by orders of magnitude within one node spacing, relaxation switches from plain
-to distributed changes of the pressure, and where the edge lies is settled node by node. Elsewhere two or three
-sweeps suffice between corrections from coarser grids. So the few nodes along that edge, some per cent of all, are
-relaxed several times after the sweeps: segments of lines in two colours, with the elastic deflection near them.
+The Poiseuille coefficient eps changes there by orders of magnitude within one node spacing, relaxation switches
+from plain to distributed changes of the pressure, and where the edge lies is settled node by node. Elsewhere two
+or three sweeps suffice between corrections from coarser grids. So the few nodes along that edge, some per cent
+of all, are relaxed several times after the sweeps: segments of lines in two colours, with the elastic deflection
+near them.
 """
 
 import numpy as np
@@ -22,7 +23,7 @@ from ehlcontact.solver.kernels.relax import (
 )
 from ehlcontact.solver.kernels.reynolds import update_across, update_along, update_node
 
-JUMP = 2.7  # ratio of the flow factors of neighbours that makes a front: what sweeps settle has less
+JUMP = 2.7  # ratio of the Poiseuille coefficients of neighbours that makes a front: what sweeps settle has less
 FRONT_REACH = 2  # nodes on either side of it, as many as the near film of a change there reaches
 # Passes of both colours: a front moves by a node or two between coarse corrections, and what it moves is exchanged
 # along it, which is as many nodes long as the grid has.

@@ -74,7 +74,7 @@ def linearise_at(j, i, P, flow, stencil, c_t, share):
 def linearise(P, flow, stencil, c_t, flow_slope, p_coef, h_coef):
     """Derivatives at all interior nodes; `p_coef` and `h_coef`, both (6, ny+1, nx+1), written.
 
-    `flow_slope` is the share of the derivatives of the flow factor eps that is taken: 1 is Newton's
+    `flow_slope` is the share of the derivatives of the Poiseuille coefficient eps that is taken: 1 is Newton's
     linearisation, 0 takes eps as given (Picard).
     """
     for j in range(P.shape[0] - 1):

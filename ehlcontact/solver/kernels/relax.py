@@ -1,4 +1,4 @@
-"""Hybrid line relaxation: one unknown line along X at a time, even lines first, then odd lines.
+"""Hybrid line relaxation along X in zebra order: even lines first, then odd lines; eight lines at once.
 
 Where flow through the gap dominates, this is Gauss-Seidel in P. Where the oil is stiff and mere transport is left,
 a change of P is taken back in equal shares by the four neighbours: the deflection of such a distributed change
@@ -6,13 +6,13 @@ decays like 1/r^3 instead of 1/r, so a few near coefficients stand for all (dist
 Lubrecht 2000, ch. 6). Two neighbours exchange ``SHARE min(theta, theta')``. The weight theta is a *smooth*
 function of the local ratio of flow and transport: a hard switch flips to and fro from sweep to sweep and leaves a
 limit cycle along the switch line. And the *smaller* of both weights counts: what a stiff node gave to a neighbour
-with a thousand times its flow factor, as there are on the flanks of the pressure, would leave a residual there a
-thousand times its own.
+with a thousand times its Poiseuille coefficient, as there are on the flanks of the pressure, would leave a
+residual there a thousand times its own.
 
-The flow factor eps falls by orders of magnitude from one node to the next on those flanks. Taken as given, single
-nodes there never settle; with its full derivatives they overshoot. Three quarters of them serve everywhere. And
-the change of a whole line is cut where it is too large for its linear equations: cut node by node, it would no
-longer be distributed.
+The Poiseuille coefficient eps falls by orders of magnitude from one node to the next on those flanks. With eps
+frozen, single nodes there never settle; with its full derivatives they overshoot. Three quarters of the
+derivatives serve everywhere. And the change of a whole line is cut where it is too large for its linear
+equations: cut node by node, it would no longer be distributed.
 
 Eight lines of one colour, or segments of such lines, are solved side by side, one in each lane of a register: a
 solve by itself is a chain of short steps that wait for each other. Their equations are made line by line, eight
@@ -227,7 +227,7 @@ def add_film_of_next_lines(j, i, theta, near, rows, k):
 def take_row(j, i, r, lane, P, theta, near, work, k):
     """Row r of a system from ``rows[:, k]``, of node i; returns whether the node joins the solve.
 
-    It does if P > 0 or if its residual asks for pressure (complementarity).
+    A node is active if P > 0 or if its residual is negative (complementarity).
     """
     _, band, b, rows = work
     if not (at(P, j, i) > 0.0 or at(rows, RESIDUAL, k) < 0.0):

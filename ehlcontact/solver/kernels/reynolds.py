@@ -1,4 +1,4 @@
-"""The discrete Reynolds equation (eq. 1): flow factor, operator and residual.
+"""The discrete Reynolds equation (eq. 1): Poiseuille coefficient, operator and residual.
 
 Fields are (ny + 1, nx + 1) with ``P[j, i]``, i along X, j along Y >= 0, so that a line of relaxation is
 contiguous. Line j = 0 is the symmetry line; j = ny, i = 0 and i = nx carry P = 0. The operator
@@ -19,7 +19,7 @@ from ehlcontact.lanes import LANES, at, eight, larger, put, root
 from ehlcontact.lubricant import density, log_viscosity
 
 FILM_FLOOR = 1e-8  # where iterates overlap; keeps eps > 0 without touching any converged film
-TINY = 1e-290  # keeps 0/0 out where both flow factors underflow
+TINY = 1e-290  # keeps 0/0 out where both Poiseuille coefficients underflow
 
 
 class Stencil(NamedTuple):
@@ -39,7 +39,7 @@ class Flow(NamedTuple):
     because roots and divisions are what an evaluation costs.
     """
 
-    eps: Any  # flow factor
+    eps: Any  # Poiseuille coefficient
     eps_slope: Any  # d ln(eps)/dP at fixed H
     film_slope: Any  # d ln(eps)/dH
     mass: Any  # rho H
@@ -53,7 +53,7 @@ class Flow(NamedTuple):
 
 @jit_node
 def flow_mean(a, b):
-    """Mean of two flow factors, which may differ by orders of magnitude, and its skew.
+    """Mean of two Poiseuille coefficients, which may differ by orders of magnitude, and its skew.
 
     The derivatives to ln(a) and ln(b) are ``mean/2 +- skew``. Along the inlet ln(eps) is nearly straight, so the
     value midway is the geometric mean; the arithmetic mean is too large by cosh(x), with 2x the log ratio, and is
@@ -74,10 +74,10 @@ def update_node(j, i, P, H, law, stencil, flow):
     """What `flow` holds at one node, or eight."""
     p, film = at(P, j, i), at(H, j, i)
     rho, rho_slope = density(p, law)
-    thickness, thickness_slope = log_viscosity(p, law)
+    log_eta, log_eta_slope = log_viscosity(p, law)
     h = larger(film, FILM_FLOOR)
-    put(flow.eps, j, i, rho * h * h * h * exponential(-thickness) / stencil.lam)
-    put(flow.eps_slope, j, i, rho_slope / rho - thickness_slope)
+    put(flow.eps, j, i, rho * h * h * h * exponential(-log_eta) / stencil.lam)
+    put(flow.eps_slope, j, i, rho_slope / rho - log_eta_slope)
     put(flow.film_slope, j, i, 3.0 / h)
     put(flow.mass, j, i, rho * film)
     put(flow.mass_slope, j, i, rho_slope * film)

@@ -1,5 +1,5 @@
-/* Steps of a rotor by the generalised-alpha method, everything linear condensed onto the journal: CondensedRotor and
- * RotorStepper of reduced_models.rotor.integrate_python. Both axes have the same masses and springs, so that what is a matrix of all
+/* Steps of a rotor by the generalised-alpha method, everything linear condensed onto the journal: reduced_models.rotor
+ * time_step (`Steps`, `steps_of`) and integrate_python. Both axes have the same masses and springs, so that what is a matrix of all
  * degrees of freedom there is one of disc and journal here. */
 #include <math.h>
 #include <string.h>

@@ -16,7 +16,7 @@ def jit_and_python(kernel):
 
 
 def fronts(P, eps):
-    """Nodes before a jump of the flow factor, under pressure on both sides of it."""
+    """Nodes before a jump of the Poiseuille coefficient, under pressure on both sides of it."""
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
     for j in range(ny):
         for i in range(1, nx):
@@ -36,7 +36,7 @@ def distance(j, i, front):
 @pytest.mark.parametrize("step", [(0, 1), (1, 0)], ids=["along", "across"])
 @pytest.mark.parametrize("jump", [1.01 * flanks.JUMP, 0.99 / flanks.JUMP, 0.99 * flanks.JUMP])
 def test_marks_around_one_jump(kernel, j, i, step, jump):
-    """Of the flow factor along X or Y, up or down; none where it is no jump, or beside cavitation."""
+    """Of the Poiseuille coefficient along X or Y, up or down; none where it is no jump, or beside cavitation."""
     P, eps, marks = np.full((13, 26), 0.5), np.ones((13, 26)), np.full((13, 26), 9, dtype=np.uint8)
     P[-1] = P[:, [0, -1]] = 0.0
     eps[j + step[0] :, i + step[1] :] = jump

@@ -123,7 +123,7 @@ KERNELS = [pytest.param(lin.linearise, id="jit"), pytest.param(lin.linearise.py_
 
 
 def operator(level, P, H, eps=None):
-    """N at all interior nodes; with `eps` given, at that flow factor."""
+    """N at all interior nodes; with `eps` given, at that Poiseuille coefficient."""
     flow, out = reynolds.Flow(*(np.zeros_like(P) for _ in reynolds.Flow._fields)), np.zeros_like(P)
     reynolds.update_flow(P, H, level.law, level.stencil, flow)
     if eps is not None:

@@ -53,7 +53,7 @@ def test_dent_and_its_rim():
 def test_course_over_a_step(feature, slip):
     """Heights at both ends and before; film that moves at 1 sees the slope times the slip."""
     step = surface_step(feature, X, Y, 0.5, 0.1, 0.15)
-    for height, T in ((step.height, 0.5), (step.before, 0.4), (step.earlier, 0.25)):
+    for height, T in ((step.height, 0.5), (step.at_start, 0.4), (step.at_previous_start, 0.25)):
         np.testing.assert_allclose(height, surface_height(feature, X, Y, T), atol=1e-14)
     ahead, behind = (surface_height(feature, X + d, Y, 0.5) for d in (1e-5, -1e-5))
     np.testing.assert_allclose(step.rate, slip * (ahead - behind) / 2e-5, atol=1e-5)
@@ -63,8 +63,8 @@ def test_rest_before_the_start():
     """Features rest for T <= 0, so the first step knows no earlier course."""
     dent = Dent(1.0, 0.4, -1.0)
     step = surface_step(dent, X, Y, 0.1, 0.1, 0.0)
-    np.testing.assert_array_equal(step.before, surface_height(dent, X, Y, 0.0))
-    np.testing.assert_array_equal(step.earlier, step.before)
+    np.testing.assert_array_equal(step.at_start, surface_height(dent, X, Y, 0.0))
+    np.testing.assert_array_equal(step.at_previous_start, step.at_start)
     assert surface_step(None, X, Y, 0.1, 0.1, 0.0) is None
 
 
