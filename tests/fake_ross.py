@@ -3,9 +3,10 @@
 from types import SimpleNamespace
 
 import numpy as np
-from beam_rotor import shaft
+from beam_rotor import RHO, E, shaft
 
-BENDING = (0, 1, 3, 4)
+BENDING, ALONG = (0, 1, 3, 4), 2
+DIAMETER = 0.04
 
 
 class BearingElement:
@@ -81,18 +82,30 @@ class Rotor:
         assert len(tags) == len(set(tags)), "Tags should be unique."
         self.nodes = list(range(len(shaft_elements) + 1))
         self.ndof = 6 * len(self.nodes) + 3 * len(self.point_mass_elements)
-        self._M, self._K, self._G, self.C0 = (np.zeros((self.ndof, self.ndof)) for _ in range(4))
+        self._M, self.K0, self._G, self.C0 = (np.zeros((self.ndof, self.ndof)) for _ in range(4))
         size = 6 * (len(shaft_elements) + 1)
         at = np.add.outer(np.arange(0, size, 6), BENDING).ravel()
         for matrix, beams in zip(
-            (self._M, self._K, self._G), shaft(shaft_elements, 0.04, self.disk_elements), strict=True
+            (self._M, self.K0, self._G), shaft(shaft_elements, DIAMETER, self.disk_elements), strict=True
         ):
             matrix[np.ix_(at, at)] = beams
-        others = np.setdiff1d(np.arange(size), at)
-        self._M[others, others] = self._K[others, others] = 1.0  # bars and torsion, which are none of ours
+        self._add_bars()
+        torsion = np.arange(5, size, 6)
+        self._M[torsion, torsion] = self.K0[torsion, torsion] = 1.0  # which is none of ours
         for node, mass in self.point_mass_elements:
             at = range(self._first(node), self._first(node) + 3)
             self._M[at, at] += mass
+
+    def _add_bars(self):
+        """Shaft and discs along z."""
+        area = 0.25 * np.pi * DIAMETER**2
+        for n, length in enumerate(self.shaft_elements):
+            at = np.ix_(*[(6 * n + ALONG, 6 * n + 6 + ALONG)] * 2)
+            self._M[at] += RHO * area * length / 6.0 * np.array([[2.0, 1.0], [1.0, 2.0]])
+            self.K0[at] += E * area / length * np.array([[1.0, -1.0], [-1.0, 1.0]])
+        for node, outer, width in self.disk_elements:
+            at = 6 * node + ALONG
+            self._M[at, at] += 0.25 * np.pi * RHO * (outer**2 - DIAMETER**2) * width
 
     def _first(self, node):
         return 6 * min(node, len(self.nodes)) + 3 * max(node - len(self.nodes), 0)
@@ -112,7 +125,7 @@ class Rotor:
         return self._M.copy()
 
     def K(self, frequency, speed=None):
-        return self._with(self._K, "K", frequency, speed)
+        return self._with(self.K0, "K", frequency, speed)
 
     def C(self, frequency, speed=None):
         return self._with(self.C0, "C", frequency, speed)
@@ -159,7 +172,7 @@ class Rotor2(Rotor):
         return self._M.copy()
 
     def K(self, frequency):
-        return self._with(self._K, "K", frequency)
+        return self._with(self.K0, "K", frequency)
 
     def C(self, frequency):
         return self._with(self.C0, "C", frequency)

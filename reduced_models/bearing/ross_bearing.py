@@ -8,7 +8,8 @@ of the shaft and `frequency` that of the whirl (the vibration); tables are over 
 ROSS 3 that is given no frequency takes both as equal, the only case of ROSS 2.
 
 Matrices of both are 3 x 3 at a node: x and y with their coupling, and z alone. Stiffness and damping against
-tilts, and the coupling of x and y with z and with tilts, have no place in them and are left out.
+tilts, and the coupling of x and y with z and with tilts, have no place in them and are left out;
+`reduced_models.rotor.ross_rotor` has all of it.
 """
 
 from __future__ import annotations
@@ -28,6 +29,8 @@ from reduced_models.bearing.freedoms import PLANAR, bearing_load
 from reduced_models.bearing.kinematics import RADIANS
 
 _Floats = NDArray[np.float64]
+
+ELEMENT = ("xx", "xy", "yx", "yy", "zz")  # places of an element
 
 # Whirl frequencies of tables [rad/s] unless others are given: 0, and 1 Hz to 10 kHz in 40 equal ratios. Between
 # them the cubics of ROSS 3 meet damping within 1.6 % (6205, 6305; ISO VG 32 to 220; 60 to 12 000 rev/min).
@@ -97,10 +100,9 @@ def ross_entries(K: _Floats, C: _Floats) -> dict[str, Any]:
 
     ROSS has places for x and y with their coupling and for z alone, none for tilts.
     """
-    places = ["xx", "xy", "yx", "yy", *(["zz"] if K.shape[-1] > len(PLANAR) else [])]
     entries = {}
     for name, matrices in (("k", K), ("c", C)):
-        for place in places:
+        for place in ELEMENT if K.shape[-1] > len(PLANAR) else ELEMENT[:-1]:
             values = np.squeeze(matrices[..., "xyz".index(place[0]), "xyz".index(place[1])]) + 0.0  # no -0
             entries[f"{name}{place}"] = values if values.ndim else float(values)
     return entries

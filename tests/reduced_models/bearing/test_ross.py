@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, RossCallback, from_ross, linearise, simulate_rotor
+from reduced_models import BallBearing, BearingSet, RossCallback, from_ross, linearise, simulate_rotor
 from reduced_models.bearing.ross_bearing import WHIRL, has_whirl_axis
 
 RPM, NODES, DISC = 3000.0, (1, 5), 3
@@ -373,6 +373,160 @@ def test_a_step_tried_twice_moves_films_once(unbalanced):
     np.testing.assert_allclose(twice, once, rtol=1e-6, atol=1e-9)
     with pytest.raises(InputError, match=r"time_step = 0\.0001: must be 5e-05 s"):
         force(5, 2.0 * dt, places[0], rates[0])
+
+
+FACED = {"facings": dict(zip(NODES, ("+z", "-z"), strict=True)), "offsets": dict.fromkeys(NODES, 65e-6)}
+PULLED = {DISC: (60.0, -300.0, 100.0)}  # N
+
+
+def signs(mount):
+    """Of x, y, z and both turns in the frame of a bearing against that of the shaft."""
+    return np.array([1.0, 1.0, 1.0, 1.0, 1.0] if mount.facing == "+z" else [1.0, 1.0, -1.0, -1.0, -1.0])
+
+
+def test_all_five_degrees_of_freedom_of_a_bearing_are_in_the_rotor(program, oil):
+    """Loads in balance by statics; matrices of ROSS with the 5 x 5 of each bearing put in by hand."""
+    held = dict.fromkeys(NODES, _pushed(oil))
+    ours = from_ross(program.rotor(), held, loads=PULLED, **FACED)
+    assert ours.size == 35 and ours.mounts[1].ends[0] == (25, 26, 27, 28, 29)
+    at = linearise(ours, RPM)
+    on_shaft = np.array([signs(m) * f for f, m in zip(at.loads, ours.mounts, strict=True)])
+    weight = ours.load[1::5].sum() + 300.0
+    np.testing.assert_allclose(on_shaft[:, :3].sum(axis=0), [60.0, weight - 300.0, 100.0], rtol=1e-9)
+    z = 0.05 * np.array(NODES) - 0.15  # from the disc, about which the weight has no moment
+    np.testing.assert_allclose((on_shaft[:, 3] - z * on_shaft[:, 1]).sum(), 0.0, atol=1e-9)
+    np.testing.assert_allclose((on_shaft[:, 4] + z * on_shaft[:, 0]).sum(), 0.0, atol=1e-9)
+    assert np.all(at.loads[:, 2] > 20.0) and np.abs(at.loads[:, 3]).min() > 0.1
+
+    hz = 731.0
+    force = RossCallback(program.rotor(), held, speed_rpm=RPM, loads=PULLED, hz=hz, **FACED)
+    bare = program.rotor()
+    w = 2.0 * np.pi * hz
+    at_w = (w, SPEED) if program.whirl else (SPEED,)
+    for name, part in (("K", "stiffness"), ("C", "damping")):
+        expected = np.array(getattr(bare, name)(*at_w), float)
+        for n, load, mount in zip(NODES, at.loads, ours.mounts, strict=True):
+            place = np.ix_(range(6 * n, 6 * n + 5), range(6 * n, 6 * n + 5))
+            whole = getattr(mount.bearing.coefficients(load, speed_rpm=RPM, hz=hz), part)[0]
+            expected[place] += np.outer(signs(mount), signs(mount)) * whole
+        np.testing.assert_allclose(getattr(force.rotor, name)(*at_w), expected, atol=2e-6 * np.abs(expected).max())
+    assert type(force.rotor) is program.ross.Rotor and force.rotor.bearing_elements[0].K(*at_w)[2, 2] > 1e6
+
+
+def test_frequency_response_in_ross_is_our_own(program, oil):
+    """20 Hz to 5 kHz at 3000 rev/min: with the coefficients of each frequency the whole 5 x 5 within 1e-9.
+
+    With one rotor for all frequencies the disc is within .1 % in ROSS 3, .2 % in ROSS 2, which has no such tables.
+    """
+    held = dict.fromkeys(NODES, _pushed(oil))
+    given = {"speed_rpm": RPM, "loads": PULLED, **FACED}
+    at = linearise(from_ross(program.rotor(), held, **given), RPM)
+    single = RossCallback(program.rotor(), held, **given).rotor
+    kept = np.setdiff1d(np.arange(single.ndof), np.arange(5, single.ndof, 6))
+    seen = [np.flatnonzero(kept == 6 * n + k)[0] for n in (DISC, NODES[0]) for k in range(5)]
+    for w in WHIRL[[14, 23, 32, 38]]:  # of the tables, between which the stand-in is straight
+        matched = RossCallback(program.rotor(), held, omega=w, **given).rotor
+        expected = at.receptance(omega=w)[0][np.ix_(seen, seen)]
+        scale = np.sqrt(np.abs(np.outer(np.diag(expected), np.diag(expected))))
+        found = []
+        for rotor in (matched, single):
+            own = (w, SPEED) if program.whirl else (SPEED,)
+            Z = rotor.K(*own) + 1j * w * (rotor.C(*own) + SPEED * rotor.G()) - w * w * rotor.M(*own)
+            found.append(np.linalg.inv(Z[np.ix_(kept, kept)])[np.ix_(seen, seen)])
+        np.testing.assert_allclose(found[0] / scale, expected / scale, atol=1e-9)
+        disc, close = (slice(3), slice(3)), 1e-3 if program.whirl else 2e-3
+        np.testing.assert_allclose((found[1] / scale)[disc], (expected / scale)[disc], atol=close)
+
+
+def test_time_response_with_axial_motion_is_our_run(program, oil):
+    """Unbalance, and a push along the shaft: places, turns and forces of the rings."""
+    held = dict.fromkeys(NODES, _pushed(oil))
+    given = {"speed_rpm": RPM, "loads": PULLED, **FACED}
+    force = RossCallback(program.rotor(), held, **given)
+    t = np.arange(401) * 5e-5
+    F = np.zeros((t.size, force.rotor.ndof))
+    heavy = 3.4e-4 * SPEED**2
+    F[:, 6 * DISC], F[:, 6 * DISC + 1] = heavy * np.cos(SPEED * t), heavy * np.sin(SPEED * t)
+    found = force.rotor.run_time_response(force.speed, F, t, method="newmark", add_to_RHS=force)
+    rotor = from_ross(program.rotor(), held, unbalances={DISC: 3.4e-4}, **given)
+    run = simulate_rotor(rotor, speed_rpm=RPM, dt=5e-5, until=t[-1])
+    y = force.rest + found.yout
+    np.testing.assert_allclose(force.rest[6 * DISC + 2], run.displacement[0, 5 * DISC + 2], rtol=1e-9)
+    for n in (*NODES, DISC):
+        for k in range(5):
+            ours = run.displacement[:, 5 * n + k]
+            alike = np.ptp(run.displacement[:, [5 * m + k for m in (*NODES, DISC)]], axis=0).max()
+            np.testing.assert_allclose(y[:, 6 * n + k], ours, atol=0.03 * alike)
+    assert force.force.shape == (t.size - 1, 2, 5)
+    swing = np.ptp(run.ring_force, axis=0)
+    assert np.all(np.abs(force.force[1:] - run.ring_force[1:-1]).max(axis=0) < 0.03 * swing.max(axis=0))
+
+
+def test_a_set_at_one_node_is_the_set_alone(program, oil):
+    """Arms, facings and offsets of a pair: it moves as alone, and is as stiff."""
+    pair = BearingSet.pair(_pushed(oil), "back to back", offset=130e-6, distance=20e-3)
+    at = slice(6 * DISC, 6 * DISC + 5)
+
+    def under(load):
+        return RossCallback(program.rotor(), {DISC: pair}, speed_rpm=RPM, loads={DISC: load}, gravity=False)
+
+    load = np.array([0.0, -200.0, 60.0, 3.0, -2.0])
+    state = pair.equilibrium(load, speed_rpm=RPM, cage_angle=-np.pi / 2.0)
+    np.testing.assert_allclose(under(load).rest[at], state.displacement, rtol=1e-6, atol=1e-12)
+    # along the shaft, so that means over the passage of one bearing are those of both
+    along = np.array([0.0, 0.0, 60.0, 0.0, 0.0])
+    alone = pair.coefficients(along, speed_rpm=RPM, rpm=RPM)
+    rotor, bare = under(along).rotor, program.rotor()
+    for name, part in (("K", alone.stiffness[0]), ("C", alone.damping[0])):
+        size = np.sqrt(np.outer(np.diag(part), np.diag(part)))
+        added = (np.array(getattr(rotor, name)(SPEED)) - getattr(bare, name)(SPEED))[at, at]
+        np.testing.assert_allclose(added / size, part / size, atol=1e-6)
+        assert abs(part[0, 4]) > 0.05 * size[0, 4]
+
+
+def test_an_outer_ring_on_a_spring_is_a_point_mass(program, oil):
+    """That presses both bearings by its load."""
+    own = program.ross.BearingElement
+    linked = own(n=NODES[1], kxx=1e8, cxx=0.0, n_link=7)
+    foot = own(n=7, kxx=1e10, cxx=1e3, kzz=1e5, czz=10.0)
+    rotor = program.rotor(linked, foot, masses=[(7, 0.1)])
+    loads = {7: (0.0, 0.0, 200.0), DISC: (0.0, -648.0, 0.0)}
+    given = {"replace": True, "loads": loads, "facings": FACED["facings"]}
+    at = linearise(from_ross(rotor, dict.fromkeys(NODES, _pushed(oil)), **given), RPM)
+    assert at.rotor.size == 38 and at.rotor.mounts[1].housing == (35, 36, 37)
+    preload = 200.0 - 1e5 * at.rest[37]
+    np.testing.assert_allclose(at.loads[:, 2], preload, rtol=1e-6)
+    force = RossCallback(rotor, dict.fromkeys(NODES, _pushed(oil)), speed_rpm=RPM, **given)
+    np.testing.assert_allclose(force.rest[44], at.rest[37], rtol=1e-9)
+    K = np.array(force.rotor.K(SPEED))
+    np.testing.assert_allclose(K[6 * NODES[1] + 3, 42:45], -K[6 * NODES[1] + 3, 30:33] + bending(rotor), rtol=1e-9)
+
+
+def bending(rotor):
+    """Row of a turn at the second node of bearings over x, y and z of this node, of the shaft alone."""
+    return np.array(rotor.K0)[6 * NODES[1] + 3, 30:33]
+
+
+def test_refused_with_axial_motion(program, oil):
+    bearing, bare = _pushed(oil), program.rotor()
+    sprung = BearingSet.pair(bearing, spring=100.0)
+    own = program.ross.BearingElement
+    flat = program.rotor(own(n=1, kxx=1e8, cxx=0.0, n_link=7), own(n=7, kxx=1e8, cxx=0.0), masses=[(7, 1.0)])
+    for call, words in (
+        (
+            lambda: from_ross(bare, {1: bearing}, facings={2: "+z"}),
+            "node of facings = 2: must be one with a bearing: 1",
+        ),
+        (lambda: from_ross(bare, {1: bearing}, facings={1: "z"}), "facing = 'z'"),
+        (lambda: from_ross(bare, {1: bearing}, offsets={1: 5.0}), "in µm? then 5e-06 m"),
+        (lambda: from_ross(bare, {1: bearing}, offsets={1: 5e-6}, axial=False), "axial = False: must be True"),
+        (lambda: from_ross(bare, {1: sprung}), "bearings[1] = 'a set on a spring': must be one of offsets"),
+        (lambda: from_ross(bare, {1: bearing}, loads={3: (1.0, 2.0, 3.0, 4.0)}), "loads[3]"),
+        (lambda: from_ross(flat, {1: bearing}, axial=True, replace=True, loads={7: [1.0] * 5}), "loads[7]"),
+    ):
+        with pytest.raises(InputError) as error:
+            call()
+        assert words in str(error.value) and "\n" not in str(error.value)
 
 
 def test_refused(program, film):
