@@ -29,7 +29,8 @@ module                   responsibility
 ``verify_before_write``  verification of an FMU before it is written
 ``bearing/``             FMU of a ball bearing whose inner ring is moved from outside
 ``rotor/``               FMU of a Jeffcott rotor, alone or with its contacts
-``system/``              `export_system`: a rotor and its contacts as a system archive (SSP)
+``shaft/``               FMU of a shaft whose bearings are outside, with the torque of its motor
+``system/``              `export_system`, `export_drive`: system archives (SSP) of a rotor, of a drive
 ``csrc/``                C sources: core, interface of each FMI version, models; equations in its README
 =======================  ===========================================================================
 
@@ -47,6 +48,9 @@ from fmu.references.check import ReferenceCheck as ReferenceCheck
 from fmu.references.check import verify_references as verify_references
 from fmu.rotor.export import export_rotor as export_rotor
 from fmu.rotor.model import RotorModel as RotorModel
+from fmu.shaft.export import export_shaft as export_shaft
+from fmu.shaft.model import ShaftModel as ShaftModel
+from fmu.system.drive import export_drive as export_drive
 from fmu.system.export import export_system as export_system
 from fmu.verification import Verification as Verification
 from fmu.verify import verify as verify

@@ -9,12 +9,10 @@ from pathlib import Path
 from ehlcontact.errors import InputError
 from ehlcontact.files import require_writable, write_bytes
 from fmu.archive import fmu_files, pack
-from fmu.bearing.model import BearingModel
 from fmu.binaries import choose, this_machine
 from fmu.binaries.libraries import Progress
 from fmu.contact_variables import Element
-from fmu.fmu_model import fmu_model
-from fmu.rotor.model import RotorModel
+from fmu.fmu_model import Source, fmu_model
 from fmu.sources import FMI_FILES
 from fmu.verification import Verification
 from fmu.verify_before_write import require_finite, require_verified
@@ -102,7 +100,7 @@ def export_contact(
 
 
 def export_verified(
-    element: Element | RotorModel | BearingModel,
+    element: Source,
     path: str | os.PathLike[str],
     *,
     fmi: int = 2,

@@ -20,9 +20,14 @@ from fmu.rotor.comparison import compare_rotor
 from fmu.rotor.model import RotorModel
 from fmu.rotor.references import rotor_references
 from fmu.rotor.variables import rotor_spec
+from fmu.shaft.comparison import compare_shaft, shaft_references
+from fmu.shaft.model import ShaftModel
+from fmu.shaft.variables import shaft_spec
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
 from reduced_models import JeffcottRotor
+
+Source = Element | RotorModel | BearingModel | ShaftModel  # what an FMU is made from
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,10 +52,8 @@ class FmuModel:
     compare: Callable[[Any, Any], Verification]
 
 
-def fmu_model(
-    source: Element | RotorModel | BearingModel, model_name: str | None = None, lead: float | None = None
-) -> FmuModel:
-    """Model of the FMU of a contact element, a rotor or a bearing.
+def fmu_model(source: Source, model_name: str | None = None, lead: float | None = None) -> FmuModel:
+    """Model of the FMU of a contact element, a rotor, a bearing or a shaft.
 
     `lead` is the start value of `lead` or `force_lead`, by default that of the kind.
 
@@ -69,6 +72,9 @@ def fmu_model(
     elif isinstance(source, BearingModel):
         spec, elements = bearing_spec(source, model_name, lead), ()
         compare, references = compare_bearing, bearing_references
+    elif isinstance(source, ShaftModel):
+        spec, elements = shaft_spec(source, model_name, lead), ()
+        compare, references = compare_shaft, shaft_references
     else:
         spec, elements = contact_spec(source, model_name, HELD_PARALLEL if lead is None else lead), (source,)
         compare = compare_film if isinstance(source, Film) else compare_spring

@@ -31,6 +31,7 @@ UNITS: dict[str, dict[str, int | float]] = {
     "s": {"s": 1},
     "kg": {"kg": 1},
     "kg.m": {"kg": 1, "m": 1},
+    "kg.m2": {"kg": 1, "m": 2},
     "m/s2": {"m": 1, "s": -2},
 }
 # What an importer may show instead: name, and how many of them make one unit.

@@ -8,20 +8,17 @@ from pathlib import Path
 from typing import Any
 
 from ehlcontact.errors import InputError
-from fmu.bearing.model import BearingModel
-from fmu.contact_variables import Element
 from fmu.fmu_file import FmuFile, opened
-from fmu.fmu_model import FmuModel, fmu_model
+from fmu.fmu_model import FmuModel, Source, fmu_model
 from fmu.isolated import isolated, require_path
 from fmu.lead import CONTACT, ROTOR
-from fmu.rotor.model import RotorModel
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
 
 EXPORT_OPTIONS = {CONTACT.name, ROTOR.name}  # whose start values are chosen at export
 
 
-def verify(path: str | os.PathLike[str], element: Element | RotorModel | BearingModel) -> Verification:
+def verify(path: str | os.PathLike[str], element: Source) -> Verification:
     """Run the FMU through fmpy and compare it with the element.
 
     It runs the native code in the FMU, with the rights of whoever calls it: in a child process with limits of time
@@ -33,6 +30,7 @@ def verify(path: str | os.PathLike[str], element: Element | RotorModel | Bearing
     1 of 2a/u_sum, against `drive`, and the film's states along it in model exchange against `state_rates`.
     A rotor: a short run with an unbalance that shows, against `simulate_rotor`, and its accelerations along it.
     A bearing: a run of its ring with vibrations and lift-off, against the steps of `BearingMotion`.
+    A shaft: a run under forces that vary, against steps by matrix exponentials.
 
     A difference is relative to the magnitude of what is compared, with 1e-3 of its value at the upper end of the
     interval (under the reference load) as the floor, for a number that cancels to nearly nothing has no relative
@@ -42,9 +40,10 @@ def verify(path: str | os.PathLike[str], element: Element | RotorModel | Bearing
     ----------
     path : path-like
         The FMU.
-    element : ContactElement, RotorModel or BearingModel
+    element : ContactElement, RotorModel, BearingModel or ShaftModel
         What it should be; ``RotorModel(rotor, contacts)`` for what `export_rotor` makes of these,
-        ``BearingModel(bearing, speeds_rpm, load)`` for `export_bearing`.
+        ``BearingModel(bearing, speeds_rpm, load)`` for `export_bearing`, ``ShaftModel(rotor, speed_rpm, inertia)``
+        for `export_shaft`.
 
     Raises
     ------
@@ -83,7 +82,7 @@ def _known_variables(file: FmuFile, spec: ModelSpec) -> dict[str, Any]:
             raise InputError(
                 "path",
                 str(file.path),
-                "an FMU of this kind, made by export_contact, export_rotor or export_bearing",
+                "an FMU of this kind, made by export_contact, export_rotor, export_bearing or export_shaft",
             )
     return known
 

@@ -80,7 +80,8 @@ WITHOUT_PLOT = {
     **dict.fromkeys(
         ("BallBearing", "BearingSet", "LinearBearing", "BearingMount", "Unbalance", "ContactMount", "Rotor"), INPUT
     ),
-    **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support", "RotorModel", "BearingModel"), INPUT),
+    **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support", "RotorModel"), INPUT),
+    **dict.fromkeys(("BearingModel", "ShaftModel"), INPUT),
     **dict.fromkeys(("Assumption", "Assumptions"), "words and one number each: print it"),
     "RotorState": NUMBERS,
     **dict.fromkeys(("ReferenceCheck", "Verification"), NUMBERS),

@@ -1,0 +1,68 @@
+"""The FMU of a shaft beside the shaft in Python, and the references inside it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from fmu.lead import HELD_PARALLEL, ROTOR, force_lead_for
+from fmu.references.series import References, Trial
+from fmu.shaft.model import ShaftModel
+from fmu.shaft.reference_shaft import ShaftTrial, shaft_trial
+from fmu.spec import ModelSpec
+from fmu.verification import Verification
+
+TOLERANCE = 1e-6  # of references
+ABOUT = "The forces of the bearings vary while the speed rises, computed in Python"
+
+
+def compare_shaft(slave: Any, exchange: Any, model: ShaftModel, spec: ModelSpec) -> Verification:
+    """Compare a shaft, in a run with forces that vary and a speed that rises."""
+    trial = shaft_trial(model)
+    wanted, names = _outputs(trial, spec), [v.name for v in spec.inputs]
+    slave.start(**_settings(trial, model), **dict(zip(names, trial.inputs[0].tolist(), strict=True)))
+    found = [slave.get(*wanted)]
+    for k in range(1, trial.time.size):
+        slave.set(**dict(zip(names, trial.inputs[k - 1].tolist(), strict=True)))
+        slave.step_to(float(trial.time[k]))
+        found.append(slave.get(*wanted))
+    slave.raw.terminate()
+    histories = np.array(list(wanted.values())).T
+    gaps = np.abs(np.array(found) - histories).max(axis=0)
+    return Verification(
+        findings=(),
+        states=len(found),
+        outside=0,
+        parted=0,
+        force=0.0,
+        tangents=0.0,
+        derivatives=0.0,
+        flags=0,
+        motion=float((gaps / _sizes(histories)).max()),
+    )
+
+
+def _sizes(histories: Any) -> Any:
+    """What each output moves in a run, or where it stands."""
+    return np.maximum(np.maximum(np.ptp(histories, axis=0), 1e-3 * np.abs(histories).max(axis=0)), 1e-12)
+
+
+def shaft_references(model: ShaftModel, spec: ModelSpec) -> References:
+    """Reference inputs and results of the FMU of a shaft."""
+    trial = shaft_trial(model)
+    inputs = {v.name: trial.inputs[:, k] for k, v in enumerate(spec.inputs)}
+    return References(
+        Trial(trial.time, inputs, _outputs(trial, spec)), None, _settings(trial, model), TOLERANCE, ABOUT
+    )
+
+
+def _outputs(trial: ShaftTrial, spec: ModelSpec) -> dict[str, Any]:
+    histories = [*trial.motion.T, *trial.velocity.T, trial.angle, trial.speed]
+    return dict(zip((v.name for v in spec.outputs), histories, strict=False))
+
+
+def _settings(trial: ShaftTrial, model: ShaftModel) -> dict[str, float]:
+    """Parameters of the trial."""
+    held = {ROTOR.name: force_lead_for(HELD_PARALLEL)}
+    return held if model.inertia is None else held | {"speed_start": float(trial.speed[0])}
