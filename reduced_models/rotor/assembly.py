@@ -204,8 +204,9 @@ class _Assembly:
                 facing=seat.facing,
                 offset=seat.offset,
                 arm=seat.arm,
+                name=f"bearing {k}" if len(support.seats) == 1 else f"bearing {j} of support {k}",
             )
-            for seat in support.seats
+            for j, seat in enumerate(support.seats)
         ]
 
     def _add_shaft(self) -> None:

@@ -17,6 +17,7 @@ from reduced_models.rotor.supports import (
     BearingMount,
     ContactMount,
     Mount,
+    bearing_names,
     is_ball_bearing,
     support_columns,
     support_rows,
@@ -101,14 +102,16 @@ def static_supports(mounts: Sequence[Mount], speed_rpm: float) -> list[tuple[sli
         A speed that a bearing does not take, a contact without static law.
     """
     found: list[tuple[slice, StaticSupport]] = []
-    bearings = [mount for mount in mounts if isinstance(mount, BearingMount)]
+    names = iter(bearing_names(mounts))
     for columns, mount in zip(support_columns(mounts), mounts, strict=True):
         if isinstance(mount, ContactMount):
             found.append((columns, StaticContact(mount)))
-        elif not is_ball_bearing(mount):
+            continue
+        name = next(names)
+        if not is_ball_bearing(mount):
             continue
         elif mount.z is not None:
-            found.append((columns, StaticAngularBalls(mount, speed_rpm, f"bearing {bearings.index(mount)}")))
+            found.append((columns, StaticAngularBalls(mount, speed_rpm, name)))
         else:
             bearing = mount.ball_bearing
             found.append((columns, bearing._static_balls(bearing.speed(speed_rpm), mount.cage_angle)))
@@ -230,10 +233,11 @@ class _Balance:
         if values[0] > HELD * values[-1]:
             return ""
         moved = np.abs(self._rows @ vectors[:, 0])
+        bearings = [mount for mount in self._mounts if isinstance(mount, BearingMount)]
         names = [
-            f"bearing {b} in {name}"
-            for b, mount in enumerate(mount for mount in self._mounts if isinstance(mount, BearingMount))
-            for name in mount.directions
+            f"{name} in {direction}"
+            for name, mount in zip(bearing_names(bearings), bearings, strict=True)
+            for direction in mount.directions
         ]
         return names[int(np.argmax(moved[-len(names) :]))]
 

@@ -17,17 +17,15 @@ from numpy.typing import NDArray
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.jit import jit_exact_loop
 from reduced_models.bearing.ball_steps import accept, begin_balls, press
-from reduced_models.rotor.prepared_run import PreparedRun
+from reduced_models.rotor.prepared_run import DISPLACEMENTS, PreparedRun
 from reduced_models.rotor.time_step import Steps, rounding_hint
 
 _Floats = NDArray[np.float64]
 
 MOST_ITERATIONS = 30  # of a step: two or three, but where balls land
 OVERSHOOT = 2.0  # growth of the imbalance that halves the way to the last place: a ball lands or leaves
-FARTHEST = 0.05  # of a ball diameter, that a ring may go from the middle: no clearance is as large
 # of a light ball under inner race control, say
 UNBALANCED = "; friction may not hold its gyroscopic moment: another race_control, more preload"
-DISPLACEMENTS = 3  # of the motions of a ring; tilts follow
 DONE, NO_BALANCE, LOST = 0, 1, 2  # how a block of steps ends
 
 
@@ -66,8 +64,7 @@ class CompiledSteps:
     def __init__(self, run: PreparedRun, tolerance: float) -> None:
         self._run, self._tolerance = run, tolerance
         load = max(float(np.linalg.norm(run.rotor.load)), float(np.abs(run.turning).max(initial=0.0)))
-        farthest = min(mount.ball_bearing.ball_diameter for mount in run.rotor.ball_bearings)
-        self._limits = tolerance * max(load, 1.0), FARTHEST * farthest
+        self._limits = tolerance * max(load, 1.0), run.farthest
         r, force = run.histories.motion[0], run.histories.force[0]
         balls = max(one.balls.number for one in run.balls)
         points, ties, _ = run.rotor.geometry
@@ -96,29 +93,23 @@ class CompiledSteps:
         made, how = run_block(steps, balls, films, self._rings, run.state, course, self._limits, out)
         rate[:] = v @ steps.B.T @ self._rings.ties.T
         self.made = first + int(made)
+        lost = run.lost(first, self.made)
+        if lost is not None:
+            self.made = self.reached = lost[0]
+            raise ConvergenceError(lost[1], None)
         self.reached = self.made + (how == NO_BALANCE)
         if how == NO_BALANCE:
             found = run.histories.motion[self.made]
             hint = rounding_hint(steps, found, self._limits[0], self._limits[0] / self._tolerance)
-            for b, at in enumerate(run.ball_directions):
+            for b, (at, name) in enumerate(zip(run.ball_directions, run.rotor.ball_bearing_names, strict=True)):
                 if np.isnan(self._rings.ring[PUSHED, at]).any():
                     turned = UNBALANCED if run.rotor.ball_bearings[b].z is not None else ""
-                    hint = f": a ball of ball bearing {b} finds none{turned}"
+                    hint = f": a ball of {name} finds none{turned}"
             raise ConvergenceError(f"no balance of the forces was found{hint}", None)
-        if how == LOST:
-            raise ConvergenceError(self._lost(run.histories.motion[self.made]), None)
         progress(self.made)
 
     def rewind(self) -> None:
         """Nothing: a block is made as a whole."""
-
-    def _lost(self, r: _Floats) -> str:
-        run = self._run
-        places = [(r + run.shift)[at][:3] for at in run.ball_directions]
-        worst = int(np.argmax([np.abs(place).max() for place in places]))
-        number = run.rotor.bearings.index(run.rotor.ball_bearings[worst])
-        far = float(np.linalg.norm(places[worst]))
-        return f"the ring of bearing {number} has left it, {far * 1e3:.3g} mm from the middle"
 
 
 @jit_exact_loop

@@ -113,12 +113,16 @@ class PythonSteps:
         Raises
         ------
         ConvergenceError
-            A step found no balance, or a contact in it did not converge; the histories stay as they were.
+            A step found no balance, or a contact in it did not converge, and the histories stay as they were; or
+            the ring of a ball bearing left it.
         """
         for i in range(first + 1, end + 1):
             self.reached = i
             self._step(steps, i)
             self.made = i
+            lost = self._run.lost(i - 1, i)
+            if lost is not None:
+                raise ConvergenceError(lost[1], None)
             progress(i)
 
     def _step(self, steps: Steps, i: int) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import sin
 from typing import Any
 
 import numpy as np
@@ -15,12 +16,15 @@ from reduced_models.bearing.motion import BallMotion, motion_of
 from reduced_models.rotor.contact_steps import ContactSteps
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.speed_profile import SpeedProfile, shaft_course
+from reduced_models.rotor.supports import AXIAL
 from reduced_models.rotor.time_step import Histories, Steps, steps_of
 
 _Floats = NDArray[np.float64]
 
 LONGEST_BLOCK = 4096  # steps between two looks at Ctrl-C
 SPEED_PER_BLOCK = 2e-3  # change of the speed, over the highest, at which gyroscopic forces are renewed
+FARTHEST = 0.05  # of a ball diameter, that a ring may go from the middle: no clearance is as large
+DISPLACEMENTS = 3  # of the motions of a ring; tilts follow
 LEAST_STEPS = 16  # per turn of the shaft and per ball passage, on ball bearings
 
 
@@ -75,6 +79,33 @@ class PreparedRun:
     def ball_directions(self) -> tuple[slice, ...]:
         """Places of every ball bearing among the motions of all supports."""
         return self.rotor.ball_columns
+
+    @property
+    def farthest(self) -> float:
+        """How far a ring may go from the middle of its bearing [m]."""
+        return FARTHEST * min(mount.ball_bearing.ball_diameter for mount in self.rotor.ball_bearings)
+
+    def lost(self, first: int, end: int) -> tuple[int, str] | None:
+        """The first step after `first`, up to `end`, at whose end a ring has left its bearing, and that in words.
+
+        A ring of an angular contact bearing must not go against its facing beyond the plane in which both grooves
+        face each other: its balls would be pressed on the side that has no shoulder.
+        """
+        found = []
+        rows = zip(self.rotor.ball_bearings, self.rotor.ball_bearing_names, self.ball_directions, strict=True)
+        for mount, name, at in rows:
+            place = (self.histories.motion[first + 1 : end + 1, at] + self.shift[at])[:, :DISPLACEMENTS]
+            far, against = (np.abs(place) > self.farthest).any(axis=1), np.zeros(len(place), bool)
+            bearing = mount.ball_bearing
+            if bearing.contact_angle is not None:
+                against = place[:, AXIAL] < -bearing._groove_distance * sin(bearing.contact_angle)
+            for k in np.flatnonzero(far | against)[:1].tolist():
+                how = f", {1e3 * float(np.linalg.norm(place[k])):.3g} mm from the middle"
+                if against[k]:
+                    back = -1e3 * float(place[k, AXIAL])
+                    how = f"s balls, {back:.3g} mm against its facing, where none carries it"
+                found.append((first + 1 + k, f"the ring of {name} has left it{how}"))
+        return min(found, default=None)
 
     def blocks(self) -> Iterator[tuple[int, int, Steps]]:
         """Steps made before and after each block, and the step's matrices, of the speed in its middle."""

@@ -152,13 +152,18 @@ class RotorResult(QuantityTable, ByNode):
         return self._of_bearings(self.force)
 
     def _of_bearings(self, values: _Floats) -> _Floats:
-        at: dict[str, list[int]] = {}
-        for k, name in enumerate(self.columns):
-            if name.startswith("bearing"):
-                at.setdefault(name.rpartition(" ")[0], []).append(k)
+        at = self._places_of_bearings()
         directions = min(map(len, at.values()), default=len(PLANE))  # planar ones beside others: x and y of all
         places = np.array([columns[:directions] for columns in at.values()], int).reshape(-1, directions)
         return np.asarray(values[:, places])
+
+    def _places_of_bearings(self) -> dict[str, list[int]]:
+        """Places among the columns by the name of the bearing."""
+        at: dict[str, list[int]] = {}
+        for k, name in enumerate(self.columns):
+            if not name.startswith("contact "):
+                at.setdefault(name.rpartition(" ")[0], []).append(k)
+        return at
 
     def part(self, first: int, last: int | None = None, *, keep_time: bool = True) -> Self:
         """Samples `first` to `last` of the run, both included; with ``keep_time=False`` their time starts at 0."""
@@ -218,7 +223,8 @@ class RotorResult(QuantityTable, ByNode):
             ring = self.ring
             if not ring.shape[1]:
                 raise InputError("node", None, "given for a rotor without bearings")
-            return [(f"inner ring of bearing {b}", ring[:, b, :2]) for b in range(ring.shape[1])]
+            names = list(self._places_of_bearings())
+            return [(f"inner ring of {name}", ring[:, b, :2]) for b, name in enumerate(names)]
         named = {name: tuple(at.get(k, -1) for k in "xy") for name, at in self.nodes.items()}
         if isinstance(node, str) and node in named:
             return [(node, self.node(node))]

@@ -32,6 +32,7 @@ from reduced_models.rotor.supports import (
     Mount,
     SupportGeometry,
     ball_columns,
+    bearing_names,
     is_ball_bearing,
     support_geometry,
     support_rows,
@@ -212,6 +213,12 @@ class Rotor(Summary):
     def ball_bearings(self) -> tuple[BearingMount, ...]:
         """Supports that are ball bearings."""
         return tuple(mount for mount in self.bearings if is_ball_bearing(mount))
+
+    @property
+    def ball_bearing_names(self) -> tuple[str, ...]:
+        """Names of `ball_bearings`."""
+        rows = zip(self.bearings, bearing_names(self.bearings), strict=True)
+        return tuple(name for mount, name in rows if is_ball_bearing(mount))
 
     @cached_property
     def geometry(self) -> SupportGeometry:

@@ -26,7 +26,7 @@ from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.scaled_contact import Contact
 from reduced_models.rotor.speed_profile import SpeedProfile, law_speeds
-from reduced_models.rotor.supports import LinearBearing
+from reduced_models.rotor.supports import LinearBearing, bearing_names
 
 _Floats = NDArray[np.float64]
 
@@ -216,8 +216,8 @@ def _supports(run: PreparedRun, kept: slice) -> tuple[tuple[str, ...], _Floats, 
     names = [f"contact {i}" for i in range(1, first + 1)]
     found = [(r[:, :first] + offsets, v[:, :first], force[:, :first])]
     with_balls = iter(run.ball_directions)
-    for b, mount in enumerate(rotor.bearings):
-        names += [f"bearing {b} {direction}" for direction in mount.directions]
+    for mount, name in zip(rotor.bearings, bearing_names(rotor.bearings), strict=True):
+        names += [f"{name} {direction}" for direction in mount.directions]
         if isinstance(mount.bearing, LinearBearing):
             rows = mount.rows(rotor.size).T
             moved, moving = histories.displacement[kept] @ rows, histories.velocity[kept] @ rows
@@ -233,15 +233,12 @@ def _supports(run: PreparedRun, kept: slice) -> tuple[tuple[str, ...], _Floats, 
 def _warn_of_overload(run: PreparedRun) -> None:
     """Warn of balls that carried more than the atlas has."""
     slowest = float(law_speeds(run.omega / RADIANS)[0])
-    for mount, balls in zip(run.rotor.ball_bearings, run.balls, strict=True):
-        b = run.rotor.bearings.index(mount)
+    for mount, which, balls in zip(run.rotor.ball_bearings, run.rotor.ball_bearing_names, run.balls, strict=True):
         for name, load in zip(RACES, balls.films.largest.tolist(), strict=True):
             bearing = mount.ball_bearing
             most = np.inf if bearing.oil is None else bearing.race(name).loads(slowest)[1]
             if load > most:
-                message = (
-                    f"a ball of bearing {b} carried {load:.4g} N on the {name} race (atlas up to {most:.4g} N)"
-                )
+                message = f"a ball of {which} carried {load:.4g} N on the {name} race (atlas up to {most:.4g} N)"
                 warnings.warn(message, OutsideValidityWarning, stacklevel=4)
 
 

@@ -109,6 +109,8 @@ class BearingMount(Summary):
         preload by ground rings or spacers, axial growth of the shaft.
     arm : float
         Distance of the plane of the groove centres from the node of the shaft, along z [m].
+    name : str
+        In results and messages; by default "bearing" with its number among those of the rotor.
 
     Raises
     ------
@@ -127,6 +129,7 @@ class BearingMount(Summary):
     facing: str = FACINGS[0]
     offset: float = 0.0
     arm: float = 0.0
+    name: str = ""
 
     def _summary_lines(self) -> list[str]:
         on = "the ground" if self.housing is None else f"a housing at {', '.join(map(str, self.housing))}"
@@ -264,6 +267,12 @@ class ContactMount:
 
 
 Mount = BearingMount | ContactMount
+
+
+def bearing_names(mounts: Sequence[Mount]) -> tuple[str, ...]:
+    """Names of the bearings among supports, in their order."""
+    bearings = [mount for mount in mounts if isinstance(mount, BearingMount)]
+    return tuple(mount.name or f"bearing {b}" for b, mount in enumerate(bearings))
 
 
 def support_rows(mounts: Sequence[Mount], size: int) -> _Floats:

@@ -12,7 +12,9 @@ from ehlcontact import ConvergenceError, InputError, Lubricant
 from reduced_models import (
     BallBearing,
     BearingMotion,
+    ContactMount,
     Disc,
+    LinearContact,
     Shaft,
     SpeedProfile,
     Support,
@@ -222,6 +224,26 @@ def test_a_ring_that_is_pushed_out_ends_the_run():
     with pytest.raises(ConvergenceError, match=r"ring of bearing 0 has left it") as caught:
         simulate_rotor(rotor, speed_rpm=0.0, dt=1e-5, until=0.01, start=start)
     assert caught.value.result.t.size > 1
+
+
+@pytest.mark.parametrize(
+    "beside", [(), (ContactMount(0.0, contact=LinearContact(1e3, 1.0, 1e-9, 1e-3, units="SI"), x=0),)]
+)
+@pytest.mark.parametrize("speed", [-0.3, 0.3])
+def test_a_shaft_that_unloads_a_bearing_on_a_spring_ends_the_run(speed, beside):
+    """0.3 m/s along the shaft: the balls of one bearing would be pressed on the side without a shoulder."""
+    rotor = motor(LIGHT, preload=50.0)
+    start = rotor.equilibrium(0.0), np.zeros(rotor.size)
+    start[1][rotor.nodes["shaft"]["z"]] = speed
+    rotor = replace(rotor, mounts=(*beside, *rotor.mounts))
+    with pytest.raises(
+        ConvergenceError, match=r"ring of bearing [01] has left its balls, .* mm against"
+    ) as caught:
+        simulate_rotor(rotor, speed_rpm=0.0, dt=1e-5, until=0.01, start=start)
+    run = caught.value.result
+    reach = 0.04 * LIGHT.ball_diameter * np.sin(LIGHT.contact_angle)  # both groove centres in one plane
+    lowest = run.ring[..., 2].min(axis=1)
+    assert lowest[-1] < -reach and (lowest[:-1] >= -reach).all()
 
 
 def test_balls_with_inertia_are_refused(spindle):
