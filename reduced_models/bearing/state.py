@@ -132,6 +132,8 @@ class BearingState(QuantityTable):
         if self.contact_angles is not None:
             low, high = np.degrees([self.contact_angles[k].min(), self.contact_angles[k].max()])
             lines[1] += f" at {low:.4g} to {high:.4g} degrees"
+            if self.largest_spin:
+                lines.append(f"spin up to {self.largest_spin:.3g} of rolling; its friction is not in the forces")
         if self.h_min is not None:
             lines.append(f"smallest film there {1e6 * self.h_min[k].min():.4g} µm")
             lines[-1] += "" if self.lambda_ratio is None else f", lambda {self.lambda_ratio[k].min():.3g}"
@@ -152,6 +154,13 @@ class BearingState(QuantityTable):
     def heaviest(self) -> int:
         """Index of the ball that carries most."""
         return int(np.argmax(self.force[:, 0]))
+
+    @property
+    def largest_spin(self) -> float | None:
+        """Largest spin-to-roll ratio of the balls that carry, at either race; None in a planar bearing."""
+        if self.spin_to_roll is None:
+            return None
+        return float(np.abs(self.spin_to_roll[self.force[:, 0] > 0.0]).max(initial=0.0))
 
     @property
     def orders(self) -> DefectFrequencies | None:

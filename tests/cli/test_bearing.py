@@ -256,6 +256,7 @@ def test_table_of_an_axial_load(call):
     assert f"{at.stiffness[0, 2, 2] * 1e-6:.4g} N/µm" in result.out
     assert f"{state.orders.bpfo:.5g} per turn" in lines["BPFO"]
     assert "spin to roll" in result.out and "outer" in lines["race control"]
+    assert f"up to {state.spin_to_roll.max():.3g}" in lines["spin"] and "friction" in lines["spin"]
 
 
 def test_moments_tilts_and_race_control(call):

@@ -82,7 +82,7 @@ UNITS_AT_ANGLES = {
     "swing": "m, rad; peak to peak, as a ball passes slowly",
     "displacement": "m, rad; of the inner ring in that state",
     "contact_angles": "rad",
-    "spin_to_roll": "of both surfaces about their normal over that of rolling",
+    "spin_to_roll": "of both surfaces about their normal over that of rolling; its friction is not in the forces",
     "orbit": "speed of a ball about the shaft over that of the shaft",
     "turn": "speed of a ball about its own axis, seen from the cage, over that of the shaft",
 }
@@ -465,6 +465,11 @@ def _at_angles(job: BearingJob, state: BearingState | SetState, at: BearingCoeff
         ),
         *_of_pair(job, state),
         ("contact angles", _angle_span(state), "of balls that carry, at both races"),
+        (
+            "spin",
+            f"up to {numeral(_largest_spin(state), 3)}",
+            "of rolling; its friction and heat are not in the answer",
+        ),
         *_small_vibrations(
             at, (("axial", 2), ("along the load", 1), ("across it", 0), ("tilt about x", 3), ("tilt about y", 4))
         ),
@@ -478,6 +483,11 @@ def _angle_span(state: BearingState | SetState) -> str:
     found = [one.contact_angles[one.force[:, 0] > 0.0] for one in _each(state) if one.contact_angles is not None]
     angles = np.concatenate(found)
     return f"{numeral(math.degrees(angles.min()))} .. {numeral(math.degrees(angles.max()))}°"
+
+
+def _largest_spin(state: BearingState | SetState) -> float:
+    """Largest spin-to-roll ratio of the balls that carry."""
+    return max(one.largest_spin or 0.0 for one in _each(state))
 
 
 def _outside(state: BearingState | SetState) -> list[Row]:

@@ -341,6 +341,7 @@ def test_free_angle_and_files(tmp_path):
     assert back.to_dict() == state.to_dict()
     assert "contact angle 25 degrees" in str(bearing)
     assert "300) N and (" in str(state) and "degrees" in str(state)
+    assert f"spin up to {np.abs(state.spin_to_roll).max():.3g} of rolling" in str(state)
     names = state.to_xarray()["stiffness"]
     assert list(names["axis"].values) == ["x", "y", "z", "tilt_x", "tilt_y"]
     assert names.attrs["units"] == "N/m, N, N m"
