@@ -96,7 +96,7 @@ def imbalance(bearing, state, load):
         driven_o = max(0.5 * D * cos(ro - beta) / (0.5 * dm + 0.5 * D * cos(ro)), least)
         driven_i = max(0.5 * D * cos(ri - beta) / (0.5 * dm - 0.5 * D * cos(ri)), least)
         turn, orbit = 1.0 / (driven_o + driven_i), driven_o / (driven_o + driven_i)
-        left.append(max(abs(orbit - state.orbit[k]), abs(turn / state.turn[k] - 1.0)) if omega else 0.0)
+        left.append(max(abs(orbit - state.orbit[k]), abs(turn / state.ball_rotation[k] - 1.0)) if omega else 0.0)
         if bearing.oil is None:
             dry = [race[0] * max(u, 0.0) ** 1.5 - q for race, u, q in zip(races, (ui, uo), (qi, qo), strict=True)]
             left.append(np.abs(dry).max() / scale)

@@ -111,7 +111,7 @@ class StillBearing(BallBearing):
     """Its balls do not go round."""
 
     def _kernel(self, speeds_rpm):
-        return super()._kernel(speeds_rpm)._replace(cage=0.0, swing=0.0)
+        return super()._kernel(speeds_rpm)._replace(cage=0.0, centrifugal_factor=0.0)
 
 
 def with_balls(bearing, balls, speed_rpm=3000.0):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from fmu.bearing.trial import START
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 FINE = 4e-6  # s
 
@@ -11,7 +11,7 @@ FINE = 4e-6  # s
 def trapezoidal(model, mass, load, dt, steps, v):
     """Heights of a mass on the bearing in Python, by the trapezoidal rule and Newton's method."""
     motion, q, v, angle = model.motion(), model.place.copy(), np.array([0.0, v]), START
-    omega, pull = float(model.speeds[-1]) * RADIANS, np.array([0.0, -load])
+    omega, pull = float(model.speeds[-1]) * RPM_TO_RAD_S, np.array([0.0, -load])
     a = (pull - motion.rest(omega, angle, q)) / mass
     kept = [q[1]]
     for _ in range(steps):

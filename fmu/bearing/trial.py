@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu.bearing.model import BearingModel
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import AngularMotion
 
 _Floats = NDArray[np.float64]
@@ -66,7 +66,7 @@ def bearing_trial(model: BearingModel, steps: int = STEPS, dt: float = DT, seed:
     place = pressed + size * grows[:, None] * tones
     velocity = size * (grows[:, None] * slopes + faster[:, None] * tones)
     velocity[0] = 0.0
-    top = float(model.speeds[-1]) * RADIANS
+    top = float(model.speeds[-1]) * RPM_TO_RAD_S
     speed = np.asarray(top * (1.0 - SPEED_CHANGE * time / time[-1]), np.float64)
     return _forces(model, time, place, velocity, speed)
 

@@ -16,7 +16,7 @@ from fmu.spec import ModelSpec
 from fmu.variable_list import VariableList
 from reduced_models.bearing.angular_balls import AngularBalls
 from reduced_models.bearing.freedoms import FIVE
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.loss import FILTERS
 from reduced_models.elements.film_curve import RIGID_SLOPE
 from reduced_models.elements.film_filters import DIRECT, FEW
@@ -110,7 +110,7 @@ class _Variables(VariableList):
                 RATES[name], "input", "continuous", f"Rate of {name}",
                 unit="rad/s" if tilt else "m/s", start=0.0, nominal=1e-2 if tilt else 1e-3,
             )  # fmt: skip
-        highest = float(self.model.speeds[-1] * RADIANS)
+        highest = float(self.model.speeds[-1] * RPM_TO_RAD_S)
         self.add(
             "speed", "input", "continuous", "Speed of the inner ring about z; the outer one stands still",
             unit="rad/s", start=highest, nominal=highest, minimum=0.0,
@@ -227,7 +227,7 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
         "FEW_LAGS": FEW,
         "CUTOFF_GAP": math.inf if bearing.film_limit is None else bearing.film_limit,
         "ROUGHNESS": bearing.roughness or 1.0,
-        "MOST_SPEED": float(model.speeds[-1]) * RADIANS,
+        "MOST_SPEED": float(model.speeds[-1]) * RPM_TO_RAD_S,
         "LARGEST_PLACE": FARTHEST * bearing.ball_diameter,
         "LARGEST_TILT": LARGEST_TILT,
         "DEFAULT_TOLERANCE": ALLOWED_ERROR,
@@ -241,18 +241,22 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
             "FREE_AXIAL": g.axial,
             "INNER_REACH": g.inner,
             "OUTER_REACH": g.outer,
-            "GROOVE_LEVER": g.lever,
+            "GROOVE_LEVER": g.groove_circle,
             "GROOVE_RADIUS": g.radius,
             "BALL_DIAMETER": g.ball,
             "PITCH_DIAMETER": g.pitch,
             "BALL_MASS": g.mass,
             "GYROSCOPIC": g.gyroscopic,
-            "INNER_TORSION": g.inner_torsion,
-            "OUTER_TORSION": g.outer_torsion,
+            "INNER_TORSION": g.inner_spin_moment,
+            "OUTER_TORSION": g.outer_spin_moment,
             "TABLE_COSINE": g.cosine,
         }
     else:
-        numbers |= {"CAGE_RATIO": balls.cage, "BALL_SWING": balls.swing, "BALL_INERTIA": balls.inertia}
+        numbers |= {
+            "CAGE_RATIO": balls.cage,
+            "BALL_SWING": balls.centrifugal_factor,
+            "BALL_INERTIA": balls.inertia,
+        }
     return (
         {k: str(v) for k, v in counts.items()}
         | {k: c_double(float(v)) for k, v in numbers.items()}

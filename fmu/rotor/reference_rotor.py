@@ -143,12 +143,12 @@ def accelerations(
     """Of disc and journal, in this motion, at this angle of the unbalance, under these forces of the contacts."""
     M, C, K = rotor.matrices()
     size, axes = len(M), list(rotor.axes)
-    swing = rotor.unbalance * rotor.omega**2 * np.array([np.cos(angle), np.sin(angle)])[axes]
+    unbalance_force = rotor.unbalance * rotor.omega**2 * np.array([np.cos(angle), np.sin(angle)])[axes]
     disc, journal = (
         np.array([inputs.get(f"{body}_force_{'xy'[k]}", 0.0) for k in axes]) for body in ("disc", "journal")
     )
     carried = rotor.bearings * rotor.normals.T @ force
     applied = np.concatenate(
-        [rotor.disc_load + swing + disc, rotor.static_load - rotor.disc_load + journal - carried]
+        [rotor.disc_load + unbalance_force + disc, rotor.static_load - rotor.disc_load + journal - carried]
     )
     return np.asarray(np.linalg.solve(M, applied - C @ motion[size:] - K @ motion[:size]))

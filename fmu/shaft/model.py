@@ -12,7 +12,7 @@ from scipy.linalg import eigh
 
 from ehlcontact.checks import as_column, require_finite, require_instance, require_nonnegative, require_positive
 from ehlcontact.errors import InputError
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import motion_of
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.supports import BearingMount, LinearBearing
@@ -130,7 +130,7 @@ class ShaftModel:
         for mount in self.stations:
             balls = motion_of(mount.ball_bearing, [self.speed_rpm], len(mount.directions))
             ring = mount.rows(self.rotor.size) @ q + mount.shift
-            found.append(-balls.rest(self.speed_rpm * RADIANS, mount.cage_angle, ring))
+            found.append(-balls.rest(self.speed_rpm * RPM_TO_RAD_S, mount.cage_angle, ring))
         return tuple(found)
 
     @cached_property

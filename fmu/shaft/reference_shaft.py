@@ -10,7 +10,7 @@ from scipy.linalg import expm
 
 from fmu.shaft.model import ShaftModel
 from fmu.shaft.variables import RESOLVED
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.rotor.speed_profile import turning_forces
 
 _Floats = NDArray[np.float64]
@@ -55,7 +55,7 @@ def shaft_trial(model: ShaftModel, steps: int = STEPS, dt: float = DT) -> ShaftT
     omega = 2.0 * np.pi * rng.uniform(50.0, 2000.0, start.size)
     inputs[:, : start.size] = start + PUSH * size * np.sin(omega * time[:, None])
     inputs[:, start.size : start.size + len(unbalances)] = np.array(unbalances) + 1e-5
-    first = TOP * RADIANS
+    first = TOP * RPM_TO_RAD_S
     if model.inertia is None:
         inputs[:, -1] = first * (1.0 + 0.1 * time / time[-1])
     else:

@@ -14,7 +14,7 @@ from fmu.lead import HELD_PARALLEL, ROTOR, force_lead_for
 from fmu.shaft.model import ShaftModel
 from fmu.spec import ModelSpec
 from fmu.variable_list import VariableList
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.rotor.speed_profile import turning_forces
 
 STEP = 1e-5  # s, of the default experiment
@@ -102,7 +102,7 @@ class _Variables(VariableList):
         if self.model.inertia is None:
             self.add(
                 "speed", "input", "continuous", "Speed of the shaft about z, reached at the end of a step",
-                unit="rad/s", start=self.model.speed_rpm * RADIANS, nominal=100.0,
+                unit="rad/s", start=self.model.speed_rpm * RPM_TO_RAD_S, nominal=100.0,
             )  # fmt: skip
             return
         text, first = "Torque of the motor about z", float(self.model.torque)
@@ -151,7 +151,7 @@ class _Variables(VariableList):
             )  # fmt: skip
             self.add(
                 "speed_start", "parameter", "fixed", "Speed of the shaft at the start",
-                unit="rad/s", start=self.model.speed_rpm * RADIANS,
+                unit="rad/s", start=self.model.speed_rpm * RPM_TO_RAD_S,
             )  # fmt: skip
 
 

@@ -31,7 +31,7 @@ from fmu.system.export import connectors
 from fmu.system.master import SystemRun
 from fmu.system.structure import Component, Wire, system_structure
 from fmu.verify_before_write import VerificationError
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import motion_of
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.simulate import simulate_rotor
@@ -128,7 +128,7 @@ def default_drive_step(model: ShaftModel) -> float:
         balls = motion_of(mount.ball_bearing, [model.speed_rpm], len(mount.directions))
         rows = mount.rows(size)
         ring = rows @ model.motion[0] + mount.shift
-        balls.rest(model.speed_rpm * RADIANS, mount.cage_angle, ring)
+        balls.rest(model.speed_rpm * RPM_TO_RAD_S, mount.cage_angle, ring)
         _, stiffness, _ = balls.forces(ring, np.zeros(len(ring)))
         borne += rows.T @ stiffness @ rows
     shapes = model.modes.shapes
@@ -195,7 +195,7 @@ class _Drive:
     def _description(self, files: list[Path]) -> bytes:
         model = self.model
         q, v = model.motion
-        omega = model.speed_rpm * RADIANS
+        omega = model.speed_rpm * RPM_TO_RAD_S
         starts: dict[str, float] = {"torque": model.torque}
         components, wires = [], []
         for b, (mount, force) in enumerate(zip(model.stations, model.forces, strict=True), start=1):
@@ -246,7 +246,7 @@ def verify_drive(content: bytes, drive: _Drive) -> SystemVerification:
     except Exception as error:  # fmpy raises bare Exception among others, also for a call that an FMU refuses
         raise VerificationError(f"the system does not run at steps of {step:g} s: {error}") from None
     times = np.asarray(step * np.arange(STEPS + 1), np.float64)
-    profile = SpeedProfile(times, np.asarray(np.maximum(ours[:, -1], 0.0) / RADIANS, np.float64))
+    profile = SpeedProfile(times, np.asarray(np.maximum(ours[:, -1], 0.0) / RPM_TO_RAD_S, np.float64))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of overloaded balls, no matter of this comparison
         try:

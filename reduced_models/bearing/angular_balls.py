@@ -4,7 +4,7 @@ The ring has the displacement q = (x, y, z, tilt about x, tilt about y) of the p
 its groove centres; tilts are small. At the ball at psi it moves the inner groove centre (`contact_angles`) to
 
     c_r = c_r0 + x cos psi + y sin psi
-    c_z = c_z0 + z + lever (tilt_x sin psi - tilt_y cos psi),
+    c_z = c_z0 + z + groove_circle (tilt_x sin psi - tilt_y cos psi),
 
 and the ball goes where contact forces, centrifugal force and gyroscopic moment balance: two unknowns b, by
 Newton's method with the exact tangent. Contacts act as springs between groove centres, whose distance grows as the
@@ -41,9 +41,10 @@ FIRST_STEP = 1e-7  # [m], outward, of a ball that nothing touches; doubled until
 FREEDOMS = 5
 
 # Quantities of a ball: contact angles, forces, approaches, slopes of the force by the approach, film over that of
-# the table, entrainment speed over the speed of the shaft (inner and outer race each), orbit, spin, and beta
-ANGLE, LOAD, APPROACH, SLOPE, FILM, ENTRAINED = 0, 2, 4, 6, 8, 10
-ORBIT, TURN, PITCH, ENTRIES = 12, 13, 14, 15
+# the table, sum of the surface speeds over the speed of the shaft (inner and outer race each), orbit, own rotation
+# and beta
+ANGLE, LOAD, APPROACH, SLOPE, FILM, SPEED_SUM = 0, 2, 4, 6, 8, 10
+ORBIT, OWN_ROTATION, AXIS_ANGLE, ENTRIES = 12, 13, 14, 15
 
 
 class AngularBalls(NamedTuple):
@@ -148,8 +149,8 @@ def _start(balls, c_r, c_z):
     ratio = (balls.outer.kn / balls.inner.kn) ** (2.0 / 3.0)
     outward = g.outer + closer / (1.0 + ratio)
     if closer < 0.0:
-        swing = balls.omega * 0.5 * balls.omega * 0.5 * g.mass * 0.5 * g.pitch
-        outward = g.outer + (swing / balls.outer.kn) ** (2.0 / 3.0) if balls.omega > 0.0 else outward
+        centrifugal = balls.omega * 0.5 * balls.omega * 0.5 * g.mass * 0.5 * g.pitch
+        outward = g.outer + (centrifugal / balls.outer.kn) ** (2.0 / 3.0) if balls.omega > 0.0 else outward
     return outward * c_r / length, outward * c_z / length
 
 
@@ -298,8 +299,9 @@ def _note(balls, now, found):
     found[APPROACH], found[APPROACH + 1] = inner[0], outer[0]
     found[SLOPE], found[SLOPE + 1] = inner[2], outer[2]
     found[FILM], found[FILM + 1] = film_factors(balls.grooves, at)
-    found[ENTRAINED], found[ENTRAINED + 1] = at.u_i, at.u_o
-    found[ORBIT], found[TURN], found[PITCH] = at.orbit, at.turn, np.arctan2(at.sin_b, at.cos_b)
+    found[SPEED_SUM], found[SPEED_SUM + 1] = at.u_i, at.u_o
+    found[ORBIT], found[OWN_ROTATION] = at.orbit, at.ball_rotation
+    found[AXIS_ANGLE] = np.arctan2(at.sin_b, at.cos_b)
 
 
 @jit_exact_loop
@@ -308,7 +310,7 @@ def ring_map(g, psi, out):
     c, s = cos(psi), sin(psi)
     out[:] = 0.0
     out[0, 0], out[0, 1] = c, s
-    out[1, 2], out[1, 3], out[1, 4] = 1.0, g.lever * s, -g.lever * c
+    out[1, 2], out[1, 3], out[1, 4] = 1.0, g.groove_circle * s, -g.groove_circle * c
     out[2, 3], out[2, 4] = -s, c
 
 

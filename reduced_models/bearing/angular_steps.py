@@ -66,7 +66,7 @@ class AngularFilms(NamedTuple):
     follow: _Floats  # (balls, 2, 4) its slopes by both
     film: _Floats  # (contacts, 4) film over that of the table: in this step, at the last two ends; v - u of
     # `film_curve` at the last end
-    entrained: _Floats  # (contacts, 3) sum of both surface speeds over the speed of the shaft [m], likewise
+    speed_sum: _Floats  # (contacts, 3) sum of both surface speeds over the speed of the shaft [m], likewise
     inertia: _Floats  # (balls, 5, 4) derivatives of the forces of inertia, by b and c
     orbit: _Floats  # (balls,) speed about the shaft, over that of the shaft
     force: _Floats  # (balls, 2) at the inner and at the outer race [N]
@@ -95,7 +95,7 @@ def films_of_angular(balls: AngularBalls) -> AngularFilms:
         tried=np.zeros((n, 4)),
         follow=np.zeros((n, 2, 4)),
         film=np.ones((contacts, 4)),
-        entrained=np.ones((contacts, 3)),
+        speed_sum=np.ones((contacts, 3)),
         inertia=np.zeros((n, 5, 4)),
         orbit=np.zeros(n),
         force=np.zeros((n, 2)),
@@ -124,11 +124,11 @@ def begin_angular_step(balls, omega, dt, films):
         for race in range(2):
             c = 2 * k + race
             law = balls.inner if race == 0 else balls.outer
-            film, u = films.film[c], films.entrained[c]
+            film, u = films.film[c], films.speed_sum[c]
             film[0], u[0] = 2.0 * film[1] - film[2], 2.0 * u[1] - u[2]
             middle, transit = 1.5 * u[1] - 0.5 * u[2], 0.0
             if rolling_speed > 0.0:
-                transit = law.reach / (middle * rolling_speed)
+                transit = law.contact_length_factor / (middle * rolling_speed)
             prepare_filters(law, transit, row, (film[0], film[3]), dt, films, c)
     begin_seat(balls.loss, dt, films.seat)
 
@@ -154,8 +154,8 @@ def _turn_maps(balls, films):
         psi = films.cage[0] + 2.0 * pi * k / balls.number
         ring_map(balls.grooves, psi, films.maps[k, 0])
         turned = films.maps[k, 1]
-        c, s, lever = cos(psi), sin(psi), balls.grooves.lever
-        turned[0, 0], turned[0, 1], turned[1, 3], turned[1, 4] = -s, c, lever * c, lever * s
+        c, s, groove_circle = cos(psi), sin(psi), balls.grooves.groove_circle
+        turned[0, 0], turned[0, 1], turned[1, 3], turned[1, 4] = -s, c, groove_circle * c, groove_circle * s
 
 
 @jit_exact_node
@@ -216,9 +216,9 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
     c_r, c_z, d_r, d_z = c
     history, inertia, w = films.kept[k, 2], films.inertia[k], films.tangents[0]
     film_i, film_o = _film(films, 2 * k), _film(films, 2 * k + 1)
-    u_i, u_o, speed = films.entrained[2 * k, 0], films.entrained[2 * k + 1, 0], max(omega, balls.speeds[0])
-    transit_i = balls.inner.reach / (u_i * speed) if speed > 0.0 else 0.0
-    transit_o = balls.outer.reach / (u_o * speed) if speed > 0.0 else 0.0
+    u_i, u_o, speed = films.speed_sum[2 * k, 0], films.speed_sum[2 * k + 1, 0], max(omega, balls.speeds[0])
+    transit_i = balls.inner.contact_length_factor / (u_i * speed) if speed > 0.0 else 0.0
+    transit_o = balls.outer.contact_length_factor / (u_o * speed) if speed > 0.0 else 0.0
     b_r, b_z = place[0], place[1]
     for j in range(4):
         moved = c[j] - tried[j]
@@ -317,8 +317,8 @@ def _place_ball(balls, k, c, films):
     outward = g.outer + closer / (1.0 + ratio)
     omega = films.omega[0]
     if closer < 0.0 and omega > 0.0:
-        swing = 0.125 * omega * omega * g.mass * g.pitch
-        outward = g.outer + (swing / balls.outer.kn) ** (2.0 / 3.0)
+        centrifugal = 0.125 * omega * omega * g.mass * g.pitch
+        outward = g.outer + (centrifugal / balls.outer.kn) ** (2.0 / 3.0)
     films.place[k, 0], films.place[k, 1] = outward * c[0] / length, outward * c[1] / length
     films.follow[k] = 0.0
     for j in range(4):
@@ -393,10 +393,10 @@ def accept_angular(balls, films, gain):
         v_r, v_z = gain * (b_r - kept[2, 0]), gain * (b_z - kept[2, 1])
         rate_i = at.cos_i * (d_r - v_r) + at.sin_i * (d_z - v_z)
         rate_o = at.cos_o * v_r + at.sin_o * v_z
-        film, u = films.film, films.entrained
+        film, u = films.film, films.speed_sum
         i, o = 2 * k, 2 * k + 1
-        transit_i = balls.inner.reach / (u[i, 0] * rolling_speed) if rolling_speed > 0.0 else 0.0
-        transit_o = balls.outer.reach / (u[o, 0] * rolling_speed) if rolling_speed > 0.0 else 0.0
+        transit_i = balls.inner.contact_length_factor / (u[i, 0] * rolling_speed) if rolling_speed > 0.0 else 0.0
+        transit_o = balls.outer.contact_length_factor / (u[o, 0] * rolling_speed) if rolling_speed > 0.0 else 0.0
         u_i, u_o, film_i, film_o = at.l_i - g.inner, at.l_o - g.outer, _film(films, i), _film(films, o)
         film[i, 3] = accept_contact(balls.inner, transit_i, row, film_i, films, i, u_i, rate_i)
         film[o, 3] = accept_contact(balls.outer, transit_o, row, film_o, films, o, u_o, rate_o)
@@ -438,7 +438,7 @@ def rest_angular(balls, films, q, out):
             factors = film_factors(balls.grooves, at)
             for j in range(3):
                 films.film[2 * k, j], films.film[2 * k + 1, j] = factors
-            films.entrained[2 * k], films.entrained[2 * k + 1] = at.u_i, at.u_o
+            films.speed_sum[2 * k], films.speed_sum[2 * k + 1] = at.u_i, at.u_o
             films.orbit[k] = at.orbit
             if omega > 0.0:
                 _renew_inertia(balls, omega, b_r, b_z, c_r, c_z, films.inertia[k])

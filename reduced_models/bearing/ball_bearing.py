@@ -48,18 +48,18 @@ from reduced_models.bearing.five_degrees import (
     free_clearance,
     groove_distance,
     require_in_groove,
-    torsion,
+    spin_moment_factor,
 )
 from reduced_models.bearing.freedoms import FIVE, PLANAR, bearing_load, held_tilt
 from reduced_models.bearing.friction import friction_under
 from reduced_models.bearing.kinematics import (
-    HERTZ,
-    RADIANS,
+    RPM_TO_HZ,
+    RPM_TO_RAD_S,
     DefectFrequencies,
     ball_mass,
-    ball_swing,
     cage_ratio,
-    rolling_radius,
+    centrifugal_factor,
+    speed_sum_per_omega,
 )
 from reduced_models.bearing.linear_angular import SmallAngularBalls
 from reduced_models.bearing.linear_balls import BearingCoefficients, SmallBalls
@@ -275,7 +275,7 @@ class BallBearing(Summary):
     @takes(speed_rpm="rev/min")
     def frequencies(self, speed_rpm: float) -> DefectFrequencies:
         """Defect frequencies [Hz] at a speed of the shaft [rev/min]."""
-        turns = require_nonnegative("speed_rpm", speed_rpm) * HERTZ
+        turns = require_nonnegative("speed_rpm", speed_rpm) * RPM_TO_HZ
         return DefectFrequencies.of(self.balls, self.gamma * self._cosine, turns)
 
     @property
@@ -544,7 +544,7 @@ class BallBearing(Summary):
             contact_angles=at.angles,
             spin_to_roll=at.spin_to_roll,
             orbit=at.orbit,
-            turn=at.turn,
+            ball_rotation=at.ball_rotation,
             **({} if self.oil is None else films_at_angles(self, speed, at)),
             **friction_under(self, at.load, speed),
         )
@@ -565,19 +565,19 @@ class BallBearing(Summary):
                 axial=free[1],
                 inner=inner,
                 outer=outer,
-                lever=0.5 * self.pitch_diameter + inner * cos(self.free_angle),
+                groove_circle=0.5 * self.pitch_diameter + inner * cos(self.free_angle),
                 radius=self.conformity_inner * self.ball_diameter,
                 ball=self.ball_diameter,
                 pitch=self.pitch_diameter,
                 mass=ball_mass(self.ball_diameter, self.density),
                 control=CONTROLS.index(self.race_control),
                 gyroscopic=-1.0 if self.race_control == CONTROLS[HARRIS] else 1.0,
-                inner_torsion=torsion(self.race("inner").geometry, self.race("inner").kn),
-                outer_torsion=torsion(self.race("outer").geometry, self.race("outer").kn),
+                inner_spin_moment=spin_moment_factor(self.race("inner").geometry, self.race("inner").kn),
+                outer_spin_moment=spin_moment_factor(self.race("outer").geometry, self.race("outer").kn),
                 cosine=self._cosine,
             )
             laws = self._law("inner", speeds), self._law("outer", speeds)
-            omega = speeds * RADIANS
+            omega = speeds * RPM_TO_RAD_S
             self._known[key] = AngularBalls(
                 *laws, self.balls, grooves, float(omega[0]), omega, loss_of(self.loss_factor)
             )
@@ -598,7 +598,7 @@ class BallBearing(Summary):
 
     def _speed_state(self, speed: float) -> SpeedState:
         """Films, cage and centrifugal force at a speed that the bearing takes, as the kernels have them."""
-        return speed_state(self._kernel(speed), speed * RADIANS)
+        return speed_state(self._kernel(speed), speed * RPM_TO_RAD_S)
 
     def _kernel(self, speeds_rpm: ArrayLike) -> Balls:
         """Parameters of the compiled kernels (`reduced_models.bearing.balls`) over increasing speeds [rev/min].
@@ -620,9 +620,9 @@ class BallBearing(Summary):
                 number=self.balls,
                 half_clearance=0.5 * self.clearance,
                 cage=cage_ratio(self.gamma),
-                swing=ball_swing(self.ball_diameter, self.pitch_diameter, self.density),
-                rolling=rolling_radius(self.pitch_diameter, self.gamma),
-                speeds=speeds * RADIANS,
+                centrifugal_factor=centrifugal_factor(self.ball_diameter, self.pitch_diameter, self.density),
+                speed_sum=speed_sum_per_omega(self.pitch_diameter, self.gamma),
+                speeds=speeds * RPM_TO_RAD_S,
                 loss=loss_of(self.loss_factor),
                 inertia=ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0,
             )

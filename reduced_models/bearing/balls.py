@@ -66,8 +66,8 @@ class Balls(NamedTuple):
     number: int
     half_clearance: float  # m
     cage: float  # speed of the cage over that of the shaft
-    swing: float  # F_c over the square of the cage's speed [kg m]
-    rolling: float  # u_sum over the speed of the shaft [m]
+    centrifugal_factor: float  # F_c over the square of the cage's speed [kg m]
+    speed_sum: float  # u_sum over the speed of the shaft [m]
     speeds: _Floats  # (rows of the laws,) of the shaft, increasing
     loss: Loss  # of rings and fits
     inertia: float  # of a ball along n [kg]; 0: it has none
@@ -132,10 +132,11 @@ def speed_state(balls, omega):
     """
     rolling = max(omega, balls.speeds[0])
     cage = balls.cage * omega
-    u_sum = balls.rolling * rolling
-    inner = balls.inner.reach / u_sum if u_sum > 0.0 else 0.0
-    outer = balls.outer.reach / u_sum if u_sum > 0.0 else 0.0
-    return SpeedState(row_of_speed(balls.speeds, rolling), inner, outer, cage, balls.swing * cage * cage)
+    u_sum = balls.speed_sum * rolling
+    inner = balls.inner.contact_length_factor / u_sum if u_sum > 0.0 else 0.0
+    outer = balls.outer.contact_length_factor / u_sum if u_sum > 0.0 else 0.0
+    centrifugal = balls.centrifugal_factor * cage * cage
+    return SpeedState(row_of_speed(balls.speeds, rolling), inner, outer, cage, centrifugal)
 
 
 @jit_exact_loop

@@ -58,20 +58,20 @@ class Grooves(NamedTuple):
     axial: float
     inner: float  # (f_i - 1/2) D [m]
     outer: float
-    lever: float  # radius of the circle of inner groove centres [m]
+    groove_circle: float  # radius of the circle of inner groove centres [m]
     radius: float  # of the inner groove [m]
     ball: float  # diameter [m]
     pitch: float  # diameter [m]
     mass: float  # of a ball [kg]
     control: int  # index of `CONTROLS`
     gyroscopic: float  # factor of the gyroscopic moment: 1, or -1 of "harris"; between while a search goes on
-    inner_torsion: float  # W over the dry compression squared
-    outer_torsion: float
+    inner_spin_moment: float  # W over the dry compression squared
+    outer_spin_moment: float
     cosine: float  # of the contact angle that the tables of both races are for
 
 
 class Rolling(NamedTuple):
-    """Ball between two races. Angular speeds over that of the shaft, entrainment speeds over it [m]."""
+    """Ball between two races. Angular speeds over that of the shaft, sums of surface speeds over it [m]."""
 
     l_i: float  # length of the inner spring [m]
     cos_i: float
@@ -80,7 +80,7 @@ class Rolling(NamedTuple):
     cos_o: float
     sin_o: float
     orbit: float  # of the centre of the ball about the shaft
-    turn: float  # of the ball about its own axis, seen from the cage
+    ball_rotation: float  # of the ball about its own axis, seen from the cage
     sin_b: float  # of beta
     cos_b: float
     share: float  # of the inner race in the gyroscopic moment
@@ -129,21 +129,21 @@ def rolling(g, b_r, b_z, c_r, c_z, g_i, g_o):
     (c_i, s_i), (c_o, s_o) = _rolls_at(cos_i, sin_i), _rolls_at(cos_o, sin_o)
     share = 0.0 * l_i
     if g.control in (INNER, SHARED) and g_i.real > 0.0:
-        ratio = g.outer_torsion * g_o * g_o / (g.inner_torsion * g_i * g_i)  # W_o/W_i
+        ratio = g.outer_spin_moment * g_o * g_o / (g.inner_spin_moment * g_i * g_i)  # W_o/W_i
         share = 1.0 / (1.0 + (ratio if g.control == SHARED else (OF_OUTER * ratio) ** 2))
     slope = (1.0 - share) * s_o / (c_o + gamma) + share * s_i / (c_i - gamma)
     cos_b = 1.0 / np.sqrt(1.0 + slope * slope)
-    # no slip: both races drive the ball at gamma turn cos_b e/r
+    # no slip: both races drive the ball at gamma ball_rotation cos_b e/r
     r_i, r_o = 1.0 - gamma * c_i, 1.0 + gamma * c_o
     by_i, by_o = (
         _at_least((c_i + slope * s_i) / r_i, LEAST_DRIVE),
         _at_least((c_o + slope * s_o) / r_o, LEAST_DRIVE),
     )
     orbit = by_o / (by_i + by_o)
-    turn = 1.0 / (gamma * cos_b * (by_i + by_o))
+    ball_rotation = 1.0 / (gamma * cos_b * (by_i + by_o))
     u_i, u_o = (1.0 - orbit) * g.pitch * r_i, orbit * g.pitch * r_o
     return Rolling(
-        l_i, cos_i, sin_i, l_o, cos_o, sin_o, orbit, turn, slope * cos_b, cos_b, share, u_i, u_o
+        l_i, cos_i, sin_i, l_o, cos_o, sin_o, orbit, ball_rotation, slope * cos_b, cos_b, share, u_i, u_o
     )  # fmt: skip
 
 
@@ -171,9 +171,9 @@ def ball_forces(g, omega, at, q_i, q_o):
     """
     speed = at.orbit * omega
     centrifugal = g.mass * 0.5 * g.pitch * speed * speed
-    # moment J x orbit x turn x sin(beta) along the orbit, over D/2, by friction across both contacts
-    drag = 0.2 * g.gyroscopic * g.mass * g.ball * speed * at.turn * omega * at.sin_b
-    f_i, f_o = at.share * drag, -(1.0 - at.share) * drag
+    # moment J x orbit x ball_rotation x sin(beta) along the orbit, over D/2, by friction across both contacts
+    gyroscopic_friction = 0.2 * g.gyroscopic * g.mass * g.ball * speed * at.ball_rotation * omega * at.sin_b
+    f_i, f_o = at.share * gyroscopic_friction, -(1.0 - at.share) * gyroscopic_friction
     p_r, p_z = q_i * at.cos_i - f_i * at.sin_i, q_i * at.sin_i + f_i * at.cos_i
     r_r = p_r - q_o * at.cos_o - f_o * at.sin_o + centrifugal
     r_z = p_z - q_o * at.sin_o + f_o * at.cos_o

@@ -22,13 +22,13 @@ from ehlcontact.point import Geometry
 from reduced_models.bearing.angular_balls import (
     ANGLE,
     APPROACH,
-    ENTRAINED,
+    AXIS_ANGLE,
     FAR,
     FREEDOMS,
     LOAD,
     ORBIT,
-    PITCH,
-    TURN,
+    OWN_ROTATION,
+    SPEED_SUM,
     AngularBalls,
     places_of,
     press_ring,
@@ -64,8 +64,10 @@ class StaticRing:
 
     def __init__(self, balls: AngularBalls, angle: float, free: int, held: _Floats) -> None:
         self.balls, self.angle, self.free, self.held = balls, angle, free, held
-        lever = balls.grooves.lever
-        self.unit = np.array([1.0, 1.0, 1.0, 1.0 / lever, 1.0 / lever])[:free]  # of a displacement, over a length
+        radius = balls.grooves.groove_circle
+        self.unit = np.array([1.0, 1.0, 1.0, 1.0 / radius, 1.0 / radius])[
+            :free
+        ]  # of a displacement, over a length
         self.places = places_of(balls)
         self.longest = FAR * (balls.grooves.inner + balls.grooves.outer)
         self.load, self.stiffness = np.zeros(FREEDOMS), np.zeros((FREEDOMS, FREEDOMS))
@@ -150,9 +152,9 @@ class AngularEquilibrium:
         return self.found[:, APPROACH : APPROACH + 2]
 
     @property
-    def entrained(self) -> _Floats:
+    def speed_sum(self) -> _Floats:
         """Sum of both surface speeds over the speed of the shaft [m]."""
-        return self.found[:, ENTRAINED : ENTRAINED + 2]
+        return self.found[:, SPEED_SUM : SPEED_SUM + 2]
 
     @property
     def orbit(self) -> _Floats:
@@ -160,19 +162,19 @@ class AngularEquilibrium:
         return self.found[:, ORBIT]
 
     @property
-    def turn(self) -> _Floats:
+    def ball_rotation(self) -> _Floats:
         """Speed of every ball about its own axis, seen from the cage, over that of the shaft, shape (balls,)."""
-        return self.found[:, TURN]
+        return self.found[:, OWN_ROTATION]
 
     @property
     def spin_to_roll(self) -> _Floats:
         """Relative angular speed of both surfaces about their normal over that of rolling, with its sign."""
         inner, outer = self.angles.T
-        pitch, turn, orbit = self.found[:, PITCH], self.turn, self.orbit
-        by_i = (1.0 - orbit) * np.sin(inner) + turn * np.sin(inner - pitch)
-        roll_i = (1.0 - orbit) * np.cos(inner) + turn * np.cos(pitch - inner)
-        by_o = turn * np.sin(outer - pitch) - orbit * np.sin(outer)
-        roll_o = turn * np.cos(pitch - outer) - orbit * np.cos(outer)
+        axis, rotation, orbit = self.found[:, AXIS_ANGLE], self.ball_rotation, self.orbit
+        by_i = (1.0 - orbit) * np.sin(inner) + rotation * np.sin(inner - axis)
+        roll_i = (1.0 - orbit) * np.cos(inner) + rotation * np.cos(axis - inner)
+        by_o = rotation * np.sin(outer - axis) - orbit * np.sin(outer)
+        roll_o = rotation * np.cos(axis - outer) - orbit * np.cos(outer)
         return np.column_stack([by_i / roll_i, by_o / roll_o])
 
 
@@ -350,7 +352,7 @@ def require_in_groove(found: _Floats, load: _Floats, one_way: bool) -> None:
             )
 
 
-def torsion(body: Geometry, kn: float) -> float:
+def spin_moment_factor(body: Geometry, kn: float) -> float:
     """W of `contact_angles` over the square of the dry approach."""
     hertz = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced)
     return float(kn ** (4.0 / 3.0) * hertz.b * elliptic_integrals(hertz.kappa)[1])

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 _Floats = NDArray[np.float64]
 
-HERTZ, RADIANS = 1.0 / 60.0, pi / 30.0  # per second, of one turn per minute
+RPM_TO_HZ, RPM_TO_RAD_S = 1.0 / 60.0, pi / 30.0  # per second, of one turn per minute
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,7 @@ def cage_ratio(gamma: float) -> float:
     return 0.5 * (1.0 - gamma)
 
 
-def rolling_radius(pitch_diameter: float, gamma: float) -> float:
+def speed_sum_per_omega(pitch_diameter: float, gamma: float) -> float:
     """Sum of the surface speeds in either contact over the angular speed of the shaft [m]."""
     return 0.5 * pitch_diameter * (1.0 - gamma * gamma)
 
@@ -63,8 +63,9 @@ def ball_mass(ball_diameter: float, density: float) -> float:
 def rolling_torque(inner: _Floats, outer: _Floats, ball_diameter: float, pitch_diameter: float) -> float:
     """Torque on the inner ring [N m] that the films' rolling resistance takes, outer ring still.
 
-    By the power that is lost. Both films of a ball are entrained at the same u = u_sum/2 (`rolling_radius`), and a
-    film whose pressure has the moment m about its centre line loses m u/Rx (`ehlcontact.SteadyResult.moment`). So
+    By the power that is lost. Both films of a ball are entrained at the same u = u_sum/2
+    (`speed_sum_per_omega`), and a film whose pressure has the moment m about its centre line loses m u/Rx
+    (`ehlcontact.SteadyResult.moment`). So
 
         T omega = u sum (m_i/Rx_i + m_o/Rx_o),    Rx = D/2 (1 -+ D/dm)
         2 T = sum m_i (dm/D + 1) + m_o (dm/D - 1):
@@ -83,6 +84,6 @@ def rolling_torque(inner: _Floats, outer: _Floats, ball_diameter: float, pitch_d
     return float(0.5 * ((ratio + 1.0) * inner.sum() + (ratio - 1.0) * outer.sum()))
 
 
-def ball_swing(ball_diameter: float, pitch_diameter: float, density: float) -> float:
+def centrifugal_factor(ball_diameter: float, pitch_diameter: float, density: float) -> float:
     """Centrifugal force on a ball over the square of the cage's angular speed [kg m]."""
     return ball_mass(ball_diameter, density) * 0.5 * pitch_diameter

@@ -48,16 +48,16 @@ class SmallAngularBalls(NamedTuple):
         cls, balls: AngularBalls, standings: Sequence[AngularEquilibrium], loss: Loss, inertia: float
     ) -> SmallAngularBalls:
         """From where the ring stands at each position."""
-        force, approach, entrained, angles, geometric, maps = (
+        force, approach, speed_sum, angles, geometric, maps = (
             np.concatenate([getattr(at, name) for at in standings])
-            for name in ("force", "approach", "entrained", "angles", "geometric", "maps")
+            for name in ("force", "approach", "speed_sum", "angles", "geometric", "maps")
         )
         slope = np.concatenate([at.found[:, SLOPE : SLOPE + 2] for at in standings])
         inner, outer = (
             SmallMotion.stack(
                 [
                     _about(law, balls.omega, *row)
-                    for row in zip(force[:, j], approach[:, j], slope[:, j], entrained[:, j], strict=True)
+                    for row in zip(force[:, j], approach[:, j], slope[:, j], speed_sum[:, j], strict=True)
                 ]
             )
             for j, law in enumerate((balls.inner, balls.outer))
@@ -89,7 +89,7 @@ class SmallAngularBalls(NamedTuple):
 
 
 def _about(
-    law: RaceForceTable, omega: float, force: float, u: float, slope: float, entrained: float
+    law: RaceForceTable, omega: float, force: float, u: float, slope: float, speed_sum: float
 ) -> SmallMotion:
     """Linear law of one contact under its static force, whose derivative by the approach is `slope`."""
     if law.x.size == 0:
@@ -97,4 +97,4 @@ def _about(
     share = film_cutoff(u, law.cutoff_gap)[0]
     g = (force / (share * law.kn)) ** (2.0 / 3.0) if share > 0.0 else curve(u, 0, 0.0, law, 0)[0]
     by_film = share * 1.5 * law.kn * np.sqrt(g)
-    return small_film(law, law.reach / (entrained * omega), (0, 0.0), g, by_film, slope)
+    return small_film(law, law.contact_length_factor / (speed_sum * omega), (0, 0.0), g, by_film, slope)

@@ -134,7 +134,7 @@ class BearingCoefficients(FrequencyResponse):
         K [N/m] and C [N s/m].
     displacement : ndarray, shape (n,)
         Of the ring [m].
-    swing : ndarray, shape (n,)
+    peak_to_peak : ndarray, shape (n,)
         Peak-to-peak displacement of the ring while a ball passes slowly [m]; 0 at a given angle of the cage.
     outside_assumptions : str
         Assumptions of films that do not hold at the heaviest ball (`ehlcontact.assumptions`); empty where none.
@@ -147,7 +147,7 @@ class BearingCoefficients(FrequencyResponse):
     stiffness: Annotated[_Floats, STIFFNESS.over("hz axis by")]
     damping: Annotated[_Floats, DAMPING.over("hz axis by")]
     displacement: Annotated[_Floats, LENGTH.over("axis")]
-    swing: Annotated[_Floats, LENGTH.over("axis")]
+    peak_to_peak: Annotated[_Floats, LENGTH.over("axis")]
     outside_assumptions: str = ""
 
     DISPLAY: ClassVar[Display] = Display(
@@ -199,5 +199,5 @@ class BearingCoefficients(FrequencyResponse):
     ) -> BearingCoefficients:
         """From the mean `matrices` K and C, shape (k, n, n), and the positions that they are the mean of."""
         places = np.array([standing.displacement for standing in standings])
-        mean, swing = places.mean(axis=0), np.ptp(places, axis=0)
-        return cls(load, speed_rpm, cage_angle, omega, *matrices, mean, swing, outside_assumptions)
+        mean, peak_to_peak = places.mean(axis=0), np.ptp(places, axis=0)
+        return cls(load, speed_rpm, cage_angle, omega, *matrices, mean, peak_to_peak, outside_assumptions)

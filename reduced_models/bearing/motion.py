@@ -34,7 +34,7 @@ from reduced_models.bearing.balls import (
 )
 from reduced_models.bearing.equilibrium import angle_of
 from reduced_models.bearing.freedoms import FIVE, PLANAR
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 _Floats = NDArray[np.float64]
 
@@ -172,7 +172,7 @@ class BearingMotion:
             raise InputError("freedoms", freedoms, "2 or 5")
         speed = bearing.speed(speed_rpm)
         self._motion = motion_of(bearing, [speed], self._size)
-        self.dt, self._omega = require_positive("dt", dt), speed * RADIANS
+        self.dt, self._omega = require_positive("dt", dt), speed * RPM_TO_RAD_S
         self._start, self._step = angle_of(cage_angle), 0
         self.rest(np.zeros(self._size))
 

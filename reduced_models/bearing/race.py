@@ -23,7 +23,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.hertz import hertz_contact, radius_ratio
 from reduced_models.atlas.atlas import Atlas
 from reduced_models.bearing.five_degrees import AngularEquilibrium
-from reduced_models.bearing.kinematics import RADIANS, rolling_radius, rolling_torque
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S, rolling_torque, speed_sum_per_omega
 from reduced_models.bearing.race_contact import film_cutoff
 from reduced_models.elements.wide_range import WideRangeContact
 
@@ -63,7 +63,7 @@ class Race:
         Groove radius over ball diameter.
     oil : Lubricant or None
         None is dry.
-    rolling : float
+    speed_sum : float
         Sum of the surface speeds over the angular speed of the shaft [m].
     atlas : str or None
         File of another atlas than the shipped one.
@@ -74,7 +74,7 @@ class Race:
     ball_diameter: float
     conformity: float
     oil: Lubricant | None
-    rolling: float
+    speed_sum: float
     atlas: str | None = None
 
     @cached_property
@@ -86,7 +86,7 @@ class Race:
     def point(self, load: float, speed_rpm: float) -> OperatingPoint:
         """Operating point of the contact under a load [N] at a speed of the shaft."""
         assert self.oil is not None
-        return OperatingPoint(self.geometry, self.oil, load, self.rolling * speed_rpm * RADIANS)
+        return OperatingPoint(self.geometry, self.oil, load, self.speed_sum * speed_rpm * RPM_TO_RAD_S)
 
     @property
     def highest_speed(self) -> float:
@@ -146,13 +146,13 @@ class Race:
                 central[k], smallest[k] = answer.h_central, answer.h_min
         return central, smallest, moment
 
-    def at_angle(self, pitch_diameter: float, contact_angle: float, rolling: float) -> Race:
+    def at_angle(self, pitch_diameter: float, contact_angle: float, speed_sum: float) -> Race:
         """The contact of one ball at its own angle [rad] and sum of surface speeds over that of the shaft [m]."""
         body = self.geometry
         material = {"e1": body.e1, "e2": body.e2, "nu1": body.nu1, "nu2": body.nu2}
         cone = pitch_diameter / cos(contact_angle)
         own = Geometry.ball_bearing(self.ball_diameter, cone, self.conformity, self.name, **material)
-        return replace(self, geometry=own, rolling=rolling)
+        return replace(self, geometry=own, speed_sum=speed_sum)
 
     def require_in_atlas(self) -> None:
         """Raise `InputError` for a conformity whose ellipse, or an oil, that the atlas does not have."""
@@ -177,8 +177,8 @@ def race_of(bearing: Any, name: str) -> Race:
     except InputError as error:
         own = {"conformity": f"conformity_{name}", "e1": "youngs_modulus", "nu1": "poisson_ratio"}
         raise InputError(own.get(error.field, error.field), error.value, error.allowed) from None
-    rolling = rolling_radius(bearing.pitch_diameter, bearing.gamma * cosine)
-    return Race(name, body, bearing.ball_diameter, conformity, bearing.oil, rolling, bearing.atlas)
+    speed_sum = speed_sum_per_omega(bearing.pitch_diameter, bearing.gamma * cosine)
+    return Race(name, body, bearing.ball_diameter, conformity, bearing.oil, speed_sum, bearing.atlas)
 
 
 def films_under(bearing: Any, speed_rpm: float, force: _Floats, approach: _Floats) -> dict[str, Any]:
@@ -220,8 +220,8 @@ def assumptions_at_angles(bearing: Any, speed_rpm: float, places: Sequence[Angul
     for column, name in enumerate(RACES):
         at = max(places, key=lambda one: float(one.force[:, column].max()))
         k = int(np.argmax(at.force[:, column]))
-        angle, entrained = float(at.angles[k, column]), float(at.entrained[k, column])
-        race = bearing.race(name).at_angle(bearing.pitch_diameter, angle, entrained)
+        angle, speed_sum = float(at.angles[k, column]), float(at.speed_sum[k, column])
+        race = bearing.race(name).at_angle(bearing.pitch_diameter, angle, speed_sum)
         point = race.point(max(float(at.force[k, column]), race.loads(speed_rpm)[0]), speed_rpm)
         found.append(assumptions(point, film=shared_atlas(bearing.atlas).at(point), roughness=rough))
     return Assumptions.worst_of(found)
@@ -240,7 +240,7 @@ def films_at_angles(bearing: Any, speed_rpm: float, at: AngularEquilibrium) -> d
     torque = 0.0
     for (k, column), angle in np.ndenumerate(at.angles):
         nominal, load = bearing.race(RACES[column]), at.force[k, column]
-        race = nominal.at_angle(bearing.pitch_diameter, float(angle), float(at.entrained[k, column]))
+        race = nominal.at_angle(bearing.pitch_diameter, float(angle), float(at.speed_sum[k, column]))
         if speed_rpm > race.highest_speed:
             allowed = (
                 f"at most {race.highest_speed:.5g}, where the atlas ends at a contact angle of {angle:.3g} rad"
@@ -255,7 +255,7 @@ def films_at_angles(bearing: Any, speed_rpm: float, at: AngularEquilibrium) -> d
             carries = film_cutoff(float(at.approach[k, column]), bearing.film_limit)[0]
         moment[k, column] = carries * resists[0]
         # power m u/Rx of every film over the speed of the shaft, u = u_sum/2
-        torque += 0.5 * at.entrained[k, column] * moment[k, column] / race.geometry.radius_x
+        torque += 0.5 * at.speed_sum[k, column] * moment[k, column] / race.geometry.radius_x
     found: dict[str, Any] = {"h_central": h_central, "h_min": h_min, "moment": moment}
     found["rolling_torque"] = float(torque)
     found["outside_assumptions"] = assumptions_at_angles(bearing, speed_rpm, [at]).headline

@@ -33,7 +33,7 @@ from reduced_models.elements.film_filters import (
 )
 
 # Entries of a state before those of its filters; the last one, behind the chain, is the film that enters it.
-APPROACH, RATE, OWN = range(3)
+APPROACH, RATE, OWN_RATE = range(3)
 # Entries of the work of a step: inlet, fast and middle of the film made as sums of 1, e and t; the sums of
 # two rows of gains, and of what the chain carries; then, of all lags, what they hold, what they make of the film
 # at the end, and of the hump.
@@ -128,9 +128,9 @@ def gain(law, speed_row, node, k):
 def _made_at(law, speed_row, node):
     """As `film_made`, at a node of the load."""
     row, weight = speed_row
-    found = law.made[row, node]
+    found = law.film_made[row, node]
     if weight > 0.0:
-        found += weight * (law.made[row + 1, node] - found)
+        found += weight * (law.film_made[row + 1, node] - found)
     return found
 
 
@@ -176,7 +176,7 @@ def prepare_filters(law, transit, speed_row, film, dt, films, c):
     interval = films.interval[c, 0]
     middle, _, _, _, films.interval[c, 0] = film_curve(ahead, film, speed_row[0], speed_row[1], law, interval)
     span = dt / (transit * sqrt(middle))
-    p, start, inlet = law.inlet_rate, state[c, OWN], state[c, INLET]
+    p, start, inlet = law.inlet_rate, state[c, OWN_RATE], state[c, INLET]
     s_a, s_e, s_t = _lag(inlet, start, p, span)
     work[c, S], work[c, S + 1], work[c, S + 2] = s_a, s_e, s_t
     work[c, Y], work[c, Y + 1], work[c, Y + 2] = _lag(state[c, FAST], start, law.fast_rate, span)
@@ -295,7 +295,7 @@ def accept_contact(law, transit, speed_row, film, films, c, u, v):
     s = work[c, S] + work[c, S + 1] * e + work[c, S + 2] * t
     entered = s * film_made(law, speed_row, law.log_kn + 1.5 * log(g))
     hump = work[c, MIDDLE] + work[c, MIDDLE + 1] * e + work[c, MIDDLE + 2] * t - 0.5 * entered
-    state[c, OWN], state[c, INLET] = e, s
+    state[c, OWN_RATE], state[c, INLET] = e, s
     state[c, FAST] = work[c, Y] + work[c, Y + 1] * e + work[c, Y + 2] * t
     lags = law.gains.shape[2] - DIRECT
     for j in range(HELD, HELD + lags):

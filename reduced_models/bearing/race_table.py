@@ -45,12 +45,12 @@ class RaceForceTable(NamedTuple):
 
     kn: float  # N/m^1.5, dry
     log_kn: float
-    reach: float  # 2a over sqrt(g) [m^0.5]
+    contact_length_factor: float  # 2a over sqrt(g) [m^0.5]
     x: _Floats  # (n,) ln F_s at the nodes, increasing; none for a dry contact
     u: _Floats  # (speeds, n) approach at the nodes [m]
     cells: _Floats  # (speeds, n - 1, CELLS, 4) coefficients of g between them
     gains: _Floats  # (speeds, n, DIRECT + lags)
-    made: _Floats  # (speeds, n) film G that a unit of the inlet's state lets into the chain
+    film_made: _Floats  # (speeds, n) film G that a unit of the inlet's state lets into the chain
     lag_rate: float
     inlet_rate: float
     fast_rate: float
@@ -63,12 +63,12 @@ def tabulate_dry_race(kn: float) -> RaceForceTable:
     return RaceForceTable(
         kn=kn,
         log_kn=log(kn),
-        reach=0.0,
+        contact_length_factor=0.0,
         x=none[0],
         u=none,
         cells=np.zeros((1, 0, CELLS, 4)),
         gains=np.zeros((1, 0, DIRECT)),
-        made=none,
+        film_made=none,
         lag_rate=1.0,
         inlet_rate=1.0,
         fast_rate=1.0,
@@ -97,12 +97,12 @@ def tabulate_race(elements: Sequence[FilmContact], cutoff_gap: float = inf) -> R
     return RaceForceTable(
         kn=kn,
         log_kn=log(kn),
-        reach=2.0 * scales.a / sqrt(scales.length),
+        contact_length_factor=2.0 * scales.a / sqrt(scales.length),
         x=x,
         u=np.array([row[0] for row in rows]),
         cells=np.array([row[1] for row in rows]),
         gains=gains,
-        made=np.abs(gains[:, :, DIRECT:]).sum(axis=2) + LEAST_MADE,
+        film_made=np.abs(gains[:, :, DIRECT:]).sum(axis=2) + LEAST_MADE,
         lag_rate=law.lag_rate,
         inlet_rate=law.inlet_rate,
         fast_rate=law.fast_rate,

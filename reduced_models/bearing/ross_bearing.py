@@ -26,7 +26,7 @@ from ehlcontact.checks import as_column, require_integer
 from ehlcontact.checks.frequency import is_given, radians_per_second
 from ehlcontact.errors import InputError
 from reduced_models.bearing.freedoms import PLANAR, bearing_load
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 _Floats = NDArray[np.float64]
 
@@ -85,11 +85,11 @@ def bearing_element(
         if whirl.size > 1 and not has_whirl_axis(ross):
             raise InputError(name, f"{whirl.size} numbers", "a single frequency: tables of ROSS 2 have one axis")
     found = [
-        bearing.coefficients(downward(load), speed_rpm=rpm, omega=rpm * RADIANS if whirl is None else whirl)
+        bearing.coefficients(downward(load), speed_rpm=rpm, omega=rpm * RPM_TO_RAD_S if whirl is None else whirl)
         for rpm in speeds.tolist()
     ]
     K, C = (np.array([getattr(at, name) for at in found]) for name in ("stiffness", "damping"))
-    axes = {"speed" if has_whirl_axis(ross) else "frequency": speeds * RADIANS} if speeds.size > 1 else {}
+    axes = {"speed" if has_whirl_axis(ross) else "frequency": speeds * RPM_TO_RAD_S} if speeds.size > 1 else {}
     if whirl is not None and whirl.size > 1:
         axes["frequency"] = whirl
     return ross.BearingElement(n=n, **ross_entries(K, C), **axes, **options)

@@ -16,11 +16,11 @@ from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import note_line
 from reduced_models.bearing.freedoms import in_freedoms, labelled, load_words
-from reduced_models.bearing.kinematics import RADIANS, DefectFrequencies
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S, DefectFrequencies
 
 _Floats = NDArray[np.float64]
 
-OF_ANGLES = "contact_angles", "spin_to_roll", "orbit", "turn"  # those that a planar one does not have
+OF_ANGLES = "contact_angles", "spin_to_roll", "orbit", "ball_rotation"  # those that a planar one does not have
 OF_FILMS = "h_central", "h_min", "lambda_ratio", "moment"  # arrays that a dry bearing does not have
 
 
@@ -68,7 +68,7 @@ class BearingState(QuantityTable):
     spin_to_roll : ndarray, shape (balls, 2), or None
         Angular speed of both surfaces against each other about their normal over that of rolling. Its friction is
         not in the forces.
-    orbit, turn : ndarray, shape (balls,), or None
+    orbit, ball_rotation : ndarray, shape (balls,), or None
         Angular speed of every ball about the shaft, and about its own axis as seen from the cage, over the speed
         of the shaft. Balls of a bearing under combined load have different ones.
     """
@@ -93,7 +93,7 @@ class BearingState(QuantityTable):
     contact_angles: Annotated[_Floats | None, RADIAN.over("ball race")] = None
     spin_to_roll: Annotated[_Floats | None, NUMBER.over("ball race")] = None
     orbit: Annotated[_Floats | None, NUMBER.over("ball")] = None
-    turn: Annotated[_Floats | None, NUMBER.over("ball")] = None
+    ball_rotation: Annotated[_Floats | None, NUMBER.over("ball")] = None
 
     DISPLAY: ClassVar[Display] = Display(
         rows="ball",
@@ -168,17 +168,19 @@ class BearingState(QuantityTable):
 
         The cage turns as the mean of the balls, each with the weight of its load.
         """
-        if self.orbit is None or self.turn is None or not self.force[:, 0].any():
+        if self.orbit is None or self.ball_rotation is None or not self.force[:, 0].any():
             return None
-        cage, turn = (float(np.average(one, weights=self.force[:, 0])) for one in (self.orbit, self.turn))
+        cage, rotation = (
+            float(np.average(one, weights=self.force[:, 0])) for one in (self.orbit, self.ball_rotation)
+        )
         return DefectFrequencies(
-            ftf=cage, bpfo=len(self.angles) * cage, bpfi=len(self.angles) * (1.0 - cage), bsf=turn
+            ftf=cage, bpfo=len(self.angles) * cage, bpfi=len(self.angles) * (1.0 - cage), bsf=rotation
         )
 
     @property
     def rolling_loss(self) -> float | None:
         """Power [W] that `rolling_torque` takes from the shaft."""
-        return None if self.rolling_torque is None else self.rolling_torque * self.speed_rpm * RADIANS
+        return None if self.rolling_torque is None else self.rolling_torque * self.speed_rpm * RPM_TO_RAD_S
 
     @property
     def friction_torque(self) -> float | None:
@@ -190,7 +192,7 @@ class BearingState(QuantityTable):
     @property
     def friction_loss(self) -> float | None:
         """Power [W] that `friction_torque` takes from the shaft."""
-        return None if self.friction_torque is None else self.friction_torque * self.speed_rpm * RADIANS
+        return None if self.friction_torque is None else self.friction_torque * self.speed_rpm * RPM_TO_RAD_S
 
     def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
         """Matplotlib figure of the load zone and the films; into a file too where a path is given.

@@ -88,8 +88,8 @@ class StaticSet:
         slides = any(one[AXIAL, SLIDE] for one in rows)
         self.moves = np.array([*range(free), SLIDE] if slides else range(free))
         self.held = np.append(np.zeros(3), np.append(tilt, 0.0))
-        self.lever = float(np.mean([ring.balls.grooves.lever for ring in rings]))
-        self.unit = np.array([1.0, 1.0, 1.0, 1.0 / self.lever, 1.0 / self.lever, 1.0])[self.moves]
+        self.groove_circle = float(np.mean([ring.balls.grooves.groove_circle for ring in rings]))
+        self.unit = np.array([1.0, 1.0, 1.0, 1.0 / self.groove_circle, 1.0 / self.groove_circle, 1.0])[self.moves]
         self.longest = min(ring.longest for ring in rings)
 
     def displacement(self, q: _Floats) -> _Floats:

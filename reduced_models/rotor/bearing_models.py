@@ -85,8 +85,8 @@ class ModelRun:
         modes = {"vertical": self.vertical, "horizontal": self.horizontal}
         return {
             "deflection": -float(self.ring[:, 1].mean()) if moving else None,
-            "ring_swing": np.ptp(self.ring, axis=0).tolist(),
-            "disc_swing": np.ptp(self.disc, axis=0).tolist(),
+            "ring_peak_to_peak": np.ptp(self.ring, axis=0).tolist(),
+            "disc_peak_to_peak": np.ptp(self.disc, axis=0).tolist(),
             "at_speed": once,
             "at_ball_passage": passing if moving else None,
             "largest_load": self.largest_load,

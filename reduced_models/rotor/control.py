@@ -27,7 +27,7 @@ from reduced_models.bearing.balls import (
     speed_state,
 )
 from reduced_models.bearing.continuous_time import bearing_rates
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.small_motion import FILTERS
 from reduced_models.rotor.linear_system import rotor_system
@@ -186,7 +186,7 @@ class _Ring:
         bearing, angle = mount.ball_bearing, mount.cage_angle
         held = bearing._static_balls(bearing.speed(speed), angle)
         self.balls: Balls = held.balls
-        laws: SpeedState = speed_state(self.balls, speed * RADIANS)
+        laws: SpeedState = speed_state(self.balls, speed * RPM_TO_RAD_S)
         self._at_speed = laws if cage_turns else laws._replace(cage=0.0)
         self._angle, self._normals = angle, np.zeros((self.balls.number, 2))
         self.force = held.force(r)

@@ -18,7 +18,7 @@ LEFT_OUT = 1.0  # periods at the beginning of a decay that are not fitted: what 
 
 
 def initial_velocity(
-    rotor: JeffcottRotor, rest: RotorState, mode: RotorMode, *, stiffness: float, load: float, swing: float
+    rotor: JeffcottRotor, rest: RotorState, mode: RotorMode, *, stiffness: float, load: float, load_share: float
 ) -> RotorState:
     """The state at rest with the velocities of a mode.
 
@@ -31,11 +31,11 @@ def initial_velocity(
         Of one contact at the frequency of the mode [N/m].
     load : float
         Of a contact at rest [N].
-    swing : float
-        Share of the load by which that of a contact would swing without damping.
+    load_share : float
+        Amplitude of the load of a contact without damping, over `load`.
     """
     along = np.abs(rotor.normals @ mode.journal.real[list(rotor.axes)]).max()
-    speed = mode.omega * swing * load / (stiffness * float(along))
+    speed = mode.omega * load_share * load / (stiffness * float(along))
     return RotorState(rest.disc, rest.journal, speed * mode.disc.real, speed * mode.journal.real)
 
 

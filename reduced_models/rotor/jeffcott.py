@@ -214,8 +214,8 @@ class JeffcottRotor(Summary):
 
     def applied_force(self, t: float) -> _Floats:
         """Static load and unbalance at time `t` [s], in the order of `matrices`."""
-        angle, swing = self.omega * t, self.unbalance * self.omega**2
-        rotating = swing * np.array([cos(angle), sin(angle)])[list(self.axes)]
+        angle, unbalance_force = self.omega * t, self.unbalance * self.omega**2
+        rotating = unbalance_force * np.array([cos(angle), sin(angle)])[list(self.axes)]
         return np.concatenate([self.disc_load + rotating, self.static_load - self.disc_load])
 
     def approaches(self, journal: ArrayLike) -> _Floats:

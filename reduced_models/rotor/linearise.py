@@ -16,7 +16,7 @@ from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.summary import Summary
 from reduced_models.bearing.five_degrees import angular_equilibrium, equilibrium_at
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_angular import SmallAngularBalls
 from reduced_models.bearing.linear_balls import SmallBalls
 from reduced_models.elements.base import ContactElement
@@ -103,7 +103,7 @@ class LinearRotor(Summary):
     @cached_property
     def matrices(self) -> Matrices:
         """Mass, damping with the gyroscopic part, and stiffness; linear bearings are in them."""
-        return self.rotor.matrices(self.speed_rpm * RADIANS)
+        return self.rotor.matrices(self.speed_rpm * RPM_TO_RAD_S)
 
     def support_impedance(self, s: complex) -> _Complex:
         """Part of contacts and ball bearings in `dynamic_stiffness`, shape (N, N) [N/m], at s [1/s]."""
@@ -191,7 +191,7 @@ class LinearRotor(Summary):
         """
         w = radians_per_second(None, **frequency)
         return UnbalanceResponse.of(
-            self.rotor, w / RADIANS, np.array([self._unbalanced(one) for one in w.tolist()])
+            self.rotor, w / RPM_TO_RAD_S, np.array([self._unbalanced(one) for one in w.tolist()])
         )
 
     def orbit(self, rest: ArrayLike | None = None) -> tuple[_Floats, _Floats]:
@@ -202,14 +202,14 @@ class LinearRotor(Summary):
         rest : array_like, shape (N,), optional
             Displacements about which it moves, by default those at rest.
         """
-        w = self.speed_rpm * RADIANS
+        w = self.speed_rpm * RPM_TO_RAD_S
         q = self._unbalanced(w)
         about = self.rest if rest is None else as_column("rest", rest, size=self.rotor.size)
         return about + q.real, (1j * w * q).real
 
     def motion(self, t: ArrayLike) -> _Floats:
         """Displacements of that motion over times [s], shape (k, N)."""
-        w = self.speed_rpm * RADIANS
+        w = self.speed_rpm * RPM_TO_RAD_S
         turned = np.exp(1j * w * np.atleast_1d(np.asarray(t, float)))[:, None]
         return np.asarray(self.rest + np.real(turned * self._unbalanced(w)))
 
@@ -231,7 +231,7 @@ class LinearRotor(Summary):
         InputError
             A degree of freedom that is not there.
         """
-        return linear_block(self.rotor, self.speed_rpm * RADIANS, self.balls, inputs, outputs, name)
+        return linear_block(self.rotor, self.speed_rpm * RPM_TO_RAD_S, self.balls, inputs, outputs, name)
 
     @cached_property
     def _rows(self) -> _Floats:
@@ -335,7 +335,7 @@ def linearise(
     mounted, bearings = rotor.contacts, rotor.ball_bearings
     known = all(_is_impedance(mount.contact) for mount in mounted)
     rest = np.zeros(rotor.size) if mounted and known and not bearings else rotor.equilibrium(speed)
-    require_held(rotor.mounts, rest, rotor.matrices(speed * RADIANS)[2], speed)
+    require_held(rotor.mounts, rest, rotor.matrices(speed * RPM_TO_RAD_S)[2], speed)
     points, normals, _ = rotor.geometry
     r = normals @ (points @ rest)
     found = [
@@ -428,5 +428,5 @@ def unbalance_response(rotor: Rotor, speeds_rpm: ArrayLike, *, passage: bool = T
         raise InputError("unbalances", (), "at least one Unbalance")
     if speeds[0] <= 0.0:
         raise InputError("speeds_rpm[0]", float(speeds[0]), "> 0")
-    found = [linearise(rotor, s, passage=passage)._unbalanced(s * RADIANS) for s in speeds.tolist()]
+    found = [linearise(rotor, s, passage=passage)._unbalanced(s * RPM_TO_RAD_S) for s in speeds.tolist()]
     return UnbalanceResponse.of(rotor, speeds, np.array(found))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import as_column
 from ehlcontact.errors import InputError
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import BallMotion, motion_of
 from reduced_models.rotor.contact_steps import ContactSteps
 from reduced_models.rotor.rotor import Rotor
@@ -150,7 +150,7 @@ class PreparedRun:
         if isinstance(start, str):
             if start != "static":
                 raise InputError("start", start, "'static', or displacements and velocities")
-            return self.rotor.equilibrium(float(self.omega[0] / RADIANS)), np.zeros(size)
+            return self.rotor.equilibrium(float(self.omega[0] / RPM_TO_RAD_S)), np.zeros(size)
         try:
             d, v = start
         except (TypeError, ValueError):
@@ -160,7 +160,7 @@ class PreparedRun:
     def _require_short_steps(self) -> None:
         fastest = float(self.omega.max())
         for mount in self.rotor.ball_bearings:
-            passage = mount.ball_bearing.frequencies(fastest / RADIANS).bpfo
+            passage = mount.ball_bearing.frequencies(fastest / RPM_TO_RAD_S).bpfo
             for what, hz in (("ball passage", passage), ("turn of the shaft", fastest / (2.0 * np.pi))):
                 if self.dt * hz * LEAST_STEPS > 1.0:
                     most = 1.0 / (hz * LEAST_STEPS)

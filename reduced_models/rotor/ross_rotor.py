@@ -20,7 +20,7 @@ from ehlcontact.errors import InputError
 from reduced_models.bearing.arrangement import BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.freedoms import FACINGS, FIVE, PLANAR
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import BearingMotion
 from reduced_models.bearing.ross_bearing import ELEMENT, WHIRL, has_whirl_axis, import_ross, name_of, ross_entries
 from reduced_models.rotor.linearise import linearise
@@ -142,7 +142,7 @@ def _operating_point(
     ross: Any, rotor: Any, speed_rpm: float | None, frequency: Mapping[str, float | None]
 ) -> tuple[float, ...]:
     """What `rotor.K` takes [rad/s]: the speed in ROSS 2, frequency of the whirl and speed in ROSS 3."""
-    w = (speed_rpm or 0.0) * RADIANS
+    w = (speed_rpm or 0.0) * RPM_TO_RAD_S
     both = has_whirl_axis(ross)
     if is_given(**frequency) and not both:
         name = name_of(frequency)
@@ -219,7 +219,7 @@ class RossCallback:
             **arranged,
         )  # fmt: skip
         nodes = _nodes(ross, rotor, _supports(bearings, **arranged), replace)
-        self.speed = speed_rpm * RADIANS
+        self.speed = speed_rpm * RPM_TO_RAD_S
         self._ours, self._rpm = ours, speed_rpm
         frequency = {"omega": omega, "hz": hz, "rpm": rpm}
         given = is_given(**frequency)

@@ -23,7 +23,7 @@ from ehlcontact.checks import as_column, as_numbers, as_rows, require_finite, re
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.rotor.equilibrium import equilibrium
 from reduced_models.rotor.supports import (
     BearingMount,
@@ -244,7 +244,7 @@ class Rotor(Summary):
         for mount in self.bearings:
             if isinstance(mount.bearing, LinearBearing):
                 rows = mount.rows(self.size)
-                K, C = mount.bearing.at(omega / RADIANS)
+                K, C = mount.bearing.at(omega / RPM_TO_RAD_S)
                 stiffness, damping = stiffness + rows.T @ K @ rows, damping + rows.T @ C @ rows
         return self.mass, damping, stiffness
 
@@ -258,5 +258,5 @@ class Rotor(Summary):
         ConvergenceError
             The supports do not hold it; ``result`` is the last displacement.
         """
-        _, _, stiffness = self.matrices(speed_rpm * RADIANS)
+        _, _, stiffness = self.matrices(speed_rpm * RPM_TO_RAD_S)
         return equilibrium(self.mounts, self.load, stiffness, speed_rpm)

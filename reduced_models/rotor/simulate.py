@@ -14,7 +14,7 @@ from ehlcontact import FullContact, Status
 from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import RACES
 from reduced_models.elements.validity import OutsideValidityWarning, frequency_of
 from reduced_models.rotor.integrate_compiled import CompiledSteps
@@ -193,7 +193,7 @@ def _result(run: PreparedRun, made: int, status: Status) -> RotorResult:
     names, places = flat_nodes(run.rotor.nodes)
     return RotorResult(
         t=run.t[kept],
-        speed_rpm=run.omega[kept] / RADIANS,
+        speed_rpm=run.omega[kept] / RPM_TO_RAD_S,
         displacement=histories.displacement[kept],
         velocity=histories.velocity[kept],
         approach=approach,
@@ -221,7 +221,7 @@ def _supports(run: PreparedRun, kept: slice) -> tuple[tuple[str, ...], _Floats, 
         if isinstance(mount.bearing, LinearBearing):
             rows = mount.rows(rotor.size).T
             moved, moving = histories.displacement[kept] @ rows, histories.velocity[kept] @ rows
-            K, C = mount.bearing.at(run.omega[kept] / RADIANS)
+            K, C = mount.bearing.at(run.omega[kept] / RPM_TO_RAD_S)
             found.append((moved, moving, (K @ moved[..., None] + C @ moving[..., None])[..., 0]))
         else:
             at = next(with_balls)
@@ -232,7 +232,7 @@ def _supports(run: PreparedRun, kept: slice) -> tuple[tuple[str, ...], _Floats, 
 
 def _warn_of_overload(run: PreparedRun) -> None:
     """Warn of balls that carried more than the atlas has."""
-    slowest = float(law_speeds(run.omega / RADIANS)[0])
+    slowest = float(law_speeds(run.omega / RPM_TO_RAD_S)[0])
     for mount, which, balls in zip(run.rotor.ball_bearings, run.rotor.ball_bearing_names, run.balls, strict=True):
         for name, load in zip(RACES, balls.films.largest.tolist(), strict=True):
             bearing = mount.ball_bearing

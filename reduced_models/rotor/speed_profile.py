@@ -14,7 +14,7 @@ from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.quantities import SPEED, TIME
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.summary import span
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
@@ -67,7 +67,7 @@ class SpeedProfile(QuantityTable):
     def at(self, t: _Floats) -> tuple[_Floats, _Floats, _Floats]:
         """Speed [rad/s], angle of the shaft [rad] and angular acceleration [rad/s2]."""
         knots = np.concatenate([[0.0], self.t, [np.inf]]) if self.t[0] > 0.0 else np.append(self.t, np.inf)
-        speeds = np.interp(knots, self.t, self.speed_rpm) * RADIANS
+        speeds = np.interp(knots, self.t, self.speed_rpm) * RPM_TO_RAD_S
         turned = np.concatenate([[0.0], np.cumsum(0.5 * (speeds[1:-1] + speeds[:-2]) * np.diff(knots[:-1]))])
         rise = np.append(np.diff(speeds[:-1]) / np.diff(knots[:-1]), 0.0)
         k = np.clip(np.searchsorted(knots, t, side="right") - 1, 0, len(rise) - 1)
@@ -91,7 +91,7 @@ def shaft_course(rotor: Rotor, speed_rpm: float | SpeedProfile, t: _Floats) -> S
     profile = speed_rpm if isinstance(speed_rpm, SpeedProfile) else SpeedProfile.constant(speed_rpm)
     omega, angle, rise = profile.at(t)
     turning, at = turning_forces(rotor, omega, angle, rise)
-    return ShaftCourse(omega, angle, turning, at, law_speeds(omega / RADIANS))
+    return ShaftCourse(omega, angle, turning, at, law_speeds(omega / RPM_TO_RAD_S))
 
 
 def law_speeds(rpm: _Floats) -> _Floats:

@@ -220,8 +220,8 @@ def test_whole_bearings(made, results):
         terms = np.hstack([np.ones((t.size, 1)), waves.real, waves.imag])
         parts = np.linalg.lstsq(terms, disc[:, 1], rcond=None)[0][1:]
         size = np.hypot(parts[:4], parts[4:])
-        assert row["ring_swing"] == pytest.approx(np.ptp(ring, axis=0), rel=1e-9)
-        assert row["disc_swing"] == pytest.approx(np.ptp(disc, axis=0), rel=1e-9)
+        assert row["ring_peak_to_peak"] == pytest.approx(np.ptp(ring, axis=0), rel=1e-9)
+        assert row["disc_peak_to_peak"] == pytest.approx(np.ptp(disc, axis=0), rel=1e-9)
         assert (row["at_speed"], row["at_ball_passage"]) == pytest.approx((size[0], size[2]), rel=1e-5)
         assert row["deflection"] == pytest.approx(-ring[:, 1].mean(), rel=1e-9)
         assert row["largest_load"] == run.largest_load.max()

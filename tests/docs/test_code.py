@@ -162,10 +162,10 @@ def test_tutorial_of_the_rotor():
         assert found["orbit"][near].max() == pytest.approx(5.5e-6, rel=0.05)
     seconds = 20 * 60.0 / along.speed_rpm
     assert seconds == pytest.approx(0.08, abs=0.005) and 2500.0 * seconds == pytest.approx(210.0, abs=5.0)
-    swing, rpm = found["swing"], found["rpm"]
-    assert across.speed_rpm < rpm[swing.argmax()] < along.speed_rpm and swing.max() < found["orbit"].max()
+    amplitude, rpm = found["amplitude"], found["rpm"]
+    assert across.speed_rpm < rpm[amplitude.argmax()] < along.speed_rpm and amplitude.max() < found["orbit"].max()
     # beyond the last one the amplitude goes up and down
-    later = swing[rpm > along.speed_rpm]
+    later = amplitude[rpm > along.speed_rpm]
     assert np.sum((np.diff(later)[:-1] > 0.0) & (np.diff(later)[1:] < 0.0)) > 2
 
 

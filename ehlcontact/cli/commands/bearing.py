@@ -52,7 +52,7 @@ UNITS = {
     "stiffness": "N/m; of a state: slope of the static force",
     "damping": "N s/m",
     "mean_displacement": "m; of the inner ring, mean over a ball passage",
-    "swing": "m; peak to peak, as a ball passes slowly",
+    "peak_to_peak": "m; displacement of the ring while a ball passes slowly",
     "states": "at rest with a ball right under the load",
     "displacement": "m; of the inner ring in that state",
     "angles": "rad",
@@ -79,12 +79,12 @@ UNITS_AT_ANGLES = {
     "stiffness": "N/m, N, N m; of a state: slope of the static force",
     "damping": "N s/m, N s, N m s",
     "mean_displacement": "m, rad; of the inner ring, mean over a ball passage",
-    "swing": "m, rad; peak to peak, as a ball passes slowly",
+    "peak_to_peak": "m, rad; displacement of the ring while a ball passes slowly",
     "displacement": "m, rad; of the inner ring in that state",
     "contact_angles": "rad",
     "spin_to_roll": "of both surfaces about their normal over that of rolling; its friction is not in the forces",
     "orbit": "speed of a ball about the shaft over that of the shaft",
-    "turn": "speed of a ball about its own axis, seen from the cage, over that of the shaft",
+    "ball_rotation": "speed of a ball about its own axis, seen from the cage, over that of the shaft",
 }
 # Of those that a pair has beside them, or has otherwise.
 UNITS_OF_PAIRS = {
@@ -150,7 +150,7 @@ class BearingReport:
                     "stiffness": c.stiffness[k],
                     "damping": c.damping[k],
                     "mean_displacement": c.displacement,
-                    "swing": c.swing,
+                    "peak_to_peak": c.peak_to_peak,
                 }
                 for c in self.coefficients
                 for k, hz in enumerate(c.hz)
@@ -439,10 +439,14 @@ def _of_pair(job: BearingJob, state: Any) -> list[Row]:
 
 def _at_speed(b: BallBearing, state: BearingState | SetState, at: BearingCoefficients) -> list[Row]:
     """Deflection, stiffness, damping, resistance and frequencies at a speed."""
-    swing = at.swing[1] * 1e9
+    peak_to_peak = at.peak_to_peak[1] * 1e9
     return [
         *_outside(state),
-        ("deflection", in_unit(-at.displacement[1], "m"), f"{numeral(swing, 3)} nm up and down at ball passage"),
+        (
+            "deflection",
+            in_unit(-at.displacement[1], "m"),
+            f"{numeral(peak_to_peak, 3)} nm up and down at ball passage",
+        ),
         *_small_vibrations(at, (("along the load", 1), ("across it", 0))),
         *_resistance(state),
         *_defects(b, state),
@@ -456,7 +460,7 @@ def _at_angles(job: BearingJob, state: BearingState | SetState, at: BearingCoeff
     turned = " and ".join(numeral(round(1e3 * one, NOTHING)) for one in tilts.tolist())
     return [
         *_outside(state),
-        ("deflection", f"{down} down", f"{numeral(at.swing[1] * 1e9, 3)} nm up and down at ball passage"),
+        ("deflection", f"{down} down", f"{numeral(at.peak_to_peak[1] * 1e9, 3)} nm up and down at ball passage"),
         ("axial", f"{along}", f"displacement of the {'inner ring' if job.pair is None else 'shaft'} in +z"),
         (
             "tilts",

@@ -169,5 +169,5 @@ def _decay_settings(study: Study, halvings: int) -> dict[str, Any]:
 def _kicked(study: Study, rest: RotorState, mode: RotorMode, response: ImpedanceResult) -> RotorState:
     """At rest with the velocities of the mode, as fast as the entry `kick` of the study has it."""
     stiffness = float(abs(film_impedance(response)(np.array([mode.omega]))[0]))
-    load, swing = study.ball_load, study.rotor.kick
-    return initial_velocity(build_rotor(study), rest, mode, stiffness=stiffness, load=load, swing=swing)
+    load, load_share = study.ball_load, study.rotor.kick
+    return initial_velocity(build_rotor(study), rest, mode, stiffness=stiffness, load=load, load_share=load_share)

@@ -15,7 +15,7 @@ from fmu.bearing.trial import START, bearing_trial
 from fmu.bearing.variables import FORCES, RATES
 from fmu.driver import Slave
 from reduced_models import BallBearing
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 OIL = Lubricant.iso_vg(46, temperature=70.0)
 RPM = 3000.0
@@ -163,7 +163,7 @@ def test_films_and_torque_are_those_at_rest(made, name, within):
         one.model.load if name == "five" else (0.0, -500.0), speed_rpm=RPM, cage_angle=START
     )
     place = dict(zip(one.model.names, one.model.place.tolist(), strict=True))
-    slave = one.started(**place, speed=RPM * RADIANS)
+    slave = one.started(**place, speed=RPM * RPM_TO_RAD_S)
     balls = one.model.bearing.balls
     for column, race in enumerate(("inner", "outer")):
         load = slave.get(*(f"ball[{k + 1}].load_{race}" for k in range(balls)))
@@ -230,12 +230,12 @@ def test_what_no_bearing_does_is_told_and_leaves_a_usable_instance(made, wrong, 
 
 def test_speed_and_loads_beyond_the_tables_are_flagged(made):
     one = made("planar")
-    slave = one.started(x=0.0, y=-1.3e-5, velocity_x=0.0, velocity_y=0.0, speed=RPM * RADIANS)
+    slave = one.started(x=0.0, y=-1.3e-5, velocity_x=0.0, velocity_y=0.0, speed=RPM * RPM_TO_RAD_S)
     assert not slave.flag("outside_validity")
-    slave.set(speed=1.1 * RPM * RADIANS)
+    slave.set(speed=1.1 * RPM * RPM_TO_RAD_S)
     slave.step(1e-5)
     assert slave.flag("outside_speed") and slave.flag("outside_validity") and not slave.flag("outside_load")
-    slave.set(speed=RPM * RADIANS, y=-4e-4)
+    slave.set(speed=RPM * RPM_TO_RAD_S, y=-4e-4)
     slave.step(1e-5)
     assert slave.flag("outside_load") and not slave.flag("outside_speed")
     slave.free()
@@ -272,7 +272,7 @@ def test_a_mass_that_holds_the_force_keeps_the_damping(tmp_path, dt, within):
 
     def fmu(v):
         q, rate, pull = model.place.copy(), np.array([0.0, v]), np.array([0.0, -load])
-        slave = one.started(lead=1.5, x=q[0], y=q[1], velocity_y=v, speed=RPM * RADIANS)
+        slave = one.started(lead=1.5, x=q[0], y=q[1], velocity_y=v, speed=RPM * RPM_TO_RAD_S)
         a, kept = (slave.get("force_x", "force_y") + pull) / mass, [q[1]]
         for _ in range(steps):
             slave.set(x=q[0], y=q[1], velocity_x=rate[0], velocity_y=rate[1])
@@ -294,7 +294,7 @@ def test_steps_that_are_too_long_for_the_motion_are_told(made, dt, struck, told)
     """A vibration of 650 Hz; blows now and then are none of the step's."""
     one, messages, omega = made("planar"), [], 2.0 * np.pi * 650.0
     slave = Slave(one.folder, one.description, messages, loggingOn=True)
-    slave.start(lead=1.5, cage_angle_start=START, y=-1.3e-5, speed=RPM * RADIANS)
+    slave.start(lead=1.5, cage_angle_start=START, y=-1.3e-5, speed=RPM * RPM_TO_RAD_S)
     for k in range(400):
         t = k * dt
         slave.set(

@@ -25,7 +25,7 @@ from reduced_models import (
     rotor_on_bearings,
     simulate_rotor,
 )
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.rotor.speed_profile import SpeedProfile
 
 OIL = Lubricant.iso_vg(46, temperature=70.0)
@@ -127,7 +127,7 @@ def in_continuous_time(rotor, inertia, forces, torque, until):
         right[unbalance.y] += unbalance.amount * omega**2 * s
         return np.concatenate([v, (a := np.linalg.solve(whole, right))[:size], [omega, a[size]]])
 
-    start = np.concatenate([*model.motion, [0.0, RPM * RADIANS]])
+    start = np.concatenate([*model.motion, [0.0, RPM * RPM_TO_RAD_S]])
     found = solve_ivp(rates, (0.0, until), start, method="DOP853", rtol=1e-11, atol=1e-15)
     return found.y[:, -1]
 
@@ -184,10 +184,10 @@ def test_gyroscopic_moments_do_no_work(made):
     """Nutation of a free rotor, with steps of a tenth of its period: its size stays."""
     slave = made("rigid", None).started(load_scale=0.0)
     names = [v.name for v in slave.description.modelVariables if v.causality == "input"]
-    slave.set(**dict.fromkeys(names, 0.0) | {"speed": 6.0 * RPM * RADIANS, "bearing[1].moment_x": 5.0})
+    slave.set(**dict.fromkeys(names, 0.0) | {"speed": 6.0 * RPM * RPM_TO_RAD_S, "bearing[1].moment_x": 5.0})
     slave.step(1e-5)
     slave.set(**{"bearing[1].moment_x": 0.0})
-    nutation = INERTIA / 0.01 * 6.0 * RPM * RADIANS
+    nutation = INERTIA / 0.01 * 6.0 * RPM * RPM_TO_RAD_S
     first = np.hypot(*slave.get("rotor.tilt_rate_x", "rotor.tilt_rate_y"))
     for _ in range(2000):
         slave.step(0.1 * 2.0 * np.pi / nutation)
@@ -233,7 +233,7 @@ def test_steps_that_are_too_long_leave_a_usable_instance(made):
     with pytest.raises(FMICallException):
         slave.step(1e-3)
     assert "too long for the gyroscopic forces" in messages[-1]
-    slave.set(speed=RPM * RADIANS)
+    slave.set(speed=RPM * RPM_TO_RAD_S)
     slave.step(1e-5)
     assert np.isfinite(slave.get("rotor.x")).all()
     slave.free()
@@ -289,7 +289,7 @@ def run_of_ours(drive):
 def test_a_drive_runs_as_the_rotor_in_python(drive, rotors, run_of_ours):
     """At the speed of the drive, after a blow along the shaft and across it."""
     speed = run_of_ours[:, -1]
-    profile = SpeedProfile(STEP * np.arange(STEPS + 1), speed / RADIANS)
+    profile = SpeedProfile(STEP * np.arange(STEPS + 1), speed / RPM_TO_RAD_S)
     wanted = simulate_rotor(rotors["rigid"], speed_rpm=profile, dt=2e-6, until=STEP * STEPS, start=drive[1])
     ring = wanted.ring[::5].reshape(STEPS + 1, -1)
     assert (np.abs(run_of_ours[:, :-1] - ring).max(axis=0) < 0.02 * np.ptp(ring, axis=0)).all()

@@ -291,7 +291,7 @@ def test_coefficients_of_a_pair_are_those_of_its_bearings():
         static = quiet.coefficients(given, **kwargs, hz=0.0).stiffness[0]
         np.testing.assert_allclose(static, state.stiffness, atol=1e-6 * np.abs(static).max())
         means = found.coefficients(given, speed_rpm=12000.0, hz=50.0)
-        assert means.swing[1] > 0.0 and means.cage_angle is None
+        assert means.peak_to_peak[1] > 0.0 and means.cage_angle is None
 
 
 def answers(seed, cases):

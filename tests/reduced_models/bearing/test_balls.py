@@ -70,7 +70,7 @@ def test_small_motions_are_those_of_two_elements(film):
     t = dt * np.arange(1, 9)
     q = PLACE + size * np.column_stack([np.sin(4e3 * t), np.cos(3e3 * t)])
     v = size * np.column_stack([4e3 * np.cos(4e3 * t), -3e3 * np.sin(3e3 * t)])
-    kernel = film._kernel(RPM)._replace(cage=0.0, swing=0.0)
+    kernel = film._kernel(RPM)._replace(cage=0.0, centrifugal_factor=0.0)
     fast, slow = BearingMotion(with_balls(film, kernel), RPM, dt), SlowBearing(film, RPM, SlowElement)
     slow.cage = slow.centrifugal = 0.0
     fast.rest(PLACE)

@@ -88,7 +88,7 @@ def test_friction_that_turns_the_axis_of_a_ball_pushes_it_outward_at_the_outer_r
     centre = orbit * np.array([0.0, 0.5 * bearing.pitch_diameter, 0.0])
     spin = np.cross(centre, to_outer) / (to_outer @ to_outer)
     np.testing.assert_allclose(centre + np.cross(spin, to_outer), 0.0, atol=1e-9 * np.linalg.norm(centre))
-    np.testing.assert_allclose(np.linalg.norm(spin - [0.0, 0.0, orbit]), state.turn[0] * omega, rtol=0.01)
+    np.testing.assert_allclose(np.linalg.norm(spin - [0.0, 0.0, orbit]), state.ball_rotation[0] * omega, rtol=0.01)
     short = 1e-7
     turned = np.array([spin[0] * cos(orbit * short), spin[0] * sin(orbit * short), spin[2]])
     torque = 0.1 * mass * D * D * (turned - spin) / short
@@ -153,7 +153,7 @@ def test_balls_against_their_equations_written_out(control):
     mass = bearing.density * pi / 6.0 * D**3
     kn = [bearing.race(name).kn for name in ("inner", "outer")]
     grooves = bearing._angular_balls(10000.0).grooves
-    torsion = grooves.inner_torsion, grooves.outer_torsion
+    torsion = grooves.inner_spin_moment, grooves.outer_spin_moment
     reach = (bearing.conformity_inner - 0.5) * D
     lever = 0.5 * dm + reach * cos(bearing.contact_angle)
     A, gamma = 2.0 * reach, D / dm

@@ -15,7 +15,7 @@ from reduced_models import (
 )
 from reduced_models.bearing.balls import PLACE, speed_state
 from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_balls import SmallBalls
 
 RPM = 3000.0
@@ -57,8 +57,8 @@ def test_against_scipy():
 def test_small_motions_in_time_have_the_impedance(oil, oiled):
     """At half the frequency of the balls on their contacts, where their inertia counts."""
     bearing = BallBearing.catalogue("6205", oil=oil if oiled else None, ball_inertia=True, loss_factor=0.1)
-    kernel = bearing._kernel(RPM)._replace(cage=0.0, swing=0.0)
-    at_speed = speed_state(kernel, RPM * RADIANS)
+    kernel = bearing._kernel(RPM)._replace(cage=0.0, centrifugal_factor=0.0)
+    at_speed = speed_state(kernel, RPM * RPM_TO_RAD_S)
     at = ring_equilibrium(StaticBalls(kernel, at_speed, -pi / 2.0), np.array([0.0, -1000.0]))
     hz, size, periods, per_period = 15e3, 1e-11, 40, 400
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)

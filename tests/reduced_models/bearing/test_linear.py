@@ -10,7 +10,7 @@ from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingMotion
 from reduced_models.bearing.balls import speed_state
 from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_balls import SmallBalls, small_motion
 
 RPM = 3000.0
@@ -20,7 +20,7 @@ RPM = 3000.0
 @pytest.mark.parametrize("load", [2.0, 60.0, 900.0])
 def test_a_contact_has_the_impedance_of_its_element(film, race, load):
     element, kernel = film.element(race, RPM), film._kernel(RPM)
-    at_speed, omega = speed_state(kernel, RPM * RADIANS), np.array([10.0, 1e3, 1e5])
+    at_speed, omega = speed_state(kernel, RPM * RPM_TO_RAD_S), np.array([10.0, 1e3, 1e5])
     law, transit = getattr(kernel, race), getattr(at_speed, race)
     found = small_motion(law, transit, at_speed.speed_row, element.approach_at(load)).impedance(1j * omega)
     expected = element.impedance(load=load, omega=omega)
@@ -31,8 +31,8 @@ def test_a_contact_has_the_impedance_of_its_element(film, race, load):
 def test_small_motions_in_time(oil, film_limit):
     """A ring that swings a little, its balls standing still: amplitude and phase of the force."""
     bearing = BallBearing.catalogue("6205", oil=oil, film_limit=film_limit)
-    kernel = bearing._kernel(RPM)._replace(cage=0.0, swing=0.0)
-    at_speed = speed_state(kernel, RPM * RADIANS)
+    kernel = bearing._kernel(RPM)._replace(cage=0.0, centrifugal_factor=0.0)
+    at_speed = speed_state(kernel, RPM * RPM_TO_RAD_S)
     at = ring_equilibrium(StaticBalls(kernel, at_speed, 0.4), np.array([200.0, -1000.0]))
     hz, dt, size = 2000.0, 1e-6, 1e-10
     omega, periods = 2.0 * pi * hz, 4
@@ -62,7 +62,7 @@ def test_stiffness_at_rest_is_the_slope_of_the_static_force(film):
     state = film.equilibrium((300.0, -1000.0), speed_rpm=RPM, cage_angle=0.1)
     at_zero = film.coefficients((300.0, -1000.0), speed_rpm=RPM, cage_angle=0.1, hz=0.0)
     np.testing.assert_allclose(at_zero.stiffness[0], state.stiffness, rtol=1e-6)
-    np.testing.assert_allclose(at_zero.swing, 0.0)
+    np.testing.assert_allclose(at_zero.peak_to_peak, 0.0)
     more = [
         film.equilibrium((300.0, -1000.0 + d), speed_rpm=RPM, cage_angle=0.1).displacement for d in (-1.0, 1.0)
     ]

@@ -19,7 +19,7 @@ from reduced_models import (
 from reduced_models.bearing import loss as loss_room
 from reduced_models.bearing.balls import speed_state
 from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_balls import SmallBalls
 from reduced_models.bearing.loss import BAND, loss_of, response, seat_of
 
@@ -60,8 +60,8 @@ def test_a_step_is_the_filters_over_a_straight_force():
 @pytest.mark.parametrize("oiled", [True, False])
 def test_small_motions_in_time_have_the_impedance(oil, oiled):
     bearing = BallBearing.catalogue("6205", oil=oil if oiled else None, loss_factor=0.05)
-    kernel = bearing._kernel(RPM)._replace(cage=0.0, swing=0.0)
-    at_speed = speed_state(kernel, RPM * RADIANS)
+    kernel = bearing._kernel(RPM)._replace(cage=0.0, centrifugal_factor=0.0)
+    at_speed = speed_state(kernel, RPM * RPM_TO_RAD_S)
     at = ring_equilibrium(StaticBalls(kernel, at_speed, 0.4), np.array([200.0, -1000.0]))
     hz, size, periods, per_period = 400.0, 1e-10, 200, 200
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)

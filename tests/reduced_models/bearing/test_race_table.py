@@ -12,7 +12,7 @@ from ehlcontact.errors import InputError
 from reduced_models.bearing import balls as balls_room
 from reduced_models.bearing import race_contact as contact_room
 from reduced_models.bearing.balls import films_of, speed_state
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import shared_atlas
 from reduced_models.bearing.race_contact import APPROACH, contact_force, curve, film_cutoff, prepare_filters
 from reduced_models.bearing.race_table import tabulate_race
@@ -75,7 +75,7 @@ def test_at_its_own_speeds_a_law_of_many_is_that_of_one(film):
     many = film._kernel(SPEEDS)
     u = np.array([-5e-6, 0.0, 3e-6, 8e-6])
     for row, speed in enumerate(SPEEDS):
-        at_speed = speed_state(many, speed * RADIANS)
+        at_speed = speed_state(many, speed * RPM_TO_RAD_S)
         assert sum(at_speed.speed_row) == row
         one = film._kernel(speed)
         for approach in u:
@@ -86,12 +86,12 @@ def test_at_its_own_speeds_a_law_of_many_is_that_of_one(film):
 def test_between_speeds_films_grow_as_they_should(film):
     """Half way between two speeds of a law it is within 1 % of the law of that speed, and nowhere does it jump."""
     coarse = film._kernel((2500.0, 3500.0))
-    at_speed, own = speed_state(coarse, 3000.0 * RADIANS), film._kernel(3000.0)
+    at_speed, own = speed_state(coarse, 3000.0 * RPM_TO_RAD_S), film._kernel(3000.0)
     for u in (2e-6, 5e-6, 8e-6):
         film_there = curve(u, *at_speed.speed_row, coarse.inner, 0)[0] - u
         assert film_there == pytest.approx(curve(u, 0, 0.0, own.inner, 0)[0] - u, rel=0.01)
     many = film._kernel(SPEEDS)
-    below, above = (speed_state(many, 3000.0 * RADIANS * (1.0 + s)) for s in (-1e-9, 1e-9))
+    below, above = (speed_state(many, 3000.0 * RPM_TO_RAD_S * (1.0 + s)) for s in (-1e-9, 1e-9))
     assert below.speed_row[0] == 0 and above.speed_row[0] == 1
     pressed = []
     for at_speed in (below, above):
@@ -123,7 +123,7 @@ def test_fading():
 def test_compiled_and_plain_are_twins(film, monkeypatch):
     """A ball over two steps, all its kernels as plain Python."""
     kernel = film._kernel(3000.0)
-    at_speed = speed_state(kernel, 3000.0 * RADIANS)
+    at_speed = speed_state(kernel, 3000.0 * RPM_TO_RAD_S)
     steps = "prepare_filters", "contact_force", "accept_contact"
     names = {
         contact_room: (

@@ -24,7 +24,7 @@ from reduced_models import (
     rotor_on_bearings,
     simulate_rotor,
 )
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import AngularMotion, BallMotion
 
 OIL = Lubricant.iso_vg(46, temperature=70.0)
@@ -49,11 +49,11 @@ def test_a_ring_at_rest_stays_there(spindle, control):
     state = bearing.equilibrium(load, speed_rpm=RPM, cage_angle=0.3)
     motion = AngularMotion(bearing._angular_balls(RPM))
     q, still = np.array(state.displacement), np.zeros(5)
-    np.testing.assert_allclose(motion.rest(RPM * RADIANS, 0.3, q), load, atol=1e-9)
+    np.testing.assert_allclose(motion.rest(RPM * RPM_TO_RAD_S, 0.3, q), load, atol=1e-9)
     np.testing.assert_allclose(motion.films.force, state.force, rtol=1e-9)
     motion.films.cage[2:] = 0.0  # the cage held
     for _ in range(20):
-        motion.begin(RPM * RADIANS, 0.3, 1e-5)
+        motion.begin(RPM * RPM_TO_RAD_S, 0.3, 1e-5)
         force = motion.forces(q, still)[0]
         motion.accept()
         motion.films.cage[2:] = 0.0
@@ -66,7 +66,7 @@ def test_a_planar_motion_is_that_of_the_planar_bearing(oil):
     planar = BallMotion(bearing._kernel(RPM))
     # angles are 0 with the grooves in one plane
     five = AngularMotion(bearing._angular_balls(RPM))
-    omega, dt, start = RPM * RADIANS, 1e-5, np.array([2e-6, -9e-6])
+    omega, dt, start = RPM * RPM_TO_RAD_S, 1e-5, np.array([2e-6, -9e-6])
     np.testing.assert_allclose(
         five.rest(omega, 0.1, np.append(start, [0, 0, 0]))[:2], planar.rest(omega, 0.1, start)
     )
@@ -97,9 +97,9 @@ def test_tangents_against_differences(oil, density, close):
     motion = AngularMotion(bearing._angular_balls(RPM))
     q = np.array([4e-6, -6e-6, 9e-6, 4e-5, -2e-5])
     v = np.array([2e-3, 1e-3, -3e-3, 0.02, 0.03])
-    motion.rest(RPM * RADIANS, 0.0, q)
+    motion.rest(RPM * RPM_TO_RAD_S, 0.0, q)
     for i in range(33):
-        motion.begin(RPM * RADIANS, 0.0, 5e-6)
+        motion.begin(RPM * RPM_TO_RAD_S, 0.0, 5e-6)
         at = q + 5e-6 * (i + 1) * v
         _, stiffness, damping = motion.forces(at, v)
         if i == 32:
@@ -165,7 +165,7 @@ def test_through_lift_off_against_scipy():
     """The light balls of a pair leave their races; the cage turns by the angles of the others."""
     rotor = dry_pair(offset=1e-6, unbalances=(Unbalance(x=0, y=1, amount=4e-4),))
     rpm = 9000.0
-    omega = rpm * RADIANS
+    omega = rpm * RPM_TO_RAD_S
     start = rotor.equilibrium(rpm), np.array([0.02, 0.0, 0.05, 1.0, 0.0])
     run = simulate_rotor(rotor, speed_rpm=rpm, dt=1e-6, until=2.4e-3, start=start)
     lightest = run.ring_force[:, :, 2].min(axis=0)
@@ -198,12 +198,12 @@ def test_balls_pass_at_the_order_of_their_contact_angle(spindle):
     load = np.array([0.0, 0.0, 400.0, 0.0, 0.0])
     state = spindle.equilibrium(load, speed_rpm=RPM)
     motion = AngularMotion(spindle._angular_balls(RPM))
-    motion.rest(RPM * RADIANS, 0.0, np.array(state.displacement))
+    motion.rest(RPM * RPM_TO_RAD_S, 0.0, np.array(state.displacement))
     for _ in range(100):
-        motion.begin(RPM * RADIANS, 0.0, 1e-5)
+        motion.begin(RPM * RPM_TO_RAD_S, 0.0, 1e-5)
         motion.forces(np.array(state.displacement), np.zeros(5))
         motion.accept()
-    passes = spindle.balls * motion.angle / (RPM * RADIANS * 1e-3)
+    passes = spindle.balls * motion.angle / (RPM * RPM_TO_RAD_S * 1e-3)
     assert passes == pytest.approx(state.orders.bpfo, abs=1e-4)
     assert abs(spindle.orders.bpfo - state.orders.bpfo) > 1e-3
 

@@ -17,7 +17,7 @@ from reduced_models import (
 )
 from reduced_models.bearing.balls import speed_state
 from reduced_models.bearing.equilibrium import StaticBalls
-from reduced_models.bearing.kinematics import RADIANS
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.rotor.speed_profile import law_speeds, turning_forces
 
 RANGE = np.array([500.0, 9000.0])
@@ -30,7 +30,7 @@ def test_forces_at_rest_do_not_jump_where_laws_change(film):
 
     def force(rpm, own=None):
         held = kernel if own is None else own
-        return StaticBalls(held, speed_state(held, rpm * RADIANS), -1.4).force(place)[1]
+        return StaticBalls(held, speed_state(held, rpm * RPM_TO_RAD_S), -1.4).force(place)[1]
 
     assert knots.size == 14
     for speed in knots[1:-1]:
