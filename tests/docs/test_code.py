@@ -44,6 +44,7 @@ def test_pages_are_found():
         "disc.md",
         "bearing.md",
         "rotor.md",
+        "spindle.md",
         "fmu.md",
     }
     assert len(blocks("README.md")) >= 4
@@ -167,6 +168,25 @@ def test_tutorial_of_the_rotor():
     # beyond the last one the amplitude goes up and down
     later = amplitude[rpm > along.speed_rpm]
     assert np.sum((np.diff(later)[:-1] > 0.0) & (np.diff(later)[1:] < 0.0)) > 2
+
+
+@pytest.mark.slow
+def test_tutorial_of_the_spindle(capsys):
+    """Preload and its growth with the speed, the mode along the shaft, and the run-up, as its text says."""
+    found = {}
+    run("docs/tutorials/spindle.md", found)
+    preload, forces = found["preload"], [state.axial_forces[0] for state in found["alone"]]
+    assert preload == pytest.approx(443.0, abs=1.0) and 2.9 < found["lifts"] / preload < 3.2
+    assert np.all(np.diff(forces) > 0.0) and forces[0] > preload
+    stiff, soft = found["stiff"], found["soft"]
+    assert stiff[1] == pytest.approx(stiff[0], rel=0.02) and soft[1] < 0.85 * soft[0]
+    assert found["front"].h_min.min() < found["back"].h_min.min()
+    backward, forward = found["diagram"].whirl[-1, :2]
+    assert backward < -0.9 and forward > 0.9
+    force, run_up = found["force"], found["run"]
+    np.testing.assert_allclose(force[-1, 1] - force[-1, 0], 60.0, atol=1.0)
+    last = run_up.node("disc")[-100:, 0]
+    assert 0.5 * np.ptp(last) == pytest.approx(found["orbit"][-1], rel=0.05)
 
 
 def test_tutorial_of_the_bearing():
