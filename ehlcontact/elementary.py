@@ -3,7 +3,7 @@
 Both without branches, correct to 2 units in the last place (`tests/ehlcontact/test_elementary.py`).
 """
 
-from ehlcontact.jit import jit_node
+from ehlcontact.jit import jit_called_node
 from ehlcontact.lanes import exponent, larger, mantissa, power_of_two, smaller, where_positive
 
 LOG2_E = 1.4426950408889634
@@ -13,7 +13,7 @@ LEAST, MOST = -708.0, 709.0  # arguments whose exponentials are normal numbers
 ROOT_HALF = 1.4142135623730951
 
 
-@jit_node
+@jit_called_node
 def exponential(x):
     """e^x; e^-708 = 3e-308 below -708, e^709 above 709."""
     x = smaller(MOST, larger(LEAST, x))  # in this order NaN stays
@@ -36,7 +36,7 @@ def exponential(x):
     return (s * r + 1.0) * power_of_two(whole)
 
 
-@jit_node
+@jit_called_node
 def logarithm(x):
     """Natural logarithm of a normal number above 0."""
     m, e = mantissa(x), exponent(x) - 4503599627371519.0  # 2^52 + 1023

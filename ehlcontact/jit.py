@@ -7,21 +7,66 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import partial
+from functools import cached_property, partial, update_wrapper
 from typing import Any
 
 from numba import njit
 from numba.core import event
 
+
+class _Inner:
+    """A kernel that kernels call, compiled without the entry for Python, which takes a fifth of the time of all.
+
+    Where Python calls it, as tests do, an entry is compiled in that process.
+    """
+
+    def __init__(self, kernel: Any) -> None:
+        update_wrapper(self, kernel.py_func)
+        self.py_func, self._kernel = kernel.py_func, kernel
+        self._numba_type_ = kernel._numba_type_  # other kernels find it by its type
+
+    def __call__(self, *args: Any) -> Any:
+        return self._entry(*args)
+
+    @cached_property
+    def _entry(self) -> Any:
+        kernel = self._kernel
+
+        @njit
+        def entry(*args: Any) -> Any:
+            return kernel(*args)
+
+        return entry
+
+
+def inner(kernel: Any) -> Any:
+    """Decorate, above one of the decorators below, a kernel that other kernels call, and the library does not."""
+    if not hasattr(kernel, "py_func"):
+        return kernel  # NUMBA_DISABLE_JIT
+    kernel.targetoptions["no_cpython_wrapper"] = True  # numba ends the process where Python calls such a kernel
+    return _Inner(kernel)
+
+
 # Elements: no fused multiply-adds, for the same force must come out whatever a kernel was inlined into (and in C).
-jit_exact: Any = partial(njit, cache=True, error_model="numpy")
+jit_exact: Any = partial(njit, cache=True, error_model="numpy", no_cfunc_wrapper=True)  # no kernel is a C callback
 jit: Any = partial(jit_exact, fastmath={"contract", "nsz"}, nogil=True)  # threads share the lines of a grid
 # Without numba's counting of references, five times the work of a kernel that is handed a dozen arrays in tuples:
 # such a kernel must not make arrays.
 jit_loop: Any = partial(jit, _nrt=False)
-jit_node: Any = partial(jit_loop, forceinline=True)  # for one node: such a call, too, costs more than the work
-jit_exact_node: Any = partial(jit_exact, forceinline=True, _nrt=False)  # likewise, with the bits of jit_exact
-jit_exact_loop: Any = partial(jit_exact, _nrt=False)  # the same for a loop over such
+jit_exact_loop: Any = partial(jit_exact, _nrt=False)
+# For one node: such a call, too, costs more than the work. Python may call the first two.
+jit_called_node: Any = partial(jit_loop, forceinline=True)
+jit_exact_called_node: Any = partial(jit_exact_loop, forceinline=True)
+
+
+def jit_node(kernel: Any) -> Any:
+    """`inner`, for one node."""
+    return inner(jit_called_node(kernel))
+
+
+def jit_exact_node(kernel: Any) -> Any:
+    """`inner`, for one node, with the bits of jit_exact."""
+    return inner(jit_exact_called_node(kernel))
 
 
 def plain(kernel: Any) -> Any:

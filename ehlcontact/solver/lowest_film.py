@@ -65,29 +65,23 @@ def _cells_near(H: Array, limit: float) -> NDArray[np.bool_]:
 @jit_node
 def cubic_at(H, j, i, t, s):
     """Bicubic polynomial through the 4 x 4 nodes around cell (j, i), at (t, s) from 0 to 1; even across j = 0."""
-    value = 0.0
+    value, w, w_line = 0.0, _weights(s), _weights(t)
     for a in range(4):
         row = abs(j + a - 1)
-        along = (
-            _weight(0, s) * H[row, i - 1]
-            + _weight(1, s) * H[row, i]
-            + _weight(2, s) * H[row, i + 1]
-            + _weight(3, s) * H[row, i + 2]
-        )
-        value += _weight(a, t) * along
+        along = w[0] * H[row, i - 1] + w[1] * H[row, i] + w[2] * H[row, i + 1] + w[3] * H[row, i + 2]
+        value += w_line[a] * along
     return value
 
 
 @jit_node
-def _weight(a, x):
-    """Weight of node a, at a - 1, in the cubic through nodes at -1, 0, 1, 2."""
-    if a == 0:
-        return x * (x - 1.0) * (2.0 - x) / 6.0
-    if a == 1:
-        return 0.5 * (x + 1.0) * (x - 1.0) * (x - 2.0)
-    if a == 2:
-        return 0.5 * (x + 1.0) * x * (2.0 - x)
-    return (x + 1.0) * x * (x - 1.0) / 6.0
+def _weights(x):
+    """Weights of the nodes at -1, 0, 1, 2 in the cubic through them."""
+    return (
+        x * (x - 1.0) * (2.0 - x) / 6.0,
+        0.5 * (x + 1.0) * (x - 1.0) * (x - 2.0),
+        0.5 * (x + 1.0) * x * (2.0 - x),
+        (x + 1.0) * x * (x - 1.0) / 6.0,
+    )
 
 
 @jit
@@ -127,7 +121,10 @@ def lowest_of_cells(H, lines, columns, samples):
         samples[k, 0], samples[k, 1], samples[k, 2] = sample(H, lines[k], columns[k])
     lowest, line, column = samples[0, 0], lines[0] + samples[0, 1], columns[0] + samples[0, 2]
     for _ in range(min(ZOOMED, lines.size)):
-        k = samples[:, 0].argmin()
+        k = 0  # not argmin of the column, which takes a second to compile
+        for m in range(lines.size):
+            if samples[m, 0] < samples[k, 0]:
+                k = m
         value, t, s = zoom_in(H, lines[k], columns[k], samples[k, 0], samples[k, 1], samples[k, 2])
         samples[k, 0] = 1e300  # done
         if value <= lowest:

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from math import log, sqrt
 
-from ehlcontact.jit import jit_exact_loop, jit_exact_node
+from ehlcontact.jit import jit_exact_called_node, jit_exact_loop, jit_exact_node
 from reduced_models.bearing.race_table import CELLS
 from reduced_models.elements.film_curve import RIGID_SLOPE
 from reduced_models.elements.film_filters import (
@@ -43,7 +43,7 @@ MOST_STEPS = 100  # of Newton's method for the film of a contact: a handful
 FOUND = 1e-7  # of g, its last step: what that leaves is of its square
 
 
-@jit_exact_node
+@jit_exact_called_node
 def curve(u, row, weight, law, k):
     """Dry compression g [m] at approach `u` and its slope, `weight` from one `row` of speeds to the next.
 
@@ -134,7 +134,7 @@ def _made_at(law, speed_row, node):
     return found
 
 
-@jit_exact_node
+@jit_exact_called_node
 def film_made(law, speed_row, x):
     """Film that a unit of the inlet's state lets into the chain at x = ln F."""
     last = law.x.size - 2
@@ -150,7 +150,7 @@ def film_made(law, speed_row, x):
     return here + weight * (_made_at(law, speed_row, k + 1) - here)
 
 
-@jit_exact_node
+@jit_exact_called_node
 def film_cutoff(u, cutoff_gap):
     """Share of its force that a film carries at approach `u`, and its slope."""
     gap = -u / cutoff_gap

@@ -13,14 +13,14 @@ from __future__ import annotations
 
 from math import exp
 
-from ehlcontact.jit import jit_exact_node
+from ehlcontact.jit import jit_exact_called_node, jit_exact_node
 
 INLET, FAST, CHAIN = range(3, 6)  # entries of a state of a step, behind three of its own; the chain is the rest
 DIRECT = 3  # gains before those of the chain: viscous, inlet, fast
 FEW = 0.5  # mean of Poisson's law below which shares have to be summed: at it, differences lose two digits
 
 
-@jit_exact_node
+@jit_exact_called_node
 def film_entering(s, saturation):
     """phi(s), the film that enters the chain, and its derivative."""
     b = saturation * s

@@ -6,7 +6,7 @@ them. Only where flow through the gap dominates: elsewhere the film answers to t
 frozen film makes these passes diverge.
 """
 
-from ehlcontact.jit import jit_loop, jit_node
+from ehlcontact.jit import inner, jit_loop, jit_node
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
 from ehlcontact.solver.kernels.reynolds import operator_at, update_across, update_along, update_node
 
@@ -20,12 +20,14 @@ NEAREST = 3.0  # up to this distance from the boundary; as its cube more beyond,
 SQUEEZE_DOMINANCE = 300.0  # flow term over squeeze term: short steps fail by the passes where it is smaller
 
 
+@inner
 @jit_loop
 def reach_of(nx):
     """Nodes on either side of the boundary that are relaxed."""
     return min(max(nx // NODES_EACH, LEAST_REACH), MOST_REACH)
 
 
+@inner
 @jit_loop
 def mark_boundary(first, last, P, reach, marks):
     """Mark the nodes within `reach` of a change between P > 0 and P = 0, by 1 at the farthest, reach + 1 at it.
@@ -54,6 +56,7 @@ def total_flow(j, i, flow, stencil):
     return stencil.cx * along + stencil.cy * (flow.across[face, i] + flow.across[j, i])
 
 
+@inner
 @jit_loop
 def update_marked(first, last, P, H, law, stencil, flow, marks):
     """Flow at marked nodes, their neighbours and the faces between; `marks` of the neighbours become UPDATED."""
@@ -75,7 +78,7 @@ def update_marked(first, last, P, H, law, stencil, flow, marks):
                 update_across(j, i, flow)
 
 
-@jit_loop
+@jit_loop(inline="always")  # one caller: what it calls is optimised one time less
 def relax_boundary(first, last, P, H, flow, rhs, law, stencil, c_t, self_deflection, nodes, marks):
     """Relax P near the cavitation boundary on lines `first` to `last` - 1, at frozen film and flow.
 

@@ -9,7 +9,7 @@ near them.
 
 import numpy as np
 
-from ehlcontact.jit import jit, jit_loop
+from ehlcontact.jit import inner, jit, jit_loop
 from ehlcontact.lanes import LANES
 from ehlcontact.solver.kernels.relax import (
     NEAR,
@@ -34,6 +34,7 @@ LEAST_ALONG_ROLLING = 6  # fewest in a long contact: with three, cycles diverge 
 SOLVED, FELT = np.uint8(2), np.uint8(1)
 
 
+@inner
 @jit_loop
 def mark_front(first, last, P, eps, marks):
     """Mark the nodes of lines `first` to `last` - 1 within FRONT_REACH of a front, and all that feel their film.
@@ -53,6 +54,7 @@ def mark_front(first, last, P, eps, marks):
                     _mark(max(low - NEAR, 0), min(high + NEAR, ny), i, FRONT_REACH + NEAR, FELT, marks)
 
 
+@inner
 @jit_loop
 def _mark(low, high, i, reach, mark, marks):
     for j in range(low, high):
@@ -60,6 +62,7 @@ def _mark(low, high, i, reach, mark, marks):
             marks[j, ii] = max(marks[j, ii], mark)
 
 
+@inner
 @jit
 def segments(first, last, marks, mark):
     """Segments of at least this mark on lines `first` to `last` - 1.
@@ -85,6 +88,7 @@ def segments(first, last, marks, mark):
     return found
 
 
+@inner
 @jit_loop
 def add_films(solved, colour, theta, w, near, H):
     """Add to film H what the changes of the segments on lines of one colour cause within NEAR lines and nodes."""
@@ -102,7 +106,7 @@ def add_films(solved, colour, theta, w, near, H):
                     H[target, i] += change * response(line, i - k, shares, near)
 
 
-@jit
+@jit(inline="always")  # one caller: what it calls is optimised one time less
 def solve_segments(solved, colour, fields, rhs, stencil, c_t, near, work):
     """`relax_segments` on those segments that lie on lines of one colour; `work` by `line_work`."""
     found = np.empty((LANES, 3), np.int64)
@@ -117,6 +121,7 @@ def solve_segments(solved, colour, fields, rhs, stencil, c_t, near, work):
             count = 0
 
 
+@inner
 @jit_loop
 def spread_segments(solved, felt, colour, fields, law, stencil, near):
     """P, film and flow at the nodes of segments `felt` by the changes of those `solved` on lines of one colour."""
@@ -129,6 +134,7 @@ def spread_segments(solved, felt, colour, fields, law, stencil, near):
             update_node(j, i, P, H, law, stencil, flow)
 
 
+@inner
 @jit_loop
 def update_between_segments(felt, flow):
     """Flow between the nodes of segments and all their neighbours.
@@ -145,6 +151,7 @@ def update_between_segments(felt, flow):
                 update_across(j - 1, i, flow)
 
 
+@inner
 @jit_loop
 def weigh_segments(felt, fields, stencil, c_t):
     """Weights of the distributed changes at the nodes of segments."""
@@ -160,7 +167,7 @@ def passes_of(nx, long):
     return min(max(nx // INTERVALS_EACH, LEAST_ALONG_ROLLING if long else LEAST_PASSES), MOST_PASSES)
 
 
-@jit
+@jit(inline="always")  # likewise
 def relax_flanks(first, last, fields, rhs, law, stencil, c_t, near, marks, passes, work):
     """Relax along the fronts of ``fields.theta`` on lines `first` to `last` - 1.
 

@@ -6,7 +6,7 @@ C, W, E, S, N, WW. The elastic part ``dH = -du + K dP`` is left to the caller: t
 
 import numpy as np
 
-from ehlcontact.jit import jit, jit_loop, jit_node
+from ehlcontact.jit import inner, jit, jit_loop, jit_node
 from ehlcontact.lanes import at
 
 NEIGHBOURS = 6
@@ -85,6 +85,7 @@ def linearise(P, flow, stencil, c_t, flow_slope, p_coef, h_coef):
                 h_coef[q, j, i] = derivatives[NEIGHBOURS + q]
 
 
+@inner
 @jit
 def films_of_lines(kernel):
     """Film on line j by unit pressures on line l and its image, (ny + 1, ny, 2 nx + 1); the last by i - k + nx."""
@@ -113,15 +114,18 @@ def dense_jacobian(free, p_coef, h_coef, kernel, number, J):
     """
     width = p_coef.shape[2]
     m, nx = free.shape[0], width - 1
-    lines, columns = free // width, free % width
-    number[:] = -1
+    # Written out: array expressions, slices and rows take as long to compile as all the rest.
+    lines, columns = np.empty(m, np.int64), np.empty(m, np.int64)
+    for k in range(number.size):
+        number[k] = -1
     for c in range(m):
+        lines[c], columns[c] = free[c] // width, free[c] % width
         number[free[c]] = c
     films = films_of_lines(kernel)
     row = np.empty(width, J.dtype)
     for r in range(m):
         j, i = lines[r], columns[r]
-        south, _ = neighbour(3, j, i)
+        south = j - 1 if j > 0 else 1  # the line below the symmetry line is its image
         hc, hw, he = h_coef[0, j, i], h_coef[1, j, i], h_coef[2, j, i]
         hs, hn, hww = h_coef[3, j, i], h_coef[4, j, i], h_coef[5, j, i]
         begin = 0
@@ -130,12 +134,12 @@ def dense_jacobian(free, p_coef, h_coef, kernel, number, J):
             end = begin + 1
             while end < m and lines[end] == line:
                 end += 1
-            own, below, above = films[j, line], films[south, line], films[j + 1, line]
             first = nx + start - i
             for k in range(columns[end - 1] - start + 1):
                 at = first + k
-                along = hc * own[at] + hw * own[at + 1] + he * own[at - 1] + hww * own[at + 2]
-                row[k] = along + hs * below[at] + hn * above[at]
+                along = hc * films[j, line, at] + hw * films[j, line, at + 1] + he * films[j, line, at - 1]
+                along += hww * films[j, line, at + 2]
+                row[k] = along + hs * films[south, line, at] + hn * films[j + 1, line, at]
             for c in range(begin, end):
                 J[r, c] = row[columns[c] - start]
             begin = end

@@ -21,7 +21,7 @@ nodes at a time.
 
 import numpy as np
 
-from ehlcontact.jit import jit, jit_loop, jit_node
+from ehlcontact.jit import inner, jit, jit_loop, jit_node
 from ehlcontact.lanes import LANES, at, eight, larger, put, smaller, where_positive
 from ehlcontact.solver.kernels.linearise import linearise_at
 from ehlcontact.solver.kernels.reynolds import operator_at
@@ -78,6 +78,7 @@ def distribution_weights(first, last, P, flow, stencil, c_t, theta):
             put(theta, j, i, distribution_weight(j, i, P, flow, stencil, switch))
 
 
+@inner
 @jit_loop
 def solve_bands(band, b, m):
     """Solve `LANES` banded systems of `m` rows in place; no pivoting, the leading part being upstream-triangular.
@@ -207,6 +208,7 @@ def assemble_at(j, i, P, flow, theta, rhs, stencil, c_t, films, near, rows, k):
     put(rows, RESIDUAL, k, at(rhs, j, i) - operator_at(j, i, P, flow, stencil, c_t))
 
 
+@inner
 @jit_loop
 def add_film_of_next_lines(j, i, theta, near, rows, k):
     """Add the film of the next lines to the row of node i, ``rows[:, k]``.
@@ -217,10 +219,11 @@ def add_film_of_next_lines(j, i, theta, near, rows, k):
     would take away what holds the solve together.
     """
     last = theta.shape[1] - 1
+    north = np.int64(1)  # with its type `response` is compiled once for both
     for o in range(max(-NEAR, 1 - i), min(NEAR, last - 1 - i) + 1):
         shares = shares_at(j, i + o, theta)
-        film = rows[FROM_SOUTH, k] * response(-1, -o, shares, near)
-        rows[BAND_LOWER + o, k] += film + rows[FROM_NORTH, k] * response(1, -o, shares, near)
+        film = rows[FROM_SOUTH, k] * response(-north, -o, shares, near)
+        rows[BAND_LOWER + o, k] += film + rows[FROM_NORTH, k] * response(north, -o, shares, near)
 
 
 @jit_node
@@ -274,6 +277,7 @@ def assemble_rows(j, start, stop, first, lane, fields, rhs, stencil, c_t, near, 
     return m
 
 
+@inner
 @jit_loop
 def relax_segments(found, fields, rhs, stencil, c_t, near, work):
     """Solve at most `LANES` segments of lines of one colour for distributed changes; ``fields.w`` written there.
@@ -314,13 +318,15 @@ def take_change(j, start, stop, lane, m, fields, near, b):
         w[j, i] *= LARGEST_CHANGE / largest
 
 
+@inner
 @jit
 def line_work(nodes):
     """Work arrays of `relax_segments` for lines of so many nodes: films, matrices, right-hand sides, rows."""
     columns = nodes + 2 * PAD
-    films, rows = aligned(2 * (ALONG + FILM_MARGIN) + 1, columns), aligned(BAND + 4, LANES)
+    lanes = np.int64(LANES)  # with its type `aligned` is compiled once, and not for this constant too
+    films = aligned(2 * (ALONG + FILM_MARGIN) + 1, columns)
     films[...] = 0.0
-    return films, aligned(columns, BAND * LANES), aligned(columns, LANES), rows
+    return films, aligned(columns, BAND * lanes), aligned(columns, lanes), aligned(BAND + 4, lanes)
 
 
 @jit
@@ -385,6 +391,7 @@ def apply_lines(first, last, colour, fields, near):
                         H[j, i] += change[0, i]
 
 
+@inner
 @jit_loop
 def near_film(line, j, theta, w, near, films, change):
     """Film that the distributed changes of line j cause `line` lines further; ``change[0]`` written.

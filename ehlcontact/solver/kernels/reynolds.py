@@ -13,6 +13,8 @@ of the film ten to thirty times larger on the same grid.
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from ehlcontact.elementary import exponential
 from ehlcontact.jit import jit_loop, jit_node
 from ehlcontact.lanes import LANES, at, eight, larger, put, root
@@ -153,10 +155,11 @@ def residual_lines(first, last, P, flow, stencil, c_t, rhs, out):
     """`residual` on lines `first` to `last` - 1."""
     nx = P.shape[1] - 1
     for j in range(first, last):
-        out[j, 1] = rhs[j, 1] - operator_at(j, 1, P, flow, stencil, c_t)
+        i = np.int64(1)  # with its type `operator_at` is compiled once for any i
+        out[j, i] = rhs[j, i] - operator_at(j, i, P, flow, stencil, c_t)
         for k in range(2, nx, LANES):
-            i = eight(min(k, nx - LANES))
-            put(out, j, i, at(rhs, j, i) - operator_at(j, i, P, flow, stencil, c_t))
+            eight_nodes = eight(min(k, nx - LANES))
+            put(out, j, eight_nodes, at(rhs, j, eight_nodes) - operator_at(j, eight_nodes, P, flow, stencil, c_t))
 
 
 @jit_loop
