@@ -171,6 +171,12 @@ def alpha_through(secant: float, eta0: float, viscosity: str) -> float:
     return z * q / ROELANDS_P0
 
 
+def secant_over_slope(alpha: float, eta0: float, end: float) -> float:
+    """Secant of Roelands' ln(eta) from ambient pressure to where alpha p = `end`, over its slope alpha there."""
+    q = math.log(eta0) + ROELANDS_LOG
+    return q * math.expm1(alpha * ROELANDS_P0 / q * math.log1p(end / (alpha * ROELANDS_P0))) / end
+
+
 @jit_node
 def density(P, law):
     """Density at P = p/p_h over ambient density, Dowson-Higginson or 1, and its derivative; P a float or lanes."""

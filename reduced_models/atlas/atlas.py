@@ -18,6 +18,7 @@ from ehlcontact.checks import as_column, require_choice, require_positive
 from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.errors import InputError
+from ehlcontact.lubricant.oil_laws import secant_over_slope
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.store import load as read_file
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
@@ -87,7 +88,8 @@ class Atlas:
             A point outside the box, or an oil of other laws: it names the axis and the box.
         """
         moes = self._inside(point)
-        values, bars = self._surface.with_bars(_rows(moes, np.ones(1)), self._oil_error(moes.alpha, moes.eta0))
+        rows = self._rows(moes, np.ones(1))
+        values, bars = self._surface.with_bars(rows, self._oil_error(moes.alpha, moes.eta0))
         named, error = ({n: v[0] for n, v in self._named(part).items()} for part in (values, bars))
         error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
         for numbers in (named, error):
@@ -123,7 +125,7 @@ class Atlas:
         first = points[0].tolist()
         self._inside(MoesPoint(first[0], first[1], first[2], *oil))  # the oil, which is that of all
         self.box.require_all_inside(points, oil[0])
-        values, bars = self._surface.with_bars(points, self._oil_error(*oil))
+        values, bars = self._surface.with_bars(points * self._oil_factors(*oil), self._oil_error(*oil))
         named, error = self._named(values), self._named(bars)
         error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
         axes = dict(zip(("M", "L", "kappa"), points.T, strict=True))
@@ -190,7 +192,7 @@ class Atlas:
 
     def _cubic(self, point: Point, w: float) -> CubicContact:
         moes, scales, k = self._inside(point), scales_of(point), self._table.omega.size
-        values, _ = self._surface.at(_rows(moes, np.ones(1)))
+        values, _ = self._surface.at(self._rows(moes, np.ones(1)))
         at, nodes = np.array([w]), self._table.omega
         K, C = FrequencyCurve(nodes, values[0, HEAD : HEAD + k]), FrequencyCurve(nodes, values[0, HEAD + k :])
         tangent, damper, band = float(K.at(at)[0]), float(C.at(at)[0]), damper_band(nodes, C, w)
@@ -201,7 +203,7 @@ class Atlas:
         """Wide-range element over the given loads, or film memory about the point's own load."""
         moes, scales, k = self._inside(point), scales_of(point), self._table.omega.size
         loads = np.ones(1) if given is None else given
-        values, shapes = self._surface.at(_rows(moes, loads))
+        values, shapes = self._surface.at(self._rows(moes, loads))
         gains = np.maximum(shapes * values[:, [LOW]], 0.0)
         gains[:, 0] = np.maximum(gains[:, 0], LEAST_VISCOUS / DRY * values[:, LOW])  # as fitted: rates need it
         made_of = Loads(
@@ -273,6 +275,16 @@ class Atlas:
         inside = (LOADS > NEIGHBOURS * low) & (LOADS < high / NEIGHBOURS)
         inside |= (LOADS == 1.0) & (low < 1.0) & (high > 1.0)  # the reference is a node, or an end
         return np.concatenate([[low], LOADS[inside], [high]])
+
+    def _rows(self, point: MoesPoint, loads: _Floats) -> _Floats:
+        """M, L and kappa at which the table is read for loads in units of the point's, shape (n, 3)."""
+        return _rows(point, loads) * self._oil_factors(point.alpha, point.eta0)
+
+    def _oil_factors(self, alpha: float, eta0: float) -> _Floats:
+        """Factors on M, L and kappa for an oil, see `OtherOil`."""
+        meta = self._table.metadata
+        own = secant_over_slope(meta["alpha"], meta["eta0"], self._table.oil.secant)
+        return np.array([1.0, secant_over_slope(alpha, eta0, self._table.oil.secant) / own, 1.0])
 
     def _oil_error(self, alpha: float, eta0: float) -> _Floats:
         """Error bars of the smooth variables for an oil whose alpha and eta0 are not those of the atlas."""

@@ -99,25 +99,28 @@ class Interpolation:
 
 @dataclass(frozen=True)
 class OtherOil:
-    """Accepted deviation of alpha and eta0 from those of the atlas, and its effect on the error bars.
+    """Range of alpha and eta0 around those of the atlas; correction and wider error bars for another oil.
 
-    Beside M, L and kappa, alpha and eta0 enter through the Hertz pressure alone. The error bars widen by what ln
-    of films, K, C and moment change at most per unit of ln alpha and of ln eta0.
+    At given M, L and kappa, alpha and eta0 enter through the curvature of Roelands' law and the compressibility.
+    Pressures up to about 2/alpha form the film, so the atlas is read at an L with the secant of ln(eta) up to
+    there in place of its slope at ambient pressure, each over that of the oil of the atlas. Error bars widen by
+    what is left: the largest change of ln of films, K, C and moment per unit of ln alpha and of ln eta0.
     """
 
     alpha: tuple[float, float]  # range [1/Pa]
     eta0: tuple[float, float]  # range [Pa s]
+    secant: float  # alpha p at the end of the secant
     film: tuple[float, float]
     stiffness: tuple[float, float]  # K changes the less the thinner the film
     damping: tuple[float, float]
     moment: tuple[float, float]
 
     def __post_init__(self) -> None:
-        for name, (first, second) in vars(self).items():
-            object.__setattr__(self, name, (float(first), float(second)))
+        for name, value in vars(self).items():
+            object.__setattr__(self, name, float(value) if name == "secant" else tuple(map(float, value)))
 
 
-@stored("table of an atlas", 3)
+@stored("table of an atlas", 4)
 @dataclass(frozen=True, eq=False)
 class AtlasTable:
     """Arrays over the n solved points, in the units of each point's own load."""

@@ -22,9 +22,10 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from ehlcontact import MoesPoint
+from ehlcontact.lubricant.oil_laws import secant_over_slope
 from ehlcontact.store import load
 from reduced_models.atlas.atlas import SHIPPED
-from reduced_models.atlas.build import gain_equations, smooth_gains
+from reduced_models.atlas.build import OIL, gain_equations, smooth_gains
 from reduced_models.atlas.interpolation import LOBE, coordinates, films, left_out_errors, to_smooth
 from reduced_models.atlas.mesh import impedance_grid
 from reduced_models.atlas.solve import respond
@@ -99,18 +100,20 @@ def best_rates(table: AtlasTable, most: int = 300) -> Found:
 
 
 def oil_slopes(points: Sequence[MoesPoint] = OIL_POINTS) -> dict[str, tuple[float, float]]:
-    """Largest change of ln of films, of K, of C and of the moment per unit of ln alpha, and per unit of ln eta0.
+    """Largest error of ln of films, of K, of C and of the moment per unit of ln alpha, and per unit of ln eta0.
 
+    Of what another oil is read from: the oil of the atlas at the L that the correction of `OtherOil` gives.
     That of K is over the film 1 - u, up to 1. C counts where it is above a tenth of its largest value; its bar has
     the slope twice, in C over the low-frequency damping and in that: a slope of 0.18 covers a change of 0.25.
     """
     slopes = {name: [0.0, 0.0] for name in ("film", "stiffness", "damping", "moment")}
     for point in points:
-        own = _answers(point)
         for i, name in enumerate(("alpha", "eta0")):
             for factor in OIL_SHIFTS:
-                other = _answers(replace(point, **{name: factor * getattr(point, name)}))
-                for kind, (value, weight) in own.items():
+                oil = replace(point, **{name: factor * getattr(point, name)})
+                secants = [secant_over_slope(one.alpha, one.eta0, OIL.secant) for one in (oil, point)]
+                other, read = _answers(oil), _answers(replace(point, L=point.L * secants[0] / secants[1]))
+                for kind, (value, weight) in read.items():
                     change = np.abs(np.log(other[kind][0] / value))[weight > 0.0] / weight[weight > 0.0]
                     slopes[kind][i] = max(slopes[kind][i], float(change.max()) / abs(log(factor)))
     return {name: (first, second) for name, (first, second) in slopes.items()}

@@ -120,27 +120,40 @@ def test_outside_the_box_the_axis_is_named(analytic, point, words, ask):
     assert all(word in str(raised.value) for word in words)
 
 
-def test_another_oil_widens_the_error_bars(analytic):
+def read_at(table, L, alpha, eta0):
+    """L with the secant of the viscosity at ``alpha p = 1.8`` over that of the oil of the atlas, eta by eta."""
+
+    def secant(alpha, eta0):
+        p = 1.8 / alpha
+        z = alpha * 1.96e8 / (math.log(eta0) + 9.67)
+        eta = 6.31e-5 * (eta0 / 6.31e-5) ** ((1.0 + p / 1.96e8) ** z)
+        return math.log(eta / eta0) / (alpha * p)
+
+    return L * secant(alpha, eta0) / secant(table.metadata["alpha"], table.metadata["eta0"])
+
+
+def test_another_oil_is_read_at_the_secant_of_its_viscosity_with_wider_error_bars(analytic):
     own, other = analytic.at(CASE), analytic.at(MoesPoint(200.0, 10.0, 0.5, alpha=1.5e-8, eta0=0.1))
-    assert own.approach == other.approach
-    assert (
-        other.error_bars["approach"] > own.error_bars["approach"]
-        and other.error_bars["h_central"] > own.error_bars["h_central"]
-    )
+    read = analytic.at(MoesPoint(200.0, read_at(analytic, 10.0, 1.5e-8, 0.1), 0.5))
+    assert other.h_central == pytest.approx(read.h_central, rel=1e-4)  # 6.31e-5 Pa s is rounded
+    assert own.h_central > 1.03 * other.h_central
+    for name in ("approach", "h_central"):
+        assert other.error_bars[name] > read.error_bars[name]
 
 
 @pytest.mark.parametrize(("alpha", "eta0"), [(1.5e-8, 0.04), (2.2e-8, 0.1), (3.5e-8, 0.01)])
 def test_error_bars_widen_by_what_the_oil_may_change(shipped, alpha, eta0):
     """The relative change of each answer per unit of ln alpha and of ln eta0 that the file records, in full."""
     meta = shipped.metadata
-    own, other = shipped.at(CASE), shipped.at(MoesPoint(200.0, 10.0, 0.5, alpha=alpha, eta0=eta0))
+    other = shipped.at(MoesPoint(200.0, 10.0, 0.5, alpha=alpha, eta0=eta0))
+    own = shipped.at(MoesPoint(200.0, read_at(shipped, 10.0, alpha, eta0), 0.5))
     away = abs(math.log(alpha / meta["alpha"])), abs(math.log(eta0 / meta["eta0"]))
     film, K, C, m = (np.dot(meta["oil"][name], away) for name in ("film", "stiffness", "damping", "moment"))
     K *= 1.0 - own.approach  # the thinner the film, the less
     changes = {"h_central": film * own.h_central, "h_min": film * own.h_min, "stiffness": K * own.stiffness}
     changes["moment"] = m * own.moment
     for name, change in (changes | {"approach": film * (1.0 - own.approach)}).items():
-        np.testing.assert_allclose(np.subtract(other.error_bars[name], own.error_bars[name]), change, rtol=1e-9)
+        np.testing.assert_allclose(np.subtract(other.error_bars[name], own.error_bars[name]), change, rtol=1e-3)
     assert (other.error_bars["damping"] > np.hypot(own.error_bars["damping"], C * own.damping)).all()
     assert (other.error_bars["damping"] < own.error_bars["damping"] + 2.0 * C * own.damping).all()
 

@@ -81,8 +81,6 @@ def test_means_under_half_a_kilonewton(film):
 
 def test_damping_over_stiffness(film):
     """ROSS has 1.25e-5 s for any bearing; ours leaves out all that is no film: fits, housing, seals, grease."""
-    prototype = as_the_prototype(film, 3000.0, DOWN, 50.0)[1, 1]
-    assert prototype.imag / prototype.real == pytest.approx(1.8e-6, abs=0.05e-6)
     found = film.coefficients(DOWN, speed_rpm=3000.0, hz=50.0)
     assert 1.55e-6 < found.damping[0, 1, 1] / found.stiffness[0, 1, 1] < 1.65e-6
 

@@ -99,7 +99,7 @@ def test_what_a_light_ball_lacks_is_the_oil_further_out(ball, film):
     ("ball", "race"), [(0, "inner"), (0, "outer"), (3, "inner"), (6, "inner"), (6, "outer")]
 )  # 79 to 271 N
 def test_contacts_at_angles_of_a_7205(ball, race):
-    """At each contact's own angle and speeds: Z within 3 %, h_min 2 %; h_central of the atlas is 2.4 % high."""
+    """At each contact's own angle and speeds: Z within 3 %, h_central 1.5 %, h_min 1 %."""
     bearing = BallBearing(
         balls=13,
         ball_diameter=7.938e-3,
@@ -114,8 +114,8 @@ def test_contacts_at_angles_of_a_7205(ball, race):
     own = bearing.race(race).at_angle(bearing.pitch_diameter, angle, speed_sum)
     point = own.point(float(state.force[ball, column]), rpm)
     steady = solve_steady(point, grid=Grid(n=256)).si
-    assert state.h_central[ball, column] == pytest.approx(steady.h_central, rel=0.025)
-    assert state.h_min[ball, column] == pytest.approx(steady.h_min, rel=0.02)
+    assert state.h_central[ball, column] == pytest.approx(steady.h_central, rel=0.015)
+    assert state.h_min[ball, column] == pytest.approx(steady.h_min, rel=0.01)
     Omega = np.array([0.05, 0.5, pi])
     solved, omega = impedance(point, Omega=Omega, grid=Grid(n=128)).si, Omega / point.scales.time
     small = SmallAngularBalls.of(bearing._angular_balls(rpm), [at], loss_of(0.0), 0.0)

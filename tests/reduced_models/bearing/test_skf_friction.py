@@ -67,7 +67,7 @@ def test_a_state_has_the_sum_of_films_and_sliding(film, dry, oil):
     assert (state.skf_rolling, state.skf_sliding) == pytest.approx(published)
     assert state.friction_torque == state.rolling_torque + published.sliding
     assert state.friction_loss == pytest.approx(state.friction_torque * 100.0 * pi)
-    assert "friction 29.67 N mm, its sliding part by SKF" in str(state)
+    assert "friction 29.69 N mm, its sliding part by SKF" in str(state)
     assert state.to_dict()["skf_sliding"] == state.skf_sliding
     pushed = film.equilibrium((0.0, -1000.0, 300.0), speed_rpm=3000.0)
     assert pushed.skf_sliding > state.skf_sliding and pushed.skf_rolling > state.skf_rolling

@@ -68,8 +68,9 @@ class Atlas {
     return { values: this.fromSmooth(found, film).values, gains: found.slice(this.smooth) };
   }
 
-  interpolated({ M, L, kappa }) {
-    const here = this.coordinates(M, L, kappa), distance = new Float64Array(this.n);
+  interpolated({ M, L, kappa, alpha, eta0 }) {
+    const secants = secantOverSlope(alpha, eta0, this.oil.secant) / secantOverSlope(this.alpha, this.eta0, this.oil.secant);
+    const here = this.coordinates(M, L * secants, kappa), distance = new Float64Array(this.n);
     const found = new Float64Array(this.width), { coefficients, lobe, width, n } = this;
     const add = (row, factor) => {
       for (let j = 0, at = row * width; j < width; j++) found[j] += factor * coefficients[at + j];

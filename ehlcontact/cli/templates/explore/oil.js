@@ -26,3 +26,9 @@ function mineralOil(data, grade, temperature) {
   const temperature_slope = slope * shifted * Math.log(shifted) / (nu * (temperature + data.kelvin)) + ofDensity;
   return { eta0, alpha: z * q / data.roelands_p0, temperature_slope };
 }
+
+// Secant of Roelands' ln(eta) from ambient pressure to where alpha p = `end`, over its slope there.
+function secantOverSlope(alpha, eta0, end) {
+  const { roelands_log, roelands_p0 } = DATA.oil, q = Math.log(eta0) + roelands_log;
+  return q * Math.expm1(alpha * roelands_p0 / q * Math.log1p(end / (alpha * roelands_p0))) / end;
+}
